@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+/// What a mesh and its property maps must offer.
+namespace lodestone {
+
+/// Kernel of the meshes that Lodestone itself reads and makes: double coordinates, exact predicates.
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+/// The mesh type of the program, and the one the compiled part is instantiated for.
+using Surface_mesh = CGAL::Surface_mesh<Point>;
+
+template <class Mesh>
+using Vertex = typename boost::graph_traits<Mesh>::vertex_descriptor;
+template <class Mesh>
+using Halfedge = typename boost::graph_traits<Mesh>::halfedge_descriptor;
+template <class Mesh>
+using Face = typename boost::graph_traits<Mesh>::face_descriptor;
+
+/// Number of a region of one object, counted from 0.
+using Region_index = std::uint32_t;
+
+/// A coordinate triple whose values convert to double without loss: any CGAL point over float or double.
+template <class P>
+concept Point_like = requires(const P& p) {
+  { p.x() } -> std::convertible_to<double>;
+  { p.y() } -> std::convertible_to<double>;
+  { p.z() } -> std::convertible_to<double>;
+};
+
+/// A readable property map from the vertices of `Mesh` to points.
+template <class Map, class Mesh>
+concept Vertex_point_map = requires(const Map& map, Vertex<Mesh> v) {
+  { get(map, v) } -> Point_like;
+};
+
+/// A readable and writable property map from the vertices of `Mesh` to region numbers.
+template <class Map, class Mesh>
+concept Region_map = requires(const Map& map, Vertex<Mesh> v, Region_index region) {
+  put(map, v, region);
+  { get(map, v) } -> std::convertible_to<Region_index>;
+};
+
+/// A model of CGAL's FaceListGraph with a vertex point map, all of whose faces are triangles.
+///
+/// Models: CGAL::Surface_mesh, CGAL::Polyhedron_3, OpenMesh through CGAL's wrapper, and
+/// CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper. The concept checks the syntax; that faces
+/// are triangles is checked where a mesh enters (see `Mesh_numbering`).
+template <class Mesh>
+concept Triangle_mesh = requires(const Mesh& mesh, Vertex<Mesh> v, Face<Mesh> f, Halfedge<Mesh> h) {
+  vertices(mesh);
+  faces(mesh);
+  { num_vertices(mesh) } -> std::convertible_to<std::size_t>;
+  { num_faces(mesh) } -> std::convertible_to<std::size_t>;
+  { halfedge(f, mesh) } -> std::convertible_to<Halfedge<Mesh>>;
+  { next(h, mesh) } -> std::convertible_to<Halfedge<Mesh>>;
+  { target(h, mesh) } -> std::convertible_to<Vertex<Mesh>>;
+  { get(CGAL::vertex_point, mesh) } -> Vertex_point_map<Mesh>;
+};
+
+/// The vertex point map of a named-parameter pack, or the mesh's own.
+template <Triangle_mesh Mesh, class Named_parameters>
+auto vertex_points(const Mesh& mesh, const Named_parameters& np) {
+  using CGAL::parameters::choose_parameter;
+  using CGAL::parameters::get_parameter;
+  return choose_parameter(get_parameter(np, CGAL::internal_np::vertex_point),
+                          CGAL::get_const_property_map(CGAL::vertex_point, mesh));
+}
+
+}  // namespace lodestone

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "lodestone/concepts.h"
+
+namespace lodestone {
+
+struct Mesh_file_options {
+  std::size_t max_faces = 50'000'000;  ///< files that announce or hold more faces are refused
+};
+
+/// A mesh as read from a file. Face number i of the mesh is the i-th face of the file.
+///
+/// A half-edge mesh cannot hold everything a file can: a vertex on a non-manifold edge, or named twice by one face,
+/// stands several times in the mesh, and a vertex that no face uses is left out. `file_vertex` keeps the way back.
+struct Mesh_file {
+  Surface_mesh mesh;
+  std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its number in the file, from 0
+  std::size_t file_vertices = 0;           ///< number of vertices in the file
+};
+
+/// Reads a triangle mesh from OFF, OBJ, PLY (ascii, binary) or STL (ascii, binary), by the file's extension.
+///
+/// The file is checked before CGAL's reader sees it: header counts against the file's size, indices against counts,
+/// finite coordinates, triangles only, the face limit. Zero-area faces, faces that name a vertex twice, non-manifold
+/// edges, duplicate vertices, several components and open borders are legal.
+///
+/// @throws Bad_mesh with file, line (text formats) or byte (binary formats), and cause
+Mesh_file read_mesh(const std::filesystem::path& file, const Mesh_file_options& options = {});
+
+}  // namespace lodestone

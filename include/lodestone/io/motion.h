@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "lodestone/concepts.h"
+
+namespace lodestone {
+
+/// How the vertices of one object move: a function from the frame number to all positions.
+struct Motion {
+  std::size_t frames = 0;  ///< number of frames it holds; 0: any number
+
+  /// Writes the positions of `frame` (counted from 0), one per vertex of the object's file or shape, in that order.
+  /// @throws Bad_motion when the frame is broken or past the end
+  std::function<void(std::size_t frame, std::span<Point> positions)> pose;
+};
+
+/// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). Frames are read one by one, as asked for.
+/// @param vertices  number of vertices the cache must have
+/// @throws Bad_motion  not a PC2 file, another number of vertices, shorter than its header says; when a frame is
+///                     read: a non-finite coordinate
+Motion read_point_cache(const std::filesystem::path& file, std::size_t vertices);
+
+/// Motion from one mesh file per frame, all with the same faces. Files are read one by one, as asked for.
+/// @throws Bad_motion  no file, or a file that does not exist; when a frame is read: a broken file, another number of
+///                     vertices or other faces than the first
+Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices);
+
+}  // namespace lodestone
