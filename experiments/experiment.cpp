@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment.h"
+
+#include <array>
+
+namespace lodestone {
+
+std::span<const Experiment> experiments() {
+  static constexpr std::array<Experiment, 5> all{{
+      {"teapot_sphere", "How well and how fast does the method find collisions on the paper's pair?",
+       run_teapot_sphere},
+      {"scaling", "How do partition, detection and repartition check grow with k, M and N?", run_scaling},
+      {"predecessor", "Where does the predecessor fail, and does this method hold there?", run_predecessor},
+      {"collision_distance", "Why is mu the mean over adjacent vertices, not over all?", run_collision_distance},
+      {"growth", "Does repartitioning keep an inflating object detectable, and what does it cost?", run_growth},
+  }};
+  return all;
+}
+
+}  // namespace lodestone

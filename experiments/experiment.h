@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lodestone {
+
+struct Experiment_context {
+  std::filesystem::path scenes;                                    ///< folder of the scene files
+  std::filesystem::path out;                                       ///< folder that receives all figures as JSON
+  std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
+};
+
+/// One question, and the run that answers it.
+struct Experiment {
+  std::string_view name;
+  std::string_view question;
+  /// Measures, writes `<name>.json` into `out`, and returns a report in Markdown.
+  std::string (*run)(const Experiment_context&);
+};
+
+std::span<const Experiment> experiments();
+
+std::string run_teapot_sphere(const Experiment_context& context);
+std::string run_scaling(const Experiment_context& context);
+std::string run_predecessor(const Experiment_context& context);
+std::string run_collision_distance(const Experiment_context& context);
+std::string run_growth(const Experiment_context& context);
+
+}  // namespace lodestone

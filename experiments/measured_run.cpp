@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "measured_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "lodestone/baselines/exhaustive.h"
+#include "lodestone/io/atomic_file.h"
+
+namespace lodestone {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::vector<Object_pair> all_pairs(const Scene& scene) {
+  std::vector<Object_pair> pairs;
+  for (std::uint32_t b = 0; b < scene.objects.size(); ++b)
+    for (std::uint32_t a = 0; a < b; ++a) pairs.push_back({a, b});
+  return pairs;
+}
+
+Detector<Surface_mesh> make_detector(const Scene& scene, const Setting& setting) {
+  Detector<Surface_mesh> detector(setting.options);
+  for (const auto& object : scene.objects) {
+    Object_options options{.particles = setting.options.particles > 0 ? 0 : object.particles};
+    if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
+    detector.add(std::as_const(object.mesh), options);
+  }
+  return detector;
+}
+
+bool answered(const Frame& frame, Object_pair pair) {
+  return std::ranges::any_of(
+      frame.pairs, [&](const auto& found) { return found.a == pair.a && found.b == pair.b && found.collides; });
+}
+
+/// One scene, all settings.
+class Scene_run {
+ public:
+  Scene_run(Scene& scene, std::span<const Setting> settings) : scene_(scene), pairs_(all_pairs(scene)) {
+    for (const auto& setting : settings) detectors_.push_back(make_detector(scene, setting));
+    scores_.resize(settings.size());
+  }
+
+  void play(std::size_t frame, Measured_run& run) {
+    for (auto& object : scene_.objects) pose(object, frame);
+    const auto truth = find_truth(frame > 0 ? &run.oracle_seconds : nullptr);
+    for (std::size_t turn = 0; turn < detectors_.size(); ++turn) {
+      // Another one first in every frame: who comes first finds the positions outside the caches.
+      const std::size_t s = (frame + turn) % detectors_.size();
+      const auto start = Clock::now();
+      detectors_[s].update();
+      const Frame& answer = detectors_[s].detect();
+      if (frame == 0)
+        run.measurements[s].preparation_seconds += seconds_since(start);
+      else
+        run.measurements[s].frames.push_back(answer.statistics);
+      for (std::size_t p = 0; p < pairs_.size(); ++p) scores_[s].add(pairs_[p], truth[p], answered(answer, pairs_[p]));
+    }
+  }
+
+  void finish(Measured_run& run) {
+    for (std::size_t s = 0; s < detectors_.size(); ++s) {
+      scores_[s].finish();
+      run.measurements[s].score.add(scores_[s]);
+      run.measurements[s].accuracies.push_back(scores_[s].accuracy());
+      run.measurements[s].particles.clear();
+      for (Object_id o = 0; o < detectors_[s].size(); ++o)
+        run.measurements[s].particles.push_back(detectors_[s].object(o).particles().at.size());
+    }
+  }
+
+ private:
+  std::vector<bool> find_truth(std::vector<double>* seconds) const {
+    std::vector<bool> truth;
+    const auto start = Clock::now();
+    for (const auto& [a, b] : pairs_)
+      truth.push_back(!exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh).empty());
+    if (seconds != nullptr) seconds->push_back(seconds_since(start));
+    return truth;
+  }
+
+  Scene& scene_;
+  std::vector<Object_pair> pairs_;
+  std::vector<Detector<Surface_mesh>> detectors_;
+  std::vector<Score> scores_;
+};
+
+}  // namespace
+
+Measured_run measure(std::span<Scene> scenes, std::span<const Setting> settings,
+                     const std::function<void(std::size_t, std::size_t)>& progress) {
+  Measured_run run;
+  for (const auto& setting : settings) run.measurements.push_back({.setting = setting});
+  std::size_t frames = 0;
+  for (const auto& scene : scenes) frames += scene.frames;
+  std::size_t done = 0;
+  for (auto& scene : scenes) {
+    Scene_run scene_run(scene, settings);
+    for (std::size_t frame = 0; frame < scene.frames; ++frame) {
+      scene_run.play(frame, run);
+      progress(++done, frames);
+    }
+    scene_run.finish(run);
+  }
+  return run;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+double median_microseconds(const Measurement& measurement, double Stage_times::*stage) {
+  std::vector<double> values;
+  for (const auto& frame : measurement.frames) values.push_back(1e6 * (frame.seconds.*stage));
+  return median(std::move(values));
+}
+
+double median_total_microseconds(const Measurement& measurement) {
+  std::vector<double> values;
+  for (const auto& frame : measurement.frames) values.push_back(1e6 * frame.seconds.total());
+  return median(std::move(values));
+}
+
+double mean_total_microseconds(const Measurement& measurement) {
+  double sum = 0;
+  for (const auto& frame : measurement.frames) sum += 1e6 * frame.seconds.total();
+  return measurement.frames.empty() ? 0 : sum / static_cast<double>(measurement.frames.size());
+}
+
+double mean_count(const Measurement& measurement, std::size_t Frame_statistics::*count) {
+  double sum = 0;
+  for (const auto& frame : measurement.frames) sum += static_cast<double>(frame.*count);
+  return measurement.frames.empty() ? 0 : sum / static_cast<double>(measurement.frames.size());
+}
+
+nlohmann::ordered_json to_json(const Measurement& m) {
+  const auto& options = m.setting.options;
+  const auto stage = [&](double Stage_times::*s) { return median_microseconds(m, s); };
+  return {
+      {"setting", m.setting.name},
+      {"mode", options.mode == Mode::senin ? "senin" : "particles"},
+      {"particles", options.particles},
+      {"collision_distance", options.collision_distance},
+      {"frames", m.score.frames()},
+      {"positive", m.score.positives()},
+      {"recall", m.score.recall()},
+      {"precision", m.score.precision()},
+      {"accuracy", m.score.accuracy()},
+      {"accuracy_per_scene", m.accuracies},
+      {"collisions", m.score.collisions()},
+      {"never_seen", m.score.never_seen()},
+      {"mean_delay_frames", m.score.mean_delay()},
+      {"mean_iterations", mean_count(m, &Frame_statistics::iterations)},
+      {"mean_moves", mean_count(m, &Frame_statistics::moves)},
+      {"mean_candidates", mean_count(m, &Frame_statistics::candidates)},
+      {"mean_exact_tests", mean_count(m, &Frame_statistics::exact_tests)},
+      {"mean_repartitions", mean_count(m, &Frame_statistics::repartitions)},
+      {"particles_at_end", m.particles},
+      {"preparation_seconds", m.preparation_seconds},
+      {"median_microseconds",
+       {{"repartition", stage(&Stage_times::repartition)},
+        {"broad_phase", stage(&Stage_times::broad_phase)},
+        {"relaxation", stage(&Stage_times::relaxation)},
+        {"candidates", stage(&Stage_times::candidates)},
+        {"confirmation", stage(&Stage_times::confirmation)},
+        {"total", median_total_microseconds(m)}}},
+      {"mean_total_microseconds", mean_total_microseconds(m)},
+  };
+}
+
+void write_json(const std::filesystem::path& folder, std::string_view name, const nlohmann::ordered_json& json) {
+  Atomic_file file(folder / (std::string(name) + ".json"));
+  file.write(json.dump(2) + "\n");
+  file.commit();
+}
+
+}  // namespace lodestone

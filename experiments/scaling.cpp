@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment.h"
+namespace lodestone {
+std::string run_scaling(const Experiment_context&) { return {}; }
+}  // namespace lodestone

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <boost/container/static_vector.hpp>
+
+#include "lodestone/concepts.h"
+
+namespace lodestone {
+
+using Triangle = std::array<Point, 3>;
+
+/// Whether two triangles have a point in common; touching counts. Exact for any finite coordinates.
+///
+/// CGAL's `do_intersect` under an exact-predicates kernel asks for triangles with an area. One whose corners are
+/// collinear is taken as what it is, a segment or a point.
+bool triangles_intersect(const Triangle& a, const Triangle& b);
+
+/// Corners of the intersection of two triangles: one point, the two ends of a segment, or the corners of the polygon in
+/// which two coplanar triangles overlap (at most 6).
+using Intersection_points = boost::container::static_vector<Point, 6>;
+
+/// Where two triangles meet. Computed with exact constructions and rounded to double once, at the end; empty if they
+/// have no point in common.
+Intersection_points triangle_intersection(const Triangle& a, const Triangle& b);
+
+}  // namespace lodestone

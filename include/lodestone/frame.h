@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lodestone/contact/confirmation.h"
+#include "lodestone/contact/triangle_intersection.h"
+
+namespace lodestone {
+
+/// Number of an object within its detector, from 0 in the order of `add`.
+using Object_id = std::uint32_t;
+
+/// Seconds spent in each stage of one frame.
+struct Stage_times {
+  double repartition = 0;   ///< growth checks and repartitions of the updates since the frame before
+  double broad_phase = 0;   ///< reading the particles, near object pairs
+  double relaxation = 0;    ///< particles walking
+  double candidates = 0;    ///< particle pairs below the collision distance
+  double confirmation = 0;  ///< exact checks of candidate regions
+  double total() const { return repartition + broad_phase + relaxation + candidates + confirmation; }
+};
+
+struct Frame_statistics {
+  Stage_times seconds = {};
+  std::size_t near_pairs = 0;    ///< object pairs that the broad phase let through
+  std::size_t iterations = 0;    ///< of the relaxation
+  std::size_t moves = 0;         ///< steps of all particles together
+  bool relaxed = true;           ///< false: the relaxation was stopped by R_max
+  std::size_t candidates = 0;    ///< candidate region pairs
+  std::size_t exact_tests = 0;   ///< face pairs given to the exact test
+  std::size_t contacts = 0;      ///< intersecting face pairs found, each once
+  std::size_t repartitions = 0;  ///< objects repartitioned since the frame before
+};
+
+/// What was found for one near object pair, a < b.
+struct Pair_result {
+  Object_id a = 0;
+  Object_id b = 0;
+  bool collides = false;
+  std::size_t candidates = 0;     ///< candidate region pairs
+  std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
+  std::size_t contacts = 0;
+};
+
+/// Everything one frame brought. Pairs that the broad phase dropped are not listed: none of their particles is near.
+struct Frame {
+  std::uint64_t number = 0;                         ///< 1 for the first
+  std::vector<Pair_result> pairs;                   ///< by (a, b)
+  std::vector<Face_pair> face_pairs;                ///< of all pairs one after the other, sorted within a pair
+  std::vector<Intersection_points> contact_points;  ///< parallel to `face_pairs`; empty unless asked for
+  Frame_statistics statistics = {};
+
+  std::span<const Face_pair> contacts(const Pair_result& pair) const {
+    return std::span(face_pairs).subspan(pair.first_contact, pair.contacts);
+  }
+  bool collides() const {
+    for (const auto& pair : pairs)
+      if (pair.collides) return true;
+    return false;
+  }
+};
+
+}  // namespace lodestone

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "lodestone/partition/vertex_graph.h"
+
+namespace lodestone {
+
+/// How the collision distance mu is read from a mesh.
+enum class Distance_measure {
+  adjacent_vertices,  ///< mean distance between vertices joined by an edge
+  all_vertices,       ///< mean distance between any two vertices: about the size of the object, so it prunes nothing
+};
+
+/// The collision distance mu of \cite saenghaengtham2006: particles of two objects that are nearer than this make their
+/// regions a candidate pair. O(E) for adjacent vertices, O(V^2) for all.
+/// @return in the units of the positions
+double collision_distance(const Vertex_graph& graph, const Positions& positions,
+                          Distance_measure measure = Distance_measure::adjacent_vertices);
+
+}  // namespace lodestone

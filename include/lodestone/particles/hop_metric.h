@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "lodestone/partition/mesh_numbering.h"
+#include "lodestone/partition/vertex_graph.h"
+
+namespace lodestone {
+
+inline constexpr std::uint32_t unreached = std::numeric_limits<std::uint32_t>::max();
+
+/// Hops from `source` to every vertex: the fewest edges between them, by Boost.Graph's breadth-first search. O(V + E).
+/// @return V; `unreached` in other components
+std::vector<std::uint32_t> breadth_first_hops(const Vertex_graph& graph, std::uint32_t source);
+
+/// Largest hop distance between two of the given vertices.
+///
+/// This is R_max of \cite saenghaengtham2006, the most steps a particle can need to reach another.
+/// One breadth-first search per vertex: O(n (V + E)).
+///
+/// @param targets  n vertices of the graph
+/// @return hops (dimensionless); 0 for fewer than two vertices; pairs in different components do not count
+std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_t> targets);
+
+/// The same on a mesh.
+template <Triangle_mesh Mesh>
+std::size_t hop_diameter(const Mesh& mesh, std::span<const Vertex<Mesh>> targets) {
+  const Mesh_numbering<Mesh> numbering(mesh);
+  std::vector<std::uint32_t> numbers;
+  for (const auto v : targets) numbers.push_back(numbering.number(v));
+  return hop_diameter(vertex_graph(numbering.vertex_count(), numbering.corners()), numbers);
+}
+
+}  // namespace lodestone

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lodestone/contact/box.h"
+
+namespace lodestone {
+
+/// Two objects of a scene by number, a < b.
+struct Object_pair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  auto operator<=>(const Object_pair&) const = default;
+};
+
+/// The broad phase: object pairs whose particles may feel each other or come near each other.
+class Near_pairs {
+ public:
+  void reserve(std::size_t objects);
+
+  /// Pairs of boxes that overlap when one is grown on all sides by the larger of their two reaches, sorted. Sorts the
+  /// boxes along x, starting from the order of the last frame: O(n + pairs that overlap along x) while little changes.
+  ///
+  /// @param boxes  around the particles of each object
+  /// @param reach  per object: how far its particles are felt, or taken as near
+  std::span<const Object_pair> find(std::span<const Box> boxes, std::span<const double> reach);
+
+ private:
+  std::vector<std::uint32_t> order_;
+  std::vector<Object_pair> pairs_;
+};
+
+}  // namespace lodestone

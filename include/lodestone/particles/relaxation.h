@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "lodestone/particles/interaction.h"
+#include "lodestone/particles/region_steps.h"
+
+namespace lodestone {
+
+/// Reads the current position of a vertex by its number.
+template <class Reader>
+concept Position_reader = requires(const Reader& reader, std::uint32_t vertex) {
+  { reader(vertex) } -> std::convertible_to<Eigen::Vector3d>;
+};
+
+/// The particles of one object, kept from frame to frame.
+struct Particles {
+  std::vector<std::uint32_t> at;           ///< N: the vertex each particle is on
+  std::vector<Eigen::Vector3d> positions;  ///< N: where that vertex is in this frame
+  double effective_radius = 0;             ///< R_eff: how far a force is felt
+  double collision_distance = 0;           ///< mu
+  std::size_t hop_limit = 0;               ///< R_max: largest hop distance between two particles
+};
+
+/// One object as relaxation sees it.
+template <Position_reader Reader>
+struct Walking_object {
+  Particles* particles = nullptr;
+  const Region_steps* steps = nullptr;
+  const Reader* reader = nullptr;
+  std::span<const std::uint32_t> near;  ///< the objects whose particles this one feels
+  bool siblings_repel = false;          ///< particles of the object push each other away: only for the predecessor
+};
+
+struct Relaxation {
+  std::size_t iterations = 0;
+  std::size_t moves = 0;  ///< steps taken by all particles together
+  bool relaxed = true;    ///< false: stopped by R_max
+};
+
+/// Memory of the relaxation, kept so that a frame allocates nothing.
+struct Relaxation_scratch {
+  Attractors attractors;
+  Attractors siblings;
+  std::vector<std::vector<std::uint32_t>> next_at;
+  std::vector<std::vector<Eigen::Vector3d>> next_positions;
+
+  /// Makes room for objects with these numbers of particles.
+  void reserve(std::span<const std::size_t> particles);
+};
+
+namespace internal {
+
+/// The best step of one particle: the vertex in reach with the largest force, the lowest number among equals.
+struct Step {
+  std::uint32_t vertex = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+template <Position_reader Reader>
+Step best_step(const Walking_object<Reader>& object, std::size_t particle, const Relaxation_scratch& scratch) {
+  constexpr int lanes = Attractors::lanes;
+  const std::uint32_t here = object.particles->at[particle];
+  const auto reach = object.steps->from(here);
+  Step best{.vertex = here, .position = object.particles->positions[particle]};
+  double largest = -std::numeric_limits<double>::infinity();
+  bool pulled = false;
+  bool held = false;
+
+  for (std::size_t first = 0; first < reach.size(); first += lanes) {
+    const auto count = std::min<std::size_t>(lanes, reach.size() - first);
+    std::array<double, lanes> x, y, z, force, push;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const Eigen::Vector3d p = lane < count ? Eigen::Vector3d((*object.reader)(reach[first + lane])) : best.position;
+      x[lane] = p.x();
+      y[lane] = p.y();
+      z[lane] = p.z();
+    }
+    scratch.attractors.forces(x.data(), y.data(), z.data(), force.data());
+    if (object.siblings_repel) {
+      scratch.siblings.forces(x.data(), y.data(), z.data(), push.data(), static_cast<std::ptrdiff_t>(particle));
+      for (int lane = 0; lane < lanes; ++lane) force[lane] -= push[lane];
+    }
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      pulled |= force[lane] != 0;
+      held |= reach[first + lane] == here && force[lane] == std::numeric_limits<double>::infinity();
+      if (force[lane] > largest) {
+        largest = force[lane];
+        best = {.vertex = reach[first + lane], .position = {x[lane], y[lane], z[lane]}};
+      }
+    }
+  }
+  // Without any force there is nowhere to go; at r = 0 the particle has arrived.
+  if (!pulled || held) return {.vertex = here, .position = object.particles->positions[particle]};
+  return best;
+}
+
+template <Position_reader Reader>
+void gather_attractors(std::span<const Walking_object<Reader>> objects, const Walking_object<Reader>& object,
+                       Relaxation_scratch& scratch) {
+  const auto add_all = [](Attractors& attractors, const Particles& particles, double reach) {
+    for (const auto& position : particles.positions) attractors.add(position, reach * reach);
+  };
+  scratch.attractors.clear();
+  for (const auto other : object.near) {
+    const Particles& particles = *objects[other].particles;
+    add_all(scratch.attractors, particles, std::max(object.particles->effective_radius, particles.effective_radius));
+  }
+  if (!object.siblings_repel) return;
+  scratch.siblings.clear();
+  add_all(scratch.siblings, *object.particles, object.particles->effective_radius);
+}
+
+}  // namespace internal
+
+/// Lets particles walk until they rest: the particle stage of \cite saenghaengtham2006.
+///
+/// In every iteration each particle looks at its vertex and the neighbours in its own region and moves to the one where
+/// the force, the sum of 1 / r^2 over the particles of near objects at r < R_eff (the larger of the two objects'), is
+/// largest. All read the positions before the iteration; ties go to the lowest vertex number; without any force, and
+/// at r = 0, a particle stays. The particles are relaxed when in each object fewer than R_min = N / 10 moved; R_max,
+/// the largest of all objects, bounds the iterations.
+///
+/// Cost per iteration O(d N N') for N particles with d vertices in reach that feel N' others. Positions are read only
+/// of vertices in reach of a particle. Allocates nothing once the scratch has its size.
+///
+/// @param objects  `positions` of their particles must be those of this frame; `at` and `positions` are moved on
+template <Position_reader Reader>
+Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scratch& scratch) {
+  Relaxation result;
+  std::size_t iteration_limit = 1;
+  for (const auto& object : objects)
+    if (!object.near.empty()) iteration_limit = std::max(iteration_limit, object.particles->hop_limit);
+
+  for (result.relaxed = false; !result.relaxed && result.iterations < iteration_limit; ++result.iterations) {
+    result.relaxed = true;
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+      if (objects[o].near.empty()) continue;
+      const std::size_t count = objects[o].particles->at.size();
+      internal::gather_attractors(objects, objects[o], scratch);
+      std::size_t moved = 0;
+      for (std::size_t p = 0; p < count; ++p) {
+        const auto step = internal::best_step(objects[o], p, scratch);
+        moved += step.vertex != objects[o].particles->at[p] ? 1 : 0;
+        scratch.next_at[o][p] = step.vertex;
+        scratch.next_positions[o][p] = step.position;
+      }
+      result.moves += moved;
+      result.relaxed &= 10 * moved < count;
+    }
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+      if (objects[o].near.empty()) continue;
+      objects[o].particles->at.swap(scratch.next_at[o]);
+      objects[o].particles->positions.swap(scratch.next_positions[o]);
+    }
+  }
+  return result;
+}
+
+}  // namespace lodestone

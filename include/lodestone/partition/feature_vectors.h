@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CGAL/Vector_3.h>
+
+#include <Eigen/Core>
+#include <concepts>
+#include <span>
+
+#include "lodestone/concepts.h"
+#include "lodestone/errors.h"
+#include "lodestone/partition/mesh_numbering.h"
+
+namespace lodestone {
+
+/// One row per vertex, one column per component: V x k.
+using Feature_vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+struct Feature_options {
+  double position_weight = 1;  ///< of positions scaled to the unit ball around their mean; >= 0
+  double normal_weight = 1;    ///< of unit vertex normals; >= 0; 0 leaves the normals out, so that k = 3
+};
+
+/// Unit normal of each vertex: the sum of the cross products of its faces, so weighted by area. Zero where that sum
+/// is (isolated vertices, zero-area faces). Cost O(V + F).
+Positions vertex_normals(const Positions& positions, std::span<const Corners> faces);
+
+/// The feature vectors of \cite saenghaengtham2006: position and normal of each vertex, each times its weight.
+///
+/// Positions are taken relative to their mean and divided by the largest distance from it, so that neither a
+/// translation nor a uniform scale of the mesh changes the result. Cost O(V + F).
+///
+/// @return V x 6, or V x 3 when one weight is 0
+/// @throws Bad_argument  a weight is negative or not finite, or both are 0
+Feature_vectors feature_vectors(const Positions& positions, std::span<const Corners> faces,
+                                const Feature_options& options = {});
+
+/// Further factors of the feature vector from a property map of the mesh, such as curvature or colour.
+///
+/// The values are used as they are, times the weight: scale them to the spread of the positions, which is 1.
+///
+/// @param map     vertex property map whose values are numbers, or vectors of `Components` numbers indexed by []
+/// @param weight  >= 0
+/// @return V x Components, for `Lbg::extra_factors`
+/// @throws Bad_argument  negative weight, or a value that is not finite
+template <int Components = 1, Triangle_mesh Mesh, class Map>
+Feature_vectors factors(const Mesh& mesh, const Map& map, double weight = 1) {
+  if (!(weight >= 0)) throw Bad_argument("the weight of a factor must be >= 0");
+  Feature_vectors result(num_vertices(mesh), Components);
+  Eigen::Index row = 0;
+  for (const auto v : vertices(mesh)) {
+    const auto& value = get(map, v);
+    for (int component = 0; component < Components; ++component) {
+      if constexpr (std::convertible_to<decltype(value), double>)
+        result(row, component) = weight * static_cast<double>(value);
+      else
+        result(row, component) = weight * static_cast<double>(value[component]);
+    }
+    ++row;
+  }
+  if (!result.allFinite()) throw Bad_argument("a factor has a value that is not finite");
+  return result;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "lodestone/partition/mesh_numbering.h"
+#include "lodestone/partition/vertex_graph.h"
+
+/// How many particles an object needs: as many as other objects can touch it at once.
+namespace lodestone {
+
+struct Sphere {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0;
+};
+
+struct Particle_count_options {
+  double crease_degrees = 40;        ///< a vertex whose normal differs by more from a neighbour's is critical; (0, 180]
+  double smallest_part = 0.02;       ///< parts with a smaller share of the vertices are no part of their own; [0, 1]
+  std::size_t most_parts = 8;        ///< spheres per object at most; >= 1
+  double equal_sizes = 0.05;         ///< radii that differ by no more than this share count as equal; >= 0
+  std::size_t most_particles = 256;  ///< per object, whatever the sizes ask for; >= 1
+};
+
+/// Particles for objects of equal size: the kissing number of spheres, 12, or the number of objects if that is lower.
+std::size_t kissing_particle_count(std::size_t objects);
+
+/// Particles for a sphere of radius R beside objects no smaller than a sphere of radius r: how often the shadow of the
+/// small one, seen from the centre of the large one, fits on the large one without regard to overlap.
+///
+/// The shadow is a cap of half-angle theta = asin(r / (R + r)) and area B = 2 pi (1 - cos theta) on a sphere of area
+/// A = 4 pi; the count is floor(A / B), at least 1. \cite saenghaengtham2006. Equal spheres give 14, an upper bound
+/// on 12.
+///
+/// @param radius    R, > 0
+/// @param smallest  r, > 0, in the same unit
+/// @throws Bad_argument  a radius that is not finite or not > 0
+std::size_t shadow_particle_count(double radius, double smallest);
+
+/// Smallest sphere around the positions, by CGAL's Min_sphere_of_spheres_d.
+Sphere bounding_sphere(const Positions& positions);
+
+/// Approximates a surface by a few spheres, one per part.
+///
+/// Critical vertices, whose normal differs by more than `crease_degrees` from a neighbour's, split the surface into
+/// parts; each part that is large enough gets the bounding sphere of its vertices. A surface without critical vertices,
+/// or made of nothing else, is one part per connected component. Cost O(V + E) expected.
+///
+/// @return at least one sphere, in the order of the parts' lowest vertex
+std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions& positions,
+                                      std::span<const Corners> faces, const Particle_count_options& options = {});
+
+/// Particles for each object of a scene: `kissing_particle_count` where all objects have one size; elsewhere the sum of
+/// `shadow_particle_count` over the spheres of the object, against the smallest object.
+///
+/// @param object   spheres of the object
+/// @param radii    bounding radius of every object of the scene
+/// @return at least 1, at most `most_particles`
+std::size_t particle_count(std::span<const Sphere> object, std::span<const double> radii,
+                           const Particle_count_options& options = {});
+
+}  // namespace lodestone

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "lodestone/partition/feature_vectors.h"
+#include "lodestone/partition/islands.h"
+#include "lodestone/partition/mesh_numbering.h"
+#include "lodestone/partition/vertex_graph.h"
+
+namespace lodestone {
+
+/// What a partition strategy is given: the mesh, its vertices and faces by number, and where they are now.
+template <Triangle_mesh Mesh>
+struct Partition_input {
+  const Mesh& mesh;
+  const Mesh_numbering<Mesh>& numbering;
+  const Vertex_graph& graph;
+  const Positions& positions;  ///< V x 3
+};
+
+/// What a partition strategy gives back.
+struct Labelling {
+  std::vector<Region_index> labels;        ///< V: the region of each vertex, below V
+  Feature_vectors vectors = {};            ///< V x k: the space in which particles are seeded; empty: position + normal
+  std::size_t iterations = 0;              ///< of the strategy's main loop
+  std::uint64_t distance_evaluations = 0;  ///< between a vector and a code vector, where the strategy has them
+};
+
+/// A partition strategy: a name and one call, from a mesh to a label per vertex. Everything else (checks, island
+/// repair, numbering, particles) is done once for all strategies by `partition()`.
+template <class Strategy, class Mesh>
+concept Partition_strategy = requires(const Strategy& strategy, const Partition_input<Mesh>& input,
+                                      std::size_t regions) {
+  { Strategy::name } -> std::convertible_to<std::string_view>;
+  { strategy(input, regions) } -> std::same_as<Labelling>;
+};
+
+struct Partition_options {
+  bool keep_islands = false;  ///< leave regions in several pieces as the strategy made them
+};
+
+struct Partition_statistics {
+  std::size_t iterations = 0;              ///< see Labelling
+  std::uint64_t distance_evaluations = 0;  ///< see Labelling
+  std::size_t pieces_before_repair = 0;    ///< connected pieces of all regions as the strategy made them
+  Island_repair repair = {};
+};
+
+/// A mesh divided into regions, by number. Each region holds one particle.
+struct Numbered_partition {
+  std::vector<Region_index> labels;      ///< V: region of each vertex
+  std::size_t regions = 0;               ///< number of regions, each with at least one face
+  std::vector<std::uint32_t> particles;  ///< per region: the vertex at which its particle starts
+  Partition_statistics statistics = {};
+};
+
+/// The same with the descriptors of the mesh; the labels are in the region map.
+template <Triangle_mesh Mesh>
+struct Partition {
+  std::size_t regions = 0;
+  std::vector<Vertex<Mesh>> particles;
+  Partition_statistics statistics = {};
+};
+
+/// Vertex of each region nearest to the region's mean vector; the lowest number of equally near ones. Vertices without
+/// edges are passed over. O(k V).
+/// @param vectors  V x k
+std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
+                                          const std::vector<Region_index>& labels, std::size_t regions);
+
+/// The part that every strategy shares: repair, numbering, particles.
+Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
+                                    std::span<const Corners> faces, Labelling labelling,
+                                    const Partition_options& options);
+
+/// `partition()` on a mesh already numbered.
+template <Triangle_mesh Mesh, Partition_strategy<Mesh> Strategy>
+Numbered_partition partition_numbered(const Partition_input<Mesh>& input, std::size_t regions, const Strategy& strategy,
+                                      const Partition_options& options = {}) {
+  if (regions == 0) throw Bad_argument("the number of regions must be at least 1");
+  const auto wanted = std::min<std::size_t>(regions, input.numbering.vertex_count());
+  return finish_partition(input.graph, input.positions, input.numbering.corners(), strategy(input, wanted), options);
+}
+
+/// Divides a surface into regions and places one particle in each.
+///
+/// Every vertex gets one region, every region is non-empty and, unless `keep_islands` is set, connected in the mesh
+/// graph. The particle starts at the vertex nearest to the region's mean vector in the strategy's own space. More
+/// regions than vertices are cut down to the number of vertices; a mesh with more connected components than regions
+/// gets a region more for each component that none reaches.
+///
+/// @param regions     wanted number of regions, >= 1
+/// @param region_map  vertex property map that receives the region of each vertex
+/// @param np          `vertex_point_map`
+/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
+/// @throws Bad_argument  no region wanted, or an option of the strategy out of range
+template <Triangle_mesh Mesh, Region_map<Mesh> Regions, Partition_strategy<Mesh> Strategy,
+          class Named_parameters = CGAL::parameters::Default_named_parameters>
+Partition<Mesh> partition(const Mesh& mesh, std::size_t regions, Regions region_map, const Strategy& strategy,
+                          const Partition_options& options = {},
+                          const Named_parameters& np = CGAL::parameters::default_values()) {
+  const Mesh_numbering<Mesh> numbering(mesh);
+  const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
+  const Positions positions = read_positions(numbering, vertex_points(mesh, np));
+  const auto result =
+      partition_numbered(Partition_input<Mesh>{mesh, numbering, graph, positions}, regions, strategy, options);
+
+  for (std::uint32_t v = 0; v < numbering.vertex_count(); ++v) put(region_map, numbering.vertex(v), result.labels[v]);
+  std::vector<Vertex<Mesh>> particles;
+  for (const auto v : result.particles) particles.push_back(numbering.vertex(v));
+  return {.regions = result.regions, .particles = std::move(particles), .statistics = result.statistics};
+}
+
+}  // namespace lodestone

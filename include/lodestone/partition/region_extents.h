@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "lodestone/partition/mesh_numbering.h"
+#include "lodestone/partition/vertex_graph.h"
+
+/// How large the regions of a surface have become: the measure behind repartitioning.
+namespace lodestone {
+
+/// Position of a vertex in the current frame, by its number.
+using Position_function = std::function<Eigen::Vector3d(std::uint32_t)>;
+
+/// Path along mesh edges from a region's home vertex to its border in one direction of the tangent plane.
+struct Border_path {
+  double length = 0;  ///< in the units of the positions; 0: the home vertex lies on the border on that side
+  /// The home vertex, at most three vertices between, and the border vertex; empty for length 0. Enough to follow how
+  /// the path stretches without walking it.
+  std::vector<std::uint32_t> samples = {};
+  double sampled_length = 0;  ///< of the polyline through the samples when the path was found
+};
+
+/// Distances from a region's home vertex, where its particle started, to its border in the directions +X, -X, +Y, -Y of
+/// the tangent plane there.
+struct Region_extent {
+  std::array<Border_path, 4> paths;  ///< +X, -X, +Y, -Y
+
+  /// Area of the rectangle (d+X + d-X)(d+Y + d-Y) of \cite saenghaengtham2006.
+  double area() const { return (paths[0].length + paths[1].length) * (paths[2].length + paths[3].length); }
+};
+
+/// What the extents of a region are measured on.
+struct Extent_input {
+  const Vertex_graph& graph;
+  std::span<const Region_index> labels;  ///< V
+  const std::vector<bool>& open_border;  ///< V, see `open_border`
+  const Position_function& position;
+};
+
+/// Measures one region: shortest paths from `home` along the edges within the region (Dijkstra, Boost.Graph, on the
+/// region's subgraph), then in each direction the border vertex that lies closest to it within 45 degrees.
+///
+/// The border is made of the vertices with a neighbour in another region and those on an open border of the mesh. A
+/// region without border, a whole closed component, is measured to the farthest vertex of each direction instead.
+/// O(V + n log n) for a region of n vertices; reads only positions of the region.
+///
+/// @param normal  of the tangent plane, need not be a unit vector; zero: the plane z = 0
+Region_extent region_extent(const Extent_input& input, std::uint32_t home, const Eigen::Vector3d& normal);
+
+/// Area of the region now, as far as the samples tell: each path stretched as its polyline has. Reads at most 16
+/// vertices, whatever the size of the region.
+template <class Reader>
+double stretched_area(const Region_extent& extent, const Reader& reader) {
+  std::array<double, 4> lengths{};
+  for (std::size_t direction = 0; direction < 4; ++direction) {
+    const Border_path& path = extent.paths[direction];
+    if (path.samples.empty() || path.sampled_length == 0) continue;
+    double now = 0;
+    Eigen::Vector3d previous = reader(path.samples.front());
+    for (std::size_t i = 1; i < path.samples.size(); ++i) {
+      const Eigen::Vector3d next = reader(path.samples[i]);
+      now += (next - previous).norm();
+      previous = next;
+    }
+    lengths[direction] = path.length * (now / path.sampled_length);
+  }
+  return (lengths[0] + lengths[1]) * (lengths[2] + lengths[3]);
+}
+
+}  // namespace lodestone

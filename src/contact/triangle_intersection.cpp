@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/contact/triangle_intersection.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Intersections_3/Segment_3_Segment_3.h>
+#include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
+#include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
+#include <CGAL/intersections.h>
+
+#include <cmath>
+#include <variant>
+#include <vector>
+
+namespace lodestone {
+
+namespace {
+
+/// Proves in floating point that three points are not collinear. Each component of the cross product carries an error
+/// below 8 roundings of the sum of its two products; `false` proves nothing.
+bool surely_not_collinear(const Triangle& t) {
+  constexpr double bound = 1e-14;
+  const double ux = t[1].x() - t[0].x(), uy = t[1].y() - t[0].y(), uz = t[1].z() - t[0].z();
+  const double vx = t[2].x() - t[0].x(), vy = t[2].y() - t[0].y(), vz = t[2].z() - t[0].z();
+  const auto away_from_zero = [](double p, double q) {
+    // Where a product is subnormal its relative error is no longer small.
+    constexpr double normal = 1e-290;
+    const double size = std::abs(p) + std::abs(q);
+    return size > normal && std::abs(p - q) > bound * size;
+  };
+  return away_from_zero(uy * vz, uz * vy) || away_from_zero(uz * vx, ux * vz) || away_from_zero(ux * vy, uy * vx);
+}
+
+/// A triangle as the set of points it is.
+template <class K>
+using Shape = std::variant<typename K::Triangle_3, typename K::Segment_3, typename K::Point_3>;
+
+template <class K>
+Shape<K> shape(const typename K::Point_3& a, const typename K::Point_3& b, const typename K::Point_3& c) {
+  if (!CGAL::collinear(a, b, c)) return typename K::Triangle_3(a, b, c);
+  if (a == b && b == c) return a;
+  // The two corners with the third between them; `collinear_are_ordered_along_line` counts equal points as ordered.
+  if (CGAL::collinear_are_ordered_along_line(a, b, c)) return typename K::Segment_3(a, c);
+  if (CGAL::collinear_are_ordered_along_line(b, a, c)) return typename K::Segment_3(b, c);
+  return typename K::Segment_3(a, b);
+}
+
+/// CGAL's reader of a point against a point is an equality test; everything else is its `do_intersect`.
+struct Shapes_intersect {
+  bool operator()(const Point& a, const Point& b) const { return a == b; }
+  template <class A, class B>
+  bool operator()(const A& a, const B& b) const {
+    return CGAL::do_intersect(a, b);
+  }
+};
+
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+
+Exact::Point_3 exact(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+Point rounded(const Exact::Point_3& p) {
+  // exact() first: a lazy number gives its interval's midpoint otherwise, which may be off in the last digits.
+  p.exact();
+  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+}
+
+struct Collect_points {
+  Intersection_points& points;
+
+  void operator()(const Exact::Point_3& p) const { points.push_back(rounded(p)); }
+  void operator()(const Exact::Segment_3& s) const {
+    for (const auto& end : {s.source(), s.target()}) points.push_back(rounded(end));
+  }
+  void operator()(const Exact::Triangle_3& t) const {
+    for (int i = 0; i < 3; ++i) points.push_back(rounded(t[i]));
+  }
+  void operator()(const std::vector<Exact::Point_3>& polygon) const {
+    for (const auto& p : polygon) points.push_back(rounded(p));
+  }
+};
+
+struct Shapes_intersection {
+  Intersection_points& points;
+
+  void operator()(const Exact::Point_3& a, const Exact::Point_3& b) const {
+    if (a == b) points.push_back(rounded(a));
+  }
+  template <class A, class B>
+  void operator()(const A& a, const B& b) const {
+    if (const auto result = CGAL::intersection(a, b)) boost::apply_visitor(Collect_points{points}, *result);
+  }
+};
+
+}  // namespace
+
+bool triangles_intersect(const Triangle& a, const Triangle& b) {
+  if (surely_not_collinear(a) && surely_not_collinear(b))
+    return CGAL::do_intersect(Kernel::Triangle_3(a[0], a[1], a[2]), Kernel::Triangle_3(b[0], b[1], b[2]));
+  return std::visit(Shapes_intersect(), shape<Kernel>(a[0], a[1], a[2]), shape<Kernel>(b[0], b[1], b[2]));
+}
+
+Intersection_points triangle_intersection(const Triangle& a, const Triangle& b) {
+  Intersection_points points;
+  std::visit(Shapes_intersection{points}, shape<Exact>(exact(a[0]), exact(a[1]), exact(a[2])),
+             shape<Exact>(exact(b[0]), exact(b[1]), exact(b[2])));
+  return points;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/feature_vectors.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace lodestone {
+
+namespace {
+
+/// Positions relative to their mean, at most 1 from it. The first step, by a power of two, is exact and keeps every
+/// later sum and square within range, whatever the coordinates.
+Positions scaled_to_unit_ball(const Positions& positions) {
+  int exponent = 0;
+  std::frexp(positions.cwiseAbs().maxCoeff(), &exponent);
+  Positions scaled = positions.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
+  scaled.rowwise() -= scaled.colwise().mean().eval();
+  const double extent = scaled.cwiseAbs().maxCoeff();
+  if (extent == 0) return scaled;
+  scaled /= extent;
+  return scaled / scaled.rowwise().norm().maxCoeff();
+}
+
+void check_weights(const Feature_options& options) {
+  const auto usable = [](double weight) { return std::isfinite(weight) && weight >= 0; };
+  if (!usable(options.position_weight) || !usable(options.normal_weight))
+    throw Bad_argument("the weights of position and normal must be finite and >= 0");
+  if (options.position_weight == 0 && options.normal_weight == 0)
+    throw Bad_argument("the weights of position and normal must not both be 0");
+}
+
+}  // namespace
+
+Positions vertex_normals(const Positions& positions, std::span<const Corners> faces) {
+  const Positions unit = scaled_to_unit_ball(positions);
+  Positions normals = Positions::Zero(positions.rows(), 3);
+  for (const auto& [a, b, c] : faces) {
+    const Eigen::RowVector3d first = unit.row(b) - unit.row(a);
+    const Eigen::RowVector3d second = unit.row(c) - unit.row(a);
+    const Eigen::RowVector3d area_normal = first.cross(second);
+    for (const auto corner : {a, b, c}) normals.row(corner) += area_normal;
+  }
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+    const double length = normals.row(v).norm();
+    if (length > 0) normals.row(v) /= length;
+  }
+  return normals;
+}
+
+Feature_vectors feature_vectors(const Positions& positions, std::span<const Corners> faces,
+                                const Feature_options& options) {
+  check_weights(options);
+  if (options.normal_weight == 0) return options.position_weight * scaled_to_unit_ball(positions);
+  if (options.position_weight == 0) return options.normal_weight * vertex_normals(positions, faces);
+
+  Feature_vectors features(positions.rows(), 6);
+  features.leftCols<3>() = options.position_weight * scaled_to_unit_ball(positions);
+  features.rightCols<3>() = options.normal_weight * vertex_normals(positions, faces);
+  return features;
+}
+
+}  // namespace lodestone

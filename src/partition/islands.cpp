@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/islands.h"
+
+#include <algorithm>
+#include <boost/graph/connected_components.hpp>
+#include <boost/graph/filtered_graph.hpp>
+#include <boost/property_map/property_map.hpp>
+#include <map>
+#include <numeric>
+
+namespace lodestone {
+
+namespace {
+
+struct Within_label {
+  const Vertex_graph* graph = nullptr;
+  const std::vector<Region_index>* labels = nullptr;
+  bool operator()(const Vertex_graph::edge_descriptor& edge) const {
+    return (*labels)[source(edge, *graph)] == (*labels)[target(edge, *graph)];
+  }
+};
+
+/// A connected set of vertices of one label.
+struct Piece {
+  Region_index label = 0;
+  std::size_t size = 0;
+  bool settled = false;  ///< it is, or has joined, the connected body of its region
+};
+
+/// Pieces in the order of their lowest vertex, and the piece of each vertex.
+struct Pieces {
+  std::vector<Piece> pieces;
+  std::vector<std::uint32_t> of_vertex;
+};
+
+Pieces connected_pieces(const Vertex_graph& graph, const std::vector<Region_index>& labels) {
+  Pieces result;
+  result.of_vertex.resize(labels.size());
+  const boost::filtered_graph within(graph, Within_label{&graph, &labels});
+  const auto piece_map = boost::make_iterator_property_map(result.of_vertex.begin(), get(boost::vertex_index, graph));
+  result.pieces.resize(boost::connected_components(within, piece_map));
+  for (std::size_t v = 0; v < labels.size(); ++v) {
+    Piece& piece = result.pieces[result.of_vertex[v]];
+    piece.label = labels[v];
+    ++piece.size;
+  }
+  return result;
+}
+
+/// The largest piece of each label is the body that its islands have left.
+void settle_largest(std::vector<Piece>& pieces, const std::vector<bool>& isolated, std::size_t regions) {
+  std::vector<Piece*> largest(regions, nullptr);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (isolated[p]) continue;
+    Piece*& best = largest[pieces[p].label];
+    if (best == nullptr || pieces[p].size > best->size) best = &pieces[p];
+  }
+  for (Piece* piece : largest)
+    if (piece != nullptr) piece->settled = true;
+}
+
+/// Per piece: with how many edges it borders on each other piece.
+std::vector<std::map<std::uint32_t, std::size_t>> piece_borders(const Vertex_graph& graph, const Pieces& pieces) {
+  std::vector<std::map<std::uint32_t, std::size_t>> borders(pieces.pieces.size());
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
+    for (const std::uint32_t w : neighbours(graph, v))
+      if (pieces.of_vertex[v] != pieces.of_vertex[w]) ++borders[pieces.of_vertex[v]][pieces.of_vertex[w]];
+  return borders;
+}
+
+}  // namespace
+
+std::size_t count_pieces(const Vertex_graph& graph, const std::vector<Region_index>& labels) {
+  const auto pieces = connected_pieces(graph, labels);
+  std::size_t isolated = 0;
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
+    if (out_degree(v, graph) == 0) ++isolated;
+  return pieces.pieces.size() - isolated;
+}
+
+Island_repair repair_islands(const Vertex_graph& graph, std::vector<Region_index>& labels, std::size_t regions) {
+  Island_repair repair{.regions = regions};
+  Pieces all = connected_pieces(graph, labels);
+  auto& pieces = all.pieces;
+
+  std::vector<bool> isolated(pieces.size(), false);
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
+    if (out_degree(v, graph) == 0) isolated[all.of_vertex[v]] = true;
+  settle_largest(pieces, isolated, regions);
+
+  std::vector<std::uint32_t> loose;
+  for (std::uint32_t p = 0; p < pieces.size(); ++p)
+    if (!pieces[p].settled && !isolated[p]) loose.push_back(p);
+  const auto borders = loose.empty() ? std::vector<std::map<std::uint32_t, std::size_t>>() : piece_borders(graph, all);
+
+  const auto join_longest_border = [&](std::uint32_t p) {
+    std::map<Region_index, std::size_t> lengths;
+    for (const auto& [other, edges] : borders[p])
+      if (pieces[other].settled) lengths[pieces[other].label] += edges;
+    if (lengths.empty()) return false;
+    const auto longest = std::ranges::max_element(lengths, {}, [](const auto& entry) { return entry.second; });
+    pieces[p].label = longest->first;
+    return true;
+  };
+
+  while (!loose.empty()) {
+    std::vector<std::uint32_t> joined;
+    std::erase_if(loose, [&](auto p) {
+      const bool joins = join_longest_border(p);
+      if (joins) joined.push_back(p);
+      return joins;
+    });
+    for (const auto p : joined) pieces[p].settled = true;
+    repair.islands_joined += joined.size();
+    if (!joined.empty() || loose.empty()) continue;
+    // What is left lies in components without a region: the largest piece of all becomes one, and others may join it.
+    const auto largest = std::ranges::max_element(loose, {}, [&](auto p) { return pieces[p].size; });
+    pieces[*largest].label = static_cast<Region_index>(repair.regions++);
+    pieces[*largest].settled = true;
+    ++repair.regions_added;
+    loose.erase(largest);
+  }
+
+  for (std::size_t v = 0; v < labels.size(); ++v) labels[v] = pieces[all.of_vertex[v]].label;
+  return repair;
+}
+
+std::size_t drop_regions_without_edges(const Vertex_graph& graph, std::vector<Region_index>& labels,
+                                       std::size_t regions) {
+  std::vector<bool> used(regions, false);
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
+    if (out_degree(v, graph) > 0) used[labels[v]] = true;
+  std::vector<Region_index> renumbered(regions, 0);
+  Region_index kept = 0;
+  for (std::size_t region = 0; region < regions; ++region)
+    if (used[region]) renumbered[region] = kept++;
+  for (auto& label : labels) label = renumbered[label];
+  return kept;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/lbg.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lodestone {
+
+namespace {
+
+void check(const Feature_vectors& vectors, std::size_t cells, const Lbg_options& options) {
+  if (vectors.rows() == 0 || vectors.cols() == 0) throw Bad_argument("there is no vector to quantise");
+  if (cells == 0) throw Bad_argument("the number of regions must be at least 1");
+  if (!(options.split > 0) || !std::isfinite(options.split)) throw Bad_argument("LBG: split must be finite and > 0");
+  if (!(options.tolerance > 0)) throw Bad_argument("LBG: tolerance must be > 0");
+  if (options.max_iterations == 0) throw Bad_argument("LBG: max_iterations must be at least 1");
+}
+
+/// The state of one quantisation: code vectors, the cell of each vector, and how far it is from its code vector.
+class Quantiser {
+ public:
+  Quantiser(const Feature_vectors& vectors, const Lbg_options& options)
+      : vectors_(vectors), options_(options), search_(vectors), codes_(vectors.colwise().mean()) {
+    assignment_.labels.assign(vectors.rows(), 0);
+  }
+
+  std::size_t size() const { return static_cast<std::size_t>(codes_.rows()); }
+  void run_lloyd();
+  bool split(std::size_t target);
+  Quantisation result();
+
+ private:
+  double distortion() const;
+  std::vector<double> cell_distortions() const;
+  std::vector<std::size_t> cell_sizes() const;
+  std::vector<Eigen::MatrixXd> cell_scatters() const;
+  Eigen::RowVectorXd principal_offset(const Eigen::MatrixXd& scatter, std::size_t cell_size) const;
+  void assign();
+  void reseed_empty_cells();
+  void move_codes_to_means();
+
+  const Feature_vectors& vectors_;
+  const Lbg_options& options_;
+  Bounded_assignment search_;
+  Feature_vectors codes_;
+  Assignment assignment_;
+  std::vector<Lloyd_run> runs_;
+};
+
+void Quantiser::assign() {
+  if (options_.search == Nearest_search::plain)
+    assign_plain(vectors_, codes_, assignment_);
+  else
+    search_.assign(codes_, assignment_);
+}
+
+double Quantiser::distortion() const {
+  const auto& d = assignment_.squared_distances;
+  return std::accumulate(d.begin(), d.end(), 0.0) / static_cast<double>(vectors_.size());
+}
+
+std::vector<double> Quantiser::cell_distortions() const {
+  std::vector<double> sums(size(), 0);
+  for (std::size_t v = 0; v < assignment_.labels.size(); ++v)
+    sums[assignment_.labels[v]] += assignment_.squared_distances[v];
+  return sums;
+}
+
+std::vector<std::size_t> Quantiser::cell_sizes() const {
+  std::vector<std::size_t> sizes(size(), 0);
+  for (const auto label : assignment_.labels) ++sizes[label];
+  return sizes;
+}
+
+void Quantiser::run_lloyd() {
+  Lloyd_run run{.code_vectors = size(), .distortion = {}};
+  for (std::size_t iteration = 0; iteration < options_.max_iterations; ++iteration) {
+    assign();
+    reseed_empty_cells();
+    run.distortion.push_back(distortion());
+    move_codes_to_means();
+    if (iteration == 0) continue;
+    const double before = run.distortion[iteration - 1];
+    if (before - run.distortion[iteration] <= options_.tolerance * before) break;
+  }
+  runs_.push_back(std::move(run));
+}
+
+void Quantiser::reseed_empty_cells() {
+  auto sizes = cell_sizes();
+  if (std::ranges::find(sizes, 0U) == sizes.end()) return;
+  auto distortions = cell_distortions();
+  for (std::size_t cell = 0; cell < sizes.size(); ++cell)
+    if (sizes[cell] == 1) distortions[cell] = 0;  // its one vector must stay
+  for (std::size_t empty = 0; empty < sizes.size(); ++empty) {
+    if (sizes[empty] != 0) continue;
+    const auto donor = static_cast<Region_index>(std::ranges::max_element(distortions) - distortions.begin());
+    if (distortions[donor] == 0) return;  // no cell holds two different vectors
+    std::size_t farthest = 0;
+    double distance = -1;
+    for (std::size_t v = 0; v < assignment_.labels.size(); ++v)
+      if (assignment_.labels[v] == donor && assignment_.squared_distances[v] > distance) {
+        farthest = v;
+        distance = assignment_.squared_distances[v];
+      }
+    codes_.row(empty) = vectors_.row(farthest);
+    assignment_.labels[farthest] = static_cast<Region_index>(empty);
+    assignment_.squared_distances[farthest] = 0;
+    distortions[donor] -= distance;
+    if (--sizes[donor] == 1) distortions[donor] = 0;
+  }
+}
+
+void Quantiser::move_codes_to_means() {
+  Feature_vectors sums = Feature_vectors::Zero(codes_.rows(), codes_.cols());
+  const auto sizes = cell_sizes();
+  for (std::size_t v = 0; v < assignment_.labels.size(); ++v) sums.row(assignment_.labels[v]) += vectors_.row(v);
+  for (std::size_t c = 0; c < size(); ++c)
+    if (sizes[c] > 0) codes_.row(c) = sums.row(c) / static_cast<double>(sizes[c]);
+}
+
+std::vector<Eigen::MatrixXd> Quantiser::cell_scatters() const {
+  const Eigen::Index k = vectors_.cols();
+  std::vector<Eigen::MatrixXd> scatters(size(), Eigen::MatrixXd::Zero(k, k));
+  Eigen::VectorXd offset(k);
+  for (std::size_t v = 0; v < assignment_.labels.size(); ++v) {
+    const Region_index cell = assignment_.labels[v];
+    offset = (vectors_.row(v) - codes_.row(cell)).transpose();
+    scatters[cell].noalias() += offset * offset.transpose();
+  }
+  return scatters;
+}
+
+/// e times the spread of a cell along the main axis of its covariance.
+Eigen::RowVectorXd Quantiser::principal_offset(const Eigen::MatrixXd& scatter, std::size_t cell_size) const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scatter / static_cast<double>(cell_size));
+  Eigen::VectorXd axis = solver.eigenvectors().rightCols<1>();
+  // An eigenvector has no sign of its own: the largest component is made positive, so that runs agree.
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  if (axis[largest] < 0) axis = -axis;
+  const double variance = std::max(0.0, solver.eigenvalues().tail<1>().value());
+  return (options_.split * std::sqrt(variance) * axis).transpose();
+}
+
+bool Quantiser::split(std::size_t target) {
+  const auto distortions = cell_distortions();
+  std::vector<Region_index> order(size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return distortions[a] > distortions[b]; });
+  std::erase_if(order, [&](auto cell) { return distortions[cell] == 0; });
+  order.resize(std::min(order.size(), target - size()));
+  if (order.empty()) return false;
+  std::ranges::sort(order);
+
+  const auto scatters = options_.split_rule == Split::principal_axis ? cell_scatters() : std::vector<Eigen::MatrixXd>();
+  const auto sizes = cell_sizes();
+  const Eigen::Index before = codes_.rows();
+  Feature_vectors split_codes(before + static_cast<Eigen::Index>(order.size()), codes_.cols());
+  split_codes.topRows(before) = codes_;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Eigen::RowVectorXd code = codes_.row(order[i]);
+    const Eigen::RowVectorXd offset =
+        scatters.empty() ? options_.split * code : principal_offset(scatters[order[i]], sizes[order[i]]);
+    split_codes.row(order[i]) = code + offset;
+    split_codes.row(before + static_cast<Eigen::Index>(i)) = code - offset;
+  }
+  codes_ = std::move(split_codes);
+  return true;
+}
+
+Quantisation Quantiser::result() {
+  // Only vectors with fewer than N different values leave cells empty here; the numbers of the others close up.
+  const auto sizes = cell_sizes();
+  std::vector<Region_index> renumbered(size());
+  Eigen::Index kept = 0;
+  for (std::size_t c = 0; c < size(); ++c) {
+    renumbered[c] = static_cast<Region_index>(kept);
+    if (sizes[c] > 0) codes_.row(kept++) = codes_.row(c).eval();
+  }
+  for (auto& label : assignment_.labels) label = renumbered[label];
+  return {.code_vectors = codes_.topRows(kept),
+          .labels = std::move(assignment_.labels),
+          .runs = std::move(runs_),
+          .distance_evaluations = assignment_.distance_evaluations};
+}
+
+}  // namespace
+
+Quantisation quantise(const Feature_vectors& vectors, std::size_t cells, const Lbg_options& options) {
+  check(vectors, cells, options);
+  Quantiser quantiser(vectors, options);
+  quantiser.run_lloyd();
+  while (quantiser.size() < cells && quantiser.split(cells)) quantiser.run_lloyd();
+  return quantiser.result();
+}
+
+Labelling Lbg::label(const Positions& positions, std::span<const Corners> faces, std::size_t regions) const {
+  Feature_vectors vectors = feature_vectors(positions, faces, options.features);
+  if (extra_factors.size() > 0) {
+    if (extra_factors.rows() != vectors.rows())
+      throw Bad_argument("extra factors have " + std::to_string(extra_factors.rows()) + " rows for " +
+                         std::to_string(vectors.rows()) + " vertices");
+    const Eigen::Index k = vectors.cols();
+    vectors.conservativeResize(Eigen::NoChange, k + extra_factors.cols());
+    vectors.rightCols(extra_factors.cols()) = extra_factors;
+  }
+  Quantisation quantisation = quantise(vectors, regions, options);
+  std::size_t iterations = 0;
+  for (const auto& run : quantisation.runs) iterations += run.distortion.size();
+  return {.labels = std::move(quantisation.labels),
+          .vectors = std::move(vectors),
+          .iterations = iterations,
+          .distance_evaluations = quantisation.distance_evaluations};
+}
+
+}  // namespace lodestone

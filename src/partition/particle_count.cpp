@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/particle_count.h"
+
+#include <CGAL/Min_sphere_of_points_d_traits_3.h>
+#include <CGAL/Min_sphere_of_spheres_d.h>
+
+#include <algorithm>
+#include <boost/graph/connected_components.hpp>
+#include <boost/graph/filtered_graph.hpp>
+#include <boost/property_map/property_map.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "lodestone/partition/feature_vectors.h"
+
+namespace lodestone {
+
+namespace {
+
+struct Not_critical {
+  const std::vector<bool>* critical = nullptr;
+  bool operator()(std::uint32_t vertex) const { return !(*critical)[vertex]; }
+};
+
+std::vector<bool> critical_vertices(const Vertex_graph& graph, const Positions& normals, double crease_degrees) {
+  const double least_cosine = std::cos(crease_degrees * std::numbers::pi / 180);
+  std::vector<bool> critical(num_vertices(graph), false);
+  for (std::uint32_t v = 0; v < critical.size(); ++v)
+    critical[v] = std::ranges::any_of(neighbours(graph, v),
+                                      [&](auto w) { return normals.row(v).dot(normals.row(w)) < least_cosine; });
+  return critical;
+}
+
+/// Connected sets of vertices that are not critical and have edges.
+std::vector<std::vector<std::uint32_t>> smooth_parts(const Vertex_graph& graph, const std::vector<bool>& critical) {
+  std::vector<std::uint32_t> component(num_vertices(graph), 0);
+  const boost::filtered_graph smooth(graph, boost::keep_all(), Not_critical{&critical});
+  const auto count = boost::connected_components(
+      smooth, boost::make_iterator_property_map(component.begin(), get(boost::vertex_index, graph)));
+  std::vector<std::vector<std::uint32_t>> parts(count);
+  for (std::uint32_t v = 0; v < component.size(); ++v)
+    if (!critical[v] && out_degree(v, graph) > 0) parts[component[v]].push_back(v);
+  std::erase_if(parts, [](const auto& part) { return part.empty(); });
+  return parts;
+}
+
+/// Leaves the parts that count: large enough, and not more than wanted, the largest first served.
+void keep_large_parts(std::vector<std::vector<std::uint32_t>>& parts, std::size_t vertex_count,
+                      const Particle_count_options& options) {
+  const double least = options.smallest_part * static_cast<double>(vertex_count);
+  std::erase_if(parts, [&](const auto& part) { return static_cast<double>(part.size()) < least; });
+  if (parts.size() <= options.most_parts) return;
+  std::ranges::stable_sort(parts, [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  parts.resize(options.most_parts);
+  std::ranges::sort(parts, {}, [](const auto& part) { return part.front(); });
+}
+
+void check(const Particle_count_options& options) {
+  if (!(options.crease_degrees > 0 && options.crease_degrees <= 180))
+    throw Bad_argument("crease_degrees must be above 0 and at most 180");
+  if (!(options.smallest_part >= 0 && options.smallest_part <= 1))
+    throw Bad_argument("smallest_part must be between 0 and 1");
+  if (options.most_parts == 0) throw Bad_argument("most_parts must be at least 1");
+  if (options.most_particles == 0) throw Bad_argument("most_particles must be at least 1");
+  if (!(options.equal_sizes >= 0)) throw Bad_argument("equal_sizes must be >= 0");
+}
+
+}  // namespace
+
+std::size_t kissing_particle_count(std::size_t objects) {
+  constexpr std::size_t kissing_number = 12;
+  return std::clamp<std::size_t>(objects, 1, kissing_number);
+}
+
+std::size_t shadow_particle_count(double radius, double smallest) {
+  if (!(radius > 0 && smallest > 0) || !std::isfinite(radius) || !std::isfinite(smallest))
+    throw Bad_argument("the radii of a shadow must be finite and > 0");
+  const double sine = 1 / (radius / smallest + 1);
+  // 1 - cos(theta) without cancellation: small shadows are the ones that matter.
+  const double one_minus_cosine = sine * sine / (1 + std::sqrt(1 - sine * sine));
+  const double count = std::floor(2 / one_minus_cosine);
+  return count < 1e9 ? std::max<std::size_t>(1, static_cast<std::size_t>(count)) : 1'000'000'000;
+}
+
+Sphere bounding_sphere(const Positions& positions) {
+  using Points_kernel = CGAL::Simple_cartesian<double>;
+  using Min_sphere = CGAL::Min_sphere_of_spheres_d<CGAL::Min_sphere_of_points_d_traits_3<Points_kernel, double>>;
+  if (positions.rows() == 0) return {};
+  // Relative to the extent, so that squares stay within range.
+  const Eigen::RowVector3d origin = positions.row(0);
+  const double extent = (positions.rowwise() - origin).cwiseAbs().maxCoeff();
+  if (!(extent > 0) || !std::isfinite(extent)) return {.centre = origin, .radius = 0};
+  std::vector<Points_kernel::Point_3> points;
+  points.reserve(positions.rows());
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    const Eigen::RowVector3d p = (positions.row(v) - origin) / extent;
+    points.emplace_back(p[0], p[1], p[2]);
+  }
+  Min_sphere sphere(points.begin(), points.end());
+  const auto* centre = sphere.center_cartesian_begin();
+  return {.centre = origin.transpose() + extent * Eigen::Vector3d(centre[0], centre[1], centre[2]),
+          .radius = extent * sphere.radius()};
+}
+
+std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions& positions,
+                                      std::span<const Corners> faces, const Particle_count_options& options) {
+  check(options);
+  auto critical = critical_vertices(graph, vertex_normals(positions, faces), options.crease_degrees);
+  auto parts = smooth_parts(graph, critical);
+  keep_large_parts(parts, positions.rows(), options);
+  if (parts.empty()) {
+    critical.assign(critical.size(), false);
+    parts = smooth_parts(graph, critical);
+    keep_large_parts(parts, positions.rows(), options);
+  }
+
+  std::vector<Sphere> spheres;
+  for (const auto& part : parts) {
+    const Sphere sphere = bounding_sphere(positions(part, Eigen::all));
+    if (sphere.radius > 0) spheres.push_back(sphere);
+  }
+  if (spheres.empty()) spheres.push_back(bounding_sphere(positions));
+  return spheres;
+}
+
+std::size_t particle_count(std::span<const Sphere> object, std::span<const double> radii,
+                           const Particle_count_options& options) {
+  check(options);
+  const auto [smallest, largest] = std::ranges::minmax(radii);
+  // An object without extent casts no shadow to measure against; all such objects are points of equal size.
+  if (smallest <= 0 || largest <= smallest * (1 + options.equal_sizes))
+    return std::min(kissing_particle_count(radii.size()), options.most_particles);
+  std::size_t count = 0;
+  for (const Sphere& sphere : object)
+    if (sphere.radius > 0) count += shadow_particle_count(sphere.radius, smallest);
+  return std::clamp<std::size_t>(count, 1, options.most_particles);
+}
+
+}  // namespace lodestone

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/partition.h"
+
+namespace lodestone {
+
+std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
+                                          const std::vector<Region_index>& labels, std::size_t regions) {
+  Feature_vectors means = Feature_vectors::Zero(static_cast<Eigen::Index>(regions), vectors.cols());
+  std::vector<std::size_t> sizes(regions, 0);
+  for (std::uint32_t v = 0; v < labels.size(); ++v) {
+    if (out_degree(v, graph) == 0) continue;
+    means.row(labels[v]) += vectors.row(v);
+    ++sizes[labels[v]];
+  }
+  for (std::size_t region = 0; region < regions; ++region)
+    if (sizes[region] > 0) means.row(region) /= static_cast<double>(sizes[region]);
+
+  std::vector<std::uint32_t> particles(regions, 0);
+  std::vector<double> nearest(regions, std::numeric_limits<double>::infinity());
+  for (std::uint32_t v = 0; v < labels.size(); ++v) {
+    if (out_degree(v, graph) == 0) continue;
+    const double distance = (vectors.row(v) - means.row(labels[v])).squaredNorm();
+    if (distance < nearest[labels[v]]) {
+      nearest[labels[v]] = distance;
+      particles[labels[v]] = v;
+    }
+  }
+  return particles;
+}
+
+Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
+                                    std::span<const Corners> faces, Labelling labelling,
+                                    const Partition_options& options) {
+  Numbered_partition result;
+  result.labels = std::move(labelling.labels);
+  result.statistics.iterations = labelling.iterations;
+  result.statistics.distance_evaluations = labelling.distance_evaluations;
+
+  result.regions = 1 + *std::ranges::max_element(result.labels);
+  result.statistics.pieces_before_repair = count_pieces(graph, result.labels);
+  result.statistics.repair.regions = result.regions;
+  if (!options.keep_islands) {
+    result.statistics.repair = repair_islands(graph, result.labels, result.regions);
+    result.regions = result.statistics.repair.regions;
+  }
+  result.regions = drop_regions_without_edges(graph, result.labels, result.regions);
+
+  if (labelling.vectors.size() == 0) labelling.vectors = feature_vectors(positions, faces);
+  result.particles = seed_particles(graph, labelling.vectors, result.labels, result.regions);
+  return result;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/region_extents.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/graph/dijkstra_shortest_paths.hpp>
+#include <boost/graph/filtered_graph.hpp>
+#include <boost/property_map/function_property_map.hpp>
+#include <boost/property_map/property_map.hpp>
+#include <cmath>
+#include <limits>
+
+namespace lodestone {
+
+namespace {
+
+struct In_region {
+  const Region_index* labels = nullptr;
+  Region_index region = 0;
+  bool operator()(std::uint32_t vertex) const { return labels[vertex] == region; }
+};
+
+struct Shortest_paths {
+  std::vector<double> distance;            ///< V; infinity outside the region and its connected part
+  std::vector<std::uint32_t> predecessor;  ///< V
+};
+
+Shortest_paths shortest_paths(const Extent_input& input, std::uint32_t home) {
+  const auto& graph = input.graph;
+  Shortest_paths paths{.distance = std::vector<double>(num_vertices(graph), std::numeric_limits<double>::infinity()),
+                       .predecessor = std::vector<std::uint32_t>(num_vertices(graph), home)};
+  const boost::filtered_graph region(graph, boost::keep_all(), In_region{input.labels.data(), input.labels[home]});
+  const auto index = get(boost::vertex_index, graph);
+  const auto edge_length =
+      boost::make_function_property_map<Vertex_graph::edge_descriptor>([&](const Vertex_graph::edge_descriptor& edge) {
+        return (input.position(source(edge, graph)) - input.position(target(edge, graph))).norm();
+      });
+  boost::dijkstra_shortest_paths(
+      region, home,
+      boost::weight_map(edge_length)
+          .distance_map(boost::make_iterator_property_map(paths.distance.begin(), index))
+          .predecessor_map(boost::make_iterator_property_map(paths.predecessor.begin(), index))
+          .distance_inf(std::numeric_limits<double>::infinity()));
+  return paths;
+}
+
+struct Tangent_frame {
+  Eigen::Vector3d x, y;
+};
+
+/// X is the coordinate axis that lies flattest in the plane, projected into it.
+Tangent_frame tangent_frame(const Eigen::Vector3d& normal) {
+  const double length = normal.stableNorm();
+  const Eigen::Vector3d n = length > 0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::UnitZ();
+  Eigen::Index flattest = 0;
+  n.cwiseAbs().minCoeff(&flattest);
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(flattest);
+  const Eigen::Vector3d x = (axis - axis.dot(n) * n).normalized();
+  return {.x = x, .y = n.cross(x)};
+}
+
+/// Direction whose quadrant a tangent vector falls into, and the cosine of its angle to it.
+std::pair<std::size_t, double> quadrant(double x, double y) {
+  const std::array<double, 4> along{x, -x, y, -y};
+  const auto direction = static_cast<std::size_t>(std::ranges::max_element(along) - along.begin());
+  return {direction, along[direction] / std::hypot(x, y)};
+}
+
+bool on_border(const Extent_input& input, std::uint32_t vertex) {
+  if (input.open_border[vertex]) return true;
+  return std::ranges::any_of(neighbours(input.graph, vertex),
+                             [&](auto w) { return input.labels[w] != input.labels[vertex]; });
+}
+
+Border_path border_path(const Extent_input& input, const Shortest_paths& paths, std::uint32_t home, std::uint32_t end) {
+  std::vector<std::uint32_t> walk{end};
+  while (walk.back() != home) walk.push_back(paths.predecessor[walk.back()]);
+  std::ranges::reverse(walk);
+
+  constexpr std::size_t chords = 4;
+  Border_path path{.length = paths.distance[end]};
+  for (std::size_t i = 0; i <= chords; ++i) {
+    const std::uint32_t sample = walk[i * (walk.size() - 1) / chords];
+    if (!path.samples.empty() && path.samples.back() == sample) continue;
+    if (!path.samples.empty())
+      path.sampled_length += (input.position(sample) - input.position(path.samples.back())).norm();
+    path.samples.push_back(sample);
+  }
+  return path;
+}
+
+}  // namespace
+
+Region_extent region_extent(const Extent_input& input, std::uint32_t home, const Eigen::Vector3d& normal) {
+  const auto paths = shortest_paths(input, home);
+  const auto frame = tangent_frame(normal);
+  const Eigen::Vector3d origin = input.position(home);
+
+  std::vector<std::uint32_t> reached;
+  for (std::uint32_t v = 0; v < paths.distance.size(); ++v)
+    if (v != home && std::isfinite(paths.distance[v])) reached.push_back(v);
+  const bool has_border =
+      on_border(input, home) || std::ranges::any_of(reached, [&](auto v) { return on_border(input, v); });
+
+  std::array<std::uint32_t, 4> ends{home, home, home, home};
+  std::array<double, 4> best{};
+  for (const auto v : reached) {
+    if (has_border && !on_border(input, v)) continue;
+    const Eigen::Vector3d offset = input.position(v) - origin;
+    const auto [direction, cosine] = quadrant(offset.dot(frame.x), offset.dot(frame.y));
+    const double merit = has_border ? cosine : paths.distance[v];
+    if (merit > best[direction]) {
+      best[direction] = merit;
+      ends[direction] = v;
+    }
+  }
+
+  Region_extent extent;
+  for (std::size_t direction = 0; direction < 4; ++direction)
+    if (ends[direction] != home) extent.paths[direction] = border_path(input, paths, home, ends[direction]);
+  return extent;
+}
+
+}  // namespace lodestone
