@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace lodestone {
+
+/// A file that appears whole or not at all: written under another name in the same folder, renamed by `commit`.
+class Atomic_file {
+ public:
+  /// Creates the folder if it is missing.
+  /// @throws Bad_output  the folder or the file cannot be made
+  explicit Atomic_file(std::filesystem::path target);
+  Atomic_file(const Atomic_file&) = delete;
+  Atomic_file& operator=(const Atomic_file&) = delete;
+  /// Without `commit` nothing is left behind.
+  ~Atomic_file();
+
+  /// @throws Bad_output  the disk is full, or any other error of the system
+  void write(std::string_view bytes);
+  /// Puts the file in place of whatever had its name, after the system has it on disk.
+  /// @throws Bad_output
+  void commit();
+
+ private:
+  void flush();
+  [[noreturn]] void fail(const char* action) const;
+
+  std::filesystem::path target_, temporary_;
+  std::string buffer_;
+  int descriptor_ = -1;
+};
+
+}  // namespace lodestone
