@@ -20,15 +20,18 @@ struct Motion {
   std::function<void(std::size_t frame, std::span<Point> positions)> pose;
 };
 
-/// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). Frames are read one by one, as asked for.
+/// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). Frames are read one by one, as asked for;
+/// several threads may ask at once.
 /// @param vertices  number of vertices the cache must have
 /// @throws Bad_motion  not a PC2 file, another number of vertices, shorter than its header says; when a frame is
 ///                     read: a non-finite coordinate
 Motion read_point_cache(const std::filesystem::path& file, std::size_t vertices);
 
-/// Motion from one mesh file per frame, all with the same faces. Files are read one by one, as asked for.
-/// @throws Bad_motion  no file, or a file that does not exist; when a frame is read: a broken file, another number of
-///                     vertices or other faces than the first
+/// Motion from one mesh file per frame, all with the same faces. The first is read at once, for its faces; each file is
+/// read when its frame is asked for. Any format of `read_mesh`; positions come in file order.
+/// @param vertices  number of vertices each file must have
+/// @throws Bad_motion  no file, a file that does not exist, a broken first one; when a frame is read: a broken file,
+///                     another number of vertices or other faces than the first
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices);
 
 }  // namespace lodestone

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <string>
+
+namespace lodestone {
+
+/// The number of type T whose bytes begin at `bytes`, which need not be aligned.
+template <class T>
+T load(const char* bytes, std::endian order = std::endian::little) {
+  std::array<char, sizeof(T)> raw;
+  std::memcpy(raw.data(), bytes, sizeof(T));
+  if (order != std::endian::native) std::ranges::reverse(raw);
+  return std::bit_cast<T>(raw);
+}
+
+/// Adds the bytes of `value` in little-endian order.
+template <class T>
+void append(std::string& bytes, T value) {
+  auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if (std::endian::native != std::endian::little) std::ranges::reverse(raw);
+  bytes.append(raw.data(), raw.size());
+}
+
+}  // namespace lodestone

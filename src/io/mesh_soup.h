@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "lodestone/io/mesh_file.h"
+
+namespace lodestone {
+
+/// Points and triangles as a file lists them: vertex and face numbers are the file's own, from 0.
+struct Mesh_soup {
+  std::vector<Point> points;
+  std::vector<std::vector<std::size_t>> faces;
+};
+
+/// Reads a mesh file through its guard and CGAL's reader. The corners of an STL file are welded where they are equal;
+/// its points are numbered in order of first appearance.
+/// @throws Bad_mesh as `read_mesh`
+Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_options& options = {});
+
+}  // namespace lodestone
