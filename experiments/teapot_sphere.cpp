@@ -73,9 +73,10 @@ std::string run_teapot_sphere(const Experiment_context& context) {
                         first.collisions());
   report += quality_table(run).text();
   report += "\nThe paper claims more than 90 % accuracy.\n\n";
-  report += fmt::format("Medians over the frames, microseconds on one core; the oracle takes {:.0f}. The mean, unlike "
-                        "the medians, shows the repartitions:\n\n",
-                        1e6 * median(run.oracle_seconds));
+  report += fmt::format(
+      "Medians over the frames, microseconds on one core; the oracle takes {:.0f}. The mean, unlike "
+      "the medians, shows the repartitions:\n\n",
+      1e6 * median(run.oracle_seconds));
   report += time_table(run).text();
   report +=
       "\nThe paper claims 29 frames per second, 34483 microseconds per frame, with display, on its machine of 2006.\n";

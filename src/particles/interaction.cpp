@@ -2,7 +2,8 @@
 #include "lodestone/particles/interaction.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "particles/force_kernel.h"
 
 namespace lodestone {
 
@@ -29,25 +30,12 @@ void Attractors::add(const Eigen::Vector3d& position, double squared_reach) {
 }
 
 void Attractors::forces(const double* x, const double* y, const double* z, double* force, std::ptrdiff_t but) const {
-  constexpr double out_of_reach = std::numeric_limits<double>::infinity();  // 1 / infinity adds nothing
-  const std::size_t count = x_.size();
-  const std::size_t left_out = but < 0 ? count : static_cast<std::size_t>(but);
-  double sums[lanes] = {};
-  const auto add_range = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) {
-      const double ax = x_[j], ay = y_[j], az = z_[j], reach = squared_reach_[j];
-      // All lanes do the same arithmetic, with a choice before the division instead of a branch around it: so the
-      // compiler turns the loop into vector instructions.
-      for (int lane = 0; lane < lanes; ++lane) {
-        const double dx = x[lane] - ax, dy = y[lane] - ay, dz = z[lane] - az;
-        const double squared_distance = dx * dx + dy * dy + dz * dz;
-        sums[lane] += 1 / (squared_distance < reach ? squared_distance : out_of_reach);
-      }
-    }
-  };
-  add_range(0, left_out);
-  add_range(std::min(left_out + 1, count), count);
-  std::copy_n(sums, lanes, force);
+  static_assert(lanes == kernel::point_lanes);
+  const kernel::Attractor_columns columns{x_.data(), y_.data(), z_.data(), squared_reach_.data()};
+  const std::size_t left_out = but < 0 ? size() : static_cast<std::size_t>(but);
+  std::fill_n(force, lanes, 0.0);
+  kernel::add_forces(columns, 0, left_out, x, y, z, force);
+  if (left_out < size()) kernel::add_forces(columns, left_out + 1, size(), x, y, z, force);
 }
 
 }  // namespace lodestone

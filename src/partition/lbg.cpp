@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "partition/fixed_components.h"
+
 namespace lodestone {
 
 namespace {
@@ -34,7 +36,6 @@ class Quantiser {
  private:
   double distortion() const;
   std::vector<double> cell_distortions() const;
-  std::vector<std::size_t> cell_sizes() const;
   std::vector<Eigen::MatrixXd> cell_scatters() const;
   Eigen::RowVectorXd principal_offset(const Eigen::MatrixXd& scatter, std::size_t cell_size) const;
   void assign();
@@ -68,12 +69,6 @@ std::vector<double> Quantiser::cell_distortions() const {
   return sums;
 }
 
-std::vector<std::size_t> Quantiser::cell_sizes() const {
-  std::vector<std::size_t> sizes(size(), 0);
-  for (const auto label : assignment_.labels) ++sizes[label];
-  return sizes;
-}
-
 void Quantiser::run_lloyd() {
   Lloyd_run run{.code_vectors = size(), .distortion = {}};
   for (std::size_t iteration = 0; iteration < options_.max_iterations; ++iteration) {
@@ -89,7 +84,7 @@ void Quantiser::run_lloyd() {
 }
 
 void Quantiser::reseed_empty_cells() {
-  auto sizes = cell_sizes();
+  auto& sizes = assignment_.cell_sizes;
   if (std::ranges::find(sizes, 0U) == sizes.end()) return;
   auto distortions = cell_distortions();
   for (std::size_t cell = 0; cell < sizes.size(); ++cell)
@@ -106,6 +101,8 @@ void Quantiser::reseed_empty_cells() {
         distance = assignment_.squared_distances[v];
       }
     codes_.row(empty) = vectors_.row(farthest);
+    assignment_.cell_sums.row(empty) = vectors_.row(farthest);
+    assignment_.cell_sums.row(donor) -= vectors_.row(farthest);
     assignment_.labels[farthest] = static_cast<Region_index>(empty);
     assignment_.squared_distances[farthest] = 0;
     distortions[donor] -= distance;
@@ -114,22 +111,26 @@ void Quantiser::reseed_empty_cells() {
 }
 
 void Quantiser::move_codes_to_means() {
-  Feature_vectors sums = Feature_vectors::Zero(codes_.rows(), codes_.cols());
-  const auto sizes = cell_sizes();
-  for (std::size_t v = 0; v < assignment_.labels.size(); ++v) sums.row(assignment_.labels[v]) += vectors_.row(v);
-  for (std::size_t c = 0; c < size(); ++c)
-    if (sizes[c] > 0) codes_.row(c) = sums.row(c) / static_cast<double>(sizes[c]);
+  for (Eigen::Index c = 0; c < codes_.rows(); ++c)
+    if (assignment_.cell_sizes[c] > 0)
+      codes_.row(c) = assignment_.cell_sums.row(c) / static_cast<double>(assignment_.cell_sizes[c]);
 }
 
 std::vector<Eigen::MatrixXd> Quantiser::cell_scatters() const {
   const Eigen::Index k = vectors_.cols();
   std::vector<Eigen::MatrixXd> scatters(size(), Eigen::MatrixXd::Zero(k, k));
-  Eigen::VectorXd offset(k);
-  for (std::size_t v = 0; v < assignment_.labels.size(); ++v) {
-    const Region_index cell = assignment_.labels[v];
-    offset = (vectors_.row(v) - codes_.row(cell)).transpose();
-    scatters[cell].noalias() += offset * offset.transpose();
-  }
+  with_fixed_components(k, [&](auto fixed) {
+    constexpr int components = fixed > 0 ? static_cast<int>(fixed) : Eigen::Dynamic;
+    using Vector = Eigen::Matrix<double, components, 1>;
+    Vector offset(k);
+    for (std::size_t v = 0; v < assignment_.labels.size(); ++v) {
+      const Region_index cell = assignment_.labels[v];
+      offset = Eigen::Map<const Vector>(vectors_.data() + static_cast<Eigen::Index>(v) * k, k) -
+               Eigen::Map<const Vector>(codes_.data() + cell * k, k);
+      Eigen::Map<Eigen::Matrix<double, components, components>>(scatters[cell].data(), k, k).noalias() +=
+          offset * offset.transpose();
+    }
+  });
   return scatters;
 }
 
@@ -156,7 +157,7 @@ bool Quantiser::split(std::size_t target) {
   std::ranges::sort(order);
 
   const auto scatters = options_.split_rule == Split::principal_axis ? cell_scatters() : std::vector<Eigen::MatrixXd>();
-  const auto sizes = cell_sizes();
+  const auto& sizes = assignment_.cell_sizes;
   const Eigen::Index before = codes_.rows();
   Feature_vectors split_codes(before + static_cast<Eigen::Index>(order.size()), codes_.cols());
   split_codes.topRows(before) = codes_;
@@ -173,7 +174,7 @@ bool Quantiser::split(std::size_t target) {
 
 Quantisation Quantiser::result() {
   // Only vectors with fewer than N different values leave cells empty here; the numbers of the others close up.
-  const auto sizes = cell_sizes();
+  const auto& sizes = assignment_.cell_sizes;
   std::vector<Region_index> renumbered(size());
   Eigen::Index kept = 0;
   for (std::size_t c = 0; c < size(); ++c) {

@@ -4,60 +4,54 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+
+#include "partition/assignment_kernel.h"
+#include "partition/fixed_components.h"
 
 namespace lodestone {
 
 namespace {
 
-/// Squared distance, summed from the first component to the last: one order for every caller, so that equal inputs
-/// give equal bits. K is the number of components where it is known at compile time.
-template <int K>
-double squared_distance(const double* a, const double* b, Eigen::Index k) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < (K > 0 ? K : k); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum;
-}
-
-template <int K>
-void assign_plain_fixed(const Feature_vectors& vectors, const Feature_vectors& codes, Assignment& assignment) {
-  const Eigen::Index k = vectors.cols();
-  for (Eigen::Index v = 0; v < vectors.rows(); ++v) {
-    double nearest = std::numeric_limits<double>::infinity();
-    Region_index label = 0;
-    for (Eigen::Index c = 0; c < codes.rows(); ++c) {
-      const double d = squared_distance<K>(vectors.data() + v * k, codes.data() + c * k, k);
-      if (d < nearest) {
-        nearest = d;
-        label = static_cast<Region_index>(c);
-      }
+/// The order of the last Lloyd iteration is nearly right for this one: insertion, which gives up when it is not.
+void sort_nearly_sorted(std::vector<std::pair<double, Region_index>>& others) {
+  std::size_t patience = 4 * others.size();
+  for (std::size_t i = 1; i < others.size(); ++i)
+    for (std::size_t j = i; j > 0 && others[j] < others[j - 1]; --j) {
+      std::swap(others[j], others[j - 1]);
+      if (--patience > 0) continue;
+      std::ranges::sort(others);
+      return;
     }
-    assignment.labels[v] = label;
-    assignment.squared_distances[v] = nearest;
-  }
-}
-
-/// Calls `function` with k as a compile-time constant for the usual numbers of components, 0 for any other.
-template <class Function>
-void with_fixed_k(Eigen::Index k, Function function) {
-  switch (k) {
-    case 3:
-      return function(std::integral_constant<int, 3>());
-    case 6:
-      return function(std::integral_constant<int, 6>());
-    case 7:
-      return function(std::integral_constant<int, 7>());
-    default:
-      return function(std::integral_constant<int, 0>());
-  }
 }
 
 }  // namespace
 
+void Assignment::start(std::size_t vectors, std::size_t cells, std::size_t components) {
+  labels.resize(vectors, 0);
+  squared_distances.resize(vectors);
+  cell_sums.setZero(static_cast<Eigen::Index>(cells), static_cast<Eigen::Index>(components));
+  cell_sizes.assign(cells, 0);
+}
+
 void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, Assignment& assignment) {
-  assignment.labels.resize(vectors.rows());
-  assignment.squared_distances.resize(vectors.rows());
+  assignment.start(vectors.rows(), codes.rows(), codes.cols());
+  for (Eigen::Index v = 0; v < vectors.rows(); ++v) {
+    double nearest = std::numeric_limits<double>::infinity();
+    Eigen::Index label = 0;
+    for (Eigen::Index c = 0; c < codes.rows(); ++c) {
+      const double d = squared_distance<0>(&vectors(v, 0), &codes(c, 0), vectors.cols());
+      if (d < nearest) {
+        nearest = d;
+        label = c;
+      }
+    }
+    assignment.labels[v] = static_cast<Region_index>(label);
+    assignment.squared_distances[v] = nearest;
+    assignment.cell_sums.row(label) += vectors.row(v);
+    ++assignment.cell_sizes[label];
+  }
   assignment.distance_evaluations += static_cast<std::uint64_t>(vectors.rows()) * codes.rows();
-  with_fixed_k(vectors.cols(), [&](auto k) { assign_plain_fixed<k.value>(vectors, codes, assignment); });
 }
 
 Bounded_assignment::Bounded_assignment(const Feature_vectors& vectors)
@@ -65,78 +59,80 @@ Bounded_assignment::Bounded_assignment(const Feature_vectors& vectors)
 
 void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assignment) {
   if (codes.rows() > max_codes) return assign_plain(vectors_, codes, assignment);
-  assignment.labels.resize(vectors_.rows(), 0);
-  assignment.squared_distances.resize(vectors_.rows());
-  if (codes.rows() == previous_.rows())
-    follow_drift(codes, assignment);
-  else
+  assignment.start(vectors_.rows(), codes.rows(), codes.cols());
+  if (codes.rows() == previous_.rows()) {
+    follow_drift(codes);
+  } else {
     second_.assign(vectors_.rows(), 0);
+    drifts_.assign(codes.rows(), margin_);
+  }
   sort_neighbours(codes);
-  with_fixed_k(vectors_.cols(), [&](auto k) { assign_fixed<k.value>(codes, assignment); });
+
+  std::vector<kernel::Neighbourhood> neighbourhoods;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(codes.rows()); ++c)
+    neighbourhoods.push_back({.distances = neighbour_distances_.data() + c * padded_,
+                              .codes = neighbour_codes_.data() + c * padded_,
+                              .components = neighbour_components_.data() + c * padded_ * codes.cols(),
+                              .count = static_cast<std::size_t>(codes.rows()) - 1});
+  kernel::Bounded_pass pass{.vectors = vectors_.data(),
+                            .vector_count = static_cast<std::size_t>(vectors_.rows()),
+                            .components = static_cast<std::size_t>(vectors_.cols()),
+                            .codes = codes.data(),
+                            .neighbourhoods = neighbourhoods.data(),
+                            .half_gaps = half_gaps_.data(),
+                            .drifts = drifts_.data(),
+                            .margin = margin_,
+                            .labels = assignment.labels.data(),
+                            .squared_distances = assignment.squared_distances.data(),
+                            .second_bounds = second_.data(),
+                            .cell_sums = assignment.cell_sums.data(),
+                            .cell_sizes = assignment.cell_sizes.data(),
+                            .distance_evaluations = 0};
+  kernel::bounded_pass(pass);
+  assignment.distance_evaluations += pass.distance_evaluations;
   previous_ = codes;
 }
 
-void Bounded_assignment::follow_drift(const Feature_vectors& codes, const Assignment& assignment) {
-  const Eigen::VectorXd drift = (codes - previous_).rowwise().norm();
+void Bounded_assignment::follow_drift(const Feature_vectors& codes) {
+  const Eigen::VectorXd moved = (codes - previous_).rowwise().norm();
   Eigen::Index farthest = 0;
-  const double largest = drift.maxCoeff(&farthest);
+  const double largest = moved.maxCoeff(&farthest);
   double runner_up = 0;
-  for (Eigen::Index c = 0; c < drift.size(); ++c)
-    if (c != farthest) runner_up = std::max(runner_up, drift[c]);
-  for (std::size_t v = 0; v < second_.size(); ++v)
-    second_[v] -= assignment.labels[v] == static_cast<Region_index>(farthest) ? runner_up : largest;
+  for (Eigen::Index c = 0; c < moved.size(); ++c)
+    if (c != farthest) runner_up = std::max(runner_up, moved[c]);
+  for (Eigen::Index c = 0; c < moved.size(); ++c) drifts_[c] += c == farthest ? runner_up : largest;
 }
 
 void Bounded_assignment::sort_neighbours(const Feature_vectors& codes) {
+  constexpr auto block = kernel::block_size;
+  constexpr double far_away = std::numeric_limits<double>::infinity();
   const auto n = static_cast<std::size_t>(codes.rows());
-  neighbours_.resize(n * (n - 1));
+  const auto k = static_cast<std::size_t>(codes.cols());
+  padded_ = (n - 1 + block - 1) / block * block;
+  neighbour_distances_.assign(n * padded_, far_away);
+  neighbour_codes_.assign(n * padded_, 0);
+  neighbour_components_.assign(n * padded_ * k, far_away);
+  half_gaps_.assign(n, far_away);
+
+  const bool same_codes = neighbour_order_.size() == n * (n - 1);
+  neighbour_order_.resize(n * (n - 1));
+  std::vector<std::pair<double, Region_index>> others(n - 1);
   for (std::size_t c = 0; c < n; ++c) {
-    Neighbour* row = neighbours_.data() + c * (n - 1);
-    for (std::size_t other = 0; other < n; ++other)
-      if (other != c) *row++ = {(codes.row(c) - codes.row(other)).norm(), static_cast<Region_index>(other)};
-    std::sort(row - (n - 1), row, [](const Neighbour& a, const Neighbour& b) { return a.distance < b.distance; });
-  }
-}
-
-template <int K>
-void Bounded_assignment::assign_fixed(const Feature_vectors& codes, Assignment& assignment) {
-  const Eigen::Index k = vectors_.cols();
-  const auto others = static_cast<std::size_t>(codes.rows()) - 1;
-  const auto widened = [this](double distance) { return distance * (1 + 1e-9) + margin_; };
-
-  for (Eigen::Index v = 0; v < vectors_.rows(); ++v) {
-    const double* vector = vectors_.data() + v * k;
-    const Region_index start = assignment.labels[v];
-    Region_index label = start;
-    double nearest = squared_distance<K>(vector, codes.data() + start * k, k);
-    ++assignment.distance_evaluations;
-    assignment.squared_distances[v] = nearest;
-    if (others == 0) continue;
-
-    const Neighbour* row = neighbours_.data() + start * others;
-    const double distance = std::sqrt(nearest);
-    const double gap = row[0].distance;
-    if (widened(distance) < std::max(second_[v], gap / 2)) continue;
-
-    // Both the nearest and the second nearest code vector lie within 2 distance + gap of the one we start from.
-    const double reach = widened(2 * distance + gap);
-    double second = std::numeric_limits<double>::infinity();
-    std::size_t tried = 0;
-    for (; tried < others && row[tried].distance <= reach; ++tried) {
-      const Region_index code = row[tried].code;
-      const double d = squared_distance<K>(vector, codes.data() + code * k, k);
-      if (d < nearest || (d == nearest && code < label)) {
-        second = nearest;
-        nearest = d;
-        label = code;
-      } else {
-        second = std::min(second, d);
-      }
+    Region_index* order = neighbour_order_.data() + c * (n - 1);
+    for (std::size_t i = 0; i < n - 1; ++i) {
+      if (!same_codes) order[i] = static_cast<Region_index>(i < c ? i : i + 1);
+      others[i] = {(codes.row(c) - codes.row(order[i])).norm(), order[i]};
     }
-    assignment.distance_evaluations += tried;
-    assignment.labels[v] = label;
-    assignment.squared_distances[v] = nearest;
-    second_[v] = std::sqrt(second) * (1 - 1e-9);
+    sort_nearly_sorted(others);
+    for (std::size_t i = 0; i < n - 1; ++i) order[i] = others[i].second;
+    if (!others.empty()) half_gaps_[c] = std::max(0.0, others[0].first / 2 - margin_);
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      neighbour_distances_[c * padded_ + i] = others[i].first;
+      neighbour_codes_[c * padded_ + i] = others[i].second;
+      double* components = neighbour_components_.data() + (c * padded_ + i / block * block) * k + i % block;
+      for (std::size_t component = 0; component < k; ++component)
+        components[component * block] = codes(others[i].second, component);
+    }
   }
 }
 

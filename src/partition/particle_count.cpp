@@ -63,6 +63,8 @@ void check(const Particle_count_options& options) {
   if (options.most_parts == 0) throw Bad_argument("most_parts must be at least 1");
   if (options.most_particles == 0) throw Bad_argument("most_particles must be at least 1");
   if (!(options.equal_sizes >= 0)) throw Bad_argument("equal_sizes must be >= 0");
+  if (!(options.least_roundness >= 0 && options.least_roundness <= 1))
+    throw Bad_argument("least_roundness must be between 0 and 1");
 }
 
 }  // namespace
@@ -89,7 +91,7 @@ Sphere bounding_sphere(const Positions& positions) {
   // Relative to the extent, so that squares stay within range.
   const Eigen::RowVector3d origin = positions.row(0);
   const double extent = (positions.rowwise() - origin).cwiseAbs().maxCoeff();
-  if (!(extent > 0) || !std::isfinite(extent)) return {.centre = origin, .radius = 0};
+  if (!(extent > 0) || !std::isfinite(extent)) return {.centre = origin};
   std::vector<Points_kernel::Point_3> points;
   points.reserve(positions.rows());
   for (Eigen::Index v = 0; v < positions.rows(); ++v) {
@@ -97,9 +99,14 @@ Sphere bounding_sphere(const Positions& positions) {
     points.emplace_back(p[0], p[1], p[2]);
   }
   Min_sphere sphere(points.begin(), points.end());
-  const auto* centre = sphere.center_cartesian_begin();
-  return {.centre = origin.transpose() + extent * Eigen::Vector3d(centre[0], centre[1], centre[2]),
-          .radius = extent * sphere.radius()};
+  const Eigen::Vector3d centre(sphere.center_cartesian_begin());
+  const auto distance = [&](const Points_kernel::Point_3& p) {
+    return (Eigen::Vector3d(p.x(), p.y(), p.z()) - centre).norm();
+  };
+  const double nearest = distance(*std::ranges::min_element(points, {}, distance));
+  return {.centre = origin.transpose() + extent * centre,
+          .radius = extent * sphere.radius(),
+          .roundness = nearest / sphere.radius()};
 }
 
 std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions& positions,
@@ -127,8 +134,10 @@ std::size_t particle_count(std::span<const Sphere> object, std::span<const doubl
                            const Particle_count_options& options) {
   check(options);
   const auto [smallest, largest] = std::ranges::minmax(radii);
-  // An object without extent casts no shadow to measure against; all such objects are points of equal size.
-  if (smallest <= 0 || largest <= smallest * (1 + options.equal_sizes))
+  const bool equal_sizes = largest <= smallest * (1 + options.equal_sizes);
+  const bool is_sphere = object.size() == 1 && object[0].roundness >= options.least_roundness;
+  // Objects without extent cast no shadow to measure against.
+  if (smallest <= 0 || (equal_sizes && is_sphere))
     return std::min(kissing_particle_count(radii.size()), options.most_particles);
   std::size_t count = 0;
   for (const Sphere& sphere : object)

@@ -57,7 +57,7 @@ bool reader_accepts(const std::string& scene) {
   folder.write("a.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   // Two frames of four vertices, in the PC2 format: 12 characters, version, vertices, start, rate, frames.
   std::string cache("POINTCACHE2\0\1\0\0\0\4\0\0\0\0\0\0\0\0\0\x80\x3f\2\0\0\0", 32);
-  folder.write("a.pc2", cache += std::string(2 * 4 * 12, '\0'));
+  folder.write("a.pc2", cache += std::string(96, '\0'));
   for (const std::string name : {"f1.off", "f2.off"}) fs::copy(folder.path() / "a.off", folder.path() / name);
   try {
     read_scene(folder.write("scene.json", scene));

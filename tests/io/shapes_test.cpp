@@ -183,8 +183,10 @@ TEST(Bezier_patches, refuse_what_follows_the_last_point) {
 }
 
 TEST(Bezier_patches, refuse_counts_that_the_text_cannot_hold) {
-  EXPECT_EQ(message_of("4000000000 16\n0 1 2\n"),
-            "test.bpt:1: announces 4000000000 patches and 16 points, more than the text can hold");
+  EXPECT_EQ(message_of("4000000000 1\n0 1 2\n0 1 2\n"),
+            "test.bpt:1: announces 4000000000 patches and 1 points, more than the text can hold");
+  EXPECT_EQ(message_of("1 4000000000\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n"),
+            "test.bpt:1: announces 1 patches and 4000000000 points, more than the text can hold");
   EXPECT_EQ(message_of("99999999999999999999999 16\n"), "test.bpt:1: expected the number of patches");
 }
 

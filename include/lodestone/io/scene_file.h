@@ -22,7 +22,7 @@ struct Scene_object {
   Motion motion;                           ///< of an object that never moves too
   std::size_t particles = 0;               ///< 0: automatic
 
-  /// Where the particles of the predecessor's method start: only on the side that faces this direction.
+  /// Where the particles of the predecessor's method start: only on the part that lies farthest in this direction.
   std::optional<Kernel::Vector_3> scattered_side;
 };
 

@@ -9,15 +9,20 @@
 
 namespace lodestone {
 
-/// Nearest code vector of every feature vector.
+/// Nearest code vector of every feature vector, and what a Lloyd iteration needs of the cells.
 struct Assignment {
-  std::vector<Region_index> labels;        ///< V; of equally near code vectors the lowest number
-  std::vector<double> squared_distances;   ///< V; Euclidean, to the code vector of the label
-  std::uint64_t distance_evaluations = 0;  ///< distances between a feature vector and a code vector, all calls
+  std::vector<Region_index> labels = {};       ///< M; of equally near code vectors the lowest number
+  std::vector<double> squared_distances = {};  ///< M; Euclidean, to the code vector of the label
+  Feature_vectors cell_sums = {};              ///< N x k: sum of the vectors of each cell
+  std::vector<std::uint64_t> cell_sizes = {};  ///< N
+  std::uint64_t distance_evaluations = 0;      ///< between a vector and a code vector, over all calls
+
+  /// Room for M vectors and N empty cells of k components.
+  void start(std::size_t vectors, std::size_t cells, std::size_t components);
 };
 
-/// The plain loop: every feature vector against every code vector. O(k V N) per call.
-/// @param vectors  V x k
+/// The plain loop: every feature vector against every code vector. O(k M N) per call.
+/// @param vectors  M x k
 /// @param codes    N x k
 void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, Assignment& assignment);
 
@@ -27,13 +32,13 @@ void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, 
 /// distance between that code vector and its nearest other, or below a lower bound on the distance to the second
 /// nearest code vector that is kept from iteration to iteration (Hamerly, "Making k-means even faster", SDM 2010).
 /// Otherwise only code vectors within a ball around its own are tried (Newling and Fleuret, "Fast k-means with
-/// accurate bounds", ICML 2016, their exponion). Bounds are compared with a margin far above rounding error, and
-/// whatever they leave open is computed just as the plain loop does: that is why the labels are equal.
+/// accurate bounds", ICML 2016, their exponion), eight at a time. Bounds are compared with a margin far above rounding
+/// error, and whatever they leave open is computed just as the plain loop does: that is why the labels are equal.
 ///
-/// Memory O(V + N^2); beyond `max_codes` code vectors the plain loop is used.
+/// Memory O(M + k N^2); beyond `max_codes` code vectors the plain loop is used.
 class Bounded_assignment {
  public:
-  static constexpr Eigen::Index max_codes = 2048;
+  static constexpr Eigen::Index max_codes = 1024;
 
   explicit Bounded_assignment(const Feature_vectors& vectors);
 
@@ -42,21 +47,22 @@ class Bounded_assignment {
   void assign(const Feature_vectors& codes, Assignment& assignment);
 
  private:
-  struct Neighbour {
-    double distance;
-    Region_index code;
-  };
-
-  void follow_drift(const Feature_vectors& codes, const Assignment& assignment);
+  void follow_drift(const Feature_vectors& codes);
   void sort_neighbours(const Feature_vectors& codes);
-  template <int K>
-  void assign_fixed(const Feature_vectors& codes, Assignment& assignment);
 
   const Feature_vectors& vectors_;
-  double margin_;                      ///< absolute part of the margin: above the rounding of any distance here
-  Feature_vectors previous_;           ///< code vectors of the last call
-  std::vector<double> second_;         ///< per vector: lower bound on the distance to all code vectors but its own
-  std::vector<Neighbour> neighbours_;  ///< per code vector: the N - 1 others by distance
+  double margin_;                  ///< absolute part of the margin: above the rounding of any distance here
+  Feature_vectors previous_;       ///< code vectors of the last call
+  std::vector<double> second_;     ///< per vector: lower bound on the distance to all code vectors but its own
+  std::vector<double> drifts_;     ///< per code vector: how far, at most, any other has moved since the bounds were new
+  std::vector<double> half_gaps_;  ///< per code vector: half the distance to the nearest other
+  std::size_t padded_ = 0;         ///< N - 1 rounded up to whole blocks
+
+  // Per code vector the others by distance, in whole blocks.
+  std::vector<Region_index> neighbour_order_;
+  std::vector<double> neighbour_distances_;
+  std::vector<double> neighbour_codes_;  ///< numbers, as doubles: they are compared beside distances
+  std::vector<double> neighbour_components_;
 };
 
 }  // namespace lodestone

@@ -11,9 +11,11 @@
 /// How many particles an object needs: as many as other objects can touch it at once.
 namespace lodestone {
 
+/// A sphere around a part of a surface.
 struct Sphere {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;
+  double roundness = 1;  ///< distance of the nearest vertex from the centre, in radii: 1 for a surface that is a sphere
 };
 
 struct Particle_count_options {
@@ -21,6 +23,7 @@ struct Particle_count_options {
   double smallest_part = 0.02;       ///< parts with a smaller share of the vertices are no part of their own; [0, 1]
   std::size_t most_parts = 8;        ///< spheres per object at most; >= 1
   double equal_sizes = 0.05;         ///< radii that differ by no more than this share count as equal; >= 0
+  double least_roundness = 0.7;      ///< of an object that counts as a sphere; [0, 1]
   std::size_t most_particles = 256;  ///< per object, whatever the sizes ask for; >= 1
 };
 
@@ -52,8 +55,8 @@ Sphere bounding_sphere(const Positions& positions);
 std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions& positions,
                                       std::span<const Corners> faces, const Particle_count_options& options = {});
 
-/// Particles for each object of a scene: `kissing_particle_count` where all objects have one size; elsewhere the sum of
-/// `shadow_particle_count` over the spheres of the object, against the smallest object.
+/// Particles for one object of a scene: `kissing_particle_count` for a sphere among objects of its own size; for any
+/// other object the sum of `shadow_particle_count` over its spheres, against the smallest object of the scene.
 ///
 /// @param object   spheres of the object
 /// @param radii    bounding radius of every object of the scene

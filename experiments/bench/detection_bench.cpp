@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Time of a frame in `particles` mode: relaxation and confirmation, beside the oracle on the same frames.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <map>
+#include <memory>
+
+#include "lodestone/baselines/exhaustive.h"
+#include "measured_run.h"
+
+namespace lodestone {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A scene that is read once and whose frames are played in a circle, there and back, so that motion stays smooth.
+class Player {
+ public:
+  explicit Player(const std::string& name) : scene_(read_scene(std::string(LODESTONE_SCENES) + "/" + name + ".json")) {}
+
+  Scene& scene() { return scene_; }
+  void next() {
+    for (auto& object : scene_.objects) pose(object, frame_);
+    if (frame_ + 1 == scene_.frames) forward_ = false;
+    if (frame_ == 0) forward_ = true;
+    frame_ += forward_ ? 1 : std::size_t(-1);
+  }
+
+ private:
+  Scene scene_;
+  std::size_t frame_ = 0;
+  bool forward_ = true;
+};
+
+/// Frames of one scene with N particles per object. Posing the meshes is not timed.
+///
+/// Reported time: relaxation, candidates and confirmation, per frame. `median_us` is the median over the frames,
+/// `oracle_median_us` that of exhaustive checking on the same frames, `hops` the steps of all particles per frame.
+void particles(benchmark::State& state, const std::string& scene_name, bool with_oracle) {
+  Player player(scene_name);
+  Detector<Surface_mesh> detector({.particles = static_cast<std::size_t>(state.range(0))});
+  for (auto& object : player.scene().objects) detector.add(std::as_const(object.mesh));
+  player.next();
+  detector.detect();
+
+  std::vector<double> frame_seconds, relaxation_seconds, oracle_seconds;
+  double hops = 0, iterations = 0, colliding = 0;
+  for (auto _ : state) {
+    player.next();
+    detector.update();
+    const Frame& frame = detector.detect();
+    const auto& seconds = frame.statistics.seconds;
+    frame_seconds.push_back(seconds.relaxation + seconds.candidates + seconds.confirmation);
+    relaxation_seconds.push_back(seconds.relaxation);
+    state.SetIterationTime(frame_seconds.back());
+    hops += static_cast<double>(frame.statistics.moves);
+    iterations += static_cast<double>(frame.statistics.iterations);
+    colliding += frame.collides() ? 1 : 0;
+    if (!with_oracle) continue;
+    const auto start = Clock::now();
+    benchmark::DoNotOptimize(
+        exhaustive_face_pairs(player.scene().objects[0].mesh, player.scene().objects[1].mesh).size());
+    oracle_seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  const double frames = static_cast<double>(frame_seconds.size());
+  const double frame_median = median(frame_seconds);
+  state.counters["median_us"] = 1e6 * frame_median;
+  state.counters["relaxation_us"] = 1e6 * median(relaxation_seconds);
+  state.counters["hops"] = hops / frames;
+  state.counters["iterations"] = iterations / frames;
+  state.counters["relaxation_us_per_iteration"] = 1e6 * median(relaxation_seconds) / std::max(1.0, iterations / frames);
+  state.counters["colliding"] = colliding / frames;
+  state.counters["triangles"] = static_cast<double>(player.scene().objects[0].mesh.number_of_faces());
+  if (!with_oracle) return;
+  state.counters["oracle_median_us"] = 1e6 * median(oracle_seconds);
+  state.counters["oracle_ratio"] = median(oracle_seconds) / frame_median;
+}
+
+BENCHMARK_CAPTURE(particles, paper_pair, "teapot_sphere_1", true)
+    ->Arg(12)
+    ->Arg(32)
+    ->Arg(64)
+    ->UseManualTime()
+    ->Iterations(600)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(particles, spheres_5k, "spheres_5k", true)
+    ->Arg(12)
+    ->Arg(32)
+    ->UseManualTime()
+    ->Iterations(200)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(particles, spheres_50k, "spheres_50k", true)
+    ->Arg(12)
+    ->Arg(32)
+    ->UseManualTime()
+    ->Iterations(200)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(particles, spheres_500k, "spheres_500k", false)
+    ->Arg(12)
+    ->Arg(32)
+    ->UseManualTime()
+    ->Iterations(200)
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+}  // namespace lodestone

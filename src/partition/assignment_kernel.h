@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// The inner loops of nearest-code-vector search, built for several instruction sets and chosen at run time. Every one
+/// adds the components of a distance from the first to the last, so all give the same bits.
+namespace lodestone::kernel {
+
+inline constexpr std::size_t block_size = 8;
+
+/// Code vectors around one of them, by distance from it, in blocks of eight; the last block is filled up with code
+/// vectors infinitely far away.
+struct Neighbourhood {
+  const double* distances;   ///< from the code vector in the middle
+  const double* codes;       ///< their numbers
+  const double* components;  ///< per block: k rows of eight
+  std::size_t count;         ///< without the filling
+};
+
+/// One pass over all vectors. See Bounded_assignment for what the bounds mean.
+struct Bounded_pass {
+  const double* vectors;  ///< M x k
+  std::size_t vector_count;
+  std::size_t components;               ///< k
+  const double* codes;                  ///< N x k
+  const Neighbourhood* neighbourhoods;  ///< N
+  const double* half_gaps;              ///< N: half the distance to the nearest other, less the margin; at least 0
+  const double* drifts;                 ///< N: how far all others have moved since the first pass, plus the margin
+  double margin;
+
+  std::uint32_t* labels;      ///< M: start of each search, then its result
+  double* squared_distances;  ///< M
+  double* second_bounds;      ///< M: lower bound on the distance to all but the own code vector, plus its drift
+  double* cell_sums;          ///< N x k, all 0 before
+  std::uint64_t* cell_sizes;  ///< N, all 0 before
+  std::uint64_t distance_evaluations;
+};
+
+void bounded_pass(Bounded_pass& pass);
+
+}  // namespace lodestone::kernel

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.h"
+#include "exit_codes.h"
+#include "frame_log.h"
+#include "lodestone/baselines/exhaustive.h"
+#include "lodestone/io/atomic_file.h"
+#include "lodestone/io/scene_file.h"
+#include "lodestone/io/text_table.h"
+#include "measured_run.h"
+#include "progress.h"
+
+namespace lodestone {
+
+namespace {
+
+Scene load(const std::vector<std::filesystem::path>& inputs) {
+  if (inputs.size() == 1) {
+    if (inputs[0].extension() != ".json")
+      throw Bad_argument(inputs[0].string() +
+                         ": one mesh alone has nothing to collide with; give a scene or two meshes");
+    return read_scene(inputs[0]);
+  }
+  Scene scene{.name = "meshes"};
+  std::map<std::string, std::size_t> uses;
+  for (const auto& file : inputs) {
+    std::string name = file.stem().string();
+    const std::size_t use = ++uses[name];
+    if (use > 1) name += fmt::format("_{}", use);
+    scene.objects.push_back(still_object(std::move(name), file));
+  }
+  return scene;
+}
+
+/// What the run says about one object pair.
+struct Pair_summary {
+  std::size_t colliding_frames = 0;
+  std::size_t face_pairs = 0;  ///< over all frames
+  Score score = {};
+};
+
+/// A scene being played: the detector, the truth beside it, and what has been seen so far.
+class Run {
+ public:
+  explicit Run(const Detect_command& command)
+      : command_(command), scene_(load(command.inputs)), detector_(command.options, Lbg{.options = command.partition}) {
+    for (auto& object : scene_.objects) {
+      names_.push_back(object.name);
+      Object_options options{.particles = command.options.particles > 0 ? 0 : object.particles};
+      if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
+      detector_.add(object.mesh, options);
+    }
+    measurement_.setting.options = command.options;
+  }
+
+  std::size_t frames() const { return scene_.frames; }
+  std::string play(std::size_t frame);
+  nlohmann::ordered_json summary() const;
+  void print() const;
+  bool contradicts_truth() const { return contradicted_; }
+
+ private:
+  std::optional<std::vector<Pair_truth>> find_truth() const;
+  void compare(const Frame& result, const std::vector<Pair_truth>& truth);
+
+  const Detect_command& command_;
+  Scene scene_;
+  Detector<Surface_mesh> detector_;
+  std::vector<std::string> names_;
+  std::map<Object_pair, Pair_summary> pairs_;
+  Measurement measurement_;
+  bool contradicted_ = false;
+};
+
+std::string Run::play(std::size_t frame) {
+  for (auto& object : scene_.objects) pose(object, frame);
+  detector_.update();
+  const Frame& result = detector_.detect();
+  for (const auto& pair : result.pairs) {
+    Pair_summary& summary = pairs_[{pair.a, pair.b}];
+    summary.colliding_frames += pair.collides ? 1 : 0;
+    summary.face_pairs += pair.contacts;
+  }
+  const auto truth = find_truth();
+  if (truth) compare(result, *truth);
+  if (frame > 0 || scene_.frames == 1) measurement_.frames.push_back(result.statistics);
+  return frame_line(frame, names_, result, command_.options.contacts, truth);
+}
+
+std::optional<std::vector<Pair_truth>> Run::find_truth() const {
+  if (!command_.truth) return std::nullopt;
+  std::vector<Pair_truth> truth;
+  for (Object_id a = 0; a < scene_.objects.size(); ++a)
+    for (Object_id b = a + 1; b < scene_.objects.size(); ++b)
+      truth.push_back({a, b, exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh)});
+  return truth;
+}
+
+void Run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {
+  for (const auto& real : truth) {
+    const auto found =
+        std::ranges::find_if(result.pairs, [&](const auto& p) { return p.a == real.a && p.b == real.b; });
+    const bool listed = found != result.pairs.end();
+    pairs_[{real.a, real.b}].score.add({real.a, real.b}, !real.faces.empty(), listed && found->collides);
+    if (!listed) continue;
+    contradicted_ |= found->collides && real.faces.empty();
+    contradicted_ |= !std::ranges::includes(real.faces, result.contacts(*found));
+  }
+}
+
+nlohmann::ordered_json Run::summary() const {
+  nlohmann::ordered_json json{{"scene", scene_.name},
+                              {"frames", scene_.frames},
+                              {"mode", command_.options.mode == Mode::senin ? "senin" : "particles"},
+                              {"objects", nlohmann::ordered_json::array()},
+                              {"pairs", nlohmann::ordered_json::array()}};
+  for (Object_id o = 0; o < names_.size(); ++o)
+    json["objects"].push_back({{"name", names_[o]},
+                               {"vertices", scene_.objects[o].mesh.number_of_vertices()},
+                               {"faces", scene_.objects[o].mesh.number_of_faces()},
+                               {"particles", detector_.object(o).particles().at.size()}});
+  for (const auto& [pair, summary] : pairs_) {
+    nlohmann::ordered_json entry{{"a", names_[pair.a]},
+                                 {"b", names_[pair.b]},
+                                 {"colliding_frames", summary.colliding_frames},
+                                 {"face_pairs", summary.face_pairs}};
+    if (command_.truth) {
+      Score score = summary.score;
+      score.finish();
+      entry["truth"] = {{"colliding_frames", score.positives()},  {"recall", score.recall()},
+                        {"precision", score.precision()},         {"accuracy", score.accuracy()},
+                        {"collisions", score.collisions()},       {"never_seen", score.never_seen()},
+                        {"mean_delay_frames", score.mean_delay()}};
+    }
+    json["pairs"].push_back(std::move(entry));
+  }
+  const auto measured = to_json(measurement_);
+  for (const char* key : {"mean_iterations", "mean_moves", "mean_candidates", "mean_exact_tests", "mean_repartitions",
+                          "median_microseconds"})
+    json[key] = measured[key];
+  return json;
+}
+
+void Run::print() const {
+  std::vector<std::string> header{"object a", "object b", "frames", "colliding"};
+  if (command_.truth) header.insert(header.end(), {"truly", "recall", "precision", "accuracy"});
+  Text_table table(header);
+  for (const auto& [pair, summary] : pairs_) {
+    if (summary.colliding_frames == 0 && summary.score.positives() == 0 && names_.size() > 4) continue;
+    std::vector<std::string> row{names_[pair.a], names_[pair.b], std::to_string(scene_.frames),
+                                 std::to_string(summary.colliding_frames)};
+    if (command_.truth)
+      row.insert(row.end(),
+                 {std::to_string(summary.score.positives()), fmt::format("{:.3f}", summary.score.recall()),
+                  fmt::format("{:.3f}", summary.score.precision()), fmt::format("{:.3f}", summary.score.accuracy())});
+    table.add(std::move(row));
+  }
+  fmt::print("{}: {} objects, {} frames\n\n{}", scene_.name, names_.size(), scene_.frames, table.text());
+  if (names_.size() > 4) fmt::print("Pairs that never collide are left out.\n");
+  fmt::print("\n{:.1f} microseconds per frame (median), {:.1f} iterations, {:.1f} exact tests (mean)\n",
+             median_total_microseconds(measurement_), mean_count(measurement_, &Frame_statistics::iterations),
+             mean_count(measurement_, &Frame_statistics::exact_tests));
+}
+
+}  // namespace
+
+int run(const Detect_command& command) {
+  Run scene_run(command);
+  std::optional<Atomic_file> frames;
+  if (!command.out.empty()) frames.emplace(command.out / "frames.jsonl");
+  {
+    Progress_bar progress("detect", command.quiet);
+    for (std::size_t frame = 0; frame < scene_run.frames(); ++frame) {
+      const auto line = scene_run.play(frame);
+      if (frames) frames->write(line);
+      progress(frame + 1, scene_run.frames());
+    }
+  }
+  if (frames) {
+    Atomic_file summary(command.out / "summary.json");
+    summary.write(scene_run.summary().dump(2) + "\n");
+    frames->commit();
+    summary.commit();
+  }
+  if (!command.quiet) {
+    scene_run.print();
+    if (frames) fmt::print("results: {}\n", command.out.string());
+  }
+  return scene_run.contradicts_truth() ? exit_code::contradicts_truth : exit_code::success;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lodestone/frame.h"
+
+namespace lodestone {
+
+/// The truth about one object pair in one frame.
+struct Pair_truth {
+  Object_id a = 0;
+  Object_id b = 0;
+  std::vector<Face_pair> faces;  ///< all intersecting face pairs, sorted
+};
+
+/// One line of `frames.jsonl`, line break included.
+///
+/// @param frame  frame of the scene, from 0
+/// @param names  of the objects
+/// @param query  face pairs are listed unless it is `yes_no`
+/// @param truth  of all pairs; adds the key `truth` to each pair, and the pairs that collide but were dropped
+std::string frame_line(std::size_t frame, const std::vector<std::string>& names, const Frame& result,
+                       Contact_query query, const std::optional<std::vector<Pair_truth>>& truth);
+
+}  // namespace lodestone

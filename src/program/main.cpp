@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <new>
+
+#include "commands.h"
+#include "exit_codes.h"
+#include "experiment.h"
+#include "lodestone/errors.h"
+#include "progress.h"
+
+namespace lodestone {
+
+namespace {
+
+template <class Value>
+auto one_of(const std::map<std::string, Value>& names) {
+  return CLI::CheckedTransformer(names, CLI::ignore_case).description("");
+}
+
+void add_lbg_options(CLI::App& app, Lbg_options& options) {
+  app.add_option("--normal-weight", options.features.normal_weight, "Weight of normals against positions; 0: none")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--split", options.split_rule, "How a code vector becomes two: principal_axis, multiplicative")
+      ->transform(one_of<Split>({{"principal_axis", Split::principal_axis}, {"multiplicative", Split::multiplicative}}))
+      ->type_name("RULE")
+      ->default_str("principal_axis");
+  app.add_option("--epsilon", options.split, "e of the split (1 + e)C, (1 - e)C")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--tolerance", options.tolerance, "Relative drop of the distortion at which iterations stop")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+void add_detect(CLI::App& program, Detect_command& command) {
+  auto& app = *program.add_subcommand("detect", "Find collisions between meshes, or through all frames of a scene");
+  auto& options = command.options;
+  app.add_option("INPUT", command.inputs, "A scene (.json), or two or more meshes (.off .obj .ply .stl)")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--mode", options.mode,
+                 "particles: one per region; senin: the predecessor, scattered over the surface")
+      ->transform(one_of<Mode>({{"particles", Mode::particles}, {"senin", Mode::senin}}))
+      ->type_name("MODE")
+      ->default_str("particles");
+  app.add_option("--particles", options.particles, "Particles per object; 0: as many as others can touch it at once")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
+      ->capture_default_str();
+  app.add_option("--contacts", options.contacts, "What to report of a colliding pair: first, all")
+      ->transform(one_of<Contact_query>(
+          {{"yes_no", Contact_query::yes_no}, {"first", Contact_query::first}, {"all", Contact_query::all}}))
+      ->type_name("WHAT")
+      ->default_str("first");
+  app.add_flag("--points", options.contact_points, "Also report the points where two faces meet");
+  app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
+  app.add_option("--collision-distance", options.collision_distance,
+                 "Distance below which particles call for a check, in mean edge lengths")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--candidates", options.candidates, "Which particle pairs below that distance: all, closest")
+      ->transform(one_of<Candidate_choice>({{"all", Candidate_choice::all}, {"closest", Candidate_choice::closest}}))
+      ->type_name("WHICH")
+      ->default_str("all");
+  app.add_option("--growth", options.growth,
+                 "Repartition when a region exceeds so many times the largest area; inf: never")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--seed", options.senin.seed, "Of the scattering of --mode senin")->capture_default_str();
+  add_lbg_options(app, command.partition);
+  app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")->type_name("DIR");
+  app.add_flag("--quiet", command.quiet, "No progress bar, no table");
+}
+
+void add_partition(CLI::App& program, Partition_command& command) {
+  auto& app = *program.add_subcommand("partition", "Divide a mesh into regions");
+  app.add_option("MESH", command.mesh, "Mesh (.off .obj .ply .stl)")->required()->type_name("FILE");
+  app.add_option("--strategy", command.strategy, "How: lbg")->capture_default_str()->check(CLI::IsMember({"lbg"}));
+  app.add_option("--regions", command.regions, "Number of regions")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
+      ->capture_default_str();
+  add_lbg_options(app, command.lbg);
+  app.add_flag("--keep-islands", command.options.keep_islands,
+               "Leave regions in several pieces as the strategy made them");
+  app.add_option("--out", command.out, "Coloured mesh (.ply)")->type_name("FILE");
+  app.add_option("--json", command.json, "Statistics")->type_name("FILE");
+  app.add_flag("--quiet", command.quiet, "No table");
+}
+
+void add_experiment(CLI::App& program, Experiment_command& command) {
+  auto& app = *program.add_subcommand("experiment", "Run one of the experiments");
+  std::vector<std::string> names;
+  std::string list = "Experiments:";
+  for (const auto& experiment : experiments()) {
+    names.emplace_back(experiment.name);
+    list += fmt::format("\n  {:<20} {}", experiment.name, experiment.question);
+  }
+  app.add_option("NAME", command.name, "Which one")->required()->check(CLI::IsMember(names).description(""));
+  app.add_option("--scenes", command.scenes, "Folder of the scene files")->default_str("data/scenes of the source");
+  app.add_option("--out", command.out, "Folder for the figures")->default_str("out/NAME");
+  app.add_flag("--quiet", command.quiet, "No progress bar, no report on the terminal");
+  app.footer(list);
+}
+
+int run_guarded(int argc, char** argv) {
+  CLI::App program("lodestone: collision detection for triangle meshes that deform");
+  program.name("lodestone");
+  program.set_version_flag("--version", LODESTONE_VERSION);
+  program.set_help_all_flag("--help-all", "Show the help of all commands");
+  program.require_subcommand(1);
+  program.footer(exit_code::help);
+
+  Detect_command detect;
+  Partition_command partition;
+  Experiment_command experiment;
+  experiment.scenes = LODESTONE_SCENES;
+  add_detect(program, detect);
+  add_partition(program, partition);
+  add_experiment(program, experiment);
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+    if (asked_for_help) return program.exit(error);
+    fmt::print(stderr, "lodestone: {} (see lodestone --help)\n", error.what());
+    return exit_code::bad_usage;
+  }
+  if (program.got_subcommand("detect")) return run(detect);
+  if (program.got_subcommand("partition")) return run(partition);
+  return run(experiment);
+}
+
+int report(const char* what, int code) {
+  fmt::print(stderr, "lodestone: {}\n", what);
+  return code;
+}
+
+}  // namespace
+
+}  // namespace lodestone
+
+int main(int argc, char** argv) {
+  using namespace lodestone;
+  try {
+    handle_interrupts();
+    return run_guarded(argc, argv);
+  } catch (const Interrupted&) {
+    return report("interrupted", exit_code::interrupted);
+  } catch (const Bad_output& error) {
+    return report(error.what(), exit_code::bad_output);
+  } catch (const Bad_argument& error) {
+    return report(error.what(), exit_code::bad_usage);
+  } catch (const Error& error) {
+    return report(error.what(), exit_code::bad_input);
+  } catch (const std::bad_alloc&) {
+    return report("not enough memory for this input", exit_code::bad_input);
+  } catch (const std::exception& error) {
+    return report(error.what(), exit_code::unexpected);
+  }
+}

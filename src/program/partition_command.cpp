@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "exit_codes.h"
+#include "lodestone/io/atomic_file.h"
+#include "lodestone/io/coloured_ply.h"
+#include "lodestone/io/mesh_file.h"
+#include "lodestone/io/text_table.h"
+
+namespace lodestone {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Divided {
+  Partition<Surface_mesh> partition;
+  std::vector<Region_index> labels = {};
+  std::vector<std::size_t> sizes = {};
+  double seconds = 0;
+};
+
+Divided divide(Surface_mesh& mesh, const Partition_command& command) {
+  const auto regions = mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:region").first;
+  const auto start = std::chrono::steady_clock::now();
+  Divided result{.partition = partition(mesh, command.regions, regions, Lbg{.options = command.lbg}, command.options)};
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.sizes.resize(result.partition.regions);
+  for (const auto v : mesh.vertices()) {
+    result.labels.push_back(regions[v]);
+    ++result.sizes[regions[v]];
+  }
+  return result;
+}
+
+Json statistics(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
+  const auto& statistics = divided.partition.statistics;
+  Json particles = Json::array();
+  for (const auto v : divided.partition.particles) particles.push_back(file.file_vertex[v]);
+  return {{"mesh", command.mesh.filename().string()},
+          {"strategy", command.strategy},
+          {"vertices", file.mesh.number_of_vertices()},
+          {"faces", file.mesh.number_of_faces()},
+          {"regions_wanted", command.regions},
+          {"regions", divided.partition.regions},
+          {"region_sizes", divided.sizes},
+          {"particles", std::move(particles)},
+          {"iterations", statistics.iterations},
+          {"distance_evaluations", statistics.distance_evaluations},
+          {"pieces_before_repair", statistics.pieces_before_repair},
+          {"islands_joined", statistics.repair.islands_joined},
+          {"regions_added", statistics.repair.regions_added},
+          {"seconds", divided.seconds}};
+}
+
+void print_table(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
+  const auto& statistics = divided.partition.statistics;
+  const auto [smallest, largest] = std::ranges::minmax(divided.sizes);
+  Text_table table({command.mesh.filename().string(), command.strategy});
+  table.add({"vertices", std::to_string(file.mesh.number_of_vertices())});
+  table.add({"faces", std::to_string(file.mesh.number_of_faces())});
+  table.add({"regions", std::to_string(divided.partition.regions)});
+  table.add({"smallest region (vertices)", std::to_string(smallest)});
+  table.add({"largest region (vertices)", std::to_string(largest)});
+  table.add({"Lloyd iterations", std::to_string(statistics.iterations)});
+  table.add({"distance evaluations", std::to_string(statistics.distance_evaluations)});
+  table.add({"islands joined", std::to_string(statistics.repair.islands_joined)});
+  table.add({"seconds", fmt::format("{:.4f}", divided.seconds)});
+  fmt::print("{}", table.text());
+  if (!command.out.empty()) fmt::print("\ncoloured mesh: {}\n", command.out.string());
+}
+
+}  // namespace
+
+int run(const Partition_command& command) {
+  if (!command.out.empty() && command.out.extension() != ".ply")
+    throw Bad_argument(command.out.string() + ": the coloured mesh is written as .ply");
+  Mesh_file file = read_mesh(command.mesh);
+  const Divided divided = divide(file.mesh, command);
+  if (!command.out.empty()) write_coloured_ply(command.out, file.mesh, divided.labels);
+  if (!command.json.empty()) {
+    Atomic_file out(command.json);
+    out.write(statistics(file, divided, command).dump(2) + "\n");
+    out.commit();
+  }
+  if (!command.quiet) print_table(file, divided, command);
+  return exit_code::success;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+namespace lodestone {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void note_interrupt(int /*signal*/) { interrupted = 1; }
+
+}  // namespace
+
+void handle_interrupts() {
+  std::signal(SIGINT, note_interrupt);
+  std::signal(SIGTERM, note_interrupt);
+  // A file-size limit is an error of the write, which is reported, not a reason to die on the spot.
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void check_interrupt() {
+  if (interrupted != 0) throw Interrupted();
+}
+
+Progress_bar::Progress_bar(std::string label, bool quiet)
+    : label_(std::move(label)), shown_(!quiet && ::isatty(STDERR_FILENO) != 0), start_(Clock::now()) {}
+
+Progress_bar::~Progress_bar() {
+  if (drawn_) std::fputs("\r\x1b[K", stderr);
+}
+
+void Progress_bar::operator()(std::size_t done, std::size_t of) {
+  check_interrupt();
+  if (!shown_ || of == 0) return;
+  const auto now = Clock::now();
+  if (drawn_ && now - last_drawn_ < std::chrono::milliseconds(100)) return;
+  drawn_ = true;
+  last_drawn_ = now;
+
+  constexpr std::size_t width = 30;
+  const std::size_t filled = width * done / of;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double left = done == 0 ? 0 : elapsed * static_cast<double>(of - done) / static_cast<double>(done);
+  fmt::print(stderr, "\r{} [{}{}] {}/{}  {:.0f} s left\x1b[K", label_, std::string(filled, '#'),
+             std::string(width - filled, '.'), done, of, left);
+  std::fflush(stderr);
+}
+
+}  // namespace lodestone

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/particles/hop_metric.h"
+
+#include <gtest/gtest.h>
+
+#include "test_meshes.h"
+
+namespace lodestone {
+namespace {
+
+/// Hops between two vertices of a grid whose squares are cut from the lower left to the upper right: a step along the
+/// cut moves in both directions at once, the other diagonal takes two steps.
+std::uint32_t grid_hops(int dx, int dy) {
+  const bool along_the_cut = (dx > 0) == (dy > 0);
+  return static_cast<std::uint32_t>(along_the_cut ? std::max(std::abs(dx), std::abs(dy)) : std::abs(dx) + std::abs(dy));
+}
+
+TEST(Breadth_first_hops, are_the_fewest_edges_on_a_grid) {
+  const int columns = 9, rows = 6;
+  const auto graph = vertex_graph(columns * rows, grid_faces(columns, rows));
+  for (int source = 0; source < columns * rows; source += 7) {
+    const auto hops = breadth_first_hops(graph, static_cast<std::uint32_t>(source));
+    for (int v = 0; v < columns * rows; ++v)
+      EXPECT_EQ(hops[v], grid_hops(v % columns - source % columns, v / columns - source / columns)) << source << v;
+  }
+}
+
+TEST(Breadth_first_hops, do_not_reach_other_components) {
+  const std::vector<Corners> faces{{0, 1, 2}, {3, 4, 5}};
+  const auto graph = vertex_graph(7, faces);
+  EXPECT_EQ(breadth_first_hops(graph, 4),
+            (std::vector<std::uint32_t>{unreached, unreached, unreached, 1, 0, 1, unreached}));
+}
+
+TEST(Hop_diameter, is_the_largest_distance_between_two_targets) {
+  const auto graph = vertex_graph(30, grid_faces(6, 5));
+  const std::vector<std::uint32_t> cut{0, 28}, across{5, 24}, three{0, 14, 28}, near{0, 1, 7};
+  EXPECT_EQ(hop_diameter(graph, cut), 4U);     // (0, 0) to (4, 4)
+  EXPECT_EQ(hop_diameter(graph, across), 9U);  // (5, 0) to (0, 4)
+  EXPECT_EQ(hop_diameter(graph, three), 4U);
+  EXPECT_EQ(hop_diameter(graph, near), 1U);
+}
+
+TEST(Hop_diameter, of_fewer_than_two_targets_is_0) {
+  const auto graph = vertex_graph(30, grid_faces(6, 5));
+  const std::vector<std::uint32_t> none, one{3};
+  EXPECT_EQ(hop_diameter(graph, none), 0U);
+  EXPECT_EQ(hop_diameter(graph, one), 0U);
+}
+
+TEST(Hop_diameter, leaves_out_pairs_in_different_components) {
+  const std::vector<Corners> faces{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}};
+  const auto graph = vertex_graph(7, faces);
+  const std::vector<std::uint32_t> apart{0, 4}, both{0, 3, 4};
+  EXPECT_EQ(hop_diameter(graph, apart), 0U);
+  EXPECT_EQ(hop_diameter(graph, both), 2U);
+}
+
+TEST(Hop_diameter, of_a_mesh_is_that_of_its_graph) {
+  const auto mesh = grid(6, 5);
+  const std::vector<Surface_mesh::Vertex_index> targets{Surface_mesh::Vertex_index(5), Surface_mesh::Vertex_index(24)};
+  EXPECT_EQ(hop_diameter(mesh, std::span<const Surface_mesh::Vertex_index>(targets)), 9U);
+}
+
+}  // namespace
+}  // namespace lodestone

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/particles/relaxation.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "test_meshes.h"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+// Not inlined: the compiler would see memory from `new` go to `free`.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace lodestone {
+namespace {
+
+struct Reader {
+  const std::vector<Eigen::Vector3d>* points = nullptr;
+  Eigen::Vector3d operator()(std::uint32_t vertex) const { return (*points)[vertex]; }
+};
+
+/// One object with everything that a walk needs; it refers to itself, so it stays where it is.
+struct Walker {
+  std::vector<Eigen::Vector3d> points;
+  Region_steps steps;
+  Particles particles;
+  Reader reader{&points};
+
+  Walker(std::vector<Eigen::Vector3d> positions, const std::vector<Corners>& faces,
+         const std::vector<Region_index>& labels, std::vector<std::uint32_t> at, std::size_t hop_limit = 100,
+         double effective_radius = 1000)
+      : points(std::move(positions)), steps(vertex_graph(std::uint32_t(points.size()), faces), labels) {
+    particles.at = std::move(at);
+    particles.hop_limit = hop_limit;
+    particles.effective_radius = effective_radius;
+    read();
+  }
+  Walker(const Walker&) = delete;
+  Walker& operator=(const Walker&) = delete;
+
+  void read() {
+    particles.positions.clear();
+    for (const auto v : particles.at) particles.positions.push_back(points[v]);
+  }
+};
+
+/// A particle that cannot move.
+struct Post : Walker {
+  explicit Post(const Eigen::Vector3d& place, double effective_radius = 1000)
+      : Walker({place, place, place}, {{0, 1, 2}}, {0, 1, 2}, {0}, 0, effective_radius) {}
+};
+
+std::vector<Eigen::Vector3d> grid_points(std::uint32_t columns, std::uint32_t rows) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::uint32_t y = 0; y < rows; ++y)
+    for (std::uint32_t x = 0; x < columns; ++x) points.emplace_back(x, y, 0);
+  return points;
+}
+
+/// A particle at vertex `at` of a grid that is all one region.
+struct Grid_walker : Walker {
+  Grid_walker(std::uint32_t columns, std::uint32_t rows, std::uint32_t at, std::size_t hop_limit = 100)
+      : Walker(grid_points(columns, rows), grid_faces(columns, rows),
+               std::vector<Region_index>(std::size_t{columns} * rows, 0), {at}, hop_limit) {}
+};
+
+/// Relaxes objects each of which feels all others.
+Relaxation relax_all(const std::vector<Walker*>& walkers, bool siblings_repel = false) {
+  std::vector<std::vector<std::uint32_t>> near(walkers.size());
+  std::vector<Walking_object<Reader>> objects;
+  std::vector<std::size_t> counts;
+  for (std::uint32_t o = 0; o < walkers.size(); ++o) {
+    for (std::uint32_t other = 0; other < walkers.size(); ++other)
+      if (other != o) near[o].push_back(other);
+    objects.push_back({.particles = &walkers[o]->particles,
+                       .steps = &walkers[o]->steps,
+                       .reader = &walkers[o]->reader,
+                       .near = near[o],
+                       .siblings_repel = siblings_repel});
+    counts.push_back(walkers[o]->particles.at.size());
+  }
+  Relaxation_scratch scratch;
+  scratch.reserve(counts);
+  return relax(std::span<const Walking_object<Reader>>(objects), scratch);
+}
+
+using At = std::vector<std::uint32_t>;
+
+TEST(Relax, a_particle_steps_to_the_neighbour_with_the_largest_force) {
+  Grid_walker walker(5, 3, 5, 1);
+  Post post({10, 1, 0});
+  const auto result = relax_all({&walker, &post});
+  EXPECT_EQ(walker.particles.at, At{6});
+  EXPECT_EQ(walker.particles.positions[0], Eigen::Vector3d(1, 1, 0));
+  EXPECT_EQ(result.moves, 1U);
+  EXPECT_EQ(post.particles.at, At{0});
+}
+
+TEST(Relax, walks_until_it_rests) {
+  Grid_walker walker(5, 3, 5);
+  Post post({10, 1, 0});
+  const auto result = relax_all({&walker, &post});
+  EXPECT_EQ(walker.particles.at, At{9});
+  EXPECT_EQ(result.moves, 4U);
+  EXPECT_EQ(result.iterations, 5U);  // the last one finds that nothing moves
+  EXPECT_TRUE(result.relaxed);
+}
+
+TEST(Relax, r_max_bounds_the_iterations) {
+  for (const std::size_t limit : {1, 2, 4}) {
+    Grid_walker walker(8, 2, 0, limit);
+    Post post({20, 0, 0});
+    const auto result = relax_all({&walker, &post});
+    EXPECT_EQ(result.iterations, limit);
+    EXPECT_EQ(walker.particles.at, At{static_cast<std::uint32_t>(limit)});
+    EXPECT_FALSE(result.relaxed);
+  }
+}
+
+TEST(Relax, r_max_is_the_largest_of_the_objects) {
+  Grid_walker walker(8, 2, 0, 1);
+  Post post({20, 0, 0});
+  post.particles.hop_limit = 3;
+  EXPECT_EQ(relax_all({&walker, &post}).iterations, 3U);
+  EXPECT_EQ(walker.particles.at, At{3});
+}
+
+TEST(Relax, stops_at_a_local_maximum_of_the_force) {
+  // Of two posts over a row of vertices the near one holds a particle, though the other is reached by a longer walk.
+  Grid_walker walker(9, 2, 2);
+  Post left({1, 0, 0.5}), right({8, 0, 0.1});
+  relax_all({&walker, &left, &right});
+  EXPECT_EQ(walker.particles.at, At{1});
+}
+
+TEST(Relax, forces_of_several_particles_add_up) {
+  // Vertex 1 is nearest to one post; at vertex 2 two others, each a little farther, pull more: 1 against 2 / 1.44.
+  Walker walker({{0, 0, 0}, {-10, 0, 0}, {10, 0, 0}}, {{0, 1, 2}}, {0, 0, 0}, {0});
+  Post a({-11, 0, 0}), b({10, 1.2, 0}), c({10, -1.2, 0});
+  relax_all({&walker, &a, &b, &c});
+  EXPECT_EQ(walker.particles.at, At{2});
+}
+
+TEST(Relax, ties_go_to_the_lowest_vertex_number) {
+  for (const std::uint32_t start : {0U, 2U}) {
+    Walker walker({{0, 0, 0}, {1, 1, 0}, {1, -1, 0}}, {{0, 1, 2}}, {0, 0, 0}, {start});
+    Post post({3, 0, 0});
+    relax_all({&walker, &post});
+    EXPECT_EQ(walker.particles.at, At{1}) << start;
+  }
+}
+
+TEST(Relax, without_force_a_particle_stays) {
+  Walker walker({{0, 0, 0}, {1, 1, 0}, {1, -1, 0}}, {{0, 1, 2}}, {0, 0, 0}, {2}, 100, 5);
+  Post post({9, 0, 0}, 5);
+  const auto result = relax_all({&walker, &post});
+  EXPECT_EQ(walker.particles.at, At{2});
+  EXPECT_EQ(result.moves, 0U);
+  EXPECT_TRUE(result.relaxed);
+}
+
+TEST(Relax, a_force_is_felt_up_to_the_larger_effective_radius_of_the_two_objects) {
+  for (const auto& [own, others, moves] : {std::tuple{10.0, 1.0, true}, {1.0, 10.0, true}, {1.0, 1.0, false}}) {
+    Walker walker({{0, 0, 0}, {1, 0, 0}, {1, -1, 0}}, {{0, 1, 2}}, {0, 0, 0}, {0}, 100, own);
+    Post post({9, 0, 0}, others);
+    relax_all({&walker, &post});
+    EXPECT_EQ(walker.particles.at, (moves ? At{1} : At{0}));
+  }
+}
+
+TEST(Relax, at_distance_0_a_particle_stays) {
+  // Vertex 1 coincides with 2: a tie, if the particle were to look around.
+  Walker walker({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {{0, 1, 2}}, {0, 0, 0}, {2});
+  Post post({1, 0, 0});
+  EXPECT_EQ(relax_all({&walker, &post}).moves, 0U);
+  EXPECT_EQ(walker.particles.at, At{2});
+}
+
+TEST(Relax, a_particle_steps_to_distance_0) {
+  Walker walker({{0, 0, 0}, {1, 0, 0}, {5, 0, 0}}, {{0, 1, 2}}, {0, 0, 0}, {0});
+  Post post({1, 0, 0});
+  relax_all({&walker, &post});
+  EXPECT_EQ(walker.particles.at, At{1});
+}
+
+TEST(Relax, all_particles_read_the_positions_before_the_iteration) {
+  // With the other's old position a goes to its vertex 1, with its new one to 2.
+  for (const bool a_first : {true, false}) {
+    Walker a({{0, 0, 0}, {1, 1, 0}, {1, -1, 0}}, {{0, 1, 2}}, {0, 0, 0}, {0}, 1);
+    Walker b({{3, 1, 0}, {2, -1, 0}, {90, 90, 0}}, {{0, 1, 2}}, {0, 0, 0}, {0}, 1);
+    relax_all(a_first ? std::vector<Walker*>{&a, &b} : std::vector<Walker*>{&b, &a});
+    EXPECT_EQ(a.particles.at, At{1});
+    EXPECT_EQ(b.particles.at, At{1});
+  }
+}
+
+/// Twenty particles on triangles side by side, of which the first `movers` can take one step towards x = 1000.
+Relaxation relax_twenty(std::size_t movers) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Corners> faces;
+  std::vector<Region_index> labels;
+  At at;
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      points.emplace_back(corner == 1 ? 1 : 0, i, corner == 2 ? 1 : 0);
+      labels.push_back(i < movers ? 3 * i : 3 * i + corner);
+    }
+    faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    at.push_back(3 * i);
+  }
+  Walker walker(points, faces, labels, at, 100, 1e6);
+  Post post({1000, 10, 0});
+  return relax_all({&walker, &post});
+}
+
+TEST(Relax, is_relaxed_when_fewer_than_a_tenth_of_the_particles_moved) {
+  EXPECT_EQ(relax_twenty(0).iterations, 1U);
+  const auto one = relax_twenty(1);
+  EXPECT_EQ(one.iterations, 1U);
+  EXPECT_EQ(one.moves, 1U);
+  EXPECT_TRUE(one.relaxed);
+  const auto two = relax_twenty(2);
+  EXPECT_EQ(two.iterations, 2U);
+  EXPECT_EQ(two.moves, 2U);
+  EXPECT_TRUE(two.relaxed);
+}
+
+TEST(Relax, a_particle_never_leaves_its_region) {
+  const auto points = grid_points(12, 12);
+  std::vector<Region_index> labels;
+  for (std::uint32_t v = 0; v < 144; ++v) labels.push_back(v / 12 / 4 * 3 + v % 12 / 4);
+  At at;
+  for (std::uint32_t region = 0; region < 9; ++region) at.push_back(region / 3 * 48 + region % 3 * 4 + 13);
+  Walker walker(points, grid_faces(12, 12), labels, at);
+  for (const auto& place : {Eigen::Vector3d(20, 3, 1), {-9, 20, 0}, {5, 5, 0.1}, {0, 0, -3}}) {
+    Post post(place);
+    relax_all({&walker, &post});
+    for (Region_index region = 0; region < 9; ++region) EXPECT_EQ(labels[walker.particles.at[region]], region);
+  }
+}
+
+TEST(Relax, an_object_without_near_objects_is_left_alone) {
+  Grid_walker walker(5, 3, 5), alone(5, 3, 5);
+  Post post({10, 1, 0});
+  const std::vector<std::uint32_t> feels_post{2}, feels_walker{0};
+  std::vector<Walking_object<Reader>> objects;
+  for (Walker* w : {static_cast<Walker*>(&walker), static_cast<Walker*>(&alone), static_cast<Walker*>(&post)})
+    objects.push_back({.particles = &w->particles, .steps = &w->steps, .reader = &w->reader, .near = {}});
+  objects[0].near = feels_post;
+  objects[2].near = feels_walker;
+  Relaxation_scratch scratch;
+  scratch.reserve(std::vector<std::size_t>{1, 1, 1});
+  relax(std::span<const Walking_object<Reader>>(objects), scratch);
+  EXPECT_EQ(walker.particles.at, At{9});
+  EXPECT_EQ(alone.particles.at, At{5});
+}
+
+TEST(Relax, siblings_push_each_other_away_if_told_to) {
+  // Two particles in the middle of a row, and a post so far off that they feel each other alone.
+  for (const bool repel : {false, true}) {
+    Walker walker(grid_points(7, 2), grid_faces(7, 2), std::vector<Region_index>(14, 0), {2, 3}, 1);
+    Post post({2.5, 1e4, 0}, 1e5);
+    relax_all({&walker, &post}, repel);
+    // Pushed, the right one takes the diagonal; drawn by the post both go up.
+    if (repel) {
+      EXPECT_EQ(walker.particles.at, (At{1, 11}));
+    } else {
+      for (const auto v : walker.particles.at) EXPECT_GE(v, 7U);
+    }
+  }
+}
+
+TEST(Relax, allocates_nothing_after_the_first_call) {
+  Grid_walker one(30, 30, 0, 30), other(30, 30, 899, 30);
+  const std::vector<std::uint32_t> feels_other{1}, feels_one{0};
+  const std::vector<Walking_object<Reader>> objects{
+      {.particles = &one.particles, .steps = &one.steps, .reader = &one.reader, .near = feels_other},
+      {.particles = &other.particles, .steps = &other.steps, .reader = &other.reader, .near = feels_one}};
+  Relaxation_scratch scratch;
+  scratch.reserve(std::vector<std::size_t>{1, 1});
+  const std::span<const Walking_object<Reader>> span(objects);
+  ASSERT_GT(relax(span, scratch).moves, 0U);
+  for (const std::uint32_t start : {29U, 870U, 450U}) {
+    one.particles.at[0] = start;
+    one.particles.positions[0] = one.points[start];
+    const std::size_t before = allocations;
+    const auto result = relax(span, scratch);
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(result.moves, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace lodestone

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/particle_count.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "test_meshes.h"
+
+namespace lodestone {
+namespace {
+
+using Sizes = std::vector<double>;
+
+std::vector<Sphere> spheres_of(const Surface_mesh& mesh, const Particle_count_options& options = {}) {
+  const Numbered_mesh numbered(mesh);
+  return sphere_collection(numbered.graph, numbered.positions, numbered.faces, options);
+}
+
+/// 4 pi / (2 pi (1 - cos theta)) with theta = asin(r / (R + r)), as published.
+long double shadows(long double large, long double small) {
+  return 2 / (1 - std::cos(std::asin(small / (large + small))));
+}
+
+TEST(Particle_count, equal_spheres_need_at_most_the_kissing_number) {
+  EXPECT_EQ(kissing_particle_count(12), 12U);
+  EXPECT_EQ(kissing_particle_count(13), 12U);
+  EXPECT_EQ(kissing_particle_count(100000), 12U);
+}
+
+TEST(Particle_count, fewer_objects_than_the_kissing_number_need_as_many_particles) {
+  for (const std::size_t objects : {1, 2, 7, 11}) EXPECT_EQ(kissing_particle_count(objects), objects);
+}
+
+TEST(Particle_count, the_shadow_formula_gives_14_for_equal_spheres) {
+  // 2 / (1 - cos 30 degrees) = 14.93
+  for (const double radius : {1.0, 0.3, 1e-200, 1e200}) EXPECT_EQ(shadow_particle_count(radius, radius), 14U);
+}
+
+TEST(Particle_count, the_shadow_formula_holds_for_other_ratios) {
+  EXPECT_EQ(shadow_particle_count(3, 1), 62U);  // sin theta = 1/4: 2 / (1 - sqrt(15) / 4) = 62.98
+  for (double ratio = 0.01; ratio < 300; ratio *= 1.37) {
+    const long double exact = shadows(ratio, 1);
+    if (std::abs(exact - std::round(exact)) < 1e-6L) continue;
+    EXPECT_EQ(shadow_particle_count(ratio, 1), static_cast<std::size_t>(std::floor(exact))) << ratio;
+    EXPECT_EQ(shadow_particle_count(ratio * 0x1p-70, 0x1p-70), static_cast<std::size_t>(std::floor(exact))) << ratio;
+  }
+  EXPECT_EQ(shadow_particle_count(1e-9, 1), 2U);  // the shadow is nearly half of the sphere
+}
+
+TEST(Particle_count, a_shadow_needs_two_radii_above_0) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {0.0, -1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(shadow_particle_count(bad, 1), Bad_argument) << bad;
+    EXPECT_THROW(shadow_particle_count(1, bad), Bad_argument) << bad;
+  }
+}
+
+TEST(Particle_count, a_bounding_sphere_is_the_smallest_one) {
+  const Numbered_mesh ball(sphere(4, 2.5, {10, -3, 7}));
+  EXPECT_NEAR(bounding_sphere(ball.positions).radius, 2.5, 1e-9);
+  EXPECT_TRUE(bounding_sphere(ball.positions).centre.isApprox(Eigen::Vector3d(10, -3, 7), 1e-9));
+
+  const Numbered_mesh box(cube(3));
+  EXPECT_NEAR(bounding_sphere(box.positions).radius, std::sqrt(3) / 2, 1e-9);
+
+  const Positions line = (Positions(3, 3) << 0, 0, 0, 1, 0, 0, 6, 0, 0).finished();
+  EXPECT_NEAR(bounding_sphere(line).radius, 3, 1e-9);
+  EXPECT_EQ(bounding_sphere(Positions::Constant(5, 3, 2.0)).radius, 0);
+  EXPECT_NEAR(bounding_sphere(line * 0x1p600).radius * 0x1p-600, 3, 1e-9);
+  EXPECT_NEAR(bounding_sphere(line * 0x1p-600).radius * 0x1p600, 3, 1e-9);
+}
+
+TEST(Sphere_collection, a_smooth_surface_is_one_sphere) {
+  const auto spheres = spheres_of(sphere(10, 2, {1, 2, 3}));
+  ASSERT_EQ(spheres.size(), 1U);
+  EXPECT_NEAR(spheres[0].radius, 2, 1e-9);
+}
+
+TEST(Sphere_collection, two_far_spheres_in_one_mesh_are_two_parts) {
+  auto mesh = sphere(8, 1, {0, 0, 0});
+  append(mesh, sphere(8, 3, {20, 0, 0}));
+  const auto spheres = spheres_of(mesh);
+  ASSERT_EQ(spheres.size(), 2U);
+  EXPECT_NEAR(spheres[0].radius, 1, 1e-9);
+  EXPECT_NEAR(spheres[1].radius, 3, 1e-9);
+  EXPECT_TRUE(spheres[1].centre.isApprox(Eigen::Vector3d(20, 0, 0), 1e-9));
+  // Their counts add up: 14 for the one of the smallest size, 62 for the other.
+  EXPECT_EQ(particle_count(spheres, Sizes{1, 13}), 14U + 62U);
+}
+
+TEST(Sphere_collection, creases_split_a_box_into_its_six_sides) {
+  const auto spheres = spheres_of(cube(10));
+  ASSERT_EQ(spheres.size(), 6U);
+  // Normals turn by 45 degrees or more within two rows of an edge: without those a side reaches from 0.2 to 0.8.
+  for (const auto& sphere : spheres) {
+    EXPECT_GE(sphere.radius, 0.3 * std::sqrt(2) - 1e-9);
+    EXPECT_LE(sphere.radius, 0.5 * std::sqrt(2) + 1e-9);
+  }
+}
+
+TEST(Sphere_collection, keeps_no_more_parts_than_wanted_and_none_below_the_smallest) {
+  EXPECT_EQ(spheres_of(cube(10), {.most_parts = 4}).size(), 4U);
+  auto mesh = sphere(10);
+  append(mesh, sphere(1, 0.1, {5, 0, 0}));  // 6 of 408 vertices
+  EXPECT_EQ(spheres_of(mesh, {.smallest_part = 0.02}).size(), 1U);
+}
+
+TEST(Sphere_collection, a_surface_of_nothing_but_creases_is_one_sphere) {
+  const auto spheres = spheres_of(cube(1));
+  ASSERT_EQ(spheres.size(), 1U);
+  EXPECT_NEAR(spheres[0].radius, std::sqrt(3) / 2, 1e-9);
+}
+
+TEST(Sphere_collection, a_surface_without_extent_gives_a_sphere_too) {
+  auto mesh = sphere(2);
+  deform(mesh, [](const Point&) { return Point(1, 1, 1); });
+  EXPECT_EQ(spheres_of(mesh).size(), 1U);
+}
+
+TEST(Particle_count, objects_of_one_size_get_the_kissing_number_or_their_number) {
+  const std::vector<Sphere> one{{.radius = 1}};
+  EXPECT_EQ(particle_count(one, Sizes(20, 1.0)), 12U);
+  EXPECT_EQ(particle_count(one, Sizes(5, 1.0)), 5U);
+  EXPECT_EQ(particle_count(one, Sizes{1, 1.04, 1.02}), 3U);  // within equal_sizes
+}
+
+TEST(Particle_count, objects_of_different_sizes_are_counted_against_the_smallest) {
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 3}}, Sizes{3, 1}), 62U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1}}, Sizes{3, 1}), 14U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 3}, {.radius = 1}}, Sizes{5, 3, 1}), 76U);
+}
+
+TEST(Particle_count, stays_within_its_limits_for_any_sizes) {
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1000}}, Sizes{1000, 1}), 256U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1e200}}, Sizes{1e200, 1e-200}), 256U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>(8, {.radius = 1e300}), Sizes{1e300, 1e-300}), 256U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1}}, Sizes(20, 1.0), {.most_particles = 5}), 5U);
+  EXPECT_GE(particle_count(std::vector<Sphere>{{.radius = 0}}, Sizes{0, 1}), 1U);
+}
+
+TEST(Particle_count, options_out_of_range_are_refused) {
+  const std::vector<Sphere> one{{.radius = 1}};
+  const Sizes sizes{1, 2};
+  EXPECT_THROW(particle_count(one, sizes, {.most_particles = 0}), Bad_argument);
+  EXPECT_THROW(particle_count(one, sizes, {.equal_sizes = -1}), Bad_argument);
+  EXPECT_THROW(spheres_of(cube(2), {.crease_degrees = 0}), Bad_argument);
+  EXPECT_THROW(spheres_of(cube(2), {.crease_degrees = 181}), Bad_argument);
+  EXPECT_THROW(spheres_of(cube(2), {.smallest_part = 1.5}), Bad_argument);
+  EXPECT_THROW(spheres_of(cube(2), {.most_parts = 0}), Bad_argument);
+}
+
+}  // namespace
+}  // namespace lodestone

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/region_extents.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "test_meshes.h"
+
+namespace lodestone {
+namespace {
+
+const Eigen::Vector3d up(0, 0, 1);
+
+/// A numbered mesh with what `region_extent` wants to know of it.
+struct Measured : Numbered_mesh {
+  std::vector<Region_index> labels;
+  std::vector<bool> border;
+  Position_function position;
+
+  explicit Measured(const Surface_mesh& mesh)
+      : Numbered_mesh(mesh),
+        labels(numbering.vertex_count(), 0),
+        border(open_border(numbering.vertex_count(), faces)),
+        position([this](std::uint32_t v) { return Eigen::Vector3d(positions.row(v)); }) {}
+  Measured(const Measured&) = delete;
+  Measured& operator=(const Measured&) = delete;
+
+  Region_extent extent(std::uint32_t home, const Eigen::Vector3d& normal = up) const {
+    return region_extent({graph, labels, border, position}, home, normal);
+  }
+};
+
+std::array<double, 4> lengths(const Region_extent& extent) {
+  std::array<double, 4> result{};
+  for (std::size_t i = 0; i < 4; ++i) result[i] = extent.paths[i].length;
+  return result;
+}
+
+TEST(Region_extent, of_a_flat_grid_reaches_its_open_border_along_the_axes) {
+  const Measured square(grid(9, 9));
+  EXPECT_EQ(lengths(square.extent(4 * 9 + 4)), (std::array{4.0, 4.0, 4.0, 4.0}));
+  EXPECT_EQ(square.extent(4 * 9 + 4).area(), 64);
+  const Measured oblong(grid(11, 5));
+  EXPECT_EQ(oblong.extent(2 * 11 + 3).area(), 10 * 4);  // whatever the home, both directions add up to the sides
+}
+
+TEST(Region_extent, ends_where_another_region_begins) {
+  Measured mesh(grid(9, 9));
+  for (std::uint32_t v = 0; v < 81; ++v) mesh.labels[v] = v % 9 < 6 ? 0 : 1;
+  auto found = lengths(mesh.extent(4 * 9 + 3));
+  std::ranges::sort(found);
+  EXPECT_EQ(found, (std::array{2.0, 3.0, 4.0, 4.0}));
+  EXPECT_EQ(mesh.extent(4 * 9 + 3).area(), 5 * 8);
+}
+
+TEST(Region_extent, takes_the_nearest_border_in_a_direction) {
+  // A vertex of another region two steps to the left, to the right, above or below the home: the border is beside it.
+  for (const std::uint32_t hole : {4 * 9 + 2, 4 * 9 + 6, 2 * 9 + 4, 6 * 9 + 4}) {
+    Measured mesh(grid(9, 9));
+    mesh.labels[hole] = 1;
+    auto found = lengths(mesh.extent(4 * 9 + 4));
+    std::ranges::sort(found);
+    EXPECT_EQ(found, (std::array{1.0, 4.0, 4.0, 4.0})) << hole;
+  }
+}
+
+TEST(Region_extent, is_zero_towards_a_border_on_which_the_home_lies) {
+  const Measured mesh(grid(9, 9));
+  const auto extent = mesh.extent(4 * 9);
+  const auto found = lengths(extent);
+  EXPECT_EQ(std::ranges::count(found, 0.0), 1);
+  EXPECT_EQ(std::ranges::count(found, 8.0), 1);
+  EXPECT_EQ(found[0] + found[1], 8);
+  EXPECT_EQ(found[2], found[3]);  // the square is the same above and below
+  for (const auto& path : extent.paths) EXPECT_EQ(path.samples.empty(), path.length == 0);
+}
+
+TEST(Region_extent, walks_along_edges) {
+  // From the centre of a 3 x 3 grid whose middle row is folded up, the border above and below is a hop of sqrt 2 away.
+  auto folded = grid(3, 3);
+  deform(folded, [](const Point& p) { return Point(p.x(), p.y(), p.y() == 1 ? 1 : 0); });
+  const Measured mesh(folded);
+  auto found = lengths(mesh.extent(4));
+  std::ranges::sort(found);
+  EXPECT_EQ(found, (std::array{1.0, 1.0, std::sqrt(2.0), std::sqrt(2.0)}));
+}
+
+TEST(Region_extent, lies_in_the_tangent_plane) {
+  auto standing = grid(9, 5);
+  deform(standing, [](const Point& p) { return Point(0, p.x(), p.y()); });
+  const Measured mesh(standing);
+  EXPECT_NEAR(mesh.extent(2 * 9 + 4, {3, 0, 0}).area(), 8 * 4, 1e-12);
+  EXPECT_NEAR(Measured(grid(9, 5)).extent(2 * 9 + 4, {0, 0, 0}).area(), 8 * 4, 1e-12);
+}
+
+TEST(Region_extent, of_a_closed_component_is_taken_to_its_farthest_vertices) {
+  // On the octahedron each of the four neighbours of a corner lies in a direction of its own, the opposite one in none.
+  const Measured mesh(sphere(1));
+  std::uint32_t home = 0;
+  for (std::uint32_t v = 0; v < 6; ++v)
+    if (mesh.positions(v, 2) == 1) home = v;
+  for (const double length : lengths(mesh.extent(home))) EXPECT_NEAR(length, std::sqrt(2), 1e-14);
+  EXPECT_NEAR(mesh.extent(home).area(), 8, 1e-13);
+}
+
+TEST(Region_extent, grows_with_the_square_of_a_uniform_scale) {
+  const auto surface = potato(8);
+  const Measured mesh(surface);
+  for (const double factor : {0.25, 3.0}) {
+    auto scaled = surface;
+    scale(scaled, factor);
+    const Measured larger(scaled);
+    for (const std::uint32_t home : {0, 17, 100}) {
+      const Eigen::Vector3d normal = mesh.positions.row(home);
+      const double area = mesh.extent(home, normal).area();
+      EXPECT_GT(area, 0);
+      EXPECT_NEAR(larger.extent(home, normal).area(), factor * factor * area, 1e-9 * area);
+      EXPECT_NEAR(stretched_area(mesh.extent(home, normal), larger.position), factor * factor * area, 1e-9 * area);
+    }
+  }
+}
+
+TEST(Stretched_area, of_a_mesh_at_rest_is_its_area) {
+  const Measured mesh(potato(8));
+  for (const std::uint32_t home : {3, 50, 90}) {
+    const auto extent = mesh.extent(home, mesh.positions.row(home));
+    EXPECT_NEAR(stretched_area(extent, mesh.position), extent.area(), 1e-12 * extent.area());
+  }
+}
+
+TEST(Stretched_area, follows_an_affine_stretch) {
+  const Measured mesh(grid(13, 9));
+  const auto extent = mesh.extent(4 * 13 + 6);
+  const auto stretched = [&](double x, double y) {
+    return stretched_area(extent, [&, x, y](std::uint32_t v) {
+      const auto p = mesh.position(v);
+      return Eigen::Vector3d(x * p.x(), y * p.y(), 7);
+    });
+  };
+  EXPECT_NEAR(stretched(3, 1), 3 * 96, 1e-9);
+  EXPECT_NEAR(stretched(1, 0.5), 0.5 * 96, 1e-9);
+  EXPECT_NEAR(stretched(2, 5), 10 * 96, 1e-9);
+}
+
+TEST(Stretched_area, reads_no_more_than_sixteen_vertices_besides_the_home) {
+  const Measured mesh(grid(101, 101));
+  const auto extent = mesh.extent(50 * 101 + 50);
+  std::size_t reads = 0;
+  stretched_area(extent, [&](std::uint32_t v) {
+    ++reads;
+    return mesh.position(v);
+  });
+  EXPECT_LE(reads, 20U);
+  for (const auto& path : extent.paths) {
+    EXPECT_LE(path.samples.size(), 5U);
+    EXPECT_EQ(path.samples.front(), 50U * 101 + 50);
+    EXPECT_TRUE(mesh.border[path.samples.back()]);
+  }
+}
+
+}  // namespace
+}  // namespace lodestone
