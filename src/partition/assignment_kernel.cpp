@@ -68,7 +68,7 @@ HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
   pass.second_bounds[v] = square_root(hn::GetLane(runner_up)) * (1 - 1e-9) + pass.drifts[pass.labels[v]];
 }
 
-/// Distances of a stretch of vectors to the code vectors they have, and which of them the bounds leave open.
+/// Distances of some vectors to the code vectors they have, and which of them the bounds leave open.
 /// @return how many were written to `open`
 template <int K>
 HWY_INLINE std::size_t test_bounds(const Bounded_pass& pass, std::size_t begin, std::size_t end, std::uint32_t* open) {
@@ -88,32 +88,108 @@ HWY_INLINE std::size_t test_bounds(const Bounded_pass& pass, std::size_t begin, 
   return count;
 }
 
+/// Adds the vectors from `begin` to `end` to the sums of their cells, in order.
 template <int K>
-HWY_INLINE void add_components(const double* vector, std::size_t k, double* sum) {
+HWY_INLINE void add_to_cells(Bounded_pass& pass, std::size_t begin, std::size_t end) {
   const hn::CappedTag<double, block_size> d;
-  if (hn::Lanes(d) == block_size && k <= block_size) {
-    const auto components = hn::FirstN(d, k);
-    hn::BlendedStore(hn::Add(hn::MaskedLoad(components, d, sum), hn::MaskedLoad(components, d, vector)), components, d,
-                     sum);
-  } else {
-    for (std::size_t i = 0; i < k; ++i) sum[i] += vector[i];
+  const std::size_t k = K > 0 ? K : pass.components;
+  for (std::size_t v = begin; v < end;) {
+    // Neighbours mostly share a cell: its sum stays in a register until the cell changes.
+    const std::uint32_t label = pass.labels[v];
+    double* sum = pass.cell_sums + label * k;
+    std::size_t run_end = v + 1;
+    while (run_end < end && pass.labels[run_end] == label) ++run_end;
+    pass.cell_sizes[label] += run_end - v;
+    if (hn::Lanes(d) == block_size && k <= block_size) {
+      const auto components = hn::FirstN(d, k);
+      auto total = hn::MaskedLoad(components, d, sum);
+      for (; v < run_end; ++v) total = hn::Add(total, hn::MaskedLoad(components, d, pass.vectors + v * k));
+      hn::BlendedStore(total, components, d, sum);
+    } else {
+      for (; v < run_end; ++v)
+        for (std::size_t i = 0; i < k; ++i) sum[i] += pass.vectors[v * k + i];
+    }
   }
+}
+
+/// Eight vectors that have one and the same code vector, a vector per lane: bounds, and the search where they fail.
+template <int K>
+HWY_INLINE void pass_uniform_block(Bounded_pass& pass, std::size_t block) {
+  const hn::CappedTag<double, block_size> d;
+  const std::size_t k = K > 0 ? K : pass.components;
+  const std::uint32_t start = pass.labels[block * block_size];
+  const double* code = pass.codes + start * k;
+  const Neighbourhood& around = pass.neighbourhoods[start];
+
+  for (std::size_t lane = 0; lane < block_size; lane += hn::Lanes(d)) {
+    const std::size_t v = block * block_size + lane;
+    const double* components = pass.blocks + block * block_size * k + lane;
+    const auto distance_to = [&](const double* other, std::size_t stride) HWY_ATTR {
+      auto squared = hn::Zero(d);
+      for (std::size_t i = 0; i < k; ++i) {
+        const auto difference = hn::Sub(hn::LoadU(d, components + i * block_size), hn::Set(d, other[i * stride]));
+        squared = hn::Add(squared, hn::Mul(difference, difference));
+      }
+      return squared;
+    };
+    auto nearest = distance_to(code, 1);
+    hn::StoreU(nearest, d, pass.squared_distances + v);
+    const auto bound = hn::Max(hn::Sub(hn::LoadU(d, pass.second_bounds + v), hn::Set(d, pass.drifts[start])),
+                               hn::Set(d, pass.half_gaps[start]));
+    const auto open = hn::Ge(hn::Mul(nearest, hn::Set(d, 1 + 1e-9)), hn::Mul(bound, bound));
+    if (hn::AllFalse(d, open)) continue;
+
+    const double farthest = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(open, nearest)));
+    const double reach = (2 * square_root(farthest) + around.distances[0]) * (1 + 1e-9) + pass.margin;
+    auto label = hn::Set(d, static_cast<double>(start));
+    auto second = hn::Set(d, std::numeric_limits<double>::infinity());
+    std::size_t tried = 0;
+    for (; tried < around.count && around.distances[tried] <= reach; ++tried) {
+      const std::size_t first = tried / block_size * block_size;
+      const auto squared = distance_to(around.components + first * k + tried % block_size, block_size);
+      const auto other = hn::Set(d, around.codes[tried]);
+      const auto wins = hn::Or(hn::Lt(squared, nearest), hn::And(hn::Eq(squared, nearest), hn::Lt(other, label)));
+      second = hn::Min(second, hn::IfThenElse(wins, nearest, squared));
+      nearest = hn::IfThenElse(wins, squared, nearest);
+      label = hn::IfThenElse(wins, other, label);
+    }
+    pass.distance_evaluations += tried * hn::Lanes(d);
+
+    HWY_ALIGN double is_open[block_size], labels[block_size], squared[block_size], bounds[block_size];
+    hn::Store(hn::IfThenElseZero(open, hn::Set(d, 1.0)), d, is_open);
+    hn::Store(label, d, labels);
+    hn::Store(nearest, d, squared);
+    hn::Store(hn::Mul(hn::Sqrt(second), hn::Set(d, 1 - 1e-9)), d, bounds);
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
+      if (is_open[i] == 0) continue;
+      pass.labels[v + i] = static_cast<std::uint32_t>(labels[i]);
+      pass.squared_distances[v + i] = squared[i];
+      pass.second_bounds[v + i] = bounds[i] + pass.drifts[pass.labels[v + i]];
+    }
+  }
+}
+
+/// The vectors from `begin` to `end`, at most eight, one by one.
+template <int K>
+HWY_INLINE void pass_mixed_block(Bounded_pass& pass, std::size_t begin, std::size_t end) {
+  std::uint32_t open[block_size];
+  const std::size_t count = test_bounds<K>(pass, begin, end, open);
+  for (std::size_t i = 0; i < count; ++i) search<K>(pass, open[i]);
 }
 
 template <int K>
 HWY_INLINE void pass_over(Bounded_pass& pass) {
-  constexpr std::size_t stretch = 256;
-  std::uint32_t open[stretch];
   const std::size_t k = K > 0 ? K : pass.components;
-  for (std::size_t begin = 0; begin < pass.vector_count; begin += stretch) {
-    const std::size_t end = std::min(begin + stretch, pass.vector_count);
-    const std::size_t count = test_bounds<K>(pass, begin, end, open);
-    for (std::size_t i = 0; i < count; ++i) search<K>(pass, open[i]);
-    for (std::size_t v = begin; v < end; ++v) {
-      add_components<K>(pass.vectors + v * k, k, pass.cell_sums + pass.labels[v] * k);
-      ++pass.cell_sizes[pass.labels[v]];
-    }
+  for (std::size_t begin = 0; begin < pass.vector_count; begin += block_size) {
+    const std::size_t end = std::min(begin + block_size, pass.vector_count);
+    std::uint32_t differences = 0;
+    for (std::size_t v = begin; v < end; ++v) differences |= pass.labels[v] ^ pass.labels[begin];
+    if (differences == 0 && end - begin == block_size)
+      pass_uniform_block<K>(pass, begin / block_size);
+    else
+      pass_mixed_block<K>(pass, begin, end);
   }
+  add_to_cells<K>(pass, 0, pass.vector_count);
   pass.distance_evaluations += pass.vector_count;
 }
 

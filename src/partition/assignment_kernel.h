@@ -22,6 +22,7 @@ struct Neighbourhood {
 /// One pass over all vectors. See Bounded_assignment for what the bounds mean.
 struct Bounded_pass {
   const double* vectors;  ///< M x k
+  const double* blocks;   ///< the same, eight vectors a block: k rows of eight; without an incomplete last block
   std::size_t vector_count;
   std::size_t components;               ///< k
   const double* codes;                  ///< N x k

@@ -24,8 +24,9 @@ void check(const Feature_vectors& vectors, std::size_t cells, const Lbg_options&
 class Quantiser {
  public:
   Quantiser(const Feature_vectors& vectors, const Lbg_options& options)
-      : vectors_(vectors), options_(options), search_(vectors), codes_(vectors.colwise().mean()) {
+      : vectors_(vectors), options_(options), codes_(vectors.colwise().mean()), origin_(vectors.rows()) {
     assignment_.labels.assign(vectors.rows(), 0);
+    std::iota(origin_.begin(), origin_.end(), 0);
   }
 
   std::size_t size() const { return static_cast<std::size_t>(codes_.rows()); }
@@ -38,28 +39,29 @@ class Quantiser {
   std::vector<double> cell_distortions() const;
   std::vector<Eigen::MatrixXd> cell_scatters() const;
   Eigen::RowVectorXd principal_offset(const Eigen::MatrixXd& scatter, std::size_t cell_size) const;
-  void assign();
+  void assign(Bounded_assignment& bounded);
   void reseed_empty_cells();
+  void group_by_cell();
   void move_codes_to_means();
 
-  const Feature_vectors& vectors_;
+  Feature_vectors vectors_;  ///< grouped by cell at the start of each Lloyd run
   const Lbg_options& options_;
-  Bounded_assignment search_;
   Feature_vectors codes_;
   Assignment assignment_;
+  std::vector<std::uint32_t> origin_;  ///< per row of `vectors_`: its row in the caller's matrix
   std::vector<Lloyd_run> runs_;
 };
 
-void Quantiser::assign() {
+void Quantiser::assign(Bounded_assignment& bounded) {
   if (options_.search == Nearest_search::plain)
     assign_plain(vectors_, codes_, assignment_);
   else
-    search_.assign(codes_, assignment_);
+    bounded.assign(codes_, assignment_);
 }
 
 double Quantiser::distortion() const {
-  const auto& d = assignment_.squared_distances;
-  return std::accumulate(d.begin(), d.end(), 0.0) / static_cast<double>(vectors_.size());
+  const Eigen::Map<const Eigen::VectorXd> distances(assignment_.squared_distances.data(), vectors_.rows());
+  return distances.sum() / static_cast<double>(vectors_.size());
 }
 
 std::vector<double> Quantiser::cell_distortions() const {
@@ -70,9 +72,11 @@ std::vector<double> Quantiser::cell_distortions() const {
 }
 
 void Quantiser::run_lloyd() {
+  group_by_cell();
+  Bounded_assignment bounded(vectors_);
   Lloyd_run run{.code_vectors = size(), .distortion = {}};
   for (std::size_t iteration = 0; iteration < options_.max_iterations; ++iteration) {
-    assign();
+    assign(bounded);
     reseed_empty_cells();
     run.distortion.push_back(distortion());
     move_codes_to_means();
@@ -81,6 +85,25 @@ void Quantiser::run_lloyd() {
     if (before - run.distortion[iteration] <= options_.tolerance * before) break;
   }
   runs_.push_back(std::move(run));
+}
+
+/// Puts the vectors of a cell side by side: the search takes eight at a time where they share a cell.
+void Quantiser::group_by_cell() {
+  std::vector<std::size_t> next(size() + 1, 0);
+  for (const auto label : assignment_.labels) ++next[label + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  Feature_vectors vectors(vectors_.rows(), vectors_.cols());
+  std::vector<Region_index> labels(origin_.size());
+  std::vector<std::uint32_t> origin(origin_.size());
+  for (std::size_t v = 0; v < origin.size(); ++v) {
+    const std::size_t place = next[assignment_.labels[v]]++;
+    vectors.row(static_cast<Eigen::Index>(place)) = vectors_.row(static_cast<Eigen::Index>(v));
+    labels[place] = assignment_.labels[v];
+    origin[place] = origin_[v];
+  }
+  vectors_.swap(vectors);
+  assignment_.labels.swap(labels);
+  origin_.swap(origin);
 }
 
 void Quantiser::reseed_empty_cells() {
@@ -122,13 +145,18 @@ std::vector<Eigen::MatrixXd> Quantiser::cell_scatters() const {
   with_fixed_components(k, [&](auto fixed) {
     constexpr int components = fixed > 0 ? static_cast<int>(fixed) : Eigen::Dynamic;
     using Vector = Eigen::Matrix<double, components, 1>;
+    using Matrix = Eigen::Matrix<double, components, components>;
     Vector offset(k);
-    for (std::size_t v = 0; v < assignment_.labels.size(); ++v) {
+    for (std::size_t v = 0; v < assignment_.labels.size();) {
+      // Neighbours mostly share a cell: its matrix is written back when the cell changes.
       const Region_index cell = assignment_.labels[v];
-      offset = Eigen::Map<const Vector>(vectors_.data() + static_cast<Eigen::Index>(v) * k, k) -
-               Eigen::Map<const Vector>(codes_.data() + cell * k, k);
-      Eigen::Map<Eigen::Matrix<double, components, components>>(scatters[cell].data(), k, k).noalias() +=
-          offset * offset.transpose();
+      const Eigen::Map<const Vector> code(codes_.data() + cell * k, k);
+      Matrix scatter = scatters[cell];
+      for (; v < assignment_.labels.size() && assignment_.labels[v] == cell; ++v) {
+        offset = Eigen::Map<const Vector>(vectors_.data() + static_cast<Eigen::Index>(v) * k, k) - code;
+        scatter.noalias() += offset * offset.transpose();
+      }
+      scatters[cell] = scatter;
     }
   });
   return scatters;
@@ -181,9 +209,10 @@ Quantisation Quantiser::result() {
     renumbered[c] = static_cast<Region_index>(kept);
     if (sizes[c] > 0) codes_.row(kept++) = codes_.row(c).eval();
   }
-  for (auto& label : assignment_.labels) label = renumbered[label];
+  std::vector<Region_index> labels(origin_.size());
+  for (std::size_t v = 0; v < labels.size(); ++v) labels[origin_[v]] = renumbered[assignment_.labels[v]];
   return {.code_vectors = codes_.topRows(kept),
-          .labels = std::move(assignment_.labels),
+          .labels = std::move(labels),
           .runs = std::move(runs_),
           .distance_evaluations = assignment_.distance_evaluations};
 }

@@ -55,7 +55,14 @@ void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, 
 }
 
 Bounded_assignment::Bounded_assignment(const Feature_vectors& vectors)
-    : vectors_(vectors), margin_(1e-12 * std::max(1.0, vectors.size() == 0 ? 0 : vectors.cwiseAbs().maxCoeff())) {}
+    : vectors_(vectors), margin_(1e-12 * std::max(1.0, vectors.size() == 0 ? 0 : vectors.cwiseAbs().maxCoeff())) {
+  constexpr auto block = static_cast<Eigen::Index>(kernel::block_size);
+  blocks_.resize(vectors.rows() / block * block * vectors.cols());
+  double* next = blocks_.data();
+  for (Eigen::Index first = 0; first + block <= vectors.rows(); first += block)
+    for (Eigen::Index component = 0; component < vectors.cols(); ++component)
+      for (Eigen::Index v = first; v < first + block; ++v) *next++ = vectors(v, component);
+}
 
 void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assignment) {
   if (codes.rows() > max_codes) return assign_plain(vectors_, codes, assignment);
@@ -75,6 +82,7 @@ void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assign
                               .components = neighbour_components_.data() + c * padded_ * codes.cols(),
                               .count = static_cast<std::size_t>(codes.rows()) - 1});
   kernel::Bounded_pass pass{.vectors = vectors_.data(),
+                            .blocks = blocks_.data(),
                             .vector_count = static_cast<std::size_t>(vectors_.rows()),
                             .components = static_cast<std::size_t>(vectors_.cols()),
                             .codes = codes.data(),

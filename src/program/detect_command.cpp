@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "commands.h"
 #include "exit_codes.h"
@@ -14,6 +15,7 @@
 #include "lodestone/io/scene_file.h"
 #include "lodestone/io/text_table.h"
 #include "measured_run.h"
+#include "printable.h"
 #include "progress.h"
 
 namespace lodestone {
@@ -28,11 +30,11 @@ Scene load(const std::vector<std::filesystem::path>& inputs) {
     return read_scene(inputs[0]);
   }
   Scene scene{.name = "meshes"};
-  std::map<std::string, std::size_t> uses;
+  std::set<std::string> taken;
   for (const auto& file : inputs) {
-    std::string name = file.stem().string();
-    const std::size_t use = ++uses[name];
-    if (use > 1) name += fmt::format("_{}", use);
+    const std::string stem = printable(file.stem().string());
+    std::string name = stem;
+    for (std::size_t use = 2; !taken.insert(name).second; ++use) name = fmt::format("{}_{}", stem, use);
     scene.objects.push_back(still_object(std::move(name), file));
   }
   return scene;
@@ -184,13 +186,13 @@ int run(const Detect_command& command) {
   }
   if (frames) {
     Atomic_file summary(command.out / "summary.json");
-    summary.write(scene_run.summary().dump(2) + "\n");
+    summary.write(json_text(scene_run.summary(), 2));
     frames->commit();
     summary.commit();
   }
   if (!command.quiet) {
     scene_run.print();
-    if (frames) fmt::print("results: {}\n", command.out.string());
+    if (frames) fmt::print("results: {}\n", printable(command.out.string()));
   }
   return scene_run.contradicts_truth() ? exit_code::contradicts_truth : exit_code::success;
 }

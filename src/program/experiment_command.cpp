@@ -5,6 +5,7 @@
 #include "exit_codes.h"
 #include "experiment.h"
 #include "lodestone/io/atomic_file.h"
+#include "printable.h"
 #include "progress.h"
 
 namespace lodestone {
@@ -22,7 +23,7 @@ int run(const Experiment_command& command) {
   file.commit();
   if (!command.quiet)
     fmt::print("{}\n{}\n\n{}", experiment->question, std::string(experiment->question.size(), '='), report);
-  if (!command.quiet) fmt::print("\nreport and figures: {}\n", out.string());
+  if (!command.quiet) fmt::print("\nreport and figures: {}\n", printable(out.string()));
   return exit_code::success;
 }
 

@@ -32,6 +32,10 @@ Json pair_json(const std::vector<std::string>& names, const Frame& frame, const 
 
 }  // namespace
 
+std::string json_text(const nlohmann::ordered_json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string frame_line(std::size_t frame, const std::vector<std::string>& names, const Frame& result,
                        Contact_query query, const std::optional<std::vector<Pair_truth>>& truth) {
   Json pairs = Json::array();
@@ -57,7 +61,7 @@ std::string frame_line(std::size_t frame, const std::vector<std::string>& names,
                     {"exact_tests", statistics.exact_tests},
                     {"contacts", statistics.contacts},
                     {"repartitions", statistics.repartitions}}}};
-  return line.dump() + "\n";
+  return json_text(line);
 }
 
 }  // namespace lodestone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,10 @@ struct Pair_truth {
   Object_id b = 0;
   std::vector<Face_pair> faces;  ///< all intersecting face pairs, sorted
 };
+
+/// JSON and a line break. What is not UTF-8 (the name of a file may be anything) becomes U+FFFD.
+/// @param indent  columns per level; negative: all in one line
+std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
 
 /// One line of `frames.jsonl`, line break included.
 ///

@@ -3,38 +3,56 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <limits>
 #include <map>
 #include <new>
+#include <system_error>
+#include <vector>
 
 #include "commands.h"
 #include "exit_codes.h"
 #include "experiment.h"
 #include "lodestone/errors.h"
+#include "printable.h"
 #include "progress.h"
 
 namespace lodestone {
 
 namespace {
 
+/// Takes a name to its value, which CLI11 wants as a number.
 template <class Value>
-auto one_of(const std::map<std::string, Value>& names) {
-  return CLI::CheckedTransformer(names, CLI::ignore_case).description("");
+CLI::Validator one_of(const std::map<std::string, Value>& names) {
+  return {[names](std::string& text) -> std::string {
+            const auto found = names.find(CLI::detail::to_lower(text));
+            if (found == names.end()) {
+              std::vector<std::string> expected;
+              for (const auto& entry : names) expected.push_back(entry.first);
+              return fmt::format("expected {}, found '{}'", fmt::join(expected, " or "), text);
+            }
+            text = std::to_string(static_cast<int>(found->second));
+            return {};
+          },
+          ""};
 }
+
+/// A script whose variable is empty must not lose its results without a word.
+CLI::Validator not_empty() {
+  return {[](const std::string& text) { return std::string(text.empty() ? "a name is wanted, found none" : ""); }, ""};
+}
+
+/// Squares of larger weights leave the range of a double.
+constexpr double largest_normal_weight = 1e6;
 
 void add_lbg_options(CLI::App& app, Lbg_options& options) {
   app.add_option("--normal-weight", options.features.normal_weight, "Weight of normals against positions; 0: none")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, largest_normal_weight).description("0 to 1e6"))
       ->capture_default_str();
   app.add_option("--split", options.split_rule, "How a code vector becomes two: principal_axis, multiplicative")
       ->transform(one_of<Split>({{"principal_axis", Split::principal_axis}, {"multiplicative", Split::multiplicative}}))
       ->type_name("RULE")
       ->default_str("principal_axis");
-  app.add_option("--epsilon", options.split, "e of the split (1 + e)C, (1 - e)C")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app.add_option("--epsilon", options.split, "e of the split (1 + e)C, (1 - e)C")->capture_default_str();
   app.add_option("--tolerance", options.tolerance, "Relative drop of the distortion at which iterations stop")
-      ->check(CLI::PositiveNumber)
       ->capture_default_str();
 }
 
@@ -61,7 +79,6 @@ void add_detect(CLI::App& program, Detect_command& command) {
   app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
   app.add_option("--collision-distance", options.collision_distance,
                  "Distance below which particles call for a check, in mean edge lengths")
-      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--candidates", options.candidates, "Which particle pairs below that distance: all, closest")
       ->transform(one_of<Candidate_choice>({{"all", Candidate_choice::all}, {"closest", Candidate_choice::closest}}))
@@ -69,11 +86,12 @@ void add_detect(CLI::App& program, Detect_command& command) {
       ->default_str("all");
   app.add_option("--growth", options.growth,
                  "Repartition when a region exceeds so many times the largest area; inf: never")
-      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--seed", options.senin.seed, "Of the scattering of --mode senin")->capture_default_str();
   add_lbg_options(app, command.partition);
-  app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")->type_name("DIR");
+  app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
+      ->type_name("DIR")
+      ->check(not_empty());
   app.add_flag("--quiet", command.quiet, "No progress bar, no table");
 }
 
@@ -87,8 +105,8 @@ void add_partition(CLI::App& program, Partition_command& command) {
   add_lbg_options(app, command.lbg);
   app.add_flag("--keep-islands", command.options.keep_islands,
                "Leave regions in several pieces as the strategy made them");
-  app.add_option("--out", command.out, "Coloured mesh (.ply)")->type_name("FILE");
-  app.add_option("--json", command.json, "Statistics")->type_name("FILE");
+  app.add_option("--out", command.out, "Coloured mesh (.ply)")->type_name("FILE")->check(not_empty());
+  app.add_option("--json", command.json, "Statistics")->type_name("FILE")->check(not_empty());
   app.add_flag("--quiet", command.quiet, "No table");
 }
 
@@ -101,10 +119,15 @@ void add_experiment(CLI::App& program, Experiment_command& command) {
     list += fmt::format("\n  {:<20} {}", experiment.name, experiment.question);
   }
   app.add_option("NAME", command.name, "Which one")->required()->check(CLI::IsMember(names).description(""));
-  app.add_option("--scenes", command.scenes, "Folder of the scene files")->default_str("data/scenes of the source");
-  app.add_option("--out", command.out, "Folder for the figures")->default_str("out/NAME");
+  app.add_option("--scenes", command.scenes, "Folder of the scene files")
+      ->type_name("DIR")
+      ->default_str("data/scenes of the source");
+  app.add_option("--out", command.out, "Folder for the figures")
+      ->type_name("DIR")
+      ->default_str("out/NAME")
+      ->check(not_empty());
   app.add_flag("--quiet", command.quiet, "No progress bar, no report on the terminal");
-  app.footer(list);
+  app.footer(list + "\n\n" + exit_code::help);
 }
 
 int run_guarded(int argc, char** argv) {
@@ -128,16 +151,23 @@ int run_guarded(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     if (asked_for_help) return program.exit(error);
-    fmt::print(stderr, "lodestone: {} (see lodestone --help)\n", error.what());
+    fmt::print(stderr, "lodestone: {} (see lodestone --help)\n", printable(error.what()));
     return exit_code::bad_usage;
   }
-  if (program.got_subcommand("detect")) return run(detect);
-  if (program.got_subcommand("partition")) return run(partition);
-  return run(experiment);
+  int code = exit_code::success;
+  if (program.got_subcommand("detect"))
+    code = run(detect);
+  else if (program.got_subcommand("partition"))
+    code = run(partition);
+  else
+    code = run(experiment);
+  if (std::fflush(stdout) != 0) throw Bad_output("the standard output cannot be written");
+  return code;
 }
 
+/// One line, whatever the names of files hold.
 int report(const char* what, int code) {
-  fmt::print(stderr, "lodestone: {}\n", what);
+  fmt::print(stderr, "lodestone: {}\n", printable(what));
   return code;
 }
 
@@ -160,6 +190,9 @@ int main(int argc, char** argv) {
     return report(error.what(), exit_code::bad_input);
   } catch (const std::bad_alloc&) {
     return report("not enough memory for this input", exit_code::bad_input);
+  } catch (const std::system_error& error) {
+    // Whatever is read has errors of its own: this is a folder or the standard output.
+    return report(error.what(), exit_code::bad_output);
   } catch (const std::exception& error) {
     return report(error.what(), exit_code::unexpected);
   }

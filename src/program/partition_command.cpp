@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.h"
 #include "exit_codes.h"
+#include "frame_log.h"
 #include "lodestone/io/atomic_file.h"
 #include "lodestone/io/coloured_ply.h"
 #include "lodestone/io/mesh_file.h"
 #include "lodestone/io/text_table.h"
+#include "printable.h"
+#include "progress.h"
 
 namespace lodestone {
 
@@ -61,7 +65,7 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
 void print_table(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
   const auto& statistics = divided.partition.statistics;
   const auto [smallest, largest] = std::ranges::minmax(divided.sizes);
-  Text_table table({command.mesh.filename().string(), command.strategy});
+  Text_table table({printable(command.mesh.filename().string()), command.strategy});
   table.add({"vertices", std::to_string(file.mesh.number_of_vertices())});
   table.add({"faces", std::to_string(file.mesh.number_of_faces())});
   table.add({"regions", std::to_string(divided.partition.regions)});
@@ -72,7 +76,7 @@ void print_table(const Mesh_file& file, const Divided& divided, const Partition_
   table.add({"islands joined", std::to_string(statistics.repair.islands_joined)});
   table.add({"seconds", fmt::format("{:.4f}", divided.seconds)});
   fmt::print("{}", table.text());
-  if (!command.out.empty()) fmt::print("\ncoloured mesh: {}\n", command.out.string());
+  if (!command.out.empty()) fmt::print("\ncoloured mesh: {}\n", printable(command.out.string()));
 }
 
 }  // namespace
@@ -80,14 +84,18 @@ void print_table(const Mesh_file& file, const Divided& divided, const Partition_
 int run(const Partition_command& command) {
   if (!command.out.empty() && command.out.extension() != ".ply")
     throw Bad_argument(command.out.string() + ": the coloured mesh is written as .ply");
+  if (!command.out.empty() && command.out == command.json)
+    throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics need a file each");
   Mesh_file file = read_mesh(command.mesh);
   const Divided divided = divide(file.mesh, command);
-  if (!command.out.empty()) write_coloured_ply(command.out, file.mesh, divided.labels);
+  check_interrupt();
+  std::optional<Atomic_file> json;  // made first: if it cannot be, no mesh is written either
   if (!command.json.empty()) {
-    Atomic_file out(command.json);
-    out.write(statistics(file, divided, command).dump(2) + "\n");
-    out.commit();
+    json.emplace(command.json);
+    json->write(json_text(statistics(file, divided, command), 2));
   }
+  if (!command.out.empty()) write_coloured_ply(command.out, file.mesh, divided.labels);
+  if (json) json->commit();
   if (!command.quiet) print_table(file, divided, command);
   return exit_code::success;
 }
