@@ -29,7 +29,8 @@ Scene load(const std::vector<std::filesystem::path>& inputs) {
                          ": one mesh alone has nothing to collide with; give a scene or two meshes");
     return read_scene(inputs[0]);
   }
-  Scene scene{.name = "meshes"};
+  Scene scene;
+  scene.name = "meshes";
   std::set<std::string> taken;
   for (const auto& file : inputs) {
     const std::string stem = printable(file.stem().string());

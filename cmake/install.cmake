@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Headers, library, program, and the package that find_package(lodestone) finds.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS lodestone EXPORT lodestone_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY include/lodestone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(LODESTONE_BUILD_PROGRAM)
+  install(TARGETS lodestone_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lodestone)
+install(EXPORT lodestone_targets FILE lodestoneTargets.cmake NAMESPACE lodestone:: DESTINATION ${package_folder})
+configure_package_config_file(cmake/lodestoneConfig.cmake.in lodestoneConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(lodestoneConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lodestoneConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/lodestoneConfigVersion.cmake
+        DESTINATION ${package_folder})

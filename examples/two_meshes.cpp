@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One call for two meshes, then the same two followed while one of them moves through the other.
+#include <cstdio>
+
+#include "lodestone/find_collisions.h"
+#include "lodestone/io/shapes.h"
+
+int main() {
+  using namespace lodestone;
+  Surface_mesh knot = torus_knot();
+  Surface_mesh sphere = icosphere(12);
+
+  const Collisions now = find_collisions(knot, sphere, {.particles = 32, .contacts = Contact_query::all});
+  std::printf("at rest: %zu pairs of faces intersect\n", now.faces.size());
+
+  Detector<Surface_mesh> detector({.particles = 32, .contacts = Contact_query::first});
+  detector.add(knot);
+  const Object_id moving = detector.add(sphere);
+  for (int frame = 0; frame < 60; ++frame) {
+    for (const auto v : sphere.vertices()) sphere.point(v) = sphere.point(v) + Kernel::Vector_3(0.05, 0, 0.02);
+    detector.update(moving);
+    for (const auto& pair : detector.detect().pairs)
+      if (!pair.collides) {
+        std::printf("apart from frame %d on\n", frame);
+        return 0;
+      }
+  }
+  return 1;
+}

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "io/mesh_samples.h"
+#include "io/scene_samples.h"
+#include "io/temporary_folder.h"
+#include "lodestone/io/coloured_ply.h"
+#include "lodestone/io/mesh_file.h"
+#include "lodestone/io/shapes.h"
+#include "program/run_program.h"
+
+namespace lodestone::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Partition_program : public testing::Test {
+ protected:
+  Partition_program() {
+    const auto sphere = icosphere(8);
+    write_coloured_ply(mesh, sphere, std::vector<Region_index>(sphere.number_of_vertices(), 0));
+  }
+
+  Program_result divide(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"partition", mesh.string()});
+    options.insert(options.end(), {"--out", ply.string(), "--json", json.string()});
+    return run_program(options);
+  }
+  void expect_no_results() const {
+    EXPECT_FALSE(exists(ply));
+    EXPECT_FALSE(exists(json));
+  }
+
+  static constexpr int vertices = 10 * 8 * 8 + 2, faces = 20 * 8 * 8;  // of an icosphere of frequency 8
+  Temporary_folder folder;
+  std::filesystem::path mesh = folder.path() / "sphere.ply";
+  std::filesystem::path ply = folder.path() / "new" / "coloured.ply", json = folder.path() / "new" / "stats.json";
+};
+
+TEST_F(Partition_program, writes_a_mesh_of_equal_counts_and_places) {
+  const auto result = divide({"--strategy", "lbg", "--regions", "16"});
+  expect_success(result);
+  const auto before = read_mesh(mesh).mesh, after = read_mesh(ply).mesh;
+  ASSERT_EQ(after.number_of_vertices(), vertices);
+  ASSERT_EQ(after.number_of_faces(), faces);
+  for (const auto v : after.vertices()) EXPECT_EQ(after.point(v), before.point(v));
+  EXPECT_NE(result.out.find("16"), std::string::npos);
+  EXPECT_EQ(content_of(folder.path() / "new"), (std::set<std::string>{"coloured.ply", "stats.json"}));
+}
+
+TEST_F(Partition_program, writes_statistics_that_fit_together) {
+  for (const int regions : {1, 7, 16, 50}) {
+    SCOPED_TRACE(regions);
+    expect_success(divide({"--regions", std::to_string(regions)}));
+    const Json statistics = read_json(json);
+    EXPECT_EQ(statistics["mesh"], "sphere.ply");
+    EXPECT_EQ(statistics["strategy"], "lbg");
+    EXPECT_EQ(statistics["vertices"], vertices);
+    EXPECT_EQ(statistics["faces"], faces);
+    EXPECT_EQ(statistics["regions_wanted"], regions);
+    const auto sizes = statistics["region_sizes"].get<std::vector<int>>();
+    EXPECT_EQ(statistics["regions"], sizes.size());
+    EXPECT_EQ(std::accumulate(sizes.begin(), sizes.end(), 0), vertices);
+    EXPECT_GT(*std::ranges::min_element(sizes), 0);
+    const auto particles = statistics["particles"].get<std::set<int>>();
+    EXPECT_EQ(particles.size(), sizes.size());
+    EXPECT_GE(*particles.begin(), 0);
+    EXPECT_LT(*particles.rbegin(), vertices);
+    EXPECT_GE(statistics["seconds"], 0.0);
+  }
+}
+
+TEST_F(Partition_program, makes_as_many_regions_as_wanted_of_a_sphere) {
+  expect_success(divide({"--regions", "16", "--keep-islands"}));
+  EXPECT_EQ(read_json(json)["regions"], 16);
+}
+
+TEST_F(Partition_program, the_regions_of_the_coloured_mesh_are_those_of_the_statistics) {
+  expect_success(divide({"--regions", "9"}));
+  const auto sizes = read_json(json)["region_sizes"].get<std::vector<int>>();
+  const auto bytes = read_bytes(ply);
+  constexpr std::size_t vertex_bytes = 3 * 8 + 3 + 4, region_at = 3 * 8 + 3;
+  const auto start = bytes.find("end_header\n") + 11;
+  std::vector<int> counted(sizes.size());
+  for (std::size_t v = 0; v < vertices; ++v) ++counted.at(static_cast<unsigned char>(bytes.at(start + v * vertex_bytes + region_at)));
+  EXPECT_EQ(counted, sizes);
+}
+
+TEST_F(Partition_program, particles_are_numbered_as_in_the_file) {
+  // The first vertex of this file belongs to no face and is not in the mesh.
+  const auto file = folder.write("unused.off", "OFF\n4 1 0\n9 9 9\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n");
+  expect_success(run_program({"partition", file.string(), "--regions", "3", "--json", json.string()}));
+  EXPECT_EQ(read_json(json)["particles"].get<std::set<int>>(), (std::set<int>{1, 2, 3}));
+}
+
+TEST_F(Partition_program, gives_each_vertex_its_region_when_more_are_wanted) {
+  const auto file = folder.write("square.off", square_off);
+  expect_success(run_program({"partition", file.string(), "--regions", "1000000", "--json", json.string()}));
+  const Json statistics = read_json(json);
+  EXPECT_EQ(statistics["regions_wanted"], 1'000'000);
+  EXPECT_EQ(statistics["regions"], 4);
+  EXPECT_EQ(statistics["region_sizes"], (std::vector<int>{1, 1, 1, 1}));
+}
+
+TEST_F(Partition_program, writes_the_same_mesh_twice) {
+  expect_success(divide({"--regions", "20"}));
+  const auto first = read_bytes(ply);
+  expect_success(divide({"--regions", "20"}));
+  EXPECT_EQ(read_bytes(ply), first);
+}
+
+TEST_F(Partition_program, quiet_prints_nothing) {
+  const auto result = divide({"--quiet"});
+  expect_success(result);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(exists(ply));
+}
+
+TEST_F(Partition_program, prints_a_table_without_writing_a_file) {
+  const auto result = run_program({"partition", mesh.string()});
+  expect_success(result);
+  EXPECT_NE(result.out.find("| vertices"), std::string::npos);
+  EXPECT_NE(result.out.find(std::to_string(vertices)), std::string::npos);
+  EXPECT_EQ(content_of(folder.path()), std::set<std::string>{"sphere.ply"});
+}
+
+TEST_F(Partition_program, refuses_a_strategy_that_it_does_not_have) {
+  expect_error(divide({"--strategy", "guess"}), 2, "guess");
+  expect_no_results();
+}
+
+TEST_F(Partition_program, refuses_to_make_no_region) {
+  for (const auto* regions : {"0", "-1", "1.5", "many", "", "1000001", "99999999999999999999"}) {
+    SCOPED_TRACE(regions);
+    expect_error(divide({"--regions", regions}), 2, "--regions");
+    expect_no_results();
+  }
+}
+
+TEST_F(Partition_program, refuses_options_out_of_range) {
+  for (const auto* weight : {"-1", "nan", "inf", "1e308", "heavy"}) {
+    SCOPED_TRACE(weight);
+    expect_error(divide({"--normal-weight", weight}), 2, "weight");
+  }
+  for (const auto* option : {"--epsilon", "--tolerance"})
+    for (const auto* value : {"0", "-1", "nan", "small"}) {
+      SCOPED_TRACE(std::string(option) + " " + value);
+      expect_error(divide({option, value}), 2, value == std::string("small") ? option : "> 0");
+    }
+  expect_no_results();
+}
+
+TEST_F(Partition_program, refuses_to_write_a_mesh_that_is_not_called_ply) {
+  expect_error(run_program({"partition", mesh.string(), "--out", (folder.path() / "out.off").string()}), 2, "out.off");
+  EXPECT_EQ(content_of(folder.path()), std::set<std::string>{"sphere.ply"});
+}
+
+TEST_F(Partition_program, refuses_one_file_for_both_results) {
+  expect_error(run_program({"partition", mesh.string(), "--out", ply.string(), "--json", ply.string()}), 2,
+               "coloured.ply");
+  expect_no_results();
+}
+
+TEST_F(Partition_program, writes_no_mesh_if_the_statistics_cannot_be_written) {
+  create_directories(json);
+  expect_error(divide({}), 4, "stats.json");
+  EXPECT_EQ(content_of(folder.path() / "new"), std::set<std::string>{"stats.json"});
+}
+
+TEST_F(Partition_program, refuses_a_broken_mesh) {
+  for (const auto& [name, bytes] : std::vector<Sample>{
+           {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n"}, {"a.obj", "f 1 2 3\n"}, {"a.stl", "solid"}}) {
+    SCOPED_TRACE(name);
+    const auto file = folder.write(name, bytes);
+    expect_error(run_program({"partition", file.string(), "--out", ply.string(), "--json", json.string()}), 3, name);
+    expect_no_results();
+  }
+}
+
+}  // namespace
+}  // namespace lodestone::test

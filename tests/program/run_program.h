@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Starts the program as a user would, and looks at what it leaves behind.
+namespace lodestone::test {
+
+/// How a run ended.
+struct Program_result {
+  int exit_code = -1;      ///< -1: it did not exit by itself
+  int signal = 0;          ///< that ended it; 0: none
+  bool timed_out = false;  ///< it was killed for taking too long
+  std::string out, err;    ///< what it wrote to the standard output and to the standard error
+};
+
+struct Program_options {
+  std::chrono::seconds limit{60};       ///< a run that takes longer is killed
+  rlim_t largest_file = RLIM_INFINITY;  ///< bytes; writing more fails as a full disk does
+  std::string standard_output = {};     ///< file that takes the standard output; empty: it is captured
+};
+
+/// The program at work.
+class Running_program {
+ public:
+  explicit Running_program(const std::vector<std::string>& arguments, Program_options options = {})
+      : deadline_(std::chrono::steady_clock::now() + options.limit) {
+    std::vector<std::string> words{LODESTONE_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (auto& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+
+    std::array<int, 2> out{}, err{};
+    if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0)
+      throw std::runtime_error("no pipe can be made");
+    process_ = ::fork();
+    if (process_ == 0) {
+      const int target =
+          options.standard_output.empty() ? out[1] : ::open(options.standard_output.c_str(), O_WRONLY | O_CREAT, 0666);
+      ::dup2(target, STDOUT_FILENO);
+      ::dup2(err[1], STDERR_FILENO);
+      const rlimit size{options.largest_file, options.largest_file};
+      if (options.largest_file != RLIM_INFINITY) ::setrlimit(RLIMIT_FSIZE, &size);
+      ::execv(pointers[0], pointers.data());
+      ::_exit(127);
+    }
+    ::close(out[1]);
+    ::close(err[1]);
+    streams_ = {out[0], err[0]};
+  }
+  Running_program(const Running_program&) = delete;
+  Running_program& operator=(const Running_program&) = delete;
+  ~Running_program() {
+    if (process_ > 0) {
+      ::kill(process_, SIGKILL);
+      ::waitpid(process_, nullptr, 0);
+    }
+    for (const int stream : streams_) ::close(stream);
+  }
+
+  void send(int signal) const { ::kill(process_, signal); }
+
+  Program_result wait() {
+    Program_result result;
+    read_until_closed(result);
+    if (result.timed_out) send(SIGKILL);
+    int status = 0;
+    ::waitpid(std::exchange(process_, 0), &status, 0);
+    if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+    return result;
+  }
+
+ private:
+  void read_until_closed(Program_result& result) const {
+    std::array<pollfd, 2> watched{{{streams_[0], POLLIN, 0}, {streams_[1], POLLIN, 0}}};
+    const std::array<std::string*, 2> texts{&result.out, &result.err};
+    while (watched[0].fd >= 0 || watched[1].fd >= 0) {
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now());
+      result.timed_out = left.count() <= 0;
+      if (result.timed_out) return;
+      ::poll(watched.data(), watched.size(), static_cast<int>(left.count()));
+      for (std::size_t i = 0; i < watched.size(); ++i) {
+        if (watched[i].revents == 0) continue;
+        std::array<char, 4096> bytes{};
+        const auto count = ::read(watched[i].fd, bytes.data(), bytes.size());
+        if (count > 0)
+          texts[i]->append(bytes.data(), static_cast<std::size_t>(count));
+        else if (count == 0 || errno != EINTR)
+          watched[i].fd = -1;
+      }
+    }
+  }
+
+  std::chrono::steady_clock::time_point deadline_;
+  pid_t process_ = 0;
+  std::array<int, 2> streams_{};
+};
+
+inline Program_result run_program(const std::vector<std::string>& arguments, const Program_options& options = {}) {
+  return Running_program(arguments, options).wait();
+}
+
+inline std::string read_bytes(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << file;
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+inline nlohmann::json read_json(const std::filesystem::path& file) { return nlohmann::json::parse(read_bytes(file)); }
+
+/// One JSON value per line; the file must end with a line break.
+inline std::vector<nlohmann::json> read_json_lines(const std::filesystem::path& file) {
+  const std::string text = read_bytes(file);
+  EXPECT_TRUE(text.ends_with('\n')) << file;
+  std::istringstream lines(text);
+  std::vector<nlohmann::json> values;
+  for (std::string line; std::getline(lines, line);) values.push_back(nlohmann::json::parse(line));
+  return values;
+}
+
+/// Names of everything in a folder; empty if there is no such folder.
+inline std::set<std::string> content_of(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  if (is_directory(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// The run must have ended by itself with this code, without a word on the standard output, and with one line on the
+/// standard error that holds `part`.
+inline void expect_error(const Program_result& result, int exit_code, const std::string& part) {
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.signal, 0);
+  EXPECT_EQ(result.exit_code, exit_code) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  EXPECT_TRUE(result.err.starts_with("lodestone: ") && result.err.ends_with('\n')) << result.err;
+  EXPECT_NE(result.err.find(part), std::string::npos) << "expected '" << part << "' in: " << result.err;
+}
+
+inline void expect_success(const Program_result& result) {
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.signal, 0);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+}
+
+}  // namespace lodestone::test
