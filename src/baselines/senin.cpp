@@ -59,8 +59,7 @@ Patch ring_patch(const Vertex_graph& graph, const Vertex_faces& vertex_faces, st
     faces.insert(faces.end(), at.begin(), at.end());
   }
   std::ranges::sort(faces);
-  const auto repeats = std::ranges::unique(faces);
-  faces.erase(repeats.begin(), repeats.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   return make_patch(std::move(faces), corners);
 }
 

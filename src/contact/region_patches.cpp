@@ -11,8 +11,7 @@ Patch make_patch(std::vector<std::uint32_t> faces, std::span<const Corners> mesh
   for (const auto face : patch.faces)
     patch.vertices.insert(patch.vertices.end(), mesh_corners[face].begin(), mesh_corners[face].end());
   std::ranges::sort(patch.vertices);
-  const auto repeats = std::ranges::unique(patch.vertices);
-  patch.vertices.erase(repeats.begin(), repeats.end());
+  patch.vertices.erase(std::unique(patch.vertices.begin(), patch.vertices.end()), patch.vertices.end());
 
   const auto place = [&](std::uint32_t vertex) {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(patch.vertices, vertex) - patch.vertices.begin());

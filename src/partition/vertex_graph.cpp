@@ -25,8 +25,7 @@ std::vector<Edge> sorted_sides(std::span<const Corners> faces) {
 
 Vertex_graph vertex_graph(std::uint32_t vertex_count, std::span<const Corners> faces) {
   auto edges = sorted_sides(faces);
-  const auto repeats = std::ranges::unique(edges);
-  edges.erase(repeats.begin(), repeats.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return {boost::edges_are_sorted, edges.begin(), edges.end(), vertex_count};
 }
 

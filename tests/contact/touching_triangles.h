@@ -16,7 +16,7 @@ namespace lodestone {
 using Integer_point = std::array<std::int64_t, 3>;
 using Integer_triangle = std::array<Integer_point, 3>;
 
-/// Wide enough for determinants of coordinates up to 2^24.
+/// Wide enough for determinants of coordinates up to 2^28.
 using Wide = __int128;
 using Wide_vector = std::array<Wide, 3>;
 
@@ -125,6 +125,23 @@ inline std::pair<Integer_triangle, Integer_triangle> nearly_touching(std::mt1993
   if (random() % 2 == 0) b[0][random() % 3] += random() % 2 == 0 ? 1 : -1;
   for (int i = 1; i < 3; ++i)
     for (auto& x : b[i]) x = static_cast<std::int64_t>(random() % (1U << 23));
+  return {a, b};
+}
+
+/// A triangle without area whose corners need products beyond 53 bits to tell so, and one that meets it or nearly does.
+inline std::pair<Integer_triangle, Integer_triangle> nearly_touching_a_segment(std::mt19937_64& random) {
+  const auto below = [&](std::uint64_t limit) { return static_cast<std::int64_t>(random() % limit); };
+  Integer_point start{}, along{};
+  for (int axis = 0; axis < 3; ++axis) start[axis] = below(1 << 13), along[axis] = below(1 << 13);
+  const auto on_line = [&](std::int64_t steps) {
+    return Integer_point{start[0] + steps * along[0], start[1] + steps * along[1], start[2] + steps * along[2]};
+  };
+  const Integer_triangle a{on_line(below(1 << 14)), on_line(below(1 << 14)), on_line(below(1 << 14))};
+  Integer_triangle b{on_line(below(1 << 14)), {}, {}};
+  if (random() % 3 == 0) b[0][random() % 3] += 1;
+  for (int i = 1; i < 3; ++i)
+    for (auto& x : b[i]) x = below(1 << 27);
+  if (random() % 3 == 0) b[1] = on_line(below(1 << 14)), b[2] = on_line(below(1 << 14));
   return {a, b};
 }
 

@@ -131,6 +131,22 @@ TEST(Triangles_intersect, equals_the_oracle_where_one_last_digit_decides) {
   EXPECT_LT(met, 55000U);
 }
 
+TEST(Triangles_intersect, equals_the_oracle_where_corners_are_collinear_but_for_rounding) {
+  std::mt19937_64 random(6);
+  std::size_t met = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const auto [a, b] = nearly_touching_a_segment(random);
+    const bool expected = have_common_point(a, b);
+    met += expected ? 1 : 0;
+    for (const double scale : {1.0, 0x1p-560}) {
+      ASSERT_EQ(intersect(a, b, scale), expected) << text(a) << " and " << text(b);
+      ASSERT_EQ(intersect(b, a, scale), expected) << text(a) << " and " << text(b);
+    }
+  }
+  EXPECT_GT(met, 4000U);
+  EXPECT_LT(met, 16000U);
+}
+
 TEST(Triangles_intersect, equals_the_oracle_far_off_and_at_extreme_scales) {
   std::mt19937_64 random(4);
   for (int trial = 0; trial < 30000; ++trial) {

@@ -290,7 +290,8 @@ TEST_F(Detect, the_number_of_particles_is_what_was_asked_for) {
     {"name": "free", "shape": {"icosphere": {"frequency": 6}}}]})");
   const auto particles = [&] {
     std::vector<int> counts;
-    for (const auto& object : summary()["objects"]) counts.push_back(object["particles"]);
+    const Json result = summary();
+    for (const auto& object : result["objects"]) counts.push_back(object["particles"]);
     return counts;
   };
   expect_success(detect({scene}));
@@ -314,7 +315,8 @@ TEST_F(Detect, files_of_equal_names_are_told_apart) {
   expect_success(detect({write("a.off", tetrahedron()), write("other/a.off", tetrahedron()),
                          write("a_2.off", tetrahedron()), write("a.obj", square_obj)}));
   std::set<std::string> names;
-  for (const auto& object : summary()["objects"]) names.insert(object["name"]);
+  const Json result = summary();
+  for (const auto& object : result["objects"]) names.insert(object["name"]);
   EXPECT_EQ(names.size(), 4U);
   EXPECT_TRUE(names.contains("a"));
 }

@@ -89,7 +89,8 @@ TEST_F(Partition_program, the_regions_of_the_coloured_mesh_are_those_of_the_stat
   constexpr std::size_t vertex_bytes = 3 * 8 + 3 + 4, region_at = 3 * 8 + 3;
   const auto start = bytes.find("end_header\n") + 11;
   std::vector<int> counted(sizes.size());
-  for (std::size_t v = 0; v < vertices; ++v) ++counted.at(static_cast<unsigned char>(bytes.at(start + v * vertex_bytes + region_at)));
+  for (std::size_t v = 0; v < vertices; ++v)
+    ++counted.at(static_cast<unsigned char>(bytes.at(start + v * vertex_bytes + region_at)));
   EXPECT_EQ(counted, sizes);
 }
 

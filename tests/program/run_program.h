@@ -97,7 +97,8 @@ class Running_program {
     std::array<pollfd, 2> watched{{{streams_[0], POLLIN, 0}, {streams_[1], POLLIN, 0}}};
     const std::array<std::string*, 2> texts{&result.out, &result.err};
     while (watched[0].fd >= 0 || watched[1].fd >= 0) {
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now());
+      const auto left =
+          std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now());
       result.timed_out = left.count() <= 0;
       if (result.timed_out) return;
       ::poll(watched.data(), watched.size(), static_cast<int>(left.count()));
@@ -144,7 +145,8 @@ inline std::vector<nlohmann::json> read_json_lines(const std::filesystem::path& 
 inline std::set<std::string> content_of(const std::filesystem::path& folder) {
   std::set<std::string> names;
   if (is_directory(folder))
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      names.insert(entry.path().filename().string());
   return names;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <boost/range/iterator_range.hpp>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,8 +21,7 @@ Vertex_graph vertex_graph(std::uint32_t vertex_count, std::span<const Corners> f
 
 /// Numbers of the neighbours of `vertex`, ascending.
 inline auto neighbours(const Vertex_graph& graph, std::uint32_t vertex) {
-  const auto [first, last] = adjacent_vertices(vertex, graph);
-  return std::ranges::subrange(first, last);
+  return boost::make_iterator_range(adjacent_vertices(vertex, graph));
 }
 
 /// True per vertex when it lies on an open border: on an edge that only one face has. Cost O(F log F).

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "io/mesh_samples.h"
+#include "io/scene_samples.h"
+#include "io/temporary_folder.h"
+#include "program/run_program.h"
+
+namespace lodestone::test {
+namespace {
+
+class Program_output : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder.write("a.off", tetrahedron());
+    folder.write("b.off", tetrahedron(1));
+  }
+  std::string scene(int frames) const {
+    return folder
+        .write("scene.json", R"({"frames": )" + std::to_string(frames) + R"(, "objects": [
+          {"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "b.off"}]})")
+        .string();
+  }
+  /// Results of an earlier run, which a failing one must not touch.
+  void leave_old_results() const {
+    create_directory(out);
+    folder.write("out/frames.jsonl", "old frames\n");
+    folder.write("out/summary.json", "old summary\n");
+  }
+  void expect_old_results() const {
+    EXPECT_EQ(content_of(out), (std::set<std::string>{"frames.jsonl", "summary.json"}));
+    EXPECT_EQ(read_bytes(out / "frames.jsonl"), "old frames\n");
+    EXPECT_EQ(read_bytes(out / "summary.json"), "old summary\n");
+  }
+
+  Temporary_folder folder;
+  std::filesystem::path out = folder.path() / "out";
+};
+
+TEST_F(Program_output, a_full_disk_is_an_error_and_leaves_nothing) {
+  expect_error(run_program({"detect", scene(20'000), "--out", out.string()}, {.largest_file = 500'000}), 4,
+               "frames.jsonl");
+  EXPECT_EQ(content_of(out), std::set<std::string>{});
+}
+
+TEST_F(Program_output, a_disk_that_is_full_at_the_last_byte_is_an_error) {
+  const auto input = scene(200);
+  expect_success(run_program({"detect", input, "--out", out.string()}));
+  const auto size = file_size(out / "frames.jsonl");
+  remove_all(out);
+  expect_error(run_program({"detect", input, "--out", out.string()}, {.largest_file = size - 1}), 4, "frames.jsonl");
+  EXPECT_EQ(content_of(out), std::set<std::string>{});
+  expect_success(run_program({"detect", input, "--out", out.string()}, {.largest_file = size}));
+}
+
+TEST_F(Program_output, a_partition_on_a_full_disk_leaves_nothing) {
+  const auto mesh = (folder.path() / "a.off").string();
+  expect_error(run_program({"partition", mesh, "--out", (out / "a.ply").string(), "--json", (out / "a.json").string()},
+                           {.largest_file = 100}),
+               4, "a.ply");
+  EXPECT_EQ(content_of(out), std::set<std::string>{});
+  expect_error(run_program({"partition", mesh, "--json", (out / "a.json").string()}, {.largest_file = 100}), 4,
+               "a.json");
+  EXPECT_EQ(content_of(out), std::set<std::string>{});
+}
+
+TEST_F(Program_output, old_results_survive_a_full_disk) {
+  leave_old_results();
+  expect_error(run_program({"detect", scene(20'000), "--out", out.string()}, {.largest_file = 500'000}), 4,
+               "frames.jsonl");
+  expect_old_results();
+}
+
+TEST_F(Program_output, old_results_survive_a_bad_input) {
+  leave_old_results();
+  folder.write("b.off", "OFF\n");
+  expect_error(run_program({"detect", scene(3), "--out", out.string()}), 3, "b.off");
+  expect_old_results();
+}
+
+TEST_F(Program_output, old_results_are_replaced_by_a_run_that_succeeds) {
+  leave_old_results();
+  expect_success(run_program({"detect", scene(3), "--out", out.string()}));
+  EXPECT_EQ(content_of(out), (std::set<std::string>{"frames.jsonl", "summary.json"}));
+  EXPECT_EQ(read_json_lines(out / "frames.jsonl").size(), 3U);
+  EXPECT_EQ(read_json(out / "summary.json")["frames"], 3);
+}
+
+TEST_F(Program_output, a_folder_that_is_a_file_is_an_error) {
+  const auto file = folder.write("file", "mine");
+  for (const auto& target : {file, file / "below"}) {
+    expect_error(run_program({"detect", scene(3), "--out", target.string()}), 4, "file");
+    EXPECT_EQ(read_bytes(file), "mine");
+  }
+}
+
+TEST_F(Program_output, a_folder_in_place_of_a_result_is_an_error) {
+  for (const auto* name : {"frames.jsonl", "summary.json"}) {
+    create_directories(out / name);
+    expect_error(run_program({"detect", scene(3), "--out", out.string()}), 4, name);
+    EXPECT_EQ(content_of(out), std::set<std::string>{name});
+    remove_all(out);
+  }
+}
+
+TEST_F(Program_output, a_folder_that_cannot_be_made_is_an_error) {
+  create_symlink("circle", folder.path() / "circle");
+  for (const auto& target : {std::string("/proc/lodestone"), std::string("/dev/null"), std::string(300, 'x'),
+                             std::string(5000, 'x'), (folder.path() / "circle").string()}) {
+    SCOPED_TRACE(target);
+    expect_error(run_program({"detect", scene(3), "--out", target}), 4, target);
+  }
+}
+
+TEST_F(Program_output, a_standard_output_that_is_full_is_an_error) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  expect_error(run_program({"detect", scene(3)}, {.standard_output = "/dev/full"}), 4, "standard output");
+  expect_error(run_program({"partition", (folder.path() / "a.off").string()}, {.standard_output = "/dev/full"}), 4,
+               "standard output");
+}
+
+TEST_F(Program_output, a_signal_ends_the_run_and_leaves_nothing_half_written) {
+  const auto input = scene(1'000'000);
+  for (const int signal : {SIGINT, SIGTERM})
+    for (const bool old : {false, true}) {
+      SCOPED_TRACE(signal);
+      remove_all(out);
+      if (old) leave_old_results();
+      Running_program program({"detect", input, "--truth", "--out", out.string()});
+      const std::size_t before = old ? 2 : 0;
+      for (int i = 0; i < 2000 && content_of(out).size() == before; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      ASSERT_EQ(content_of(out).size(), before + 1) << "the run has not begun";
+      program.send(signal);
+      expect_error(program.wait(), 130, "interrupted");
+      if (old)
+        expect_old_results();
+      else
+        EXPECT_EQ(content_of(out), std::set<std::string>{});
+    }
+}
+
+}  // namespace
+}  // namespace lodestone::test
