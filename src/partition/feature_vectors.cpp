@@ -3,17 +3,23 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 namespace lodestone {
 
 namespace {
 
-/// Positions relative to their mean, at most 1 from it. The first step, by a power of two, is exact and keeps every
-/// later sum and square within range, whatever the coordinates.
-Positions scaled_to_unit_ball(const Positions& positions) {
+/// Positions times a power of two that brings the largest coordinate below 1. Exact, and keeps every later product and
+/// sum within range, whatever the coordinates.
+Positions scaled_exactly(const Positions& positions) {
   int exponent = 0;
   std::frexp(positions.cwiseAbs().maxCoeff(), &exponent);
-  Positions scaled = positions.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
+  return positions.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
+}
+
+/// Positions relative to their mean, at most 1 from it.
+Positions scaled_to_unit_ball(const Positions& positions) {
+  Positions scaled = scaled_exactly(positions);
   scaled.rowwise() -= scaled.colwise().mean().eval();
   const double extent = scaled.cwiseAbs().maxCoeff();
   if (extent == 0) return scaled;
@@ -32,12 +38,17 @@ void check_weights(const Feature_options& options) {
 }  // namespace
 
 Positions vertex_normals(const Positions& positions, std::span<const Corners> faces) {
-  const Positions unit = scaled_to_unit_ball(positions);
+  const Positions scaled = scaled_exactly(positions);
+  const double extent = (scaled.colwise().maxCoeff() - scaled.colwise().minCoeff()).maxCoeff();
   Positions normals = Positions::Zero(positions.rows(), 3);
+  if (extent == 0) return normals;
   for (const auto& [a, b, c] : faces) {
-    const Eigen::RowVector3d first = unit.row(b) - unit.row(a);
-    const Eigen::RowVector3d second = unit.row(c) - unit.row(a);
+    const Eigen::RowVector3d first = (scaled.row(b) - scaled.row(a)) / extent;
+    const Eigen::RowVector3d second = (scaled.row(c) - scaled.row(a)) / extent;
     const Eigen::RowVector3d area_normal = first.cross(second);
+    // What is left of the product of two parallel sides is rounding, and points anywhere.
+    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+    if (area_normal.norm() <= rounding * first.norm() * second.norm()) continue;
     for (const auto corner : {a, b, c}) normals.row(corner) += area_normal;
   }
   for (Eigen::Index v = 0; v < normals.rows(); ++v) {

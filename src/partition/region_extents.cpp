@@ -9,6 +9,7 @@
 #include <boost/property_map/property_map.hpp>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace lodestone {
 
@@ -48,22 +49,27 @@ struct Tangent_frame {
   Eigen::Vector3d x, y;
 };
 
-/// X is the coordinate axis that lies flattest in the plane, projected into it.
-Tangent_frame tangent_frame(const Eigen::Vector3d& normal) {
+Tangent_frame tangent_frame(const Eigen::Vector3d& normal, const Eigen::Vector3d& x_axis) {
   const double length = normal.stableNorm();
   const Eigen::Vector3d n = length > 0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::UnitZ();
-  Eigen::Index flattest = 0;
-  n.cwiseAbs().minCoeff(&flattest);
-  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(flattest);
-  const Eigen::Vector3d x = (axis - axis.dot(n) * n).normalized();
+  Eigen::Vector3d x = x_axis - x_axis.dot(n) * n;
+  if (!(x.norm() > 1e-6 * x_axis.norm())) {
+    Eigen::Index flattest = 0;
+    n.cwiseAbs().minCoeff(&flattest);
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(flattest);
+    x = axis - axis.dot(n) * n;
+  }
+  x.normalize();
   return {.x = x, .y = n.cross(x)};
 }
 
-/// Direction whose quadrant a tangent vector falls into, and the cosine of its angle to it.
-std::pair<std::size_t, double> quadrant(double x, double y) {
-  const std::array<double, 4> along{x, -x, y, -y};
-  const auto direction = static_cast<std::size_t>(std::ranges::max_element(along) - along.begin());
-  return {direction, along[direction] / std::hypot(x, y)};
+/// The narrowest of four cones around a direction that an offset lies in: 0 within 5.6 degrees, 3 within 45; 4: none.
+/// A hair wider than that, so that an offset on the edge of a cone is not put in or out of it by rounding.
+std::size_t cone(double along, double across) {
+  constexpr std::array<double, 4> tangents{0.0985, 0.1989, 0.4142, 1.0};
+  std::size_t narrowest = 0;
+  while (narrowest < tangents.size() && !(across <= along * tangents[narrowest] * (1 + 1e-9))) ++narrowest;
+  return along > 0 ? narrowest : tangents.size();
 }
 
 bool on_border(const Extent_input& input, std::uint32_t vertex) {
@@ -91,9 +97,15 @@ Border_path border_path(const Extent_input& input, const Shortest_paths& paths, 
 
 }  // namespace
 
-Region_extent region_extent(const Extent_input& input, std::uint32_t home, const Eigen::Vector3d& normal) {
+double angle_to_axis(const Eigen::Vector3d& normal, const Eigen::Vector3d& needle) {
+  const auto frame = tangent_frame(normal, Eigen::Vector3d::Zero());
+  return -std::atan2(needle.dot(frame.y), needle.dot(frame.x));
+}
+
+Region_extent region_extent(const Extent_input& input, std::uint32_t home, const Eigen::Vector3d& normal,
+                            const Eigen::Vector3d& x_axis) {
   const auto paths = shortest_paths(input, home);
-  const auto frame = tangent_frame(normal);
+  const auto frame = tangent_frame(normal, x_axis);
   const Eigen::Vector3d origin = input.position(home);
 
   std::vector<std::uint32_t> reached;
@@ -102,22 +114,37 @@ Region_extent region_extent(const Extent_input& input, std::uint32_t home, const
   const bool has_border =
       on_border(input, home) || std::ranges::any_of(reached, [&](auto v) { return on_border(input, v); });
 
-  std::array<std::uint32_t, 4> ends{home, home, home, home};
-  std::array<double, 4> best{};
+  // The nearest border vertex within the narrowest cone that holds one; without a border the farthest within 45
+  // degrees.
+  struct End {
+    std::uint32_t vertex;
+    std::size_t cone = 4;
+    double distance = 0;
+  };
+  std::array<End, 4> ends;
+  ends.fill({.vertex = home});
   for (const auto v : reached) {
     if (has_border && !on_border(input, v)) continue;
     const Eigen::Vector3d offset = input.position(v) - origin;
-    const auto [direction, cosine] = quadrant(offset.dot(frame.x), offset.dot(frame.y));
-    const double merit = has_border ? cosine : paths.distance[v];
-    if (merit > best[direction]) {
-      best[direction] = merit;
-      ends[direction] = v;
+    const double x = offset.dot(frame.x), y = offset.dot(frame.y);
+    // Straight above or below home there is no direction.
+    if (std::hypot(x, y) <= 1e-9 * offset.norm()) continue;
+    const std::array<double, 4> along{x, -x, y, -y};
+    for (std::size_t direction = 0; direction < 4; ++direction) {
+      const std::size_t narrowest = cone(along[direction], std::abs(along[(direction + 2) % 4]));
+      if (narrowest == 4) continue;
+      End& end = ends[direction];
+      const double distance = paths.distance[v];
+      const bool better =
+          has_border ? std::tie(narrowest, distance) < std::tie(end.cone, end.distance) : distance > end.distance;
+      if (better) end = {.vertex = v, .cone = narrowest, .distance = distance};
     }
   }
 
   Region_extent extent;
   for (std::size_t direction = 0; direction < 4; ++direction)
-    if (ends[direction] != home) extent.paths[direction] = border_path(input, paths, home, ends[direction]);
+    if (ends[direction].vertex != home)
+      extent.paths[direction] = border_path(input, paths, home, ends[direction].vertex);
   return extent;
 }
 

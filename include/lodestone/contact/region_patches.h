@@ -36,16 +36,20 @@ struct Posed_patch {
 };
 
 /// Reads the positions of a patch, unless it holds those of `frame` already. O(vertices of the patch).
+/// @throws Bad_mesh  a coordinate is not finite
 template <class Reader>
 void pose_patch(Posed_patch& posed, const Reader& reader, std::uint64_t frame) {
   if (posed.frame == frame) return;
-  posed.frame = frame;
   posed.box.setEmpty();
   posed.positions.resize(posed.patch->vertices.size());
+  Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < posed.positions.size(); ++i) {
     posed.positions[i] = reader(posed.patch->vertices[i]);
     posed.box.extend(posed.positions[i]);
+    zero += 0 * posed.positions[i];  // stays zero unless a coordinate is not finite
   }
+  if (!zero.isZero(0)) throw Bad_mesh("a vertex of a candidate region has a coordinate that is not finite");
+  posed.frame = frame;
 }
 
 }  // namespace lodestone

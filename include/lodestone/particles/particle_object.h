@@ -51,6 +51,7 @@ class Particle_object {
   void scatter(std::size_t particles, const Senin_options& options, Distance_measure measure);
 
   /// Reads where the particles are in this frame.
+  /// @throws Bad_mesh  a coordinate is not finite
   void read_particles();
 
   /// Whether a region's area exceeds `growth` times the largest of the time of the partition (A*). Follows a few
@@ -77,8 +78,16 @@ class Particle_object {
 
  private:
   void start_particles(std::vector<std::uint32_t> vertices, const Positions& positions, Distance_measure measure);
+  /// Where a region's particle started, and an edge from there by which directions are found again.
+  struct Home {
+    std::uint32_t vertex = 0;
+    std::uint32_t compass = 0;  ///< a neighbour of the vertex
+    double angle = 0;           ///< from the edge to the X axis, around the normal
+  };
+
+  void find_homes(const std::vector<std::uint32_t>& vertices);
   void measure_extents();
-  Eigen::Vector3d normal_at_home(Region_index region) const;
+  Eigen::Vector3d normal_at(const Home& home, Region_index region) const;
   Region_extent measure_extent(Region_index region) const;
 
   const Mesh* mesh_;
@@ -96,7 +105,7 @@ class Particle_object {
   std::vector<Patch> patches_;
   std::vector<Posed_patch> posed_;
 
-  std::vector<std::uint32_t> homes_;  ///< per region: where its particle started
+  std::vector<Home> homes_;  ///< per region
   std::vector<Region_extent> extents_;
   double largest_area_ = 0;  ///< A*
 
@@ -124,9 +133,9 @@ void Particle_object<Mesh, Points>::partition(const Strategy& strategy, std::siz
       partition_numbered(Partition_input<Mesh>{*mesh_, numbering_, graph_, positions}, regions, strategy, options);
   labels_ = std::move(result.labels);
   statistics_ = result.statistics;
-  homes_ = result.particles;
   steps_ = Region_steps(graph_, labels_);
   patches_ = region_patches(numbering_.corners(), labels_, result.regions);
+  find_homes(result.particles);
   start_particles(std::move(result.particles), positions, measure);
   measure_extents();
 }
@@ -164,7 +173,11 @@ void Particle_object<Mesh, Points>::start_particles(std::vector<std::uint32_t> v
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 void Particle_object<Mesh, Points>::read_particles() {
   particles_.positions.resize(particles_.at.size());
-  for (std::size_t p = 0; p < particles_.at.size(); ++p) particles_.positions[p] = reader_(particles_.at[p]);
+  for (std::size_t p = 0; p < particles_.at.size(); ++p) {
+    particles_.positions[p] = reader_(particles_.at[p]);
+    if (!particles_.positions[p].allFinite())
+      throw Bad_mesh("vertex " + std::to_string(particles_.at[p]) + " has a coordinate that is not finite");
+  }
 }
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
@@ -180,12 +193,11 @@ const Posed_patch& Particle_object<Mesh, Points>::posed_patch(std::size_t partic
 }
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
-Eigen::Vector3d Particle_object<Mesh, Points>::normal_at_home(Region_index region) const {
-  const Patch& patch = patches_[region];
+Eigen::Vector3d Particle_object<Mesh, Points>::normal_at(const Home& home, Region_index region) const {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (const auto face : patch.faces) {
+  for (const auto face : patches_[region].faces) {
     const auto& [a, b, c] = numbering_.corners()[face];
-    if (a != homes_[region] && b != homes_[region] && c != homes_[region]) continue;
+    if (a != home.vertex && b != home.vertex && c != home.vertex) continue;
     const Eigen::Vector3d origin = reader_(a);
     normal += (reader_(b) - origin).cross(reader_(c) - origin);
   }
@@ -194,7 +206,23 @@ Eigen::Vector3d Particle_object<Mesh, Points>::normal_at_home(Region_index regio
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 Region_extent Particle_object<Mesh, Points>::measure_extent(Region_index region) const {
-  return region_extent(Extent_input{graph_, labels_, open_border_, position_}, homes_[region], normal_at_home(region));
+  const Home& home = homes_[region];
+  const Eigen::Vector3d normal = normal_at(home, region);
+  // X turns with the surface: the same angle from the same edge as at the time of the partition.
+  const Eigen::Vector3d needle = reader_(home.compass) - reader_(home.vertex);
+  const Eigen::Vector3d x_axis =
+      normal.isZero(0) ? needle : Eigen::Vector3d(Eigen::AngleAxisd(home.angle, normal.normalized()) * needle);
+  return region_extent(Extent_input{graph_, labels_, open_border_, position_}, home.vertex, normal, x_axis);
+}
+
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
+void Particle_object<Mesh, Points>::find_homes(const std::vector<std::uint32_t>& vertices) {
+  homes_.clear();
+  for (Region_index region = 0; region < vertices.size(); ++region) {
+    Home home{.vertex = vertices[region], .compass = neighbours(graph_, vertices[region]).front()};
+    home.angle = angle_to_axis(normal_at(home, region), reader_(home.compass) - reader_(home.vertex));
+    homes_.push_back(home);
+  }
 }
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
@@ -209,7 +237,12 @@ void Particle_object<Mesh, Points>::measure_extents() {
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 bool Particle_object<Mesh, Points>::has_outgrown(double growth) {
-  const double limit = growth * largest_area_;
+  // An object whose vertices all lay on each other has grown as soon as an edge has a length.
+  if (particles_.collision_distance == 0)
+    return std::ranges::any_of(homes_, [&](const Home& h) { return reader_(h.vertex) != reader_(h.compass); });
+
+  // A surface that only moves keeps its lengths but for rounding.
+  const double limit = growth * largest_area_ * (1 + 1e-9);
   if (!(limit > 0)) return false;
   for (Region_index region = 0; region < extents_.size(); ++region) {
     if (stretched_area(extents_[region], reader_) <= limit) continue;

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "lodestone/errors.h"
 #include "lodestone/particles/interaction.h"
 #include "lodestone/particles/region_steps.h"
 
@@ -73,6 +75,7 @@ Step best_step(const Walking_object<Reader>& object, std::size_t particle, const
   double largest = -std::numeric_limits<double>::infinity();
   bool pulled = false;
   bool held = false;
+  Eigen::Vector3d zero = Eigen::Vector3d::Zero();
 
   for (std::size_t first = 0; first < reach.size(); first += lanes) {
     const auto count = std::min<std::size_t>(lanes, reach.size() - first);
@@ -82,6 +85,7 @@ Step best_step(const Walking_object<Reader>& object, std::size_t particle, const
       x[lane] = p.x();
       y[lane] = p.y();
       z[lane] = p.z();
+      zero += 0 * p;  // stays zero unless a coordinate is not finite
     }
     scratch.attractors.forces(x.data(), y.data(), z.data(), force.data());
     if (object.siblings_repel) {
@@ -97,6 +101,8 @@ Step best_step(const Walking_object<Reader>& object, std::size_t particle, const
       }
     }
   }
+  if (!zero.isZero(0))
+    throw Bad_mesh("a vertex beside vertex " + std::to_string(here) + " has a coordinate that is not finite");
   // Without any force there is nowhere to go; at r = 0 the particle has arrived.
   if (!pulled || held) return {.vertex = here, .position = object.particles->positions[particle]};
   return best;
@@ -131,6 +137,7 @@ void gather_attractors(std::span<const Walking_object<Reader>> objects, const Wa
 /// Cost per iteration O(d N N') for N particles with d vertices in reach that feel N' others. Positions are read only
 /// of vertices in reach of a particle. Allocates nothing once the scratch has its size.
 ///
+/// @throws Bad_mesh  a coordinate that is read is not finite
 /// @param objects  `positions` of their particles must be those of this frame; `at` and `positions` are moved on
 template <Position_reader Reader>
 Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scratch& scratch) {

@@ -42,14 +42,22 @@ struct Extent_input {
 };
 
 /// Measures one region: shortest paths from `home` along the edges within the region (Dijkstra, Boost.Graph, on the
-/// region's subgraph), then in each direction the border vertex that lies closest to it within 45 degrees.
+/// region's subgraph), then in each direction the nearest border vertex within the narrowest of four cones, of 5.6, 11,
+/// 22 and 45 degrees to either side, that holds one.
 ///
 /// The border is made of the vertices with a neighbour in another region and those on an open border of the mesh. A
-/// region without border, a whole closed component, is measured to the farthest vertex of each direction instead.
+/// region without border, a whole closed component, is measured to the farthest vertex within 45 degrees instead.
 /// O(V + n log n) for a region of n vertices; reads only positions of the region.
 ///
 /// @param normal  of the tangent plane, need not be a unit vector; zero: the plane z = 0
-Region_extent region_extent(const Extent_input& input, std::uint32_t home, const Eigen::Vector3d& normal);
+/// @param x_axis  becomes X when projected into the plane; zero: the coordinate axis that lies flattest in the plane
+Region_extent region_extent(const Extent_input& input, std::uint32_t home, const Eigen::Vector3d& normal,
+                            const Eigen::Vector3d& x_axis = Eigen::Vector3d::Zero());
+
+/// Angle by which a vector is turned around the normal to point along X as `region_extent` chooses it by itself.
+/// @param needle  any vector that is not parallel to the normal
+/// @return radians; 0 where an angle has no meaning
+double angle_to_axis(const Eigen::Vector3d& normal, const Eigen::Vector3d& needle);
 
 /// Area of the region now, as far as the samples tell: each path stretched as its polyline has. Reads at most 16
 /// vertices, whatever the size of the region.
