@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One call for two meshes, then the same two followed while one of them moves through the other.
 #include <cstdio>
+#include <exception>
 
 #include "lodestone/find_collisions.h"
 #include "lodestone/io/shapes.h"
 
-int main() {
-  using namespace lodestone;
+using namespace lodestone;
+
+int main() try {
   Surface_mesh knot = torus_knot();
   Surface_mesh sphere = icosphere(12);
 
@@ -25,5 +27,8 @@ int main() {
         return 0;
       }
   }
+  return 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
   return 1;
 }

@@ -25,7 +25,8 @@ enum class Mode {
 
 struct Detector_options {
   Mode mode = Mode::particles;
-  std::size_t particles = 0;  ///< per object; 0: as many as `particle_count` says
+  std::size_t particles = 0;         ///< per object; 0: as many as `particle_count` says, but at least
+  std::size_t least_particles = 12;  ///< so many: the rule itself asks for as few as there are objects
   Particle_count_options particle_count = {};
   Partition_options partition = {};
   double collision_distance = 1;  ///< in multiples of mu, the larger of the two objects'; > 0
@@ -238,7 +239,8 @@ std::size_t Detector<Mesh, Strategy, Points>::particles_of(const Object& object)
   if (options_.particles > 0) return options_.particles;
   std::vector<double> radii;
   for (const auto& other : objects_) radii.push_back(other->radius);
-  return particle_count(object.surface.sphere_collection(options_.particle_count), radii, options_.particle_count);
+  return std::max(options_.least_particles, particle_count(object.surface.sphere_collection(options_.particle_count),
+                                                           radii, options_.particle_count));
 }
 
 /// Sizes the memory of all stages, so that frames need none.

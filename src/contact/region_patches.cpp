@@ -7,6 +7,7 @@ namespace lodestone {
 
 Patch make_patch(std::vector<std::uint32_t> faces, std::span<const Corners> mesh_corners) {
   Patch patch{.faces = std::move(faces)};
+  std::ranges::sort(patch.faces);
   patch.vertices.reserve(3 * patch.faces.size());
   for (const auto face : patch.faces)
     patch.vertices.insert(patch.vertices.end(), mesh_corners[face].begin(), mesh_corners[face].end());

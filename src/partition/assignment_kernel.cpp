@@ -179,7 +179,6 @@ HWY_INLINE void pass_mixed_block(Bounded_pass& pass, std::size_t begin, std::siz
 
 template <int K>
 HWY_INLINE void pass_over(Bounded_pass& pass) {
-  const std::size_t k = K > 0 ? K : pass.components;
   for (std::size_t begin = 0; begin < pass.vector_count; begin += block_size) {
     const std::size_t end = std::min(begin + block_size, pass.vector_count);
     std::uint32_t differences = 0;

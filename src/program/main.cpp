@@ -67,7 +67,8 @@ void add_detect(CLI::App& program, Detect_command& command) {
       ->transform(one_of<Mode>({{"particles", Mode::particles}, {"senin", Mode::senin}}))
       ->type_name("MODE")
       ->default_str("particles");
-  app.add_option("--particles", options.particles, "Particles per object; 0: as many as others can touch it at once")
+  app.add_option("--particles", options.particles,
+                 "Particles per object; 0: as many as others can touch it at once, at least 12")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
   app.add_option("--contacts", options.contacts, "What to report of a colliding pair: first, all")

@@ -14,7 +14,11 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-void note_interrupt(int /*signal*/) { interrupted = 1; }
+/// A second signal ends the program at once: a frame can be long.
+void note_interrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
 
 }  // namespace
 

@@ -11,6 +11,7 @@ namespace lodestone {
 struct Interrupted {};
 
 /// From here on an interrupt or termination signal ends the run at the next frame, with nothing half-written left.
+/// A second one ends it at once; a hidden temporary file may then stay behind.
 void handle_interrupts();
 /// @throws Interrupted  the user has asked to stop
 void check_interrupt();

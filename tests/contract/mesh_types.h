@@ -32,11 +32,16 @@ using Mesh_types = ::testing::Types<Surface_mesh, Polyhedron, Open_mesh, Cell_co
 template <class Mesh>
 Mesh converted(const Surface_mesh& source) {
   Mesh mesh;
-  auto points = get(CGAL::vertex_point, mesh);
+  [[maybe_unused]] auto points = get(CGAL::vertex_point, mesh);
   std::vector<Vertex<Mesh>> made;
   for (const auto v : source.vertices()) {
     made.push_back(add_vertex(mesh));
-    put(points, made.back(), source.point(v));
+    const auto& p = source.point(v);
+    // CGAL's point map of OpenMesh writes floats, whatever the mesh holds.
+    if constexpr (std::is_same_v<Mesh, Open_mesh>)
+      mesh.set_point(made.back(), Double_traits::Point(p.x(), p.y(), p.z()));
+    else
+      put(points, made.back(), p);
   }
   for (const auto f : source.faces()) {
     std::vector<Vertex<Mesh>> corners;

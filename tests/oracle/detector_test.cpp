@@ -294,7 +294,7 @@ TEST(Detector, an_object_that_shrinks_is_not_repartitioned) {
 
 TEST(Detector, an_inflating_object_is_repartitioned_with_its_particles_counted_afresh) {
   auto scene = two_spheres(9);
-  Detector<Surface_mesh> detector({.contacts = Contact_query::all});
+  Detector<Surface_mesh> detector({.least_particles = 1, .contacts = Contact_query::all});
   add_all(detector, scene);
   detector.detect();
   EXPECT_EQ(detector.object(0).particles().at.size(), 2U);  // two objects of one size

@@ -146,5 +146,19 @@ TEST_F(Program_output, a_signal_ends_the_run_and_leaves_nothing_half_written) {
     }
 }
 
+TEST_F(Program_output, a_second_signal_ends_even_a_frame_that_takes_very_long) {
+  const auto input = folder.write("long.json", R"({"objects": [
+    {"name": "a", "shape": {"icosphere": {"frequency": 60}}, "particles": 30000},
+    {"name": "b", "shape": {"icosphere": {"frequency": 60}}, "particles": 30000}]})");
+  Running_program program({"detect", input.string()}, {.limit = std::chrono::seconds(20)});
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  program.send(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  program.send(SIGINT);
+  const auto result = program.wait();
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.signal, SIGINT);
+}
+
 }  // namespace
 }  // namespace lodestone::test
