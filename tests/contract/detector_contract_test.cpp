@@ -90,7 +90,7 @@ TYPED_TEST(Mode_contract, regions_and_particles_are_in_the_maps_of_the_mesh) {
 
 TYPED_TEST(Mode_contract, an_object_that_grows_is_repartitioned) {
   auto a = converted<TypeParam>(sphere(6)), b = converted<TypeParam>(sphere(6, 1, {9, 0, 0}));
-  Detector<TypeParam> detector;
+  Detector<TypeParam> detector({.least_particles = 1});
   detector.add(a), detector.add(b);
   detector.detect();
   EXPECT_EQ(detector.object(0).particles().at.size(), 2U);
