@@ -19,16 +19,21 @@ constexpr std::size_t buffer_size = std::size_t{1} << 20;
 }  // namespace
 
 Atomic_file::Atomic_file(std::filesystem::path target) : target_(std::move(target)) {
-  if (target_.filename().empty() || std::filesystem::is_directory(target_))
+  std::error_code error;
+  if (target_.filename().empty() || std::filesystem::is_directory(target_, error))
     throw Bad_output(target_.string() + ": is a folder, a file name is wanted");
   if (target_.has_parent_path()) {
-    std::error_code error;
     std::filesystem::create_directories(target_.parent_path(), error);
     if (error) throw Bad_output(target_.parent_path().string() + ": cannot make the folder: " + error.message());
   }
-  temporary_ = target_;
-  temporary_.replace_filename("." + target_.filename().string() + "." + std::to_string(::getpid()));
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  // O_EXCL: never a file, or a link to one, that somebody else has put there.
+  for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
+    temporary_ = target_;
+    temporary_.replace_filename("." + target_.filename().string() + "." + std::to_string(::getpid()) + "." +
+                                std::to_string(attempt));
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) break;
+  }
   if (descriptor_ < 0) fail("cannot be created");
 }
 
@@ -54,9 +59,13 @@ void Atomic_file::flush() {
   buffer_.clear();
 }
 
-void Atomic_file::commit() {
+void Atomic_file::finish() {
   flush();
   if (::fsync(descriptor_) != 0) fail("cannot be written");
+}
+
+void Atomic_file::commit() {
+  finish();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be put in place");
   ::close(descriptor_);
   descriptor_ = -1;

@@ -16,11 +16,24 @@ bool is_number(const std::string& cell) {
   return !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell[0])) != 0 || cell[0] == '-' || cell[0] == '+');
 }
 
+/// A bar within a cell would end it.
+std::string escaped(const std::string& cell) {
+  std::string text;
+  for (const char c : cell) text += c == '|' ? "\\|" : std::string(1, c);
+  return text;
+}
+
 }  // namespace
+
+Text_table::Text_table(std::vector<std::string> header) {
+  for (auto& cell : header) cell = escaped(cell);
+  rows_.push_back(std::move(header));
+}
 
 void Text_table::add(std::vector<std::string> row) {
   if (row.size() != rows_.front().size())
     throw Bad_argument(fmt::format("a row of {} cells in a table of {} columns", row.size(), rows_.front().size()));
+  for (auto& cell : row) cell = escaped(cell);
   rows_.push_back(std::move(row));
 }
 

@@ -28,9 +28,9 @@ Positions scaled_to_unit_ball(const Positions& positions) {
 }
 
 void check_weights(const Feature_options& options) {
-  const auto usable = [](double weight) { return std::isfinite(weight) && weight >= 0; };
+  const auto usable = [](double weight) { return weight >= 0 && weight <= largest_weight; };
   if (!usable(options.position_weight) || !usable(options.normal_weight))
-    throw Bad_argument("the weights of position and normal must be finite and >= 0");
+    throw Bad_argument("the weights of position and normal must be between 0 and 1e6");
   if (options.position_weight == 0 && options.normal_weight == 0)
     throw Bad_argument("the weights of position and normal must not both be 0");
 }

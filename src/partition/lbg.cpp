@@ -14,6 +14,9 @@ namespace {
 
 void check(const Feature_vectors& vectors, std::size_t cells, const Lbg_options& options) {
   if (vectors.rows() == 0 || vectors.cols() == 0) throw Bad_argument("there is no vector to quantise");
+  // Squares and their sums over all vectors must stay within range; also refuses what is not a number.
+  if (!(vectors.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= 1e100))
+    throw Bad_argument("a component of a vector to quantise is not finite, or beyond 1e100");
   if (cells == 0) throw Bad_argument("the number of regions must be at least 1");
   if (!(options.split > 0) || !std::isfinite(options.split)) throw Bad_argument("LBG: split must be finite and > 0");
   if (!(options.tolerance > 0)) throw Bad_argument("LBG: tolerance must be > 0");

@@ -188,6 +188,8 @@ int run(const Detect_command& command) {
   if (frames) {
     Atomic_file summary(command.out / "summary.json");
     summary.write(json_text(scene_run.summary(), 2));
+    frames->finish();
+    summary.finish();
     frames->commit();
     summary.commit();
   }

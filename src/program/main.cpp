@@ -88,7 +88,9 @@ void add_detect(CLI::App& program, Detect_command& command) {
   app.add_option("--growth", options.growth,
                  "Repartition when a region exceeds so many times the largest area; inf: never")
       ->capture_default_str();
-  app.add_option("--seed", options.senin.seed, "Of the scattering of --mode senin")->capture_default_str();
+  app.add_option("--seed", options.senin.seed, "Of the scattering of --mode senin")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   add_lbg_options(app, command.partition);
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")

@@ -89,10 +89,11 @@ int run(const Partition_command& command) {
   Mesh_file file = read_mesh(command.mesh);
   const Divided divided = divide(file.mesh, command);
   check_interrupt();
-  std::optional<Atomic_file> json;  // made first: if it cannot be, no mesh is written either
+  std::optional<Atomic_file> json;  // on disk first: if it cannot be written, no mesh is either
   if (!command.json.empty()) {
     json.emplace(command.json);
     json->write(json_text(statistics(file, divided, command), 2));
+    json->finish();
   }
   if (!command.out.empty()) write_coloured_ply(command.out, file.mesh, divided.labels);
   if (json) json->commit();

@@ -63,7 +63,7 @@ TEST_F(Program_output, a_partition_on_a_full_disk_leaves_nothing) {
   const auto mesh = (folder.path() / "a.off").string();
   expect_error(run_program({"partition", mesh, "--out", (out / "a.ply").string(), "--json", (out / "a.json").string()},
                            {.largest_file = 100}),
-               4, "a.ply");
+               4, "a.json");
   EXPECT_EQ(content_of(out), std::set<std::string>{});
   expect_error(run_program({"partition", mesh, "--json", (out / "a.json").string()}, {.largest_file = 100}), 4,
                "a.json");

@@ -20,7 +20,11 @@ class Atomic_file {
 
   /// @throws Bad_output  the disk is full, or any other error of the system
   void write(std::string_view bytes);
-  /// Puts the file in place of whatever had its name, after the system has it on disk.
+  /// Waits until the system has everything on disk. Of several files that belong together each is finished before the
+  /// first is committed: after that only a rename can fail.
+  /// @throws Bad_output
+  void finish();
+  /// Finishes, and puts the file in place of whatever had its name.
   /// @throws Bad_output
   void commit();
 

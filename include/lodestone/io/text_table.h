@@ -9,7 +9,7 @@ namespace lodestone {
 /// A table for people: columns aligned in a terminal, and valid Markdown.
 class Text_table {
  public:
-  explicit Text_table(std::vector<std::string> header) : rows_{std::move(header)} {}
+  explicit Text_table(std::vector<std::string> header);
 
   /// @throws Bad_argument  another number of cells than the header has
   void add(std::vector<std::string> row);

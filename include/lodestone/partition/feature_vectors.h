@@ -16,9 +16,12 @@ namespace lodestone {
 /// One row per vertex, one column per component: V x k.
 using Feature_vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Beyond this a weight leaves nothing of the other factors, and further on squares overflow.
+inline constexpr double largest_weight = 1e6;
+
 struct Feature_options {
-  double position_weight = 1;  ///< of positions scaled to the unit ball around their mean; >= 0
-  double normal_weight = 1;    ///< of unit vertex normals; >= 0; 0 leaves the normals out, so that k = 3
+  double position_weight = 1;  ///< of positions scaled to the unit ball around their mean; [0, 1e6]
+  double normal_weight = 1;    ///< of unit vertex normals; [0, 1e6]; 0 leaves the normals out, so that k = 3
 };
 
 /// Unit normal of each vertex: the sum of the cross products of its faces, so weighted by area. Zero where that sum
@@ -31,7 +34,7 @@ Positions vertex_normals(const Positions& positions, std::span<const Corners> fa
 /// translation nor a uniform scale of the mesh changes the result. Cost O(V + F).
 ///
 /// @return V x 6, or V x 3 when one weight is 0
-/// @throws Bad_argument  a weight is negative or not finite, or both are 0
+/// @throws Bad_argument  a weight is out of range, or both are 0
 Feature_vectors feature_vectors(const Positions& positions, std::span<const Corners> faces,
                                 const Feature_options& options = {});
 

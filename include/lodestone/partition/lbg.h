@@ -52,7 +52,7 @@ struct Quantisation {
 ///
 /// @param vectors  M x k
 /// @param cells    N, >= 1
-/// @throws Bad_argument  no vector, no cell, or an option out of range
+/// @throws Bad_argument  no vector, no cell, an option out of range, or a component that is not finite or beyond 1e100
 Quantisation quantise(const Feature_vectors& vectors, std::size_t cells, const Lbg_options& options = {});
 
 /// Partition strategy: the cells of LBG quantisation over position, normal and further factors of each vertex.
