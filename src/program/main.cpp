@@ -89,7 +89,7 @@ void add_detect(CLI::App& program, Detect_command& command) {
                  "Repartition when a region exceeds so many times the largest area; inf: never")
       ->capture_default_str();
   app.add_option("--seed", options.senin.seed, "Of the scattering of --mode senin")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
       ->capture_default_str();
   add_lbg_options(app, command.partition);
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
