@@ -181,6 +181,7 @@ std::string detection_against_particles(const Experiment_context& context, Steps
   scenes.front().frames = std::min<std::size_t>(scenes.front().frames, 100);
   const std::vector<std::size_t> counts{8, 16, 32, 64, 128};
   std::vector<Setting> settings;
+  settings.reserve(counts.size());
   for (const auto particles : counts) settings.push_back({std::to_string(particles), {.particles = particles}});
   const auto run = measure(scenes, settings, [&](auto, auto) { context.progress(0, 1); });
   steps.next();
