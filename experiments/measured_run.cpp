@@ -24,7 +24,9 @@ std::vector<Object_pair> all_pairs(const Scene& scene) {
 }
 
 Detector<Surface_mesh> make_detector(const Scene& scene, const Setting& setting) {
-  Detector<Surface_mesh> detector(setting.options);
+  Detector_options asked = setting.options;
+  asked.contacts = Contact_query::yes_no;
+  Detector<Surface_mesh> detector(asked);
   for (const auto& object : scene.objects) {
     Object_options options{.particles = setting.options.particles > 0 ? 0 : object.particles};
     if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);

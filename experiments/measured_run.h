@@ -13,7 +13,8 @@
 
 namespace lodestone {
 
-/// One way of asking: a name for the table, and the options behind it.
+/// One way of asking: a name for the table, and the options behind it. `contacts` does not count: frames are scored,
+/// and timed, as yes or no.
 struct Setting {
   std::string name;
   Detector_options options = {};

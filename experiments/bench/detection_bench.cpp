@@ -40,7 +40,8 @@ class Player {
 /// `us_per_iteration` the time of all relaxations over the number of their iterations.
 void particles(benchmark::State& state, const std::string& scene_name, bool with_oracle) {
   Player player(scene_name);
-  Detector<Surface_mesh> detector({.particles = static_cast<std::size_t>(state.range(0))});
+  Detector<Surface_mesh> detector(
+      {.particles = static_cast<std::size_t>(state.range(0)), .contacts = Contact_query::yes_no});
   for (auto& object : player.scene().objects) detector.add(std::as_const(object.mesh));
   player.next();
   detector.detect();

@@ -51,13 +51,19 @@ concept Region_map = requires(const Map& map, Vertex<Mesh> v, Region_index regio
   { get(map, v) } -> std::convertible_to<Region_index>;
 };
 
+/// An Eigen matrix. It is no mesh, but boost::graph_traits, asked about one, ends the compilation instead of saying so.
+template <class M>
+concept Matrix = requires {
+  M::RowsAtCompileTime;
+};
+
 /// A model of CGAL's FaceListGraph with a vertex point map, all of whose faces are triangles.
 ///
 /// Models: CGAL::Surface_mesh, CGAL::Polyhedron_3, OpenMesh through CGAL's wrapper, and
 /// CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper. The concept checks the syntax; that faces
 /// are triangles is checked where a mesh enters (see `Mesh_numbering`).
 template <class Mesh>
-concept Triangle_mesh = requires(const Mesh& mesh, Vertex<Mesh> v, Face<Mesh> f, Halfedge<Mesh> h) {
+concept Triangle_mesh = !Matrix<Mesh> && requires(const Mesh& mesh, Vertex<Mesh> v, Face<Mesh> f, Halfedge<Mesh> h) {
   vertices(mesh);
   faces(mesh);
   { num_vertices(mesh) } -> std::convertible_to<std::size_t>;

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <numeric>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "lodestone/errors.h"
 #include "lodestone/frame.h"
 #include "lodestone/particles/candidate_pairs.h"
 #include "lodestone/particles/near_pairs.h"
@@ -32,9 +36,9 @@ struct Detector_options {
   double collision_distance = 1;  ///< in multiples of mu, the larger of the two objects'; > 0
   Distance_measure distance_measure = Distance_measure::adjacent_vertices;
   Candidate_choice candidates = Candidate_choice::all;
-  Contact_query contacts = Contact_query::yes_no;
-  bool contact_points = false;  ///< compute where the face pairs meet
-  double growth = 1;            ///< repartition when a region exceeds so many times A*; > 0; infinity: never
+  Contact_query contacts = Contact_query::all;
+  bool contact_points = false;  ///< compute where the face pairs meet; not with yes_no
+  double growth = 1.25;  ///< repartition when a region exceeds so many times A*; > 0; 1: as published; infinity: never
   Senin_options senin = {};
 };
 
@@ -54,9 +58,12 @@ struct Object_options {
 ///       for (const auto& pair : detector.detect().pairs) ...
 ///     }
 ///
-/// Meshes stay with the caller, who moves their vertices and keeps their connectivity; the detector must not outlive
-/// them. In a frame it reads positions only where a particle looks and in the regions of candidate pairs. After the
-/// first frame it allocates only where a result is larger than any before, and for repartitions.
+/// Meshes stay with the caller, who moves their vertices and keeps their connectivity, and who neither moves nor
+/// assigns to the mesh object itself; they must outlive the detector. In a frame positions are read only where a
+/// particle looks and in the regions of candidate pairs; `update` reads a few vertices per region, and all of a region
+/// that seems to have grown. After the first frame memory is allocated only where a result is larger than any before,
+/// for such a region, and for repartitions; in mode `senin` also for the faces around a particle that has moved. An
+/// object with a single particle is felt by others, and feels them, within its diameter. One thread at a time.
 ///
 /// @tparam Mesh      any model of Triangle_mesh
 /// @tparam Strategy  how surfaces are divided, see Partition_strategy
@@ -69,6 +76,7 @@ class Detector {
   explicit Detector(const Detector_options& options = {}, Strategy strategy = {});
 
   /// Adds an object and leaves `v:region` and `v:particle` on its mesh.
+  /// Another detector that the same mesh is added to writes to the same maps.
   /// @throws Bad_mesh      no face, a face that is no triangle
   /// @throws Bad_argument  the mesh has been added before
   Object_id add(Mesh& mesh, const Object_options& options = {}) {
@@ -78,29 +86,39 @@ class Detector {
   }
   /// Adds an object whose mesh cannot be written to.
   Object_id add(const Mesh& mesh, const Object_options& options = {}) {
+    for (const auto& other : objects_)
+      if (other->mesh == &mesh) throw Bad_argument("the mesh has been added before");
     return add(mesh, CGAL::get_const_property_map(CGAL::vertex_point, mesh), options);
   }
-  /// Adds an object whose positions are read through `points`.
+  /// Adds an object whose positions are read through `points`. One mesh may be added several times with other points.
   Object_id add(const Mesh& mesh, Points points, const Object_options& options = {});
 
   /// Says that the vertices of an object have moved: an object whose regions have outgrown A* is repartitioned, with
   /// its number of particles computed afresh. O(N) while nothing has grown.
   /// @throws Bad_argument  no such object
-  /// @throws Bad_mesh      a repartition met a coordinate that is not finite
+  /// @throws Bad_mesh      as `detect`
   void update(Object_id object);
   /// The same for all objects.
   void update();
 
-  /// Lets the particles walk and checks where they have come near each other. The result stays valid until the next
-  /// call. The first call partitions all objects.
-  /// @throws Bad_mesh  the partition met a coordinate that is not finite
+  /// Lets the particles walk and checks where they have come near each other. The first call, and any after an `add`,
+  /// partitions the new objects.
+  /// @return valid until the next call, and as long as the detector
+  /// @throws Bad_mesh  a coordinate that is read is not finite, a mesh has another number of vertices or faces than
+  /// when
+  ///                   it was added, or its coordinates are beyond what squared distances can hold
   const Frame& detect();
 
   std::size_t size() const { return objects_.size(); }
-  /// The state of one object: regions, particles, patches.
-  const Particle_object<Mesh, Points>& object(Object_id object) const { return objects_.at(object)->surface; }
-  /// Its property maps; only for objects added with a mesh that can be written to.
-  const Region_maps<Mesh>& maps(Object_id object) const { return objects_.at(object)->maps.value(); }
+  /// The state of one object: regions, particles, patches. Valid as long as the detector.
+  /// @throws Bad_argument  no such object
+  const Particle_object<Mesh, Points>& object(Object_id object) const { return checked(object).surface; }
+  /// Its property maps.
+  /// @throws Bad_argument  no such object, or one whose mesh could not be written to when it was added
+  const Region_maps<Mesh>& maps(Object_id object) const {
+    if (!checked(object).maps) throw Bad_argument("object " + std::to_string(object) + " carries no property maps");
+    return *checked(object).maps;
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -115,6 +133,10 @@ class Detector {
     std::optional<Region_maps<Mesh>> maps = {};
   };
 
+  Object& checked(Object_id object) const {
+    if (object >= objects_.size()) throw Bad_argument("there is no object " + std::to_string(object));
+    return *objects_[object];
+  }
   void prepare();
   void partition(Object& object);
   std::size_t particles_of(const Object& object) const;
@@ -156,12 +178,12 @@ Detector<Mesh, Strategy, Points>::Detector(const Detector_options& options, Stra
   if (!(options.collision_distance > 0) || !std::isfinite(options.collision_distance))
     throw Bad_argument("the collision distance must be finite and > 0");
   if (!(options.growth > 0)) throw Bad_argument("the growth limit must be > 0");
+  if (options.contact_points && options.contacts == Contact_query::yes_no)
+    throw Bad_argument("contact points need the contacts `first` or `all`");
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points>
 Object_id Detector<Mesh, Strategy, Points>::add(const Mesh& mesh, Points points, const Object_options& options) {
-  for (const auto& object : objects_)
-    if (object->mesh == &mesh) throw Bad_argument("the mesh has been added before");
   const auto id = static_cast<Object_id>(objects_.size());
   objects_.emplace_back(new Object{.id = id, .mesh = &mesh, .surface = {mesh, points}, .options = options});
   return id;
@@ -169,8 +191,7 @@ Object_id Detector<Mesh, Strategy, Points>::add(const Mesh& mesh, Points points,
 
 template <Triangle_mesh Mesh, class Strategy, class Points>
 void Detector<Mesh, Strategy, Points>::update(Object_id id) {
-  if (id >= objects_.size()) throw Bad_argument("there is no object " + std::to_string(id));
-  Object& object = *objects_[id];
+  Object& object = checked(id);
   if (!object.prepared || options_.mode != Mode::particles) return;
   timed(since_last_frame_.seconds.repartition, [&] {
     if (!object.surface.has_outgrown(options_.growth)) return;
@@ -239,8 +260,9 @@ std::size_t Detector<Mesh, Strategy, Points>::particles_of(const Object& object)
   if (options_.particles > 0) return options_.particles;
   std::vector<double> radii;
   for (const auto& other : objects_) radii.push_back(other->radius);
-  return std::max(options_.least_particles, particle_count(object.surface.sphere_collection(options_.particle_count),
-                                                           radii, options_.particle_count));
+  const auto& rule = options_.particle_count;
+  const std::size_t by_rule = particle_count(object.surface.sphere_collection(rule), radii, rule);
+  return std::min(std::max(by_rule, options_.least_particles), rule.most_particles);
 }
 
 /// Sizes the memory of all stages, so that frames need none.
@@ -257,7 +279,8 @@ void Detector<Mesh, Strategy, Points>::make_room() {
   }
   const std::size_t most = counts.empty() ? 0 : *std::ranges::max_element(counts);
   relaxation_.reserve(counts);
-  candidates_.reserve(most * most);
+  candidates_.reserve(std::min<std::size_t>(most * most, 1 << 16));
+  walking_.reserve(objects_.size());
   confirmation_.reserve(faces, vertices);
   broad_phase_.reserve(objects_.size());
   boxes_.resize(objects_.size());
@@ -345,12 +368,7 @@ void Detector<Mesh, Strategy, Points>::add_contacts(Pair_result& result, std::si
   if (!options_.contact_points) return;
 
   const auto triangle = [](const auto& surface, std::uint32_t face) {
-    const auto point = [&](std::uint32_t vertex) {
-      const Eigen::Vector3d p = surface.reader()(vertex);
-      return Point(p.x(), p.y(), p.z());
-    };
-    const auto& [a, b, c] = surface.numbering().corners()[face];
-    return Triangle{point(a), point(b), point(c)};
+    return face_triangle(surface.numbering().corners()[face], surface.reader());
   };
   for (std::size_t i = first; i < found.size(); ++i)
     frame_.contact_points.push_back(triangle_intersection(triangle(objects_[result.a]->surface, found[i].a),

@@ -24,8 +24,7 @@ struct Collisions {
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
 /// @throws Bad_argument  an option out of range, or one mesh given twice
 template <Triangle_mesh Mesh>
-Collisions find_collisions(const Mesh& a, const Mesh& b,
-                           const Detector_options& options = {.contacts = Contact_query::all}) {
+Collisions find_collisions(const Mesh& a, const Mesh& b, const Detector_options& options = {}) {
   Detector<Mesh> detector(options);
   detector.add(a);
   detector.add(b);

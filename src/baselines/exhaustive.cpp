@@ -15,8 +15,7 @@ namespace {
 using Face_box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 
 Triangle triangle(const Positions& positions, const Corners& corners) {
-  const auto point = [&](std::uint32_t v) { return Point(positions(v, 0), positions(v, 1), positions(v, 2)); };
-  return {point(corners[0]), point(corners[1]), point(corners[2])};
+  return face_triangle(corners, [&](auto vertex) { return positions.row(vertex); });
 }
 
 std::vector<Face_box> face_boxes(const Positions& positions, std::span<const Corners> faces) {

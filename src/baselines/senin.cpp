@@ -5,10 +5,14 @@
 #include <random>
 #include <unordered_set>
 
+#include "lodestone/errors.h"
+
 namespace lodestone {
 
 std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Positions& positions,
                                              std::size_t particles, const Senin_options& options) {
+  if (options.side && !(options.side->allFinite() && !options.side->isZero(0)))
+    throw Bad_argument("the side on which particles are scattered must be a finite direction");
   Eigen::VectorXd along = Eigen::VectorXd::Zero(positions.rows());
   if (options.side) along = (positions.rowwise() - positions.colwise().mean()) * *options.side;
   const double least = options.side ? along.maxCoeff() / 2 : -1;
@@ -46,7 +50,7 @@ Patch ring_patch(const Vertex_graph& graph, const Vertex_faces& vertex_faces, st
   std::vector<std::uint32_t> reached{centre};
   std::unordered_set<std::uint32_t> seen{centre};
   std::size_t ring_begin = 0;
-  for (std::size_t ring = 0; ring < rings; ++ring) {
+  for (std::size_t ring = 0; ring < rings && ring_begin < reached.size(); ++ring) {
     const std::size_t ring_end = reached.size();
     for (std::size_t i = ring_begin; i < ring_end; ++i)
       for (const std::uint32_t w : neighbours(graph, reached[i]))

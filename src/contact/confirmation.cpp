@@ -20,17 +20,13 @@ std::uint8_t outcode(const Eigen::Vector3d& p, const Box& box) {
 }
 
 Triangle triangle(const Posed_patch& posed, std::uint32_t place) {
-  const auto point = [&](std::uint32_t corner) {
-    const Eigen::Vector3d& p = posed.positions[corner];
-    return Point(p.x(), p.y(), p.z());
-  };
-  const auto& [a, b, c] = posed.patch->corners[place];
-  return {point(a), point(b), point(c)};
+  return face_triangle(posed.patch->corners[place], [&](auto corner) { return posed.positions[corner]; });
 }
 
-bool overlap_beyond_x(const Box& a, const Box& b) {
-  return a.min().y() <= b.max().y() && b.min().y() <= a.max().y() && a.min().z() <= b.max().z() &&
-         b.min().z() <= a.max().z();
+bool overlap_across(int axis, const Box& a, const Box& b) {
+  const int second = (axis + 1) % 3, third = (axis + 2) % 3;
+  return a.min()[second] <= b.max()[second] && b.min()[second] <= a.max()[second] && a.min()[third] <= b.max()[third] &&
+         b.min()[third] <= a.max()[third];
 }
 
 }  // namespace
@@ -65,15 +61,18 @@ bool Confirmation::confirm(const Posed_patch& a, const Posed_patch& b, Contact_q
   for (const auto& face : faces_a_) tighter.extend(face.box);
   faces_within(b, overlap.intersection(tighter), faces_b_);
 
-  const auto by_min_x = [](const Boxed_face& face) { return face.box.min().x(); };
-  std::ranges::sort(faces_a_, {}, by_min_x);
-  std::ranges::sort(faces_b_, {}, by_min_x);
+  // Along the axis on which the overlap is longest fewest faces lie side by side.
+  int axis = 0;
+  overlap.sizes().maxCoeff(&axis);
+  const auto begin = [axis](const Boxed_face& face) { return face.box.min()[axis]; };
+  std::ranges::sort(faces_a_, {}, begin);
+  std::ranges::sort(faces_b_, {}, begin);
 
-  /// Tests `face` against those of `others` that begin within its extent along x; true: stop.
+  /// Tests `face` against those of `others` that begin within its extent along the axis; true: stop.
   const auto sweep = [&](const Boxed_face& face, std::span<const Boxed_face> others, bool face_is_a) {
     for (const Boxed_face& other : others) {
-      if (other.box.min().x() > face.box.max().x()) break;
-      if (!overlap_beyond_x(face.box, other.box)) continue;
+      if (begin(other) > face.box.max()[axis]) break;
+      if (!overlap_across(axis, face.box, other.box)) continue;
       const auto place_a = face_is_a ? face.place : other.place;
       const auto place_b = face_is_a ? other.place : face.place;
       ++exact_tests_;
@@ -84,11 +83,12 @@ bool Confirmation::confirm(const Posed_patch& a, const Posed_patch& b, Contact_q
     return false;
   };
 
-  // Of two faces that overlap along x one begins first: it meets the other while that one is still ahead in its list.
+  // Of two faces that overlap along the axis one begins first: it meets the other while that one is still ahead in its
+  // list.
   std::span<const Boxed_face> ahead_a = faces_a_;
   std::span<const Boxed_face> ahead_b = faces_b_;
   while (!ahead_a.empty() && !ahead_b.empty()) {
-    const bool a_first = by_min_x(ahead_a.front()) <= by_min_x(ahead_b.front());
+    const bool a_first = begin(ahead_a.front()) <= begin(ahead_b.front());
     auto& leading = a_first ? ahead_a : ahead_b;
     const Boxed_face& face = leading.front();
     leading = leading.subspan(1);

@@ -8,13 +8,12 @@
 #include <cstring>
 #include <string>
 
+#include "io/byte_order.h"
 #include "lodestone/io/atomic_file.h"
 
 namespace lodestone {
 
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "PLY is written in the machine's own byte order");
 
 using Colour = std::array<std::uint8_t, 3>;
 
@@ -27,13 +26,6 @@ Colour region_colour(Region_index region) {
     return static_cast<std::uint8_t>(std::lround(255 * lightness * (0.25 + 0.75 * std::clamp(distance, 0.0, 1.0))));
   };
   return {channel(0), channel(4), channel(2)};
-}
-
-template <class Value>
-void append(std::string& bytes, Value value) {
-  char raw[sizeof(Value)];
-  std::memcpy(raw, &value, sizeof(Value));
-  bytes.append(raw, sizeof(Value));
 }
 
 }  // namespace

@@ -17,6 +17,13 @@ std::vector<std::uint32_t> breadth_first_hops(const Vertex_graph& graph, std::ui
   return hops;
 }
 
+std::size_t hop_eccentricity(const Vertex_graph& graph, std::uint32_t source) {
+  std::size_t farthest = 0;
+  for (const auto hops : breadth_first_hops(graph, source))
+    if (hops != unreached) farthest = std::max<std::size_t>(farthest, hops);
+  return farthest;
+}
+
 std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_t> targets) {
   std::size_t diameter = 0;
   if (targets.size() < 2) return diameter;

@@ -47,6 +47,14 @@ Pieces connected_pieces(const Vertex_graph& graph, const std::vector<Region_inde
   return result;
 }
 
+/// Whether each piece is a vertex without edges.
+std::vector<bool> isolated_pieces(const Vertex_graph& graph, const Pieces& all) {
+  std::vector<bool> isolated(all.pieces.size(), false);
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
+    if (out_degree(v, graph) == 0) isolated[all.of_vertex[v]] = true;
+  return isolated;
+}
+
 /// The largest piece of each label is the body that its islands have left.
 void settle_largest(std::vector<Piece>& pieces, const std::vector<bool>& isolated, std::size_t regions) {
   std::vector<Piece*> largest(regions, nullptr);
@@ -57,6 +65,36 @@ void settle_largest(std::vector<Piece>& pieces, const std::vector<bool>& isolate
   }
   for (Piece* piece : largest)
     if (piece != nullptr) piece->settled = true;
+}
+
+/// In each connected component of the mesh without a settled piece the largest one becomes a new region, the largest
+/// components first, until there are `limit` regions.
+void settle_unreached(const Vertex_graph& graph, Pieces& all, const std::vector<bool>& isolated, std::size_t limit,
+                      Island_repair& repair) {
+  std::vector<std::uint32_t> component(num_vertices(graph));
+  const auto count = boost::connected_components(
+      graph, boost::make_iterator_property_map(component.begin(), get(boost::vertex_index, graph)));
+  std::vector<Piece*> largest(count, nullptr);
+  std::vector<bool> reached(count, false);
+  std::vector<bool> seen(all.pieces.size(), false);
+  for (std::uint32_t v = 0; v < component.size(); ++v) {
+    const std::uint32_t p = all.of_vertex[v];
+    if (seen[p] || isolated[p]) continue;
+    seen[p] = true;
+    Piece*& best = largest[component[v]];
+    if (best == nullptr || all.pieces[p].size > best->size) best = &all.pieces[p];
+    if (all.pieces[p].settled) reached[component[v]] = true;
+  }
+  std::vector<Piece*> unreached;
+  for (std::size_t c = 0; c < largest.size(); ++c)
+    if (largest[c] != nullptr && !reached[c]) unreached.push_back(largest[c]);
+  std::ranges::stable_sort(unreached, [](const Piece* a, const Piece* b) { return a->size > b->size; });
+  for (Piece* piece : unreached) {
+    if (repair.regions >= limit) return;
+    piece->label = static_cast<Region_index>(repair.regions++);
+    piece->settled = true;
+    ++repair.regions_added;
+  }
 }
 
 /// Per piece: with how many edges it borders on each other piece.
@@ -82,28 +120,26 @@ Island_repair repair_islands(const Vertex_graph& graph, std::vector<Region_index
   Island_repair repair{.regions = regions};
   Pieces all = connected_pieces(graph, labels);
   auto& pieces = all.pieces;
-
-  std::vector<bool> isolated(pieces.size(), false);
-  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
-    if (out_degree(v, graph) == 0) isolated[all.of_vertex[v]] = true;
+  const auto isolated = isolated_pieces(graph, all);
   settle_largest(pieces, isolated, regions);
 
   std::vector<std::uint32_t> loose;
   for (std::uint32_t p = 0; p < pieces.size(); ++p)
     if (!pieces[p].settled && !isolated[p]) loose.push_back(p);
-  const auto borders = loose.empty() ? std::vector<std::map<std::uint32_t, std::size_t>>() : piece_borders(graph, all);
+  if (loose.empty()) return repair;
+  settle_unreached(graph, all, isolated, regions + std::max<std::size_t>(regions, 64), repair);
+  std::erase_if(loose, [&](auto p) { return pieces[p].settled; });
 
+  const auto borders = piece_borders(graph, all);
   const auto join_longest_border = [&](std::uint32_t p) {
     std::map<Region_index, std::size_t> lengths;
     for (const auto& [other, edges] : borders[p])
       if (pieces[other].settled) lengths[pieces[other].label] += edges;
     if (lengths.empty()) return false;
-    const auto longest = std::ranges::max_element(lengths, {}, [](const auto& entry) { return entry.second; });
-    pieces[p].label = longest->first;
+    pieces[p].label = std::ranges::max_element(lengths, {}, [](const auto& entry) { return entry.second; })->first;
     return true;
   };
-
-  while (!loose.empty()) {
+  for (bool joining = true; joining && !loose.empty();) {
     std::vector<std::uint32_t> joined;
     std::erase_if(loose, [&](auto p) {
       const bool joins = join_longest_border(p);
@@ -112,14 +148,9 @@ Island_repair repair_islands(const Vertex_graph& graph, std::vector<Region_index
     });
     for (const auto p : joined) pieces[p].settled = true;
     repair.islands_joined += joined.size();
-    if (!joined.empty() || loose.empty()) continue;
-    // What is left lies in components without a region: the largest piece of all becomes one, and others may join it.
-    const auto largest = std::ranges::max_element(loose, {}, [&](auto p) { return pieces[p].size; });
-    pieces[*largest].label = static_cast<Region_index>(repair.regions++);
-    pieces[*largest].settled = true;
-    ++repair.regions_added;
-    loose.erase(largest);
+    joining = !joined.empty();
   }
+  repair.islands_left = loose.size();
 
   for (std::size_t v = 0; v < labels.size(); ++v) labels[v] = pieces[all.of_vertex[v]].label;
   return repair;

@@ -43,7 +43,7 @@ class Quantiser {
   std::vector<Eigen::MatrixXd> cell_scatters() const;
   Eigen::RowVectorXd principal_offset(const Eigen::MatrixXd& scatter, std::size_t cell_size) const;
   void assign(Bounded_assignment& bounded);
-  void reseed_empty_cells();
+  bool reseed_empty_cells();
   void group_by_cell();
   void move_codes_to_means();
 
@@ -80,7 +80,7 @@ void Quantiser::run_lloyd() {
   Lloyd_run run{.code_vectors = size(), .distortion = {}};
   for (std::size_t iteration = 0; iteration < options_.max_iterations; ++iteration) {
     assign(bounded);
-    reseed_empty_cells();
+    if (reseed_empty_cells()) bounded.forget();
     run.distortion.push_back(distortion());
     move_codes_to_means();
     if (iteration == 0) continue;
@@ -109,16 +109,17 @@ void Quantiser::group_by_cell() {
   origin_.swap(origin);
 }
 
-void Quantiser::reseed_empty_cells() {
+/// @return whether a label has changed
+bool Quantiser::reseed_empty_cells() {
   auto& sizes = assignment_.cell_sizes;
-  if (std::ranges::find(sizes, 0U) == sizes.end()) return;
+  if (std::ranges::find(sizes, 0U) == sizes.end()) return false;
   auto distortions = cell_distortions();
   for (std::size_t cell = 0; cell < sizes.size(); ++cell)
     if (sizes[cell] == 1) distortions[cell] = 0;  // its one vector must stay
   for (std::size_t empty = 0; empty < sizes.size(); ++empty) {
     if (sizes[empty] != 0) continue;
     const auto donor = static_cast<Region_index>(std::ranges::max_element(distortions) - distortions.begin());
-    if (distortions[donor] == 0) return;  // no cell holds two different vectors
+    if (distortions[donor] == 0) return true;  // no cell holds two different vectors
     std::size_t farthest = 0;
     double distance = -1;
     for (std::size_t v = 0; v < assignment_.labels.size(); ++v)
@@ -134,6 +135,7 @@ void Quantiser::reseed_empty_cells() {
     distortions[donor] -= distance;
     if (--sizes[donor] == 1) distortions[donor] = 0;
   }
+  return true;
 }
 
 void Quantiser::move_codes_to_means() {

@@ -70,8 +70,8 @@ void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assign
   if (codes.rows() == previous_.rows()) {
     follow_drift(codes);
   } else {
-    second_.assign(vectors_.rows(), 0);
-    drifts_.assign(codes.rows(), margin_);
+    drifts_.assign(codes.rows(), 0);
+    forget();
   }
   sort_neighbours(codes);
 
@@ -101,6 +101,8 @@ void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assign
   previous_ = codes;
 }
 
+void Bounded_assignment::forget() { second_.assign(vectors_.rows(), 0); }
+
 void Bounded_assignment::follow_drift(const Feature_vectors& codes) {
   const Eigen::VectorXd moved = (codes - previous_).rowwise().norm();
   Eigen::Index farthest = 0;
@@ -108,7 +110,7 @@ void Bounded_assignment::follow_drift(const Feature_vectors& codes) {
   double runner_up = 0;
   for (Eigen::Index c = 0; c < moved.size(); ++c)
     if (c != farthest) runner_up = std::max(runner_up, moved[c]);
-  for (Eigen::Index c = 0; c < moved.size(); ++c) drifts_[c] += c == farthest ? runner_up : largest;
+  for (Eigen::Index c = 0; c < moved.size(); ++c) drifts_[c] += (c == farthest ? runner_up : largest) + margin_;
 }
 
 void Bounded_assignment::sort_neighbours(const Feature_vectors& codes) {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/partition/partition.h"
 
+#include <algorithm>
+#include <string>
+
+#include "lodestone/errors.h"
+
 namespace lodestone {
 
 std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
@@ -28,9 +33,25 @@ std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Featu
   return particles;
 }
 
+namespace {
+
+void check(const Labelling& labelling, std::size_t vertices) {
+  if (labelling.labels.size() != vertices)
+    throw Bad_argument("the strategy labelled " + std::to_string(labelling.labels.size()) + " of " +
+                       std::to_string(vertices) + " vertices");
+  if (std::ranges::any_of(labelling.labels, [&](auto label) { return label >= vertices; }))
+    throw Bad_argument("the strategy gave a label that is not below the number of vertices");
+  if (labelling.vectors.size() != 0 && static_cast<std::size_t>(labelling.vectors.rows()) != vertices)
+    throw Bad_argument("the strategy gave " + std::to_string(labelling.vectors.rows()) + " vectors for " +
+                       std::to_string(vertices) + " vertices");
+}
+
+}  // namespace
+
 Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
                                     std::span<const Corners> faces, Labelling labelling,
                                     const Partition_options& options) {
+  check(labelling, num_vertices(graph));
   Numbered_partition result;
   result.labels = std::move(labelling.labels);
   result.statistics.iterations = labelling.iterations;

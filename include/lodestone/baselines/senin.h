@@ -26,6 +26,7 @@ struct Senin_options {
 /// Vertices at which N particles start: different ones drawn at random, among those with edges.
 /// With `side`, only from those whose offset from the mean along `side` is above half of the largest.
 /// @return N vertices, or as many as there are to draw from
+/// @throws Bad_argument  `side` is zero or not finite
 std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Positions& positions,
                                              std::size_t particles, const Senin_options& options);
 

@@ -32,9 +32,9 @@ class Confirmation {
 
   /// Adds the intersecting face pairs of two posed patches to `found`; with a query other than `all`, stops at one.
   ///
-  /// Vertices outside the overlap of the two boxes rule out faces, a sweep along x rules out pairs, and
+  /// Vertices outside the overlap of the two boxes rule out faces, a sweep along its longest axis rules out pairs, and
   /// `triangles_intersect` decides the rest. O(n + m) for patches that do not come near each other,
-  /// O(n + m + s log s + pairs that overlap along x) for the s faces within the overlap.
+  /// O(n + m + s log s + pairs that overlap along the axis) for the s faces within the overlap; all n m pairs at worst.
   ///
   /// @return whether a pair was found
   bool confirm(const Posed_patch& a, const Posed_patch& b, Contact_query query, std::vector<Face_pair>& found);

@@ -10,6 +10,18 @@ namespace lodestone {
 
 using Triangle = std::array<Point, 3>;
 
+/// The triangle of a face.
+/// @param corners   three numbers
+/// @param position  coordinates of a corner by its number, indexed by []
+template <class Face_corners, class Position>
+Triangle face_triangle(const Face_corners& corners, const Position& position) {
+  const auto point = [&](auto corner) {
+    const auto& p = position(corner);
+    return Point(p[0], p[1], p[2]);
+  };
+  return {point(corners[0]), point(corners[1]), point(corners[2])};
+}
+
 /// Whether two triangles have a point in common; touching counts. Exact for any finite coordinates.
 ///
 /// CGAL's `do_intersect` under an exact-predicates kernel asks for triangles with an area. One whose corners are

@@ -17,4 +17,15 @@ enum class Distance_measure {
 double collision_distance(const Vertex_graph& graph, const Positions& positions,
                           Distance_measure measure = Distance_measure::adjacent_vertices);
 
+/// The same of a mesh.
+/// @param np  `vertex_point_map`
+/// @throws Bad_mesh  see Mesh_numbering and read_positions
+template <Triangle_mesh Mesh, class Named_parameters = CGAL::parameters::Default_named_parameters>
+double collision_distance(const Mesh& mesh, Distance_measure measure = Distance_measure::adjacent_vertices,
+                          const Named_parameters& np = CGAL::parameters::default_values()) {
+  const Mesh_numbering<Mesh> numbering(mesh);
+  return collision_distance(vertex_graph(numbering.vertex_count(), numbering.corners()),
+                            read_positions(numbering, vertex_points(mesh, np)), measure);
+}
+
 }  // namespace lodestone

@@ -17,6 +17,9 @@ inline constexpr std::uint32_t unreached = std::numeric_limits<std::uint32_t>::m
 /// @return V; `unreached` in other components
 std::vector<std::uint32_t> breadth_first_hops(const Vertex_graph& graph, std::uint32_t source);
 
+/// Largest hop distance from `source` to a vertex of its component. O(V + E).
+std::size_t hop_eccentricity(const Vertex_graph& graph, std::uint32_t source);
+
 /// Largest hop distance between two of the given vertices.
 ///
 /// This is R_max of \cite saenghaengtham2006, the most steps a particle can need to reach another.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,7 +23,8 @@ class Near_pairs {
   void reserve(std::size_t objects);
 
   /// Pairs of boxes that overlap when one is grown on all sides by the larger of their two reaches, sorted. Sorts the
-  /// boxes along x, starting from the order of the last frame: O(n + pairs that overlap along x) while little changes.
+  /// boxes along x, starting from the order of the last frame: O(n + pairs that overlap along x) while little changes,
+  /// O(n^2) at worst. The result is valid until the next call.
   ///
   /// @param boxes  around the particles of each object
   /// @param reach  per object: how far its particles are felt, or taken as near

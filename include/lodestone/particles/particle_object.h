@@ -2,11 +2,15 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lodestone/baselines/senin.h"
 #include "lodestone/contact/region_patches.h"
+#include "lodestone/errors.h"
 #include "lodestone/particles/collision_distance.h"
 #include "lodestone/particles/hop_metric.h"
 #include "lodestone/particles/relaxation.h"
@@ -42,7 +46,7 @@ class Particle_object {
   Particle_object& operator=(const Particle_object&) = delete;
 
   /// Divides the surface as it is now into `regions` regions by `strategy`, and puts a particle in each. O(V) and more.
-  /// @throws Bad_mesh  a coordinate is not finite
+  /// @throws Bad_mesh  a coordinate is not finite or beyond 1e150, or edges are shorter than 1e-150 on average
   template <class Strategy>
   void partition(const Strategy& strategy, std::size_t regions, const Partition_options& options,
                  Distance_measure measure);
@@ -51,7 +55,7 @@ class Particle_object {
   void scatter(std::size_t particles, const Senin_options& options, Distance_measure measure);
 
   /// Reads where the particles are in this frame.
-  /// @throws Bad_mesh  a coordinate is not finite
+  /// @throws Bad_mesh  a coordinate is not finite, or the number of vertices or faces has changed
   void read_particles();
 
   /// Whether a region's area exceeds `growth` times the largest of the time of the partition (A*). Follows a few
@@ -61,9 +65,9 @@ class Particle_object {
   /// The faces that a particle stands for, at their positions in frame number `frame`.
   const Posed_patch& posed_patch(std::size_t particle, std::uint64_t frame);
 
-  Sphere bounding_sphere() const { return lodestone::bounding_sphere(read_positions(numbering_, points_)); }
+  Sphere bounding_sphere() const { return lodestone::bounding_sphere(checked_positions()); }
   std::vector<Sphere> sphere_collection(const Particle_count_options& options) const {
-    return lodestone::sphere_collection(graph_, read_positions(numbering_, points_), numbering_.corners(), options);
+    return lodestone::sphere_collection(graph_, checked_positions(), numbering_.corners(), options);
   }
 
   const Mesh_numbering<Mesh>& numbering() const { return numbering_; }
@@ -77,7 +81,9 @@ class Particle_object {
   const Particles& particles() const { return particles_; }
 
  private:
-  void start_particles(std::vector<std::uint32_t> vertices, const Positions& positions, Distance_measure measure);
+  Positions checked_positions() const;
+  Positions measured_positions(Distance_measure measure);
+  void start_particles(std::vector<std::uint32_t> vertices, const Positions& positions);
   /// Where a region's particle started, and an edge from there by which directions are found again.
   struct Home {
     std::uint32_t vertex = 0;
@@ -85,6 +91,8 @@ class Particle_object {
     double angle = 0;           ///< from the edge to the X axis, around the normal
   };
 
+  void check_connectivity() const;
+  double longest_compass() const;
   void find_homes(const std::vector<std::uint32_t>& vertices);
   void measure_extents();
   Eigen::Vector3d normal_at(const Home& home, Region_index region) const;
@@ -108,6 +116,7 @@ class Particle_object {
   std::vector<Home> homes_;  ///< per region
   std::vector<Region_extent> extents_;
   double largest_area_ = 0;  ///< A*
+  double rest_compass_ = 0;  ///< `longest_compass` at the time of the partition
 
   std::optional<Vertex_faces> vertex_faces_;  ///< only for scattered particles
   std::vector<std::uint32_t> patch_centres_;  ///< only for scattered particles: the vertex each patch lies around
@@ -128,7 +137,7 @@ template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 template <class Strategy>
 void Particle_object<Mesh, Points>::partition(const Strategy& strategy, std::size_t regions,
                                               const Partition_options& options, Distance_measure measure) {
-  const Positions positions = read_positions(numbering_, points_);
+  const Positions positions = measured_positions(measure);
   auto result =
       partition_numbered(Partition_input<Mesh>{*mesh_, numbering_, graph_, positions}, regions, strategy, options);
   labels_ = std::move(result.labels);
@@ -136,14 +145,14 @@ void Particle_object<Mesh, Points>::partition(const Strategy& strategy, std::siz
   steps_ = Region_steps(graph_, labels_);
   patches_ = region_patches(numbering_.corners(), labels_, result.regions);
   find_homes(result.particles);
-  start_particles(std::move(result.particles), positions, measure);
+  start_particles(std::move(result.particles), positions);
   measure_extents();
 }
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 void Particle_object<Mesh, Points>::scatter(std::size_t particles, const Senin_options& options,
                                             Distance_measure measure) {
-  const Positions positions = read_positions(numbering_, points_);
+  const Positions positions = measured_positions(measure);
   labels_.assign(numbering_.vertex_count(), 0);
   steps_ = Region_steps(graph_, labels_);
   vertex_faces_.emplace(numbering_.vertex_count(), numbering_.corners());
@@ -151,17 +160,21 @@ void Particle_object<Mesh, Points>::scatter(std::size_t particles, const Senin_o
   rings_ = options.rings > 0 ? options.rings : default_rings(numbering_.vertex_count(), vertices.size());
   patches_.assign(vertices.size(), {});
   patch_centres_.assign(vertices.size(), unreached);
-  start_particles(std::move(vertices), positions, measure);
+  start_particles(std::move(vertices), positions);
 }
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
-void Particle_object<Mesh, Points>::start_particles(std::vector<std::uint32_t> vertices, const Positions& positions,
-                                                    Distance_measure measure) {
+void Particle_object<Mesh, Points>::start_particles(std::vector<std::uint32_t> vertices, const Positions& positions) {
   particles_.at = std::move(vertices);
   read_particles();
-  particles_.effective_radius = effective_radius(particles_.positions);
-  particles_.hop_limit = hop_diameter(graph_, particles_.at);
-  particles_.collision_distance = collision_distance(graph_, positions, measure);
+  if (particles_.at.size() == 1) {
+    // One particle has no other to measure its reach by: it feels as far as the object is wide, and may walk all of it.
+    particles_.effective_radius = 2 * lodestone::bounding_sphere(positions).radius;
+    particles_.hop_limit = hop_eccentricity(graph_, particles_.at.front());
+  } else {
+    particles_.effective_radius = effective_radius(particles_.positions);
+    particles_.hop_limit = hop_diameter(graph_, particles_.at);
+  }
 
   posed_.assign(patches_.size(), {});
   for (std::size_t p = 0; p < patches_.size(); ++p) {
@@ -170,8 +183,36 @@ void Particle_object<Mesh, Points>::start_particles(std::vector<std::uint32_t> v
   }
 }
 
+/// All positions. Distances are compared by their squares, which must neither overflow nor vanish.
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
+Positions Particle_object<Mesh, Points>::checked_positions() const {
+  check_connectivity();
+  Positions positions = read_positions(numbering_, points_);
+  if (positions.cwiseAbs().maxCoeff() > 1e150) throw Bad_mesh("the mesh has a coordinate beyond 1e150");
+  return positions;
+}
+
+/// All positions, with mu measured on them: whatever is wrong with them shows before anything else changes.
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
+Positions Particle_object<Mesh, Points>::measured_positions(Distance_measure measure) {
+  Positions positions = checked_positions();
+  const double mu = collision_distance(graph_, positions, measure);
+  if (mu > 0 && mu < 1e-150) throw Bad_mesh("the edges of the mesh are shorter than 1e-150 on average");
+  particles_.collision_distance = mu;
+  return positions;
+}
+
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
+void Particle_object<Mesh, Points>::check_connectivity() const {
+  if (num_vertices(*mesh_) != numbering_.vertex_count() || num_faces(*mesh_) != numbering_.corners().size())
+    throw Bad_mesh("the mesh has " + std::to_string(num_vertices(*mesh_)) + " vertices and " +
+                   std::to_string(num_faces(*mesh_)) + " faces, but had " + std::to_string(numbering_.vertex_count()) +
+                   " and " + std::to_string(numbering_.corners().size()) + " when it was added");
+}
+
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 void Particle_object<Mesh, Points>::read_particles() {
+  check_connectivity();
   particles_.positions.resize(particles_.at.size());
   for (std::size_t p = 0; p < particles_.at.size(); ++p) {
     particles_.positions[p] = reader_(particles_.at[p]);
@@ -211,7 +252,7 @@ Region_extent Particle_object<Mesh, Points>::measure_extent(Region_index region)
   // X turns with the surface: the same angle from the same edge as at the time of the partition.
   const Eigen::Vector3d needle = reader_(home.compass) - reader_(home.vertex);
   const Eigen::Vector3d x_axis =
-      normal.isZero(0) ? needle : Eigen::Vector3d(Eigen::AngleAxisd(home.angle, normal.normalized()) * needle);
+      normal.isZero(0) ? needle : Eigen::Vector3d(Eigen::AngleAxisd(home.angle, normal.stableNormalized()) * needle);
   return region_extent(Extent_input{graph_, labels_, open_border_, position_}, home.vertex, normal, x_axis);
 }
 
@@ -225,8 +266,22 @@ void Particle_object<Mesh, Points>::find_homes(const std::vector<std::uint32_t>&
   }
 }
 
+/// Longest of the edges by which the homes find their directions again.
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
+double Particle_object<Mesh, Points>::longest_compass() const {
+  double longest = 0;
+  for (const Home& home : homes_) {
+    const double length = (reader_(home.compass) - reader_(home.vertex)).norm();
+    if (!std::isfinite(length))
+      throw Bad_mesh("vertex " + std::to_string(home.vertex) + " or a neighbour has a coordinate that is not finite");
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 void Particle_object<Mesh, Points>::measure_extents() {
+  rest_compass_ = longest_compass();
   extents_.clear();
   largest_area_ = 0;
   for (Region_index region = 0; region < homes_.size(); ++region) {
@@ -237,15 +292,16 @@ void Particle_object<Mesh, Points>::measure_extents() {
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 bool Particle_object<Mesh, Points>::has_outgrown(double growth) {
-  // An object whose vertices all lay on each other has grown as soon as an edge has a length.
-  if (particles_.collision_distance == 0)
-    return std::ranges::any_of(homes_, [&](const Home& h) { return reader_(h.vertex) != reader_(h.compass); });
-
+  check_connectivity();
   // A surface that only moves keeps its lengths but for rounding.
-  const double limit = growth * largest_area_ * (1 + 1e-9);
-  if (!(limit > 0)) return false;
+  constexpr double rounding = 1 + 1e-9;
+  if (largest_area_ == 0) return std::pow(longest_compass(), 2) > growth * rounding * std::pow(rest_compass_, 2);
+  const double limit = growth * rounding * largest_area_;
   for (Region_index region = 0; region < extents_.size(); ++region) {
-    if (stretched_area(extents_[region], reader_) <= limit) continue;
+    const double area = stretched_area(extents_[region], reader_);
+    if (!std::isfinite(area))
+      throw Bad_mesh("region " + std::to_string(region) + " has a coordinate that is not finite");
+    if (area <= limit) continue;
     // The measured paths become the new samples, so that one that was merely no longer the shortest alarms only once.
     extents_[region] = measure_extent(region);
     if (extents_[region].area() > limit) return true;

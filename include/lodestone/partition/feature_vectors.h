@@ -38,6 +38,16 @@ Positions vertex_normals(const Positions& positions, std::span<const Corners> fa
 Feature_vectors feature_vectors(const Positions& positions, std::span<const Corners> faces,
                                 const Feature_options& options = {});
 
+/// The same of a mesh, in the order in which it enumerates its vertices.
+/// @param np  `vertex_point_map`
+/// @throws Bad_mesh  see Mesh_numbering and read_positions
+template <Triangle_mesh Mesh, class Named_parameters = CGAL::parameters::Default_named_parameters>
+Feature_vectors feature_vectors(const Mesh& mesh, const Feature_options& options = {},
+                                const Named_parameters& np = CGAL::parameters::default_values()) {
+  const Mesh_numbering<Mesh> numbering(mesh);
+  return feature_vectors(read_positions(numbering, vertex_points(mesh, np)), numbering.corners(), options);
+}
+
 /// Further factors of the feature vector from a property map of the mesh, such as curvature or colour.
 ///
 /// The values are used as they are, times the weight: scale them to the spread of the positions, which is 1.

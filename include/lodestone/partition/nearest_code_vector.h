@@ -46,6 +46,9 @@ class Bounded_assignment {
   /// search for each vector starts: any number below N is right, a near one is fast.
   void assign(const Feature_vectors& codes, Assignment& assignment);
 
+  /// Must be called when labels have been changed since the last call of `assign`: its bounds speak of those.
+  void forget();
+
  private:
   void follow_drift(const Feature_vectors& codes);
   void sort_neighbours(const Feature_vectors& codes);

@@ -55,6 +55,17 @@ Sphere bounding_sphere(const Positions& positions);
 std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions& positions,
                                       std::span<const Corners> faces, const Particle_count_options& options = {});
 
+/// The same of a mesh.
+/// @param np  `vertex_point_map`
+/// @throws Bad_mesh  see Mesh_numbering and read_positions
+template <Triangle_mesh Mesh, class Named_parameters = CGAL::parameters::Default_named_parameters>
+std::vector<Sphere> sphere_collection(const Mesh& mesh, const Particle_count_options& options = {},
+                                      const Named_parameters& np = CGAL::parameters::default_values()) {
+  const Mesh_numbering<Mesh> numbering(mesh);
+  return sphere_collection(vertex_graph(numbering.vertex_count(), numbering.corners()),
+                           read_positions(numbering, vertex_points(mesh, np)), numbering.corners(), options);
+}
+
 /// Particles for one object of a scene: `kissing_particle_count` for a sphere among objects of its own size; for any
 /// other object the sum of `shadow_particle_count` over its spheres, against the smallest object of the scene.
 ///

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lodestone/errors.h"
 #include "lodestone/partition/feature_vectors.h"
 #include "lodestone/partition/islands.h"
 #include "lodestone/partition/mesh_numbering.h"
@@ -73,7 +74,8 @@ struct Partition {
 std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
                                           const std::vector<Region_index>& labels, std::size_t regions);
 
-/// The part that every strategy shares: repair, numbering, particles.
+/// The part that every strategy shares: checks, repair, numbering, particles.
+/// @throws Bad_argument  a number of labels or vectors other than V, or a label not below V
 Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
                                     std::span<const Corners> faces, Labelling labelling,
                                     const Partition_options& options);

@@ -47,7 +47,7 @@ struct Extent_input {
 ///
 /// The border is made of the vertices with a neighbour in another region and those on an open border of the mesh. A
 /// region without border, a whole closed component, is measured to the farthest vertex within 45 degrees instead.
-/// O(V + n log n) for a region of n vertices; reads only positions of the region.
+/// O(V + n log n) for a region of n vertices, the V for its working memory; reads only positions of the region.
 ///
 /// @param normal  of the tangent plane, need not be a unit vector; zero: the plane z = 0
 /// @param x_axis  becomes X when projected into the plane; zero: the coordinate axis that lies flattest in the plane
@@ -59,8 +59,8 @@ Region_extent region_extent(const Extent_input& input, std::uint32_t home, const
 /// @return radians; 0 where an angle has no meaning
 double angle_to_axis(const Eigen::Vector3d& normal, const Eigen::Vector3d& needle);
 
-/// Area of the region now, as far as the samples tell: each path stretched as its polyline has. Reads at most 16
-/// vertices, whatever the size of the region.
+/// Area of the region now, as far as the samples tell: each path stretched as its polyline has. At most 20
+/// reads, whatever the size of the region.
 template <class Reader>
 double stretched_area(const Region_extent& extent, const Reader& reader) {
   std::array<double, 4> lengths{};
