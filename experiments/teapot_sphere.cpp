@@ -23,16 +23,20 @@ std::vector<Setting> paper_settings() {
     for (const double distance : {1.0, 2.0, 4.0})
       settings.push_back({fmt::format("{} particles, {} mu", particles, distance),
                           {.particles = particles, .collision_distance = distance}});
+  for (const std::size_t particles : {12, 32, 64})
+    settings.push_back({fmt::format("{} particles, 1 mu, growth 1.25", particles),
+                        {.particles = particles, .collision_distance = 1, .growth = 1.25}});
   return settings;
 }
 
 Text_table quality_table(const Measured_run& run) {
-  Text_table table({"particles", "distance", "recall", "precision", "accuracy", "lowest seed", "highest seed",
+  Text_table table({"particles", "distance", "growth", "recall", "precision", "accuracy", "lowest seed", "highest seed",
                     "never seen", "delay (frames)"});
   for (const auto& m : run.measurements) {
     const auto [lowest, highest] = std::ranges::minmax(m.accuracies);
     table.add({fmt::format("{}", m.setting.options.particles),
-               fmt::format("{} mu", m.setting.options.collision_distance), fmt::format("{:.3f}", m.score.recall()),
+               fmt::format("{} mu", m.setting.options.collision_distance),
+               fmt::format("{} A*", m.setting.options.growth), fmt::format("{:.3f}", m.score.recall()),
                fmt::format("{:.3f}", m.score.precision()), fmt::format("{:.3f}", m.score.accuracy()),
                fmt::format("{:.3f}", lowest), fmt::format("{:.3f}", highest),
                fmt::format("{} of {}", m.score.never_seen(), m.score.collisions()),
@@ -43,15 +47,18 @@ Text_table quality_table(const Measured_run& run) {
 
 Text_table time_table(const Measured_run& run) {
   const double oracle = 1e6 * median(run.oracle_seconds);
-  Text_table table({"particles", "distance", "growth check", "broad phase", "relaxation", "candidates", "confirmation",
-                    "all (us)", "oracle / all", "mean", "iterations", "exact tests", "repartitions / 300"});
+  Text_table table({"particles", "distance", "growth", "growth check", "broad phase", "relaxation", "candidates",
+                    "confirmation", "all (us)", "oracle / all", "mean", "iterations", "exact tests",
+                    "repartitions / 300"});
   for (const auto& m : run.measurements) {
     const auto stage = [&](double Stage_times::*s) { return fmt::format("{:.1f}", median_microseconds(m, s)); };
     const double total = median_total_microseconds(m);
     table.add({fmt::format("{}", m.setting.options.particles),
-               fmt::format("{} mu", m.setting.options.collision_distance), stage(&Stage_times::repartition),
+               fmt::format("{} mu", m.setting.options.collision_distance),
+               fmt::format("{} A*", m.setting.options.growth), stage(&Stage_times::repartition),
                stage(&Stage_times::broad_phase), stage(&Stage_times::relaxation), stage(&Stage_times::candidates),
                stage(&Stage_times::confirmation), fmt::format("{:.1f}", total), fmt::format("{:.0f}", oracle / total),
+               fmt::format("{:.1f}", mean_total_microseconds(m)),
                fmt::format("{:.1f}", mean_count(m, &Frame_statistics::iterations)),
                fmt::format("{:.0f}", mean_count(m, &Frame_statistics::exact_tests)),
                fmt::format("{:.1f}", 300 * mean_count(m, &Frame_statistics::repartitions))});

@@ -38,7 +38,7 @@ struct Detector_options {
   Candidate_choice candidates = Candidate_choice::all;
   Contact_query contacts = Contact_query::all;
   bool contact_points = false;  ///< compute where the face pairs meet; not with yes_no
-  double growth = 1.25;  ///< repartition when a region exceeds so many times A*; > 0; 1: as published; infinity: never
+  double growth = 1;            ///< repartition when a region exceeds so many times A*; > 0; infinity: never
   Senin_options senin = {};
 };
 
