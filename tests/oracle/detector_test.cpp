@@ -5,80 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <deque>
 #include <functional>
-#include <limits>
-#include <new>
 #include <random>
 
-#include "lodestone/baselines/exhaustive.h"
-#include "test_meshes.h"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// Not inlined: the compiler would see memory from `new` go to `free`.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-  ++allocations;
-  return std::malloc(size == 0 ? 1 : size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "count_allocations.h"
+#include "counting_points.h"
+#include "oracle/detector_scenes.h"
 
 namespace lodestone {
 namespace {
-
-using Scene = std::deque<Surface_mesh>;
-constexpr std::array modes{Mode::particles, Mode::senin};
-
-const Detector_options all_contacts{.particles = 32, .contacts = Contact_query::all};
-
-/// Every pair of the frame against exhaustive checking; gives the number of pairs that collide.
-std::size_t expect_true(const Frame& frame, const Scene& scene) {
-  std::size_t colliding = 0;
-  for (const auto& pair : frame.pairs) {
-    EXPECT_LT(pair.a, pair.b);
-    const auto truth = exhaustive_face_pairs(scene[pair.a], scene[pair.b]);
-    const auto contacts = frame.contacts(pair);
-    EXPECT_TRUE(std::ranges::is_sorted(contacts));
-    EXPECT_EQ(std::ranges::adjacent_find(contacts), contacts.end());
-    EXPECT_TRUE(std::ranges::includes(truth, contacts)) << "frame " << frame.number;
-    EXPECT_EQ(pair.collides, !contacts.empty());
-    colliding += pair.collides ? 1 : 0;
-  }
-  return colliding;
-}
-
-Scene two_spheres(double distance, int parts = 12) { return {sphere(parts), sphere(parts, 1, {distance, 0.1, 0.2})}; }
-
-template <class Detector_type>
-void add_all(Detector_type& detector, Scene& scene) {
-  for (auto& mesh : scene) detector.add(mesh);
-}
-
-void expect_equal(const Frame& a, const Frame& b) {
-  EXPECT_EQ(a.number, b.number);
-  EXPECT_EQ(a.face_pairs, b.face_pairs);
-  EXPECT_EQ(a.contact_points.size(), b.contact_points.size());
-  ASSERT_EQ(a.pairs.size(), b.pairs.size());
-  for (std::size_t i = 0; i < a.pairs.size(); ++i) {
-    EXPECT_EQ(a.pairs[i].a, b.pairs[i].a);
-    EXPECT_EQ(a.pairs[i].b, b.pairs[i].b);
-    EXPECT_EQ(a.pairs[i].collides, b.pairs[i].collides);
-    EXPECT_EQ(a.pairs[i].candidates, b.pairs[i].candidates);
-  }
-  EXPECT_EQ(a.statistics.moves, b.statistics.moves);
-  EXPECT_EQ(a.statistics.iterations, b.statistics.iterations);
-  EXPECT_EQ(a.statistics.exact_tests, b.statistics.exact_tests);
-  EXPECT_EQ(a.statistics.repartitions, b.statistics.repartitions);
-}
 
 TEST(Detector, reports_only_faces_that_intersect_in_both_modes) {
   for (const auto mode : modes) {
@@ -179,15 +114,6 @@ TEST(Detector, follows_many_objects) {
 }
 
 /// A vertex point map that counts how often it is read.
-struct Counting_points {
-  const Surface_mesh* mesh = nullptr;
-  std::size_t* reads = nullptr;
-  friend Point get(const Counting_points& map, Surface_mesh::Vertex_index v) {
-    ++*map.reads;
-    return map.mesh->point(v);
-  }
-};
-
 using Counting_detector = Detector<Surface_mesh, Lbg, Counting_points>;
 
 TEST(Detector, far_objects_cost_no_more_reads_than_the_particles) {
@@ -263,96 +189,6 @@ TEST(Detector, allocates_nothing_in_a_steady_scene) {
   swing(32);
   EXPECT_EQ(allocations - before, 0U);
   EXPECT_GT(contacts, 0U);
-}
-
-TEST(Detector, an_object_that_moves_without_growing_is_not_repartitioned) {
-  Scene scene{potato(10), potato(10, 2)};
-  shift(scene[1], 3);
-  Detector<Surface_mesh> detector({.particles = 24});
-  add_all(detector, scene);
-  std::size_t repartitions = 0;
-  for (int frame = 0; frame < 40; ++frame) {
-    repartitions += detector.detect().statistics.repartitions;
-    const double c = std::cos(0.1), s = std::sin(0.1);
-    deform(scene[0], [&](const Point& p) { return Point(c * p.x() - s * p.y() + 0.1, s * p.x() + c * p.y(), p.z()); });
-    shift(scene[1], 0.1, 0.013, -0.07);
-    detector.update();
-  }
-  EXPECT_EQ(repartitions, 0U);
-}
-
-TEST(Detector, an_object_that_shrinks_is_not_repartitioned) {
-  auto scene = two_spheres(2.5);
-  Detector<Surface_mesh> detector({.particles = 24});
-  add_all(detector, scene);
-  for (int frame = 0; frame < 10; ++frame) {
-    EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
-    scale(scene[0], 0.9);
-    detector.update();
-  }
-}
-
-TEST(Detector, an_inflating_object_is_repartitioned_with_its_particles_counted_afresh) {
-  auto scene = two_spheres(9);
-  Detector<Surface_mesh> detector({.least_particles = 1, .contacts = Contact_query::all});
-  add_all(detector, scene);
-  detector.detect();
-  EXPECT_EQ(detector.object(0).particles().at.size(), 2U);  // two objects of one size
-  scale(scene[0], 3);
-  detector.update();
-  EXPECT_EQ(detector.detect().statistics.repartitions, 1U);
-  EXPECT_EQ(detector.object(0).particles().at.size(), 62U);  // floor(2 / (1 - cos(asin(1 / 4))))
-  EXPECT_EQ(detector.object(1).particles().at.size(), 2U);
-  EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
-}
-
-TEST(Detector, an_object_that_inflates_slowly_stays_detectable) {
-  auto scene = two_spheres(3);
-  Detector<Surface_mesh> detector({.particles = 32, .contacts = Contact_query::all});
-  add_all(detector, scene);
-  std::size_t repartitions = 0, positive = 0, found = 0;
-  for (int frame = 0; frame < 60; ++frame) {
-    const Frame& result = detector.detect();
-    repartitions += result.statistics.repartitions;
-    found += expect_true(result, scene);
-    positive += exhaustive_face_pairs(scene[0], scene[1]).empty() ? 0 : 1;
-    scale(scene[0], std::pow(3.0, 1 / 60.0));
-    detector.update();
-  }
-  EXPECT_GT(repartitions, 5U);
-  EXPECT_GT(positive, 5U);
-  EXPECT_GT(10 * found, 8 * positive);
-}
-
-TEST(Detector, an_object_that_starts_without_extent_is_repartitioned_when_it_unfolds) {
-  auto scene = two_spheres(5);
-  deform(scene[0], [](const Point&) { return Point(0, 0, 0); });
-  Detector<Surface_mesh> detector({.particles = 12});
-  add_all(detector, scene);
-  EXPECT_NO_THROW(detector.detect());
-  const auto round = sphere(12);
-  for (const auto v : round.vertices()) scene[0].point(v) = round.point(v);
-  detector.update();
-  EXPECT_EQ(detector.detect().statistics.repartitions, 1U);
-}
-
-TEST(Detector, particles_are_counted_beside_objects_without_extent) {
-  Scene scene{sphere(8), single_triangle(), sphere(8, 2, {5, 0, 0})};
-  deform(scene[1], [](const Point&) { return Point(0, 0, 1); });
-  Detector<Surface_mesh> detector({.contacts = Contact_query::all});
-  add_all(detector, scene);
-  expect_true(detector.detect(), scene);
-  for (const Object_id object : {0U, 1U, 2U}) EXPECT_GE(detector.object(object).particles().at.size(), 1U);
-}
-
-TEST(Detector, repartitions_never_if_told_so) {
-  auto scene = two_spheres(9);
-  Detector<Surface_mesh> detector({.particles = 12, .growth = std::numeric_limits<double>::infinity()});
-  add_all(detector, scene);
-  detector.detect();
-  scale(scene[0], 3);
-  detector.update();
-  EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
 }
 
 void expect_maps_of(const Detector<Surface_mesh>& detector, Object_id object, const Surface_mesh& mesh) {
@@ -508,88 +344,6 @@ TEST(Detector, without_objects_finds_nothing) {
   Detector<Surface_mesh> detector;
   EXPECT_FALSE(detector.detect().collides());
   EXPECT_EQ(detector.detect().number, 2U);
-}
-
-TEST(Detector, options_out_of_range_are_refused) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (const double bad : {0.0, -1.0, infinity, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(Detector<Surface_mesh>({.collision_distance = bad}), Bad_argument) << bad;
-  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(Detector<Surface_mesh>({.growth = bad}), Bad_argument) << bad;
-}
-
-TEST(Detector, a_mesh_added_twice_is_refused) {
-  auto mesh = sphere(3);
-  Detector<Surface_mesh> detector;
-  detector.add(mesh);
-  EXPECT_THROW(detector.add(mesh), Bad_argument);
-  EXPECT_THROW(detector.add(std::as_const(mesh)), Bad_argument);
-  EXPECT_EQ(detector.size(), 1U);
-}
-
-TEST(Detector, an_unknown_object_is_refused) {
-  Detector<Surface_mesh> detector;
-  EXPECT_THROW(detector.update(0), Bad_argument);
-  auto mesh = sphere(3);
-  detector.add(mesh);
-  EXPECT_NO_THROW(detector.update(0));
-  EXPECT_THROW(detector.update(1), Bad_argument);
-}
-
-TEST(Detector, a_mesh_without_faces_or_with_a_quadrilateral_is_refused) {
-  Detector<Surface_mesh> detector;
-  Surface_mesh empty, quadrilateral;
-  EXPECT_THROW(detector.add(empty), Bad_mesh);
-  std::vector<Surface_mesh::Vertex_index> corners;
-  for (const auto& p : {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0)})
-    corners.push_back(quadrilateral.add_vertex(p));
-  quadrilateral.add_face(corners);
-  EXPECT_THROW(detector.add(quadrilateral), Bad_mesh);
-  EXPECT_EQ(detector.size(), 0U);
-}
-
-TEST(Detector, a_coordinate_that_is_not_finite_is_refused_by_the_first_frame) {
-  for (const auto mode : modes) {
-    auto scene = two_spheres(2);
-    scene[1].point(Surface_mesh::Vertex_index(7)) = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
-    Detector<Surface_mesh> detector({.mode = mode, .particles = 8});
-    add_all(detector, scene);
-    EXPECT_THROW(detector.detect(), Bad_mesh);
-  }
-}
-
-TEST(Detector, a_coordinate_that_is_not_finite_is_refused_in_any_frame_that_reads_it) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (const auto mode : modes)
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity}) {
-      auto scene = two_spheres(1.8);
-      Detector<Surface_mesh> detector({.mode = mode, .particles = 8, .contacts = Contact_query::all});
-      add_all(detector, scene);
-      detector.detect();
-      deform(scene[1], [&](const Point& p) { return Point(p.x(), bad, p.z()); });
-      EXPECT_THROW(
-          {
-            detector.update();
-            detector.detect();
-          },
-          Bad_mesh);
-    }
-}
-
-TEST(Detector, a_corner_of_a_candidate_region_that_is_not_finite_is_refused) {
-  auto scene = two_spheres(1.8);
-  Detector<Surface_mesh> detector({.particles = 1, .collision_distance = 50, .contacts = Contact_query::all});
-  add_all(detector, scene);
-  detector.detect();
-  // Far from the particle, but in its region.
-  std::uint32_t lost = 0;
-  const auto& at = detector.object(1).particles();
-  for (const auto v : scene[1].vertices()) {
-    const auto& p = scene[1].point(v);
-    if ((Eigen::Vector3d(p.x(), p.y(), p.z()) - at.positions[0]).norm() > 1.5) lost = v;
-  }
-  scene[1].point(Surface_mesh::Vertex_index(lost)) = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
-  EXPECT_THROW(detector.detect(), Bad_mesh);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "counting_points.h"
 #include "lodestone/partition/lbg.h"
 #include "test_meshes.h"
 
@@ -16,16 +17,6 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A vertex point map that counts how often it is read.
-struct Counting_points {
-  const Surface_mesh* mesh = nullptr;
-  std::size_t* reads = nullptr;
-  friend Point get(const Counting_points& map, Surface_mesh::Vertex_index v) {
-    ++*map.reads;
-    return map.mesh->point(v);
-  }
-};
 
 /// A mesh as an object whose reads are counted.
 struct Counted_object {
