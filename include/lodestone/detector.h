@@ -29,8 +29,8 @@ enum class Mode {
 
 struct Detector_options {
   Mode mode = Mode::particles;
-  std::size_t particles = 0;         ///< per object; 0: as many as `particle_count` says, but at least
-  std::size_t least_particles = 12;  ///< so many: the rule itself asks for as few as there are objects
+  std::size_t particles = 0;         ///< per object; 0: as many as the rule of `particle_count` asks for
+  std::size_t least_particles = 12;  ///< but at least so many; 1: the rule alone, which can ask for very few
   Particle_count_options particle_count = {};
   Partition_options partition = {};
   double collision_distance = 1;  ///< in multiples of mu, the larger of the two objects'; > 0
@@ -104,9 +104,9 @@ class Detector {
   /// Lets the particles walk and checks where they have come near each other. The first call, and any after an `add`,
   /// partitions the new objects.
   /// @return valid until the next call, and as long as the detector
-  /// @throws Bad_mesh  a coordinate that is read is not finite, a mesh has another number of vertices or faces than
-  /// when
-  ///                   it was added, or its coordinates are beyond what squared distances can hold
+  /// @throws Bad_mesh  a coordinate that is read is not finite or beyond 1e150, or a mesh has another number of
+  /// vertices
+  ///                   or faces than when it was added
   const Frame& detect();
 
   std::size_t size() const { return objects_.size(); }
