@@ -26,6 +26,7 @@ CLI::Validator one_of(const std::map<std::string, Value>& names) {
             const auto found = names.find(CLI::detail::to_lower(text));
             if (found == names.end()) {
               std::vector<std::string> expected;
+              expected.reserve(names.size());
               for (const auto& entry : names) expected.push_back(entry.first);
               return fmt::format("expected {}, found '{}'", fmt::join(expected, " or "), text);
             }

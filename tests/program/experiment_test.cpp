@@ -117,6 +117,7 @@ TEST(Fitted_exponent, is_that_of_a_power_law) {
   for (const double exponent : {-2.0, -0.5, 0.0, 1.0, 1.5, 3.0})
     for (const double factor : {1e-6, 1.0, 42.0}) {
       std::vector<double> y;
+      y.reserve(x.size());
       for (const double value : x) y.push_back(factor * std::pow(value, exponent));
       EXPECT_NEAR(fitted_exponent(x, y), exponent, 1e-12);
     }

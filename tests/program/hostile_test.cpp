@@ -45,7 +45,7 @@ std::string square_cache(int frames, double last, double points = 4) {
 
 /// Where things stand in the binary samples.
 const std::size_t ply_body = square_ply_header("binary_little_endian").size();
-const std::size_t ply_faces = ply_body + 4 * 12;
+const std::size_t ply_faces = ply_body + std::size_t{4} * 12;
 constexpr std::size_t stl_count = 80, stl_first_corner = 84 + 12;
 
 class Hostile_input : public testing::Test {

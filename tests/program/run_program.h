@@ -43,11 +43,12 @@ struct Program_options {
 /// The program at work.
 class Running_program {
  public:
-  explicit Running_program(const std::vector<std::string>& arguments, Program_options options = {})
+  explicit Running_program(const std::vector<std::string>& arguments, const Program_options& options = {})
       : deadline_(std::chrono::steady_clock::now() + options.limit) {
     std::vector<std::string> words{LODESTONE_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (auto& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
 

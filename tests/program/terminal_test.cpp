@@ -24,6 +24,7 @@ Terminal_session run_on_terminal(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{LODESTONE_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
 
