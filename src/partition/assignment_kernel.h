@@ -28,7 +28,7 @@ struct Bounded_pass {
   const double* codes;                  ///< N x k
   const Neighbourhood* neighbourhoods;  ///< N
   const double* half_gaps;              ///< N: half the distance to the nearest other, less the margin; at least 0
-  const double* drifts;     ///< N: how far all others have moved since the first pass, at most
+  const double* drifts;                 ///< N: how far all others have moved since the first pass, at most
   double margin;
 
   std::uint32_t* labels;      ///< M: start of each search, then its result

@@ -147,7 +147,7 @@ TEST(Detector, a_frame_reads_only_where_particles_look_and_in_candidate_regions)
     reads = 0;
     detector.update();
     const auto& statistics = detector.detect().statistics;
-    const std::size_t particles = 2 * 64, reach = 7, samples = 20;
+    const std::size_t particles = 128, reach = 7, samples = 20;
     EXPECT_LE(reads,
               particles * (1 + samples + reach * statistics.iterations) + 2 * statistics.candidates * largest_patch);
     most_reads = std::max(most_reads, reads);

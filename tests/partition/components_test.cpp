@@ -146,33 +146,33 @@ struct Fixed_labelling {
 class Partition_by_ones_own_strategy : public testing::Test {
  protected:
   Partition<Surface_mesh> divide(Labelling labelling, bool keep_islands = false) {
-    return partition(mesh_, 4, map_, Fixed_labelling{std::move(labelling)}, {.keep_islands = keep_islands});
+    return partition(mesh, 4, map, Fixed_labelling{std::move(labelling)}, {.keep_islands = keep_islands});
   }
 
-  Surface_mesh mesh_ = sphere(3);
-  std::size_t vertices_ = num_vertices(mesh_);
-  Surface_mesh::Property_map<Surface_mesh::Vertex_index, Region_index> map_ =
-      mesh_.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:label").first;
+  Surface_mesh mesh = sphere(3);
+  std::size_t vertices = num_vertices(mesh);
+  Surface_mesh::Property_map<Surface_mesh::Vertex_index, Region_index> map =
+      mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:label").first;
 };
 
 TEST_F(Partition_by_ones_own_strategy, a_label_for_each_vertex_is_taken) {
-  EXPECT_EQ(divide({.labels = Labels(vertices_, 0)}).regions, 1U);
-  Labels own(vertices_);
-  for (std::size_t v = 0; v < vertices_; ++v) own[v] = static_cast<Region_index>(v);
-  EXPECT_EQ(divide({.labels = own}).regions, vertices_);
-  EXPECT_EQ(divide({.labels = own, .vectors = Feature_vectors::Random(vertices_, 2)}).regions, vertices_);
+  EXPECT_EQ(divide({.labels = Labels(vertices, 0)}).regions, 1U);
+  Labels own(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) own[v] = static_cast<Region_index>(v);
+  EXPECT_EQ(divide({.labels = own}).regions, vertices);
+  EXPECT_EQ(divide({.labels = own, .vectors = Feature_vectors::Random(vertices, 2)}).regions, vertices);
 }
 
 TEST_F(Partition_by_ones_own_strategy, a_wrong_number_of_labels_is_refused) {
   for (const bool keep_islands : {false, true})
-    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, vertices_ - 1, vertices_ + 1})
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, vertices - 1, vertices + 1})
       EXPECT_THROW(divide({.labels = Labels(count, 0)}, keep_islands), Bad_argument) << count;
 }
 
 TEST_F(Partition_by_ones_own_strategy, a_label_beyond_the_number_of_vertices_is_refused) {
   for (const bool keep_islands : {false, true})
-    for (const auto label : {static_cast<Region_index>(vertices_), static_cast<Region_index>(-1)}) {
-      Labels labels(vertices_, 0);
+    for (const auto label : {static_cast<Region_index>(vertices), static_cast<Region_index>(-1)}) {
+      Labels labels(vertices, 0);
       labels.back() = label;
       EXPECT_THROW(divide({.labels = labels}, keep_islands), Bad_argument) << label;
     }
@@ -180,8 +180,8 @@ TEST_F(Partition_by_ones_own_strategy, a_label_beyond_the_number_of_vertices_is_
 
 TEST_F(Partition_by_ones_own_strategy, vectors_for_a_wrong_number_of_vertices_are_refused) {
   for (const bool keep_islands : {false, true})
-    for (const std::size_t rows : {std::size_t{1}, vertices_ - 1, vertices_ + 1})
-      EXPECT_THROW(divide({.labels = Labels(vertices_, 0), .vectors = Feature_vectors::Zero(rows, 3)}, keep_islands),
+    for (const std::size_t rows : {std::size_t{1}, vertices - 1, vertices + 1})
+      EXPECT_THROW(divide({.labels = Labels(vertices, 0), .vectors = Feature_vectors::Zero(rows, 3)}, keep_islands),
                    Bad_argument)
           << rows;
 }
