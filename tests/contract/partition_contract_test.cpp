@@ -42,7 +42,7 @@ TYPED_TEST(Partition_contract, vertices_and_faces_are_numbered_alike) {
   ASSERT_EQ(numbering.corners().size(), expected.corners().size());
   for (std::size_t face = 0; face < expected.corners().size(); ++face) {
     Corners corners = numbering.corners()[face];
-    std::ranges::rotate(corners, std::ranges::find(corners, expected.corners()[face][0]));
+    std::rotate(corners.begin(), std::ranges::find(corners, expected.corners()[face][0]), corners.end());
     EXPECT_EQ(corners, expected.corners()[face]);
   }
   for (std::uint32_t v = 0; v < numbering.vertex_count(); ++v) EXPECT_EQ(numbering.number(numbering.vertex(v)), v);
