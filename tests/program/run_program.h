@@ -40,17 +40,31 @@ struct Program_options {
   std::string standard_output = {};     ///< file that takes the standard output; empty: it is captured
 };
 
+/// The program's name and arguments as `exec` wants them.
+class Command_line {
+ public:
+  explicit Command_line(const std::vector<std::string>& arguments) : words_{LODESTONE_PROGRAM} {
+    words_.insert(words_.end(), arguments.begin(), arguments.end());
+    pointers_.reserve(words_.size() + 1);
+    for (auto& word : words_) pointers_.push_back(word.data());
+    pointers_.push_back(nullptr);
+  }
+  Command_line(const Command_line&) = delete;
+  Command_line& operator=(const Command_line&) = delete;
+
+  char** data() { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> words_;
+  std::vector<char*> pointers_;
+};
+
 /// The program at work.
 class Running_program {
  public:
   explicit Running_program(const std::vector<std::string>& arguments, const Program_options& options = {})
       : deadline_(std::chrono::steady_clock::now() + options.limit) {
-    std::vector<std::string> words{LODESTONE_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    pointers.reserve(words.size() + 1);
-    for (auto& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
+    Command_line command(arguments);
 
     std::array<int, 2> out{}, err{};
     if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0)
@@ -63,7 +77,7 @@ class Running_program {
       ::dup2(err[1], STDERR_FILENO);
       const rlimit size{options.largest_file, options.largest_file};
       if (options.largest_file != RLIM_INFINITY) ::setrlimit(RLIMIT_FSIZE, &size);
-      ::execv(pointers[0], pointers.data());
+      ::execv(command.data()[0], command.data());
       ::_exit(127);
     }
     ::close(out[1]);

@@ -21,12 +21,7 @@ struct Terminal_session {
 
 /// Runs the program with a terminal of 200 columns for all three streams.
 Terminal_session run_on_terminal(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{LODESTONE_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (auto& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+  Command_line command(arguments);
 
   winsize size{};
   size.ws_col = 200;
@@ -35,7 +30,7 @@ Terminal_session run_on_terminal(const std::vector<std::string>& arguments) {
   const pid_t process = ::forkpty(&terminal, nullptr, nullptr, &size);
   if (process == 0) {
     ::alarm(60);
-    ::execv(pointers[0], pointers.data());
+    ::execv(command.data()[0], command.data());
     ::_exit(127);
   }
   Terminal_session session;
