@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/contact/triangle_distance.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "distance_oracle.h"
+#include "touching_triangles.h"
+
+namespace lodestone {
+namespace {
+
+using Pair = std::pair<Triangle, Triangle>;
+
+Point plus(const Point& p, const Point& q, double factor) {
+  return {p.x() + factor * q.x(), p.y() + factor * q.y(), p.z() + factor * q.z()};
+}
+
+Triangle moved(Triangle t, double scale, const Point& offset) {
+  for (auto& corner : t) corner = plus(offset, corner, scale);
+  return t;
+}
+
+/// Pairs of many kinds, in the cube [0, 1]^3 or not far from it.
+class Pairs {
+ public:
+  explicit Pairs(std::uint64_t seed) : random_(seed) {}
+
+  struct Kind {
+    const char* name;
+    Pair (Pairs::*make)();
+  };
+  static const std::vector<Kind> kinds;
+
+ private:
+  double uniform() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+  /// From 10^-14 to 1.
+  double small() { return std::pow(10, -14 * uniform()); }
+  Point point() {
+    const double x = uniform(), y = uniform(), z = uniform();
+    return {x, y, z};
+  }
+  Triangle triangle() { return {point(), point(), point()}; }
+  Triangle sliver() {
+    const Point p = point(), q = point(), along = plus(q, p, -1);
+    return {p, q, plus(plus(p, along, 2 * uniform()), point(), small())};
+  }
+
+  Pair anywhere() { return {triangle(), triangle()}; }
+  Pair far_apart() { return {triangle(), moved(triangle(), 1, {1000 * uniform(), 1000 * uniform(), 2000})}; }
+  Pair nearly_parallel() {
+    const Triangle a = triangle();
+    Triangle b = moved(a, 1 + uniform(), plus(point(), point(), -1));
+    for (auto& corner : b) corner = plus(corner, point(), small());
+    return {a, b};
+  }
+  Pair slivers() { return {sliver(), sliver()}; }
+  Pair sliver_near_its_like() {
+    const Triangle a = sliver();
+    return {a, {plus(a[0], point(), small()), plus(a[1], point(), small()), plus(a[2], point(), small())}};
+  }
+  Pair just_above() {
+    const Triangle a = triangle();
+    const Point on = plus(plus(a[0], plus(a[1], a[0], -1), 0.3), plus(a[2], a[0], -1), 0.3);
+    return {a, {plus(on, point(), small()), plus(on, point(), 1), plus(on, point(), 1)}};
+  }
+  Pair edges_just_apart() {
+    const Triangle a = triangle();
+    const Point on = plus(a[0], plus(a[1], a[0], -1), uniform()), away = plus(point(), point(), -1);
+    const Point start = plus(plus(on, point(), small()), away, uniform());
+    return {a, {start, plus(start, away, -1 - uniform()), plus(start, point(), 3)}};
+  }
+  Pair coplanar() {
+    const Point u = point(), v = point();
+    const auto flat = [&] { return plus(moved({u, u, u}, uniform(), {0, 0, 0})[0], v, 2 * uniform()); };
+    return {{flat(), flat(), flat()}, moved({flat(), flat(), flat()}, 1, {uniform(), 0, 0})};
+  }
+  Pair of_grids_apart() {
+    const auto cell = [&](double z) {
+      const double x = static_cast<double>(random_() % 3), y = static_cast<double>(random_() % 3);
+      const auto turned = [&](double i, double j) {
+        return Point(0.6 * (x + i) - 0.8 * z, 0.8 * (x + i) + 0.6 * z, 0.3 * (x + i) + y + j);
+      };
+      return random_() % 2 == 0 ? Triangle{turned(0, 0), turned(1, 0), turned(1, 1)}
+                                : Triangle{turned(0, 0), turned(1, 1), turned(0, 1)};
+    };
+    return {cell(0), cell(small())};
+  }
+  Pair touching() {
+    const auto [a, b] = nearly_touching(random_);
+    return {as_triangle(a, 0x1p-23), as_triangle(b, 0x1p-23)};
+  }
+  Pair on_a_lattice() {
+    const int size = 2 + static_cast<int>(random_() % 6);
+    const auto a = random_triangle(random_, size), b = random_triangle(random_, size);
+    return {as_triangle(a, 0.125), as_triangle(b, 0.125)};
+  }
+  Pair segments_and_points() {
+    auto [a, b] = random_() % 2 == 0 ? on_a_lattice() : nearly_parallel();
+    a[1] = a[0];
+    if (random_() % 2 == 0) a[2] = a[0];
+    if (random_() % 2 == 0) b[2] = b[random_() % 2];
+    return {a, b};
+  }
+  Pair of_unlike_size() {
+    const Triangle a = triangle();
+    return {a, moved(triangle(), small(), plus(a[random_() % 3], point(), small()))};
+  }
+  Pair off_the_origin() {
+    const auto [a, b] = random_() % 2 == 0 ? just_above() : nearly_parallel();
+    return {moved(a, 0.01, {0x1p20, 0x1p20, -0x1p20}), moved(b, 0.01, {0x1p20, 0x1p20, -0x1p20})};
+  }
+
+  std::mt19937_64 random_;
+};
+
+const std::vector<Pairs::Kind> Pairs::kinds{
+    {"anywhere", &Pairs::anywhere},
+    {"far apart", &Pairs::far_apart},
+    {"nearly parallel", &Pairs::nearly_parallel},
+    {"slivers", &Pairs::slivers},
+    {"sliver near its like", &Pairs::sliver_near_its_like},
+    {"just above", &Pairs::just_above},
+    {"edges just apart", &Pairs::edges_just_apart},
+    {"coplanar", &Pairs::coplanar},
+    {"of grids apart", &Pairs::of_grids_apart},
+    {"touching", &Pairs::touching},
+    {"on a lattice", &Pairs::on_a_lattice},
+    {"segments and points", &Pairs::segments_and_points},
+    {"of unlike size", &Pairs::of_unlike_size},
+    {"off the origin", &Pairs::off_the_origin},
+};
+
+/// Calls `check(a, b)` for pairs of all kinds.
+template <class Check>
+void for_pairs(int of_each_kind, const Check& check) {
+  Pairs pairs(1);
+  for (const auto& kind : Pairs::kinds)
+    for (int trial = 0; trial < of_each_kind; ++trial) {
+      const auto [a, b] = (pairs.*kind.make)();
+      SCOPED_TRACE(std::string(kind.name) + ", trial " + std::to_string(trial));
+      check(a, b);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+Triangle scaled(Triangle t, double factor) { return moved(t, factor, {0, 0, 0}); }
+
+double greatest_coordinate(const Triangle& a, const Triangle& b) {
+  double most = 0;
+  for (const auto* t : {&a, &b})
+    for (const auto& corner : *t)
+      for (int axis = 0; axis < 3; ++axis) most = std::max(most, std::abs(corner[axis]));
+  return most;
+}
+
+Rational square(double x) { return Rational(x) * Rational(x); }
+
+TEST(Distance_oracle, equals_that_of_cgal_on_exact_numbers) {
+  using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+  const auto exact = [](const Triangle& t) {
+    const auto point = [](const Point& p) { return Exact::Point_3(p.x(), p.y(), p.z()); };
+    return Exact::Triangle_3(point(t[0]), point(t[1]), point(t[2]));
+  };
+  for_pairs(50, [&](const Triangle& a, const Triangle& b) {
+    ASSERT_EQ(Rational(CGAL::exact(CGAL::squared_distance(exact(a), exact(b)))), exact_squared_distance(a, b));
+  });
+}
+
+TEST(Closest_points, have_the_distance_of_the_triangles_up_to_one_part_in_2_to_the_30) {
+  for_pairs(300, [](const Triangle& a, const Triangle& b) {
+    const Rational expected = exact_squared_distance(a, b);
+    for (const auto& found : {closest_points(a, b), closest_points(b, a)}) {
+      // (1 + 2^-30)^2 < 1 + 2^-28.9
+      const Rational error = square(found.distance) - expected, bound = expected * Rational(0x1.1p-29);
+      ASSERT_TRUE(-bound <= error && error <= bound) << found.distance;
+    }
+  });
+}
+
+TEST(Closest_points, lie_on_the_triangles_as_far_apart_as_they_say) {
+  for_pairs(300, [](const Triangle& a, const Triangle& b) {
+    const auto found = closest_points(a, b);
+    const double digits = 0x1p-50 * greatest_coordinate(a, b);
+    ASSERT_LE(exact_squared_distance({found.a, found.a, found.a}, a), square(digits));
+    ASSERT_LE(exact_squared_distance({found.b, found.b, found.b}, b), square(digits));
+    const double apart = std::hypot(found.a.x() - found.b.x(), found.a.y() - found.b.y(), found.a.z() - found.b.z());
+    ASSERT_NEAR(apart, found.distance, 4 * digits + 0x1p-30 * found.distance);
+  });
+}
+
+TEST(Closest_points, are_at_distance_zero_if_and_only_if_the_triangles_intersect) {
+  std::size_t met = 0;
+  for_pairs(1500, [&](const Triangle& a, const Triangle& b) {
+    const bool meet = triangles_intersect(a, b);
+    met += meet ? 1 : 0;
+    const auto found = closest_points(a, b);
+    ASSERT_EQ(found.distance == 0, meet);
+    if (meet) {
+      ASSERT_EQ(found.a, found.b);
+    }
+  });
+  EXPECT_GT(met, 2000U);
+}
+
+TEST(Closest_points, scale_with_powers_of_two) {
+  for_pairs(200, [](const Triangle& a, const Triangle& b) {
+    const auto found = closest_points(a, b);
+    for (const double factor : {0x1p-300, 0x1p300, 0x1p-700, 0x1p1000}) {
+      const auto other = closest_points(scaled(a, factor), scaled(b, factor));
+      ASSERT_EQ(other.distance, factor * found.distance);
+      ASSERT_EQ(other.a, scaled({found.a, found.a, found.a}, factor)[0]);
+      ASSERT_EQ(other.b, scaled({found.b, found.b, found.b}, factor)[0]);
+    }
+  });
+}
+
+TEST(Closest_points, are_apart_even_if_their_distance_is_below_the_smallest_double) {
+  constexpr double smallest = std::numeric_limits<double>::denorm_min();
+  const Triangle segment{Point(0, 0, 0), Point(0, 0, 0), Point(0x1p52, 1, 0)};
+  const Triangle beside{Point(smallest, 0, 0), Point(smallest, 0, 0), Point(smallest, 0, 0)};
+  EXPECT_EQ(closest_points(segment, beside).distance, smallest);
+  EXPECT_TRUE(triangles_nearer_than(segment, beside, smallest));
+  const Triangle next{Point(0, 0, smallest), Point(0, 0, smallest), Point(0, 0, smallest)};
+  EXPECT_EQ(closest_points(segment, next).distance, smallest);
+  EXPECT_FALSE(triangles_nearer_than(segment, next, smallest));
+}
+
+TEST(Closest_points, of_the_greatest_coordinates_are_finite) {
+  constexpr double most = std::numeric_limits<double>::max();
+  const Triangle low{Point(-most, 0, 0), Point(-most, 1, 0), Point(-most, 0, 1)};
+  const Triangle high{Point(most / 2, 0, 0), Point(most / 2, 1, 0), Point(most, most, most)};
+  const auto found = closest_points(low, high);
+  EXPECT_EQ(found.distance, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(found.a.x(), -most);
+  EXPECT_EQ(found.b.x(), most / 2);
+  EXPECT_FALSE(triangles_nearer_than(low, high, most));
+  const Triangle middle{Point(0, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
+  EXPECT_EQ(closest_points(middle, low).distance, most);
+}
+
+TEST(Triangles_nearer_than, equals_the_oracle_to_the_last_digit) {
+  for_pairs(60, [](const Triangle& a, const Triangle& b) {
+    const Rational squared = exact_squared_distance(a, b);
+    const double about = closest_points(a, b).distance;
+    for (const double factor : {0.1, 0.9, 1 - 1e-7, 1 - 0x1p-40, 1 - 0x1p-51, 1 - 0x1p-53, 1.0, 1 + 0x1p-52,
+                                1 + 0x1p-50, 1 + 0x1p-40, 1 + 1e-7, 1.1, 10.0}) {
+      const double limit = about > 0 ? about * factor : factor * 1e-9;
+      ASSERT_EQ(triangles_nearer_than(a, b, limit), squared < square(limit)) << limit;
+      ASSERT_EQ(triangles_nearer_than(b, a, limit), squared < square(limit)) << limit;
+      for (const double scale : {0x1p-300, 0x1p300})
+        ASSERT_EQ(triangles_nearer_than(scaled(a, scale), scaled(b, scale), scale * limit), squared < square(limit))
+            << limit << " at " << scale;
+    }
+  });
+}
+
+struct Exactly_apart {
+  const char* name;
+  Integer_triangle a, b;
+  int distance;
+};
+
+const Integer_triangle base{{{0, 0, 0}, {12, 0, 0}, {0, 12, 0}}};
+
+const std::vector<Exactly_apart> exactly_apart{
+    {"corner to corner", base, {{{-3, -4, 0}, {-9, -4, 0}, {-3, -9, 1}}}, 5},
+    {"corner to corner in space", base, {{{-2, -3, 6}, {-3, -4, 9}, {-4, -3, 9}}}, 7},
+    {"corner to edge", base, {{{5, -3, 4}, {4, -6, 8}, {6, -6, 8}}}, 5},
+    {"corner to face", base, {{{3, 3, 5}, {2, 2, 9}, {4, 5, 9}}}, 5},
+    {"edge to face", base, {{{2, 2, 5}, {4, 3, 5}, {4, 5, 9}}}, 5},
+    {"parallel faces", base, {{{1, 1, 5}, {14, 1, 5}, {1, 14, 5}}}, 5},
+    {"parallel edges", base, {{{1, -3, 4}, {9, -3, 4}, {4, -9, 9}}}, 5},
+    {"crossing edges", base, {{{5, -7, 1}, {5, 1, 7}, {5, -7, 9}}}, 5},
+    {"edges at right angles", {{{-9, 0, 0}, {9, 0, 0}, {0, 0, -9}}}, {{{0, -9, 5}, {0, 9, 5}, {0, 0, 9}}}, 5},
+    {"coplanar", base, {{{-5, 1, 0}, {-5, 3, 0}, {-9, 2, 0}}}, 5},
+    {"segments", {{{-9, 0, 0}, {9, 0, 0}, {1, 0, 0}}}, {{{1, -9, 5}, {1, 9, 5}, {1, 3, 5}}}, 5},
+    {"points", {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}, {{{1, 4, 5}, {1, 4, 5}, {1, 4, 5}}}, 5},
+};
+
+TEST(Triangles_nearer_than, is_strict) {
+  for (const auto& c : exactly_apart) {
+    ASSERT_EQ(exact_squared_distance(as_triangle(c.a), as_triangle(c.b)), square(c.distance)) << c.name;
+    for (const auto& [scale, offset] : {std::pair{1.0, 0.0}, {1.0, 0x1p20}, {0x1p-300, 0.0}, {0x1p300, 0.0}}) {
+      const auto a = as_triangle(c.a, scale, offset), b = as_triangle(c.b, scale, offset);
+      const double distance = scale * c.distance;
+      EXPECT_FALSE(triangles_nearer_than(a, b, distance)) << c.name;
+      EXPECT_FALSE(triangles_nearer_than(b, a, distance)) << c.name;
+      EXPECT_TRUE(triangles_nearer_than(a, b, std::nextafter(distance, 2 * distance))) << c.name;
+      EXPECT_TRUE(triangles_nearer_than(b, a, std::nextafter(distance, 2 * distance))) << c.name;
+      EXPECT_EQ(closest_points(a, b).distance, distance) << c.name;
+    }
+  }
+}
+
+TEST(Triangles_nearer_than, asks_for_an_intersection_at_distances_of_zero_and_less) {
+  const auto a = as_triangle(base);
+  const auto touching = as_triangle({{{1, 1, 0}, {1, 1, 9}, {2, 1, 9}}});
+  const auto above = as_triangle({{{1, 1, 1}, {1, 1, 9}, {2, 1, 9}}});
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double distance : {0.0, -1.0, -infinity}) {
+    EXPECT_TRUE(triangles_nearer_than(a, touching, distance));
+    EXPECT_FALSE(triangles_nearer_than(a, above, distance));
+  }
+  EXPECT_TRUE(triangles_nearer_than(a, touching, 1e-300));
+  EXPECT_TRUE(triangles_nearer_than(a, above, infinity));
+}
+
+TEST(Distance_lower_bound, is_never_above_the_distance_of_the_boxes_and_close_to_it) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> place(-1, 1), exponent(-60, 0);
+  for (int trial = 0; trial < 20000; ++trial) {
+    const auto point = [&]() -> Eigen::Vector3d {
+      return Eigen::Vector3d(place(random), place(random), place(random)) * std::exp2(exponent(random));
+    };
+    Box a(point()), b(point());
+    a.extend(point()), b.extend(point());
+    for (const double scale : {1.0, 0x1p-300, 0x1p300, 0x1p-1050, 0x1p1020}) {
+      const Box s(scale * a.min(), scale * a.max()), t(scale * b.min(), scale * b.max());
+      Rational squared = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Rational below = Rational(s.min()[axis]) - Rational(t.max()[axis]);
+        const Rational above = Rational(t.min()[axis]) - Rational(s.max()[axis]);
+        const Rational gap = below > above ? below : above;
+        if (gap > 0) squared += gap * gap;
+      }
+      const double bound = distance_lower_bound(s, t);
+      ASSERT_EQ(bound, distance_lower_bound(t, s));
+      ASSERT_GE(bound, 0);
+      ASSERT_LE(square(bound), squared);
+      const bool usual = scale > 0x1p-400 && scale < 0x1p400;
+      ASSERT_GE(square(bound) * (usual ? 1 + Rational(0x1p-47) : Rational(3.0001)), squared);
+    }
+  }
+}
+
+TEST(Distance_lower_bound, stays_finite_at_the_greatest_coordinates) {
+  constexpr double most = std::numeric_limits<double>::max();
+  const Box low(Eigen::Vector3d::Constant(-most)), high(Eigen::Vector3d::Constant(most));
+  EXPECT_EQ(distance_lower_bound(low, high), most);
+}
+
+}  // namespace
+}  // namespace lodestone
