@@ -176,7 +176,8 @@ TEST(Point_inside, is_right_in_a_cube_with_faces_that_have_no_area) {
       for (int k = -1; k <= 9; ++k) {
         const bool within = std::min({i, j, k}) > 0 && std::max({i, j, k}) < 8;
         const bool beyond = std::min({i, j, k}) < 0 || std::max({i, j, k}) > 8;
-        if (within || beyond) ASSERT_EQ(inside(soup, {i / 8.0, j / 8.0, k / 8.0}), within) << i << ' ' << j << ' ' << k;
+        if (!within && !beyond) continue;
+        ASSERT_EQ(inside(soup, {i / 8.0, j / 8.0, k / 8.0}), within) << i << ' ' << j << ' ' << k;
       }
 }
 

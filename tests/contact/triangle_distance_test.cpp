@@ -173,7 +173,7 @@ TEST(Distance_oracle, equals_that_of_cgal_on_exact_numbers) {
 }
 
 TEST(Closest_points, have_the_distance_of_the_triangles_up_to_one_part_in_2_to_the_30) {
-  for_pairs(300, [](const Triangle& a, const Triangle& b) {
+  for_pairs(150, [](const Triangle& a, const Triangle& b) {
     const Rational expected = exact_squared_distance(a, b);
     for (const auto& found : {closest_points(a, b), closest_points(b, a)}) {
       // (1 + 2^-30)^2 < 1 + 2^-28.9
@@ -184,7 +184,7 @@ TEST(Closest_points, have_the_distance_of_the_triangles_up_to_one_part_in_2_to_t
 }
 
 TEST(Closest_points, lie_on_the_triangles_as_far_apart_as_they_say) {
-  for_pairs(300, [](const Triangle& a, const Triangle& b) {
+  for_pairs(150, [](const Triangle& a, const Triangle& b) {
     const auto found = closest_points(a, b);
     const double digits = 0x1p-50 * greatest_coordinate(a, b);
     ASSERT_LE(exact_squared_distance({found.a, found.a, found.a}, a), square(digits));
@@ -209,7 +209,7 @@ TEST(Closest_points, are_at_distance_zero_if_and_only_if_the_triangles_intersect
 }
 
 TEST(Closest_points, scale_with_powers_of_two) {
-  for_pairs(200, [](const Triangle& a, const Triangle& b) {
+  for_pairs(100, [](const Triangle& a, const Triangle& b) {
     const auto found = closest_points(a, b);
     for (const double factor : {0x1p-300, 0x1p300, 0x1p-700, 0x1p1000}) {
       const auto other = closest_points(scaled(a, factor), scaled(b, factor));
