@@ -3,10 +3,16 @@
 
 #include <Eigen/Geometry>
 
+#include "lodestone/contact/tree_box.h"
+
 namespace lodestone {
 
 /// Axis-aligned box. Minima and maxima of coordinates are exact, so two boxes that do not overlap prove their contents
 /// apart.
 using Box = Eigen::AlignedBox3d;
+
+inline Box to_box(const Tree_box& box) {
+  return {Eigen::Vector3d(box.low[0], box.low[1], box.low[2]), Eigen::Vector3d(box.high[0], box.high[1], box.high[2])};
+}
 
 }  // namespace lodestone

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+
+#include "lodestone/contact/confirmation.h"
+#include "lodestone/contact/leaf_pairs.h"
+#include "lodestone/contact/triangle_distance.h"
+
+namespace lodestone {
+
+/// Two faces, one of each object, that no others are nearer than.
+struct Closest_faces {
+  Face_pair faces = {};
+  Closest_points points = {};  ///< with their distance, in units of the coordinates; 0 if and only if they intersect
+};
+
+/// The closest faces of two trees. Distances are those of `closest_points`; of several pairs at one distance the
+/// lowest.
+///
+/// Branch and bound over pairs of nodes, the nearest boxes first: O(log F) openings and a few leaves where one place is
+/// clearly nearest, more where the surfaces run side by side.
+Closest_faces closest_faces(const Posed_tree& a, const Posed_tree& b);
+
+}  // namespace lodestone

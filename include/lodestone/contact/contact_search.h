@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "lodestone/contact/confirmation.h"
+#include "lodestone/contact/face_neighbours.h"
+#include "lodestone/contact/tree_contacts.h"
+#include "lodestone/contact/tree_object.h"
+#include "lodestone/workers.h"
+
+namespace lodestone {
+
+struct Contact_request {
+  Contact_query query = Contact_query::all;
+  double tolerance = 0;                                        ///< see `visit_contacts`; >= 0
+  std::size_t most = std::numeric_limits<std::size_t>::max();  ///< of the face pairs listed; >= 1
+};
+
+/// What a search found. All of it is the same for any number of workers.
+struct Contact_summary {
+  bool found = false;
+  bool capped = false;          ///< there are more face pairs than `Contact_request::most`
+  std::size_t leaf_tests = 0;   ///< pairs of leaves looked at
+  std::size_t exact_tests = 0;  ///< face pairs given to exact predicates
+};
+
+/// Finds the face pairs of trees that intersect, or are near. Holds the memory that it needs.
+class Contact_search {
+ public:
+  explicit Contact_search(Workers& workers);
+
+  /// Adds the face pairs of two objects to `found`, sorted; none for the query `yes_no`.
+  Contact_summary between(const Tree_object& a, const Tree_object& b, const Contact_request& request,
+                          std::vector<Face_pair>& found);
+  /// Adds the intersecting pairs of faces of one object, a < b, those that share vertices included: see
+  /// `faces_intersect`. The tolerance does not count: neighbours are always near.
+  Contact_summary within(const Tree_object& object, const Contact_request& request, std::vector<Face_pair>& found);
+
+ private:
+  /// What one worker keeps.
+  struct Scratch {
+    Tree_walk walk;
+    Neighbour_check neighbours;
+  };
+  /// What one task found.
+  struct Result {
+    std::vector<Face_pair> found;
+    std::size_t leaf_tests = 0;
+    std::size_t exact_tests = 0;
+  };
+  /// Adds to a result until it holds `limit` face pairs.
+  using Task = std::function<void(std::size_t index, std::size_t limit, Scratch& scratch, Result& result)>;
+
+  Contact_summary run(std::size_t tasks, const Contact_request& request, const Task& task,
+                      std::vector<Face_pair>& found);
+  std::size_t run_in_order(std::size_t tasks, std::size_t limit, const Task& task);
+  std::size_t run_side_by_side(std::size_t tasks, std::size_t limit, const Task& task);
+  void run_one(const Task& task, std::size_t index, std::size_t limit, Scratch& scratch);
+
+  Workers& workers_;
+  std::vector<Scratch> scratch_;  ///< per worker
+  std::vector<Result> results_;   ///< per task
+  std::vector<Node_pair> starts_;
+};
+
+}  // namespace lodestone

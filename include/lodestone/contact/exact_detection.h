@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lodestone/collision_filter.h"
+#include "lodestone/contact/closest_faces.h"
+#include "lodestone/contact/contact_search.h"
+#include "lodestone/contact/containment.h"
+#include "lodestone/contact/coordinate_reader.h"
+#include "lodestone/contact/tree_object.h"
+#include "lodestone/detector_options.h"
+#include "lodestone/frame.h"
+#include "lodestone/particles/near_pairs.h"
+#include "lodestone/partition/partition.h"
+#include "lodestone/region_maps.h"
+#include "lodestone/stopwatch.h"
+
+namespace lodestone {
+
+/// The coordinates as positions of magnitude at most 1: divided by a power of two, which loses nothing but what is far
+/// below the last digit of the largest. Whatever squares lengths can work with them.
+Positions scaled_positions(Coordinates coordinates);
+
+/// @throws Bad_mesh  one of the coordinates of object number `object` is not finite
+void check_finite(Coordinates coordinates, std::uint32_t object);
+
+/// The mode `exact` of a Detector: its objects, and what happens to them in a frame.
+///
+/// Every call that answers first reads all positions of the objects that it is about and refits their trees: it cannot
+/// answer for where they were before.
+template <Triangle_mesh Mesh, class Strategy, class Points>
+class Exact_detection {
+ public:
+  Exact_detection(const Detector_options& options, Strategy strategy)
+      : options_(options), strategy_(std::move(strategy)), workers_(options.exact.threads), search_(workers_) {}
+
+  void add(const Mesh& mesh, Points points, const Object_options& options) {
+    objects_.push_back(std::make_unique<Object>(mesh, points, options));
+  }
+  void write_maps(Object_id object, Mesh& mesh) { objects_[object]->maps.emplace(mesh); }
+
+  /// The mesh is where positions come from.
+  void update(Object_id object) { objects_[object]->given.reset(); }
+  /// These are its positions until the next update.
+  void update(Object_id object, const Eigen::Ref<const Positions>& positions);
+  /// Reads the faces of the mesh anew.
+  void rebuild(Object_id object);
+
+  const Frame& detect(const Collision_filter& filter);
+  const Frame& detect(const Collision_filter& filter, Object_pair pair);
+  Closest_faces closest(Object_pair pair);
+  bool contains(Object_id outer, Object_id inner);
+
+  const Tree_object& object(Object_id object) const { return objects_[object]->surface; }
+  const std::optional<Region_maps<Mesh>>& maps(Object_id object) const { return objects_[object]->maps; }
+
+ private:
+  struct Object {
+    const Mesh* mesh;
+    Object_options options;
+    Mesh_numbering<Mesh> numbering;
+    Coordinate_reader<Mesh, Points> reader;
+    Tree_object surface;
+    bool built = false;
+    std::optional<Positions> given = {};  ///< positions that came through `update`
+    std::optional<Region_maps<Mesh>> maps = {};
+
+    Object(const Mesh& m, Points points, const Object_options& o)
+        : mesh(&m), options(o), numbering(m), reader(points), surface(numbering.corners()) {}
+  };
+
+  Coordinates read(Object_id id);
+  void build(Object_id id, Coordinates coordinates);
+  void refresh(std::span<const Object_id> ids);
+  void start_frame(std::span<const Object_id> ids);
+  const Frame& finish_frame();
+  void find_near_pairs(const Collision_filter& filter);
+  void check(Object_pair pair);
+  void add_geometry(const Pair_result& result);
+  Containment containment(Object_pair pair, bool found);
+
+  Detector_options options_;
+  Strategy strategy_;
+  Workers workers_;
+  Contact_search search_;
+  std::vector<std::unique_ptr<Object>> objects_;
+  Frame frame_;
+
+  // Memory of the stages, kept from frame to frame.
+  std::vector<Object_id> all_;
+  std::vector<Tree_object*> surfaces_;
+  std::vector<Coordinates> coordinates_;
+  std::vector<Box> boxes_;
+  std::vector<double> reach_;
+  Near_pairs broad_phase_;
+  std::vector<Object_pair> near_pairs_;
+};
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Exact_detection<Mesh, Strategy, Points>::update(Object_id id, const Eigen::Ref<const Positions>& positions) {
+  Object& object = *objects_[id];
+  if (positions.rows() != object.numbering.vertex_count())
+    throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(object.numbering.vertex_count()) +
+                   " vertices, but got " + std::to_string(positions.rows()) + " positions");
+  Positions copy = positions;
+  check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, id);
+  object.given = std::move(copy);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Exact_detection<Mesh, Strategy, Points>::rebuild(Object_id id) {
+  Object& object = *objects_[id];
+  Mesh_numbering<Mesh> numbering(*object.mesh);
+  if (numbering.vertex_count() != object.numbering.vertex_count()) object.given.reset();
+  object.numbering = std::move(numbering);
+  object.surface = Tree_object(object.numbering.corners());
+  object.built = false;
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+const Frame& Exact_detection<Mesh, Strategy, Points>::detect(const Collision_filter& filter) {
+  for (auto id = static_cast<Object_id>(all_.size()); id < objects_.size(); ++id) all_.push_back(id);
+  start_frame(all_);
+  timed(frame_.statistics.seconds.broad_phase, [&] { find_near_pairs(filter); });
+  timed(frame_.statistics.seconds.confirmation, [&] {
+    for (const auto pair : near_pairs_) check(pair);
+  });
+  return finish_frame();
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+const Frame& Exact_detection<Mesh, Strategy, Points>::detect(const Collision_filter& filter, Object_pair pair) {
+  const Object_id ids[] = {pair.a, pair.b};
+  start_frame(std::span(ids).first(pair.a == pair.b ? 1 : 2));
+  if (filter.may_collide(pair.a, pair.b)) timed(frame_.statistics.seconds.confirmation, [&] { check(pair); });
+  return finish_frame();
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+Closest_faces Exact_detection<Mesh, Strategy, Points>::closest(Object_pair pair) {
+  const Object_id ids[] = {pair.a, pair.b};
+  refresh(ids);
+  return closest_faces(objects_[pair.a]->surface.posed(), objects_[pair.b]->surface.posed());
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+bool Exact_detection<Mesh, Strategy, Points>::contains(Object_id outer, Object_id inner) {
+  const Object_id ids[] = {outer, inner};
+  refresh(ids);
+  std::vector<Face_pair> none;
+  const auto& out = objects_[outer]->surface;
+  const auto& in = objects_[inner]->surface;
+  return encloses(out, in) && !search_.between(out, in, {.query = Contact_query::yes_no}, none).found;
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Exact_detection<Mesh, Strategy, Points>::start_frame(std::span<const Object_id> ids) {
+  ++frame_.number;
+  frame_.pairs.clear();
+  frame_.face_pairs.clear();
+  frame_.contact_points.clear();
+  frame_.contact_normals.clear();
+  frame_.statistics = {};
+  near_pairs_.clear();
+  timed(frame_.statistics.seconds.refit, [&] { refresh(ids); });
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+const Frame& Exact_detection<Mesh, Strategy, Points>::finish_frame() {
+  frame_.statistics.near_pairs = frame_.pairs.size();
+  frame_.statistics.contacts = frame_.face_pairs.size();
+  return frame_;
+}
+
+/// Where the vertices of an object are now.
+template <Triangle_mesh Mesh, class Strategy, class Points>
+Coordinates Exact_detection<Mesh, Strategy, Points>::read(Object_id id) {
+  Object& object = *objects_[id];
+  const auto vertices = num_vertices(*object.mesh), faces = num_faces(*object.mesh);
+  if (vertices != object.numbering.vertex_count() || faces != object.numbering.corners().size())
+    throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(vertices) + " vertices and " +
+                   std::to_string(faces) + " faces, but had " + std::to_string(object.numbering.vertex_count()) +
+                   " and " + std::to_string(object.numbering.corners().size()) +
+                   ": call rebuild() after such a change");
+  if (object.given) return {object.given->data(), static_cast<std::size_t>(object.given->size())};
+  return object.reader.read(object.numbering);
+}
+
+/// Divides the surface into regions, and builds a tree over them.
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Exact_detection<Mesh, Strategy, Points>::build(Object_id id, Coordinates coordinates) {
+  Object& object = *objects_[id];
+  check_finite(coordinates, id);
+  const auto& numbering = object.numbering;
+  const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
+  const Positions positions = scaled_positions(coordinates);
+  std::size_t regions = options_.least_particles;
+  if (options_.particles > 0) regions = options_.particles;
+  if (object.options.particles > 0) regions = object.options.particles;
+  const auto partition = partition_numbered(Partition_input<Mesh>{*object.mesh, numbering, graph, positions},
+                                            std::max<std::size_t>(1, regions), strategy_, options_.partition);
+  object.surface.build(partition.labels, coordinates, options_.exact.tree);
+  object.built = true;
+  if (object.maps) object.maps->write(numbering, partition.labels, partition.particles);
+}
+
+/// Everything that depends on positions: trees of new objects are built, others refitted, and built anew where their
+/// leaves have become too loose.
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Exact_detection<Mesh, Strategy, Points>::refresh(std::span<const Object_id> ids) {
+  surfaces_.clear();
+  coordinates_.clear();
+  for (const auto id : ids) {
+    const Coordinates coordinates = read(id);
+    if (!objects_[id]->built) {
+      build(id, coordinates);
+      continue;
+    }
+    surfaces_.push_back(&objects_[id]->surface);
+    coordinates_.push_back(coordinates);
+  }
+  refit(surfaces_, coordinates_, workers_);
+  for (const auto id : ids) {
+    const Tree_object& surface = objects_[id]->surface;
+    if (!surface.finite()) check_finite(surface.coordinates(), id);
+    if (!surface.looser_than(options_.exact.loosest)) continue;
+    build(id, surface.coordinates());
+    ++frame_.statistics.repartitions;
+  }
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Exact_detection<Mesh, Strategy, Points>::find_near_pairs(const Collision_filter& filter) {
+  boxes_.clear();
+  for (const auto& object : objects_) boxes_.push_back(to_box(object->surface.tree().box(0)));
+  reach_.assign(objects_.size(), options_.exact.tolerance);
+  for (const auto pair : broad_phase_.find(boxes_, reach_))
+    if (filter.may_collide(pair.a, pair.b)) near_pairs_.push_back(pair);
+  if (!options_.exact.self_collision) return;
+  for (Object_id id = 0; id < objects_.size(); ++id)
+    if (filter.may_collide(id, id)) near_pairs_.push_back({id, id});
+  std::ranges::sort(near_pairs_);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Exact_detection<Mesh, Strategy, Points>::check(Object_pair pair) {
+  const Tree_object& a = objects_[pair.a]->surface;
+  const Tree_object& b = objects_[pair.b]->surface;
+  const Contact_request request{
+      .query = options_.contacts, .tolerance = options_.exact.tolerance, .most = options_.most_contacts};
+  Pair_result result{.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size()};
+  const Contact_summary summary = pair.a == pair.b ? search_.within(a, request, frame_.face_pairs)
+                                                   : search_.between(a, b, request, frame_.face_pairs);
+  result.collides = summary.found;
+  result.capped = summary.capped;
+  result.candidates = summary.leaf_tests;
+  result.contacts = frame_.face_pairs.size() - result.first_contact;
+  if (options_.exact.containment && pair.a != pair.b) result.containment = containment(pair, summary.found);
+  frame_.statistics.candidates += summary.leaf_tests;
+  frame_.statistics.exact_tests += summary.exact_tests;
+  add_geometry(result);
+  frame_.pairs.push_back(result);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+Containment Exact_detection<Mesh, Strategy, Points>::containment(Object_pair pair, bool found) {
+  const Tree_object& a = objects_[pair.a]->surface;
+  const Tree_object& b = objects_[pair.b]->surface;
+  const bool a_in_b = encloses(b, a);
+  if (!a_in_b && !encloses(a, b)) return Containment::none;
+  // What was found may be near without intersecting.
+  std::vector<Face_pair> none;
+  if (found && (options_.exact.tolerance == 0 || search_.between(a, b, {.query = Contact_query::yes_no}, none).found))
+    return Containment::none;
+  return a_in_b ? Containment::a_in_b : Containment::b_in_a;
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Exact_detection<Mesh, Strategy, Points>::add_geometry(const Pair_result& result) {
+  if (!options_.contact_points && !options_.contact_normals) return;
+  const auto triangle = [this](Object_id id, std::uint32_t face) {
+    const Tree_object& surface = objects_[id]->surface;
+    return face_triangle(surface.corners()[face],
+                         [&](auto vertex) { return surface.coordinates().data() + 3 * std::size_t{vertex}; });
+  };
+  for (const auto& [face_a, face_b] : frame_.contacts(result)) {
+    const Triangle a = triangle(result.a, face_a), b = triangle(result.b, face_b);
+    Intersection_points points = triangle_intersection(a, b);
+    if (points.empty()) {
+      const Closest_points nearest = closest_points(a, b);
+      points = {nearest.a, nearest.b};
+    }
+    if (options_.contact_normals) frame_.contact_normals.push_back(contact_normal(a, b));
+    if (options_.contact_points) frame_.contact_points.push_back(std::move(points));
+  }
+}
+
+}  // namespace lodestone

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <vector>
+
+#include "lodestone/contact/confirmation.h"
+#include "lodestone/contact/leaf_pairs.h"
+#include "lodestone/contact/tree_walk.h"
+#include "lodestone/contact/triangle_distance.h"
+#include "lodestone/contact/triangle_intersection.h"
+
+namespace lodestone {
+
+/// What is called with each face pair that is found, once, in no particular order; it says whether to go on. "Yes or
+/// no", "the first", "all" and "how many" are four visitors of one walk.
+template <class Visitor>
+concept Contact_visitor = requires(Visitor& visitor, Face_pair pair) {
+  { visitor(pair) } -> std::same_as<Visit>;
+};
+
+/// Memory and counts of walks over trees; one per thread.
+struct Tree_walk {
+  std::vector<Node_pair> ahead;
+  Leaf_pairs leaf_pairs;
+  std::size_t leaf_tests = 0;   ///< pairs of leaves looked at, since the start
+  std::size_t exact_tests = 0;  ///< face pairs given to exact predicates, since the start
+};
+
+/// The triangle of a face of a leaf.
+inline Triangle leaf_triangle(const Posed_tree& posed, std::uint32_t leaf, std::uint16_t place) {
+  const auto vertices = posed.tree->vertices(leaf);
+  return face_triangle(posed.tree->corners(leaf)[place], [&](std::uint16_t corner) {
+    return posed.coordinates.data() + 3 * std::size_t{vertices[corner]};
+  });
+}
+
+/// Visits all pairs of faces, one of a and one of b, that intersect (`distance` = 0) or are nearer than `distance`,
+/// exactly: the pairs that checking every face against every other would find.
+///
+/// The walk starts from the node pairs in `walk.ahead`, {0, 0} being the two roots.
+///
+/// O(pairs of near leaves x their faces); for two surfaces that meet along a curve about the square root of their size.
+template <Contact_visitor Visitor>
+Visit visit_contacts(const Posed_tree& a, const Posed_tree& b, double distance, Tree_walk& walk, Visitor&& visitor) {
+  const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    ++walk.leaf_tests;
+    for (const auto& places : walk.leaf_pairs.near_faces(a, leaf_a, b, leaf_b, distance)) {
+      const Triangle triangle_a = leaf_triangle(a, leaf_a, places.a), triangle_b = leaf_triangle(b, leaf_b, places.b);
+      ++walk.exact_tests;
+      if (distance > 0 ? !triangles_nearer_than(triangle_a, triangle_b, distance)
+                       : !triangles_intersect(triangle_a, triangle_b))
+        continue;
+      if (visitor(Face_pair{a.tree->faces(leaf_a)[places.a], b.tree->faces(leaf_b)[places.b]}) == Visit::stop)
+        return Visit::stop;
+    }
+    return Visit::go_on;
+  };
+  return walk_leaf_pairs(*a.tree, *b.tree, distance, walk.ahead, visit_leaves);
+}
+
+/// Visits all intersecting pairs of faces of one mesh that share no vertex; pairs have a < b.
+template <Contact_visitor Visitor>
+Visit visit_contacts_within(const Posed_tree& posed, Tree_walk& walk, Visitor&& visitor) {
+  const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    ++walk.leaf_tests;
+    for (const auto& places : walk.leaf_pairs.near_faces_within(posed, leaf_a, leaf_b)) {
+      ++walk.exact_tests;
+      if (!triangles_intersect(leaf_triangle(posed, leaf_a, places.a), leaf_triangle(posed, leaf_b, places.b)))
+        continue;
+      const auto [first, second] =
+          std::minmax(posed.tree->faces(leaf_a)[places.a], posed.tree->faces(leaf_b)[places.b]);
+      if (visitor(Face_pair{first, second}) == Visit::stop) return Visit::stop;
+    }
+    return Visit::go_on;
+  };
+  return walk_leaf_pairs_within(*posed.tree, walk.ahead, visit_leaves);
+}
+
+}  // namespace lodestone

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lodestone/contact/region_tree.h"
+
+namespace lodestone {
+
+/// What a visitor wants after what it has been shown.
+enum class Visit { go_on, stop };
+
+/// Two nodes, of two trees or of one.
+struct Node_pair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+};
+
+/// Replaces a pair of near nodes, not both leaves, by the pairs below it, the last to be visited first: the larger box
+/// is opened, since that separates most.
+inline void open_pair(const Region_tree& a, const Region_tree& b, Node_pair pair, std::vector<Node_pair>& ahead) {
+  const bool open_a = b.is_leaf(pair.b) || (!a.is_leaf(pair.a) && extent(a.box(pair.a)) >= extent(b.box(pair.b)));
+  if (open_a) {
+    ahead.push_back({a.node(pair.a).second_child, pair.b});
+    ahead.push_back({pair.a + 1, pair.b});
+  } else {
+    ahead.push_back({pair.a, b.node(pair.b).second_child});
+    ahead.push_back({pair.a, pair.b + 1});
+  }
+}
+
+/// The same for a node against itself: its children against themselves and against each other.
+inline void open_node(const Region_tree& tree, std::uint32_t n, std::vector<Node_pair>& ahead) {
+  const std::uint32_t first = n + 1, second = tree.node(n).second_child;
+  ahead.push_back({second, second});
+  ahead.push_back({first, second});
+  ahead.push_back({first, first});
+}
+
+/// Visits the pairs of leaves whose boxes come within `margin` of each other, below the nodes on the stack `ahead`,
+/// which is empty afterwards. The order depends on the boxes alone.
+///
+/// @param visit  called with the numbers of a leaf of a and a leaf of b, returns a `Visit`
+template <class Visitor>
+Visit walk_leaf_pairs(const Region_tree& a, const Region_tree& b, double margin, std::vector<Node_pair>& ahead,
+                      Visitor&& visit) {
+  while (!ahead.empty()) {
+    const Node_pair pair = ahead.back();
+    ahead.pop_back();
+    if (!near(a.box(pair.a), b.box(pair.b), margin)) continue;
+    if (!a.is_leaf(pair.a) || !b.is_leaf(pair.b)) {
+      open_pair(a, b, pair, ahead);
+    } else if (visit(a.node(pair.a).leaf, b.node(pair.b).leaf) == Visit::stop) {
+      ahead.clear();
+      return Visit::stop;
+    }
+  }
+  return Visit::go_on;
+}
+
+/// The same for a tree and itself: each pair of leaves once, and each leaf with itself.
+template <class Visitor>
+Visit walk_leaf_pairs_within(const Region_tree& tree, std::vector<Node_pair>& ahead, Visitor&& visit) {
+  while (!ahead.empty()) {
+    const Node_pair pair = ahead.back();
+    ahead.pop_back();
+    const bool leaves = tree.is_leaf(pair.a) && tree.is_leaf(pair.b);
+    if (pair.a == pair.b) {
+      if (!leaves) open_node(tree, pair.a, ahead);
+    } else {
+      if (!near(tree.box(pair.a), tree.box(pair.b), 0)) continue;
+      if (!leaves) open_pair(tree, tree, pair, ahead);
+    }
+    if (leaves && visit(tree.node(pair.a).leaf, tree.node(pair.b).leaf) == Visit::stop) {
+      ahead.clear();
+      return Visit::stop;
+    }
+  }
+  return Visit::go_on;
+}
+
+}  // namespace lodestone

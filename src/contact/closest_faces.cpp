@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/contact/closest_faces.h"
+
+#include <queue>
+#include <tuple>
+
+#include "lodestone/contact/tree_contacts.h"
+
+namespace lodestone {
+
+namespace {
+
+/// A leaf's faces with their boxes.
+struct Boxed_leaf {
+  std::vector<Triangle> triangles;
+  std::vector<Box> boxes;
+
+  void fill(const Posed_tree& posed, std::uint32_t leaf) {
+    triangles.clear();
+    boxes.clear();
+    for (std::uint16_t place = 0; place < posed.tree->faces(leaf).size(); ++place) {
+      triangles.push_back(leaf_triangle(posed, leaf, place));
+      Box box;
+      for (const Point& p : triangles.back()) box.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
+      boxes.push_back(box);
+    }
+  }
+};
+
+class Search {
+ public:
+  Search(const Posed_tree& a, const Posed_tree& b) : a_(a), b_(b) {
+    best_.points.distance = std::numeric_limits<double>::infinity();
+    best_.faces = {std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()};
+  }
+
+  Closest_faces run() {
+    push({0, 0});
+    while (!ahead_.empty() && ahead_.top().bound <= best_.points.distance) {
+      const Node_pair pair = ahead_.top().pair;
+      ahead_.pop();
+      if (a_.tree->is_leaf(pair.a) && b_.tree->is_leaf(pair.b)) {
+        try_leaves(a_.tree->node(pair.a).leaf, b_.tree->node(pair.b).leaf);
+        continue;
+      }
+      below_.clear();
+      open_pair(*a_.tree, *b_.tree, pair, below_);
+      for (const Node_pair next : below_) push(next);
+    }
+    return best_;
+  }
+
+ private:
+  struct Ahead {
+    double bound;
+    Node_pair pair;
+    bool operator<(const Ahead& other) const { return bound > other.bound; }  // the nearest on top
+  };
+
+  void push(Node_pair pair) {
+    const double bound = distance_lower_bound(to_box(a_.tree->box(pair.a)), to_box(b_.tree->box(pair.b)));
+    if (bound <= best_.points.distance) ahead_.push({bound, pair});
+  }
+
+  void try_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    faces_a_.fill(a_, leaf_a);
+    faces_b_.fill(b_, leaf_b);
+    for (std::size_t i = 0; i < faces_a_.boxes.size(); ++i)
+      for (std::size_t j = 0; j < faces_b_.boxes.size(); ++j) {
+        const Face_pair faces{a_.tree->faces(leaf_a)[i], b_.tree->faces(leaf_b)[j]};
+        const double bound = distance_lower_bound(faces_a_.boxes[i], faces_b_.boxes[j]);
+        if (std::tie(bound, faces) >= std::tie(best_.points.distance, best_.faces)) continue;
+        const Closest_points points = closest_points(faces_a_.triangles[i], faces_b_.triangles[j]);
+        if (std::tie(points.distance, faces) < std::tie(best_.points.distance, best_.faces)) best_ = {faces, points};
+      }
+  }
+
+  const Posed_tree& a_;
+  const Posed_tree& b_;
+  Closest_faces best_;
+  std::priority_queue<Ahead> ahead_;
+  std::vector<Node_pair> below_;
+  Boxed_leaf faces_a_, faces_b_;
+};
+
+}  // namespace
+
+Closest_faces closest_faces(const Posed_tree& a, const Posed_tree& b) { return Search(a, b).run(); }
+
+}  // namespace lodestone

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lodestone/contact/tree_box.h"
+
+/// The inner loop of a refit, built for several instruction sets and chosen at run time. Minima and maxima do not
+/// round, so all give the same boxes.
+namespace lodestone::kernel {
+
+struct Refit {
+  const double* coordinates;          ///< 3 V
+  const std::uint32_t* vertices;      ///< vertex lists of all leaves, one after the other, each ascending
+  const std::uint32_t* vertex_begin;  ///< per leaf and past the last: start of its list, which is not empty
+  const std::uint32_t* leaf_nodes;    ///< per leaf: its place in `boxes`
+  Tree_box* boxes;
+};
+
+/// Fits the boxes of the leaves `first` to `end`.
+/// @return a sum over all coordinates: not finite if one of them is not, else mostly finite
+double refit_leaves(const Refit& refit, std::size_t first, std::size_t end);
+
+}  // namespace lodestone::kernel

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lodestone/contact/region_tree.h"
+
+namespace lodestone {
+
+/// Fills the nodes and leaves of a Region_tree.
+class Tree_builder {
+ public:
+  Tree_builder(Region_tree& tree, std::span<const Corners> corners, std::span<const Region_index> labels,
+               Coordinates coordinates, const Region_tree_options& options)
+      : tree_(tree), corners_(corners), labels_(labels), coordinates_(coordinates), options_(options) {}
+
+  void build();
+
+ private:
+  /// Something to be split: a face with the middle of its corners, or a region with the middle of its faces.
+  struct Item {
+    Eigen::Vector3d centre;
+    std::uint32_t number;
+  };
+
+  std::vector<Item> face_items() const;
+  Region_index region_of(std::uint32_t face) const;
+  void group_by_region(std::vector<Item> faces);
+  void add_regions(std::span<Item> regions);
+  void add_faces(std::span<Item> faces);
+  void add_leaf(std::span<Item> faces);
+  /// Adds a node with two children, for each of which `add` is called with half of the items.
+  template <class Add>
+  void add_halves(std::span<Item> items, Add add);
+
+  Region_tree& tree_;
+  std::span<const Corners> corners_;
+  std::span<const Region_index> labels_;
+  Coordinates coordinates_;
+  const Region_tree_options& options_;
+  std::vector<Item> faces_;                  ///< by region
+  std::vector<std::uint32_t> region_begin_;  ///< per region and past the last: its start in `faces_`
+};
+
+}  // namespace lodestone
