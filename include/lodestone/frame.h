@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lodestone/contact/confirmation.h"
+#include "lodestone/contact/contact_normal.h"
 #include "lodestone/contact/triangle_intersection.h"
 
 namespace lodestone {
@@ -16,11 +17,12 @@ using Object_id = std::uint32_t;
 /// Seconds spent in each stage of one frame.
 struct Stage_times {
   double repartition = 0;   ///< growth checks and repartitions of the updates since the frame before
+  double refit = 0;         ///< reading all positions, fitting all boxes, rebuilding what has become loose
   double broad_phase = 0;   ///< reading the particles, near object pairs
   double relaxation = 0;    ///< particles walking
   double candidates = 0;    ///< particle pairs below the collision distance
-  double confirmation = 0;  ///< exact checks of candidate regions
-  double total() const { return repartition + broad_phase + relaxation + candidates + confirmation; }
+  double confirmation = 0;  ///< exact checks of candidate regions; in mode exact with the walk that finds them
+  double total() const { return repartition + refit + broad_phase + relaxation + candidates + confirmation; }
 };
 
 struct Frame_statistics {
@@ -29,13 +31,16 @@ struct Frame_statistics {
   std::size_t iterations = 0;    ///< of the relaxation
   std::size_t moves = 0;         ///< steps of all particles together
   bool relaxed = true;           ///< false: the relaxation was stopped by R_max
-  std::size_t candidates = 0;    ///< candidate region pairs
+  std::size_t candidates = 0;    ///< candidate region pairs; in mode exact pairs of leaves
   std::size_t exact_tests = 0;   ///< face pairs given to the exact test
   std::size_t contacts = 0;      ///< intersecting face pairs found, each once
-  std::size_t repartitions = 0;  ///< objects repartitioned since the frame before
+  std::size_t repartitions = 0;  ///< objects repartitioned since the frame before; in mode exact trees rebuilt
 };
 
-/// What was found for one near object pair, a < b.
+/// Whether one object lies inside the other: their surfaces are apart, and every piece of it is enclosed.
+enum class Containment { none, a_in_b, b_in_a };
+
+/// What was found for one near object pair, a < b; or, with a = b, within one object.
 struct Pair_result {
   Object_id a = 0;
   Object_id b = 0;
@@ -43,14 +48,19 @@ struct Pair_result {
   std::size_t candidates = 0;     ///< candidate region pairs
   std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
   std::size_t contacts = 0;
+  bool capped = false;  ///< there are more face pairs than `Detector_options::most_contacts`
+  Containment containment = Containment::none;
 };
 
-/// Everything one frame brought. Pairs that the broad phase dropped are not listed: none of their particles is near.
+/// Everything one frame brought. Pairs that the broad phase dropped are not listed: none of their particles, or not
+/// their boxes, are near.
 struct Frame {
-  std::uint64_t number = 0;                         ///< 1 for the first
-  std::vector<Pair_result> pairs;                   ///< by (a, b)
-  std::vector<Face_pair> face_pairs;                ///< of all pairs one after the other, sorted within a pair
-  std::vector<Intersection_points> contact_points;  ///< parallel to `face_pairs`; empty unless asked for
+  std::uint64_t number = 0;           ///< 1 for the first
+  std::vector<Pair_result> pairs;     ///< by (a, b)
+  std::vector<Face_pair> face_pairs;  ///< of all pairs one after the other, sorted within a pair
+  /// Parallel to `face_pairs`; empty unless asked for. Faces that are near but apart: the nearest point of each.
+  std::vector<Intersection_points> contact_points;
+  std::vector<Contact_normal> contact_normals;  ///< parallel to `face_pairs`; empty unless asked for
   Frame_statistics statistics = {};
 
   std::span<const Face_pair> contacts(const Pair_result& pair) const {
@@ -59,6 +69,12 @@ struct Frame {
   bool collides() const {
     for (const auto& pair : pairs)
       if (pair.collides) return true;
+    return false;
+  }
+  /// Whether `face_pairs` lacks some that were cut off by `Detector_options::most_contacts`.
+  bool capped() const {
+    for (const auto& pair : pairs)
+      if (pair.capped) return true;
     return false;
   }
 };

@@ -15,7 +15,8 @@ Frame frame_of_three_pairs() {
                     {.a = 0, .b = 2, .collides = false, .candidates = 1, .first_contact = 2, .contacts = 0},
                     {.a = 1, .b = 2, .collides = true, .candidates = 1, .first_contact = 2, .contacts = 1}},
           .face_pairs = {{4, 9}, {5, 1}, {0, 3}},
-          .contact_points = {}};
+          .contact_points = {},
+          .contact_normals = {}};
 }
 
 std::vector<Face_pair> listed(const Frame& frame, std::size_t pair) {

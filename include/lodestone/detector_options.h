@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "lodestone/baselines/senin.h"
+#include "lodestone/contact/confirmation.h"
+#include "lodestone/contact/region_tree.h"
+#include "lodestone/particles/candidate_pairs.h"
+#include "lodestone/particles/collision_distance.h"
+#include "lodestone/partition/particle_count.h"
+#include "lodestone/partition/partition.h"
+
+namespace lodestone {
+
+/// Which method answers.
+enum class Mode {
+  particles,  ///< one particle per region; may miss a collision, never invents one
+  senin,      ///< the predecessor: particles scattered over the surface, no regions
+  exact,      ///< a box tree over the regions: what checking every face against every other would find
+};
+
+/// What only the mode `exact` is asked.
+struct Exact_options {
+  double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect
+  bool self_collision = false;  ///< also report pairs of faces of one object
+  bool containment = false;     ///< also tell objects that lie inside others
+  std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it
+  double loosest = 2;           ///< rebuild an object's tree when its leaves are looser by this factor; > 1
+  Region_tree_options tree = {};
+};
+
+struct Detector_options {
+  Mode mode = Mode::particles;
+  std::size_t particles = 0;         ///< per object; 0: as many as the rule of `particle_count` asks for
+  std::size_t least_particles = 12;  ///< but at least so many; 1: the rule alone, which can ask for very few
+  Particle_count_options particle_count = {};
+  Partition_options partition = {};
+  double collision_distance = 1;  ///< in multiples of mu, the larger of the two objects'; > 0
+  Distance_measure distance_measure = Distance_measure::adjacent_vertices;
+  Candidate_choice candidates = Candidate_choice::all;
+  Contact_query contacts = Contact_query::all;
+  bool contact_points = false;                                          ///< where faces meet; not with yes_no
+  bool contact_normals = false;                                         ///< which way, how deep; not with yes_no
+  std::size_t most_contacts = std::numeric_limits<std::size_t>::max();  ///< listed per object pair; >= 1
+  double growth = 1;  ///< repartition when a region exceeds so many times A*; > 0; infinity: never
+  Senin_options senin = {};
+  Exact_options exact = {};
+};
+
+/// What one object has of its own.
+struct Object_options {
+  std::size_t particles = 0;                           ///< 0: as the detector's options say
+  std::optional<Eigen::Vector3d> scattered_side = {};  ///< Senin_options::side of this object
+  std::uint32_t groups = 1;                            ///< bits: the groups that the object belongs to
+  std::uint32_t meets = ~std::uint32_t{0};             ///< bits: the groups that it can collide with
+};
+
+/// @throws Bad_argument  an option out of its range, or one that the mode does not know
+void check(const Detector_options& options);
+
+}  // namespace lodestone
