@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two oracles for faces that share a vertex: CGAL's self-intersections, and the definition in exact numbers.
+// Two oracles for faces that share a vertex, CGAL's self-intersections and the definition in exact numbers, and what
+// Neighbour_check says.
 #pragma once
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/intersections.h>
 
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <random>
 #include <span>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "lodestone/contact/confirmation.h"
+#include "lodestone/contact/face_neighbours.h"
 #include "test_meshes.h"
 
 namespace lodestone {
@@ -116,5 +121,56 @@ inline std::vector<Face_pair> adjacent_pairs(const Positions& positions, std::sp
 }
 
 }  // namespace by_definition
+
+/// What Neighbour_check says of a whole mesh; pairs sorted.
+struct Answer {
+  std::vector<Face_pair> pairs;
+  std::size_t exact_tests = 0;
+};
+
+inline Answer answer(const Positions& positions, std::span<const Corners> faces) {
+  const auto vertex_count = static_cast<std::uint32_t>(positions.rows());
+  const Vertex_fans fans(vertex_count, faces);
+  Neighbour_check check;
+  Answer result;
+  check.check(fans, faces, {positions.data(), static_cast<std::size_t>(positions.size())}, 0, vertex_count,
+              result.pairs);
+  result.exact_tests = check.exact_tests();
+  std::ranges::sort(result.pairs);
+  return result;
+}
+
+inline Answer answer(const Surface_mesh& mesh) {
+  const Numbered_mesh numbered(mesh);
+  return answer(numbered.positions, numbered.faces);
+}
+
+/// Checks a mesh against CGAL, whose faces without area are none; gives the number of pairs.
+inline std::size_t expect_equal_to_cgal(const Surface_mesh& mesh) {
+  const Numbered_mesh numbered(mesh);
+  const auto expected = reported_by_cgal(mesh, numbered.faces);
+  EXPECT_EQ(expected.faces_without_area, 0U);
+  EXPECT_EQ(answer(numbered.positions, numbered.faces).pairs, expected.pairs);
+  return expected.pairs.size();
+}
+
+/// Moves every vertex at random, along the first `axes` axes.
+inline void crumple(Surface_mesh& mesh, double distance, std::uint64_t seed, int axes = 3) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> step(0, distance);
+  deform(mesh, [&](const Point& p) {
+    const double x = step(random), y = step(random), z = step(random);
+    return Point(p.x() + x, p.y() + (axes > 1 ? y : 0), p.z() + (axes > 2 ? z : 0));
+  });
+}
+
+/// Turns a mesh by an angle that no coordinate survives without rounding.
+inline void turn(Surface_mesh& mesh) {
+  const Eigen::Matrix3d rotation(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  deform(mesh, [&](const Point& p) {
+    const Eigen::Vector3d q = rotation * coordinates(p);
+    return Point(q.x(), q.y(), q.z());
+  });
+}
 
 }  // namespace lodestone
