@@ -6,16 +6,14 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "contact/position_vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A vertex fills one vector of four lanes, or two of two. The lanes past z hold what follows in memory: the next
-// vertex, or nothing after the last, for which they are masked.
-constexpr std::size_t lanes = HWY_MAX_BYTES >= 32 ? 4 : 2;
-constexpr std::size_t vectors = 4 / lanes;
-using D = hn::CappedTag<double, lanes>;
+using D = Position_tag;
 using V = hn::Vec<D>;
 
 struct Bounds {
@@ -37,9 +35,8 @@ HWY_INLINE void extend(Bounds& bounds, const double* vertex) {
 
 /// The last vertex of a list may be the last of the mesh: nothing past its z is read.
 HWY_INLINE void start_last(Bounds& bounds, const double* vertex) {
-  const D d;
   for (std::size_t i = 0; i < vectors; ++i) {
-    const auto x = hn::MaskedLoad(hn::FirstN(d, i + 1 < vectors ? lanes : 3 - i * lanes), d, vertex + i * lanes);
+    const auto x = load_last(vertex, i);
     bounds.low[i] = x;
     bounds.high[i] = x;
     bounds.sum[i] = x;
