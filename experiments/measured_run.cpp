@@ -71,6 +71,7 @@ class Scene_run {
       run.measurements[s].score.add(scores_[s]);
       run.measurements[s].accuracies.push_back(scores_[s].accuracy());
       run.measurements[s].particles.clear();
+      if (run.measurements[s].setting.options.mode == Mode::exact) continue;
       for (Object_id o = 0; o < detectors_[s].size(); ++o)
         run.measurements[s].particles.push_back(detectors_[s].object(o).particles().at.size());
     }
@@ -148,7 +149,7 @@ nlohmann::ordered_json to_json(const Measurement& m) {
   const auto stage = [&](double Stage_times::*s) { return median_microseconds(m, s); };
   return {
       {"setting", m.setting.name},
-      {"mode", options.mode == Mode::senin ? "senin" : "particles"},
+      {"mode", name_of(options.mode)},
       {"particles", options.particles},
       {"collision_distance", options.collision_distance},
       {"frames", m.score.frames()},
@@ -169,6 +170,7 @@ nlohmann::ordered_json to_json(const Measurement& m) {
       {"preparation_seconds", m.preparation_seconds},
       {"median_microseconds",
        {{"repartition", stage(&Stage_times::repartition)},
+        {"refit", stage(&Stage_times::refit)},
         {"broad_phase", stage(&Stage_times::broad_phase)},
         {"relaxation", stage(&Stage_times::relaxation)},
         {"candidates", stage(&Stage_times::candidates)},

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "lodestone/baselines/senin.h"
 #include "lodestone/contact/confirmation.h"
@@ -23,6 +24,12 @@ enum class Mode {
   senin,      ///< the predecessor: particles scattered over the surface, no regions
   exact,      ///< a box tree over the regions: what checking every face against every other would find
 };
+
+/// As the options of the program and its results name it.
+constexpr std::string_view name_of(Mode mode) {
+  constexpr std::string_view names[] = {"particles", "senin", "exact"};
+  return names[static_cast<int>(mode)];
+}
 
 /// What only the mode `exact` is asked.
 struct Exact_options {

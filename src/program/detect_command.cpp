@@ -66,7 +66,8 @@ class Run {
   std::string play(std::size_t frame);
   nlohmann::ordered_json summary() const;
   void print() const;
-  bool contradicts_truth() const { return contradicted_; }
+  /// Something was reported that is not true, or missed by the mode that misses nothing.
+  bool contradicts_truth() const { return contradicted_ || (missed_ && command_.options.mode == Mode::exact); }
 
  private:
   std::optional<std::vector<Pair_truth>> find_truth() const;
@@ -78,7 +79,7 @@ class Run {
   std::vector<std::string> names_;
   std::map<Object_pair, Pair_summary> pairs_;
   Measurement measurement_;
-  bool contradicted_ = false;
+  bool contradicted_ = false, missed_ = false;
 };
 
 std::string Run::play(std::size_t frame) {
@@ -93,7 +94,7 @@ std::string Run::play(std::size_t frame) {
   const auto truth = find_truth();
   if (truth) compare(result, *truth);
   if (frame > 0 || scene_.frames == 1) measurement_.frames.push_back(result.statistics);
-  return frame_line(frame, names_, result, command_.options.contacts, truth);
+  return frame_line(frame, names_, result, command_.options, truth);
 }
 
 std::optional<std::vector<Pair_truth>> Run::find_truth() const {
@@ -110,24 +111,33 @@ void Run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {
     const auto found =
         std::ranges::find_if(result.pairs, [&](const auto& p) { return p.a == real.a && p.b == real.b; });
     const bool listed = found != result.pairs.end();
-    pairs_[{real.a, real.b}].score.add({real.a, real.b}, !real.faces.empty(), listed && found->collides);
+    const bool seen = listed && found->collides;
+    pairs_[{real.a, real.b}].score.add({real.a, real.b}, !real.faces.empty(), seen);
+    missed_ |= !real.faces.empty() && !seen;
     if (!listed) continue;
     contradicted_ |= found->collides && real.faces.empty();
     contradicted_ |= !std::ranges::includes(real.faces, result.contacts(*found));
+    if (command_.options.contacts == Contact_query::all && !found->capped)
+      missed_ |= found->contacts != real.faces.size();
   }
 }
 
 nlohmann::ordered_json Run::summary() const {
   nlohmann::ordered_json json{{"scene", scene_.name},
                               {"frames", scene_.frames},
-                              {"mode", command_.options.mode == Mode::senin ? "senin" : "particles"},
+                              {"mode", name_of(command_.options.mode)},
                               {"objects", nlohmann::ordered_json::array()},
                               {"pairs", nlohmann::ordered_json::array()}};
-  for (Object_id o = 0; o < names_.size(); ++o)
+  const bool exact = command_.options.mode == Mode::exact;
+  for (Object_id o = 0; o < names_.size(); ++o) {
     json["objects"].push_back({{"name", names_[o]},
                                {"vertices", scene_.objects[o].mesh.number_of_vertices()},
-                               {"faces", scene_.objects[o].mesh.number_of_faces()},
-                               {"particles", detector_.object(o).particles().at.size()}});
+                               {"faces", scene_.objects[o].mesh.number_of_faces()}});
+    if (exact)
+      json["objects"].back()["leaves"] = detector_.tree(o).tree().leaf_count();
+    else
+      json["objects"].back()["particles"] = detector_.object(o).particles().at.size();
+  }
   for (const auto& [pair, summary] : pairs_) {
     nlohmann::ordered_json entry{{"a", names_[pair.a]},
                                  {"b", names_[pair.b]},
@@ -146,7 +156,7 @@ nlohmann::ordered_json Run::summary() const {
   const auto measured = to_json(measurement_);
   for (const char* key : {"mean_iterations", "mean_moves", "mean_candidates", "mean_exact_tests", "mean_repartitions",
                           "median_microseconds"})
-    json[key] = measured[key];
+    if (measured.contains(key)) json[key] = measured[key];
   return json;
 }
 
@@ -166,9 +176,11 @@ void Run::print() const {
   }
   fmt::print("{}: {} objects, {} frames\n\n{}", scene_.name, names_.size(), scene_.frames, table.text());
   if (names_.size() > 4) fmt::print("Pairs that never collide are left out.\n");
-  fmt::print("\n{:.1f} microseconds per frame (median), {:.1f} iterations, {:.1f} exact tests (mean)\n",
-             median_total_microseconds(measurement_), mean_count(measurement_, &Frame_statistics::iterations),
-             mean_count(measurement_, &Frame_statistics::exact_tests));
+  const bool exact = command_.options.mode == Mode::exact;
+  fmt::print("\n{:.1f} microseconds per frame (median), {:.1f} {}, {:.1f} exact tests (mean)\n",
+             median_total_microseconds(measurement_),
+             mean_count(measurement_, exact ? &Frame_statistics::candidates : &Frame_statistics::iterations),
+             exact ? "pairs of leaves" : "iterations", mean_count(measurement_, &Frame_statistics::exact_tests));
 }
 
 }  // namespace

@@ -16,18 +16,48 @@ Json points_json(const Intersection_points& points) {
   return json;
 }
 
+/// The name of the object that lies inside the other, or null.
+Json inside_json(const std::vector<std::string>& names, const Pair_result& pair) {
+  if (pair.containment == Containment::none) return nullptr;
+  return names[pair.containment == Containment::a_in_b ? pair.a : pair.b];
+}
+
+Json normals_json(std::span<const Contact_normal> normals) {
+  Json json = Json::array();
+  for (const auto& [normal, depth] : normals)
+    json.push_back({{"normal", {normal.x(), normal.y(), normal.z()}}, {"depth", depth}});
+  return json;
+}
+
 Json pair_json(const std::vector<std::string>& names, const Frame& frame, const Pair_result& pair,
-               Contact_query query) {
+               const Detector_options& options) {
   Json json{{"a", names[pair.a]}, {"b", names[pair.b]}, {"collides", pair.collides}};
-  if (query != Contact_query::yes_no) {
+  if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(names, pair);
+  if (pair.capped) json["capped"] = true;
+  if (options.contacts != Contact_query::yes_no) {
     json["faces"] = Json::array();
     for (const auto& [a, b] : frame.contacts(pair)) json["faces"].push_back({a, b});
   }
-  if (frame.contact_points.empty()) return json;
+  if (options.contact_normals)
+    json["normals"] = normals_json(std::span(frame.contact_normals).subspan(pair.first_contact, pair.contacts));
+  if (!options.contact_points) return json;
   json["points"] = Json::array();
   for (std::size_t i = 0; i < pair.contacts; ++i)
     json["points"].push_back(points_json(frame.contact_points[pair.first_contact + i]));
   return json;
+}
+
+/// Counts alone: times differ from run to run.
+Json statistics_json(const Frame_statistics& statistics, Mode mode) {
+  if (mode == Mode::exact)
+    return {{"leaf_tests", statistics.candidates},
+            {"exact_tests", statistics.exact_tests},
+            {"contacts", statistics.contacts},
+            {"rebuilds", statistics.repartitions}};
+  return {{"iterations", statistics.iterations},    {"moves", statistics.moves},
+          {"relaxed", statistics.relaxed},          {"candidates", statistics.candidates},
+          {"exact_tests", statistics.exact_tests},  {"contacts", statistics.contacts},
+          {"repartitions", statistics.repartitions}};
 }
 
 }  // namespace
@@ -37,9 +67,9 @@ std::string json_text(const nlohmann::ordered_json& json, int indent) {
 }
 
 std::string frame_line(std::size_t frame, const std::vector<std::string>& names, const Frame& result,
-                       Contact_query query, const std::optional<std::vector<Pair_truth>>& truth) {
+                       const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth) {
   Json pairs = Json::array();
-  for (const auto& pair : result.pairs) pairs.push_back(pair_json(names, result, pair, query));
+  for (const auto& pair : result.pairs) pairs.push_back(pair_json(names, result, pair, options));
   if (truth) {
     for (const auto& real : *truth) {
       const auto listed =
@@ -50,17 +80,8 @@ std::string frame_line(std::size_t frame, const std::vector<std::string>& names,
         pairs.push_back({{"a", names[real.a]}, {"b", names[real.b]}, {"collides", false}, {"truth", true}});
     }
   }
-  const auto& statistics = result.statistics;
-  const Json line{{"frame", frame},
-                  {"pairs", std::move(pairs)},
-                  {"statistics",
-                   {{"iterations", statistics.iterations},
-                    {"moves", statistics.moves},
-                    {"relaxed", statistics.relaxed},
-                    {"candidates", statistics.candidates},
-                    {"exact_tests", statistics.exact_tests},
-                    {"contacts", statistics.contacts},
-                    {"repartitions", statistics.repartitions}}}};
+  const Json line{
+      {"frame", frame}, {"pairs", std::move(pairs)}, {"statistics", statistics_json(result.statistics, options.mode)}};
   return json_text(line);
 }
 

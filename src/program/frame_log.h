@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lodestone/detector_options.h"
 #include "lodestone/frame.h"
 
 namespace lodestone {
@@ -25,9 +26,9 @@ std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
 ///
 /// @param frame  frame of the scene, from 0
 /// @param names  of the objects
-/// @param query  face pairs are listed unless it is `yes_no`
+/// @param options  of the detector that gave the result: they decide what is written
 /// @param truth  of all pairs; adds the key `truth` to each pair, and the pairs that collide but were dropped
 std::string frame_line(std::size_t frame, const std::vector<std::string>& names, const Frame& result,
-                       Contact_query query, const std::optional<std::vector<Pair_truth>>& truth);
+                       const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth);
 
 }  // namespace lodestone

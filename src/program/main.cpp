@@ -57,6 +57,16 @@ void add_lbg_options(CLI::App& app, Lbg_options& options) {
       ->capture_default_str();
 }
 
+void add_exact_options(CLI::App& app, Exact_options& options) {
+  app.add_option("--within", options.tolerance, "Mode exact: report face pairs nearer than this; 0: that intersect")
+      ->capture_default_str();
+  app.add_flag("--self", options.self_collision, "Mode exact: also report an object's faces that intersect each other");
+  app.add_flag("--containment", options.containment, "Mode exact: also report objects that lie inside others");
+  app.add_option("--threads", options.threads, "Mode exact: threads, at most; 0: as many as the machine has")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1024}))
+      ->capture_default_str();
+}
+
 void add_detect(CLI::App& program, Detect_command& command) {
   auto& app = *program.add_subcommand("detect", "Find collisions between meshes, or through all frames of a scene");
   auto& options = command.options;
@@ -64,8 +74,8 @@ void add_detect(CLI::App& program, Detect_command& command) {
       ->required()
       ->type_name("FILE");
   app.add_option("--mode", options.mode,
-                 "particles: one per region; senin: the predecessor, scattered over the surface")
-      ->transform(one_of<Mode>({{"particles", Mode::particles}, {"senin", Mode::senin}}))
+                 "particles: one per region, may miss; exact: every face, misses nothing; senin: the predecessor")
+      ->transform(one_of<Mode>({{"particles", Mode::particles}, {"senin", Mode::senin}, {"exact", Mode::exact}}))
       ->type_name("MODE")
       ->default_str("particles");
   app.add_option("--particles", options.particles,
@@ -77,7 +87,12 @@ void add_detect(CLI::App& program, Detect_command& command) {
           {{"yes_no", Contact_query::yes_no}, {"first", Contact_query::first}, {"all", Contact_query::all}}))
       ->type_name("WHAT")
       ->default_str("first");
+  app.add_option("--most-contacts", options.most_contacts, "Face pairs reported of an object pair, at most")
+      ->check(CLI::Range(std::size_t{1}, std::numeric_limits<std::size_t>::max()).description("1 or more"))
+      ->default_str("all");
   app.add_flag("--points", options.contact_points, "Also report the points where two faces meet");
+  app.add_flag("--normals", options.contact_normals,
+               "Also report in which direction two faces are to be parted, and how far");
   app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
   app.add_option("--collision-distance", options.collision_distance,
                  "Distance below which particles call for a check, in mean edge lengths")
@@ -89,6 +104,7 @@ void add_detect(CLI::App& program, Detect_command& command) {
   app.add_option("--growth", options.growth,
                  "Repartition when a region exceeds so many times the largest area; inf: never")
       ->capture_default_str();
+  add_exact_options(app, options.exact);
   app.add_option("--seed", options.senin.seed, "Of the scattering of --mode senin")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
       ->capture_default_str();
