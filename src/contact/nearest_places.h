@@ -48,7 +48,7 @@ class Nearest_places_search {
   }
 
  private:
-  /// `across` along `gap`: zero stands for the gap itself.
+  /// Takes a gap that is shorter than the shortest so far.
   bool offer(const Vector& gap) {
     const Number squared = gap.squaredNorm();
     if (nearest_.squared >= 0 && !(squared < nearest_.squared)) return false;

@@ -19,12 +19,12 @@ CGAL::Sign side(const Point& a, const Point& b, const Point& p) {
   return CGAL::compare(b.x(), a.x());
 }
 
-/// Whether the ray could cross by the bounds of the triangle alone.
+/// Whether the ray from (p.x + e, p.y + e^2, p.z) could cross, by the bounds of the triangle alone.
 bool within_reach(const Triangle& t, const Point& p) {
   const auto [min_x, max_x] = std::minmax({t[0].x(), t[1].x(), t[2].x()});
-  if (p.x() < min_x || p.x() > max_x) return false;
+  if (p.x() < min_x || p.x() >= max_x) return false;
   const auto [min_y, max_y] = std::minmax({t[0].y(), t[1].y(), t[2].y()});
-  return p.y() >= min_y && p.y() <= max_y && p.z() <= std::max({t[0].z(), t[1].z(), t[2].z()});
+  return p.y() >= min_y && p.y() < max_y && p.z() <= std::max({t[0].z(), t[1].z(), t[2].z()});
 }
 
 }  // namespace

@@ -159,6 +159,16 @@ TEST(Contact_normal, is_finite_at_the_smallest_and_greatest_coordinates) {
   }
 }
 
+TEST(Contact_normal, is_right_for_a_triangle_however_small_beside_the_other) {
+  const Triangle tile = as_triangle({{{0, 0, 0}, {3, 1, 1}, {1, 4, -2}}});
+  const Triangle large = as_triangle({{{-3, -2, 1}, {5, -3, 0}, {-3, 6, 2}}});
+  const Eigen::Vector3d expected = (exact_unit_normal(large) - exact_unit_normal(tile)).normalized();
+  for (int exponent = 0; exponent > -1070; exponent -= 3) {
+    const auto contact = contact_normal(scaled(tile, std::ldexp(1.0, exponent)), large);
+    EXPECT_LT((contact.normal - expected).norm(), 1e-14) << exponent;
+  }
+}
+
 TEST(Contact_normal, of_two_overlapping_balls_points_from_one_to_the_other) {
   const Eigen::Vector3d apart = Eigen::Vector3d(1.2, 1.3, 0.4);
   const Numbered_mesh a(sphere(8, 1, {apart.x(), apart.y(), apart.z()})), b(sphere(8));

@@ -227,6 +227,23 @@ TEST(Crosses_upward_ray, counts_a_triangle_above_the_point_only) {
   }
 }
 
+TEST(Crosses_upward_ray, decides_ties_as_for_a_point_a_little_to_the_right_and_less_above) {
+  const Triangle lower_left = as_triangle({{{0, 0, 2}, {4, 0, 2}, {0, 4, 2}}});
+  EXPECT_TRUE(crosses_upward_ray(lower_left, {0, 0, 0}));
+  EXPECT_TRUE(crosses_upward_ray(lower_left, {0, 1, 0}));
+  EXPECT_TRUE(crosses_upward_ray(lower_left, {1, 0, 0}));
+  EXPECT_FALSE(crosses_upward_ray(lower_left, {2, 2, 0}));
+  EXPECT_FALSE(crosses_upward_ray(lower_left, {4, 0, 0}));
+  EXPECT_FALSE(crosses_upward_ray(lower_left, {0, 4, 0}));
+  const Triangle upper_right = as_triangle({{{4, 4, 2}, {0, 4, 2}, {4, 0, 2}}});
+  EXPECT_TRUE(crosses_upward_ray(upper_right, {2, 2, 0}));
+  EXPECT_FALSE(crosses_upward_ray(upper_right, {4, 1, 0}));
+  EXPECT_FALSE(crosses_upward_ray(upper_right, {1, 4, 0}));
+  EXPECT_FALSE(crosses_upward_ray(upper_right, {0, 4, 0}));
+  const Triangle steep = as_triangle({{{0, 0, 2}, {1, 4, 2}, {-1, 4, 2}}});
+  EXPECT_FALSE(crosses_upward_ray(steep, {0, 0, 0}));  // to the right of it: e^2 is less than 4 e
+}
+
 TEST(Crosses_upward_ray, counts_one_face_around_a_vertex_and_one_of_two_at_an_edge) {
   const Surface_mesh flat = grid(7, 7);
   for (int i = 1; i < 24; ++i)
