@@ -6,13 +6,15 @@
 namespace lodestone {
 
 std::span<const Experiment> experiments() {
-  static constexpr std::array<Experiment, 5> all{{
+  static constexpr std::array<Experiment, 7> all{{
       {"teapot_sphere", "How well and how fast does the method find collisions on the paper's pair?",
        run_teapot_sphere},
       {"scaling", "How do partition, detection and repartition check grow with k, M and N?", run_scaling},
       {"predecessor", "Where does the predecessor fail, and does this method hold there?", run_predecessor},
       {"collision_distance", "Why is mu the mean over adjacent vertices, not over all?", run_collision_distance},
       {"growth", "Does repartitioning keep an inflating object detectable, and what does it cost?", run_growth},
+      {"modes", "What does a frame cost in each mode, and what does it miss?", run_modes},
+      {"rebuild", "When does a tree of the mode exact become too loose, and does building it anew pay?", run_rebuild},
   }};
   return all;
 }

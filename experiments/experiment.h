@@ -30,5 +30,7 @@ std::string run_scaling(const Experiment_context& context);
 std::string run_predecessor(const Experiment_context& context);
 std::string run_collision_distance(const Experiment_context& context);
 std::string run_growth(const Experiment_context& context);
+std::string run_modes(const Experiment_context& context);
+std::string run_rebuild(const Experiment_context& context);
 
 }  // namespace lodestone

@@ -43,7 +43,10 @@ bool answered(const Frame& frame, Object_pair pair) {
 /// One scene, all settings.
 class Scene_run {
  public:
-  Scene_run(Scene& scene, std::span<const Setting> settings) : scene_(scene), pairs_(all_pairs(scene)) {
+  Scene_run(Scene& scene, std::span<const Setting> settings, Truth_source truth)
+      : scene_(scene), pairs_(all_pairs(scene)) {
+    if (truth == Truth_source::exact_mode)
+      exact_.emplace(make_detector(scene, {.name = "truth", .options = {.mode = Mode::exact}}));
     for (const auto& setting : settings) detectors_.push_back(make_detector(scene, setting));
     scores_.resize(settings.size());
   }
@@ -78,11 +81,16 @@ class Scene_run {
   }
 
  private:
-  std::vector<bool> find_truth(std::vector<double>* seconds) const {
+  std::vector<bool> find_truth(std::vector<double>* seconds) {
     std::vector<bool> truth;
     const auto start = Clock::now();
-    for (const auto& [a, b] : pairs_)
-      truth.push_back(!exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh).empty());
+    if (exact_) {
+      const Frame& answer = exact_->detect();
+      for (const auto pair : pairs_) truth.push_back(answered(answer, pair));
+    } else {
+      for (const auto& [a, b] : pairs_)
+        truth.push_back(!exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh).empty());
+    }
     if (seconds != nullptr) seconds->push_back(seconds_since(start));
     return truth;
   }
@@ -91,19 +99,20 @@ class Scene_run {
   std::vector<Object_pair> pairs_;
   std::vector<Detector<Surface_mesh>> detectors_;
   std::vector<Score> scores_;
+  std::optional<Detector<Surface_mesh>> exact_;
 };
 
 }  // namespace
 
 Measured_run measure(std::span<Scene> scenes, std::span<const Setting> settings,
-                     const std::function<void(std::size_t, std::size_t)>& progress) {
+                     const std::function<void(std::size_t, std::size_t)>& progress, Truth_source truth) {
   Measured_run run;
   for (const auto& setting : settings) run.measurements.push_back({.setting = setting});
   std::size_t frames = 0;
   for (const auto& scene : scenes) frames += scene.frames;
   std::size_t done = 0;
   for (auto& scene : scenes) {
-    Scene_run scene_run(scene, settings);
+    Scene_run scene_run(scene, settings, truth);
     for (std::size_t frame = 0; frame < scene.frames; ++frame) {
       scene_run.play(frame, run);
       progress(++done, frames);
