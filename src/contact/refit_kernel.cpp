@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/refit_kernel.h"
 
+#include <hwy/cache_control.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "contact/refit_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -51,7 +53,9 @@ HWY_INLINE void merge(Bounds& bounds, const Bounds& other) {
   }
 }
 
-double refit_leaves_kernel(const Refit& refit, std::size_t first, std::size_t end) {
+/// @tparam ahead  vertices by which memory is asked for before it is read; 0: the processor looks ahead by itself
+template <std::size_t ahead>
+HWY_INLINE double refit_leaves_ahead(const Refit& refit, std::size_t first, std::size_t end) {
   const D d;
   const double* coordinates = refit.coordinates;
   V sums[vectors];
@@ -64,6 +68,10 @@ double refit_leaves_kernel(const Refit& refit, std::size_t first, std::size_t en
     start_last(even, coordinates + 3 * std::size_t{*last});
     odd = even;
     for (; vertex + 1 < last; vertex += 2) {
+      if constexpr (ahead > 0) {
+        hwy::Prefetch(coordinates + 3 * std::size_t{vertex[ahead]});
+        hwy::Prefetch(coordinates + 3 * std::size_t{vertex[ahead + 1]});
+      }
       extend(even, coordinates + 3 * std::size_t{vertex[0]});
       extend(odd, coordinates + 3 * std::size_t{vertex[1]});
     }
@@ -79,6 +87,11 @@ double refit_leaves_kernel(const Refit& refit, std::size_t first, std::size_t en
   double total = 0;
   for (const auto& sum : sums) total += hn::GetLane(hn::SumOfLanes(d, sum));
   return total;
+}
+
+double refit_leaves_kernel(const Refit& refit, std::size_t first, std::size_t end) {
+  return refit.beyond_cache ? refit_leaves_ahead<vertices_ahead>(refit, first, end)
+                            : refit_leaves_ahead<0>(refit, first, end);
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

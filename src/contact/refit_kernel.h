@@ -10,12 +10,17 @@
 /// round, so all give the same boxes.
 namespace lodestone::kernel {
 
+/// How many places past a vertex list a refit beyond the cache reads.
+inline constexpr std::size_t vertices_ahead = 64;
+
 struct Refit {
   const double* coordinates;          ///< 3 V
-  const std::uint32_t* vertices;      ///< vertex lists of all leaves, one after the other, each ascending
+  const std::uint32_t* vertices;      ///< vertex lists of all leaves, one after the other, each ascending, and as many
+                                      ///< valid numbers more as `vertices_ahead`
   const std::uint32_t* vertex_begin;  ///< per leaf and past the last: start of its list, which is not empty
   const std::uint32_t* leaf_nodes;    ///< per leaf: its place in `boxes`
   Tree_box* boxes;
+  bool beyond_cache;  ///< the coordinates are too many to be found in the cache
 };
 
 /// Fits the boxes of the leaves `first` to `end`.

@@ -107,7 +107,8 @@ class Region_tree {
   std::vector<std::uint32_t> leaf_nodes_;    ///< per leaf: its node
   std::vector<std::uint32_t> face_begin_;    ///< per leaf and past the last: its start in `faces_` and `corners_`
   std::vector<std::uint32_t> vertex_begin_;  ///< per leaf and past the last: its start in `vertices_`
-  std::vector<std::uint32_t> faces_, vertices_;
+  std::vector<std::uint32_t> faces_;
+  std::vector<std::uint32_t> vertices_;  ///< with some more at the end, for a refit that looks ahead
   std::vector<Leaf_corners> corners_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> top_nodes_;  ///< above the parts, parents before children
