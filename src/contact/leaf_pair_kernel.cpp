@@ -18,8 +18,6 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = Position_tag;
-
 template <class Tag>
 HWY_INLINE unsigned mask_bits(Tag d, hn::Mask<Tag> mask) {
   std::uint8_t bytes[8] = {};
@@ -45,7 +43,6 @@ HWY_INLINE void copy_vertices(const Leaf_view& leaf, const Tree_box& box, double
     for (std::size_t i = 0; i < vectors; ++i) code |= copy(place, i, hn::LoadU(d, vertex + i * lanes));
     side.outcodes[place] = static_cast<std::uint8_t>(code & used);
   }
-  // The last one may be the last of the mesh: nothing past its z is read.
   const double* vertex = leaf.coordinates + 3 * std::size_t{leaf.vertices[last]};
   unsigned code = 0;
   for (std::size_t i = 0; i < vectors; ++i) code |= copy(last, i, load_last(vertex, i));

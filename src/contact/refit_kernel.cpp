@@ -15,7 +15,6 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = Position_tag;
 using V = hn::Vec<D>;
 
 struct Bounds {
