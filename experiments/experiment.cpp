@@ -6,7 +6,7 @@
 namespace lodestone {
 
 std::span<const Experiment> experiments() {
-  static constexpr std::array<Experiment, 7> all{{
+  static constexpr auto all = std::to_array<Experiment>({
       {"teapot_sphere", "How well and how fast does the method find collisions on the paper's pair?",
        run_teapot_sphere},
       {"scaling", "How do partition, detection and repartition check grow with k, M and N?", run_scaling},
@@ -15,7 +15,10 @@ std::span<const Experiment> experiments() {
       {"growth", "Does repartitioning keep an inflating object detectable, and what does it cost?", run_growth},
       {"modes", "What does a frame cost in each mode, and what does it miss?", run_modes},
       {"rebuild", "When does a tree of the mode exact become too loose, and does building it anew pay?", run_rebuild},
-  }};
+#ifdef LODESTONE_PEERS
+      {"peers", "How do other collision libraries fare on the same frames?", run_peers},
+#endif
+  });
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lodestone {
 
@@ -13,6 +14,9 @@ struct Experiment_context {
   std::filesystem::path scenes;                                    ///< folder of the scene files
   std::filesystem::path out;                                       ///< folder that receives all figures as JSON
   std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
+  /// Names of the scenes to play; empty: those of the published figures. Heeded by `peers`; the other experiments are
+  /// about their scenes, and play them all.
+  std::vector<std::string> only = {};
 };
 
 /// One question, and the run that answers it.
@@ -32,5 +36,6 @@ std::string run_collision_distance(const Experiment_context& context);
 std::string run_growth(const Experiment_context& context);
 std::string run_modes(const Experiment_context& context);
 std::string run_rebuild(const Experiment_context& context);
+std::string run_peers(const Experiment_context& context);
 
 }  // namespace lodestone

@@ -34,6 +34,7 @@ struct Partition_command {
 struct Experiment_command {
   std::string name;
   std::filesystem::path scenes, out;
+  std::vector<std::string> only;  ///< names of scenes; empty: all of the experiment
   bool quiet = false;
 };
 

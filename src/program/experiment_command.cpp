@@ -16,7 +16,7 @@ int run(const Experiment_command& command) {
   std::string report;
   {
     Progress_bar bar(command.name, command.quiet);
-    report = experiment->run({.scenes = command.scenes, .out = out, .progress = std::ref(bar)});
+    report = experiment->run({.scenes = command.scenes, .out = out, .progress = std::ref(bar), .only = command.only});
   }
   Atomic_file file(out / (command.name + ".md"));
   file.write(report);

@@ -142,6 +142,9 @@ void add_experiment(CLI::App& program, Experiment_command& command) {
   app.add_option("--scenes", command.scenes, "Folder of the scene files")
       ->type_name("DIR")
       ->default_str("data/scenes of the source");
+  app.add_option("--only", command.only, "Scenes to play in place of all, by name; for `peers`")
+      ->delimiter(',')
+      ->type_name("SCENE");
   app.add_option("--out", command.out, "Folder for the figures")
       ->type_name("DIR")
       ->default_str("out/NAME")

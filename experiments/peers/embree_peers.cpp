@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Embree: one scene of user-defined primitives per object, refitted or rebuilt, and `rtcCollide`.
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "lodestone/contact/triangle_intersection.h"
+#include "peer.h"
+
+namespace lodestone {
+
+namespace {
+
+/// As many as the rows of the tables ask for.
+constexpr std::size_t most_threads = 2;
+
+/// A float not above, or not below, a double: Embree's boxes must not lose anything.
+float rounded_down(double x) {
+  const auto near = static_cast<float>(x);
+  return near - std::abs(near) * std::numeric_limits<float>::epsilon() - std::numeric_limits<float>::min();
+}
+float rounded_up(double x) { return -rounded_down(-x); }
+
+Triangle triangle(const Peer_mesh& mesh, std::uint32_t face) {
+  const auto points = mesh.points();
+  const auto& [p, q, r] = mesh.corners[face];
+  return {points[p], points[q], points[r]};
+}
+
+/// Bounds of one triangle, for Embree.
+void bound(const RTCBoundsFunctionArguments* arguments) {
+  const auto& mesh = *static_cast<const Peer_mesh*>(arguments->geometryUserPtr);
+  const double* coordinates = mesh.coordinates().data();
+  const auto& [p, q, r] = mesh.corners[arguments->primID];
+  const double *a = coordinates + 3 * std::size_t{p}, *b = coordinates + 3 * std::size_t{q},
+               *c = coordinates + 3 * std::size_t{r};
+  RTCBounds& bounds = *arguments->bounds_o;
+  bounds.lower_x = rounded_down(std::min({a[0], b[0], c[0]}));
+  bounds.lower_y = rounded_down(std::min({a[1], b[1], c[1]}));
+  bounds.lower_z = rounded_down(std::min({a[2], b[2], c[2]}));
+  bounds.upper_x = rounded_up(std::max({a[0], b[0], c[0]}));
+  bounds.upper_y = rounded_up(std::max({a[1], b[1], c[1]}));
+  bounds.upper_z = rounded_up(std::max({a[2], b[2], c[2]}));
+}
+
+/// What the callback of one query works on. It is called by several threads at once.
+struct Query {
+  const Peer_mesh *a, *b;
+  bool stop_at_one;
+  std::atomic<bool> found_one = false;
+  std::array<std::vector<Face_pair>, most_threads> found = {};  ///< per thread
+};
+
+/// Decides pairs of triangles whose boxes meet. Embree cannot be told to stop: once one is enough, the rest is ignored.
+void decide(void* user, RTCCollision* pairs, unsigned count) {
+  auto& query = *static_cast<Query*>(user);
+  if (query.stop_at_one && query.found_one.load(std::memory_order_relaxed)) return;
+  const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+  for (const RTCCollision* pair = pairs; pair != pairs + count; ++pair) {
+    if (!triangles_intersect(triangle(*query.a, pair->primID0), triangle(*query.b, pair->primID1))) continue;
+    if (query.stop_at_one) {
+      query.found_one.store(true, std::memory_order_relaxed);
+      return;
+    }
+    query.found.at(thread).push_back({pair->primID0, pair->primID1});
+  }
+}
+
+template <RTCBuildQuality quality, std::size_t threads>
+class Embree_peer : public Peer {
+ public:
+  Embree_peer() : device_(rtcNewDevice(fmt::format("threads={}", most_threads).c_str())) {}
+  ~Embree_peer() override {
+    for (const auto& object : objects_) {
+      rtcReleaseGeometry(object->geometry);
+      rtcReleaseScene(object->scene);
+    }
+    rtcReleaseDevice(device_);
+  }
+
+  void add(const Peer_mesh& mesh) override {
+    auto& object = *objects_.emplace_back(std::make_unique<Object>());
+    object = {mesh, rtcNewScene(device_), rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER)};
+    rtcSetGeometryUserPrimitiveCount(object.geometry, static_cast<unsigned>(mesh.corners.size()));
+    rtcSetGeometryUserData(object.geometry, &object.mesh);
+    rtcSetGeometryBoundsFunction(object.geometry, bound, nullptr);
+    rtcSetGeometryBuildQuality(object.geometry, quality);
+    rtcAttachGeometry(object.scene, object.geometry);
+    rtcSetSceneFlags(object.scene, RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneBuildQuality(object.scene, RTC_BUILD_QUALITY_LOW);
+    update(objects_.size() - 1);
+  }
+
+  void update(std::size_t object) override {
+    arena_.execute([&] {
+      rtcCommitGeometry(objects_[object]->geometry);
+      rtcCommitScene(objects_[object]->scene);
+    });
+  }
+
+  bool any(std::size_t a, std::size_t b) override {
+    Query query{&objects_[a]->mesh, &objects_[b]->mesh, true};
+    arena_.execute([&] { rtcCollide(objects_[a]->scene, objects_[b]->scene, decide, &query); });
+    return query.found_one;
+  }
+
+  void all(std::size_t a, std::size_t b, std::vector<Face_pair>& found) override {
+    Query query{&objects_[a]->mesh, &objects_[b]->mesh, false};
+    arena_.execute([&] { rtcCollide(objects_[a]->scene, objects_[b]->scene, decide, &query); });
+    for (const auto& part : query.found) found.insert(found.end(), part.begin(), part.end());
+  }
+
+ private:
+  struct Object {
+    Peer_mesh mesh;
+    RTCScene scene;
+    RTCGeometry geometry;
+  };
+
+  RTCDevice device_;
+  /// The number of threads of a device is one for the whole process, the largest that any device asked for. What is
+  /// called within an arena keeps to the arena's.
+  tbb::task_arena arena_{static_cast<int>(threads)};
+  std::vector<std::unique_ptr<Object>> objects_;
+};
+
+template <RTCBuildQuality quality, std::size_t threads>
+Peer_kind kind(const char* method) {
+  return {.library = "Embree",
+          .method = threads == 1 ? method : fmt::format("{}, {} threads", method, threads),
+          .volume = "AABB",
+          .threads = threads,
+          .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Embree_peer<quality, threads>>(); }};
+}
+
+}  // namespace
+
+std::vector<Peer_kind> embree_peers() {
+  return {kind<RTC_BUILD_QUALITY_REFIT, 1>("refit"), kind<RTC_BUILD_QUALITY_LOW, 1>("rebuild"),
+          kind<RTC_BUILD_QUALITY_REFIT, most_threads>("refit"), kind<RTC_BUILD_QUALITY_LOW, most_threads>("rebuild")};
+}
+
+}  // namespace lodestone

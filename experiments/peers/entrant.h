@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lodestone/particles/near_pairs.h"
+#include "peer.h"
+
+/// What takes part in a measured run: the peers, Lodestone, and the bound of reading every vertex once.
+namespace lodestone {
+
+/// What one frame took, and what was answered. All figures are sums over the objects, or over the pairs asked for.
+struct Answer {
+  double update_seconds = 0;
+  double any_seconds = 0;
+  double all_seconds = 0;
+  std::vector<bool> collides;                    ///< per pair asked for
+  std::vector<std::vector<Face_pair>> contacts;  ///< per pair asked for, in any order
+};
+
+class Entrant {
+ public:
+  Entrant() = default;
+  Entrant(const Entrant&) = delete;
+  Entrant& operator=(const Entrant&) = delete;
+  virtual ~Entrant() = default;
+
+  /// Whatever only the measurement needs: called once, after time and memory of the build have been taken.
+  virtual void prepare() {}
+  /// Updates all objects, then asks about the pairs: first whether they collide, then for all contacts.
+  /// @return valid until the next call
+  virtual const Answer& play(std::span<const Object_pair> pairs) = 0;
+};
+
+/// What stands in the row of a table, and how its entrant is made.
+struct Entry {
+  std::string library;
+  std::string method;
+  std::string volume;
+  std::size_t threads = 1;
+  bool answers = true;        ///< false: a bound, which answers nothing
+  bool reports_pairs = true;  ///< false: `Answer::contacts` means nothing
+  std::function<std::unique_ptr<Entrant>(std::span<const Peer_mesh>)> build;
+
+  std::string name() const { return library + ": " + method; }
+};
+
+/// Everything that takes part, in the order of the tables.
+std::vector<Entry> all_entries();
+
+/// Lodestone's own rows.
+std::vector<Entry> lodestone_entries();
+
+}  // namespace lodestone

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lodestone/concepts.h"
+#include "lodestone/contact/confirmation.h"
+#include "lodestone/partition/mesh_numbering.h"
+
+/// Other libraries that answer the same question, each behind the same small interface.
+namespace lodestone {
+
+/// A mesh as every library is shown it: its faces stay, its positions change from frame to frame. Valid as long as the
+/// mesh and the corners.
+struct Peer_mesh {
+  const Surface_mesh* mesh = nullptr;
+  std::span<const Corners> corners;  ///< per face
+
+  std::span<const Point> points() const { return {mesh->points().data(), mesh->number_of_vertices()}; }
+  /// Three per vertex, one vertex after the other.
+  std::span<const double> coordinates() const {
+    static_assert(sizeof(Point) == 3 * sizeof(double));
+    return {reinterpret_cast<const double*>(points().data()), 3 * points().size()};
+  }
+};
+
+/// One library, used in one way. Objects are numbered from 0 in the order of `add`. One thread calls at a time.
+class Peer {
+ public:
+  Peer() = default;
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+  virtual ~Peer() = default;
+
+  /// Builds all that the library keeps of a mesh, from where its vertices are now.
+  virtual void add(const Peer_mesh& mesh) = 0;
+  /// Brings an object to where its vertices are now: whatever has to be done once per frame and object, including the
+  /// conversion to the library's own layout.
+  virtual void update(std::size_t object) = 0;
+  /// Whether the surfaces of two objects intersect.
+  virtual bool any(std::size_t a, std::size_t b) = 0;
+  /// Adds all face pairs that intersect to `found`, in any order. Never called for a peer that does not report them.
+  virtual void all(std::size_t a, std::size_t b, std::vector<Face_pair>& found) = 0;
+};
+
+/// What stands in the row of a table, and how its peer is made.
+struct Peer_kind {
+  std::string library;
+  std::string method;         ///< what is done in each frame
+  std::string volume;         ///< bounding volume of the nodes of its tree
+  std::size_t threads = 1;    ///< that it may use
+  bool reports_pairs = true;  ///< false: it can only say yes or no
+  std::unique_ptr<Peer> (*make)() = nullptr;
+};
+
+/// The kinds of each library, one function in one file each: no header of a library is seen outside of it.
+std::vector<Peer_kind> cgal_peers();
+std::vector<Peer_kind> fcl_peers();
+std::vector<Peer_kind> embree_peers();
+std::vector<Peer_kind> bullet_peers();
+std::vector<Peer_kind> ode_peers();
+/// All of them, in the order of the tables.
+std::vector<Peer_kind> all_peers();
+
+}  // namespace lodestone

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "entrant.h"
+#include "lodestone/io/scene_file.h"
+
+namespace lodestone {
+
+/// How much of a scene is measured. What is slow is measured less often, by rules that a reader can check.
+struct Peer_run_options {
+  std::size_t triangles = 20'000'000;  ///< of all sampled frames together; decides how many frames are sampled
+  std::size_t least_frames = 6;        ///< but at least so many
+  std::size_t most_frames = 40;        ///< and at most so many
+  std::size_t passes = 5;              ///< over each frame
+  double seconds = 3;                  ///< per entry and scene; beyond that an entry gets one pass over each frame
+  std::size_t bytes = std::size_t{4} << 30;  ///< of entries that live at the same time, see `measure_peers`
+};
+
+/// Seconds in one frame: for each figure the least over the passes.
+struct Frame_seconds {
+  double update = 0;
+  double any = 0;
+  double all = 0;
+  double update_and_any = 0;
+  double update_and_all = 0;
+};
+
+/// What one entry gave on one scene.
+struct Entry_figures {
+  Entry entry;
+  double build_seconds = 0;
+  std::size_t bytes = 0;                   ///< of the heap, taken by the build and kept
+  std::size_t passes = 0;                  ///< over all frames together
+  std::vector<Frame_seconds> frames = {};  ///< per sampled frame
+  std::size_t missed = 0;                  ///< collisions not seen, frames and object pairs counted one by one
+  std::size_t invented = 0;                ///< collisions seen where there are none
+  std::size_t wrong_sets = 0;              ///< frames and object pairs whose set of face pairs is not the true one
+  std::size_t missing_pairs = 0;           ///< face pairs not in these sets
+  std::size_t false_pairs = 0;             ///< face pairs in these sets that do not intersect
+
+  bool any_is_right() const { return entry.answers && missed == 0 && invented == 0; }
+  bool all_is_right() const { return any_is_right() && entry.reports_pairs && wrong_sets == 0; }
+};
+
+struct Scene_figures {
+  std::string name;
+  std::size_t objects = 0;
+  std::size_t triangles = 0;              ///< of all objects
+  std::size_t vertices = 0;               ///< of all objects
+  std::size_t frames = 0;                 ///< of the scene
+  std::vector<std::size_t> sampled = {};  ///< numbers of the frames that were measured
+  std::size_t asked = 0;                  ///< frames and object pairs
+  std::size_t colliding = 0;              ///< of these, how many collide
+  std::size_t contacts = 0;               ///< true face pairs of all of them
+  std::size_t batches = 0;                ///< groups of entries that took turns
+  std::vector<Entry_figures> entries = {};
+};
+
+/// Numbers of `count` frames spread evenly over a scene: the middles of as many equal parts.
+std::vector<std::size_t> sample_frames(std::size_t frames, std::size_t count);
+
+/// Plays sampled frames of a scene with all entries.
+///
+/// In every pass over a frame the entries take turns, another one first each time, so that none always finds the
+/// positions in the caches. Posing the meshes, the truth and the comparison with it are not timed. Of two objects the
+/// pair is asked about in every frame; of more, those pairs whose bounding boxes overlap.
+///
+/// Entries whose hierarchies do not fit into `bytes` together play the same frames one batch after the other.
+///
+/// @param progress  share of the work that is done; may throw to stop
+Scene_figures measure_peers(Scene& scene, std::span<const Entry> entries, const Peer_run_options& options,
+                            const std::function<void(double)>& progress);
+
+}  // namespace lodestone

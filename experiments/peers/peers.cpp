@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Other collision libraries on the same frames: time, memory, and right and wrong answers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "experiment.h"
+#include "lodestone/errors.h"
+#include "lodestone/io/text_table.h"
+#include "measured_run.h"
+#include "peer_run.h"
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::array default_scenes{"teapot_sphere_1",  "spheres_5k",       "spheres_50k",
+                                    "spheres_500k",     "spheres_2m",       "torus_knots_20k",
+                                    "torus_knots_200k", "cloth_sphere_80k", "bodies_20_5k"};
+
+std::vector<double> values(const Entry_figures& figures, double Frame_seconds::*figure) {
+  std::vector<double> all;
+  all.reserve(figures.frames.size());
+  for (const auto& frame : figures.frames) all.push_back(frame.*figure);
+  return all;
+}
+
+double median_of(const Entry_figures& figures, double Frame_seconds::*figure) {
+  return median(values(figures, figure));
+}
+
+/// The least value that 95 % of the values do not exceed.
+double percentile_95(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size())));
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  std::ranges::nth_element(values, place);
+  return *place;
+}
+
+/// Three to four digits.
+std::string milliseconds(double seconds) {
+  const double ms = 1e3 * seconds;
+  return fmt::format("{:.{}f}", ms, ms < 1 ? 4 : ms < 10 ? 3 : ms < 100 ? 2 : ms < 1000 ? 1 : 0);
+}
+
+const char* const nothing = "-";
+
+std::string answers_text(const Entry_figures& figures) {
+  if (!figures.entry.answers) return nothing;
+  if (figures.any_is_right()) return "0";
+  return fmt::format("{} missed, {} false", figures.missed, figures.invented);
+}
+
+std::string sets_text(const Entry_figures& figures) {
+  if (!figures.entry.reports_pairs) return nothing;
+  if (figures.wrong_sets == 0) return "0";
+  return fmt::format("{} ({} missing, {} false)", figures.wrong_sets, figures.missing_pairs, figures.false_pairs);
+}
+
+std::string table(const Scene_figures& scene) {
+  Text_table table({"method", "volume", "build (ms)", "memory (MiB)", "update (ms)", "yes/no (ms)", "p95",
+                    "update + yes/no (ms)", "all pairs (ms)", "p95", "update + all pairs (ms)", "wrong yes/no",
+                    "wrong sets"});
+  for (const auto& f : scene.entries) {
+    const auto cell = [&](bool shown, double Frame_seconds::*figure) {
+      return shown ? milliseconds(median_of(f, figure)) : nothing;
+    };
+    const auto high = [&](bool shown, double Frame_seconds::*figure) {
+      return shown ? milliseconds(percentile_95(values(f, figure))) : nothing;
+    };
+    const bool any = f.entry.answers, all = f.entry.reports_pairs;
+    table.add({f.entry.name(), f.entry.volume, milliseconds(f.build_seconds),
+               fmt::format("{:.1f}", static_cast<double>(f.bytes) / (1 << 20)), cell(true, &Frame_seconds::update),
+               cell(any, &Frame_seconds::any), high(any, &Frame_seconds::any),
+               cell(any, &Frame_seconds::update_and_any), cell(all, &Frame_seconds::all),
+               high(all, &Frame_seconds::all), cell(all, &Frame_seconds::update_and_all), answers_text(f),
+               sets_text(f)});
+  }
+  return table.text();
+}
+
+/// The fastest that is right, with one thread, among some of the entries.
+template <class Condition>
+const Entry_figures* fastest(const Scene_figures& scene, double Frame_seconds::*figure, const Condition& condition) {
+  const Entry_figures* best = nullptr;
+  for (const auto& f : scene.entries)
+    if (f.entry.threads == 1 && condition(f) && (best == nullptr || median_of(f, figure) < median_of(*best, figure)))
+      best = &f;
+  return best;
+}
+
+bool is_library(const Entry_figures& f) {
+  return f.entry.library != "Lodestone" && f.entry.library != "CGAL" && f.entry.answers;
+}
+
+/// One line per question that a table is read for; none about Lodestone while it has no row.
+std::string ratios(const Scene_figures& scene) {
+  using Figure = double Frame_seconds::*;
+  const auto named = [](std::string_view library, std::string_view method) {
+    return [=](const Entry_figures& f) { return f.entry.library == library && f.entry.method == method; };
+  };
+  std::string text;
+  const auto* bound = fastest(scene, &Frame_seconds::update, named("bound", "read every vertex once"));
+  const auto* culled = fastest(scene, &Frame_seconds::any, named("CGAL", "box_intersection_d, overlap only"));
+  for (const auto& [figure, what] :
+       {std::pair<Figure, const char*>(&Frame_seconds::update_and_any, "update + yes/no"),
+        std::pair<Figure, const char*>(&Frame_seconds::update_and_all, "update + all pairs")}) {
+    const bool all = figure == &Frame_seconds::update_and_all;
+    const auto* own = fastest(scene, figure, named("Lodestone", "exact"));
+    const auto* library = fastest(scene, figure, [&](const Entry_figures& f) {
+      return is_library(f) && (all ? f.all_is_right() : f.any_is_right());
+    });
+    if (library != nullptr)
+      text += fmt::format("- {}: the fastest of FCL, Embree, Bullet and ODE that is right in every frame is {} ({})",
+                          what, library->entry.name(), library->entry.volume);
+    else
+      text += fmt::format("- {}: none of FCL, Embree, Bullet and ODE is right in every frame", what);
+    if (own == nullptr) {
+      text += ".\n";
+      continue;
+    }
+    const double seconds = median_of(*own, figure);
+    if (library != nullptr)
+      text += fmt::format("; Lodestone takes 1/{:.2f} of its time", median_of(*library, figure) / seconds);
+    if (culled != nullptr)
+      text += fmt::format("; 1/{:.2f} of that of the boxes in the overlap", median_of(*culled, figure) / seconds);
+    if (bound != nullptr)
+      text += fmt::format("; {:.2f} times the bound", seconds / median_of(*bound, &Frame_seconds::update));
+    text += ".\n";
+  }
+  return text;
+}
+
+std::string section(const Scene_figures& scene) {
+  return fmt::format(
+      "## {}\n\n{} objects, {} triangles and {} vertices together. {} of {} frames; in {} of the {} frames and object "
+      "pairs asked about the surfaces intersect, in {} face pairs.\n\n{}\n{}",
+      scene.name, scene.objects, scene.triangles, scene.vertices, scene.sampled.size(), scene.frames, scene.colliding,
+      scene.asked, scene.contacts, table(scene), ratios(scene));
+}
+
+nlohmann::ordered_json to_json(const Entry_figures& f) {
+  const auto figure = [&](double Frame_seconds::*of) -> nlohmann::ordered_json {
+    return {{"median_ms", 1e3 * median_of(f, of)},
+            {"p95_ms", 1e3 * percentile_95(values(f, of))},
+            {"frames_s", values(f, of)}};
+  };
+  nlohmann::ordered_json json{{"library", f.entry.library}, {"method", f.entry.method},
+                              {"volume", f.entry.volume},   {"threads", f.entry.threads},
+                              {"build_s", f.build_seconds}, {"heap_bytes", f.bytes},
+                              {"passes", f.passes},         {"update", figure(&Frame_seconds::update)}};
+  if (f.entry.answers) {
+    json["yes_no"] = figure(&Frame_seconds::any);
+    json["update_and_yes_no"] = figure(&Frame_seconds::update_and_any);
+    json["missed"] = f.missed;
+    json["invented"] = f.invented;
+  }
+  if (f.entry.reports_pairs) {
+    json["all_pairs"] = figure(&Frame_seconds::all);
+    json["update_and_all_pairs"] = figure(&Frame_seconds::update_and_all);
+    json["wrong_sets"] = f.wrong_sets;
+    json["missing_pairs"] = f.missing_pairs;
+    json["false_pairs"] = f.false_pairs;
+  }
+  return json;
+}
+
+nlohmann::ordered_json to_json(const Scene_figures& scene) {
+  nlohmann::ordered_json json{{"scene", scene.name},          {"objects", scene.objects},
+                              {"triangles", scene.triangles}, {"vertices", scene.vertices},
+                              {"frames", scene.frames},       {"sampled_frames", scene.sampled},
+                              {"asked", scene.asked},         {"colliding", scene.colliding},
+                              {"face_pairs", scene.contacts}, {"batches", scene.batches}};
+  for (const auto& figures : scene.entries) json["entries"].push_back(to_json(figures));
+  return json;
+}
+
+}  // namespace
+
+std::string run_peers(const Experiment_context& context) {
+  std::vector<std::string> names = context.only;
+  if (names.empty()) names.assign(default_scenes.begin(), default_scenes.end());
+  for (const auto& name : names)
+    if (!exists(context.scenes / (name + ".json")))
+      throw Bad_scene(fmt::format("{}: there is no such scene", (context.scenes / (name + ".json")).string()));
+
+  const auto entries = all_entries();
+  std::string report;
+  nlohmann::ordered_json json;
+  constexpr std::size_t steps = 1000;  // per scene
+  for (std::size_t s = 0; s < names.size(); ++s) {
+    auto scene = read_scene(context.scenes / (names[s] + ".json"));
+    const auto figures = measure_peers(scene, entries, {}, [&](double share) {
+      context.progress(s * steps + static_cast<std::size_t>(share * steps), names.size() * steps);
+    });
+    report += (s > 0 ? "\n" : "") + section(figures);
+    json.push_back(to_json(figures));
+  }
+  write_json(context.out, "peers", json);
+  return report;
+}
+
+}  // namespace lodestone
