@@ -33,6 +33,16 @@ Triangle triangle(const Peer_mesh& mesh, std::uint32_t face) {
   return {points[p], points[q], points[r]};
 }
 
+/// Embree reports pairs of leaves; half of them are apart by their exact boxes already.
+bool boxes_meet(const Triangle& a, const Triangle& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low_a, high_a] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});
+    const auto [low_b, high_b] = std::minmax({b[0][axis], b[1][axis], b[2][axis]});
+    if (high_a < low_b || high_b < low_a) return false;
+  }
+  return true;
+}
+
 /// Bounds of one triangle, for Embree.
 void bound(const RTCBoundsFunctionArguments* arguments) {
   const auto& mesh = *static_cast<const Peer_mesh*>(arguments->geometryUserPtr);
@@ -57,13 +67,15 @@ struct Query {
   std::array<std::vector<Face_pair>, most_threads> found = {};  ///< per thread
 };
 
-/// Decides pairs of triangles whose boxes meet. Embree cannot be told to stop: once one is enough, the rest is ignored.
+/// Decides the pairs of triangles that Embree reports. Embree cannot be told to stop: once one is enough, the rest is
+/// ignored.
 void decide(void* user, RTCCollision* pairs, unsigned count) {
   auto& query = *static_cast<Query*>(user);
   if (query.stop_at_one && query.found_one.load(std::memory_order_relaxed)) return;
   const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
   for (const RTCCollision* pair = pairs; pair != pairs + count; ++pair) {
-    if (!triangles_intersect(triangle(*query.a, pair->primID0), triangle(*query.b, pair->primID1))) continue;
+    const Triangle a = triangle(*query.a, pair->primID0), b = triangle(*query.b, pair->primID1);
+    if (!boxes_meet(a, b) || !triangles_intersect(a, b)) continue;
     if (query.stop_at_one) {
       query.found_one.store(true, std::memory_order_relaxed);
       return;
@@ -124,8 +136,7 @@ class Embree_peer : public Peer {
   };
 
   RTCDevice device_;
-  /// The number of threads of a device is one for the whole process, the largest that any device asked for. What is
-  /// called within an arena keeps to the arena's.
+  /// A device's number of threads is that of all devices; what is called within an arena keeps to the arena's.
   tbb::task_arena arena_{static_cast<int>(threads)};
   std::vector<std::unique_ptr<Object>> objects_;
 };

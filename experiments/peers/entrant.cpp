@@ -23,11 +23,15 @@ class Peer_entrant : public Entrant {
     Stopwatch watch;
     for (std::size_t object = 0; object < objects_; ++object) peer_->update(object);
     answer_.update_seconds = watch.lap();
-    for (std::size_t p = 0; p < pairs.size(); ++p) answer_.collides[p] = peer_->any(pairs[p].a, pairs[p].b);
-    answer_.any_seconds = watch.lap();
-    if (!reports_pairs_) return answer_;
-    for (std::size_t p = 0; p < pairs.size(); ++p) peer_->all(pairs[p].a, pairs[p].b, answer_.contacts[p]);
-    answer_.all_seconds = watch.lap();
+    try {
+      for (std::size_t p = 0; p < pairs.size(); ++p) answer_.collides[p] = peer_->any(pairs[p].a, pairs[p].b);
+      answer_.any_seconds = watch.lap();
+      if (!reports_pairs_) return answer_;
+      for (std::size_t p = 0; p < pairs.size(); ++p) peer_->all(pairs[p].a, pairs[p].b, answer_.contacts[p]);
+      answer_.all_seconds = watch.lap();
+    } catch (const Gave_up&) {
+      answer_.gave_up = true;
+    }
     return answer_;
   }
 

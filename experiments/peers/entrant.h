@@ -18,6 +18,7 @@ struct Answer {
   double update_seconds = 0;
   double any_seconds = 0;
   double all_seconds = 0;
+  bool gave_up = false;                          ///< in one of the queries: only the update counts
   std::vector<bool> collides;                    ///< per pair asked for
   std::vector<std::vector<Face_pair>> contacts;  ///< per pair asked for, in any order
 };

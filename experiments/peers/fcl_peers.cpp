@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "peer.h"
+#include "stopwatch.h"
 
 namespace lodestone {
 
@@ -46,6 +47,22 @@ struct Traversal<fcl::OBBRSSd> : Oriented_traversal<fcl::OBBRSSd> {
 template <>
 struct Traversal<fcl::kIOSd> : Oriented_traversal<fcl::kIOSd> {
   using Node = fcl::detail::MeshCollisionTraversalNodekIOSd;
+};
+
+/// A traversal that gives up after `patience`: FCL asks it between any two nodes whether it can stop.
+template <class Volume>
+class Impatient_node : public Traversal<Volume>::Node {
+ public:
+  bool canStop() const override {
+    if (++asked_ % steps == 0 && watch_.seconds() > patience) throw Gave_up();
+    return Traversal<Volume>::Node::canStop();
+  }
+
+ private:
+  static constexpr std::size_t steps = std::size_t{1} << 16;  // between two looks at the clock
+
+  mutable std::size_t asked_ = 0;
+  Stopwatch watch_;
 };
 
 template <class Volume>
@@ -106,8 +123,9 @@ class Fcl_peer : public Peer {
     fcl::Transform3d still_a = fcl::Transform3d::Identity(), still_b = still_a;
     result_.clear();
     typename Traversal<Volume>::Model &model_a = *objects_[a].model, &model_b = *objects_[b].model;
-    typename Traversal<Volume>::Node node;
-    initialize(node, model_a, still_a, model_b, still_b, request, result_);
+    Impatient_node<Volume> node;
+    initialize(static_cast<typename Traversal<Volume>::Node&>(node), model_a, still_a, model_b, still_b, request,
+               result_);
     fcl::detail::collide(&node);
   }
 

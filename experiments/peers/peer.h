@@ -27,6 +27,11 @@ struct Peer_mesh {
   }
 };
 
+/// Seconds after which a query may give up: some would take hours on a large scene.
+constexpr double patience = 1;
+/// Thrown by a query that has given up.
+struct Gave_up {};
+
 /// One library, used in one way. Objects are numbered from 0 in the order of `add`. One thread calls at a time.
 class Peer {
  public:
@@ -41,8 +46,10 @@ class Peer {
   /// conversion to the library's own layout.
   virtual void update(std::size_t object) = 0;
   /// Whether the surfaces of two objects intersect.
+  /// @throws Gave_up
   virtual bool any(std::size_t a, std::size_t b) = 0;
   /// Adds all face pairs that intersect to `found`, in any order. Never called for a peer that does not report them.
+  /// @throws Gave_up
   virtual void all(std::size_t a, std::size_t b, std::vector<Face_pair>& found) = 0;
 };
 

@@ -48,18 +48,29 @@ void compare(const Truth& truth, const Answer& answer, Entry_figures& figures) {
   }
 }
 
+/// Objects are near when their bounding boxes, each grown by so many of its diagonals to all sides, overlap.
+constexpr double near_margin = 0.05;
+constexpr double never = std::numeric_limits<double>::infinity();
+
 /// An entry at work.
 struct Player {
   Entry_figures* figures;
   std::unique_ptr<Entrant> entrant;
   double seconds = 0;  ///< of all passes so far
 
-  const Answer& play(const Truth& truth, Frame_seconds& least) {
+  /// One pass over the frame that is posed now, the last in `figures->frames`.
+  const Answer& play(const Truth& truth) {
+    const Stopwatch watch;
     const Answer& answer = entrant->play(truth.pairs);
-    const double update = answer.update_seconds, any = answer.any_seconds, all = answer.all_seconds;
-    seconds += update + any + all;
+    seconds += watch.seconds();
     ++figures->passes;
+    auto& least = figures->frames.back();
+    const double update = answer.update_seconds, any = answer.any_seconds, all = answer.all_seconds;
     least.update = std::min(least.update, update);
+    if (answer.gave_up) {
+      figures->gave_up = figures->left_early = true;
+      return answer;
+    }
     least.any = std::min(least.any, any);
     least.all = std::min(least.all, all);
     least.update_and_any = std::min(least.update_and_any, update + any);
@@ -80,8 +91,7 @@ class Scene_run {
       figures_.triangles += numbering.corners().size();
       figures_.vertices += numbering.vertex_count();
     }
-    const auto affordable = options.triangles / figures_.triangles;
-    figures_.sampled = sample_frames(scene.frames, std::clamp(affordable, options.least_frames, options.most_frames));
+    sample(std::clamp(options.triangles / figures_.triangles, options.least_frames, options.most_frames));
     truths_.resize(figures_.sampled.size());
   }
 
@@ -113,14 +123,38 @@ class Scene_run {
     for (auto& object : scene_.objects) pose(object, frame);
   }
 
+  /// Chooses frames in which something is near something.
+  void sample(std::size_t count) {
+    std::vector<std::size_t> near;
+    for (const auto frame : spread(scene_.frames, 4 * count)) {
+      pose_all(frame);
+      if (!overlapping_pairs(near_margin).empty()) near.push_back(frame);
+    }
+    for (const auto place : spread(near.size(), count)) figures_.sampled.push_back(near[place]);
+    if (near.empty()) figures_.sampled = spread(scene_.frames, count);
+  }
+
+  /// @param margin  by which boxes grow to all sides, in diagonals
+  std::vector<Object_pair> overlapping_pairs(double margin) const {
+    std::vector<Box> boxes;
+    for (const auto& mesh : meshes_) {
+      Box& box = boxes.emplace_back(read_every_vertex(mesh.coordinates()));
+      const Eigen::Vector3d growth = Eigen::Vector3d::Constant(margin * box.diagonal().norm());
+      box = Box(box.min() - growth, box.max() + growth);
+    }
+    std::vector<Object_pair> pairs;
+    for (std::uint32_t b = 0; b < boxes.size(); ++b)
+      for (std::uint32_t a = 0; a < b; ++a)
+        if (boxes[a].intersects(boxes[b])) pairs.push_back({a, b});
+    return pairs;
+  }
+
   /// Builds the entries that are next, until the memory for one batch is used up.
   std::vector<Player> build(std::span<const Entry> entries) {
     pose_all(0);
     std::vector<Player> players;
     for (std::size_t bytes = 0; figures_.entries.size() < entries.size() && bytes < options_.bytes;) {
       auto& figures = figures_.entries.emplace_back(Entry_figures{.entry = entries[figures_.entries.size()]});
-      constexpr double never = std::numeric_limits<double>::infinity();
-      figures.frames.assign(figures_.sampled.size(), {never, never, never, never, never});
       const auto before = heap_bytes();
       Stopwatch watch;
       auto entrant = figures.entry.build(meshes_);
@@ -138,25 +172,23 @@ class Scene_run {
     auto& truth = truths_[f];
     if (figures_.batches == 1) truth = find_truth();
     const double share = static_cast<double>(f + 1) / static_cast<double>(figures_.sampled.size());
+    for (auto& player : players) {
+      if (player.seconds > options_.most_seconds) player.figures->left_early = true;
+      if (!player.figures->left_early) player.figures->frames.push_back({never, never, never, never, never});
+    }
     for (std::size_t pass = 0; pass < options_.passes; ++pass)
       for (std::size_t turn = 0; turn < players.size(); ++turn) {
         auto& player = players[(f + pass + turn) % players.size()];
-        if (pass > 0 && player.seconds > share * options_.seconds) continue;
-        const Answer& answer = player.play(truth, player.figures->frames[f]);
-        if (pass == 0) compare(truth, answer, *player.figures);
+        if (player.figures->left_early || (pass > 0 && player.seconds > share * options_.seconds)) continue;
+        const Answer& answer = player.play(truth);
+        if (pass == 0 && !answer.gave_up) compare(truth, answer, *player.figures);
       }
   }
 
   Truth find_truth() const {
-    std::vector<Box> boxes;
-    for (const auto& mesh : meshes_) boxes.push_back(read_every_vertex(mesh.coordinates()));
-    Truth truth;
-    for (std::uint32_t b = 0; b < meshes_.size(); ++b)
-      for (std::uint32_t a = 0; a < b; ++a) {
-        if (meshes_.size() > 2 && !boxes[a].intersects(boxes[b])) continue;
-        truth.pairs.push_back({a, b});
-        truth.contacts.push_back(exhaustive_face_pairs(*meshes_[a].mesh, *meshes_[b].mesh));
-      }
+    Truth truth{overlapping_pairs(0), {}};
+    for (const auto& [a, b] : truth.pairs)
+      truth.contacts.push_back(exhaustive_face_pairs(*meshes_[a].mesh, *meshes_[b].mesh));
     return truth;
   }
 
@@ -171,11 +203,11 @@ class Scene_run {
 
 }  // namespace
 
-std::vector<std::size_t> sample_frames(std::size_t frames, std::size_t count) {
-  count = std::min(frames, count);
-  std::vector<std::size_t> sampled(count);
-  for (std::size_t i = 0; i < count; ++i) sampled[i] = (2 * i + 1) * frames / (2 * count);
-  return sampled;
+std::vector<std::size_t> spread(std::size_t range, std::size_t count) {
+  count = std::min(range, count);
+  std::vector<std::size_t> places(count);
+  for (std::size_t i = 0; i < count; ++i) places[i] = (2 * i + 1) * range / (2 * count);
+  return places;
 }
 
 Scene_figures measure_peers(Scene& scene, std::span<const Entry> entries, const Peer_run_options& options,

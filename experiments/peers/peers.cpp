@@ -51,12 +51,14 @@ const char* const nothing = "-";
 
 std::string answers_text(const Entry_figures& figures) {
   if (!figures.entry.answers) return nothing;
-  if (figures.any_is_right()) return "0";
+  if (figures.gave_up) return "gave up";
+  if (figures.missed + figures.invented == 0) return "0";
   return fmt::format("{} missed, {} false", figures.missed, figures.invented);
 }
 
 std::string sets_text(const Entry_figures& figures) {
   if (!figures.entry.reports_pairs) return nothing;
+  if (figures.gave_up) return "gave up";
   if (figures.wrong_sets == 0) return "0";
   return fmt::format("{} ({} missing, {} false)", figures.wrong_sets, figures.missing_pairs, figures.false_pairs);
 }
@@ -72,7 +74,7 @@ std::string table(const Scene_figures& scene) {
     const auto high = [&](bool shown, double Frame_seconds::*figure) {
       return shown ? milliseconds(percentile_95(values(f, figure))) : nothing;
     };
-    const bool any = f.entry.answers, all = f.entry.reports_pairs;
+    const bool any = f.entry.answers && !f.gave_up, all = f.entry.reports_pairs && !f.gave_up;
     table.add({f.entry.name(), f.entry.volume, milliseconds(f.build_seconds),
                fmt::format("{:.1f}", static_cast<double>(f.bytes) / (1 << 20)), cell(true, &Frame_seconds::update),
                cell(any, &Frame_seconds::any), high(any, &Frame_seconds::any),
@@ -81,6 +83,21 @@ std::string table(const Scene_figures& scene) {
                sets_text(f)});
   }
   return table.text();
+}
+
+/// Says which rows do not stand for all frames.
+std::string notes(const Scene_figures& scene) {
+  std::string text;
+  for (const auto& f : scene.entries) {
+    const auto name = fmt::format("- {} ({})", f.entry.name(), f.entry.volume);
+    if (f.gave_up)
+      text += fmt::format("{} gave up a query after {} s, in frame {}; wrong answers are counted before it.\n", name,
+                          patience, scene.sampled[f.frames.size() - 1]);
+    else if (f.left_early)
+      text += fmt::format("{} played {} of the {} frames, then its time was over.\n", name, f.frames.size(),
+                          scene.sampled.size());
+  }
+  return text;
 }
 
 /// The fastest that is right, with one thread, among some of the entries.
@@ -137,10 +154,10 @@ std::string ratios(const Scene_figures& scene) {
 
 std::string section(const Scene_figures& scene) {
   return fmt::format(
-      "## {}\n\n{} objects, {} triangles and {} vertices together. {} of {} frames; in {} of the {} frames and object "
-      "pairs asked about the surfaces intersect, in {} face pairs.\n\n{}\n{}",
-      scene.name, scene.objects, scene.triangles, scene.vertices, scene.sampled.size(), scene.frames, scene.colliding,
-      scene.asked, scene.contacts, table(scene), ratios(scene));
+      "## {}\n\n{} objects, {} triangles and {} vertices together. {} of {} frames. The bounding boxes of {} "
+      "object pairs overlap, {} of these intersect, in {} face pairs.\n\n{}\n{}",
+      scene.name, scene.objects, scene.triangles, scene.vertices, scene.sampled.size(), scene.frames, scene.asked,
+      scene.colliding, scene.contacts, table(scene), notes(scene) + ratios(scene));
 }
 
 nlohmann::ordered_json to_json(const Entry_figures& f) {
@@ -152,7 +169,8 @@ nlohmann::ordered_json to_json(const Entry_figures& f) {
   nlohmann::ordered_json json{{"library", f.entry.library}, {"method", f.entry.method},
                               {"volume", f.entry.volume},   {"threads", f.entry.threads},
                               {"build_s", f.build_seconds}, {"heap_bytes", f.bytes},
-                              {"passes", f.passes},         {"update", figure(&Frame_seconds::update)}};
+                              {"passes", f.passes},         {"gave_up", f.gave_up},
+                              {"left_early", f.left_early}, {"update", figure(&Frame_seconds::update)}};
   if (f.entry.answers) {
     json["yes_no"] = figure(&Frame_seconds::any);
     json["update_and_yes_no"] = figure(&Frame_seconds::update_and_any);

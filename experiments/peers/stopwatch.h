@@ -5,9 +5,11 @@
 
 namespace lodestone {
 
-/// Seconds since it was made, or since the last lap.
+/// Counts seconds from where it is made, or from the last lap.
 class Stopwatch {
  public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  /// Seconds, and starts anew.
   double lap() {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "peer_run.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "io/temporary_folder.h"
+#include "lodestone/io/scene_file.h"
+#include "read_bound.h"
+
+namespace lodestone {
+namespace {
+
+TEST(Read_every_vertex, gives_the_bounding_box_for_any_number_of_points) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-3, 5);
+  for (const std::size_t points : {1, 2, 7, 8, 9, 16, 23, 1000}) {
+    std::vector<double> coordinates(3 * points);
+    Box box;
+    for (std::size_t p = 0; p < points; ++p) {
+      for (std::size_t axis = 0; axis < 3; ++axis) coordinates[3 * p + axis] = coordinate(random);
+      box.extend(Eigen::Map<Eigen::Vector3d>(&coordinates[3 * p]));
+    }
+    EXPECT_EQ(read_every_vertex(coordinates).min(), box.min()) << points;
+    EXPECT_EQ(read_every_vertex(coordinates).max(), box.max()) << points;
+  }
+  EXPECT_TRUE(read_every_vertex({}).isEmpty());
+}
+
+TEST(Spread, takes_the_middles_of_equal_parts) {
+  EXPECT_EQ(spread(100, 2), (std::vector<std::size_t>{25, 75}));
+  EXPECT_EQ(spread(10, 1), std::vector<std::size_t>{5});
+  EXPECT_EQ(spread(3, 8), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_TRUE(spread(0, 5).empty());
+}
+
+/// Says what it was told to.
+class Liar : public Entrant {
+ public:
+  explicit Liar(Answer answer) : answer_(std::move(answer)) {}
+  const Answer& play(std::span<const Object_pair> pairs) override {
+    answer_.collides.resize(pairs.size(), answer_.collides.at(0));
+    answer_.contacts.resize(pairs.size(), answer_.contacts.at(0));
+    return answer_;
+  }
+
+ private:
+  Answer answer_;
+};
+
+Entry liar(const Answer& answer) {
+  return {.library = "test", .method = "lie", .volume = "none", .build = [answer](std::span<const Peer_mesh>) {
+            return std::make_unique<Liar>(answer);
+          }};
+}
+
+class Peer_run : public testing::Test {
+ protected:
+  /// Two unit spheres: far apart in frames 0 to 2, near in 3, intersecting in 4 and 5.
+  void SetUp() override {
+    const auto file = folder.write("two.json", R"({"frames": 6, "objects": [
+      {"name": "still", "shape": {"icosphere": {"frequency": 5}}},
+      {"name": "moving", "shape": {"icosphere": {"frequency": 4}}, "motion": {"deform": [{"travel":
+        {"path": "linear", "way_points": [{"frame": 2, "at": [3, 1, 1]}, {"frame": 3, "at": [1.5, 1.5, 1]},
+                                          {"frame": 4, "at": [1.5, 0, 0]}]}}]}}]})");
+    scene = read_scene(file);
+  }
+  Scene_figures measured(const Entry& entry, const Peer_run_options& options = {}) {
+    return measure_peers(scene, std::vector{entry}, options, [](double) {});
+  }
+
+  test::Temporary_folder folder;
+  Scene scene;
+};
+
+TEST_F(Peer_run, plays_the_frames_in_which_the_boxes_overlap) {
+  const auto figures = measured(liar({.collides = {true}, .contacts = {{}}}));
+  EXPECT_EQ(figures.sampled, (std::vector<std::size_t>{3, 4, 5}));
+  EXPECT_EQ(figures.asked, 3U);
+  EXPECT_EQ(figures.colliding, 2U);
+}
+
+TEST_F(Peer_run, counts_wrong_answers_to_both_sides) {
+  const auto yes = measured(liar({.collides = {true}, .contacts = {{}}})).entries.at(0);
+  EXPECT_EQ(yes.missed, 0U);
+  EXPECT_EQ(yes.invented, 1U);
+  EXPECT_EQ(yes.wrong_sets, 2U);
+  EXPECT_EQ(yes.false_pairs, 0U);
+  EXPECT_GT(yes.missing_pairs, 0U);
+  EXPECT_FALSE(yes.any_is_right());
+  const auto no = measured(liar({.collides = {false}, .contacts = {{{9999, 9999}, {9999, 9999}}}})).entries.at(0);
+  EXPECT_EQ(no.missed, 2U);
+  EXPECT_EQ(no.invented, 0U);
+  EXPECT_EQ(no.wrong_sets, 3U);
+  EXPECT_EQ(no.false_pairs, 3U);
+  EXPECT_FALSE(no.any_is_right());
+}
+
+TEST_F(Peer_run, figures_are_the_least_over_the_passes) {
+  const auto figures = measured(
+      liar({.update_seconds = 0.5, .any_seconds = 0.25, .all_seconds = 2, .collides = {true}, .contacts = {{}}}),
+      {.passes = 4});
+  const auto& entry = figures.entries.at(0);
+  EXPECT_EQ(entry.passes, 12U);
+  ASSERT_EQ(entry.frames.size(), 3U);
+  EXPECT_EQ(entry.frames[0].update_and_any, 0.75);
+  EXPECT_EQ(entry.frames[0].update_and_all, 2.5);
+}
+
+TEST_F(Peer_run, who_gives_up_is_never_right_and_plays_no_further_frame) {
+  const auto entry = measured(liar({.gave_up = true, .collides = {true}, .contacts = {{}}})).entries.at(0);
+  EXPECT_TRUE(entry.gave_up);
+  EXPECT_EQ(entry.frames.size(), 1U);
+  EXPECT_EQ(entry.passes, 1U);
+  EXPECT_EQ(entry.invented, 0U);
+  EXPECT_FALSE(entry.any_is_right());
+}
+
+TEST_F(Peer_run, whose_time_is_over_leaves_early) {
+  const auto entry =
+      measured(liar({.collides = {true}, .contacts = {{}}}), {.passes = 1, .most_seconds = 0}).entries[0];
+  EXPECT_TRUE(entry.left_early);
+  EXPECT_EQ(entry.frames.size(), 1U);
+  EXPECT_FALSE(entry.any_is_right());
+}
+
+TEST_F(Peer_run, entries_that_do_not_fit_into_memory_together_play_the_same_frames) {
+  const auto entries = all_entries();
+  const auto figures = measure_peers(scene, entries, {.passes = 1, .bytes = 1}, [](double) {});
+  EXPECT_GT(figures.batches, entries.size() / 2);
+  ASSERT_EQ(figures.entries.size(), entries.size());
+  for (const auto& entry : figures.entries) {
+    EXPECT_EQ(entry.frames.size(), 3U) << entry.entry.name();
+    if (entry.entry.volume == "RSS") continue;  // known to miss collisions after a refit
+    EXPECT_EQ(entry.missed, 0U) << entry.entry.name() << ' ' << entry.entry.volume;
+  }
+}
+
+}  // namespace
+}  // namespace lodestone
