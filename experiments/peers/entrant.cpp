@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "entrant.h"
 
+#include "lap_timer.h"
 #include "read_bound.h"
-#include "stopwatch.h"
 
 namespace lodestone {
 
@@ -20,15 +20,15 @@ class Peer_entrant : public Entrant {
     answer_.contacts.resize(pairs.size());
     for (auto& contacts : answer_.contacts) contacts.clear();
 
-    Stopwatch watch;
+    Lap_timer timer;
     for (std::size_t object = 0; object < objects_; ++object) peer_->update(object);
-    answer_.update_seconds = watch.lap();
+    answer_.update_seconds = timer.lap();
     try {
       for (std::size_t p = 0; p < pairs.size(); ++p) answer_.collides[p] = peer_->any(pairs[p].a, pairs[p].b);
-      answer_.any_seconds = watch.lap();
+      answer_.any_seconds = timer.lap();
       if (!reports_pairs_) return answer_;
       for (std::size_t p = 0; p < pairs.size(); ++p) peer_->all(pairs[p].a, pairs[p].b, answer_.contacts[p]);
-      answer_.all_seconds = watch.lap();
+      answer_.all_seconds = timer.lap();
     } catch (const Gave_up&) {
       answer_.gave_up = true;
     }
@@ -48,10 +48,10 @@ class Read_bound_entrant : public Entrant {
       : meshes_(meshes.begin(), meshes.end()), boxes_(meshes.size()) {}
 
   const Answer& play(std::span<const Object_pair> /*pairs*/) override {
-    Stopwatch watch;
+    Lap_timer timer;
     for (std::size_t object = 0; object < meshes_.size(); ++object)
       boxes_[object] = read_every_vertex(meshes_[object].coordinates());
-    answer_.update_seconds = watch.lap();
+    answer_.update_seconds = timer.lap();
     return answer_;
   }
 

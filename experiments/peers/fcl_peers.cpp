@@ -14,8 +14,8 @@
 #include <cstring>
 #include <limits>
 
+#include "lap_timer.h"
 #include "peer.h"
-#include "stopwatch.h"
 
 namespace lodestone {
 
@@ -54,7 +54,7 @@ template <class Volume>
 class Impatient_node : public Traversal<Volume>::Node {
  public:
   bool canStop() const override {
-    if (++asked_ % steps == 0 && watch_.seconds() > patience) throw Gave_up();
+    if (++asked_ % steps == 0 && timer_.seconds() > patience) throw Gave_up();
     return Traversal<Volume>::Node::canStop();
   }
 
@@ -62,7 +62,7 @@ class Impatient_node : public Traversal<Volume>::Node {
   static constexpr std::size_t steps = std::size_t{1} << 16;  // between two looks at the clock
 
   mutable std::size_t asked_ = 0;
-  Stopwatch watch_;
+  Lap_timer timer_;
 };
 
 template <class Volume>

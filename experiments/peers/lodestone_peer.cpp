@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "entrant.h"
+#include "lap_timer.h"
 #include "lodestone/detector.h"
-#include "stopwatch.h"
 
 namespace lodestone {
 
@@ -17,26 +17,26 @@ class Lodestone_entrant : public Entrant {
  public:
   Lodestone_entrant(std::span<const Peer_mesh> meshes, std::size_t threads)
       : meshes_(meshes.begin(), meshes.end()),
-        any_({.mode = Mode::exact, .contacts = Contact_query::yes_no, .threads = threads}),
-        all_({.mode = Mode::exact, .contacts = Contact_query::all, .threads = threads}) {
+        any_({.mode = Mode::exact, .contacts = Contact_query::yes_no, .exact = {.threads = threads}}),
+        all_({.mode = Mode::exact, .contacts = Contact_query::all, .exact = {.threads = threads}}) {
     build(any_);
   }
 
   void prepare() override { build(all_); }
 
   const Answer& play(std::span<const Object_pair> pairs) override {
-    Stopwatch watch;
+    Lap_timer timer;
     const Frame& any = any_.detect();
-    const double any_seconds = watch.lap();
+    const double any_seconds = timer.lap();
     answer_.update_seconds = any.statistics.seconds.refit;
     answer_.any_seconds = any_seconds - any.statistics.seconds.refit;
     answer_.collides.assign(pairs.size(), false);
     for (const auto& pair : any.pairs)
       if (const auto place = place_of(pair, pairs); place < pairs.size()) answer_.collides[place] = pair.collides;
 
-    watch.lap();
+    timer.lap();
     const Frame& all = all_.detect();
-    answer_.all_seconds = watch.lap() - all.statistics.seconds.refit;
+    answer_.all_seconds = timer.lap() - all.statistics.seconds.refit;
     answer_.contacts.assign(pairs.size(), {});
     for (const auto& pair : all.pairs)
       if (const auto place = place_of(pair, pairs); place < pairs.size()) {

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <limits>
 
+#include "lap_timer.h"
 #include "lodestone/baselines/exhaustive.h"
 #include "read_bound.h"
-#include "stopwatch.h"
 
 namespace lodestone {
 
@@ -60,9 +60,9 @@ struct Player {
 
   /// One pass over the frame that is posed now, the last in `figures->frames`.
   const Answer& play(const Truth& truth) {
-    const Stopwatch watch;
+    const Lap_timer timer;
     const Answer& answer = entrant->play(truth.pairs);
-    seconds += watch.seconds();
+    seconds += timer.seconds();
     ++figures->passes;
     auto& least = figures->frames.back();
     const double update = answer.update_seconds, any = answer.any_seconds, all = answer.all_seconds;
@@ -156,9 +156,9 @@ class Scene_run {
     for (std::size_t bytes = 0; figures_.entries.size() < entries.size() && bytes < options_.bytes;) {
       auto& figures = figures_.entries.emplace_back(Entry_figures{.entry = entries[figures_.entries.size()]});
       const auto before = heap_bytes();
-      Stopwatch watch;
+      Lap_timer timer;
       auto entrant = figures.entry.build(meshes_);
-      figures.build_seconds = watch.lap();
+      figures.build_seconds = timer.lap();
       figures.bytes = std::max(heap_bytes(), before) - before;
       bytes += figures.bytes;
       entrant->prepare();

@@ -28,6 +28,7 @@ namespace lodestone {
 namespace {
 
 using Json = nlohmann::json;
+using nlohmann::literals::operator""_json_pointer;
 using Adapter = valijson::adapters::NlohmannJsonAdapter;
 namespace fs = std::filesystem;
 
@@ -244,10 +245,20 @@ TEST(Scene_schema, describes_every_key_and_closes_every_object) {
   EXPECT_GT(objects, 15U);
 }
 
+/// Millions of triangles: seconds to make, a minute under a sanitiser.
+bool is_huge(const Json& scene) {
+  constexpr int frequency = 200;
+  return std::ranges::any_of(scene.at("objects"), [](const Json& object) {
+    return object.value("/shape/icosphere/frequency"_json_pointer, 0) > frequency;
+  });
+}
+
 class Published_scenes : public testing::TestWithParam<fs::path> {};
 
 TEST_P(Published_scenes, keep_to_the_schema_and_can_be_played) {
-  EXPECT_TRUE(Scene_schema().accepts(read_json(GetParam())));
+  const Json json = read_json(GetParam());
+  EXPECT_TRUE(Scene_schema().accepts(json));
+  if (is_huge(json)) return;
   Scene scene = read_scene(GetParam());
   EXPECT_EQ(scene.name, GetParam().stem());
   for (Scene_object& object : scene.objects)

@@ -6,7 +6,7 @@
 namespace lodestone {
 
 /// Counts seconds from where it is made, or from the last lap.
-class Stopwatch {
+class Lap_timer {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   /// Seconds, and starts anew.
