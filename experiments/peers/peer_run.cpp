@@ -58,13 +58,14 @@ struct Player {
   std::unique_ptr<Entrant> entrant;
   double seconds = 0;  ///< of all passes so far
 
-  /// One pass over the frame that is posed now, the last in `figures->frames`.
-  const Answer& play(const Truth& truth) {
+  /// Plays the frame that is posed now, number `frame` of those sampled.
+  const Answer& play(std::size_t frame, const Truth& truth) {
     const Lap_timer timer;
     const Answer& answer = entrant->play(truth.pairs);
     seconds += timer.seconds();
     ++figures->passes;
-    auto& least = figures->frames.back();
+    if (figures->frames.size() == frame) figures->frames.push_back({never, never, never, never, never});
+    auto& least = figures->frames[frame];
     const double update = answer.update_seconds, any = answer.any_seconds, all = answer.all_seconds;
     least.update = std::min(least.update, update);
     if (answer.gave_up) {
@@ -92,7 +93,13 @@ class Scene_run {
       figures_.vertices += numbering.vertex_count();
     }
     sample(std::clamp(options.triangles / figures_.triangles, options.least_frames, options.most_frames));
-    truths_.resize(figures_.sampled.size());
+    for (const auto frame : figures_.sampled) {
+      pose_all(frame);
+      truths_.push_back(find_truth());
+      auto& frame_positions = positions_.emplace_back();
+      for (const auto& object : scene.objects)
+        frame_positions.emplace_back(object.mesh.points().begin(), object.mesh.points().end());
+    }
   }
 
   Scene_figures run(std::span<const Entry> entries) {
@@ -100,13 +107,15 @@ class Scene_run {
     while (figures_.entries.size() < entries.size()) {
       ++figures_.batches;
       auto players = build(entries);
-      for (std::size_t f = 0; f < figures_.sampled.size(); ++f) {
-        play(f, players);
-        const auto finished = figures_.entries.size() - players.size();
-        const auto share = static_cast<double>(f + 1) / static_cast<double>(figures_.sampled.size());
-        progress_((static_cast<double>(finished) + share * static_cast<double>(players.size())) /
-                  static_cast<double>(entries.size()));
-      }
+      for (std::size_t pass = 0; pass < options_.passes; ++pass)
+        for (std::size_t turn = 0; turn < players.size(); ++turn) {
+          play(pass, players[(pass + turn) % players.size()]);
+          const auto finished = figures_.entries.size() - players.size();
+          const auto share = static_cast<double>(pass * players.size() + turn + 1) /
+                             static_cast<double>(options_.passes * players.size());
+          progress_((static_cast<double>(finished) + share * static_cast<double>(players.size())) /
+                    static_cast<double>(entries.size()));
+        }
     }
     for (const auto& truth : truths_) {
       figures_.asked += truth.pairs.size();
@@ -167,22 +176,22 @@ class Scene_run {
     return players;
   }
 
-  void play(std::size_t f, std::vector<Player>& players) {
-    pose_all(figures_.sampled[f]);
-    auto& truth = truths_[f];
-    if (figures_.batches == 1) truth = find_truth();
-    const double share = static_cast<double>(f + 1) / static_cast<double>(figures_.sampled.size());
-    for (auto& player : players) {
+  /// One pass of one entry over all sampled frames.
+  void play(std::size_t pass, Player& player) {
+    if (pass > 0 && player.seconds > options_.seconds) return;
+    for (std::size_t f = 0; f < figures_.sampled.size() && !player.figures->left_early; ++f) {
       if (player.seconds > options_.most_seconds) player.figures->left_early = true;
-      if (!player.figures->left_early) player.figures->frames.push_back({never, never, never, never, never});
+      if (player.figures->left_early) return;
+      restore(f);
+      const Answer& answer = player.play(f, truths_[f]);
+      if (pass == 0 && !answer.gave_up) compare(truths_[f], answer, *player.figures);
     }
-    for (std::size_t pass = 0; pass < options_.passes; ++pass)
-      for (std::size_t turn = 0; turn < players.size(); ++turn) {
-        auto& player = players[(f + pass + turn) % players.size()];
-        if (player.figures->left_early || (pass > 0 && player.seconds > share * options_.seconds)) continue;
-        const Answer& answer = player.play(truth);
-        if (pass == 0 && !answer.gave_up) compare(truth, answer, *player.figures);
-      }
+  }
+
+  /// Writes the positions of a sampled frame into the meshes, as a simulation would have done just before it asks.
+  void restore(std::size_t f) {
+    for (std::size_t o = 0; o < scene_.objects.size(); ++o)
+      std::ranges::copy(positions_[f][o], scene_.objects[o].mesh.points().begin());
   }
 
   Truth find_truth() const {
@@ -197,7 +206,8 @@ class Scene_run {
   const std::function<void(double)>& progress_;
   std::vector<Mesh_numbering<Surface_mesh>> numberings_;
   std::vector<Peer_mesh> meshes_;
-  std::vector<Truth> truths_;  ///< per sampled frame
+  std::vector<Truth> truths_;                               ///< per sampled frame
+  std::vector<std::vector<std::vector<Point>>> positions_;  ///< per sampled frame and object
   Scene_figures figures_;
 };
 

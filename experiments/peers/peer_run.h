@@ -14,12 +14,12 @@ namespace lodestone {
 
 /// How much of a scene is measured. What is slow is measured less often, by rules that a reader can check.
 struct Peer_run_options {
-  std::size_t triangles = 15'000'000;  ///< of all sampled frames together; decides how many frames are sampled
-  std::size_t least_frames = 6;        ///< but at least so many
-  std::size_t most_frames = 30;        ///< and at most so many
-  std::size_t passes = 5;              ///< over each frame
-  double seconds = 3;                  ///< per entry and scene; beyond its share an entry gets one pass over a frame
-  double most_seconds = 60;            ///< per entry and scene; beyond it an entry plays no further frame
+  std::size_t triangles = 15'000'000;        ///< of all sampled frames together; decides how many frames are sampled
+  std::size_t least_frames = 6;              ///< but at least so many
+  std::size_t most_frames = 30;              ///< and at most so many
+  std::size_t passes = 5;                    ///< over all sampled frames
+  double seconds = 3;                        ///< per entry and scene; beyond it an entry starts no further pass
+  double most_seconds = 60;                  ///< per entry and scene; beyond it an entry plays no further frame
   std::size_t bytes = std::size_t{4} << 30;  ///< of entries that live at the same time, see `measure_peers`
 };
 
@@ -75,8 +75,9 @@ std::vector<std::size_t> spread(std::size_t range, std::size_t count);
 /// sampled evenly, from four times as many that are looked at. Asked about are the object pairs whose boxes overlap;
 /// who needs that broad phase has it as a gift, for it is not timed.
 ///
-/// In every pass over a frame the entries take turns, another one first each time, so that none always finds the
-/// positions in the caches. Posing the meshes, the truth and the comparison with it are not timed.
+/// The entries take turns pass by pass, another one first each time: in its turn an entry plays all sampled frames one
+/// after the other, as it would if it were alone. Before each frame positions are written into the meshes, as a
+/// simulation does. That, the truth and the comparison with it are not timed.
 ///
 /// Entries whose hierarchies do not fit into `bytes` together play the same frames one batch after the other.
 ///
