@@ -14,11 +14,11 @@
 // vertex, or if they are neighbours in the ray of their common arm. Over that ray each face has only the arm itself. So
 // the faces meet where it is allowed.
 //
-// To count turns, take a line through the projected vertex. A step below pi cannot skip a half-plane, so the arms
-// change sides once per half turn. At most one change: they turn by less than a whole turn. Two changes around a closed
-// rim: by exactly one. Two changes along an open rim leave both possible, unless the step from the last arm to the
-// first is within (0, pi) too: then the rim might as well be closed. Arms exactly on the line belong to either side,
-// since in every half turn there is one that is not on it, or one step would be pi.
+// To count turns, take a line through the projected vertex; arms on the line count as above it. A step below pi skips
+// neither the closed half-plane above nor the open one below, so the arms change sides once per half turn. At most one
+// change: from first to last they turn by less than a whole turn. Two changes around a closed rim: by exactly one. Two
+// changes along an open rim leave both possible, unless the step from the last arm to the first is within (0, pi) too:
+// then the rim might as well be closed, and closing it adds no change, since around a closed rim their number is even.
 
 namespace lodestone {
 

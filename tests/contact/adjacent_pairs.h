@@ -76,7 +76,9 @@ inline Shape face_shape(const Positions& positions, const Corners& corners) {
 
 inline bool contains(const Shape& shape, const Exact::Point_3& p) {
   if (const auto* q = std::get_if<Exact::Point_3>(&shape)) return *q == p;
-  return std::get<Exact::Segment_3>(shape).has_on(p);
+  const auto& s = std::get<Exact::Segment_3>(shape);
+  return CGAL::collinear(s.source(), p, s.target()) &&
+         CGAL::collinear_are_ordered_along_line(s.source(), p, s.target());
 }
 
 /// The corners of the intersection. Three and more: it has an area.

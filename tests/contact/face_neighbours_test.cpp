@@ -99,7 +99,7 @@ TEST(Neighbour_check, equals_cgal_where_one_last_digit_decides) {
 
 TEST(Neighbour_check, equals_cgal_where_products_of_coordinates_are_a_few_units_of_the_least_number) {
   std::size_t found = 0;
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < 120; ++trial) {
     auto mesh = icosphere(2);
     crumple(mesh, 0.3, static_cast<std::uint64_t>(trial));
     scale(mesh, std::ldexp(1, -365 + trial % 15));  // products of three
@@ -107,7 +107,7 @@ TEST(Neighbour_check, equals_cgal_where_products_of_coordinates_are_a_few_units_
     scale(mesh, std::ldexp(1, -180));  // products of two
     found += expect_equal_to_cgal(mesh);
   }
-  EXPECT_GT(found, 3000U);
+  EXPECT_GT(found, 1000U);
 }
 
 TEST(Neighbour_check, of_smooth_surfaces_needs_no_exact_test) {
