@@ -23,8 +23,13 @@ struct Refit {
   bool beyond_cache;  ///< the coordinates are too many to be found in the cache
 };
 
+/// What is added up on the way.
+struct Refit_sums {
+  double coordinates;  ///< not finite if one of them is not, else mostly finite
+  double extents;      ///< of the boxes: their sides
+};
+
 /// Fits the boxes of the leaves `first` to `end`.
-/// @return a sum over all coordinates: not finite if one of them is not, else mostly finite
-double refit_leaves(const Refit& refit, std::size_t first, std::size_t end);
+Refit_sums refit_leaves(const Refit& refit, std::size_t first, std::size_t end);
 
 }  // namespace lodestone::kernel

@@ -24,7 +24,7 @@ Region_tree::Region_tree(std::span<const Corners> corners, std::span<const Regio
                          Coordinates coordinates, const Region_tree_options& options) {
   if (options.leaf_faces < 2 || options.leaf_faces > 128) throw Bad_argument("a leaf must hold at most 2 to 128 faces");
   Tree_builder(*this, corners, labels, coordinates, options).build();
-  vertices_.resize(vertices_.size() + kernel::vertices_ahead + 2, vertices_.back());
+  vertices_.resize(vertices_.size() + kernel::vertices_ahead + 4, vertices_.back());
   boxes_.resize(nodes_.size());
   find_parts();
   for (std::size_t leaf = 0; leaf < leaf_count(); ++leaf) {
@@ -68,10 +68,9 @@ void Region_tree::refit_part(std::size_t index, Coordinates coordinates) {
                             .leaf_nodes = leaf_nodes_.data(),
                             .boxes = boxes_.data(),
                             .beyond_cache = coordinates.size() / 3 > cached_vertices};
-  part.coordinate_sum = kernel::refit_leaves(refit, part.first_leaf, part.end_leaf);
-  part.leaf_extents = 0;
-  for (std::uint32_t leaf = part.first_leaf; leaf < part.end_leaf; ++leaf)
-    part.leaf_extents += extent(boxes_[leaf_nodes_[leaf]]);
+  const auto [coordinate_sum, extents] = kernel::refit_leaves(refit, part.first_leaf, part.end_leaf);
+  part.coordinate_sum = coordinate_sum;
+  part.leaf_extents = extents;
   for (std::uint32_t n = part.end_node; n-- > part.first_node;)
     if (!is_leaf(n)) enclose_children(n);
 }
