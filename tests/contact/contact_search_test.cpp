@@ -121,22 +121,11 @@ TEST(Contact_search, finds_the_same_with_any_number_of_workers) {
     const Posed_object b(posed_at_random(objects[(i + 1) % objects.size()], 0.3, random), 32);
     const auto truth = true_pairs(a.soup(), b.soup());
     EXPECT_FALSE(truth.empty());
-    const std::vector<Contact_request> requests{{},
-                                                {.query = Contact_query::first},
-                                                {.query = Contact_query::yes_no},
-                                                {.most = 1},
-                                                {.most = truth.size() / 2 + 1},
-                                                {.most = truth.size()},
-                                                {.most = truth.size() + 1},
-                                                {.tolerance = 0.01},
-                                                {.tolerance = 0.01, .most = 100}};
-    for (const auto& request : requests) {
-      const auto alone = search_between(a, b, request);
-      for (const std::size_t threads : {2, 3, 4, 7})
-        EXPECT_TRUE(search_between(a, b, request, threads) == alone) << i << ", " << threads;
-    }
-    for (const std::size_t threads : {1, 4})
-      expect_answers(truth, 0, [&](const Contact_request& request) { return search_between(a, b, request, threads); });
+    expect_same_for_any_workers(truth.size(), [&](Searcher& searcher, const Contact_request& request) {
+      return searcher.between(a, b, request);
+    });
+    Searcher several(4);
+    expect_answers(truth, 0, [&](const Contact_request& request) { return several.between(a, b, request); });
   }
 }
 

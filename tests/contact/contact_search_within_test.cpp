@@ -72,9 +72,9 @@ TEST(Contact_search_within, equals_cgal) {
       SCOPED_TRACE(name + ", " + std::to_string(leaf_faces));
       const auto truth = by_cgal(mesh);
       const Posed_object object(Face_soup(mesh), leaf_faces);
-      for (const std::size_t threads : {1, 3})
-        expect_answers(truth, 0,
-                       [&](const Contact_request& request) { return search_within(object, request, threads); });
+      expect_answers(truth, 0, [&](const Contact_request& request) { return search_within(object, request); });
+      Searcher several(3);
+      expect_answers(truth, 0, [&](const Contact_request& request) { return several.within(object, request); });
       found += truth.size();
     }
   EXPECT_GT(found, 10000U);
@@ -103,8 +103,8 @@ TEST(Contact_search_within, equals_the_definition_for_any_faces) {
     for (const std::size_t leaf_faces : {2, 16, 128}) {
       const Posed_object object(lattice_soup(200, 15U << seed % 4U, 2 + seed, seed), leaf_faces, seed % 2 == 0);
       const auto truth = by_definition_of_faces(object.soup());
-      expect_answers(truth, 0,
-                     [&](const Contact_request& request) { return search_within(object, request, 1 + seed % 3); });
+      Searcher searcher(1 + seed % 3);
+      expect_answers(truth, 0, [&](const Contact_request& request) { return searcher.within(object, request); });
       found += truth.size();
     }
   EXPECT_GT(found, 10000U);
@@ -116,23 +116,17 @@ TEST(Contact_search_within, does_not_mind_the_tolerance) {
 }
 
 TEST(Contact_search_within, finds_the_same_with_any_number_of_workers) {
-  for (const auto& soup : {crumpled(icosphere(25), 0.02, 1), loose_triangles(6000, 0.08, 1),
-                           Face_soup(torus_knot({.tube = 0.5, .segments = 500, .sides = 15}))}) {
-    const Posed_object object(soup, 32);
-    const auto truth = search_within(object).found;
-    EXPECT_GT(truth.size(), 100U);
-    const std::vector<Contact_request> requests{{},
-                                                {.query = Contact_query::first},
-                                                {.query = Contact_query::yes_no},
-                                                {.most = 1},
-                                                {.most = truth.size() / 2},
-                                                {.most = truth.size()},
-                                                {.most = truth.size() + 1}};
-    for (const auto& request : requests) {
-      const auto alone = search_within(object, request);
-      for (const std::size_t threads : {2, 3, 4, 7})
-        EXPECT_TRUE(search_within(object, request, threads) == alone) << threads;
-    }
+  std::vector<Surface_mesh> meshes{icosphere(25), cloth(80, 70),
+                                   torus_knot({.tube = 0.5, .segments = 500, .sides = 15})};
+  for (auto& mesh : meshes) {
+    crumple(mesh, 0.03, 1);
+    const Posed_object object(Face_soup(mesh), 32);
+    const auto truth = by_cgal(mesh);
+    EXPECT_GT(truth.size(), 1000U);
+    EXPECT_EQ(search_within(object).found, truth);
+    expect_same_for_any_workers(truth.size(), [&](Searcher& searcher, const Contact_request& request) {
+      return searcher.within(object, request);
+    });
   }
 }
 

@@ -63,6 +63,9 @@ TEST(Containment, asks_for_every_piece) {
   EXPECT_TRUE(encloses(ball, all_in));
   EXPECT_FALSE(encloses(ball, joined(all_in, outside)));
   EXPECT_FALSE(encloses(ball, joined(outside, all_in)));
+  const auto in_a_corner = moved(placed(pea, 0.5), 0.8, 0.8, 0.8);  // of the ball's box, but outside of it
+  EXPECT_FALSE(encloses(ball, joined(all_in, in_a_corner)));
+  EXPECT_FALSE(encloses(ball, joined(in_a_corner, all_in)));
   const auto two = joined(ball, moved(ball, 4, 0, 0));
   EXPECT_TRUE(encloses(two, joined(all_in, moved(all_in, 4, 0, 0)))) << "one in each";
   EXPECT_FALSE(encloses(two, moved(all_in, 2, 0, 0)));

@@ -22,21 +22,56 @@ inline bool operator==(const Answer& a, const Answer& b) {
          a.summary.leaf_tests == b.summary.leaf_tests && a.summary.exact_tests == b.summary.exact_tests;
 }
 
-inline Answer search_between(const Posed_object& a, const Posed_object& b, const Contact_request& request = {},
-                             std::size_t threads = 1) {
-  Workers workers(threads);
-  Contact_search search(workers);
-  Answer answer;
-  answer.summary = search.between(a.object(), b.object(), request, answer.found);
-  return answer;
+/// A search with workers of its own, asked again and again.
+class Searcher {
+ public:
+  explicit Searcher(std::size_t threads) : workers_(threads), search_(workers_) {}
+
+  Answer between(const Posed_object& a, const Posed_object& b, const Contact_request& request) {
+    Answer answer;
+    answer.summary = search_.between(a.object(), b.object(), request, answer.found);
+    return answer;
+  }
+  Answer within(const Posed_object& object, const Contact_request& request) {
+    Answer answer;
+    answer.summary = search_.within(object.object(), request, answer.found);
+    return answer;
+  }
+
+ private:
+  Workers workers_;
+  Contact_search search_;
+};
+
+inline Answer search_between(const Posed_object& a, const Posed_object& b, const Contact_request& request = {}) {
+  return Searcher(1).between(a, b, request);
+}
+inline Answer search_within(const Posed_object& object, const Contact_request& request = {}) {
+  return Searcher(1).within(object, request);
 }
 
-inline Answer search_within(const Posed_object& object, const Contact_request& request = {}, std::size_t threads = 1) {
-  Workers workers(threads);
-  Contact_search search(workers);
-  Answer answer;
-  answer.summary = search.within(object.object(), request, answer.found);
-  return answer;
+/// Checks that searchers with any number of workers answer as one with a single worker. `ask(searcher, request)` gives
+/// an answer.
+template <class Ask>
+void expect_same_for_any_workers(std::size_t contacts, const Ask& ask) {
+  const std::vector<Contact_request> requests{{},
+                                              {.query = Contact_query::first},
+                                              {.query = Contact_query::yes_no},
+                                              {.most = 1},
+                                              {.most = contacts / 2 + 1},
+                                              {.most = contacts},
+                                              {.most = contacts + 1},
+                                              {.tolerance = 0.01},
+                                              {.query = Contact_query::first, .tolerance = 0.01},
+                                              {.tolerance = 0.01, .most = 100}};
+  Searcher alone(1);
+  std::vector<Answer> expected;
+  for (const auto& request : requests) expected.push_back(ask(alone, request));
+  for (const std::size_t threads : {2, 3, 4, 7}) {
+    Searcher several(threads);
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      EXPECT_TRUE(ask(several, requests[i]) == expected[i]) << "request " << i << ", " << threads << " workers";
+  }
 }
 
 /// Checks every query and several caps against all true pairs, sorted. `ask(request)` gives an answer.
