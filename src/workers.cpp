@@ -13,7 +13,9 @@ struct Workers::Threads {
 };
 
 Workers::Workers(std::size_t threads)
-    : count_(threads > 0 ? threads : static_cast<std::size_t>(std::max(1, tbb::this_task_arena::max_concurrency()))) {
+    : count_(static_cast<std::size_t>(std::max(1, tbb::this_task_arena::max_concurrency()))) {
+  // Asked for more than there are, oneTBB prints a warning and makes none of them.
+  if (threads > 0) count_ = std::min(count_, threads);
   if (count_ > 1) threads_ = std::make_unique<Threads>(Threads{tbb::task_arena(static_cast<int>(count_))});
 }
 Workers::~Workers() = default;

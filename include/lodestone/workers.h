@@ -10,7 +10,7 @@ namespace lodestone {
 /// A number of threads that share tasks.
 class Workers {
  public:
-  /// @param threads  at most so many; 0: as many as the machine has
+  /// @param threads  at most so many, and no more than the machine has; 0: as many as it has
   explicit Workers(std::size_t threads);
   ~Workers();
   Workers(Workers&&) noexcept;

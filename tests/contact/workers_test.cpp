@@ -2,10 +2,13 @@
 #include "lodestone/workers.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -57,8 +60,23 @@ TEST(Workers, of_one_work_in_order_in_the_calling_thread) {
   for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], i);
 }
 
-TEST(Workers, of_zero_threads_are_as_many_as_the_machine_has) {
-  EXPECT_EQ(Workers(0).count(), std::thread::hardware_concurrency());
+/// Processors that this process may use.
+std::size_t processors() {
+  cpu_set_t allowed;
+  EXPECT_EQ(sched_getaffinity(0, sizeof(allowed), &allowed), 0);
+  return static_cast<std::size_t>(CPU_COUNT(&allowed));
+}
+
+TEST(Workers, of_zero_threads_are_as_many_as_the_machine_has) { EXPECT_EQ(Workers(0).count(), processors()); }
+
+TEST(Workers, are_never_more_than_the_machine_has_and_do_not_print) {
+  testing::internal::CaptureStderr();
+  for (const std::size_t threads : {1, 2, 3, 8, 1000}) {
+    Workers workers(threads);
+    EXPECT_EQ(workers.count(), std::min(threads, processors()));
+    workers.run(100, [](std::size_t, std::size_t) {});
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(Workers, rethrow_what_a_task_throws_and_work_on) {
