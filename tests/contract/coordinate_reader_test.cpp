@@ -35,14 +35,17 @@ TYPED_TEST(Coordinate_reader_contract, hands_out_where_the_vertices_are_now) {
   const Mesh_numbering<TypeParam> numbering(mesh);
   auto reader = reader_of(mesh);
   auto points = get(CGAL::vertex_point, mesh);
+  std::vector<double> before;
   for (int frame = 0; frame < 3; ++frame) {
     const Coordinates read = reader.read(numbering);
-    EXPECT_EQ(std::vector(read.begin(), read.end()), expected(mesh, numbering));
+    const std::vector now(read.begin(), read.end());
+    EXPECT_EQ(now, expected(mesh, numbering));
+    EXPECT_NE(now, before);
+    before = now;
     for (const auto v : vertices(mesh)) {
       const auto p = coordinates(get(points, v));
       put(points, v, as_float(Point(p.z() + 0.25, 2 * p.x(), p.y())));
     }
-    EXPECT_NE(reader.read(numbering)[0], expected(converted<TypeParam>(as_float(potato(4))), numbering)[0]);
   }
 }
 
