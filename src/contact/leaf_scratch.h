@@ -23,10 +23,15 @@ struct alignas(64) Leaf_scratch {
   /// the last.
   using Column = double[most_leaf_faces + widest];
   struct alignas(64) Columns {
-    Column corners[3][3];    ///< by corner and axis
-    Column vertices[3];      ///< by corner: its number in the mesh, which a double holds without loss
     Column low[3], high[3];  ///< by axis: the face's box, its high side moved out by the margin
+    Column vertices[3];      ///< by corner: its number in the mesh, which a double holds without loss
   } columns;
+
+  /// Some pairs of faces by coordinate.
+  struct alignas(64) Batch {
+    double a[3][3][widest];  ///< by corner and axis
+    double b[3][3][widest];
+  } batch;
 };
 
 }  // namespace lodestone

@@ -15,7 +15,7 @@ namespace lodestone {
 using Coordinates = std::span<const double>;
 
 struct Region_tree_options {
-  std::size_t leaf_faces = 64;  ///< most faces of a leaf, 2 .. 128; leaves of large regions have at least half as many
+  std::size_t leaf_faces = 96;  ///< most faces of a leaf, 2 .. 128; leaves of large regions have at least half as many
 };
 
 /// A hierarchy of axis-aligned boxes over the faces of one object: its regions, split further down to leaves of a few
