@@ -37,5 +37,6 @@ std::string run_growth(const Experiment_context& context);
 std::string run_modes(const Experiment_context& context);
 std::string run_rebuild(const Experiment_context& context);
 std::string run_peers(const Experiment_context& context);
+std::string run_soak(const Experiment_context& context);
 
 }  // namespace lodestone
