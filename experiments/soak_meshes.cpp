@@ -43,7 +43,7 @@ template <class Make_corners>
 Soak_mesh soup(Random& random, Make_corners corners) {
   Soak_mesh mesh;
   mesh.faces = loose_faces(face_count(random));
-  const double size = magnitude(random, 0.1, 1);
+  const double size = magnitude(random, 0.05, 0.5);
   for (std::size_t pose = 0; pose < soak_poses; ++pose) {
     auto& positions = mesh.poses.emplace_back(3 * mesh.faces.size(), 3);
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
