@@ -37,7 +37,7 @@ struct Exact_options {
   bool self_collision = false;  ///< also report pairs of faces of one object
   bool containment = false;     ///< also tell objects that lie inside others
   std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it
-  double loosest = 2;           ///< rebuild an object's tree when its leaves are looser by this factor; > 1
+  double loosest = 1.5;         ///< rebuild an object's tree when its leaves are looser by this factor; > 1
   Region_tree_options tree = {};
 };
 

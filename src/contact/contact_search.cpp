@@ -10,7 +10,9 @@ namespace lodestone {
 
 namespace {
 
-/// Tasks that a walk is cut into for several workers, and the vertices of one task of neighbours.
+/// Pairs of leaves that are looked at before other workers are woken: about a tenth of a millisecond.
+constexpr std::size_t tests_alone = 256;
+/// Tasks that the rest of a walk is cut into, and the vertices of one task of neighbours.
 constexpr std::size_t walk_tasks = 256;
 constexpr std::uint32_t neighbour_vertices = 4096;
 
@@ -39,69 +41,60 @@ Contact_search::Contact_search(Workers& workers) : workers_(workers), scratch_(w
 
 Contact_summary Contact_search::between(const Tree_object& a, const Tree_object& b, const Contact_request& request,
                                         std::vector<Face_pair>& found) {
-  starts_.assign(1, {0, 0});
-  if (workers_.count() > 1)
-    open_top(starts_, [&](Node_pair pair, std::vector<Node_pair>& below) {
-      if (!near(a.tree().box(pair.a), b.tree().box(pair.b), request.tolerance)) return true;  // nothing below
-      if (a.tree().is_leaf(pair.a) && b.tree().is_leaf(pair.b)) return false;
-      open_pair(a.tree(), b.tree(), pair, below);
-      return true;
-    });
-  const auto walk = [&](std::size_t index, std::size_t limit, Scratch& scratch, Result& result) {
-    scratch.walk.ahead.assign(1, starts_[index]);
+  Plan plan;
+  plan.walk = [&](std::size_t limit, Scratch& scratch, Result& result) {
     visit_contacts(a.posed(), b.posed(), request.tolerance, scratch.walk, [&](Face_pair pair) {
       result.found.push_back(pair);
       return result.found.size() < limit ? Visit::go_on : Visit::stop;
     });
   };
-  return run(starts_.size(), request, walk, found);
+  plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
+    if (!near(a.tree().box(pair.a), b.tree().box(pair.b), request.tolerance)) return true;  // nothing below
+    if (a.tree().is_leaf(pair.a) && b.tree().is_leaf(pair.b)) return false;
+    open_pair(a.tree(), b.tree(), pair, below);
+    return true;
+  };
+  return run(plan, request, found);
 }
 
 Contact_summary Contact_search::within(const Tree_object& object, const Contact_request& request,
                                        std::vector<Face_pair>& found) {
   const Region_tree& tree = object.tree();
   const Vertex_fans& fans = object.fans();
-  const auto vertices = static_cast<std::uint32_t>(object.vertex_count());
-  starts_.assign(1, {0, 0});
-  if (workers_.count() > 1)
-    open_top(starts_, [&](Node_pair pair, std::vector<Node_pair>& below) {
-      if (pair.a != pair.b && !near(tree.box(pair.a), tree.box(pair.b), 0)) return true;
-      if (tree.is_leaf(pair.a) && tree.is_leaf(pair.b)) return false;
-      if (pair.a == pair.b)
-        open_node(tree, pair.a, below);
-      else
-        open_pair(tree, tree, pair, below);
-      return true;
-    });
-  const auto walk_or_check = [&](std::size_t index, std::size_t limit, Scratch& scratch, Result& result) {
-    if (index >= starts_.size()) {
-      const auto first = static_cast<std::uint32_t>((index - starts_.size()) * neighbour_vertices);
-      scratch.neighbours.check(fans, object.corners(), object.coordinates(), first,
-                               std::min(vertices, first + neighbour_vertices), result.found);
-      return;
-    }
-    scratch.walk.ahead.assign(1, starts_[index]);
+  Plan plan;
+  plan.walk = [&](std::size_t limit, Scratch& scratch, Result& result) {
     visit_contacts_within(object.posed(), scratch.walk, [&](Face_pair pair) {
       result.found.push_back(pair);
       return result.found.size() < limit ? Visit::go_on : Visit::stop;
     });
   };
-  const std::size_t neighbour_tasks = (vertices + neighbour_vertices - 1) / neighbour_vertices;
-  return run(starts_.size() + neighbour_tasks, request, walk_or_check, found);
+  plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
+    if (pair.a != pair.b && !near(tree.box(pair.a), tree.box(pair.b), 0)) return true;
+    if (tree.is_leaf(pair.a) && tree.is_leaf(pair.b)) return false;
+    if (pair.a == pair.b)
+      open_node(tree, pair.a, below);
+    else
+      open_pair(tree, tree, pair, below);
+    return true;
+  };
+  const auto vertices = static_cast<std::uint32_t>(object.vertex_count());
+  for (std::uint32_t first = 0; first < vertices; first += std::min(neighbour_vertices, vertices - first)) {
+    const std::uint32_t end = first + std::min(neighbour_vertices, vertices - first);
+    plan.others.push_back([&, first, end](std::size_t, Scratch& scratch, Result& result) {
+      scratch.neighbours.check(fans, object.corners(), object.coordinates(), first, end, result.found);
+    });
+  }
+  return run(plan, request, found);
 }
 
-Contact_summary Contact_search::run(std::size_t tasks, const Contact_request& request, const Task& task,
-                                    std::vector<Face_pair>& found) {
+Contact_summary Contact_search::run(const Plan& plan, const Contact_request& request, std::vector<Face_pair>& found) {
   const bool all = request.query == Contact_query::all;
   // One more than may be listed tells whether the list is complete.
   const std::size_t most = all ? request.most : 1;
-  const std::size_t limit = all ? most + (most < std::numeric_limits<std::size_t>::max() ? 1 : 0) : 1;
+  const std::size_t limit = all && most < std::numeric_limits<std::size_t>::max() ? most + 1 : most;
   const std::size_t first = found.size();
 
-  results_.resize(std::max(results_.size(), tasks));
-  const bool side_by_side = workers_.count() > 1 && (limit == 1 || limit == std::numeric_limits<std::size_t>::max());
-  const std::size_t done = side_by_side ? run_side_by_side(tasks, limit, task) : run_in_order(tasks, limit, task);
-
+  const std::size_t done = run_tasks(plan, limit);
   Contact_summary summary;
   for (std::size_t index = 0; index < done; ++index) {
     found.insert(found.end(), results_[index].found.begin(), results_[index].found.end());
@@ -116,39 +109,60 @@ Contact_summary Contact_search::run(std::size_t tasks, const Contact_request& re
   return summary;
 }
 
-std::size_t Contact_search::run_in_order(std::size_t tasks, std::size_t limit, const Task& task) {
-  std::size_t listed = 0;
-  for (std::size_t index = 0; index < tasks; ++index) {
-    run_one(task, index, limit - listed, scratch_.front());
-    listed += results_[index].found.size();
-    if (listed >= limit) return index + 1;
+/// The walk begins in one thread, which mostly ends it: waking others takes longer than a small walk. The rest, if
+/// there is any, is shared.
+/// @return number of results that count
+std::size_t Contact_search::run_tasks(const Plan& plan, std::size_t limit) {
+  const bool shared = workers_.count() > 1 && (limit == 1 || limit == std::numeric_limits<std::size_t>::max());
+  results_.resize(std::max<std::size_t>(results_.size(), 1));
+  Tree_walk& walk = scratch_.front().walk;
+  walk.ahead.assign(1, {0, 0});
+  walk.last_leaf_test = shared ? walk.leaf_tests + tests_alone : std::numeric_limits<std::size_t>::max();
+  const bool full = run_one(plan.walk, 0, limit, scratch_.front());
+  walk.last_leaf_test = std::numeric_limits<std::size_t>::max();
+  if (full) return 1;
+
+  if (shared) return run_side_by_side(plan, limit);
+  results_.resize(std::max(results_.size(), 1 + plan.others.size()));
+  std::size_t listed = results_[0].found.size();
+  for (std::size_t other = 0; other < plan.others.size(); ++other) {
+    if (run_one(plan.others[other], 1 + other, limit - listed, scratch_.front())) return 2 + other;
+    listed += results_[1 + other].found.size();
   }
-  return tasks;
+  return 1 + plan.others.size();
 }
 
 /// Tasks after the first one that reaches the limit do not count, whether they have run or not: in order they would
 /// not have been met.
-std::size_t Contact_search::run_side_by_side(std::size_t tasks, std::size_t limit, const Task& task) {
+std::size_t Contact_search::run_side_by_side(const Plan& plan, std::size_t limit) {
+  starts_.assign(scratch_.front().walk.ahead.rbegin(), scratch_.front().walk.ahead.rend());
+  open_top(starts_, plan.open);
+  const std::size_t tasks = starts_.size() + plan.others.size();
+  results_.resize(std::max(results_.size(), 1 + tasks));
   std::atomic<std::size_t> last = tasks;
   workers_.run(tasks, [&](std::size_t index, std::size_t worker) {
     if (index > last) return;
-    run_one(task, index, limit, scratch_[worker]);
-    if (results_[index].found.size() < limit) return;
+    Scratch& scratch = scratch_[worker];
+    if (index < starts_.size()) scratch.walk.ahead.assign(1, starts_[index]);
+    const Task& task = index < starts_.size() ? plan.walk : plan.others[index - starts_.size()];
+    if (!run_one(task, 1 + index, limit, scratch)) return;
     std::size_t before = last;
     while (index < before && !last.compare_exchange_weak(before, index)) {
     }
   });
-  return std::min(tasks, last + 1);
+  return 1 + std::min(tasks, last + 1);
 }
 
-void Contact_search::run_one(const Task& task, std::size_t index, std::size_t limit, Scratch& scratch) {
+/// @return whether the limit has been reached
+bool Contact_search::run_one(const Task& task, std::size_t index, std::size_t limit, Scratch& scratch) {
   Result& result = results_[index];
   result.found.clear();
   const std::size_t leaf_tests = scratch.walk.leaf_tests;
   const std::size_t exact_tests = scratch.walk.exact_tests + scratch.neighbours.exact_tests();
-  task(index, limit, scratch, result);
+  task(limit, scratch, result);
   result.leaf_tests = scratch.walk.leaf_tests - leaf_tests;
   result.exact_tests = scratch.walk.exact_tests + scratch.neighbours.exact_tests() - exact_tests;
+  return result.found.size() >= limit;
 }
 
 }  // namespace lodestone

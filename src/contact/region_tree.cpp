@@ -85,6 +85,7 @@ bool Region_tree::finish_refit(Coordinates coordinates) {
   }
   const double whole = extent(boxes_.front());
   looseness_ = whole > 0 ? leaf_extents / static_cast<double>(leaf_count()) / whole : 0;
+  if (!std::isfinite(looseness_)) looseness_ = 0;  // beyond 1e306 the sum overflows: such trees are not judged
 
   if (std::isfinite(coordinate_sum)) return true;
   // The sum may have overflowed, or the coordinates themselves are to blame.

@@ -45,6 +45,13 @@ std::span<const std::uint32_t> Tree_object::piece_vertices() const {
   return piece_vertices_;
 }
 
+namespace {
+
+/// Fewer parts take one thread less time than waking others.
+constexpr std::size_t shared_parts = 8;
+
+}  // namespace
+
 void refit(std::span<Tree_object* const> objects, std::span<const Coordinates> coordinates, Workers& workers) {
   // The parts of all trees are one list of tasks, so that many small objects are shared as well as a large one.
   std::vector<std::size_t> first_part{0};
@@ -52,10 +59,14 @@ void refit(std::span<Tree_object* const> objects, std::span<const Coordinates> c
     objects[o]->coordinates_ = coordinates[o];
     first_part.push_back(first_part.back() + objects[o]->tree_.part_count());
   }
-  workers.run(first_part.back(), [&](std::size_t task, std::size_t) {
+  const auto refit_part = [&](std::size_t task, std::size_t) {
     const auto o = static_cast<std::size_t>(std::ranges::upper_bound(first_part, task) - first_part.begin()) - 1;
     objects[o]->tree_.refit_part(task - first_part[o], coordinates[o]);
-  });
+  };
+  if (first_part.back() < shared_parts)
+    for (std::size_t task = 0; task < first_part.back(); ++task) refit_part(task, 0);
+  else
+    workers.run(first_part.back(), refit_part);
   for (std::size_t o = 0; o < objects.size(); ++o) objects[o]->finite_ = objects[o]->tree_.finish_refit(coordinates[o]);
 }
 

@@ -53,18 +53,24 @@ class Contact_search {
     std::size_t exact_tests = 0;
   };
   /// Adds to a result until it holds `limit` face pairs.
-  using Task = std::function<void(std::size_t index, std::size_t limit, Scratch& scratch, Result& result)>;
+  using Task = std::function<void(std::size_t limit, Scratch& scratch, Result& result)>;
+  /// What a search consists of.
+  struct Plan {
+    Task walk;  ///< goes on from `scratch.walk.ahead`
+    /// Replaces a node pair by those below it, the last to be visited first; false: there is nothing to open.
+    std::function<bool(Node_pair pair, std::vector<Node_pair>& below)> open;
+    std::vector<Task> others = {};  ///< come after the walk
+  };
 
-  Contact_summary run(std::size_t tasks, const Contact_request& request, const Task& task,
-                      std::vector<Face_pair>& found);
-  std::size_t run_in_order(std::size_t tasks, std::size_t limit, const Task& task);
-  std::size_t run_side_by_side(std::size_t tasks, std::size_t limit, const Task& task);
-  void run_one(const Task& task, std::size_t index, std::size_t limit, Scratch& scratch);
+  Contact_summary run(const Plan& plan, const Contact_request& request, std::vector<Face_pair>& found);
+  std::size_t run_tasks(const Plan& plan, std::size_t limit);
+  std::size_t run_side_by_side(const Plan& plan, std::size_t limit);
+  bool run_one(const Task& task, std::size_t index, std::size_t limit, Scratch& scratch);
 
   Workers& workers_;
-  std::vector<Scratch> scratch_;  ///< per worker
-  std::vector<Result> results_;   ///< per task
-  std::vector<Node_pair> starts_;
+  std::vector<Scratch> scratch_;   ///< per worker
+  std::vector<Result> results_;    ///< per task
+  std::vector<Node_pair> starts_;  ///< of the tasks that share a walk
 };
 
 }  // namespace lodestone

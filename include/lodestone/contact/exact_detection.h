@@ -184,6 +184,10 @@ template <Triangle_mesh Mesh, class Strategy, class Points>
 Coordinates Exact_detection<Mesh, Strategy, Points>::read(Object_id id) {
   Object& object = *objects_[id];
   const auto vertices = num_vertices(*object.mesh), faces = num_faces(*object.mesh);
+  if constexpr (requires { object.mesh->has_garbage(); })
+    if (object.mesh->has_garbage())
+      throw Bad_mesh("object " + std::to_string(id) +
+                     " holds removed elements: call collect_garbage() on its mesh, then rebuild()");
   if (vertices != object.numbering.vertex_count() || faces != object.numbering.corners().size())
     throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(vertices) + " vertices and " +
                    std::to_string(faces) + " faces, but had " + std::to_string(object.numbering.vertex_count()) +

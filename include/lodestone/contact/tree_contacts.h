@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "lodestone/contact/confirmation.h"
@@ -24,6 +25,8 @@ concept Contact_visitor = requires(Visitor& visitor, Face_pair pair) {
 struct Tree_walk {
   std::vector<Node_pair> ahead;
   Leaf_pairs leaf_pairs;
+  /// The walk stops, with the rest in `ahead`, when `leaf_tests` reaches this.
+  std::size_t last_leaf_test = std::numeric_limits<std::size_t>::max();
   std::size_t leaf_tests = 0;   ///< pairs of leaves looked at, since the start
   std::size_t exact_tests = 0;  ///< face pairs given to exact predicates, since the start
 };
@@ -55,7 +58,7 @@ Visit visit_contacts(const Posed_tree& a, const Posed_tree& b, double distance, 
       if (visitor(Face_pair{a.tree->faces(leaf_a)[places.a], b.tree->faces(leaf_b)[places.b]}) == Visit::stop)
         return Visit::stop;
     }
-    return Visit::go_on;
+    return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
   return walk_leaf_pairs(*a.tree, *b.tree, distance, walk.ahead, visit_leaves);
 }
@@ -73,7 +76,7 @@ Visit visit_contacts_within(const Posed_tree& posed, Tree_walk& walk, Visitor&& 
           std::minmax(posed.tree->faces(leaf_a)[places.a], posed.tree->faces(leaf_b)[places.b]);
       if (visitor(Face_pair{first, second}) == Visit::stop) return Visit::stop;
     }
-    return Visit::go_on;
+    return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
   return walk_leaf_pairs_within(*posed.tree, walk.ahead, visit_leaves);
 }

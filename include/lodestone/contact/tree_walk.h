@@ -38,8 +38,8 @@ inline void open_node(const Region_tree& tree, std::uint32_t n, std::vector<Node
   ahead.push_back({first, first});
 }
 
-/// Visits the pairs of leaves whose boxes come within `margin` of each other, below the nodes on the stack `ahead`,
-/// which is empty afterwards. The order depends on the boxes alone.
+/// Visits the pairs of leaves whose boxes come within `margin` of each other, below the nodes on the stack `ahead`. The
+/// order depends on the boxes alone. After a stop what has not been visited is still on the stack.
 ///
 /// @param visit  called with the numbers of a leaf of a and a leaf of b, returns a `Visit`
 template <class Visitor>
@@ -52,7 +52,6 @@ Visit walk_leaf_pairs(const Region_tree& a, const Region_tree& b, double margin,
     if (!a.is_leaf(pair.a) || !b.is_leaf(pair.b)) {
       open_pair(a, b, pair, ahead);
     } else if (visit(a.node(pair.a).leaf, b.node(pair.b).leaf) == Visit::stop) {
-      ahead.clear();
       return Visit::stop;
     }
   }
@@ -72,10 +71,7 @@ Visit walk_leaf_pairs_within(const Region_tree& tree, std::vector<Node_pair>& ah
       if (!near(tree.box(pair.a), tree.box(pair.b), 0)) continue;
       if (!leaves) open_pair(tree, tree, pair, ahead);
     }
-    if (leaves && visit(tree.node(pair.a).leaf, tree.node(pair.b).leaf) == Visit::stop) {
-      ahead.clear();
-      return Visit::stop;
-    }
+    if (leaves && visit(tree.node(pair.a).leaf, tree.node(pair.b).leaf) == Visit::stop) return Visit::stop;
   }
   return Visit::go_on;
 }
