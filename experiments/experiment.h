@@ -37,6 +37,7 @@ std::string run_growth(const Experiment_context& context);
 std::string run_modes(const Experiment_context& context);
 std::string run_rebuild(const Experiment_context& context);
 std::string run_peers(const Experiment_context& context);
+std::string run_self_collision(const Experiment_context& context);
 std::string run_soak(const Experiment_context& context);
 
 }  // namespace lodestone

@@ -12,26 +12,32 @@ struct Collisions {
   bool collide = false;
   std::vector<Face_pair> faces;             ///< intersecting faces of a and b, sorted
   std::vector<Intersection_points> points;  ///< parallel to `faces`: where they meet; empty unless asked for
+  std::vector<Contact_normal> normals;      ///< parallel to `faces`; empty unless asked for
+  bool capped = false;                      ///< there are more face pairs than `Detector_options::most_contacts`
+  Containment containment = Containment::none;
   Frame_statistics statistics = {};
 };
 
-/// Finds collisions between two meshes with one call: partition, walk, check.
+/// Finds collisions between two meshes with one call.
 ///
-/// Whatever is reported is true, by exact predicates. A collision can be missed: see the modes of `Detector`. Faces are
-/// numbered in the order of `faces(mesh)`. To follow meshes that move, keep a `Detector`: most of the time goes into
-/// the partition, which it makes once.
+/// Whatever is reported is true, by exact predicates. In mode `particles`, the default, a collision can be missed; in
+/// mode `exact` none is. Faces are numbered in the order of `faces(mesh)`. To follow meshes that move, keep a
+/// `Detector`: most of the time goes into the partition, which it makes once. Only what is between the two counts:
+/// `self_collision` changes nothing.
 ///
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
 /// @throws Bad_argument  an option out of range, or one mesh given twice
 template <Triangle_mesh Mesh>
 Collisions find_collisions(const Mesh& a, const Mesh& b, const Detector_options& options = {}) {
   Detector<Mesh> detector(options);
-  detector.add(a);
-  detector.add(b);
-  const Frame& frame = detector.detect();
+  const Object_id first = detector.add(a), second = detector.add(b);
+  const Frame& frame = options.mode == Mode::exact ? detector.detect(first, second) : detector.detect();
   return {.collide = frame.collides(),
           .faces = frame.face_pairs,
           .points = frame.contact_points,
+          .normals = frame.contact_normals,
+          .capped = frame.capped(),
+          .containment = frame.pairs.empty() ? Containment::none : frame.pairs.front().containment,
           .statistics = frame.statistics};
 }
 

@@ -186,6 +186,8 @@ void Run::print() const {
 }  // namespace
 
 int run(const Detect_command& command) {
+  if (command.truth && command.options.exact.tolerance > 0)
+    throw Bad_argument("--truth tells which faces intersect: it cannot judge those that are --within a distance");
   Run scene_run(command);
   std::optional<Atomic_file> frames;
   if (!command.out.empty()) frames.emplace(command.out / "frames.jsonl");

@@ -35,6 +35,31 @@ TEST(Find_collisions, reports_faces_that_intersect_and_no_others) {
   EXPECT_GT(found, 0U);
 }
 
+TEST(Find_collisions, in_mode_exact_gives_all_face_pairs_between_the_two_and_no_others) {
+  const auto a = potato(8);
+  auto b = potato(8, 2);
+  shift(b, 0.7, 0.3, 0);
+  const auto truth = exhaustive_face_pairs(a, b);
+  ASSERT_FALSE(truth.empty());
+  const Detector_options options{
+      .mode = Mode::exact, .contact_normals = true, .exact = {.self_collision = true, .containment = true}};
+  const auto collisions = find_collisions(a, b, options);
+  EXPECT_EQ(collisions.faces, truth);
+  EXPECT_EQ(collisions.normals.size(), truth.size());
+  EXPECT_EQ(collisions.containment, Containment::none);
+  auto capped = options;
+  capped.most_contacts = 1;
+  EXPECT_TRUE(find_collisions(a, b, capped).capped);
+}
+
+TEST(Find_collisions, in_mode_exact_sees_that_one_mesh_lies_inside_the_other) {
+  auto small = sphere(6);
+  for (const auto v : small.vertices()) small.point(v) = Point(0.1 * small.point(v).x(), 0, 0.1 * small.point(v).z());
+  const auto collisions = find_collisions(sphere(6), small, {.mode = Mode::exact, .exact = {.containment = true}});
+  EXPECT_FALSE(collisions.collide);
+  EXPECT_EQ(collisions.containment, Containment::b_in_a);
+}
+
 TEST(Find_collisions, of_meshes_far_apart_finds_nothing) {
   auto b = sphere(6);
   shift(b, 500);

@@ -49,6 +49,15 @@ std::string test_name(const Peer_kind& kind) {
   return name;
 }
 
+}  // namespace
+
+/// What a test is called by where it is listed.
+void PrintTo(const Peer_kind& kind, std::ostream* out) {
+  *out << kind.library << " " << kind.method << " " << kind.volume;
+}
+
+namespace {
+
 std::vector<Face_pair> sorted(std::vector<Face_pair> pairs) {
   std::ranges::sort(pairs);
   return pairs;

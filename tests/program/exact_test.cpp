@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "io/scene_samples.h"
+#include "io/temporary_folder.h"
+#include "program/run_program.h"
+
+namespace lodestone::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Exact : public testing::Test {
+ protected:
+  Program_result detect(const std::string& input, std::vector<std::string> options) const {
+    options.insert(options.begin(), {"detect", input, "--mode", "exact", "--out", out.string()});
+    return run_program(options);
+  }
+  std::vector<Json> frames() const { return read_json_lines(out / "frames.jsonl"); }
+  std::string write(const std::string& name, const std::string& text) const {
+    return folder.write(name, text).string();
+  }
+  /// Two deforming bodies that pass through each other, and a small one inside the second.
+  std::string write_bodies() const {
+    return write("bodies.json", R"({"name": "bodies", "frames": 10, "objects": [
+      {"name": "knot", "shape": {"torus_knot": {"segments": 60, "sides": 6}},
+       "motion": {"deform": [{"twist": {"degrees": 40, "period": 9}},
+                             {"travel": {"path": "linear", "way_points": [{"frame": 0, "at": [-4, 0, 0]},
+                                                                          {"frame": 9, "at": [0, 0, 0]}]}}]}},
+      {"name": "ball", "shape": {"icosphere": {"frequency": 6}}, "place": {"scale": 2}},
+      {"name": "seed", "shape": {"icosphere": {"frequency": 3}}, "place": {"scale": 0.1}}]})");
+  }
+  /// A strip of three triangles, the last of which is folded through the first.
+  std::string write_folded() const {
+    return write("folded.json", R"({"objects": [{"name": "folded", "mesh": "folded.off"},
+                                                {"name": "other", "mesh": "other.off"}]})");
+  }
+
+  Temporary_folder folder;
+  std::filesystem::path out = folder.path() / "results";
+};
+
+TEST_F(Exact, misses_nothing_on_a_deforming_scene) {
+  const auto result = detect(write_bodies(), {"--contacts", "all", "--truth"});
+  expect_success(result);
+  std::size_t collisions = 0;
+  for (const auto& frame : frames())
+    for (const auto& pair : frame["pairs"]) {
+      EXPECT_EQ(pair["collides"], pair["truth"]);
+      collisions += pair["collides"] ? 1 : 0;
+    }
+  EXPECT_GT(collisions, 2U);
+}
+
+TEST_F(Exact, writes_the_same_bytes_for_any_number_of_threads) {
+  const auto scene = write_bodies();
+  const std::vector<std::string> options{"--contacts", "all", "--self", "--points", "--normals", "--containment"};
+  expect_success(detect(scene, options));
+  const auto expected = read_bytes(out / "frames.jsonl");
+  for (const auto* threads : {"0", "2", "5"}) {
+    auto with_threads = options;
+    with_threads.insert(with_threads.end(), {"--threads", threads});
+    expect_success(detect(scene, with_threads));
+    EXPECT_EQ(read_bytes(out / "frames.jsonl"), expected) << threads;
+  }
+}
+
+TEST_F(Exact, says_which_object_lies_inside_which) {
+  expect_success(detect(write_bodies(), {"--containment"}));
+  const auto first = frames().at(0);
+  bool seen = false;
+  for (const auto& pair : first["pairs"])
+    if (pair["a"] == "ball" && pair["b"] == "seed") {
+      EXPECT_EQ(pair["inside"], "seed");
+      EXPECT_EQ(pair["collides"], false);
+      seen = true;
+    }
+  EXPECT_TRUE(seen);
+}
+
+TEST_F(Exact, reports_faces_of_one_object_that_pass_through_each_other) {
+  write("folded.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0.2 0.2 -1\n0.2 0.2 1\n0.3 0.3 1\n3 0 1 2\n3 3 4 5\n");
+  write("other.off", tetrahedron(9));
+  expect_success(detect(write_folded(), {"--self", "--contacts", "all"}));
+  const auto pairs = frames().at(0)["pairs"];
+  ASSERT_EQ(pairs.size(), 2U) << pairs;
+  EXPECT_EQ(pairs[0]["a"], "folded");
+  EXPECT_EQ(pairs[0]["b"], "folded");
+  EXPECT_EQ(pairs[0]["faces"], Json::array({{0, 1}}));
+  EXPECT_EQ(pairs[1]["collides"], false);
+}
+
+TEST_F(Exact, reports_faces_within_a_distance_with_their_nearest_points_and_directions) {
+  write("low.off", "OFF\n3 1 0\n0 0 0\n2 0 0\n0 2 0\n3 0 1 2\n");
+  write("high.off", "OFF\n3 1 0\n0 0 0.5\n2 0 0.5\n0 2 0.5\n3 0 1 2\n");
+  const auto scene = write("two.json", R"({"objects": [{"name": "low", "mesh": "low.off"},
+                                                       {"name": "high", "mesh": "high.off"}]})");
+  expect_success(detect(scene, {"--within", "0.5"}));
+  for (const auto& pair : frames().at(0)["pairs"]) EXPECT_EQ(pair["collides"], false);
+  expect_success(detect(scene, {"--within", "0.500001", "--points", "--normals"}));
+  const auto pair = frames().at(0)["pairs"][0];
+  EXPECT_EQ(pair["faces"], Json::array({{0, 0}}));
+  ASSERT_EQ(pair["points"][0].size(), 2U);
+  EXPECT_EQ(pair["points"][0][0][2], 0.0);
+  EXPECT_EQ(pair["points"][0][1][2], 0.5);
+  EXPECT_EQ(pair["normals"].size(), 1U);
+}
+
+TEST_F(Exact, says_where_a_cap_cut_contacts_off) {
+  const auto scene = write_bodies();
+  expect_success(detect(scene, {"--contacts", "all", "--most-contacts", "3"}));
+  std::size_t capped = 0;
+  for (const auto& frame : frames())
+    for (const auto& pair : frame["pairs"]) {
+      EXPECT_LE(pair["faces"].size(), 3U);
+      if (!pair.contains("capped")) continue;
+      EXPECT_EQ(pair["faces"].size(), 3U);
+      ++capped;
+    }
+  EXPECT_GT(capped, 0U);
+}
+
+TEST_F(Exact, options_of_another_mode_are_refused_with_a_line) {
+  const auto scene = write_bodies();
+  for (const auto& wrong : std::vector<std::vector<std::string>>{{"--within", "1"}, {"--self"}, {"--containment"}}) {
+    auto arguments = wrong;
+    arguments.insert(arguments.begin(), {"detect", scene});
+    const auto result = run_program(arguments);
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_NE(result.err.find("mode exact"), std::string::npos) << result.err;
+  }
+  const auto result = detect(scene, {"--truth", "--within", "1"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_NE(result.err.find("--truth"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace lodestone::test
