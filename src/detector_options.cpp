@@ -27,7 +27,7 @@ void check(const Detector_options& options) {
   require(exact.loosest > 1, "a tree must be allowed to become looser than it was built: the factor must be > 1");
   require(exact.tree.leaf_faces >= 2 && exact.tree.leaf_faces <= 128, "a leaf must hold at most 2 to 128 faces");
   require(options.mode == Mode::exact || (exact.tolerance == 0 && !exact.self_collision && !exact.containment),
-          "tolerance, self-collision and containment need the mode exact");
+          "a distance other than 0, self-collision and containment need the mode exact");
 }
 
 }  // namespace lodestone

@@ -16,8 +16,8 @@ namespace lodestone {
 /// What one frame took, and what was answered. All figures are sums over the objects, or over the pairs asked for.
 struct Answer {
   double update_seconds = 0;
-  double any_seconds = 0;
-  double all_seconds = 0;
+  double any_seconds = 0;                        ///< infinite: not asked in this pass
+  double all_seconds = 0;                        ///< infinite: not asked in this pass
   bool gave_up = false;                          ///< in one of the queries: only the update counts
   std::vector<bool> collides;                    ///< per pair asked for
   std::vector<std::vector<Face_pair>> contacts;  ///< per pair asked for, in any order
@@ -32,6 +32,8 @@ class Entrant {
 
   /// Whatever only the measurement needs: called once, after time and memory of the build have been taken.
   virtual void prepare() {}
+  /// Begins a pass over all sampled frames. In the first one both questions are asked in every frame.
+  virtual void start_pass(std::size_t /*pass*/) {}
   /// Updates all objects, then asks about the pairs: first whether they collide, then for all contacts.
   /// @return valid until the next call
   virtual const Answer& play(std::span<const Object_pair> pairs) = 0;

@@ -4,6 +4,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -38,14 +39,24 @@ void compare_sets(const std::vector<Face_pair>& truth, std::vector<Face_pair> fo
   figures.wrong_sets += missing.empty() && invented.empty() ? 0 : 1;
 }
 
-void compare(const Truth& truth, const Answer& answer, Entry_figures& figures) {
-  if (!figures.entry.answers) return;
+/// Wrong answers are counted in the first pass; a later one that differs from it makes the entry wrong as well.
+void compare(const Truth& truth, const Answer& answer, std::size_t pass, Entry_figures& counted) {
+  if (!counted.entry.answers) return;
+  Entry_figures later = counted;
+  Entry_figures& figures = pass == 0 ? counted : later;
+  if (pass > 0) figures.missed = figures.invented = figures.wrong_sets = 0;
   for (std::size_t p = 0; p < truth.pairs.size(); ++p) {
     const bool collides = !truth.contacts[p].empty();
-    figures.missed += collides && !answer.collides[p] ? 1 : 0;
-    figures.invented += !collides && answer.collides[p] ? 1 : 0;
-    if (figures.entry.reports_pairs) compare_sets(truth.contacts[p], answer.contacts[p], figures);
+    if (std::isfinite(answer.any_seconds)) {
+      figures.missed += collides && !answer.collides[p] ? 1 : 0;
+      figures.invented += !collides && answer.collides[p] ? 1 : 0;
+    }
+    if (figures.entry.reports_pairs && std::isfinite(answer.all_seconds))
+      compare_sets(truth.contacts[p], answer.contacts[p], figures);
   }
+  const bool wrong = figures.missed + figures.invented + figures.wrong_sets > 0;
+  const bool wrong_before = counted.missed + counted.invented + counted.wrong_sets > 0;
+  if (pass > 0 && wrong && !wrong_before) ++counted.wrong_later;
 }
 
 /// Objects are near when their bounding boxes, each grown by so many of its diagonals to all sides, overlap.
@@ -178,13 +189,14 @@ class Scene_run {
 
   /// One pass of one entry over all sampled frames.
   void play(std::size_t pass, Player& player) {
-    if (pass > 0 && player.seconds > options_.seconds) return;
+    if (pass > 1 && player.seconds > options_.seconds) return;
+    player.entrant->start_pass(pass);
     for (std::size_t f = 0; f < figures_.sampled.size() && !player.figures->left_early; ++f) {
       if (player.seconds > options_.most_seconds) player.figures->left_early = true;
       if (player.figures->left_early) return;
       restore(f);
       const Answer& answer = player.play(f, truths_[f]);
-      if (pass == 0 && !answer.gave_up) compare(truths_[f], answer, *player.figures);
+      if (!answer.gave_up) compare(truths_[f], answer, pass, *player.figures);
     }
   }
 

@@ -96,6 +96,16 @@ class Detector {
   /// @throws Bad_argument  no such object, another mode
   const Frame& detect(Object_id a, Object_id b);
 
+  /// Shows the face pairs of two objects to a visitor, which may stop the walk: see `visit_contacts`. Mode `exact`,
+  /// with its tolerance; caps and filters do not count.
+  /// @throws Bad_argument  no such object, one and the same, another mode
+  /// @throws Bad_mesh      as `detect`
+  template <Contact_visitor Visitor>
+  Visit visit(Object_id a, Object_id b, Visitor&& visitor) {
+    auto& exact = of_exact(a, b);
+    if (a == b) throw Bad_argument("the face pairs of object " + std::to_string(a) + " and itself");
+    return exact.visit({a, b}, std::forward<Visitor>(visitor));
+  }
   /// Where two objects come nearest, in mode `exact`.
   /// @throws Bad_argument  no such object, one and the same, another mode
   /// @throws Bad_mesh      as `detect`
@@ -112,7 +122,8 @@ class Detector {
     if (exact_) throw Bad_argument("objects of mode exact have no particles");
     return particles_->object(object);
   }
-  /// The state of one object in mode `exact`: its tree. Valid until it is rebuilt, and as of the last answer.
+  /// The state of one object in mode `exact`: its tree, empty before the first answer. Its boxes are those of the last
+  /// answer that the object was part of; its coordinates are the mesh's own memory: look at them before anything moves.
   /// @throws Bad_argument  no such object, another mode
   const Tree_object& tree(Object_id object) const { return of_exact(object).object(object); }
   /// Its property maps.

@@ -33,7 +33,8 @@ constexpr std::string_view name_of(Mode mode) {
 
 /// What only the mode `exact` is asked.
 struct Exact_options {
-  double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect
+  double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect.
+                                ///< Between two objects: pairs within one are reported if they intersect
   bool self_collision = false;  ///< also report pairs of faces of one object
   bool containment = false;     ///< also tell objects that lie inside others
   std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it
@@ -43,7 +44,9 @@ struct Exact_options {
 
 struct Detector_options {
   Mode mode = Mode::particles;
-  std::size_t particles = 0;         ///< per object; 0: as many as the rule of `particle_count` asks for
+  /// Per object; 0: as many as the rule of `particle_count` asks for. In mode `exact` the regions at the top of a tree;
+  /// 0: `least_particles`.
+  std::size_t particles = 0;
   std::size_t least_particles = 12;  ///< but at least so many; 1: the rule alone, which can ask for very few
   Particle_count_options particle_count = {};
   Partition_options partition = {};
@@ -64,10 +67,11 @@ struct Object_options {
   std::size_t particles = 0;                           ///< 0: as the detector's options say
   std::optional<Eigen::Vector3d> scattered_side = {};  ///< Senin_options::side of this object
   std::uint32_t groups = 1;                            ///< bits: the groups that the object belongs to
-  std::uint32_t meets = ~std::uint32_t{0};             ///< bits: the groups that it can collide with
+  std::uint32_t meets = ~std::uint32_t{0};             ///< bits: the groups that it can collide with, its own included
 };
 
-/// @throws Bad_argument  an option out of its range, or one that the mode does not know
+/// Options of another mode are ignored, but for those of the mode `exact` that ask for more than others can answer.
+/// @throws Bad_argument  an option out of its range
 void check(const Detector_options& options);
 
 }  // namespace lodestone

@@ -27,7 +27,7 @@ struct Stage_times {
 
 struct Frame_statistics {
   Stage_times seconds = {};
-  std::size_t near_pairs = 0;    ///< object pairs that the broad phase let through
+  std::size_t near_pairs = 0;    ///< object pairs that the broad phase let through, those with themselves included
   std::size_t iterations = 0;    ///< of the relaxation
   std::size_t moves = 0;         ///< steps of all particles together
   bool relaxed = true;           ///< false: the relaxation was stopped by R_max
@@ -44,7 +44,7 @@ enum class Containment { none, a_in_b, b_in_a };
 struct Pair_result {
   Object_id a = 0;
   Object_id b = 0;
-  bool collides = false;
+  bool collides = false;          ///< something was found: that intersects, or is nearer than the tolerance
   std::size_t candidates = 0;     ///< candidate region pairs
   std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
   std::size_t contacts = 0;
@@ -60,7 +60,8 @@ struct Frame {
   std::vector<Face_pair> face_pairs;  ///< of all pairs one after the other, sorted within a pair
   /// Parallel to `face_pairs`; empty unless asked for. Faces that are near but apart: the nearest point of each.
   std::vector<Intersection_points> contact_points;
-  std::vector<Contact_normal> contact_normals;  ///< parallel to `face_pairs`; empty unless asked for
+  /// Parallel to `face_pairs`; empty unless asked for. A negative depth tells faces that are near but apart.
+  std::vector<Contact_normal> contact_normals;
   Frame_statistics statistics = {};
 
   std::span<const Face_pair> contacts(const Pair_result& pair) const {

@@ -63,6 +63,7 @@ class Search {
   }
 
   void try_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    if (best_.points.distance == 0) return look_for_lower(leaf_a, leaf_b);
     faces_a_.fill(a_, leaf_a);
     faces_b_.fill(b_, leaf_b);
     for (std::size_t i = 0; i < faces_a_.boxes.size(); ++i)
@@ -75,12 +76,23 @@ class Search {
       }
   }
 
+  /// The objects intersect: what is left is to find the lowest of the face pairs that do.
+  void look_for_lower(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    for (const auto& [place_a, place_b] : leaf_pairs_.near_faces(a_, leaf_a, b_, leaf_b, 0)) {
+      const Face_pair faces{a_.tree->faces(leaf_a)[place_a], b_.tree->faces(leaf_b)[place_b]};
+      if (!(faces < best_.faces)) continue;
+      const Triangle a = leaf_triangle(a_, leaf_a, place_a), b = leaf_triangle(b_, leaf_b, place_b);
+      if (triangles_intersect(a, b)) best_ = {faces, closest_points(a, b)};
+    }
+  }
+
   const Posed_tree& a_;
   const Posed_tree& b_;
   Closest_faces best_;
   std::priority_queue<Ahead> ahead_;
   std::vector<Node_pair> below_;
   Boxed_leaf faces_a_, faces_b_;
+  Leaf_pairs leaf_pairs_;
 };
 
 }  // namespace

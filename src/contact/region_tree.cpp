@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/refit_kernel.h"
 #include "contact/tree_builder.h"
@@ -23,6 +24,8 @@ constexpr std::size_t cached_vertices = 500'000;
 Region_tree::Region_tree(std::span<const Corners> corners, std::span<const Region_index> labels,
                          Coordinates coordinates, const Region_tree_options& options) {
   if (options.leaf_faces < 2 || options.leaf_faces > 128) throw Bad_argument("a leaf must hold at most 2 to 128 faces");
+  if (corners.size() > std::numeric_limits<std::uint32_t>::max() / 3)
+    throw Bad_mesh("the mesh has more than 1431655765 faces, which is what a tree can number");
   Tree_builder(*this, corners, labels, coordinates, options).build();
   vertices_.resize(vertices_.size() + kernel::vertices_ahead + 4, vertices_.back());
   boxes_.resize(nodes_.size());

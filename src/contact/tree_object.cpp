@@ -37,11 +37,13 @@ std::span<const std::uint32_t> Tree_object::piece_vertices() const {
     pieces.union_set(a, c);
   }
   std::vector<bool> seen(vertex_count(), false);
+  std::vector<std::uint32_t> found;
   for (const auto& face : corners_) {
     const std::uint32_t piece = pieces.find_set(face[0]);
-    if (!seen[piece]) piece_vertices_.push_back(face[0]);
+    if (!seen[piece]) found.push_back(face[0]);
     seen[piece] = true;
   }
+  piece_vertices_ = std::move(found);
   return piece_vertices_;
 }
 

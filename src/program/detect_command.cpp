@@ -44,7 +44,9 @@ Scene load(const std::vector<std::filesystem::path>& inputs) {
 /// What the run says about one object pair.
 struct Pair_summary {
   std::size_t colliding_frames = 0;
-  std::size_t face_pairs = 0;  ///< over all frames
+  std::size_t face_pairs = 0;        ///< over all frames
+  std::size_t capped_frames = 0;     ///< in which face pairs were cut off
+  std::size_t contained_frames = 0;  ///< in which one lies inside the other
   Score score = {};
 };
 
@@ -66,6 +68,8 @@ class Run {
   std::string play(std::size_t frame);
   nlohmann::ordered_json summary() const;
   void print() const;
+  /// Whether the truth about a pair is known; not within one object.
+  bool has_truth(Object_pair pair) const { return command_.truth && pair.a != pair.b; }
   /// Something was reported that is not true, or missed by the mode that misses nothing.
   bool contradicts_truth() const { return contradicted_ || (missed_ && command_.options.mode == Mode::exact); }
 
@@ -90,6 +94,8 @@ std::string Run::play(std::size_t frame) {
     Pair_summary& summary = pairs_[{pair.a, pair.b}];
     summary.colliding_frames += pair.collides ? 1 : 0;
     summary.face_pairs += pair.contacts;
+    summary.capped_frames += pair.capped ? 1 : 0;
+    summary.contained_frames += pair.containment != Containment::none ? 1 : 0;
   }
   const auto truth = find_truth();
   if (truth) compare(result, *truth);
@@ -143,7 +149,9 @@ nlohmann::ordered_json Run::summary() const {
                                  {"b", names_[pair.b]},
                                  {"colliding_frames", summary.colliding_frames},
                                  {"face_pairs", summary.face_pairs}};
-    if (command_.truth) {
+    if (summary.capped_frames > 0) entry["capped_frames"] = summary.capped_frames;
+    if (command_.options.exact.containment) entry["contained_frames"] = summary.contained_frames;
+    if (has_truth(pair)) {
       Score score = summary.score;
       score.finish();
       entry["truth"] = {{"colliding_frames", score.positives()},  {"recall", score.recall()},
@@ -161,14 +169,24 @@ nlohmann::ordered_json Run::summary() const {
 }
 
 void Run::print() const {
-  std::vector<std::string> header{"object a", "object b", "frames", "colliding"};
+  const bool containment = command_.options.exact.containment;
+  std::size_t capped = 0;
+  std::vector<std::string> header{"object a", "object b", "frames",
+                                  command_.options.exact.tolerance > 0 ? "near" : "colliding"};
+  if (containment) header.emplace_back("one inside");
   if (command_.truth) header.insert(header.end(), {"truly", "recall", "precision", "accuracy"});
   Text_table table(header);
   for (const auto& [pair, summary] : pairs_) {
-    if (summary.colliding_frames == 0 && summary.score.positives() == 0 && names_.size() > 4) continue;
+    capped += summary.capped_frames;
+    if (summary.colliding_frames == 0 && summary.contained_frames == 0 && summary.score.positives() == 0 &&
+        names_.size() > 4)
+      continue;
     std::vector<std::string> row{names_[pair.a], names_[pair.b], std::to_string(scene_.frames),
                                  std::to_string(summary.colliding_frames)};
-    if (command_.truth)
+    if (containment) row.push_back(std::to_string(summary.contained_frames));
+    if (command_.truth && !has_truth(pair))
+      row.insert(row.end(), {"-", "-", "-", "-"});
+    else if (command_.truth)
       row.insert(row.end(),
                  {std::to_string(summary.score.positives()), fmt::format("{:.3f}", summary.score.recall()),
                   fmt::format("{:.3f}", summary.score.precision()), fmt::format("{:.3f}", summary.score.accuracy())});
@@ -176,6 +194,7 @@ void Run::print() const {
   }
   fmt::print("{}: {} objects, {} frames\n\n{}", scene_.name, names_.size(), scene_.frames, table.text());
   if (names_.size() > 4) fmt::print("Pairs that never collide are left out.\n");
+  if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
   const bool exact = command_.options.mode == Mode::exact;
   fmt::print("\n{:.1f} microseconds per frame (median), {:.1f} {}, {:.1f} exact tests (mean)\n",
              median_total_microseconds(measurement_),

@@ -53,7 +53,7 @@ void add_lbg_options(CLI::App& app, Lbg_options& options) {
       ->type_name("RULE")
       ->default_str("principal_axis");
   app.add_option("--epsilon", options.split, "e of the split (1 + e)C, (1 - e)C")->capture_default_str();
-  app.add_option("--tolerance", options.tolerance, "Relative drop of the distortion at which iterations stop")
+  app.add_option("--tolerance", options.tolerance, "LBG: relative drop of the distortion at which iterations stop")
       ->capture_default_str();
 }
 
@@ -82,12 +82,13 @@ void add_detect(CLI::App& program, Detect_command& command) {
                  "Particles per object; 0: as many as others can touch it at once, at least 12")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
-  app.add_option("--contacts", options.contacts, "What to report of a colliding pair: first, all")
+  app.add_option("--contacts", options.contacts, "What to report of a colliding pair: yes_no, first, all")
       ->transform(one_of<Contact_query>(
           {{"yes_no", Contact_query::yes_no}, {"first", Contact_query::first}, {"all", Contact_query::all}}))
       ->type_name("WHAT")
       ->default_str("first");
-  app.add_option("--most-contacts", options.most_contacts, "Face pairs reported of an object pair, at most")
+  app.add_option("--most-contacts", options.most_contacts,
+                 "Face pairs reported of an object pair, at most; with --contacts all")
       ->check(CLI::Range(std::size_t{1}, std::numeric_limits<std::size_t>::max()).description("1 or more"))
       ->default_str("all");
   app.add_flag("--points", options.contact_points, "Also report the points where two faces meet");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
-
 #include "lodestone/contact/confirmation.h"
 #include "lodestone/contact/leaf_pairs.h"
 #include "lodestone/contact/triangle_distance.h"

@@ -3,14 +3,15 @@
 
 #include <Eigen/Core>
 
+#include "lodestone/contact/triangle_distance.h"
 #include "lodestone/contact/triangle_intersection.h"
 
 namespace lodestone {
 
-/// Which way, and how far, one of two intersecting triangles would be pushed to leave the other.
+/// Which way, and how far, one of two triangles would be pushed until they only touch.
 struct Contact_normal {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit vector, from the inside of b towards a; or zero
-  double depth = 0;                                  ///< unit of the coordinates; >= 0
+  double depth = 0;  ///< unit of the coordinates; >= 0 if they intersect, minus their distance if they are apart
 };
 
 /// Normal and depth of the contact of two intersecting faces a and b, whose corners are counter-clockwise seen from
@@ -28,5 +29,9 @@ struct Contact_normal {
 /// Nothing is ever NaN; the depth is finite for coordinates up to 10^307. `contact_normal(b, a)` is the opposite normal
 /// with the same depth, save where both faces look the same way.
 Contact_normal contact_normal(const Triangle& a, const Triangle& b);
+
+/// The same for two triangles that are near but apart, by where they come nearest: `normal` points from b to a, and
+/// `depth` is minus their distance. Where the two points round to one, the normal is that of `contact_normal`.
+Contact_normal gap_normal(const Triangle& a, const Triangle& b, const Closest_points& nearest);
 
 }  // namespace lodestone

@@ -55,6 +55,13 @@ class Exact_detection {
 
   const Frame& detect(const Collision_filter& filter);
   const Frame& detect(const Collision_filter& filter, Object_pair pair);
+  template <Contact_visitor Visitor>
+  Visit visit(Object_pair pair, Visitor&& visitor) {
+    const Object_id ids[] = {pair.a, pair.b};
+    refresh(ids);
+    return visit_contacts(objects_[pair.a]->surface.posed(), objects_[pair.b]->surface.posed(),
+                          options_.exact.tolerance, std::forward<Visitor>(visitor));
+  }
   Closest_faces closest(Object_pair pair);
   bool contains(Object_id outer, Object_id inner);
 
@@ -92,6 +99,7 @@ class Exact_detection {
   Contact_search search_;
   std::vector<std::unique_ptr<Object>> objects_;
   Frame frame_;
+  std::size_t rebuilds_ = 0;  ///< since the last frame: other calls rebuild too
 
   // Memory of the stages, kept from frame to frame.
   std::vector<Object_id> all_;
@@ -176,6 +184,7 @@ template <Triangle_mesh Mesh, class Strategy, class Points>
 const Frame& Exact_detection<Mesh, Strategy, Points>::finish_frame() {
   frame_.statistics.near_pairs = frame_.pairs.size();
   frame_.statistics.contacts = frame_.face_pairs.size();
+  frame_.statistics.repartitions = std::exchange(rebuilds_, 0);
   return frame_;
 }
 
@@ -236,7 +245,7 @@ void Exact_detection<Mesh, Strategy, Points>::refresh(std::span<const Object_id>
     if (!surface.finite()) check_finite(surface.coordinates(), id);
     if (!surface.looser_than(options_.exact.loosest)) continue;
     build(id, surface.coordinates());
-    ++frame_.statistics.repartitions;
+    ++rebuilds_;
   }
 }
 
@@ -296,13 +305,14 @@ void Exact_detection<Mesh, Strategy, Points>::add_geometry(const Pair_result& re
   };
   for (const auto& [face_a, face_b] : frame_.contacts(result)) {
     const Triangle a = triangle(result.a, face_a), b = triangle(result.b, face_b);
-    Intersection_points points = triangle_intersection(a, b);
-    if (points.empty()) {
+    if (options_.exact.tolerance > 0 && !triangles_intersect(a, b)) {
       const Closest_points nearest = closest_points(a, b);
-      points = {nearest.a, nearest.b};
+      if (options_.contact_points) frame_.contact_points.push_back({nearest.a, nearest.b});
+      if (options_.contact_normals) frame_.contact_normals.push_back(gap_normal(a, b, nearest));
+      continue;
     }
+    if (options_.contact_points) frame_.contact_points.push_back(triangle_intersection(a, b));
     if (options_.contact_normals) frame_.contact_normals.push_back(contact_normal(a, b));
-    if (options_.contact_points) frame_.contact_points.push_back(std::move(points));
   }
 }
 

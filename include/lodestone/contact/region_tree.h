@@ -45,6 +45,7 @@ class Region_tree {
   /// @param labels       V: region of each vertex; empty: a single region
   /// @param coordinates  3 V, all finite
   /// @throws Bad_argument  an option out of range
+  /// @throws Bad_mesh      more than 2^32 / 3 faces
   Region_tree(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
               const Region_tree_options& options = {});
 

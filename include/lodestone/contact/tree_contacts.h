@@ -42,7 +42,8 @@ inline Triangle leaf_triangle(const Posed_tree& posed, std::uint32_t leaf, std::
 /// Visits all pairs of faces, one of a and one of b, that intersect (`distance` = 0) or are nearer than `distance`,
 /// exactly: the pairs that checking every face against every other would find.
 ///
-/// The walk starts from the node pairs in `walk.ahead`, {0, 0} being the two roots.
+/// The walk starts from the node pairs that the caller has put into `walk.ahead`, {0, 0} being the two roots, and
+/// removes those it has been through.
 ///
 /// O(pairs of near leaves x their faces); for two surfaces that meet along a curve about the square root of their size.
 template <Contact_visitor Visitor>
@@ -61,6 +62,14 @@ Visit visit_contacts(const Posed_tree& a, const Posed_tree& b, double distance, 
     return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
   return walk_leaf_pairs(*a.tree, *b.tree, distance, walk.ahead, visit_leaves);
+}
+
+/// The whole walk, from the two roots.
+template <Contact_visitor Visitor>
+Visit visit_contacts(const Posed_tree& a, const Posed_tree& b, double distance, Visitor&& visitor) {
+  Tree_walk walk;
+  walk.ahead = {{0, 0}};
+  return visit_contacts(a, b, distance, walk, visitor);
 }
 
 /// Visits all intersecting pairs of faces of one mesh that share no vertex; pairs have a < b.
