@@ -117,15 +117,35 @@ void expect_stops(std::size_t contacts, const Walk_to& visit) {
   for (const std::size_t last : {contacts, contacts + 1}) stops.push_back(last);
   for (const std::size_t last : stops) {
     Counter counter{last};
-    walk.ahead.push_back({0, 0});
+    walk.ahead = {{0, 0}};
     const std::size_t before = walk.exact_tests;
     EXPECT_EQ(visit(walk, counter), last <= contacts ? Visit::stop : Visit::go_on);
     EXPECT_EQ(counter.calls, std::min(last, contacts));
-    EXPECT_TRUE(walk.ahead.empty());
+    if (last > contacts) EXPECT_TRUE(walk.ahead.empty());
     EXPECT_GE(walk.exact_tests - before, std::max(tests_before, counter.calls)) << "a longer walk of the same order";
     tests_before = walk.exact_tests - before;
   }
   EXPECT_GT(walk.leaf_tests, 0U);
+}
+
+TEST(Visit_contacts, goes_on_where_it_stopped_after_so_many_pairs_of_leaves) {
+  const Posed_object a(icosphere(5)), b(torus_knot({.radius = 0.7, .segments = 40, .sides = 7}));
+  const auto truth = true_pairs(a.soup(), b.soup());
+  Tree_walk walk;
+  walk.ahead = {{0, 0}};
+  std::vector<Face_pair> found;
+  std::size_t stops = 0;
+  for (Visit visit = Visit::stop; visit == Visit::stop; ++stops) {
+    walk.last_leaf_test = walk.leaf_tests + 2;
+    visit = visit_contacts(a.posed(), b.posed(), 0, walk, [&](Face_pair pair) {
+      found.push_back(pair);
+      return Visit::go_on;
+    });
+    EXPECT_LE(walk.leaf_tests, walk.last_leaf_test);
+  }
+  std::ranges::sort(found);
+  EXPECT_EQ(found, truth);
+  EXPECT_GT(stops, 3U);
 }
 
 TEST(Visit_contacts, ends_where_the_visitor_says_so) {

@@ -41,6 +41,25 @@ TEST(Staleness, vertices_that_move_without_an_update_are_seen_by_detect) {
   EXPECT_LT(colliding, 12U);
 }
 
+TEST(Staleness, vertices_that_move_without_an_update_are_seen_by_a_visitor) {
+  auto a = potato(8), b = potato(8, 2);
+  Exact_detector detector(exact);
+  add_all(detector, {&a, &b});
+  EXPECT_THROW(detector.visit(0, 0, [](Face_pair) { return Visit::go_on; }), Bad_argument);
+  for (int frame = 0; frame < 5; ++frame) {
+    shift(b, 0.5);
+    std::vector<Face_pair> found;
+    EXPECT_EQ(detector.visit(0, 1,
+                             [&](Face_pair pair) {
+                               found.push_back(pair);
+                               return Visit::go_on;
+                             }),
+              Visit::go_on);
+    std::ranges::sort(found);
+    EXPECT_EQ(found, exhaustive_face_pairs(a, b));
+  }
+}
+
 TEST(Staleness, vertices_that_move_without_an_update_are_seen_by_every_query_of_a_pair) {
   auto a = potato(5), b = sphere(4, 0.3);
   Exact_detector detector(exact);

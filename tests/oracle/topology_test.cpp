@@ -182,5 +182,22 @@ TEST(Topology, given_positions_of_another_number_are_forgotten_by_a_rebuild) {
   expect_contacts(detector.detect(), 0, 1, exhaustive_face_pairs(posed(a, near), b));
 }
 
+TEST(Topology, removed_elements_that_have_not_been_collected_are_refused_by_name) {
+  auto a = potato(6), b = potato(6, 2);
+  Exact_detector detector({.mode = Mode::exact});
+  add_all(detector, {&a, &b});
+  detector.detect();
+  Euler::make_hole(a.halfedge(Surface_mesh::Face_index(3)), a);
+  try {
+    detector.detect();
+    FAIL() << "a removed face went unnoticed";
+  } catch (const Bad_mesh& error) {
+    EXPECT_NE(std::string(error.what()).find("collect_garbage"), std::string::npos) << error.what();
+  }
+  a.collect_garbage();
+  detector.rebuild(0);
+  expect_exhaustive(detector.detect(), {&a, &b});
+}
+
 }  // namespace
 }  // namespace lodestone
