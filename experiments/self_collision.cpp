@@ -41,7 +41,7 @@ std::vector<Face_pair> cgal_pairs(const Surface_mesh& mesh) {
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(found));
   std::vector<Face_pair> pairs;
   for (const auto& [a, b] : found) {
-    const auto [first, second] = std::minmax(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    const auto [first, second] = std::minmax({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
     pairs.push_back({first, second});
   }
   std::ranges::sort(pairs);
