@@ -17,7 +17,8 @@ struct Object_pair {
   auto operator<=>(const Object_pair&) const = default;
 };
 
-/// The broad phase: object pairs whose particles may feel each other or come near each other.
+/// The broad phase: object pairs whose particles may feel each other or come near each other; in mode `exact` those whose
+/// surfaces may be nearer than the tolerance.
 class Near_pairs {
  public:
   void reserve(std::size_t objects);
@@ -26,8 +27,8 @@ class Near_pairs {
   /// boxes along x, starting from the order of the last frame: O(n + pairs that overlap along x) while little changes,
   /// O(n^2) at worst. The result is valid until the next call.
   ///
-  /// @param boxes  around the particles of each object
-  /// @param reach  per object: how far its particles are felt, or taken as near
+  /// @param boxes  around the particles of each object, or around all of it
+  /// @param reach  per object: how far its particles are felt, or taken as near; or the tolerance
   std::span<const Object_pair> find(std::span<const Box> boxes, std::span<const double> reach);
 
  private:
