@@ -40,16 +40,34 @@ HWY_INLINE void extend(Bounds& bounds, const double* vertex) {
 /// Bounds of several vertices side by side: two in a vector where it holds eight doubles.
 #if HWY_MAX_BYTES >= 64
 constexpr std::size_t vertices_per_vector = 2;
-#else
-constexpr std::size_t vertices_per_vector = 1;
-#endif
-using Wide = hn::CappedTag<double, lanes * vertices_per_vector>;
+using Wide = hn::CappedTag<double, 2 * lanes>;
 
 struct Wide_bounds {
   hn::Vec<Wide> low[vectors];
   hn::Vec<Wide> high[vectors];
   hn::Vec<Wide> sum[vectors];
 };
+
+HWY_INLINE Wide_bounds widen(const Bounds& bounds) {
+  const Wide d;
+  return {{hn::Combine(d, bounds.low[0], bounds.low[0])},
+          {hn::Combine(d, bounds.high[0], bounds.high[0])},
+          {hn::Combine(d, bounds.sum[0], bounds.sum[0])}};
+}
+HWY_INLINE Bounds narrow(const Wide_bounds& bounds) {
+  const D d;
+  return {{hn::Min(hn::LowerHalf(d, bounds.low[0]), hn::UpperHalf(d, bounds.low[0]))},
+          {hn::Max(hn::LowerHalf(d, bounds.high[0]), hn::UpperHalf(d, bounds.high[0]))},
+          {hn::Add(hn::LowerHalf(d, bounds.sum[0]), hn::UpperHalf(d, bounds.sum[0]))}};
+}
+#else
+constexpr std::size_t vertices_per_vector = 1;
+using Wide = D;
+using Wide_bounds = Bounds;
+
+HWY_INLINE Wide_bounds widen(const Bounds& bounds) { return bounds; }
+HWY_INLINE Bounds narrow(const Wide_bounds& bounds) { return bounds; }
+#endif
 
 /// Vector i of the vertices at `vertices[k]` and, if there is room, of the one two places further.
 HWY_INLINE hn::Vec<Wide> load_wide(const double* coordinates, const std::uint32_t* vertices, std::size_t k,
@@ -78,40 +96,6 @@ HWY_INLINE void extend(Wide_bounds& bounds, const double* coordinates, const std
     bounds.sum[i] = hn::Add(bounds.sum[i], sum);
   }
 }
-
-#if HWY_MAX_BYTES >= 64
-HWY_INLINE Wide_bounds widen(const Bounds& bounds) {
-  const Wide d;
-  return {{hn::Combine(d, bounds.low[0], bounds.low[0])},
-          {hn::Combine(d, bounds.high[0], bounds.high[0])},
-          {hn::Combine(d, bounds.sum[0], bounds.sum[0])}};
-}
-HWY_INLINE Bounds narrow(const Wide_bounds& bounds) {
-  const D d;
-  return {{hn::Min(hn::LowerHalf(d, bounds.low[0]), hn::UpperHalf(d, bounds.low[0]))},
-          {hn::Max(hn::LowerHalf(d, bounds.high[0]), hn::UpperHalf(d, bounds.high[0]))},
-          {hn::Add(hn::LowerHalf(d, bounds.sum[0]), hn::UpperHalf(d, bounds.sum[0]))}};
-}
-#else
-HWY_INLINE Wide_bounds widen(const Bounds& bounds) {
-  Wide_bounds wide;
-  for (std::size_t i = 0; i < vectors; ++i) {
-    wide.low[i] = bounds.low[i];
-    wide.high[i] = bounds.high[i];
-    wide.sum[i] = bounds.sum[i];
-  }
-  return wide;
-}
-HWY_INLINE Bounds narrow(const Wide_bounds& wide) {
-  Bounds bounds;
-  for (std::size_t i = 0; i < vectors; ++i) {
-    bounds.low[i] = wide.low[i];
-    bounds.high[i] = wide.high[i];
-    bounds.sum[i] = wide.sum[i];
-  }
-  return bounds;
-}
-#endif
 
 /// @tparam ahead  vertices by which memory is asked for before it is read; 0: the processor looks ahead by itself
 template <std::size_t ahead>
