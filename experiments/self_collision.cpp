@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int frames = 6, passes = 3;
+constexpr std::size_t frames = 6, passes = 3;
 
 struct Case {
   std::string name;
@@ -62,11 +62,11 @@ Figures measure_case(Case& moving) {
   detector.add(std::as_const(moving.mesh));
   detector.detect();
   Figures figures;
-  for (int frame = 0; frame < frames; ++frame) {
-    motion.pose(static_cast<std::size_t>(3 + 7 * frame), positions);
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    motion.pose(3 + 7 * frame, positions);
     std::ranges::copy(positions, moving.mesh.points().begin());
     double ours = 1e9, refit = 1e9, cgal = 1e9;
-    for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t pass = 0; pass < passes; ++pass) {
       auto start = Clock::now();
       const Frame& result = detector.detect();
       ours = std::min(ours, 1e3 * seconds_since(start));

@@ -41,7 +41,7 @@ Region_index Tree_builder::region_of(std::uint32_t face) const {
   return std::min({labels_[a], labels_[b], labels_[c]});
 }
 
-void Tree_builder::group_by_region(std::vector<Item> faces) {
+void Tree_builder::group_by_region(const std::vector<Item>& faces) {
   const std::size_t regions = labels_.empty() ? 1 : std::size_t{std::ranges::max(labels_)} + 1;
   region_begin_.assign(regions + 1, 0);
   for (const Item& face : faces) ++region_begin_[region_of(face.number) + 1];

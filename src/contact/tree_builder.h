@@ -25,7 +25,7 @@ class Tree_builder {
 
   std::vector<Item> face_items() const;
   Region_index region_of(std::uint32_t face) const;
-  void group_by_region(std::vector<Item> faces);
+  void group_by_region(const std::vector<Item>& faces);
   void add_regions(std::span<Item> regions);
   void add_faces(std::span<Item> faces);
   void add_leaf(std::span<Item> faces);
