@@ -232,8 +232,8 @@ Quantisation quantise(const Feature_vectors& vectors, std::size_t cells, const L
   return quantiser.result();
 }
 
-Labelling Lbg::label(const Positions& positions, std::span<const Corners> faces, std::size_t regions) const {
-  Feature_vectors vectors = feature_vectors(positions, faces, options.features);
+Labelling Lbg::label(const Numbered_surface& surface, std::size_t regions) const {
+  Feature_vectors vectors = feature_vectors(surface.positions, surface.faces, options.features);
   if (extra_factors.size() > 0) {
     if (extra_factors.rows() != vectors.rows())
       throw Bad_argument("extra factors have " + std::to_string(extra_factors.rows()) + " rows for " +

@@ -64,11 +64,9 @@ struct Lbg {
 
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
-    return label(input.positions, input.numbering.corners(), regions);
+    return label(input.surface(), regions);
   }
-
- private:
-  Labelling label(const Positions& positions, std::span<const Corners> faces, std::size_t regions) const;
+  Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 
 /// `partition()` by LBG. See there.

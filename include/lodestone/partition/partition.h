@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,14 @@
 
 namespace lodestone {
 
+/// A surface by number, whatever mesh it comes from. Strategies that need no more than this are compiled once, and give
+/// the same labels on every mesh type.
+struct Numbered_surface {
+  const Vertex_graph& graph;
+  const Positions& positions;  ///< V x 3
+  std::span<const Corners> faces;
+};
+
 /// What a partition strategy is given: the mesh, its vertices and faces by number, and where they are now.
 template <Triangle_mesh Mesh>
 struct Partition_input {
@@ -22,6 +31,8 @@ struct Partition_input {
   const Mesh_numbering<Mesh>& numbering;
   const Vertex_graph& graph;
   const Positions& positions;  ///< V x 3
+
+  Numbered_surface surface() const { return {graph, positions, numbering.corners()}; }
 };
 
 /// What a partition strategy gives back.
@@ -37,7 +48,7 @@ struct Labelling {
 template <class Strategy, class Mesh>
 concept Partition_strategy = requires(const Strategy& strategy, const Partition_input<Mesh>& input,
                                       std::size_t regions) {
-  { Strategy::name } -> std::convertible_to<std::string_view>;
+  { strategy.name } -> std::convertible_to<std::string_view>;
   { strategy(input, regions) } -> std::same_as<Labelling>;
 };
 

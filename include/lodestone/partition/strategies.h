@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "lodestone/partition/lbg.h"
+
+/// Every strategy of the library by name, for programs that choose one while they run.
+namespace lodestone {
+
+/// What a caller can say to any strategy; each takes what concerns it.
+struct Strategy_settings {
+  std::uint64_t seed = 1;  ///< of strategies that draw at random
+  Lbg_options lbg = {};    ///< of `lbg` and its kin; `lbg.features` also of the others that quantise feature vectors
+};
+
+/// A partition strategy chosen at run time.
+class Any_strategy {
+ public:
+  using Label = std::function<Labelling(const Numbered_surface&, std::size_t regions)>;
+
+  Any_strategy() : Any_strategy(Lbg{}) {}
+  /// @param strategy  one that needs no more than the surface by number
+  template <class Strategy>
+  requires requires(const Strategy& strategy, const Numbered_surface& surface) {
+    { strategy.label(surface, std::size_t{1}) } -> std::same_as<Labelling>;
+  }
+  explicit Any_strategy(Strategy strategy)
+      : name(Strategy::name), label_([strategy = std::move(strategy)](const Numbered_surface& surface, std::size_t n) {
+          return strategy.label(surface, n);
+        }) {}
+
+  template <Triangle_mesh Mesh>
+  Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
+    return label_(input.surface(), regions);
+  }
+
+  std::string_view name;
+
+ private:
+  Label label_;
+};
+
+/// A line of the registry.
+struct Strategy_entry {
+  std::string_view name;
+  std::string_view summary;  ///< what a region is, in a few words
+  Any_strategy (*make)(const Strategy_settings& settings);
+  std::size_t most_vertices;  ///< beyond so many the strategy refuses with Bad_argument
+};
+
+/// All strategies, `lbg` first.
+std::span<const Strategy_entry> strategies();
+
+/// @throws Bad_argument  there is no strategy of that name
+Any_strategy make_strategy(std::string_view name, const Strategy_settings& settings = {});
+
+}  // namespace lodestone

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/strategies.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+
+#include "lodestone/errors.h"
+#include "lodestone/partition/lbg_position.h"
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+
+template <class Strategy>
+Any_strategy from_lbg_options(const Strategy_settings& settings) {
+  return Any_strategy(Strategy{.options = settings.lbg});
+}
+
+}  // namespace
+
+std::span<const Strategy_entry> strategies() {
+  static constexpr auto all = std::to_array<Strategy_entry>({
+      {Lbg::name, "cells of position and normal, by splitting and Lloyd iterations", from_lbg_options<Lbg>, any_number},
+      {Lbg_position::name, "the same of positions alone", from_lbg_options<Lbg_position>, any_number},
+  });
+  return all;
+}
+
+Any_strategy make_strategy(std::string_view name, const Strategy_settings& settings) {
+  const auto entry = std::ranges::find(strategies(), name, &Strategy_entry::name);
+  if (entry == strategies().end()) throw Bad_argument("there is no partition strategy '" + std::string(name) + "'");
+  return entry->make(settings);
+}
+
+}  // namespace lodestone
