@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "lodestone/partition/partition.h"
+
+namespace lodestone {
+
+/// How good a partition is, whatever strategy made it. No figure depends on the units of the mesh.
+struct Partition_measures {
+  std::size_t regions = 0;
+  double distortion = 0;    ///< sum |X - Q(X)|^2 / (k M) over position + normal of equal weight, k = 6, where Q(X) is
+                            ///< the mean vector of the region of X
+  double size_balance = 1;  ///< vertices of the largest region over those of the mean one; 1: all equal
+  double pieces_per_region = 1;  ///< connected pieces before islands were repaired, over the regions left afterwards
+  double border_length = 0;      ///< length of all borders over the square root of the surface's area
+  double normal_deviation = 0;   ///< degrees between the normal of a face and the mean one of its region: root mean
+                                 ///< square over the surface
+  double geodesic_radius = 0;    ///< longest of the shortest paths along edges from a particle to a vertex of its
+                                 ///< region; mean over the regions, in radii of the object
+  double box_volume = 0;   ///< of the boxes around the faces of each region, over that of the box around all; 0 for
+                           ///< a surface that is flat along an axis
+  double ball_volume = 0;  ///< the same of smallest enclosing balls
+};
+
+/// Measures a partition. The radius of the object is the largest distance of a vertex from the mean of all; faces
+/// belong to a region as in `region_patches`; in a face with corners in two or three regions the border runs between
+/// the middles of its sides, or from these to its centroid. O(V log V + F log F).
+/// @throws Bad_argument  labels or particles that do not fit the surface
+Partition_measures measure_partition(const Numbered_surface& surface, const Numbered_partition& partition);
+
+/// The same of a mesh with its region map.
+/// @param np  `vertex_point_map`
+/// @throws Bad_mesh  see Mesh_numbering and read_positions
+template <Triangle_mesh Mesh, Region_map<Mesh> Regions,
+          class Named_parameters = CGAL::parameters::Default_named_parameters>
+Partition_measures measure_partition(const Mesh& mesh, const Partition<Mesh>& partition, const Regions& region_map,
+                                     const Named_parameters& np = CGAL::parameters::default_values()) {
+  const Mesh_numbering<Mesh> numbering(mesh);
+  const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
+  const Positions positions = read_positions(numbering, vertex_points(mesh, np));
+  Numbered_partition numbered{
+      .labels = {}, .regions = partition.regions, .particles = {}, .statistics = partition.statistics};
+  for (std::uint32_t v = 0; v < numbering.vertex_count(); ++v)
+    numbered.labels.push_back(get(region_map, numbering.vertex(v)));
+  for (const auto v : partition.particles) numbered.particles.push_back(numbering.number(v));
+  return measure_partition({graph, positions, numbering.corners()}, numbered);
+}
+
+}  // namespace lodestone
