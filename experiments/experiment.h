@@ -14,9 +14,14 @@ struct Experiment_context {
   std::filesystem::path scenes;                                    ///< folder of the scene files
   std::filesystem::path out;                                       ///< folder that receives all figures as JSON
   std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
-  /// Names of the scenes to play; empty: those of the published figures. Heeded by `peers`; the other experiments are
-  /// about their scenes, and play them all.
+  /// Names of the scenes to play, or of meshes and strategies; empty: those of the published figures. Heeded by `peers`
+  /// and `partitions`; the other experiments are about their scenes, and play them all.
   std::vector<std::string> only = {};
+
+  // Of experiments that are sweeps of many runs: `partitions`.
+  std::size_t jobs = 1;                           ///< runs at a time
+  std::size_t shard = 1, shards = 1;              ///< which part of the runs, of how many
+  std::vector<std::filesystem::path> merge = {};  ///< folders whose rows are taken over before
 };
 
 /// One question, and the run that answers it.
@@ -35,6 +40,7 @@ std::string run_predecessor(const Experiment_context& context);
 std::string run_collision_distance(const Experiment_context& context);
 std::string run_growth(const Experiment_context& context);
 std::string run_modes(const Experiment_context& context);
+std::string run_partitions(const Experiment_context& context);
 std::string run_rebuild(const Experiment_context& context);
 std::string run_peers(const Experiment_context& context);
 std::string run_self_collision(const Experiment_context& context);

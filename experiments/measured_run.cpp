@@ -13,6 +13,7 @@ namespace lodestone {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Scene_detector = Detector<Surface_mesh, Any_strategy>;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -23,10 +24,10 @@ std::vector<Object_pair> all_pairs(const Scene& scene) {
   return pairs;
 }
 
-Detector<Surface_mesh> make_detector(const Scene& scene, const Setting& setting) {
+Scene_detector make_detector(const Scene& scene, const Setting& setting) {
   Detector_options asked = setting.options;
   asked.contacts = Contact_query::yes_no;
-  Detector<Surface_mesh> detector(asked);
+  Scene_detector detector(asked, setting.strategy);
   for (const auto& object : scene.objects) {
     Object_options options{.particles = setting.options.particles > 0 ? 0 : object.particles};
     if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
@@ -97,9 +98,9 @@ class Scene_run {
 
   Scene& scene_;
   std::vector<Object_pair> pairs_;
-  std::vector<Detector<Surface_mesh>> detectors_;
+  std::vector<Scene_detector> detectors_;
   std::vector<Score> scores_;
-  std::optional<Detector<Surface_mesh>> exact_;
+  std::optional<Scene_detector> exact_;
 };
 
 }  // namespace
@@ -158,6 +159,7 @@ nlohmann::ordered_json to_json(const Measurement& m) {
   const auto stage = [&](double Stage_times::*s) { return median_microseconds(m, s); };
   return {
       {"setting", m.setting.name},
+      {"strategy", m.setting.strategy.name},
       {"mode", name_of(options.mode)},
       {"particles", options.particles},
       {"collision_distance", options.collision_distance},

@@ -18,6 +18,7 @@ namespace lodestone {
 struct Setting {
   std::string name;
   Detector_options options = {};
+  Any_strategy strategy = {};
 };
 
 /// What one setting gave on one or more scenes.

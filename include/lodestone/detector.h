@@ -14,6 +14,7 @@
 #include "lodestone/frame.h"
 #include "lodestone/particles/particle_detection.h"
 #include "lodestone/partition/lbg.h"
+#include "lodestone/partition/strategies.h"
 #include "lodestone/region_maps.h"
 
 namespace lodestone {
@@ -234,5 +235,6 @@ bool Detector<Mesh, Strategy, Points>::contains(Object_id outer, Object_id inner
 }
 
 extern template class Detector<Surface_mesh>;
+extern template class Detector<Surface_mesh, Any_strategy>;
 
 }  // namespace lodestone

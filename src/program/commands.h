@@ -8,14 +8,20 @@
 #include <vector>
 
 #include "lodestone/detector.h"
-#include "lodestone/partition/lbg.h"
+#include "lodestone/partition/strategies.h"
 
 namespace lodestone {
+
+/// How surfaces are divided.
+struct Strategy_choice {
+  std::string name = "lbg";
+  Strategy_settings settings = {};
+};
 
 struct Detect_command {
   std::vector<std::filesystem::path> inputs;  ///< one scene (.json), or two or more meshes that stand still
   Detector_options options = {.contacts = Contact_query::first};
-  Lbg_options partition = {};
+  Strategy_choice partition = {};
   bool truth = false;
   std::filesystem::path out;  ///< empty: nothing is written
   bool quiet = false;
@@ -23,9 +29,8 @@ struct Detect_command {
 
 struct Partition_command {
   std::filesystem::path mesh;
-  std::string strategy = "lbg";
+  Strategy_choice strategy = {};
   std::size_t regions = 12;
-  Lbg_options lbg = {};
   Partition_options options = {};
   std::filesystem::path out, json;  ///< empty: not written
   bool quiet = false;
@@ -34,7 +39,10 @@ struct Partition_command {
 struct Experiment_command {
   std::string name;
   std::filesystem::path scenes, out;
-  std::vector<std::string> only;  ///< names of scenes; empty: all of the experiment
+  std::vector<std::string> only;  ///< see Experiment_context, as the others here
+  std::size_t jobs = 1;
+  std::string shard = "1/1";
+  std::vector<std::filesystem::path> merge;
   bool quiet = false;
 };
 

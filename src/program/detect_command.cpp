@@ -54,7 +54,9 @@ struct Pair_summary {
 class Run {
  public:
   explicit Run(const Detect_command& command)
-      : command_(command), scene_(load(command.inputs)), detector_(command.options, Lbg{.options = command.partition}) {
+      : command_(command),
+        scene_(load(command.inputs)),
+        detector_(command.options, make_strategy(command.partition.name, command.partition.settings)) {
     for (auto& object : scene_.objects) {
       names_.push_back(object.name);
       Object_options options{.particles = command.options.particles > 0 ? 0 : object.particles};
@@ -79,7 +81,7 @@ class Run {
 
   const Detect_command& command_;
   Scene scene_;
-  Detector<Surface_mesh> detector_;
+  Detector<Surface_mesh, Any_strategy> detector_;
   std::vector<std::string> names_;
   std::map<Object_pair, Pair_summary> pairs_;
   Measurement measurement_;
@@ -132,6 +134,7 @@ nlohmann::ordered_json Run::summary() const {
   nlohmann::ordered_json json{{"scene", scene_.name},
                               {"frames", scene_.frames},
                               {"mode", name_of(command_.options.mode)},
+                              {"strategy", command_.partition.name},
                               {"objects", nlohmann::ordered_json::array()},
                               {"pairs", nlohmann::ordered_json::array()}};
   const bool exact = command_.options.mode == Mode::exact;

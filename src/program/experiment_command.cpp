@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "commands.h"
 #include "exit_codes.h"
 #include "experiment.h"
@@ -10,13 +12,37 @@
 
 namespace lodestone {
 
+namespace {
+
+/// K and N of `K/N`.
+std::pair<std::size_t, std::size_t> parts_of(const std::string& shard) {
+  std::size_t k = 0, n = 0;
+  const char* const end = shard.data() + shard.size();
+  const auto first = std::from_chars(shard.data(), end, k);
+  if (first.ec == std::errc() && first.ptr != end && *first.ptr == '/') {
+    const auto second = std::from_chars(first.ptr + 1, end, n);
+    if (second.ec == std::errc() && second.ptr == end && k >= 1 && k <= n) return {k, n};
+  }
+  throw Bad_argument("--shard: expected K/N with 1 <= K <= N, found '" + shard + "'");
+}
+
+}  // namespace
+
 int run(const Experiment_command& command) {
   const auto experiment = std::ranges::find_if(experiments(), [&](const auto& e) { return e.name == command.name; });
   const std::filesystem::path out = command.out.empty() ? std::filesystem::path("out") / command.name : command.out;
   std::string report;
   {
     Progress_bar bar(command.name, command.quiet);
-    report = experiment->run({.scenes = command.scenes, .out = out, .progress = std::ref(bar), .only = command.only});
+    const auto [shard, shards] = parts_of(command.shard);
+    report = experiment->run({.scenes = command.scenes,
+                              .out = out,
+                              .progress = std::ref(bar),
+                              .only = command.only,
+                              .jobs = command.jobs,
+                              .shard = shard,
+                              .shards = shards,
+                              .merge = command.merge});
   }
   Atomic_file file(out / (command.name + ".md"));
   file.write(report);

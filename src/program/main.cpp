@@ -44,7 +44,24 @@ CLI::Validator not_empty() {
 /// Squares of larger weights leave the range of a double.
 constexpr double largest_normal_weight = 1e6;
 
-void add_lbg_options(CLI::App& app, Lbg_options& options) {
+/// The strategies and what a region of each is.
+std::string strategy_list() {
+  std::string list = "Strategies:";
+  for (const auto& strategy : strategies()) list += fmt::format("\n  {:<16} {}", strategy.name, strategy.summary);
+  return list;
+}
+
+void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* seed_of) {
+  std::vector<std::string> names;
+  for (const auto& strategy : strategies()) names.emplace_back(strategy.name);
+  app.add_option("--strategy", choice.name, "How surfaces are divided, see below")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(names).description(""))
+      ->capture_default_str();
+  app.add_option("--seed", choice.settings.seed, seed_of)
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"))
+      ->capture_default_str();
+  auto& options = choice.settings.lbg;
   app.add_option("--normal-weight", options.features.normal_weight, "Weight of normals against positions; 0: none")
       ->check(CLI::Range(0.0, largest_normal_weight).description("0 to 1e6"))
       ->capture_default_str();
@@ -106,29 +123,27 @@ void add_detect(CLI::App& program, Detect_command& command) {
                  "Repartition when a region exceeds so many times the largest area; inf: never")
       ->capture_default_str();
   add_exact_options(app, options.exact);
-  app.add_option("--seed", options.senin.seed, "Of the scattering of --mode senin")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
-      ->capture_default_str();
-  add_lbg_options(app, command.partition);
+  add_strategy_options(app, command.partition, "Of strategies that draw at random, and of --mode senin");
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")
       ->check(not_empty());
   app.add_flag("--quiet", command.quiet, "No progress bar, no table");
+  app.footer(strategy_list());
 }
 
 void add_partition(CLI::App& program, Partition_command& command) {
   auto& app = *program.add_subcommand("partition", "Divide a mesh into regions");
   app.add_option("MESH", command.mesh, "Mesh (.off .obj .ply .stl)")->required()->type_name("FILE");
-  app.add_option("--strategy", command.strategy, "How: lbg")->capture_default_str()->check(CLI::IsMember({"lbg"}));
   app.add_option("--regions", command.regions, "Number of regions")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->capture_default_str();
-  add_lbg_options(app, command.lbg);
+  add_strategy_options(app, command.strategy, "Of strategies that draw at random");
   app.add_flag("--keep-islands", command.options.keep_islands,
                "Leave regions in several pieces as the strategy made them");
   app.add_option("--out", command.out, "Coloured mesh (.ply)")->type_name("FILE")->check(not_empty());
   app.add_option("--json", command.json, "Statistics")->type_name("FILE")->check(not_empty());
   app.add_flag("--quiet", command.quiet, "No table");
+  app.footer(strategy_list());
 }
 
 void add_experiment(CLI::App& program, Experiment_command& command) {
@@ -143,9 +158,19 @@ void add_experiment(CLI::App& program, Experiment_command& command) {
   app.add_option("--scenes", command.scenes, "Folder of the scene files")
       ->type_name("DIR")
       ->default_str("data/scenes of the source");
-  app.add_option("--only", command.only, "Scenes to play in place of all, by name; for `peers`")
+  app.add_option("--only", command.only,
+                 "Scenes to play in place of all, by name (peers); meshes and strategies (partitions)")
       ->delimiter(',')
-      ->type_name("SCENE");
+      ->type_name("NAME");
+  app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1024}))
+      ->capture_default_str();
+  app.add_option("--shard", command.shard, "Only the K-th of N parts of the runs (partitions)")
+      ->type_name("K/N")
+      ->capture_default_str();
+  app.add_option("--merge", command.merge, "Take over the rows of these folders first (partitions)")
+      ->delimiter(',')
+      ->type_name("DIR");
   app.add_option("--out", command.out, "Folder for the figures")
       ->type_name("DIR")
       ->default_str("out/NAME")
@@ -179,6 +204,7 @@ int run_guarded(int argc, char** argv) {
     return exit_code::bad_usage;
   }
   int code = exit_code::success;
+  detect.options.senin.seed = detect.partition.settings.seed;
   if (program.got_subcommand("detect"))
     code = run(detect);
   else if (program.got_subcommand("partition"))

@@ -13,6 +13,8 @@
 #include "lodestone/io/coloured_ply.h"
 #include "lodestone/io/mesh_file.h"
 #include "lodestone/io/text_table.h"
+#include "lodestone/partition/partition_measures.h"
+#include "measures_json.h"
 #include "printable.h"
 #include "progress.h"
 
@@ -26,19 +28,23 @@ struct Divided {
   Partition<Surface_mesh> partition;
   std::vector<Region_index> labels = {};
   std::vector<std::size_t> sizes = {};
+  Partition_measures measures = {};
   double seconds = 0;
 };
 
 Divided divide(Surface_mesh& mesh, const Partition_command& command) {
   const auto regions = mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:region").first;
   const auto start = std::chrono::steady_clock::now();
-  Divided result{.partition = partition(mesh, command.regions, regions, Lbg{.options = command.lbg}, command.options)};
+  Divided result{.partition =
+                     partition(mesh, command.regions, regions,
+                               make_strategy(command.strategy.name, command.strategy.settings), command.options)};
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.sizes.resize(result.partition.regions);
   for (const auto v : mesh.vertices()) {
     result.labels.push_back(regions[v]);
     ++result.sizes[regions[v]];
   }
+  result.measures = measure_partition(mesh, result.partition, regions);
   return result;
 }
 
@@ -47,7 +53,8 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
   Json particles = Json::array();
   for (const auto v : divided.partition.particles) particles.push_back(file.file_vertex[v]);
   return {{"mesh", command.mesh.filename().string()},
-          {"strategy", command.strategy},
+          {"strategy", command.strategy.name},
+          {"seed", command.strategy.settings.seed},
           {"vertices", file.mesh.number_of_vertices()},
           {"faces", file.mesh.number_of_faces()},
           {"regions_wanted", command.regions},
@@ -59,21 +66,28 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
           {"pieces_before_repair", statistics.pieces_before_repair},
           {"islands_joined", statistics.repair.islands_joined},
           {"regions_added", statistics.repair.regions_added},
+          {"measures", to_json(divided.measures)},
           {"seconds", divided.seconds}};
 }
 
 void print_table(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
   const auto& statistics = divided.partition.statistics;
   const auto [smallest, largest] = std::ranges::minmax(divided.sizes);
-  Text_table table({printable(command.mesh.filename().string()), command.strategy});
+  Text_table table({printable(command.mesh.filename().string()), command.strategy.name});
   table.add({"vertices", std::to_string(file.mesh.number_of_vertices())});
   table.add({"faces", std::to_string(file.mesh.number_of_faces())});
   table.add({"regions", std::to_string(divided.partition.regions)});
   table.add({"smallest region (vertices)", std::to_string(smallest)});
   table.add({"largest region (vertices)", std::to_string(largest)});
-  table.add({"Lloyd iterations", std::to_string(statistics.iterations)});
+  table.add({"iterations", std::to_string(statistics.iterations)});
   table.add({"distance evaluations", std::to_string(statistics.distance_evaluations)});
   table.add({"islands joined", std::to_string(statistics.repair.islands_joined)});
+  const auto& measures = divided.measures;
+  table.add({"distortion", fmt::format("{:.6f}", measures.distortion)});
+  table.add({"border length / sqrt(area)", fmt::format("{:.2f}", measures.border_length)});
+  table.add({"normal deviation (degrees)", fmt::format("{:.1f}", measures.normal_deviation)});
+  table.add({"geodesic radius / object's", fmt::format("{:.3f}", measures.geodesic_radius)});
+  table.add({"balls / object's ball (volume)", fmt::format("{:.3f}", measures.ball_volume)});
   table.add({"seconds", fmt::format("{:.4f}", divided.seconds)});
   fmt::print("{}", table.text());
   if (!command.out.empty()) fmt::print("\ncoloured mesh: {}\n", printable(command.out.string()));

@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Writes the revision of the source into a header, and leaves the header alone when it says so already.
+cmake_minimum_required(VERSION 3.25)
+execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12
+                OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+if(failed)
+  set(revision "unknown")
+endif()
+file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT
+  "#pragma once\n\ninline constexpr const char* source_revision = \"@revision@\";\n")

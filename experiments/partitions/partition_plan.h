@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lodestone/io/scene_file.h"
+#include "lodestone/partition/strategies.h"
+
+namespace lodestone {
+
+/// A strategy with its settings, under the name that tables give it.
+struct Partition_variant {
+  std::string name;
+  std::string_view strategy;
+  Strategy_settings settings = {};
+  Partition_options options = {};
+};
+
+/// A surface that is divided, at one resolution.
+struct Partition_mesh {
+  std::string_view name;        ///< with its resolution
+  Surface_mesh (*make)();       ///< about one unit in radius
+  Surface_mesh (*make_ball)();  ///< what collides with it: a unit sphere of about the same edge length
+};
+
+struct Partition_run {
+  Partition_variant variant;
+  Partition_mesh mesh;
+  std::size_t regions = 0;
+  std::uint64_t seed = 0;
+
+  /// Made from the parameters, such as `teapot_fine/lbg/N32/seed1`.
+  std::string id() const;
+};
+
+/// All strategies of the registry, `lbg` also with its other split, without island repair, and with other weights of
+/// the normals.
+std::vector<Partition_variant> partition_variants();
+/// Teapot, sphere, torus knot and cloth, at about 2 000 and 20 000 triangles.
+std::span<const Partition_mesh> partition_meshes();
+
+inline constexpr std::size_t partition_counts[] = {8, 12, 32, 64, 128};
+inline constexpr std::uint64_t partition_seeds[] = {1, 2, 3, 4, 5};
+
+/// The full cross, less the meshes that are too large for a strategy.
+/// @param only  names of meshes and variants; a run is left out when others of its kind are named, and it is not
+/// @throws Bad_argument  a name that is neither
+std::vector<Partition_run> partition_plan(const std::vector<std::string>& only = {});
+
+/// The mesh wobbles, while a ball half its size visits three places of its surface, which the seed chooses, and
+/// presses into each.
+Scene partition_scene(const Partition_mesh& mesh, std::uint64_t seed);
+
+}  // namespace lodestone

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "partition_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "interval.h"
+#include "lodestone/io/text_table.h"
+#include "partition_plan.h"
+
+namespace lodestone {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Rows = std::map<std::string, Json>;
+
+/// One figure of a row, or a ratio of two.
+struct Figure {
+  std::string name;  ///< in the plots
+  std::string key;
+  std::string over = {};  ///< empty: the figure itself
+  double scale = 1;
+
+  double of(const Json& row) const {
+    const auto value = scale * row.at(key).get<double>();
+    return over.empty() ? value : value / row.at(over).get<double>();
+  }
+};
+
+/// A column of a table.
+struct Column {
+  std::string title;
+  Figure figure;
+  int decimals = 2;
+};
+
+const std::vector<Column>& partition_columns() {
+  static const std::vector<Column> columns{
+      {"distortion x 1000", {"distortion", "distortion", {}, 1000}},
+      {"largest / mean", {"size_balance", "size_balance"}},
+      {"pieces", {"pieces_per_region", "pieces_per_region"}},
+      {"border", {"border_length", "border_length"}},
+      {"normals (deg)", {"normal_deviation", "normal_deviation"}, 1},
+      {"radius", {"geodesic_radius", "geodesic_radius"}, 3},
+      {"boxes", {"box_volume", "box_volume"}},
+      {"balls", {"ball_volume", "ball_volume"}},
+      {"time / lbg", {"partition_time", "seconds", "lbg_seconds"}},
+      {"peak (MiB)", {"peak_mib", "peak_kib", {}, 1.0 / 1024}, 1},
+  };
+  return columns;
+}
+
+const std::vector<Column>& use_columns() {
+  static const std::vector<Column> columns{
+      {"recall", {"recall", "recall"}, 3},
+      {"delay (frames)", {"delay_frames", "delay_frames"}},
+      {"iterations", {"iterations", "iterations"}, 1},
+      {"candidates", {"candidates", "candidates"}, 1},
+      {"exact tests", {"exact_tests", "exact_tests"}, 1},
+      {"repartitions", {"repartitions", "repartitions"}},
+      {"frame (us)", {"frame_us", "frame_us"}, 1},
+      {"frame / lbg", {"frame_time", "frame_us", "lbg_frame_us"}},
+      {"mean / lbg", {"mean_frame_time", "mean_frame_us", "lbg_mean_frame_us"}},
+  };
+  return columns;
+}
+
+/// The rows by variant, number of regions and seed.
+using By_seed = std::map<std::uint64_t, std::vector<const Json*>>;
+using By_regions = std::map<std::size_t, By_seed>;
+using By_variant = std::map<std::string, By_regions>;
+
+By_variant sorted_by_variant(const Rows& rows, const std::string& mesh = {}) {
+  By_variant sorted;
+  for (const auto& [id, row] : rows)
+    if (mesh.empty() || row.at("mesh") == mesh)
+      sorted[row.at("variant")][row.at("regions_wanted")][row.at("seed")].push_back(&row);
+  return sorted;
+}
+
+/// Mean over the rows of each seed, then the interval over the seeds.
+Interval summary(const By_seed& seeds, const Figure& figure) {
+  std::vector<double> means;
+  for (const auto& [seed, rows] : seeds) {
+    double sum = 0;
+    for (const Json* row : rows) sum += figure.of(*row);
+    means.push_back(sum / static_cast<double>(rows.size()));
+  }
+  return confidence_interval(means);
+}
+
+/// With its interval where that is not nothing.
+std::string text_of(const Interval& interval, int decimals) {
+  const std::string mean = fmt::format("{:.{}f}", interval.mean, decimals);
+  const std::string half = fmt::format("{:.{}f}", interval.half_width, decimals);
+  const bool nothing = half.find_first_of("123456789") == std::string::npos;
+  return nothing ? mean : mean + " +- " + half;
+}
+
+/// In the order of the registry.
+std::vector<std::string> variants_of(const By_variant& sorted) {
+  std::vector<std::string> names;
+  for (const auto& variant : partition_variants())
+    if (sorted.contains(variant.name)) names.push_back(variant.name);
+  return names;
+}
+
+bool is_weight(const std::string& variant) { return variant.starts_with("lbg, normals"); }
+
+/// Number of regions that most tables are about: 32, or the nearest that all rows have.
+constexpr std::size_t shown_regions = 32;
+
+std::string columns_table(const By_variant& sorted, const std::vector<std::string>& variants,
+                          const std::vector<Column>& columns) {
+  std::vector<std::string> header{"strategy", "meshes"};
+  for (const auto& column : columns) header.push_back(column.title);
+  Text_table table(header);
+  for (const auto& variant : variants) {
+    const auto seeds = sorted.at(variant).find(shown_regions);
+    if (seeds == sorted.at(variant).end()) continue;
+    std::vector<std::string> row{variant, std::to_string(seeds->second.begin()->second.size())};
+    for (const auto& column : columns) row.push_back(text_of(summary(seeds->second, column.figure), column.decimals));
+    table.add(std::move(row));
+  }
+  return table.text();
+}
+
+std::string regions_table(const By_variant& sorted, const std::vector<std::string>& variants, const Column& column) {
+  std::vector<std::string> header{"strategy"};
+  for (const auto regions : partition_counts) header.push_back(fmt::format("{} regions", regions));
+  Text_table table(header);
+  for (const auto& variant : variants) {
+    std::vector<std::string> row{variant};
+    for (const auto regions : partition_counts) {
+      const auto seeds = sorted.at(variant).find(regions);
+      row.push_back(
+          seeds == sorted.at(variant).end() ? "-" : text_of(summary(seeds->second, column.figure), column.decimals));
+    }
+    table.add(std::move(row));
+  }
+  return table.text();
+}
+
+std::vector<std::string> present(const By_variant& sorted, const std::vector<std::string>& wanted) {
+  std::vector<std::string> names;
+  std::ranges::copy_if(wanted, std::back_inserter(names), [&](const auto& name) { return sorted.contains(name); });
+  return names;
+}
+
+void add_figures(const By_variant& sorted, const std::string& mesh, Json& figures) {
+  for (const auto& [variant, by_regions] : sorted)
+    for (const auto& [regions, seeds] : by_regions)
+      for (const auto* columns : {&partition_columns(), &use_columns()})
+        for (const auto& column : *columns) {
+          const Interval interval = summary(seeds, column.figure);
+          figures.push_back({{"variant", variant},
+                             {"regions", regions},
+                             {"mesh", mesh},
+                             {"figure", column.figure.name},
+                             {"mean", interval.mean},
+                             {"low", interval.mean - interval.half_width},
+                             {"high", interval.mean + interval.half_width}});
+        }
+}
+
+}  // namespace
+
+std::string partition_report(const Rows& rows) {
+  const auto sorted = sorted_by_variant(rows);
+  std::vector<std::string> strategies, weights{"lbg_position"};
+  for (const auto& name : variants_of(sorted)) (is_weight(name) ? weights : strategies).push_back(name);
+  weights.emplace_back("lbg");
+  weights = present(sorted, weights);
+  const auto islands = present(sorted, {"lbg", "lbg, islands kept"});
+
+  std::string text = fmt::format("{} runs.\n\n## Partitions of {} regions\n\n", rows.size(), shown_regions);
+  text += columns_table(sorted, strategies, partition_columns());
+  text += fmt::format("\n## In use, {} particles per object\n\n", shown_regions);
+  text += columns_table(sorted, strategies, use_columns());
+  text += "\n## Recall\n\n" + regions_table(sorted, strategies, use_columns()[0]);
+  text += "\n## Repartitions\n\n" + regions_table(sorted, strategies, use_columns()[5]);
+  text += "\n## Weight of the normals\n\n" + columns_table(sorted, weights, partition_columns());
+  text += "\nRecall:\n\n" + regions_table(sorted, weights, use_columns()[0]);
+  text += "\n## Island repair\n\n" + columns_table(sorted, islands, partition_columns());
+  text += "\n" + columns_table(sorted, islands, use_columns());
+  return text;
+}
+
+Json partition_figures(const Rows& rows) {
+  Json figures = Json::array();
+  add_figures(sorted_by_variant(rows), "all", figures);
+  for (const auto& mesh : partition_meshes())
+    add_figures(sorted_by_variant(rows, std::string(mesh.name)), std::string(mesh.name), figures);
+  return figures;
+}
+
+}  // namespace lodestone

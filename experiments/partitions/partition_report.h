@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace lodestone {
+
+/// The rows of a sweep as tables in Markdown: partitions and what they find at 32 regions, recall against the number of
+/// regions, the weight of the normals, island repair. A figure is the mean over meshes of one seed, then over seeds,
+/// with the 95 % confidence interval over the seeds.
+std::string partition_report(const std::map<std::string, nlohmann::ordered_json>& rows);
+
+/// The same figures for plots: one entry per variant, number of regions, mesh (or `all`) and figure, with its interval.
+nlohmann::ordered_json partition_figures(const std::map<std::string, nlohmann::ordered_json>& rows);
+
+}  // namespace lodestone

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "partition_run.h"
+
+#include <fstream>
+#include <limits>
+
+#include "lodestone/partition/partition_measures.h"
+#include "lodestone/stopwatch.h"
+#include "measured_run.h"
+#include "measures_json.h"
+
+namespace lodestone {
+
+namespace {
+
+using Row = nlohmann::ordered_json;
+
+/// A line of /proc/self/status, in KiB; 0 where there is none.
+std::size_t status_kib(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == key + ":") {
+      std::size_t kib = 0;
+      status >> kib;
+      return kib;
+    }
+  return 0;
+}
+
+/// What the process holds at most while something runs, beyond what it held before.
+class Memory_peak {
+ public:
+  Memory_peak() {
+    std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
+    before_ = status_kib("VmRSS");
+  }
+  std::size_t kib() const {
+    const std::size_t peak = status_kib("VmHWM");
+    return peak > before_ ? peak - before_ : 0;
+  }
+
+ private:
+  std::size_t before_ = 0;
+};
+
+/// The surface of a mesh by number, as it is in the first frame.
+struct Numbered {
+  Mesh_numbering<Surface_mesh> numbering;
+  Vertex_graph graph;
+  Positions positions;
+
+  explicit Numbered(const Surface_mesh& mesh)
+      : numbering(mesh),
+        graph(vertex_graph(numbering.vertex_count(), numbering.corners())),
+        positions(read_positions(numbering, mesh.points())) {}
+};
+
+struct Divided {
+  Numbered_partition partition;
+  double seconds = std::numeric_limits<double>::infinity();
+};
+
+/// The quickest of up to `most` repetitions, none of which starts after a tenth of a second.
+Divided divide(const Partition_input<Surface_mesh>& input, std::size_t regions, const Any_strategy& strategy,
+               const Partition_options& options, int most) {
+  Divided result;
+  double spent = 0;
+  for (int repetition = 0; repetition < most && spent < 0.1; ++repetition) {
+    double seconds = 0;
+    timed(seconds, [&] { result.partition = partition_numbered(input, regions, strategy, options); });
+    result.seconds = std::min(result.seconds, seconds);
+    spent += seconds;
+  }
+  return result;
+}
+
+Row parameters(const Partition_run& run, const Numbered& surface) {
+  return {{"mesh", run.mesh.name},
+          {"vertices", surface.numbering.vertex_count()},
+          {"triangles", surface.numbering.corners().size()},
+          {"variant", run.variant.name},
+          {"strategy", run.variant.strategy},
+          {"normal_weight", run.variant.settings.lbg.features.normal_weight},
+          {"islands_kept", run.variant.options.keep_islands},
+          {"regions_wanted", run.regions},
+          {"seed", run.seed}};
+}
+
+/// What the particles find in the scene, beside those of `lbg`, in turn in every frame.
+Row in_use(const Partition_run& run, Scene scene, const Any_strategy& strategy) {
+  const Detector_options options{.particles = run.regions, .partition = run.variant.options, .growth = 1.25};
+  const Setting settings[] = {{.name = run.variant.name, .options = options, .strategy = strategy},
+                              {.name = "lbg", .options = {.particles = run.regions, .growth = 1.25}}};
+  const auto measured = measure(
+      {&scene, 1}, settings, [](std::size_t, std::size_t) {}, Truth_source::exact_mode);
+  const auto& m = measured.measurements[0];
+  const auto& lbg = measured.measurements[1];
+  return {{"frames", m.score.frames()},
+          {"positive", m.score.positives()},
+          {"recall", m.score.recall()},
+          {"precision", m.score.precision()},
+          {"delay_frames", m.score.mean_delay()},
+          {"never_seen", m.score.never_seen()},
+          {"iterations", mean_count(m, &Frame_statistics::iterations)},
+          {"candidates", mean_count(m, &Frame_statistics::candidates)},
+          {"exact_tests", mean_count(m, &Frame_statistics::exact_tests)},
+          {"repartitions", mean_count(m, &Frame_statistics::repartitions) * static_cast<double>(m.frames.size())},
+          {"frame_us", median_total_microseconds(m)},
+          {"lbg_frame_us", median_total_microseconds(lbg)},
+          {"mean_frame_us", mean_total_microseconds(m)},
+          {"lbg_mean_frame_us", mean_total_microseconds(lbg)}};
+}
+
+}  // namespace
+
+Row execute(const Partition_run& run) {
+  Scene scene = partition_scene(run.mesh, run.seed);
+  pose(scene.objects[0], 0);
+  const Surface_mesh& mesh = scene.objects[0].mesh;
+  const Numbered surface(mesh);
+  const Partition_input<Surface_mesh> input{mesh, surface.numbering, surface.graph, surface.positions};
+  const auto strategy = make_strategy(run.variant.strategy, run.variant.settings);
+
+  Row row = parameters(run, surface);
+  const Memory_peak memory;
+  partition_numbered(input, run.regions, strategy, run.variant.options);
+  row["peak_kib"] = memory.kib();
+  const auto lbg = divide(input, run.regions, Any_strategy(), {}, 5);
+  const auto divided = divide(input, run.regions, strategy, run.variant.options, 5);
+  row["seconds"] = divided.seconds;
+  row["lbg_seconds"] = lbg.seconds;
+  const auto measures = measure_partition(input.surface(), divided.partition);
+  row["regions"] = measures.regions;
+  row.update(to_json(measures));
+  row.update(in_use(run, std::move(scene), strategy));
+  return row;
+}
+
+}  // namespace lodestone

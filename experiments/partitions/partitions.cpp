@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every strategy on every mesh: how good are its partitions, and what do particles find with them?
+#include <fmt/format.h>
+
+#include "experiment.h"
+#include "lodestone/errors.h"
+#include "lodestone/io/coloured_ply.h"
+#include "manifest.h"
+#include "measured_run.h"
+#include "partition_plan.h"
+#include "partition_report.h"
+#include "partition_run.h"
+#include "sweep.h"
+
+namespace lodestone {
+
+namespace {
+
+/// Takes over the rows of other folders, made by the same program.
+void merge(const Experiment_context& context, Row_file& rows) {
+  for (const auto& folder : context.merge) {
+    write_manifest(context.out, [&] {
+      check_manifest(folder, partition_manifest());
+      return read_manifest(folder);
+    }());
+    for (const auto& [id, row] : read_rows(folder / "rows.jsonl")) rows.add(row);
+  }
+}
+
+/// Coloured meshes to look at: the teapot by every strategy.
+void write_pictures(const std::filesystem::path& folder) {
+  constexpr std::size_t regions = 32;
+  for (const auto& variant : partition_variants()) {
+    Surface_mesh mesh = partition_meshes()[1].make();
+    const auto map = mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:region").first;
+    partition(mesh, regions, map, make_strategy(variant.strategy, variant.settings), variant.options);
+    std::vector<Region_index> labels;
+    for (const auto v : mesh.vertices()) labels.push_back(map[v]);
+    write_coloured_ply(folder / (variant.name + ".ply"), mesh, labels);
+  }
+}
+
+std::string said_of(const std::vector<std::string>& failures) {
+  std::string text = fmt::format("{} runs failed and will be tried again:", failures.size());
+  for (const auto& failure : failures) text += " " + failure + ";";
+  text.back() = '.';
+  return text;
+}
+
+}  // namespace
+
+std::string run_partitions(const Experiment_context& context) {
+  const auto plan = partition_plan(context.only);
+  std::vector<std::string> ids;
+  for (const auto& run : plan) ids.push_back(run.id());
+
+  Row_file rows(context.out / "rows.jsonl");
+  write_manifest(context.out, partition_manifest());
+  merge(context, rows);
+  const auto failures = sweep(
+      ids, rows, {.jobs = context.jobs, .shard = {.k = context.shard, .n = context.shards}},
+      [&](std::size_t run) { return execute(plan[run]); }, context.progress);
+  if (!failures.empty()) throw Bad_argument(said_of(failures));
+
+  std::size_t missing = 0;
+  for (const auto& id : ids) missing += rows.has(id) ? 0 : 1;
+  std::map<std::string, nlohmann::ordered_json> chosen;
+  for (const auto& id : ids)
+    if (rows.has(id)) chosen.emplace(id, rows.rows().at(id));
+  write_json(context.out, "figures", partition_figures(chosen));
+  if (context.only.empty() && missing == 0) write_pictures(context.out / "pictures");
+  return (missing > 0 ? fmt::format("{} of {} runs are still to do: run the other shards, and --merge them.\n\n",
+                                    missing, ids.size())
+                      : "") +
+         partition_report(chosen);
+}
+
+}  // namespace lodestone

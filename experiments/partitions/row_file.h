@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace lodestone {
+
+/// The finished runs of a sweep in a file of JSON Lines: a line per run, keyed by its `id`.
+///
+/// A line is on disk before `add` returns. What is cut off at the end of the file, because the machine or the program
+/// stopped within a line, is dropped when the file is opened. One program at a time can have it open.
+class Row_file {
+ public:
+  using Row = nlohmann::ordered_json;
+
+  /// Opens the file, or makes it with its folder.
+  /// @throws Bad_output  it cannot be opened, or another program has it open
+  /// @throws Bad_argument  a whole line is no JSON object with an `id`
+  explicit Row_file(std::filesystem::path file);
+  Row_file(const Row_file&) = delete;
+  Row_file& operator=(const Row_file&) = delete;
+  ~Row_file();
+
+  bool has(const std::string& id) const { return rows_.contains(id); }
+  /// Rows by id. A run that is there already is left as it is.
+  /// @throws Bad_output
+  void add(const Row& row);
+  const std::map<std::string, Row>& rows() const { return rows_; }
+
+ private:
+  [[noreturn]] void fail(const char* action) const;
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::map<std::string, Row> rows_;
+};
+
+/// The rows of a file that nobody needs to have open. What is cut off at its end is left out.
+/// @throws Bad_argument  no such file; as Row_file
+std::map<std::string, Row_file::Row> read_rows(const std::filesystem::path& file);
+
+}  // namespace lodestone

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "row_file.h"
+
+namespace lodestone {
+
+/// A part of a sweep: every n-th run, beginning with the k-th.
+struct Shard {
+  std::size_t k = 1;  ///< 1 to n
+  std::size_t n = 1;
+};
+
+struct Sweep_options {
+  std::size_t jobs = 1;  ///< runs at a time; >= 1
+  Shard shard = {};
+};
+
+/// Executes the runs that have no row yet, each in a process of its own: its memory is measured apart from the others',
+/// and one that ends badly costs nothing but itself.
+///
+/// @param ids       of all runs, all shards together, in order
+/// @param execute   makes the row of a run, without its id; called in the child process
+/// @param progress  called with the number of finished runs of the shard and their number; may throw to stop, which
+///                  ends the runs in progress
+/// @return `id: cause` for each run that failed; these have no row and are tried again next time
+std::vector<std::string> sweep(const std::vector<std::string>& ids, Row_file& rows, const Sweep_options& options,
+                               const std::function<nlohmann::ordered_json(std::size_t run)>& execute,
+                               const std::function<void(std::size_t done, std::size_t of)>& progress);
+
+}  // namespace lodestone
