@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every strategy of the registry gives, on every mesh type. A new line in the registry is found here by itself.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "contract/mesh_types.h"
+#include "lodestone/io/shapes.h"
+#include "lodestone/partition/strategies.h"
+#include "test_meshes.h"
+
+namespace lodestone {
+namespace {
+
+/// Labels and particles by vertex number.
+struct Divided {
+  std::vector<Region_index> labels;
+  std::vector<std::uint32_t> particles;
+  std::size_t regions = 0;
+
+  bool operator==(const Divided&) const = default;
+};
+
+template <class Mesh>
+Divided divide(const Mesh& mesh, std::size_t regions, const Any_strategy& strategy) {
+  const auto map = get(CGAL::dynamic_vertex_property_t<Region_index>(), mesh);
+  const auto result = partition(mesh, regions, map, strategy);
+  const Mesh_numbering<Mesh> numbering(mesh);
+  Divided divided{.labels = {}, .particles = {}, .regions = result.regions};
+  for (const auto v : vertices(mesh)) divided.labels.push_back(get(map, v));
+  for (const auto v : result.particles) divided.particles.push_back(numbering.number(v));
+  return divided;
+}
+
+class Strategy_contract : public ::testing::TestWithParam<Strategy_entry> {
+ protected:
+  static Any_strategy strategy(std::uint64_t seed = 1) { return GetParam().make({.seed = seed}); }
+
+  /// Every region has a connected set of vertices and a particle of its own, and every vertex has a region.
+  static void expect_sound(const Surface_mesh& mesh, const Divided& divided) {
+    const auto vertices = mesh.number_of_vertices();
+    ASSERT_EQ(divided.labels.size(), vertices);
+    ASSERT_EQ(divided.particles.size(), divided.regions);
+    for (const auto label : divided.labels) ASSERT_LT(label, divided.regions);
+    for (Region_index region = 0; region < divided.regions; ++region) {
+      ASSERT_LT(divided.particles[region], vertices);
+      EXPECT_EQ(divided.labels[divided.particles[region]], region);
+    }
+    for (const auto& pieces : pieces_of(Numbered_mesh(mesh).graph, divided.labels, divided.regions))
+      EXPECT_EQ(pieces.size(), 1U);
+  }
+
+  /// The same on every mesh type, and in another run.
+  static Divided divided_alike(const Surface_mesh& mesh, std::size_t regions) {
+    const auto divided = divide(mesh, regions, strategy());
+    EXPECT_EQ(divide(mesh, regions, strategy()), divided);
+    EXPECT_EQ(divide(converted<Polyhedron>(mesh), regions, strategy()), divided);
+    EXPECT_EQ(divide(converted<Open_mesh>(mesh), regions, strategy()), divided);
+    EXPECT_EQ(divide(converted<Cell_complex>(mesh), regions, strategy()), divided);
+    expect_sound(mesh, divided);
+    return divided;
+  }
+};
+
+TEST_P(Strategy_contract, a_closed_surface_gets_about_as_many_regions_as_wanted_the_same_on_every_mesh_type) {
+  const auto mesh = as_float(potato(9));
+  for (const std::size_t regions : {1, 2, 7, 24}) {
+    SCOPED_TRACE(regions);
+    const auto divided = divided_alike(mesh, regions);
+    EXPECT_LE(divided.regions, regions);
+    EXPECT_GE(4 * divided.regions, 3 * regions);
+  }
+}
+
+TEST_P(Strategy_contract, an_open_surface_is_divided) {
+  const auto divided = divided_alike(as_float(grid(17, 12)), 10);
+  EXPECT_GE(divided.regions, 7U);
+  EXPECT_LE(divided.regions, 10U);
+}
+
+TEST_P(Strategy_contract, several_components_are_divided) {
+  auto mesh = grid(9, 9);
+  append(mesh, sphere(4, 1, {20, 0, 0}));
+  append(mesh, sphere(3, 2, {0, 20, 0}));
+  mesh = as_float(mesh);
+  const auto divided = divided_alike(mesh, 12);
+  EXPECT_GE(divided.regions, 8U);
+  // No region reaches from one component to another, and each has at least one.
+  const auto component = [&](std::size_t v) {
+    return mesh.point(Surface_mesh::Vertex_index(v)).x() > 15   ? 1
+           : mesh.point(Surface_mesh::Vertex_index(v)).y() > 15 ? 2
+                                                                : 0;
+  };
+  std::map<Region_index, std::set<int>> components;
+  for (std::size_t v = 0; v < divided.labels.size(); ++v) components[divided.labels[v]].insert(component(v));
+  for (const auto& [region, of] : components) EXPECT_EQ(of.size(), 1U);
+}
+
+TEST_P(Strategy_contract, a_single_triangle_is_divided) {
+  for (const std::size_t regions : {1, 2, 3}) {
+    SCOPED_TRACE(regions);
+    divided_alike(single_triangle(), regions);
+  }
+}
+
+TEST_P(Strategy_contract, more_regions_than_vertices_are_cut_down) {
+  const auto divided = divided_alike(tetrahedron(), 50);
+  EXPECT_LE(divided.regions, 4U);
+  EXPECT_GE(divided_alike(as_float(sphere(2)), 1000).regions, 9U);  // of 18 vertices
+}
+
+TEST_P(Strategy_contract, faces_without_area_are_divided) {
+  // A grid of which one half is folded into a line, and one column of vertices into a point.
+  auto mesh = grid(12, 8);
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    if (p.x() >= 6) mesh.point(v) = Point(p.x(), 3, 0);
+    if (p.x() == 11) mesh.point(v) = Point(11, 3, 0);
+  }
+  const auto divided = divided_alike(mesh, 8);
+  EXPECT_GE(divided.regions, 5U);
+  // All vertices in one place: no direction, no length.
+  for (const auto v : mesh.vertices()) mesh.point(v) = Point(1, 2, 3);
+  divided_alike(mesh, 8);
+}
+
+TEST_P(Strategy_contract, coordinates_of_any_magnitude_give_the_same_regions) {
+  const auto mesh = as_float(potato(7));
+  const auto expected = divide(mesh, 12, strategy());
+  for (const int exponent : {-400, 400}) {
+    auto scaled = mesh;
+    for (const auto v : scaled.vertices()) {
+      const auto& p = mesh.point(v);
+      scaled.point(v) = Point(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
+    }
+    EXPECT_EQ(divide(scaled, 12, strategy()), expected) << "2^" << exponent;
+  }
+}
+
+TEST_P(Strategy_contract, another_seed_gives_a_sound_partition_too) {
+  const auto mesh = as_float(potato(8));
+  for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{2}, ~std::uint64_t{0} >> 1})
+    expect_sound(mesh, divide(mesh, 16, strategy(seed)));
+}
+
+TEST_P(Strategy_contract, a_hundred_thousand_vertices_are_divided_or_refused) {
+  Surface_mesh mesh = icosphere(100);  // 100 002 vertices
+  if (mesh.number_of_vertices() > GetParam().most_vertices) {
+    EXPECT_THROW(divide(mesh, 64, strategy()), Bad_argument);
+    mesh = icosphere(static_cast<std::size_t>(std::sqrt(static_cast<double>(GetParam().most_vertices - 2) / 10)));
+  }
+  const auto divided = divide(mesh, 64, strategy());
+  EXPECT_GE(divided.regions, 48U);
+  EXPECT_LE(divided.regions, 64U);
+  expect_sound(mesh, divided);
+}
+
+TEST_P(Strategy_contract, is_found_under_its_name) {
+  EXPECT_EQ(make_strategy(GetParam().name).name, GetParam().name);
+  EXPECT_FALSE(GetParam().summary.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Strategy_contract, ::testing::ValuesIn(strategies().begin(), strategies().end()),
+                         [](const auto& test) {
+                           std::string name(test.param.name);
+                           std::ranges::replace(name, '+', 'p');
+                           return name;
+                         });
+
+TEST(Strategies, lbg_comes_first_and_no_name_stands_twice) {
+  ASSERT_FALSE(strategies().empty());
+  EXPECT_EQ(strategies().front().name, "lbg");
+  std::set<std::string_view> names;
+  for (const auto& entry : strategies()) EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+}
+
+TEST(Strategies, an_unknown_name_is_refused) { EXPECT_THROW(make_strategy("guess"), Bad_argument); }
+
+}  // namespace
+}  // namespace lodestone

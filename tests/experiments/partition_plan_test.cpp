@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "partition_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "lodestone/detector.h"
+#include "lodestone/errors.h"
+#include "partition_report.h"
+#include "partition_run.h"
+
+namespace lodestone {
+namespace {
+
+TEST(Partition_plan, is_the_full_cross_with_an_id_for_each_run) {
+  const auto plan = partition_plan();
+  std::set<std::string> ids, variants, meshes;
+  for (const auto& run : plan) {
+    EXPECT_TRUE(ids.insert(run.id()).second) << run.id();
+    variants.insert(run.variant.name);
+    meshes.insert(std::string(run.mesh.name));
+    EXPECT_EQ(run.variant.settings.seed, run.seed);
+  }
+  EXPECT_EQ(meshes.size(), 8U);
+  EXPECT_EQ(variants.size(), partition_variants().size());
+  for (const auto& entry : strategies()) EXPECT_TRUE(variants.contains(std::string(entry.name))) << entry.name;
+  std::size_t large_enough = 0;
+  for (const auto& entry : strategies()) large_enough += entry.most_vertices > 20'000 ? 1 : 0;
+  EXPECT_GE(plan.size(), large_enough * meshes.size() * 5 * 5);
+}
+
+TEST(Partition_plan, keeps_what_is_named) {
+  const auto plan = partition_plan({"cloth_coarse", "lbg", "lbg_position"});
+  EXPECT_EQ(plan.size(), 2U * 5 * 5);
+  for (const auto& run : plan) EXPECT_EQ(run.mesh.name, "cloth_coarse");
+  EXPECT_THROW(partition_plan({"cloth"}), Bad_argument);
+}
+
+TEST(Partition_plan, meshes_have_about_two_and_twenty_thousand_triangles) {
+  for (const auto& mesh : partition_meshes()) {
+    const double wanted = mesh.name.ends_with("coarse") ? 2000 : 20000;
+    EXPECT_NEAR(static_cast<double>(mesh.make().number_of_faces()), wanted, 0.13 * wanted) << mesh.name;
+  }
+}
+
+TEST(Partition_scene, surfaces_meet_in_some_frames_and_part_in_others_whatever_the_seed) {
+  for (const auto& mesh : partition_meshes()) {
+    if (!mesh.name.ends_with("coarse")) continue;
+    for (const auto seed : partition_seeds) {
+      Scene scene = partition_scene(mesh, seed);
+      Detector<Surface_mesh> detector({.mode = Mode::exact});
+      for (const auto& object : scene.objects) detector.add(object.mesh);
+      std::size_t positive = 0;
+      for (std::size_t frame = 0; frame < scene.frames; ++frame) {
+        for (auto& object : scene.objects) pose(object, frame);
+        positive += detector.detect().collides() ? 1 : 0;
+      }
+      EXPECT_GE(positive, scene.frames / 10) << mesh.name << ' ' << seed;
+      EXPECT_LE(positive, scene.frames * 2 / 3) << mesh.name << ' ' << seed;
+    }
+  }
+}
+
+TEST(Partition_run, gives_the_same_row_again_but_for_times_and_memory) {
+  const auto plan = partition_plan({"cloth_coarse", "lbg"});
+  auto row = execute(plan[7]), again = execute(plan[7]);
+  for (const char* key :
+       {"seconds", "lbg_seconds", "peak_kib", "frame_us", "lbg_frame_us", "mean_frame_us", "lbg_mean_frame_us"}) {
+    EXPECT_GE(row.at(key), 0) << key;
+    row.erase(key);
+    again.erase(key);
+  }
+  EXPECT_EQ(row, again);
+  EXPECT_EQ(row["regions_wanted"], 12);
+  EXPECT_EQ(row["seed"], 3);
+  EXPECT_EQ(row["precision"], 1.0);
+  EXPECT_GT(row["positive"], 0);
+  EXPECT_GT(row["recall"], 0.5);
+}
+
+TEST(Partition_report, averages_over_meshes_first_and_then_over_seeds) {
+  std::map<std::string, nlohmann::ordered_json> rows;
+  const auto full = execute(partition_plan({"cloth_coarse", "lbg"})[0]);
+  // Recall by mesh and seed: seed 1 has 0.2 and 0.4, seed 2 has 0.6 and 1: means 0.3 and 0.8.
+  const auto add = [&](const char* mesh, int seed, double recall) {
+    auto row = full;
+    row["mesh"] = mesh;
+    row["seed"] = seed;
+    row["recall"] = recall;
+    row["regions_wanted"] = 32;
+    rows[std::string(mesh) + std::to_string(seed)] = row;
+  };
+  add("cloth_coarse", 1, 0.2);
+  add("sphere_fine", 1, 0.4);
+  add("cloth_coarse", 2, 0.6);
+  add("sphere_fine", 2, 1.0);
+  const auto figures = partition_figures(rows);
+  std::size_t found = 0;
+  for (const auto& figure : figures) {
+    if (figure["figure"] != "recall") continue;
+    ++found;
+    const double mean = figure["mesh"] == "all" ? 0.55 : figure["mesh"] == "cloth_coarse" ? 0.4 : 0.7;
+    EXPECT_NEAR(figure["mean"], mean, 1e-12);
+    if (figure["mesh"] == "all") {
+      EXPECT_NEAR(figure["high"].get<double>() - mean, 12.706 * 0.25, 1e-3);
+    }
+  }
+  EXPECT_EQ(found, 3U);
+  EXPECT_NE(partition_report(rows).find("| lbg      |      2 | 0.550"), std::string::npos) << partition_report(rows);
+}
+
+}  // namespace
+}  // namespace lodestone
