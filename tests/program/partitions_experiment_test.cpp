@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sweep of `experiment partitions` as a user runs it: stopped, continued, in parts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "io/temporary_folder.h"
+#include "program/run_program.h"
+
+namespace lodestone::test {
+namespace {
+
+struct Partitions_experiment : ::testing::Test {
+  Temporary_folder folder;
+
+  /// The runs of one coarse mesh and one strategy: 25.
+  std::vector<std::string> command(const std::string& out, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{
+        "experiment", "partitions", "--only", "cloth_coarse,lbg_position", "--out", (folder.path() / out).string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  std::filesystem::path rows(const std::string& out) const { return folder.path() / out / "rows.jsonl"; }
+
+  /// By id, without what differs between two runs of the same.
+  std::map<std::string, nlohmann::json> results(const std::string& out) const {
+    std::map<std::string, nlohmann::json> by_id;
+    for (auto row : read_json_lines(rows(out))) {
+      for (const char* key :
+           {"seconds", "lbg_seconds", "peak_kib", "frame_us", "lbg_frame_us", "mean_frame_us", "lbg_mean_frame_us"})
+        EXPECT_EQ(row.erase(key), 1U) << key;
+      by_id.emplace(row["id"], row);
+    }
+    return by_id;
+  }
+};
+
+TEST_F(Partitions_experiment, a_finished_sweep_does_nothing_more_and_reports_again) {
+  const auto first = run_program(command("a", {"--jobs", "2"}));
+  expect_success(first);
+  EXPECT_NE(first.out.find("25 runs."), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("Island repair"), std::string::npos);
+  const auto before = read_bytes(rows("a"));
+  const auto again = run_program(command("a"));
+  expect_success(again);
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_EQ(read_bytes(rows("a")), before);
+  EXPECT_EQ(content_of(folder.path() / "a"),
+            (std::set<std::string>{"figures.json", "manifest.json", "partitions.md", "rows.jsonl"}));
+  const auto manifest = read_json(folder.path() / "a" / "manifest.json");
+  for (const char* key : {"revision", "compiler", "processors", "regions", "seeds", "inputs"})
+    EXPECT_TRUE(manifest.contains(key)) << key;
+  EXPECT_EQ(manifest["inputs"].size(), 16U);
+}
+
+TEST_F(Partitions_experiment, killed_at_any_moment_it_continues_where_it_stopped) {
+  std::size_t kept = 0;
+  for (int kill = 0; kill < 4; ++kill) {
+    Running_program program(command("a"));
+    const auto wanted = kept + 3;
+    for (int wait = 0; wait < 2000 && kept < wanted; ++wait) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      if (!exists(rows("a"))) continue;
+      const auto text = read_bytes(rows("a"));
+      kept = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    }
+    program.send(SIGKILL);
+    EXPECT_EQ(program.wait().signal, SIGKILL);
+    const auto text = read_bytes(rows("a"));
+    EXPECT_GE(static_cast<std::size_t>(std::ranges::count(text, '\n')), kept);
+  }
+  expect_success(run_program(command("a")));
+  expect_success(run_program(command("whole")));
+  EXPECT_EQ(results("a").size(), 25U);
+  EXPECT_EQ(results("a"), results("whole"));
+}
+
+TEST_F(Partitions_experiment, an_interrupt_ends_it_with_a_word_and_the_finished_runs_kept) {
+  Running_program program(command("a"));
+  for (int wait = 0; wait < 2000; ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (exists(rows("a")) && !read_bytes(rows("a")).empty()) break;
+  }
+  program.send(SIGINT);
+  const auto result = program.wait();
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_NE(result.err.find("interrupted"), std::string::npos) << result.err;
+  EXPECT_FALSE(read_json_lines(rows("a")).empty());
+}
+
+TEST_F(Partitions_experiment, shards_that_ran_apart_are_merged_into_the_whole) {
+  const auto first = run_program(command("a", {"--shard", "1/2"}));
+  expect_success(first);
+  EXPECT_NE(first.out.find("12 of 25 runs are still to do"), std::string::npos) << first.out;
+  expect_success(run_program(command("b", {"--shard", "2/2"})));
+  EXPECT_EQ(results("a").size(), 13U);
+  EXPECT_EQ(results("b").size(), 12U);
+  const auto merged =
+      run_program(command("c", {"--merge", (folder.path() / "a").string() + "," + (folder.path() / "b").string()}));
+  expect_success(merged);
+  EXPECT_EQ(merged.out.find("still to do"), std::string::npos);
+  auto expected = results("a");
+  expected.merge(results("b"));
+  EXPECT_EQ(results("c"), expected);
+}
+
+TEST_F(Partitions_experiment, rows_of_another_program_are_not_mixed_in) {
+  expect_success(run_program(command("a", {"--shard", "1/20"})));
+  auto manifest = read_json(folder.path() / "a" / "manifest.json");
+  manifest["revision"] = "another";
+  std::ofstream(folder.path() / "a" / "manifest.json") << manifest;
+  expect_error(run_program(command("a", {"--shard", "1/20"})), 2, "another revision");
+  expect_error(run_program(command("b", {"--merge", (folder.path() / "a").string()})), 2, "another revision");
+  expect_error(run_program(command("b", {"--merge", (folder.path() / "none").string()})), 2, "manifest.json");
+}
+
+TEST_F(Partitions_experiment, bad_options_are_refused_in_one_line) {
+  for (const std::string shard : {"0/2", "3/2", "1", "a/b", "1/2/3", "1/", "-1/2"})
+    expect_error(run_program(command("a", {"--shard", shard})), 2, "--shard");
+  expect_error(run_program(command("a", {"--jobs", "0"})), 2, "jobs");
+  expect_error(run_program({"experiment", "partitions", "--only", "nothing"}), 2, "nothing");
+}
+
+TEST_F(Partitions_experiment, a_full_disk_is_an_error_and_a_second_sweep_in_the_same_folder_is_refused) {
+  Program_options small;
+  small.largest_file = 4096;
+  const auto full = run_program(command("a"), small);
+  EXPECT_NE(full.exit_code, 0);
+  EXPECT_NE(full.err.find("cannot be written"), std::string::npos) << full.err;
+  expect_success(run_program(command("a")));
+  EXPECT_EQ(results("a").size(), 25U);
+
+  Running_program program(command("b"));
+  for (int wait = 0; wait < 2000 && !exists(rows("b")); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  expect_error(run_program(command("b")), 4, "another sweep");
+  expect_success(program.wait());
+}
+
+}  // namespace
+}  // namespace lodestone::test
