@@ -2,20 +2,13 @@
 #include "lodestone/partition/feature_vectors.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <limits>
+
+#include "lodestone/partition/scaled_positions.h"
 
 namespace lodestone {
 
 namespace {
-
-/// Positions times a power of two that brings the largest coordinate below 1. Exact, and keeps every later product and
-/// sum within range, whatever the coordinates.
-Positions scaled_exactly(const Positions& positions) {
-  int exponent = 0;
-  std::frexp(positions.cwiseAbs().maxCoeff(), &exponent);
-  return positions.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
-}
 
 /// Positions relative to their mean, at most 1 from it.
 Positions scaled_to_unit_ball(const Positions& positions) {
