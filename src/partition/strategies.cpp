@@ -8,6 +8,7 @@
 
 #include "lodestone/errors.h"
 #include "lodestone/partition/lbg_position.h"
+#include "lodestone/partition/random_voronoi.h"
 
 namespace lodestone {
 
@@ -20,12 +21,18 @@ Any_strategy from_lbg_options(const Strategy_settings& settings) {
   return Any_strategy(Strategy{.options = settings.lbg});
 }
 
+template <class Strategy>
+Any_strategy from_seed(const Strategy_settings& settings) {
+  return Any_strategy(Strategy{.options = {.seed = settings.seed}});
+}
+
 }  // namespace
 
 std::span<const Strategy_entry> strategies() {
   static constexpr auto all = std::to_array<Strategy_entry>({
       {Lbg::name, "cells of position and normal, by splitting and Lloyd iterations", from_lbg_options<Lbg>, any_number},
       {Lbg_position::name, "the same of positions alone", from_lbg_options<Lbg_position>, any_number},
+      {Random_voronoi::name, "vertices nearest along the edges to random seeds", from_seed<Random_voronoi>, any_number},
   });
   return all;
 }

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "lodestone/partition/partition.h"
+
+namespace lodestone {
+
+/// Different vertices drawn at random, each set of them as likely as any other; vertices without edges only when no
+/// others are left. The same on every machine. Cost O(V).
+/// @param count  at most V; more are cut down to V
+std::vector<std::uint32_t> random_vertices(const Vertex_graph& graph, std::size_t count, std::uint64_t seed);
+
+struct Random_voronoi_options {
+  std::uint64_t seed = 1;  ///< of the draw
+};
+
+/// Partition strategy: the vertices nearest along the edges to each of N vertices drawn at random. See
+/// `Geodesic_voronoi`.
+///
+/// A component in which no vertex was drawn falls to the seeds nearest in a straight line. O((V + E) log V).
+struct Random_voronoi {
+  static constexpr std::string_view name = "random_voronoi";
+
+  Random_voronoi_options options = {};
+
+  template <Triangle_mesh Mesh>
+  Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
+    return label(input.surface(), regions);
+  }
+  Labelling label(const Numbered_surface& surface, std::size_t regions) const;
+};
+
+}  // namespace lodestone

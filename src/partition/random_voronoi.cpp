@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/random_voronoi.h"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "lodestone/partition/geodesic_voronoi.h"
+#include "lodestone/partition/scaled_positions.h"
+
+namespace lodestone {
+
+std::vector<std::uint32_t> random_vertices(const Vertex_graph& graph, std::size_t count, std::uint64_t seed) {
+  std::vector<std::uint32_t> order(num_vertices(graph));
+  std::iota(order.begin(), order.end(), 0);
+  const auto isolated = std::ranges::stable_partition(order, [&](auto v) { return out_degree(v, graph) > 0; });
+  const std::size_t with_edges = order.size() - isolated.size();
+
+  // The first steps of a shuffle. The remainder, unlike the library's distributions, is the same everywhere.
+  std::mt19937_64 random(seed);
+  count = std::min(count, order.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t end = i < with_edges ? with_edges : order.size();
+    std::swap(order[i], order[i + random() % (end - i)]);
+  }
+  order.resize(count);
+  return order;
+}
+
+Labelling Random_voronoi::label(const Numbered_surface& surface, std::size_t regions) const {
+  const Positions positions = scaled_exactly(surface.positions);
+  Geodesic_voronoi cells(surface.graph, positions);
+  cells.add(random_vertices(surface.graph, regions, options.seed));
+  return {.labels = cells.labels()};
+}
+
+}  // namespace lodestone
