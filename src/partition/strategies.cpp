@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lodestone/errors.h"
+#include "lodestone/partition/farthest_point.h"
 #include "lodestone/partition/lbg_position.h"
 #include "lodestone/partition/random_voronoi.h"
 
@@ -32,6 +33,8 @@ std::span<const Strategy_entry> strategies() {
   static constexpr auto all = std::to_array<Strategy_entry>({
       {Lbg::name, "cells of position and normal, by splitting and Lloyd iterations", from_lbg_options<Lbg>, any_number},
       {Lbg_position::name, "the same of positions alone", from_lbg_options<Lbg_position>, any_number},
+      {Farthest_point::name, "vertices nearest along the edges to seeds far apart", from_seed<Farthest_point>,
+       any_number},
       {Random_voronoi::name, "vertices nearest along the edges to random seeds", from_seed<Random_voronoi>, any_number},
   });
   return all;

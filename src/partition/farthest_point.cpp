@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/farthest_point.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lodestone/partition/geodesic_voronoi.h"
+#include "lodestone/partition/random_voronoi.h"
+#include "lodestone/partition/scaled_positions.h"
+
+namespace lodestone {
+
+namespace {
+
+/// Of the vertices that are no seeds; there must be one.
+std::uint32_t farthest_vertex(const Vertex_graph& graph, const Geodesic_voronoi& cells) {
+  std::uint32_t farthest = 0;
+  std::pair<bool, double> best{false, -1};
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v) {
+    const std::pair<bool, double> rank{out_degree(v, graph) > 0, cells.distance(v)};
+    if (!(best < rank) || cells.is_seed(v)) continue;
+    best = rank;
+    farthest = v;
+  }
+  return farthest;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> farthest_points(const Vertex_graph& graph, const Positions& positions, std::size_t count,
+                                           std::uint64_t seed) {
+  Geodesic_voronoi cells(graph, positions);
+  cells.add(random_vertices(graph, std::min<std::size_t>(count, 1), seed));
+  count = std::min<std::size_t>(count, num_vertices(graph));
+  while (cells.seeds().size() < count) {
+    const std::uint32_t farthest = farthest_vertex(graph, cells);
+    cells.add({&farthest, 1});
+  }
+  return cells.seeds();
+}
+
+Labelling Farthest_point::label(const Numbered_surface& surface, std::size_t regions) const {
+  const Positions positions = scaled_exactly(surface.positions);
+  Geodesic_voronoi cells(surface.graph, positions);
+  // All at once: where distances are equal, cells grown one after the other need not be connected.
+  cells.add(farthest_points(surface.graph, positions, regions, options.seed));
+  return {.labels = cells.labels()};
+}
+
+}  // namespace lodestone
