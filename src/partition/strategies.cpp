@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lodestone/errors.h"
+#include "lodestone/partition/centroidal.h"
 #include "lodestone/partition/farthest_point.h"
 #include "lodestone/partition/lbg_position.h"
 #include "lodestone/partition/random_voronoi.h"
@@ -36,6 +37,8 @@ std::span<const Strategy_entry> strategies() {
       {Farthest_point::name, "vertices nearest along the edges to seeds far apart", from_seed<Farthest_point>,
        any_number},
       {Random_voronoi::name, "vertices nearest along the edges to random seeds", from_seed<Random_voronoi>, any_number},
+      {Centroidal::name, "vertices nearest along the edges to seeds in the middle of their cells",
+       from_seed<Centroidal>, any_number},
   });
   return all;
 }
