@@ -9,6 +9,7 @@
 #include "lodestone/errors.h"
 #include "lodestone/partition/centroidal.h"
 #include "lodestone/partition/farthest_point.h"
+#include "lodestone/partition/grid.h"
 #include "lodestone/partition/lbg_position.h"
 #include "lodestone/partition/random_voronoi.h"
 
@@ -28,6 +29,11 @@ Any_strategy from_seed(const Strategy_settings& settings) {
   return Any_strategy(Strategy{.options = {.seed = settings.seed}});
 }
 
+template <class Strategy>
+Any_strategy from_nothing(const Strategy_settings&) {
+  return Any_strategy(Strategy{});
+}
+
 }  // namespace
 
 std::span<const Strategy_entry> strategies() {
@@ -39,6 +45,7 @@ std::span<const Strategy_entry> strategies() {
       {Random_voronoi::name, "vertices nearest along the edges to random seeds", from_seed<Random_voronoi>, any_number},
       {Centroidal::name, "vertices nearest along the edges to seeds in the middle of their cells",
        from_seed<Centroidal>, any_number},
+      {Grid::name, "vertices in one cube of a regular grid", from_nothing<Grid>, any_number},
   });
   return all;
 }
