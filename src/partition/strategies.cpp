@@ -11,6 +11,7 @@
 #include "lodestone/partition/farthest_point.h"
 #include "lodestone/partition/grid.h"
 #include "lodestone/partition/lbg_position.h"
+#include "lodestone/partition/median_split.h"
 #include "lodestone/partition/random_voronoi.h"
 
 namespace lodestone {
@@ -46,6 +47,8 @@ std::span<const Strategy_entry> strategies() {
       {Centroidal::name, "vertices nearest along the edges to seeds in the middle of their cells",
        from_seed<Centroidal>, any_number},
       {Grid::name, "vertices in one cube of a regular grid", from_nothing<Grid>, any_number},
+      {Median_split::name, "equally many vertices, by splits along the longest axis", from_nothing<Median_split>,
+       any_number},
   });
   return all;
 }
