@@ -10,6 +10,7 @@
 #include "lodestone/partition/centroidal.h"
 #include "lodestone/partition/farthest_point.h"
 #include "lodestone/partition/grid.h"
+#include "lodestone/partition/hilbert.h"
 #include "lodestone/partition/lbg_position.h"
 #include "lodestone/partition/median_split.h"
 #include "lodestone/partition/random_voronoi.h"
@@ -49,6 +50,7 @@ std::span<const Strategy_entry> strategies() {
       {Grid::name, "vertices in one cube of a regular grid", from_nothing<Grid>, any_number},
       {Median_split::name, "equally many vertices, by splits along the longest axis", from_nothing<Median_split>,
        any_number},
+      {Hilbert::name, "runs of vertices along a Hilbert curve", from_nothing<Hilbert>, any_number},
   });
   return all;
 }

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/hilbert.h"
+
+#include <CGAL/hilbert_sort.h>
+
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace lodestone {
+
+namespace {
+
+/// Vertex numbers as points. Not CGAL's adaptor of its kernels: there vertices with an equal coordinate are equal, and
+/// which side of a median they come to is left to the standard library.
+struct Numbered_points {
+  using Point_3 = std::uint32_t;
+
+  template <Eigen::Index axis>
+  struct Less {
+    const Positions* positions;
+    bool operator()(std::uint32_t a, std::uint32_t b) const {
+      return std::pair((*positions)(a, axis), a) < std::pair((*positions)(b, axis), b);
+    }
+  };
+  using Less_x_3 = Less<0>;
+  using Less_y_3 = Less<1>;
+  using Less_z_3 = Less<2>;
+
+  Less_x_3 less_x_3_object() const { return {positions}; }
+  Less_y_3 less_y_3_object() const { return {positions}; }
+  Less_z_3 less_z_3_object() const { return {positions}; }
+
+  const Positions* positions;
+};
+
+}  // namespace
+
+Labelling Hilbert::label(const Numbered_surface& surface, std::size_t regions) const {
+  std::vector<std::uint32_t> order(static_cast<std::size_t>(surface.positions.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  CGAL::hilbert_sort(order.begin(), order.end(), Numbered_points{&surface.positions});
+
+  Labelling labelling{.labels = std::vector<Region_index>(order.size())};
+  for (std::size_t i = 0; i < order.size(); ++i)
+    labelling.labels[order[i]] = static_cast<Region_index>(i * regions / order.size());
+  return labelling;
+}
+
+}  // namespace lodestone
