@@ -11,6 +11,7 @@
 #include "lodestone/partition/farthest_point.h"
 #include "lodestone/partition/grid.h"
 #include "lodestone/partition/hilbert.h"
+#include "lodestone/partition/kmeans_plus_plus.h"
 #include "lodestone/partition/lbg_position.h"
 #include "lodestone/partition/median_split.h"
 #include "lodestone/partition/random_voronoi.h"
@@ -36,12 +37,18 @@ Any_strategy from_nothing(const Strategy_settings&) {
   return Any_strategy(Strategy{});
 }
 
+Any_strategy kmeans_plus_plus(const Strategy_settings& settings) {
+  return Any_strategy(Kmeans_plus_plus{.options = {.seed = settings.seed, .features = settings.lbg.features}});
+}
+
 }  // namespace
 
 std::span<const Strategy_entry> strategies() {
   static constexpr auto all = std::to_array<Strategy_entry>({
       {Lbg::name, "cells of position and normal, by splitting and Lloyd iterations", from_lbg_options<Lbg>, any_number},
       {Lbg_position::name, "the same of positions alone", from_lbg_options<Lbg_position>, any_number},
+      {Kmeans_plus_plus::name, "cells of position and normal, by Lloyd iterations from a random start far apart",
+       kmeans_plus_plus, any_number},
       {Farthest_point::name, "vertices nearest along the edges to seeds far apart", from_seed<Farthest_point>,
        any_number},
       {Random_voronoi::name, "vertices nearest along the edges to random seeds", from_seed<Random_voronoi>, any_number},
