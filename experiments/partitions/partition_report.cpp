@@ -158,7 +158,11 @@ void add_figures(const By_variant& sorted, const std::string& mesh, Json& figure
       for (const auto* columns : {&partition_columns(), &use_columns()})
         for (const auto& column : *columns) {
           const Interval interval = summary(seeds, column.figure);
+          const Json& row = *seeds.begin()->second.front();
           figures.push_back({{"variant", variant},
+                             {"strategy", row.at("strategy")},
+                             {"normal_weight", row.at("normal_weight")},
+                             {"islands_kept", row.at("islands_kept")},
                              {"regions", regions},
                              {"mesh", mesh},
                              {"figure", column.figure.name},

@@ -38,7 +38,11 @@ Any_strategy from_nothing(const Strategy_settings&) {
 }
 
 Any_strategy kmeans_plus_plus(const Strategy_settings& settings) {
-  return Any_strategy(Kmeans_plus_plus{.options = {.seed = settings.seed, .features = settings.lbg.features}});
+  // It stops as `lbg` does, so that the two can be compared.
+  return Any_strategy(Kmeans_plus_plus{.options = {.seed = settings.seed,
+                                                   .tolerance = settings.lbg.tolerance,
+                                                   .max_iterations = settings.lbg.max_iterations,
+                                                   .features = settings.lbg.features}});
 }
 
 }  // namespace
