@@ -134,10 +134,12 @@ TEST(Centroidal, the_seed_decides) {
   }
 }
 
+TEST(Centroidal, is_in_the_registry) { expect_in_registry(Centroidal{.options = {.seed = 3}}, {.seed = 3}); }
+
 TEST(Centroidal, stands_awkward_meshes) {
   for (const auto start : starts) {
     expect_sound_on_awkward_meshes(Centroidal{.options = {.start = start}}, always_as_wanted);
-    expect_sound_on_awkward_meshes(Centroidal{.options = {.start = start}}, always_as_wanted);
+    expect_invariant_under_translation_and_scale(Centroidal{.options = {.start = start}});
   }
 }
 

@@ -107,6 +107,8 @@ TEST(Farthest_point, regions_are_the_vertices_nearest_to_the_seeds) {
     EXPECT_EQ(plain_distances(mesh.graph, mesh.positions, seeds[labels[v]])[v], nearest[v]) << v;
 }
 
+TEST(Farthest_point, is_in_the_registry) { expect_in_registry(Farthest_point{.options = {.seed = 3}}, {.seed = 3}); }
+
 TEST(Farthest_point, stands_awkward_meshes) {
   expect_sound_on_awkward_meshes(Farthest_point{}, always_as_wanted);
   expect_invariant_under_translation_and_scale(Farthest_point{});

@@ -75,6 +75,8 @@ TEST(Grid, tells_apart_what_can_be_told_apart) {
   EXPECT_EQ(different(labels_of(Grid{}, mesh, 36)), 36U);
 }
 
+TEST(Grid, is_in_the_registry) { expect_in_registry(Grid{}, {}); }
+
 TEST(Grid, stands_awkward_meshes) {
   expect_sound_on_awkward_meshes(Grid{}, [](auto...) { return std::size_t{1}; });
   expect_invariant_under_translation_and_scale(Grid{});

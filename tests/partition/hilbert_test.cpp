@@ -47,6 +47,8 @@ TEST(Hilbert, as_many_runs_as_vertices_are_a_vertex_each) {
   EXPECT_EQ(different(labels_of(Hilbert{}, potato(4), 66)), 66U);
 }
 
+TEST(Hilbert, is_in_the_registry) { expect_in_registry(Hilbert{}, {}); }
+
 TEST(Hilbert, stands_awkward_meshes) {
   expect_sound_on_awkward_meshes(Hilbert{}, always_as_wanted);
   expect_invariant_under_translation_and_scale(Hilbert{});

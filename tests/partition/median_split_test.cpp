@@ -47,6 +47,8 @@ TEST(Median_split, an_odd_vertex_stays_below) {
   EXPECT_EQ(sizes_of(labels_of(Median_split{}, grid(3, 3), 2)), (std::vector<std::size_t>{5, 4}));
 }
 
+TEST(Median_split, is_in_the_registry) { expect_in_registry(Median_split{}, {}); }
+
 TEST(Median_split, stands_awkward_meshes) {
   expect_sound_on_awkward_meshes(Median_split{}, always_as_wanted);
   expect_invariant_under_translation_and_scale(Median_split{});

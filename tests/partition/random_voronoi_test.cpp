@@ -65,6 +65,8 @@ TEST(Random_voronoi, the_seed_decides) {
   EXPECT_EQ(different_labels.size(), 10U);
 }
 
+TEST(Random_voronoi, is_in_the_registry) { expect_in_registry(Random_voronoi{.options = {.seed = 3}}, {.seed = 3}); }
+
 TEST(Random_voronoi, stands_awkward_meshes) {
   expect_sound_on_awkward_meshes(Random_voronoi{}, always_as_wanted);
   expect_invariant_under_translation_and_scale(Random_voronoi{});

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lodestone/partition/partition.h"
+#include "lodestone/partition/strategies.h"
 #include "test_meshes.h"
 
 namespace lodestone {
@@ -104,6 +105,18 @@ inline constexpr auto always_as_wanted = [](std::size_t wanted, std::size_t, std
 inline constexpr auto as_wanted_by_position = [](std::size_t wanted, std::size_t, std::size_t positions) {
   return std::min(wanted, positions);
 };
+
+/// Under its name the registry gives the strategy that these settings describe.
+template <class Strategy>
+void expect_in_registry(const Strategy& strategy, const Strategy_settings& settings) {
+  const auto mesh = potato(6);
+  const Mesh_numbering<Surface_mesh> numbering(mesh);
+  const Numbered_mesh numbered(mesh);
+  const auto registered = make_strategy(Strategy::name, settings);
+  const auto labelling =
+      registered(Partition_input<Surface_mesh>{mesh, numbering, numbered.graph, numbered.positions}, 9);
+  EXPECT_EQ(labelling.labels, labels_of(strategy, mesh, 9));
+}
 
 /// A translation and a scale that are exact in floating point change no label.
 template <class Strategy>
