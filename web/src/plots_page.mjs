@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One HTML page that holds all plots, their data and the code that draws them.
+import fs from 'node:fs';
+import { bundle } from './bundle.mjs';
+
+/**
+ * @param {string} title
+ * @param {import('./plot_spec.mjs').Plot[]} plots
+ * @returns {Promise<string>} HTML that loads nothing
+ */
+export async function plots_page(title, plots) {
+  const { script, licences } = await bundle('src/plots_page_client.mjs');
+  const style = fs.readFileSync(new URL('plots_page.css', import.meta.url), 'utf8');
+  return `<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>${escape_html(title)}</title>
+<link rel="icon" href="data:,">
+<style>
+${style}</style>
+</head>
+<body>
+<main>
+<h1>${escape_html(title)}</h1>
+${plots.map(section).join('\n')}
+</main>
+<script type="application/json" id="plots">${embed_json(plots.map(({ name, spec }) => ({ name, spec })))}</script>
+<!--
+${licences.replaceAll('--', '- -')}
+-->
+<script>${script}</script>
+</body>
+</html>
+`;
+}
+
+function section({ name, title, description }) {
+  return `<section>
+<h2>${escape_html(title)}</h2>
+<p>${escape_html(description)}</p>
+<div class="plot" id="${escape_html(name)}"></div>
+</section>`;
+}
+
+/** JSON that cannot end the script element it stands in. */
+function embed_json(value) {
+  return JSON.stringify(value).replaceAll('<', '\\u003c');
+}
+
+function escape_html(text) {
+  return text.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
+}
