@@ -112,8 +112,10 @@ std::vector<std::string> variants_of(const By_variant& sorted) {
 
 bool is_weight(const std::string& variant) { return variant.starts_with("lbg, normals"); }
 
-/// Number of regions that most tables are about: 32, or the nearest that all rows have.
+/// Number of regions that most tables are about.
 constexpr std::size_t shown_regions = 32;
+/// What figures over all meshes have in place of a mesh.
+constexpr const char* all_meshes = "all";
 
 std::string columns_table(const By_variant& sorted, const std::vector<std::string>& variants,
                           const std::vector<Column>& columns) {
@@ -152,9 +154,13 @@ std::vector<std::string> present(const By_variant& sorted, const std::vector<std
   return names;
 }
 
+/// Six digits are enough to look at.
+double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
+
 void add_figures(const By_variant& sorted, const std::string& mesh, Json& figures) {
   for (const auto& [variant, by_regions] : sorted)
-    for (const auto& [regions, seeds] : by_regions)
+    for (const auto& [regions, seeds] : by_regions) {
+      if (mesh != all_meshes && regions != shown_regions) continue;
       for (const auto* columns : {&partition_columns(), &use_columns()})
         for (const auto& column : *columns) {
           const Interval interval = summary(seeds, column.figure);
@@ -166,10 +172,11 @@ void add_figures(const By_variant& sorted, const std::string& mesh, Json& figure
                              {"regions", regions},
                              {"mesh", mesh},
                              {"figure", column.figure.name},
-                             {"mean", interval.mean},
-                             {"low", interval.mean - interval.half_width},
-                             {"high", interval.mean + interval.half_width}});
+                             {"mean", rounded(interval.mean)},
+                             {"low", rounded(interval.mean - interval.half_width)},
+                             {"high", rounded(interval.mean + interval.half_width)}});
         }
+    }
 }
 
 }  // namespace
@@ -197,7 +204,7 @@ std::string partition_report(const Rows& rows) {
 
 Json partition_figures(const Rows& rows) {
   Json figures = Json::array();
-  add_figures(sorted_by_variant(rows), "all", figures);
+  add_figures(sorted_by_variant(rows), all_meshes, figures);
   for (const auto& mesh : partition_meshes())
     add_figures(sorted_by_variant(rows, std::string(mesh.name)), std::string(mesh.name), figures);
   return figures;

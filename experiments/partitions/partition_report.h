@@ -12,7 +12,8 @@ namespace lodestone {
 /// with the 95 % confidence interval over the seeds.
 std::string partition_report(const std::map<std::string, nlohmann::ordered_json>& rows);
 
-/// The same figures for plots: one entry per variant, number of regions, mesh (or `all`) and figure, with its interval.
+/// The same figures for plots: one entry per variant, number of regions and figure, with its interval, over all meshes;
+/// for 32 regions also of each mesh.
 nlohmann::ordered_json partition_figures(const std::map<std::string, nlohmann::ordered_json>& rows);
 
 }  // namespace lodestone

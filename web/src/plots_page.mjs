@@ -10,6 +10,8 @@ import { bundle } from './bundle.mjs';
  */
 export async function plots_page(title, plots) {
   const { script, licences } = await bundle('src/plots_page_client.mjs');
+  const { specs, tables } = shared_tables(plots.map(({ spec }) => spec));
+  const named = plots.map(({ name }, i) => ({ name, spec: specs[i] }));
   const style = fs.readFileSync(new URL('plots_page.css', import.meta.url), 'utf8');
   return `<!doctype html>
 <html lang="en">
@@ -27,7 +29,7 @@ ${style}</style>
 <h1>${escape_html(title)}</h1>
 ${plots.map(section).join('\n')}
 </main>
-<script type="application/json" id="plots">${embed_json(plots.map(({ name, spec }) => ({ name, spec })))}</script>
+<script type="application/json" id="plots">${embed_json({ plots: named, tables })}</script>
 <!--
 ${licences.replaceAll('--', '- -')}
 -->
@@ -35,6 +37,22 @@ ${licences.replaceAll('--', '- -')}
 </body>
 </html>
 `;
+}
+
+/**
+ * Several plots of the same data hold it once: each `values` becomes the number of a table.
+ * @param {object[]} specs
+ */
+function shared_tables(specs) {
+  const numbers = new Map();
+  const share = (key, value) => {
+    if (key !== 'data' || !Array.isArray(value?.values)) return value;
+    const text = JSON.stringify(value.values);
+    if (!numbers.has(text)) numbers.set(text, numbers.size);
+    return { table: numbers.get(text) };
+  };
+  const shared = specs.map((spec) => JSON.parse(JSON.stringify(spec, share)));
+  return { specs: shared, tables: [...numbers.keys()].map((text) => JSON.parse(text)) };
 }
 
 function section({ name, title, description }) {

@@ -3,14 +3,17 @@
 import embed from 'vega-embed';
 import { is_single_view, plot_config } from './plot_style.mjs';
 
-const plots = JSON.parse(document.getElementById('plots').textContent);
+const { plots, tables } = JSON.parse(document.getElementById('plots').textContent, (key, value) =>
+  key === 'data' && Number.isInteger(value?.table) ? { name: `table ${value.table}` } : value,
+);
+const datasets = Object.fromEntries(tables.map((values, i) => [`table ${i}`, values]));
 const dark = matchMedia('(prefers-color-scheme: dark)');
 const narrow = matchMedia('(max-width: 640px)');
 let drawn = [];
 
 /** The heading stands beside the plot already; the width is that of the page. */
 function fit(spec) {
-  const fitted = { ...spec, title: undefined };
+  const fitted = { ...spec, datasets, title: undefined };
   if (is_single_view(spec)) return { ...fitted, width: spec.width ?? 'container' };
   return narrow.matches ? in_one_column(fitted) : fitted;
 }

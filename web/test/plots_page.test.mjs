@@ -41,3 +41,11 @@ test('the page draws every plot from one file, fits the screen, and tells values
     await page.close();
   }
 });
+
+test('plots of the same data hold it once', async () => {
+  const rows = Array.from({ length: 50 }, (_, i) => ({ marked: `row-${i}-`, x: i }));
+  const spec = { data: { values: rows }, mark: 'point', encoding: { x: { field: 'x', type: 'quantitative' } } };
+  const plots = ['a', 'b'].map((name) => ({ name, title: name, description: '', spec: structuredClone(spec) }));
+  const html = await plots_page('Twice', plots);
+  assert.equal(html.split('row-7-').length - 1, 1);
+});
