@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/region_count.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "lodestone/errors.h"
+#include "lodestone/partition/scaled_positions.h"
+
+namespace lodestone {
+
+namespace {
+
+using Vertices = std::vector<std::uint32_t>;
+
+void check(const Vertex_graph& graph, const Positions& positions, const std::vector<Region_index>& labels,
+           std::size_t wanted) {
+  if (wanted == 0) throw Bad_argument("the number of regions must be at least 1");
+  const std::size_t vertices = num_vertices(graph);
+  if (labels.size() != vertices || static_cast<std::size_t>(positions.rows()) != vertices)
+    throw Bad_argument("there are " + std::to_string(labels.size()) + " labels and " +
+                       std::to_string(positions.rows()) + " positions for " + std::to_string(vertices) + " vertices");
+}
+
+/// Numbers the labels of vertices with edges from 0 without gaps, in the order they had; the other vertices get 0.
+/// @return how many there are
+std::size_t close_up(const Vertex_graph& graph, std::vector<Region_index>& labels) {
+  std::vector<Region_index> used;
+  for (std::uint32_t v = 0; v < labels.size(); ++v)
+    if (out_degree(v, graph) > 0) used.push_back(labels[v]);
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (std::uint32_t v = 0; v < labels.size(); ++v)
+    labels[v] = out_degree(v, graph) == 0
+                    ? 0
+                    : static_cast<Region_index>(std::ranges::lower_bound(used, labels[v]) - used.begin());
+  return used.size();
+}
+
+std::vector<Vertices> members(const Vertex_graph& graph, const std::vector<Region_index>& labels, std::size_t regions) {
+  std::vector<Vertices> result(regions);
+  for (std::uint32_t v = 0; v < labels.size(); ++v)
+    if (out_degree(v, graph) > 0) result[labels[v]].push_back(v);
+  return result;
+}
+
+/// Regions and the borders between them, of which the smallest are taken out one after the other.
+class Joining {
+ public:
+  Joining(const Vertex_graph& graph, const std::vector<Region_index>& labels, std::size_t regions);
+  /// @return how many regions joined another
+  std::size_t run(std::size_t wanted);
+  /// The region that each region has become part of in the end.
+  std::vector<Region_index> targets() const;
+
+ private:
+  void join(Region_index region, Region_index neighbour);
+
+  std::vector<std::size_t> sizes_;
+  std::vector<std::map<Region_index, std::size_t>> borders_;  ///< per region: edges to each neighbour
+  std::vector<Region_index> joined_;                          ///< the neighbour joined, or itself
+  std::set<std::pair<std::size_t, Region_index>> by_size_;
+};
+
+Joining::Joining(const Vertex_graph& graph, const std::vector<Region_index>& labels, std::size_t regions)
+    : sizes_(regions, 0), borders_(regions), joined_(regions) {
+  std::iota(joined_.begin(), joined_.end(), 0);
+  for (std::uint32_t v = 0; v < labels.size(); ++v) {
+    if (out_degree(v, graph) == 0) continue;
+    ++sizes_[labels[v]];
+    for (const auto w : neighbours(graph, v))
+      if (labels[w] != labels[v]) ++borders_[labels[v]][labels[w]];
+  }
+  for (Region_index region = 0; region < regions; ++region) by_size_.insert({sizes_[region], region});
+}
+
+void Joining::join(Region_index region, Region_index neighbour) {
+  by_size_.erase({sizes_[neighbour], neighbour});
+  sizes_[neighbour] += sizes_[region];
+  by_size_.insert({sizes_[neighbour], neighbour});
+  for (const auto& [other, edges] : borders_[region]) {
+    borders_[other].erase(region);
+    if (other == neighbour) continue;
+    borders_[other][neighbour] += edges;
+    borders_[neighbour][other] += edges;
+  }
+  borders_[region].clear();
+  joined_[region] = neighbour;
+}
+
+std::size_t Joining::run(std::size_t wanted) {
+  std::size_t joined = 0;
+  while (sizes_.size() - joined > wanted && !by_size_.empty()) {
+    const Region_index smallest = by_size_.begin()->second;
+    by_size_.erase(by_size_.begin());
+    const auto& borders = borders_[smallest];
+    if (borders.empty()) continue;  // a component of its own
+    join(smallest, std::ranges::max_element(borders, {}, [](const auto& border) { return border.second; })->first);
+    ++joined;
+  }
+  return joined;
+}
+
+std::vector<Region_index> Joining::targets() const {
+  std::vector<Region_index> result = joined_;
+  for (auto& target : result)
+    while (target != joined_[target]) target = joined_[target];
+  return result;
+}
+
+/// The largest regions are cut in two, one after the other.
+class Splitting {
+ public:
+  Splitting(const Vertex_graph& graph, const Positions& positions, std::vector<Region_index>& labels,
+            std::size_t regions);
+  /// @return how many cuts were made
+  std::size_t run(std::size_t wanted);
+
+ private:
+  std::vector<Vertices> pieces(const Vertices& vertices);
+  Vertices cut_off(const Vertices& region);
+  Vertices grown_half(const Vertices& region);
+  Eigen::Vector3d longest_axis(const Vertices& region) const;
+
+  const Vertex_graph& graph_;
+  const Positions positions_;
+  std::vector<Region_index>& labels_;
+  std::vector<Vertices> members_;
+  std::vector<std::uint32_t> marks_;  ///< per vertex: the search that is under way on its set of vertices
+  std::uint32_t searches_ = 0;
+};
+
+Splitting::Splitting(const Vertex_graph& graph, const Positions& positions, std::vector<Region_index>& labels,
+                     std::size_t regions)
+    : graph_(graph),
+      positions_(scaled_exactly(positions)),
+      labels_(labels),
+      members_(members(graph, labels, regions)),
+      marks_(labels.size(), 0) {}
+
+/// Connected pieces of a set of vertices, in the order of their lowest vertex, each in ascending order.
+std::vector<Vertices> Splitting::pieces(const Vertices& vertices) {
+  const std::uint32_t open = ++searches_;
+  for (const auto v : vertices) marks_[v] = open;
+  std::vector<Vertices> result;
+  for (const auto start : vertices) {
+    if (marks_[start] != open) continue;
+    Vertices& piece = result.emplace_back(1, start);
+    marks_[start] = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      for (const auto w : neighbours(graph_, piece[i]))
+        if (marks_[w] == open) {
+          marks_[w] = 0;
+          piece.push_back(w);
+        }
+    std::ranges::sort(piece);
+  }
+  return result;
+}
+
+Eigen::Vector3d Splitting::longest_axis(const Vertices& region) const {
+  Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
+  for (const auto v : region) mean += positions_.row(v);
+  mean /= static_cast<double>(region.size());
+  double extent = 0;
+  for (const auto v : region) extent = std::max(extent, (positions_.row(v) - mean).cwiseAbs().maxCoeff());
+  if (extent == 0) return Eigen::Vector3d::UnitX();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const auto v : region) {
+    const Eigen::RowVector3d offset = (positions_.row(v) - mean) / extent;
+    scatter += offset.transpose() * offset;
+  }
+  Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(2);
+  // An eigenvector has no sign of its own: the largest component is made positive, so that runs agree.
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return axis[largest] < 0 ? Eigen::Vector3d(-axis) : axis;
+}
+
+/// Half of a connected region, grown from its end along the longest axis.
+Vertices Splitting::grown_half(const Vertices& region) {
+  const Eigen::Vector3d axis = longest_axis(region);
+  using Entry = std::pair<double, std::uint32_t>;
+  const auto entry = [&](std::uint32_t v) { return Entry(positions_.row(v).dot(axis), v); };
+  const std::uint32_t open = ++searches_;
+  for (const auto v : region) marks_[v] = open;
+
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+  const auto reach = [&](std::uint32_t v) {
+    marks_[v] = 0;
+    front.push(entry(v));
+  };
+  reach(*std::ranges::min_element(region, {}, entry));
+  Vertices half;
+  while (half.size() < region.size() / 2) {
+    half.push_back(front.top().second);
+    front.pop();
+    for (const auto w : neighbours(graph_, half.back()))
+      if (marks_[w] == open) reach(w);
+  }
+  std::ranges::sort(half);
+  return half;
+}
+
+Vertices without(const Vertices& all, const Vertices& some) {
+  Vertices rest;
+  std::ranges::set_difference(all, some, std::back_inserter(rest));
+  return rest;
+}
+
+/// The vertices that leave a region of two or more; never the lowest.
+Vertices Splitting::cut_off(const Vertices& region) {
+  auto parts = pieces(region);
+  if (parts.size() == 1) parts = pieces(without(region, grown_half(region)));
+  // Of all pieces the largest is one side; the others, or what they have joined, are the other side.
+  const Vertices side = *std::ranges::max_element(parts, {}, &Vertices::size);
+  return side.front() == region.front() ? without(region, side) : side;
+}
+
+std::size_t Splitting::run(std::size_t wanted) {
+  const auto smaller = [this](Region_index a, Region_index b) {
+    return std::pair(members_[a].size(), b) < std::pair(members_[b].size(), a);
+  };
+  std::priority_queue<Region_index, Vertices, decltype(smaller)> by_size(smaller);
+  for (Region_index region = 0; region < members_.size(); ++region) by_size.push(region);
+  std::size_t cuts = 0;
+  while (members_.size() < wanted && !by_size.empty()) {
+    const Region_index largest = by_size.top();
+    if (members_[largest].size() < 2) break;
+    by_size.pop();
+    const auto fresh = static_cast<Region_index>(members_.size());
+    Vertices leaving = cut_off(members_[largest]);
+    for (const auto v : leaving) labels_[v] = fresh;
+    members_[largest] = without(members_[largest], leaving);
+    members_.push_back(std::move(leaving));
+    by_size.push(largest);
+    by_size.push(fresh);
+    ++cuts;
+  }
+  return cuts;
+}
+
+}  // namespace
+
+Region_adjustment adjust_region_count(const Vertex_graph& graph, const Positions& positions,
+                                      std::vector<Region_index>& labels, std::size_t wanted) {
+  check(graph, positions, labels, wanted);
+  Region_adjustment result{.regions = close_up(graph, labels)};
+  if (result.regions > wanted) {
+    Joining joining(graph, labels, result.regions);
+    result.joined = joining.run(wanted);
+    const auto targets = joining.targets();
+    for (auto& label : labels) label = targets[label];
+    result.regions = close_up(graph, labels);
+  } else if (result.regions < wanted) {
+    result.split = Splitting(graph, positions, labels, result.regions).run(wanted);
+    result.regions += result.split;
+  }
+  return result;
+}
+
+}  // namespace lodestone

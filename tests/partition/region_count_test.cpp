@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/region_count.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "lodestone/errors.h"
+#include "test_meshes.h"
+
+namespace lodestone {
+namespace {
+
+using Labels = std::vector<Region_index>;
+
+Region_adjustment adjust(const Surface_mesh& mesh, Labels& labels, std::size_t wanted) {
+  const Numbered_mesh numbered(mesh);
+  return adjust_region_count(numbered.graph, numbered.positions, labels, wanted);
+}
+
+/// Sizes of the regions; each must be one piece.
+std::vector<std::size_t> connected_sizes(const Surface_mesh& mesh, const Labels& labels, std::size_t regions) {
+  std::vector<std::size_t> sizes;
+  for (const auto& pieces : pieces_of(Numbered_mesh(mesh).graph, labels, regions)) {
+    EXPECT_EQ(pieces.size(), 1U);
+    sizes.push_back(pieces.empty() ? 0 : pieces.front());
+  }
+  return sizes;
+}
+
+TEST(Region_count, one_region_is_split_into_any_number_of_connected_ones) {
+  for (const auto& mesh : {sphere(6), potato(7), grid(20, 3), cube(4)})
+    for (const std::size_t wanted : {1, 2, 3, 7, 12, 50}) {
+      Labels labels(mesh.number_of_vertices(), 0);
+      const auto result = adjust(mesh, labels, wanted);
+      EXPECT_EQ(result.regions, wanted);
+      EXPECT_EQ(result.split, wanted - 1);
+      EXPECT_EQ(result.joined, 0U);
+      const auto sizes = connected_sizes(mesh, labels, wanted);
+      EXPECT_GE(std::ranges::min(sizes), 1U);
+    }
+}
+
+TEST(Region_count, a_strip_is_cut_in_the_middle_of_its_length) {
+  const auto mesh = grid(16, 3);
+  Labels labels(48, 0);
+  adjust(mesh, labels, 4);
+  for (std::uint32_t v = 0; v < 48; ++v) EXPECT_EQ(labels[v], labels[v % 16 / 4 * 4]) << v;
+  EXPECT_EQ(std::set<Region_index>(labels.begin(), labels.end()).size(), 4U);
+}
+
+TEST(Region_count, where_a_strip_is_does_not_change_its_cuts) {
+  auto mesh = grid(16, 3);
+  Labels at_origin(48, 0), elsewhere(48, 0);
+  adjust(mesh, at_origin, 7);
+  for (const double size : {1e-300, 1e300}) {
+    auto other = mesh;
+    scale(other, size);
+    elsewhere.assign(48, 0);
+    adjust(other, elsewhere, 7);
+    EXPECT_EQ(elsewhere, at_origin);
+  }
+  shift(mesh, 1024, -4096, 512);
+  elsewhere.assign(48, 0);
+  adjust(mesh, elsewhere, 7);
+  EXPECT_EQ(elsewhere, at_origin);
+}
+
+TEST(Region_count, the_halves_of_a_bent_region_are_connected) {
+  // The arms of a U lie side by side: a plain median cut would leave the ends of both arms in one half.
+  std::vector<Point> points;
+  for (int i = 0; i < 40; ++i)
+    for (const double width : {1.0, 1.2})
+      points.emplace_back(10 * width * std::cos(0.08 * i), width * std::sin(0.08 * i), 0);
+  const auto mesh = mesh_of(points, grid_faces(2, 40));
+  Labels labels(80, 0);
+  EXPECT_EQ(adjust(mesh, labels, 2).regions, 2U);
+  EXPECT_EQ(std::ranges::max(connected_sizes(mesh, labels, 2)), 40U);
+}
+
+TEST(Region_count, the_largest_region_is_split_first) {
+  const auto mesh = grid(12, 4);
+  Labels labels(48);
+  for (std::uint32_t v = 0; v < 48; ++v) labels[v] = v % 12 < 2 ? 5 : 9;  // 8 and 40 vertices
+  EXPECT_EQ(adjust(mesh, labels, 3).regions, 3U);
+  auto sizes = connected_sizes(mesh, labels, 3);
+  std::ranges::sort(sizes);
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{8, 20, 20}));
+}
+
+TEST(Region_count, the_smallest_region_joins_the_neighbour_with_the_longest_common_border) {
+  // Columns of 1, 3, 4 and 4; in the first row the first column is one vertex longer.
+  const auto mesh = grid(12, 4);
+  Labels labels(48);
+  for (std::uint32_t v = 0; v < 48; ++v) labels[v] = v % 12 < 1 ? 0 : v % 12 < 4 ? 1 : v % 12 < 8 ? 2 : 3;
+  const auto result = adjust(mesh, labels, 3);
+  EXPECT_EQ(result.joined, 1U);
+  EXPECT_EQ(result.regions, 3U);
+  for (std::uint32_t v = 0; v < 48; ++v) EXPECT_EQ(labels[v], v % 12 / 4) << v;
+}
+
+TEST(Region_count, a_region_between_two_joins_the_one_it_touches_more) {
+  // A single vertex in row 0: three edges of its five or six lead to either side or both; counted by hand below.
+  const auto mesh = grid(5, 3);
+  Labels labels(15, 0);
+  for (const std::uint32_t v : {3, 4, 8, 9, 13, 14}) labels[v] = 1;
+  labels[7] = 2;  // neighbours 1, 2, 6, 12 of region 0; 8 and 13 of region 1
+  EXPECT_EQ(adjust(mesh, labels, 2).joined, 1U);
+  EXPECT_EQ(labels[7], 0U);
+  labels[7] = 2;
+  labels[1] = labels[2] = 1;  // now 6 and 12 against 1, 2, 8 and 13
+  EXPECT_EQ(adjust(mesh, labels, 2).joined, 1U);
+  EXPECT_EQ(labels[7], 1U);
+}
+
+TEST(Region_count, many_regions_come_down_to_any_number) {
+  const auto mesh = potato(10);
+  std::mt19937 random(3);
+  for (const std::size_t wanted : {1, 2, 5, 40, 200}) {
+    Labels labels(mesh.number_of_vertices());
+    for (std::uint32_t v = 0; v < labels.size(); ++v) labels[v] = v;
+    std::ranges::shuffle(labels, random);
+    const auto result = adjust(mesh, labels, wanted);
+    EXPECT_EQ(result.regions, wanted);
+    EXPECT_EQ(result.joined, mesh.number_of_vertices() - wanted);
+    EXPECT_EQ(connected_sizes(mesh, labels, wanted).size(), wanted);
+  }
+}
+
+TEST(Region_count, components_cannot_join) {
+  Surface_mesh mesh;
+  for (int i = 0; i < 4; ++i) append(mesh, sphere(2 + i, 0.3, {1.0 * i, 0, 0}));
+  Labels labels(mesh.number_of_vertices());
+  for (std::uint32_t v = 0; v < labels.size(); ++v) labels[v] = v;
+  EXPECT_EQ(adjust(mesh, labels, 2).regions, 4U);
+  EXPECT_EQ(connected_sizes(mesh, labels, 4).size(), 4U);
+}
+
+TEST(Region_count, a_region_in_pieces_gives_up_all_but_the_largest) {
+  Surface_mesh mesh = sphere(3, 1, {0, 0, 0});  // 38 vertices
+  append(mesh, sphere(5, 1, {5, 0, 0}));        // 102 vertices
+  Labels labels(mesh.number_of_vertices(), 0);
+  EXPECT_EQ(adjust(mesh, labels, 2).regions, 2U);
+  for (std::uint32_t v = 0; v < labels.size(); ++v) EXPECT_EQ(labels[v], v < 38 ? 0U : 1U);
+}
+
+TEST(Region_count, no_more_regions_than_vertices_with_edges) {
+  auto mesh = tetrahedron();
+  mesh.add_vertex({9, 9, 9});
+  Labels labels{0, 0, 0, 0, 7};
+  EXPECT_EQ(adjust(mesh, labels, 100).regions, 4U);
+  EXPECT_EQ(std::set<Region_index>(labels.begin(), labels.end()), (std::set<Region_index>{0, 1, 2, 3}));
+  EXPECT_EQ(labels[4], 0U);
+}
+
+TEST(Region_count, the_right_number_changes_only_the_gaps) {
+  const auto mesh = grid(4, 2);
+  Labels labels{3, 3, 8, 8, 3, 3, 8, 8};
+  const auto result = adjust(mesh, labels, 2);
+  EXPECT_EQ(labels, (Labels{0, 0, 1, 1, 0, 0, 1, 1}));
+  EXPECT_EQ(result.joined + result.split, 0U);
+}
+
+TEST(Region_count, a_surface_without_extent_is_split_too) {
+  auto mesh = potato(5);
+  deform(mesh, [](const Point&) { return Point(2, 2, 2); });
+  Labels labels(mesh.number_of_vertices(), 0);
+  EXPECT_EQ(adjust(mesh, labels, 9).regions, 9U);
+  connected_sizes(mesh, labels, 9);
+}
+
+TEST(Region_count, bad_arguments_are_refused) {
+  Labels labels(4, 0), short_labels(3, 0);
+  EXPECT_THROW(adjust(tetrahedron(), labels, 0), Bad_argument);
+  EXPECT_THROW(adjust(tetrahedron(), short_labels, 2), Bad_argument);
+}
+
+}  // namespace
+}  // namespace lodestone
