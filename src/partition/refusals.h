@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CGAL/exceptions.h>
+
+#include <string>
+#include <string_view>
+
+#include "lodestone/errors.h"
+
+namespace lodestone {
+
+/// What `work` gives back; Bad_mesh in the name of a strategy where CGAL refuses a case it has no answer for.
+template <class Work>
+auto with_refusals_as_bad_mesh(std::string_view strategy, const Work& work) {
+  try {
+    return work();
+  } catch (const CGAL::Failure_exception& refusal) {
+    throw Bad_mesh(std::string(strategy) + ": CGAL cannot handle this surface: " + refusal.expression());
+  }
+}
+
+}  // namespace lodestone

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/oriented_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "test_meshes.h"
+
+namespace lodestone {
+namespace {
+
+/// A surface that need not be a mesh.
+struct Soup {
+  Positions positions;
+  std::vector<Corners> faces;
+  Vertex_graph graph = vertex_graph(static_cast<std::uint32_t>(positions.rows()), faces);
+
+  Oriented_mesh oriented() const { return oriented_mesh({graph, positions, faces}); }
+};
+
+Soup soup_of(const Surface_mesh& mesh) {
+  const Numbered_mesh numbered(mesh);
+  return {numbered.positions, {numbered.faces.begin(), numbered.faces.end()}};
+}
+
+/// The corners of every face on the surface, sorted, as the mesh has them.
+void expect_same_faces(const Soup& soup, const Oriented_mesh& oriented, const std::vector<std::uint32_t>& kept) {
+  ASSERT_TRUE(oriented.mesh.is_valid(false));
+  ASSERT_EQ(oriented.mesh.number_of_vertices(), oriented.vertex_numbers.size());
+  ASSERT_EQ(oriented.face_numbers, kept);
+  for (const auto f : oriented.mesh.faces()) {
+    Corners expected = soup.faces[oriented.face_numbers[f]], corners{};
+    std::size_t i = 0;
+    const auto follows = [](const Corners& face, std::uint32_t a, std::uint32_t b) {
+      return (face[0] == a && face[1] == b) || (face[1] == a && face[2] == b) || (face[2] == a && face[0] == b);
+    };
+    for (const auto v : oriented.mesh.vertices_around_face(oriented.mesh.halfedge(f)))
+      corners.at(i++) = oriented.vertex_numbers[v];
+    EXPECT_EQ(follows(expected, corners[0], corners[1]), !oriented.turned[f]);
+    std::ranges::sort(corners);
+    std::ranges::sort(expected);
+    EXPECT_EQ(corners, expected);
+  }
+}
+
+TEST(Oriented_mesh, a_mesh_stays_as_it_is) {
+  for (const auto& mesh : {potato(4), grid(4, 3), single_triangle(), cube(2)}) {
+    const auto soup = soup_of(mesh);
+    const auto oriented = soup.oriented();
+    ASSERT_EQ(oriented.mesh.number_of_faces(), mesh.number_of_faces());
+    for (const auto f : mesh.faces()) {
+      const auto h = mesh.halfedge(f), same = oriented.mesh.halfedge(f);
+      EXPECT_EQ(mesh.target(mesh.next(h)), oriented.mesh.target(oriented.mesh.next(same)));
+      EXPECT_EQ(mesh.target(h), oriented.mesh.target(same));
+    }
+    EXPECT_EQ(oriented.mesh.number_of_vertices(), mesh.number_of_vertices());
+  }
+}
+
+TEST(Oriented_mesh, an_edge_of_three_faces_is_cut_open) {
+  const Soup soup{Positions::Random(5, 3), {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
+  expect_same_faces(soup, soup.oriented(), {0, 1, 2});
+}
+
+TEST(Oriented_mesh, two_fans_at_a_vertex_get_a_vertex_each) {
+  const Soup soup{Positions::Random(5, 3), {{0, 1, 2}, {0, 3, 4}}};
+  const auto oriented = soup.oriented();
+  EXPECT_EQ(oriented.vertex_numbers.size(), 6U);
+  expect_same_faces(soup, oriented, {0, 1});
+}
+
+TEST(Oriented_mesh, faces_are_turned_where_neighbours_disagree) {
+  const Soup soup{Positions::Random(4, 3), {{0, 1, 2}, {0, 1, 3}}};
+  const auto oriented = soup.oriented();
+  EXPECT_EQ(oriented.vertex_numbers.size(), 4U);  // one sheet, nothing cut
+  expect_same_faces(soup, oriented, {0, 1});
+  EXPECT_NE(oriented.turned[0], oriented.turned[1]);
+}
+
+TEST(Oriented_mesh, a_face_with_a_corner_twice_is_left_out) {
+  const Soup soup{Positions::Random(5, 3), {{0, 0, 1}, {1, 2, 3}, {4, 4, 4}}};
+  expect_same_faces(soup, soup.oriented(), {1});
+  const Soup nothing{Positions::Random(2, 3), {{0, 0, 1}}};
+  expect_same_faces(nothing, nothing.oriented(), {});
+}
+
+TEST(Oriented_mesh, one_face_three_times_is_three_faces) {
+  const Soup soup{Positions::Random(3, 3), {{0, 1, 2}, {0, 1, 2}, {2, 1, 0}}};
+  expect_same_faces(soup, soup.oriented(), {0, 1, 2});
+}
+
+TEST(Oriented_mesh, coordinates_lie_between_minus_1_and_1_whatever_their_size) {
+  for (const double size : {1e-300, 1.0, 1e300}) {
+    auto mesh = potato(3);
+    scale(mesh, size);
+    double largest = 0;
+    const auto oriented = soup_of(mesh).oriented();
+    for (const auto v : oriented.mesh.vertices())
+      for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(oriented.mesh.point(v)[i]));
+    EXPECT_LE(largest, 1);
+    EXPECT_GE(largest, 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace lodestone
