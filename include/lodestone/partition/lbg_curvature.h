@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "lodestone/partition/curvature.h"
+#include "lodestone/partition/lbg.h"
+
+namespace lodestone {
+
+struct Lbg_curvature_options {
+  Lbg_options lbg = {};
+  Curvature_options curvature = {};
+  double curvature_weight = 1;  ///< of the factor, which lies between -1 and 1; [0, 1e6]
+};
+
+/// Partition strategy: the cells of LBG quantisation over position, normal and mean curvature of each vertex. See
+/// `Lbg`.
+///
+/// The factor is 2 / pi atan(H R): H the mean curvature, see `mean_curvatures`, R the largest distance of a vertex from
+/// the mean of all. So it has no unit, is 1/2 on a sphere, and a spike counts no more than any sharp corner.
+struct Lbg_curvature {
+  static constexpr std::string_view name = "lbg_curvature";
+
+  Lbg_curvature_options options = {};
+
+  template <Triangle_mesh Mesh>
+  Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
+    return label(input.surface(), regions);
+  }
+  /// @throws Bad_argument  no region wanted, or an option out of range
+  Labelling label(const Numbered_surface& surface, std::size_t regions) const;
+};
+
+/// The factor of `Lbg_curvature` per vertex, without its weight: V x 1, between -1 and 1.
+Feature_vectors curvature_factor(const Numbered_surface& surface, const Curvature_options& options = {});
+
+}  // namespace lodestone

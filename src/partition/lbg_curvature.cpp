@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/lbg_curvature.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "lodestone/partition/scaled_positions.h"
+
+namespace lodestone {
+
+Feature_vectors curvature_factor(const Numbered_surface& surface, const Curvature_options& options) {
+  // Scaled, so that the product of curvature and radius is in range though either may not be.
+  const Positions scaled = scaled_exactly(surface.positions);
+  const auto curvatures = mean_curvatures({surface.graph, scaled, surface.faces}, options);
+  const Eigen::RowVector3d mean = scaled.colwise().mean();
+  const double radius = (scaled.rowwise() - mean).rowwise().stableNorm().maxCoeff();
+  Feature_vectors factor(scaled.rows(), 1);
+  for (Eigen::Index v = 0; v < factor.rows(); ++v)
+    factor(v, 0) = 2 / std::numbers::pi * std::atan(curvatures[v] * radius);
+  return factor;
+}
+
+Labelling Lbg_curvature::label(const Numbered_surface& surface, std::size_t regions) const {
+  if (!(options.curvature_weight >= 0 && options.curvature_weight <= largest_weight))
+    throw Bad_argument("the weight of the curvature must be between 0 and 1e6");
+  const Feature_vectors factor = options.curvature_weight * curvature_factor(surface, options.curvature);
+  return Lbg{.options = options.lbg, .extra_factors = factor}.label(surface, regions);
+}
+
+}  // namespace lodestone

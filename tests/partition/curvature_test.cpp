@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/partition/curvature.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lathe.h"
+#include "lodestone/errors.h"
+#include "partition_checks.h"
+#include "test_meshes.h"
+
+namespace lodestone {
+namespace {
+
+std::vector<double> curvatures_of(const Surface_mesh& mesh, const Curvature_options& options = {}) {
+  const Numbered_mesh numbered(mesh);
+  return mean_curvatures({numbered.graph, numbered.positions, numbered.faces}, options);
+}
+
+TEST(Curvature, of_a_sphere_is_1_over_its_radius) {
+  for (const double radius : {0.25, 1.0, 40.0})
+    for (const auto curvature : curvatures_of(sphere(20, radius, {7, -3, 2}))) EXPECT_NEAR(curvature * radius, 1, 0.02);
+}
+
+TEST(Curvature, of_a_hollow_sphere_is_negative) {
+  auto mesh = sphere(20);
+  deform(mesh, [](const Point& p) { return Point(-p.x(), p.y(), p.z()); });  // inside out
+  for (const auto curvature : curvatures_of(mesh)) EXPECT_NEAR(curvature, -1, 0.02);
+}
+
+TEST(Curvature, comes_nearer_with_finer_meshes) {
+  const auto worst = [](int parts) {
+    double error = 0;
+    for (const auto curvature : curvatures_of(sphere(parts))) error = std::max(error, std::abs(curvature - 1));
+    return error;
+  };
+  EXPECT_LT(worst(40), worst(10) / 4);
+}
+
+TEST(Curvature, of_a_plane_is_0) {
+  auto mesh = grid(9, 7);
+  deform(mesh, [](const Point& p) { return Point(p.x(), p.y() + 0.3 * p.x(), 2 * p.x() - p.y() + 5); });
+  for (const auto curvature : curvatures_of(mesh)) EXPECT_NEAR(curvature, 0, 1e-12);
+}
+
+TEST(Curvature, of_a_cylinder_is_half_that_of_a_sphere_also_at_its_open_ends) {
+  constexpr double radius = 3;
+  // A sheet of 60 x 15 rolled up by three quarters.
+  auto mesh = grid(60, 15);
+  deform(mesh, [](const Point& p) {
+    const double angle = 1.5 * std::numbers::pi * p.x() / 59;
+    return Point(radius * std::cos(angle), radius * std::sin(angle), 0.25 * p.y());
+  });
+  const auto curvatures = curvatures_of(mesh);
+  for (const auto v : mesh.vertices()) {
+    const bool at_end = v % 60 < 2 || v % 60 > 57 || v / 60 < 2 || v / 60 > 12;
+    EXPECT_NEAR(curvatures[v], 0.5 / radius, (at_end ? 0.05 : 0.01) / radius) << v;
+  }
+}
+
+TEST(Curvature, of_a_saddle_is_0_where_both_bends_are_equal) {
+  auto mesh = grid(41, 41);
+  deform(mesh, [](const Point& p) {
+    const double x = p.x() / 20 - 1, y = p.y() / 20 - 1;
+    return Point(x, y, x * x - y * y);
+  });
+  EXPECT_NEAR(curvatures_of(mesh)[20 * 41 + 20], 0, 1e-3);
+}
+
+TEST(Curvature, is_one_over_the_unit_of_length) {
+  const auto mesh = potato(6);
+  const auto curvatures = curvatures_of(mesh);
+  for (const double factor : {0x1p-900, 0x1p-3, 0x1p900}) {
+    auto other = mesh;
+    scale(other, factor);
+    const auto scaled = curvatures_of(other);
+    for (std::size_t v = 0; v < scaled.size(); ++v) EXPECT_DOUBLE_EQ(scaled[v] * factor, curvatures[v]);
+  }
+}
+
+TEST(Curvature, is_0_where_there_is_nothing_to_fit) {
+  for (const auto curvature : curvatures_of(single_triangle())) EXPECT_EQ(curvature, 0);
+  for (const auto curvature : curvatures_of(tetrahedron())) EXPECT_EQ(curvature, 0);  // four points are too few
+  auto mesh = sphere(4);
+  const auto isolated = mesh.add_vertex({50, 0, 0});
+  EXPECT_EQ(curvatures_of(mesh)[isolated], 0);
+  deform(mesh, [](const Point& p) { return Point(p.x(), 0, 0); });
+  for (const auto curvature : curvatures_of(mesh)) EXPECT_EQ(curvature, 0);
+  deform(mesh, [](const Point&) { return Point(1, 2, 3); });
+  for (const auto curvature : curvatures_of(mesh)) EXPECT_EQ(curvature, 0);
+}
+
+TEST(Curvature, is_finite_on_odd_surfaces) {
+  for (const auto& soup : odd_surfaces())
+    for (const auto curvature : mean_curvatures(soup.surface()))
+      if (soup.positions.cwiseAbs().maxCoeff() > 1e-150) {
+        EXPECT_TRUE(std::isfinite(curvature));
+      }
+}
+
+TEST(Curvature, a_hub_with_many_neighbours_is_fitted_to_some_of_them) {
+  // A cone of 3000 sides, with the slope 1: at the apex every direction bends.
+  const auto mesh = lathe({{0, 1}, {-1, 2}}, 3000, 1);
+  const auto curvatures = curvatures_of(mesh, {.rings = 1});
+  EXPECT_TRUE(std::isfinite(curvatures[6000]));
+}
+
+TEST(Curvature, rings_out_of_range_are_refused) {
+  EXPECT_THROW(curvatures_of(tetrahedron(), {.rings = 0}), Bad_argument);
+  EXPECT_THROW(curvatures_of(tetrahedron(), {.rings = 11}), Bad_argument);
+}
+
+}  // namespace
+}  // namespace lodestone
