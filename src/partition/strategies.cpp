@@ -12,9 +12,15 @@
 #include "lodestone/partition/grid.h"
 #include "lodestone/partition/hilbert.h"
 #include "lodestone/partition/kmeans_plus_plus.h"
+#include "lodestone/partition/lbg_curvature.h"
 #include "lodestone/partition/lbg_position.h"
 #include "lodestone/partition/median_split.h"
+#include "lodestone/partition/metis.h"
 #include "lodestone/partition/random_voronoi.h"
+#include "lodestone/partition/region_growing.h"
+#include "lodestone/partition/sdf.h"
+#include "lodestone/partition/spectral.h"
+#include "lodestone/partition/vsa.h"
 
 namespace lodestone {
 
@@ -37,6 +43,10 @@ Any_strategy from_nothing(const Strategy_settings&) {
   return Any_strategy(Strategy{});
 }
 
+Any_strategy lbg_curvature(const Strategy_settings& settings) {
+  return Any_strategy(Lbg_curvature{.options = {.lbg = settings.lbg}});
+}
+
 Any_strategy kmeans_plus_plus(const Strategy_settings& settings) {
   // It stops as `lbg` does, so that the two can be compared.
   return Any_strategy(Kmeans_plus_plus{.options = {.seed = settings.seed,
@@ -51,6 +61,7 @@ std::span<const Strategy_entry> strategies() {
   static constexpr auto all = std::to_array<Strategy_entry>({
       {Lbg::name, "cells of position and normal, by splitting and Lloyd iterations", from_lbg_options<Lbg>, any_number},
       {Lbg_position::name, "the same of positions alone", from_lbg_options<Lbg_position>, any_number},
+      {Lbg_curvature::name, "the same of position, normal and mean curvature", lbg_curvature, any_number},
       {Kmeans_plus_plus::name, "cells of position and normal, by Lloyd iterations from a random start far apart",
        kmeans_plus_plus, any_number},
       {Farthest_point::name, "vertices nearest along the edges to seeds far apart", from_seed<Farthest_point>,
@@ -58,6 +69,11 @@ std::span<const Strategy_entry> strategies() {
       {Random_voronoi::name, "vertices nearest along the edges to random seeds", from_seed<Random_voronoi>, any_number},
       {Centroidal::name, "vertices nearest along the edges to seeds in the middle of their cells",
        from_seed<Centroidal>, any_number},
+      {Metis::name, "parts of equal size with few edges between them", from_seed<Metis>, any_number},
+      {Spectral::name, "halves of halves along the Fiedler vector", from_seed<Spectral>, Spectral::most_vertices},
+      {Vsa::name, "areas that a plane each approximates, optimised", from_nothing<Vsa>, any_number},
+      {Region_growing::name, "nearly flat areas, grown from a face each", from_nothing<Region_growing>, any_number},
+      {Sdf::name, "parts of a body, by how thick it is", from_nothing<Sdf>, any_number},
       {Grid::name, "vertices in one cube of a regular grid", from_nothing<Grid>, any_number},
       {Median_split::name, "equally many vertices, by splits along the longest axis", from_nothing<Median_split>,
        any_number},
