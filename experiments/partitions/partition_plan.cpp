@@ -43,13 +43,13 @@ Surface_mesh knot(std::size_t segments, std::size_t sides) {
 
 constexpr auto meshes = std::to_array<Partition_mesh>({
     {"teapot_coarse", [] { return unit(teapot({.u = 6, .v = 6})); }, [] { return icosphere(8); }},
-    {"teapot_fine", [] { return unit(teapot({.u = 18, .v = 18})); }, [] { return icosphere(22); }},
+    {"teapot_fine", [] { return unit(teapot({.u = 13, .v = 12})); }, [] { return icosphere(16); }},
     {"sphere_coarse", [] { return icosphere(10); }, [] { return icosphere(8); }},
-    {"sphere_fine", [] { return icosphere(32); }, [] { return icosphere(22); }},
+    {"sphere_fine", [] { return icosphere(22); }, [] { return icosphere(16); }},
     {"torus_knot_coarse", [] { return knot(120, 9); }, [] { return icosphere(8); }},
-    {"torus_knot_fine", [] { return knot(400, 25); }, [] { return icosphere(22); }},
+    {"torus_knot_fine", [] { return knot(280, 18); }, [] { return icosphere(16); }},
     {"cloth_coarse", [] { return unit(cloth(32, 32)); }, [] { return icosphere(8); }},
-    {"cloth_fine", [] { return unit(cloth(100, 100)); }, [] { return icosphere(22); }},
+    {"cloth_fine", [] { return unit(cloth(71, 71)); }, [] { return icosphere(16); }},
 });
 
 Scene_object object_of(std::string name, Surface_mesh mesh, std::vector<Deformation> deformations) {

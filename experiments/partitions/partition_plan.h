@@ -40,7 +40,7 @@ struct Partition_run {
 /// All strategies of the registry, `lbg` also with its other split, without island repair, and with other weights of
 /// the normals.
 std::vector<Partition_variant> partition_variants();
-/// Teapot, sphere, torus knot and cloth, at about 2 000 and 20 000 triangles.
+/// Teapot, sphere, torus knot and cloth, at about 2 000 and 10 000 triangles.
 std::span<const Partition_mesh> partition_meshes();
 
 inline constexpr std::size_t partition_counts[] = {8, 12, 32, 64, 128};

@@ -37,9 +37,9 @@ TEST(Partition_plan, keeps_what_is_named) {
   EXPECT_THROW(partition_plan({"cloth"}), Bad_argument);
 }
 
-TEST(Partition_plan, meshes_have_about_two_and_twenty_thousand_triangles) {
+TEST(Partition_plan, meshes_have_about_two_and_ten_thousand_triangles) {
   for (const auto& mesh : partition_meshes()) {
-    const double wanted = mesh.name.ends_with("coarse") ? 2000 : 20000;
+    const double wanted = mesh.name.ends_with("coarse") ? 2000 : 10000;
     EXPECT_NEAR(static_cast<double>(mesh.make().number_of_faces()), wanted, 0.13 * wanted) << mesh.name;
   }
 }
