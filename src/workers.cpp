@@ -21,6 +21,11 @@ Workers::Workers(std::size_t threads)
 Workers::~Workers() = default;
 Workers::Workers(Workers&&) noexcept = default;
 
+Workers& Workers::alone() {
+  static Workers workers(1);
+  return workers;
+}
+
 void Workers::run(std::size_t tasks, const std::function<void(std::size_t, std::size_t)>& task) {
   if (!threads_ || tasks < 2) {
     for (std::size_t index = 0; index < tasks; ++index) task(index, 0);

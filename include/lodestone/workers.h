@@ -15,6 +15,9 @@ class Workers {
   ~Workers();
   Workers(Workers&&) noexcept;
 
+  /// One worker. It keeps nothing, so any number of threads may use it at once.
+  static Workers& alone();
+
   std::size_t count() const { return count_; }
 
   /// Calls `task(index, worker)` for each index below `tasks`. One worker: in order, in the calling thread. Several: in

@@ -29,7 +29,7 @@ template <int K>
 HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
   const hn::CappedTag<double, block_size> d;
   const std::size_t k = K > 0 ? K : pass.components;
-  const double* vector = pass.vectors + v * k;
+  const double* vector = pass.blocks + v / block_size * block_size * k + v % block_size;
   const Neighbourhood& around = pass.neighbourhoods[pass.labels[v]];
   const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
 
@@ -46,7 +46,7 @@ HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
       auto squared = hn::Zero(d);
       for (std::size_t i = 0; i < k; ++i) {
         const auto row = hn::LoadU(d, around.components + first * k + i * block_size + lane);
-        const auto difference = hn::Sub(hn::Set(d, vector[i]), row);
+        const auto difference = hn::Sub(hn::Set(d, vector[i * block_size]), row);
         squared = hn::Add(squared, hn::Mul(difference, difference));
       }
       const auto code = hn::LoadU(d, around.codes + first + lane);
@@ -66,50 +66,6 @@ HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
   pass.labels[v] = static_cast<std::uint32_t>(hn::GetLane(chosen));
   pass.squared_distances[v] = hn::GetLane(least);
   pass.second_bounds[v] = square_root(hn::GetLane(runner_up)) * (1 - 1e-9) + pass.drifts[pass.labels[v]];
-}
-
-/// Distances of some vectors to the code vectors they have, and which of them the bounds leave open.
-/// @return how many were written to `open`
-template <int K>
-HWY_INLINE std::size_t test_bounds(const Bounded_pass& pass, std::size_t begin, std::size_t end, std::uint32_t* open) {
-  const std::size_t k = K > 0 ? K : pass.components;
-  const double* HWY_RESTRICT vectors = pass.vectors;
-  const double* HWY_RESTRICT codes = pass.codes;
-  double* HWY_RESTRICT squared_distances = pass.squared_distances;
-  std::size_t count = 0;
-  for (std::size_t v = begin; v < end; ++v) {
-    const std::uint32_t label = pass.labels[v];
-    const double nearest = squared_distance<K>(vectors + v * k, codes + label * k, static_cast<std::ptrdiff_t>(k));
-    squared_distances[v] = nearest;
-    const double bound = std::max(pass.second_bounds[v] - pass.drifts[label], pass.half_gaps[label]);
-    open[count] = static_cast<std::uint32_t>(v);
-    count += nearest * (1 + 1e-9) < bound * bound ? 0 : 1;
-  }
-  return count;
-}
-
-/// Adds the vectors from `begin` to `end` to the sums of their cells, in order.
-template <int K>
-HWY_INLINE void add_to_cells(Bounded_pass& pass, std::size_t begin, std::size_t end) {
-  const hn::CappedTag<double, block_size> d;
-  const std::size_t k = K > 0 ? K : pass.components;
-  for (std::size_t v = begin; v < end;) {
-    // Neighbours mostly share a cell: its sum stays in a register until the cell changes.
-    const std::uint32_t label = pass.labels[v];
-    double* sum = pass.cell_sums + label * k;
-    std::size_t run_end = v + 1;
-    while (run_end < end && pass.labels[run_end] == label) ++run_end;
-    pass.cell_sizes[label] += run_end - v;
-    if (hn::Lanes(d) == block_size && k <= block_size) {
-      const auto components = hn::FirstN(d, k);
-      auto total = hn::MaskedLoad(components, d, sum);
-      for (; v < run_end; ++v) total = hn::Add(total, hn::MaskedLoad(components, d, pass.vectors + v * k));
-      hn::BlendedStore(total, components, d, sum);
-    } else {
-      for (; v < run_end; ++v)
-        for (std::size_t i = 0; i < k; ++i) sum[i] += pass.vectors[v * k + i];
-    }
-  }
 }
 
 /// Eight vectors that have one and the same code vector, a vector per lane: bounds, and the search where they fail.
@@ -169,27 +125,72 @@ HWY_INLINE void pass_uniform_block(Bounded_pass& pass, std::size_t block) {
   }
 }
 
-/// The vectors from `begin` to `end`, at most eight, one by one.
+/// The vectors of a block whose code vectors differ, or of an incomplete one, one by one.
 template <int K>
-HWY_INLINE void pass_mixed_block(Bounded_pass& pass, std::size_t begin, std::size_t end) {
-  std::uint32_t open[block_size];
-  const std::size_t count = test_bounds<K>(pass, begin, end, open);
-  for (std::size_t i = 0; i < count; ++i) search<K>(pass, open[i]);
+HWY_INLINE void pass_mixed_block(Bounded_pass& pass, std::size_t begin, std::size_t count) {
+  const std::size_t k = K > 0 ? K : pass.components;
+  const double* components = pass.blocks + begin * k;
+  std::uint32_t labels[block_size] = {};
+  std::copy_n(pass.labels + begin, count, labels);
+  double nearest[block_size] = {};
+  for (std::size_t i = 0; i < k; ++i)
+    for (std::size_t lane = 0; lane < block_size; ++lane) {
+      const double difference = components[i * block_size + lane] - pass.codes[labels[lane] * k + i];
+      nearest[lane] += difference * difference;
+    }
+  std::copy_n(nearest, count, pass.squared_distances + begin);
+
+  // Which of them the bounds leave open is as good as random: collected without a branch.
+  std::size_t open[block_size], open_count = 0;
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const double second = pass.second_bounds[begin + lane] - pass.drifts[labels[lane]];
+    const double bound = std::max(second, pass.half_gaps[labels[lane]]);
+    open[open_count] = begin + lane;
+    open_count += nearest[lane] * (1 + 1e-9) < bound * bound ? 0 : 1;
+  }
+  for (std::size_t i = 0; i < open_count; ++i) search<K>(pass, open[i]);
+}
+
+HWY_INLINE bool is_uniform(const std::uint32_t* labels) {
+  std::uint32_t differences = 0;
+  for (std::size_t lane = 1; lane < block_size; ++lane) differences |= labels[lane] ^ labels[0];
+  return differences == 0;
+}
+
+/// Adds the vectors of a block to the sums of their cells, in order.
+template <int K>
+HWY_INLINE void add_to_cells(Bounded_pass& pass, std::size_t begin, std::size_t count) {
+  const std::size_t k = K > 0 ? K : pass.components;
+  const double* components = pass.blocks + begin * k;
+  const std::uint32_t* labels = pass.labels + begin;
+  if (count == block_size && is_uniform(labels)) {
+    double* sum = pass.cell_sums + labels[0] * k;
+    for (std::size_t i = 0; i < k; ++i) {
+      double total = sum[i];
+      for (std::size_t lane = 0; lane < block_size; ++lane) total += components[i * block_size + lane];
+      sum[i] = total;
+    }
+    pass.cell_sizes[labels[0]] += block_size;
+    return;
+  }
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    double* sum = pass.cell_sums + labels[lane] * k;
+    for (std::size_t i = 0; i < k; ++i) sum[i] += components[i * block_size + lane];
+    ++pass.cell_sizes[labels[lane]];
+  }
 }
 
 template <int K>
 HWY_INLINE void pass_over(Bounded_pass& pass) {
-  for (std::size_t begin = 0; begin < pass.vector_count; begin += block_size) {
-    const std::size_t end = std::min(begin + block_size, pass.vector_count);
-    std::uint32_t differences = 0;
-    for (std::size_t v = begin; v < end; ++v) differences |= pass.labels[v] ^ pass.labels[begin];
-    if (differences == 0 && end - begin == block_size)
+  for (std::size_t begin = pass.begin; begin < pass.end; begin += block_size) {
+    const std::size_t count = std::min(block_size, pass.end - begin);
+    if (count == block_size && is_uniform(pass.labels + begin))
       pass_uniform_block<K>(pass, begin / block_size);
     else
-      pass_mixed_block<K>(pass, begin, end);
+      pass_mixed_block<K>(pass, begin, count);
+    add_to_cells<K>(pass, begin, count);
   }
-  add_to_cells<K>(pass, 0, pass.vector_count);
-  pass.distance_evaluations += pass.vector_count;
+  pass.distance_evaluations += pass.end - pass.begin;
 }
 
 void run_pass(Bounded_pass& pass) {

@@ -19,11 +19,10 @@ struct Neighbourhood {
   std::size_t count;         ///< without the filling
 };
 
-/// One pass over all vectors. See Bounded_assignment for what the bounds mean.
+/// One pass over a chunk of the vectors. See Bounded_assignment for what the bounds mean.
 struct Bounded_pass {
-  const double* vectors;  ///< M x k
-  const double* blocks;   ///< the same, eight vectors a block: k rows of eight; without an incomplete last block
-  std::size_t vector_count;
+  const double* blocks;                 ///< eight vectors a block: k rows of eight; the last is filled up with zeros
+  std::size_t begin, end;               ///< the chunk; begins with a block
   std::size_t components;               ///< k
   const double* codes;                  ///< N x k
   const Neighbourhood* neighbourhoods;  ///< N
@@ -34,8 +33,8 @@ struct Bounded_pass {
   std::uint32_t* labels;      ///< M: start of each search, then its result
   double* squared_distances;  ///< M
   double* second_bounds;      ///< M: lower bound on the distance to all but the own code vector, plus its drift
-  double* cell_sums;          ///< N x k, all 0 before
-  std::uint64_t* cell_sizes;  ///< N, all 0 before
+  double* cell_sums;          ///< N x k, of the chunk: its vectors are added in order
+  std::uint64_t* cell_sizes;  ///< N, of the chunk
   std::uint64_t distance_evaluations;
 };
 

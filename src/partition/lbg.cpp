@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "partition/fixed_components.h"
 
@@ -23,14 +25,27 @@ void check(const Feature_vectors& vectors, std::size_t cells, const Lbg_options&
   if (options.max_iterations == 0) throw Bad_argument("LBG: max_iterations must be at least 1");
 }
 
+/// What a split asks of a cell, around its code vector.
+struct Spread {
+  double distortion = 0;    ///< sum of squared distances
+  Eigen::MatrixXd scatter;  ///< k x k: sum of the products of the offsets' components
+};
+
 /// The state of one quantisation: code vectors, the cell of each vector, and how far it is from its code vector.
 class Quantiser {
  public:
   Quantiser(const Feature_vectors& vectors, const Lbg_options& options)
-      : vectors_(vectors), options_(options), codes_(vectors.colwise().mean()), origin_(vectors.rows()) {
+      : options_(options),
+        workers_(options.threads),
+        vectors_(vectors),
+        codes_(vectors.colwise().mean()),
+        origin_(vectors.rows()) {
     assignment_.labels.assign(vectors.rows(), 0);
     std::iota(origin_.begin(), origin_.end(), 0);
+    if (options.search == Nearest_search::bounded) bounded_.emplace(vectors_, workers_);
   }
+  Quantiser(const Quantiser&) = delete;
+  Quantiser& operator=(const Quantiser&) = delete;
 
   std::size_t size() const { return static_cast<std::size_t>(codes_.rows()); }
   void run_lloyd();
@@ -38,28 +53,50 @@ class Quantiser {
   Quantisation result();
 
  private:
+  std::size_t chunk_length() const { return chunk_size(origin_.size(), 0); }
+  std::size_t chunk_count() const { return (origin_.size() + chunk_length() - 1) / chunk_length(); }
+  template <class Task>
+  void for_chunks(Task task);
   double distortion() const;
   std::vector<double> cell_distortions() const;
-  std::vector<Eigen::MatrixXd> cell_scatters() const;
+  Spread spread(std::size_t begin, std::size_t end) const;
+  std::vector<Spread> cell_spreads();
   Eigen::RowVectorXd principal_offset(const Eigen::MatrixXd& scatter, std::size_t cell_size) const;
-  void assign(Bounded_assignment& bounded);
+  void assign();
   bool reseed_empty_cells();
   void group_by_cell();
   void move_codes_to_means();
 
-  Feature_vectors vectors_;  ///< grouped by cell at the start of each Lloyd run
   const Lbg_options& options_;
+  Workers workers_;
+  Feature_vectors vectors_;  ///< in the caller's order at first, then grouped by cell at each split
+  std::optional<Bounded_assignment> bounded_;
   Feature_vectors codes_;
   Assignment assignment_;
   std::vector<std::uint32_t> origin_;  ///< per row of `vectors_`: its row in the caller's matrix
   std::vector<Lloyd_run> runs_;
+
+  // Where the vectors are grouped, before they change places with those above.
+  Feature_vectors grouped_vectors_;
+  std::vector<Region_index> grouped_labels_;
+  std::vector<double> grouped_distances_;
+  std::vector<std::uint32_t> grouped_origin_;
 };
 
-void Quantiser::assign(Bounded_assignment& bounded) {
-  if (options_.search == Nearest_search::plain)
-    assign_plain(vectors_, codes_, assignment_);
+/// Calls `task(chunk, begin, end)` for runs of vectors that together are all.
+template <class Task>
+void Quantiser::for_chunks(Task task) {
+  const std::size_t count = origin_.size(), length = chunk_length();
+  workers_.run(chunk_count(), [&](std::size_t chunk, std::size_t) {
+    task(chunk, chunk * length, std::min((chunk + 1) * length, count));
+  });
+}
+
+void Quantiser::assign() {
+  if (bounded_)
+    bounded_->assign(codes_, assignment_);
   else
-    bounded.assign(codes_, assignment_);
+    assign_plain(vectors_, codes_, assignment_, workers_);
 }
 
 double Quantiser::distortion() const {
@@ -75,12 +112,10 @@ std::vector<double> Quantiser::cell_distortions() const {
 }
 
 void Quantiser::run_lloyd() {
-  group_by_cell();
-  Bounded_assignment bounded(vectors_);
   Lloyd_run run{.code_vectors = size(), .distortion = {}};
   for (std::size_t iteration = 0; iteration < options_.max_iterations; ++iteration) {
-    assign(bounded);
-    if (reseed_empty_cells()) bounded.forget();
+    assign();
+    if (reseed_empty_cells() && bounded_) bounded_->forget();
     run.distortion.push_back(distortion());
     move_codes_to_means();
     if (iteration == 0) continue;
@@ -90,23 +125,38 @@ void Quantiser::run_lloyd() {
   runs_.push_back(std::move(run));
 }
 
-/// Puts the vectors of a cell side by side: the search takes eight at a time where they share a cell.
+/// Puts the vectors of a cell side by side, in the order they had: the search takes eight at a time where they share a
+/// cell, and a split sums over each cell.
 void Quantiser::group_by_cell() {
-  std::vector<std::size_t> next(size() + 1, 0);
-  for (const auto label : assignment_.labels) ++next[label + 1];
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  Feature_vectors vectors(vectors_.rows(), vectors_.cols());
-  std::vector<Region_index> labels(origin_.size());
-  std::vector<std::uint32_t> origin(origin_.size());
-  for (std::size_t v = 0; v < origin.size(); ++v) {
-    const std::size_t place = next[assignment_.labels[v]]++;
-    vectors.row(static_cast<Eigen::Index>(place)) = vectors_.row(static_cast<Eigen::Index>(v));
-    labels[place] = assignment_.labels[v];
-    origin[place] = origin_[v];
-  }
-  vectors_.swap(vectors);
-  assignment_.labels.swap(labels);
-  origin_.swap(origin);
+  // Per chunk and cell first the number of vectors, then the place of the first of them.
+  std::vector<std::vector<std::size_t>> places(chunk_count(), std::vector<std::size_t>(size(), 0));
+  for_chunks([&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) ++places[chunk][assignment_.labels[v]];
+  });
+  std::size_t place = 0;
+  for (std::size_t cell = 0; cell < size(); ++cell)
+    for (auto& of_chunk : places) place += std::exchange(of_chunk[cell], place);
+
+  const Eigen::Index k = vectors_.cols();
+  grouped_vectors_.resize(vectors_.rows(), k);
+  grouped_labels_.resize(origin_.size());
+  grouped_distances_.resize(origin_.size());
+  grouped_origin_.resize(origin_.size());
+  for_chunks([&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const std::size_t to = places[chunk][assignment_.labels[v]]++;
+      std::copy_n(vectors_.data() + static_cast<Eigen::Index>(v) * k, k,
+                  grouped_vectors_.data() + static_cast<Eigen::Index>(to) * k);
+      grouped_labels_[to] = assignment_.labels[v];
+      grouped_distances_[to] = assignment_.squared_distances[v];
+      grouped_origin_[to] = origin_[v];
+    }
+  });
+  vectors_.swap(grouped_vectors_);
+  assignment_.labels.swap(grouped_labels_);
+  assignment_.squared_distances.swap(grouped_distances_);
+  origin_.swap(grouped_origin_);
+  if (bounded_) bounded_->reload();
 }
 
 /// @return whether a label has changed
@@ -144,27 +194,47 @@ void Quantiser::move_codes_to_means() {
       codes_.row(c) = assignment_.cell_sums.row(c) / static_cast<double>(assignment_.cell_sizes[c]);
 }
 
-std::vector<Eigen::MatrixXd> Quantiser::cell_scatters() const {
+/// Of the vectors from `begin` to `end`, which share a cell.
+Spread Quantiser::spread(std::size_t begin, std::size_t end) const {
   const Eigen::Index k = vectors_.cols();
-  std::vector<Eigen::MatrixXd> scatters(size(), Eigen::MatrixXd::Zero(k, k));
+  Spread result{.distortion = 0, .scatter = Eigen::MatrixXd::Zero(k, k)};
+  for (std::size_t v = begin; v < end; ++v) result.distortion += assignment_.squared_distances[v];
+  if (options_.split_rule != Split::principal_axis) return result;
   with_fixed_components(k, [&](auto fixed) {
     constexpr int components = fixed > 0 ? static_cast<int>(fixed) : Eigen::Dynamic;
     using Vector = Eigen::Matrix<double, components, 1>;
-    using Matrix = Eigen::Matrix<double, components, components>;
+    const Eigen::Map<const Vector> code(codes_.data() + assignment_.labels[begin] * k, k);
+    Eigen::Matrix<double, components, components> scatter = result.scatter;
     Vector offset(k);
-    for (std::size_t v = 0; v < assignment_.labels.size();) {
-      // Neighbours mostly share a cell: its matrix is written back when the cell changes.
-      const Region_index cell = assignment_.labels[v];
-      const Eigen::Map<const Vector> code(codes_.data() + cell * k, k);
-      Matrix scatter = scatters[cell];
-      for (; v < assignment_.labels.size() && assignment_.labels[v] == cell; ++v) {
-        offset = Eigen::Map<const Vector>(vectors_.data() + static_cast<Eigen::Index>(v) * k, k) - code;
-        scatter.noalias() += offset * offset.transpose();
-      }
-      scatters[cell] = scatter;
+    for (auto v = static_cast<Eigen::Index>(begin); v < static_cast<Eigen::Index>(end); ++v) {
+      offset = Eigen::Map<const Vector>(vectors_.data() + v * k, k) - code;
+      scatter.noalias() += offset * offset.transpose();
+    }
+    result.scatter = scatter;
+  });
+  return result;
+}
+
+/// Of every cell, the vectors being grouped. Each chunk adds up its part of a cell apart; parts are added in order.
+std::vector<Spread> Quantiser::cell_spreads() {
+  std::vector<std::vector<std::pair<Region_index, Spread>>> parts(chunk_count());
+  for_chunks([&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    const auto& labels = assignment_.labels;
+    while (begin < end) {
+      std::size_t cell_end = begin + 1;
+      while (cell_end < end && labels[cell_end] == labels[begin]) ++cell_end;
+      parts[chunk].emplace_back(labels[begin], spread(begin, cell_end));
+      begin = cell_end;
     }
   });
-  return scatters;
+  std::vector<Spread> spreads(size(),
+                              {.distortion = 0, .scatter = Eigen::MatrixXd::Zero(codes_.cols(), codes_.cols())});
+  for (const auto& of_chunk : parts)
+    for (const auto& [cell, part] : of_chunk) {
+      spreads[cell].distortion += part.distortion;
+      spreads[cell].scatter += part.scatter;
+    }
+  return spreads;
 }
 
 /// e times the spread of a cell along the main axis of its covariance.
@@ -180,24 +250,25 @@ Eigen::RowVectorXd Quantiser::principal_offset(const Eigen::MatrixXd& scatter, s
 }
 
 bool Quantiser::split(std::size_t target) {
-  const auto distortions = cell_distortions();
+  if (size() > 1) group_by_cell();
+  const auto spreads = cell_spreads();
   std::vector<Region_index> order(size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](auto a, auto b) { return distortions[a] > distortions[b]; });
-  std::erase_if(order, [&](auto cell) { return distortions[cell] == 0; });
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](auto cell) { return spreads[cell].distortion; });
+  std::erase_if(order, [&](auto cell) { return spreads[cell].distortion == 0; });
   order.resize(std::min(order.size(), target - size()));
   if (order.empty()) return false;
   std::ranges::sort(order);
 
-  const auto scatters = options_.split_rule == Split::principal_axis ? cell_scatters() : std::vector<Eigen::MatrixXd>();
   const auto& sizes = assignment_.cell_sizes;
   const Eigen::Index before = codes_.rows();
   Feature_vectors split_codes(before + static_cast<Eigen::Index>(order.size()), codes_.cols());
   split_codes.topRows(before) = codes_;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Eigen::RowVectorXd code = codes_.row(order[i]);
-    const Eigen::RowVectorXd offset =
-        scatters.empty() ? options_.split * code : principal_offset(scatters[order[i]], sizes[order[i]]);
+    const Eigen::RowVectorXd offset = options_.split_rule == Split::principal_axis
+                                          ? principal_offset(spreads[order[i]].scatter, sizes[order[i]])
+                                          : options_.split * code;
     split_codes.row(order[i]) = code + offset;
     split_codes.row(before + static_cast<Eigen::Index>(i)) = code - offset;
   }
@@ -215,7 +286,9 @@ Quantisation Quantiser::result() {
     if (sizes[c] > 0) codes_.row(kept++) = codes_.row(c).eval();
   }
   std::vector<Region_index> labels(origin_.size());
-  for (std::size_t v = 0; v < labels.size(); ++v) labels[origin_[v]] = renumbered[assignment_.labels[v]];
+  for_chunks([&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) labels[origin_[v]] = renumbered[assignment_.labels[v]];
+  });
   return {.code_vectors = codes_.topRows(kept),
           .labels = std::move(labels),
           .runs = std::move(runs_),

@@ -25,7 +25,55 @@ void sort_nearly_sorted(std::vector<std::pair<double, Region_index>>& others) {
     }
 }
 
+/// A run of vectors that one worker assigns.
+struct Chunk {
+  std::size_t begin, end;
+  double* cell_sums;          ///< N x k, all 0
+  std::uint64_t* cell_sizes;  ///< N, all 0
+};
+
+/// Adds the sums of all chunks to those of the cells, chunk by chunk.
+void add_chunks(std::size_t chunks, Assignment& assignment) {
+  const auto cells = assignment.cell_sizes.size();
+  const auto k = static_cast<std::size_t>(assignment.cell_sums.cols());
+  for (std::size_t row = 0; row < chunks * cells; ++row) {
+    if (assignment.chunk_sizes[row] == 0) continue;
+    assignment.cell_sizes[row % cells] += assignment.chunk_sizes[row];
+    double* sum = assignment.cell_sums.data() + row % cells * k;
+    for (std::size_t i = 0; i < k; ++i) sum[i] += assignment.chunk_sums[row * k + i];
+  }
+}
+
+/// Calls `assign(chunk)`, which returns how many distances it took, for every chunk, and adds up what comes of it.
+template <class Assign>
+void assign_chunks(std::size_t vectors, const Feature_vectors& codes, Assignment& assignment, Workers& workers,
+                   Assign assign) {
+  const auto cells = static_cast<std::size_t>(codes.rows()), k = static_cast<std::size_t>(codes.cols());
+  const std::size_t size = chunk_size(vectors, cells), chunks = (vectors + size - 1) / size;
+  assignment.start(vectors, cells, k);
+  assignment.chunk_sums.resize(chunks * cells * k);
+  assignment.chunk_sizes.resize(chunks * cells);
+  std::vector<std::uint64_t> evaluations(chunks);
+  workers.run(chunks, [&](std::size_t c, std::size_t) {
+    const Chunk chunk{.begin = c * size,
+                      .end = std::min((c + 1) * size, vectors),
+                      .cell_sums = assignment.chunk_sums.data() + c * cells * k,
+                      .cell_sizes = assignment.chunk_sizes.data() + c * cells};
+    std::fill_n(chunk.cell_sums, cells * k, 0.0);
+    std::fill_n(chunk.cell_sizes, cells, 0U);
+    evaluations[c] = assign(chunk);
+  });
+  add_chunks(chunks, assignment);
+  assignment.distance_evaluations += std::accumulate(evaluations.begin(), evaluations.end(), std::uint64_t{0});
+}
+
 }  // namespace
+
+std::size_t chunk_size(std::size_t vectors, std::size_t cells) {
+  constexpr auto block = kernel::block_size;
+  const std::size_t size = std::max({std::size_t{4096}, cells, (vectors + 63) / 64});
+  return (size + block - 1) / block * block;
+}
 
 void Assignment::start(std::size_t vectors, std::size_t cells, std::size_t components) {
   labels.resize(vectors, 0);
@@ -34,39 +82,54 @@ void Assignment::start(std::size_t vectors, std::size_t cells, std::size_t compo
   cell_sizes.assign(cells, 0);
 }
 
-void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, Assignment& assignment) {
-  assignment.start(vectors.rows(), codes.rows(), codes.cols());
-  for (Eigen::Index v = 0; v < vectors.rows(); ++v) {
-    double nearest = std::numeric_limits<double>::infinity();
-    Eigen::Index label = 0;
-    for (Eigen::Index c = 0; c < codes.rows(); ++c) {
-      const double d = squared_distance<0>(&vectors(v, 0), &codes(c, 0), vectors.cols());
-      if (d < nearest) {
-        nearest = d;
-        label = c;
+void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, Assignment& assignment,
+                  Workers& workers) {
+  const Eigen::Index k = vectors.cols();
+  assign_chunks(vectors.rows(), codes, assignment, workers, [&](const Chunk& chunk) {
+    for (std::size_t v = chunk.begin; v < chunk.end; ++v) {
+      const double* vector = vectors.data() + static_cast<Eigen::Index>(v) * k;
+      double nearest = std::numeric_limits<double>::infinity();
+      Eigen::Index label = 0;
+      for (Eigen::Index c = 0; c < codes.rows(); ++c) {
+        const double d = squared_distance<0>(vector, &codes(c, 0), k);
+        if (d < nearest) {
+          nearest = d;
+          label = c;
+        }
       }
+      assignment.labels[v] = static_cast<Region_index>(label);
+      assignment.squared_distances[v] = nearest;
+      for (Eigen::Index i = 0; i < k; ++i) chunk.cell_sums[label * k + i] += vector[i];
+      ++chunk.cell_sizes[label];
     }
-    assignment.labels[v] = static_cast<Region_index>(label);
-    assignment.squared_distances[v] = nearest;
-    assignment.cell_sums.row(label) += vectors.row(v);
-    ++assignment.cell_sizes[label];
-  }
-  assignment.distance_evaluations += static_cast<std::uint64_t>(vectors.rows()) * codes.rows();
+    return static_cast<std::uint64_t>(chunk.end - chunk.begin) * codes.rows();
+  });
 }
 
-Bounded_assignment::Bounded_assignment(const Feature_vectors& vectors)
-    : vectors_(vectors), margin_(1e-12 * std::max(1.0, vectors.size() == 0 ? 0 : vectors.cwiseAbs().maxCoeff())) {
-  constexpr auto block = static_cast<Eigen::Index>(kernel::block_size);
-  blocks_.resize(vectors.rows() / block * block * vectors.cols());
-  double* next = blocks_.data();
-  for (Eigen::Index first = 0; first + block <= vectors.rows(); first += block)
-    for (Eigen::Index component = 0; component < vectors.cols(); ++component)
-      for (Eigen::Index v = first; v < first + block; ++v) *next++ = vectors(v, component);
+Bounded_assignment::Bounded_assignment(const Feature_vectors& vectors, Workers& workers)
+    : vectors_(vectors),
+      workers_(workers),
+      margin_(1e-12 * std::max(1.0, vectors.size() == 0 ? 0 : vectors.cwiseAbs().maxCoeff())) {
+  reload();
+}
+
+void Bounded_assignment::reload() {
+  constexpr auto block = kernel::block_size;
+  const auto count = static_cast<std::size_t>(vectors_.rows()), k = static_cast<std::size_t>(vectors_.cols());
+  blocks_.resize((count + block - 1) / block * block * k);
+  const std::size_t size = chunk_size(count, 0);
+  workers_.run((count + size - 1) / size, [&](std::size_t chunk, std::size_t) {
+    for (std::size_t v = chunk * size; v < std::min((chunk + 1) * size, count); ++v) {
+      const double* vector = vectors_.data() + v * k;
+      double* components = blocks_.data() + v / block * block * k + v % block;
+      for (std::size_t i = 0; i < k; ++i) components[i * block] = vector[i];
+    }
+  });
+  forget();
 }
 
 void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assignment) {
-  if (codes.rows() > max_codes) return assign_plain(vectors_, codes, assignment);
-  assignment.start(vectors_.rows(), codes.rows(), codes.cols());
+  if (codes.rows() > max_codes) return assign_plain(vectors_, codes, assignment, workers_);
   if (codes.rows() == previous_.rows()) {
     follow_drift(codes);
   } else {
@@ -81,23 +144,25 @@ void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assign
                               .codes = neighbour_codes_.data() + c * padded_,
                               .components = neighbour_components_.data() + c * padded_ * codes.cols(),
                               .count = static_cast<std::size_t>(codes.rows()) - 1});
-  kernel::Bounded_pass pass{.vectors = vectors_.data(),
-                            .blocks = blocks_.data(),
-                            .vector_count = static_cast<std::size_t>(vectors_.rows()),
-                            .components = static_cast<std::size_t>(vectors_.cols()),
-                            .codes = codes.data(),
-                            .neighbourhoods = neighbourhoods.data(),
-                            .half_gaps = half_gaps_.data(),
-                            .drifts = drifts_.data(),
-                            .margin = margin_,
-                            .labels = assignment.labels.data(),
-                            .squared_distances = assignment.squared_distances.data(),
-                            .second_bounds = second_.data(),
-                            .cell_sums = assignment.cell_sums.data(),
-                            .cell_sizes = assignment.cell_sizes.data(),
-                            .distance_evaluations = 0};
-  kernel::bounded_pass(pass);
-  assignment.distance_evaluations += pass.distance_evaluations;
+  assign_chunks(vectors_.rows(), codes, assignment, workers_, [&](const Chunk& chunk) {
+    kernel::Bounded_pass pass{.blocks = blocks_.data(),
+                              .begin = chunk.begin,
+                              .end = chunk.end,
+                              .components = static_cast<std::size_t>(vectors_.cols()),
+                              .codes = codes.data(),
+                              .neighbourhoods = neighbourhoods.data(),
+                              .half_gaps = half_gaps_.data(),
+                              .drifts = drifts_.data(),
+                              .margin = margin_,
+                              .labels = assignment.labels.data(),
+                              .squared_distances = assignment.squared_distances.data(),
+                              .second_bounds = second_.data(),
+                              .cell_sums = chunk.cell_sums,
+                              .cell_sizes = chunk.cell_sizes,
+                              .distance_evaluations = 0};
+    kernel::bounded_pass(pass);
+    return pass.distance_evaluations;
+  });
   previous_ = codes;
 }
 
@@ -115,34 +180,41 @@ void Bounded_assignment::follow_drift(const Feature_vectors& codes) {
 
 void Bounded_assignment::sort_neighbours(const Feature_vectors& codes) {
   constexpr auto block = kernel::block_size;
-  constexpr double far_away = std::numeric_limits<double>::infinity();
   const auto n = static_cast<std::size_t>(codes.rows());
   const auto k = static_cast<std::size_t>(codes.cols());
   padded_ = (n - 1 + block - 1) / block * block;
-  neighbour_distances_.assign(n * padded_, far_away);
-  neighbour_codes_.assign(n * padded_, 0);
-  neighbour_components_.assign(n * padded_ * k, far_away);
-  half_gaps_.assign(n, far_away);
-
+  neighbour_distances_.resize(n * padded_);
+  neighbour_codes_.resize(n * padded_);
+  neighbour_components_.resize(n * padded_ * k);
+  half_gaps_.resize(n);
   const bool same_codes = neighbour_order_.size() == n * (n - 1);
   neighbour_order_.resize(n * (n - 1));
-  std::vector<std::pair<double, Region_index>> others(n - 1);
-  for (std::size_t c = 0; c < n; ++c) {
-    Region_index* order = neighbour_order_.data() + c * (n - 1);
-    for (std::size_t i = 0; i < n - 1; ++i) {
-      if (!same_codes) order[i] = static_cast<Region_index>(i < c ? i : i + 1);
-      others[i] = {(codes.row(c) - codes.row(order[i])).norm(), order[i]};
-    }
-    sort_nearly_sorted(others);
-    for (std::size_t i = 0; i < n - 1; ++i) order[i] = others[i].second;
-    if (!others.empty()) half_gaps_[c] = std::max(0.0, others[0].first / 2 - margin_);
-    for (std::size_t i = 0; i < others.size(); ++i) {
-      neighbour_distances_[c * padded_ + i] = others[i].first;
-      neighbour_codes_[c * padded_ + i] = others[i].second;
-      double* components = neighbour_components_.data() + (c * padded_ + i / block * block) * k + i % block;
-      for (std::size_t component = 0; component < k; ++component)
-        components[component * block] = codes(others[i].second, component);
-    }
+  constexpr std::size_t some = 16;  // code vectors: enough for a task
+  workers_.run((n + some - 1) / some, [&](std::size_t task, std::size_t) {
+    for (std::size_t c = task * some; c < std::min((task + 1) * some, n); ++c) sort_neighbours_of(c, codes, same_codes);
+  });
+}
+
+void Bounded_assignment::sort_neighbours_of(std::size_t c, const Feature_vectors& codes, bool same_codes) {
+  constexpr auto block = kernel::block_size;
+  constexpr double far_away = std::numeric_limits<double>::infinity();
+  const auto others = static_cast<std::size_t>(codes.rows()) - 1;
+  const auto k = static_cast<std::size_t>(codes.cols());
+  Region_index* order = neighbour_order_.data() + c * others;
+  std::vector<std::pair<double, Region_index>> sorted(others);
+  for (std::size_t i = 0; i < others; ++i) {
+    if (!same_codes) order[i] = static_cast<Region_index>(i < c ? i : i + 1);
+    sorted[i] = {(codes.row(c) - codes.row(order[i])).norm(), order[i]};
+  }
+  sort_nearly_sorted(sorted);
+  for (std::size_t i = 0; i < others; ++i) order[i] = sorted[i].second;
+  half_gaps_[c] = others > 0 ? std::max(0.0, sorted[0].first / 2 - margin_) : far_away;
+  for (std::size_t i = 0; i < padded_; ++i) {
+    neighbour_distances_[c * padded_ + i] = i < others ? sorted[i].first : far_away;
+    neighbour_codes_[c * padded_ + i] = i < others ? sorted[i].second : 0;
+    double* components = neighbour_components_.data() + (c * padded_ + i / block * block) * k + i % block;
+    for (std::size_t component = 0; component < k; ++component)
+      components[component * block] = i < others ? codes(sorted[i].second, component) : far_away;
   }
 }
 

@@ -26,6 +26,7 @@ struct Lbg_options {
   Nearest_search search = Nearest_search::bounded;
   Feature_options features = {};
   std::size_t max_iterations = 1000;  ///< per Lloyd run; a bound that no mesh we know of meets
+  std::size_t threads = 1;            ///< at most; 0: as many as the machine has. The result does not depend on it
 };
 
 /// Lloyd iterations between two splits.

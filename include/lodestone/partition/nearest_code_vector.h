@@ -6,8 +6,17 @@
 
 #include "lodestone/concepts.h"
 #include "lodestone/partition/feature_vectors.h"
+#include "lodestone/workers.h"
 
 namespace lodestone {
+
+/// How many consecutive vectors are one task. The sums of a chunk are formed apart and added in the order of the
+/// chunks: its size depends on nothing else, and so the sums are the same to the last bit for any search and number of
+/// threads. A whole number of blocks of eight; at most 64 chunks, whose sums together take no more room than the
+/// vectors.
+/// @param vectors  M
+/// @param cells    N
+std::size_t chunk_size(std::size_t vectors, std::size_t cells);
 
 /// Nearest code vector of every feature vector, and what a Lloyd iteration needs of the cells.
 struct Assignment {
@@ -17,6 +26,9 @@ struct Assignment {
   std::vector<std::uint64_t> cell_sizes = {};  ///< N
   std::uint64_t distance_evaluations = 0;      ///< between a vector and a code vector, over all calls
 
+  std::vector<double> chunk_sums = {};          ///< the same of each chunk: C x N x k
+  std::vector<std::uint64_t> chunk_sizes = {};  ///< C x N
+
   /// Room for M vectors and N empty cells of k components.
   void start(std::size_t vectors, std::size_t cells, std::size_t components);
 };
@@ -24,7 +36,8 @@ struct Assignment {
 /// The plain loop: every feature vector against every code vector. O(k M N) per call.
 /// @param vectors  M x k
 /// @param codes    N x k
-void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, Assignment& assignment);
+void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, Assignment& assignment,
+                  Workers& workers = Workers::alone());
 
 /// Nearest code vectors over consecutive Lloyd iterations, with the same labels and distances as `assign_plain`.
 ///
@@ -40,7 +53,8 @@ class Bounded_assignment {
  public:
   static constexpr Eigen::Index max_codes = 1024;
 
-  explicit Bounded_assignment(const Feature_vectors& vectors);
+  /// Both are kept by reference.
+  explicit Bounded_assignment(const Feature_vectors& vectors, Workers& workers = Workers::alone());
 
   /// Labels for `codes`, which may have moved and may be more than at the last call. `assignment.labels` is where the
   /// search for each vector starts: any number below N is right, a near one is fast.
@@ -49,11 +63,16 @@ class Bounded_assignment {
   /// Must be called when labels have been changed since the last call of `assign`: its bounds speak of those.
   void forget();
 
+  /// Must be called when the rows of the vectors have changed places since the last call of `assign`.
+  void reload();
+
  private:
   void follow_drift(const Feature_vectors& codes);
   void sort_neighbours(const Feature_vectors& codes);
+  void sort_neighbours_of(std::size_t c, const Feature_vectors& codes, bool same_codes);
 
   const Feature_vectors& vectors_;
+  Workers& workers_;
   std::vector<double> blocks_;     ///< the vectors again, eight side by side
   double margin_;                  ///< absolute part of the margin: above the rounding of any distance here
   Feature_vectors previous_;       ///< code vectors of the last call

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Partition strategies on a large mesh, beside one pass that assigns each vector by brute force once.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "lodestone/io/deformation.h"
+#include "lodestone/io/shapes.h"
+#include "lodestone/partition/strategies.h"
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t regions = 256;
+
+template <class Work>
+double seconds_of(Work work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A wobbly sphere of a quarter of a million vertices, numbered, and its vectors.
+struct Subject {
+  Surface_mesh mesh = wobbly_sphere();
+  Mesh_numbering<Surface_mesh> numbering{mesh};
+  Positions positions = read_positions(numbering, mesh.points());
+  Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
+  Feature_vectors vectors = feature_vectors(positions, numbering.corners());
+  Feature_vectors codes = quantise(vectors, regions).code_vectors;
+
+  Partition_input<Surface_mesh> input() const { return {mesh, numbering, graph, positions}; }
+
+  static Surface_mesh wobbly_sphere() {
+    Surface_mesh sphere = icosphere(158);
+    std::vector<Point> points(sphere.points().begin(), sphere.points().end());
+    const Motion motion = deform(points, {Wobble{.amplitude = 0.05, .waves = 3}});
+    motion.pose(0, points);
+    std::ranges::copy(points, sphere.points().begin());
+    return sphere;
+  }
+};
+
+const Subject& subject() {
+  static const Subject the_subject;
+  return the_subject;
+}
+
+// The widest vectors the machine has, as in the library's own loops; elsewhere those of the whole program.
+#if defined(__x86_64__) && !defined(__clang__)
+#define LODESTONE_WIDEST __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
+#else
+#define LODESTONE_WIDEST
+#endif
+
+/// Brute force eight code vectors at a time, k = 6: per lane the nearest of every eighth.
+/// @param codes  N / 8 blocks of 6 rows of eight
+LODESTONE_WIDEST void nearest_in_blocks(const double* vectors, std::size_t count, const double* codes,
+                                        std::size_t blocks, std::uint32_t* labels) {
+  using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
+  for (std::size_t v = 0; v < count; ++v, vectors += 6) {
+    Eight nearest = Eight{} + std::numeric_limits<double>::max(), winner = {};
+    for (std::size_t block = 0; block < blocks; ++block) {
+      Eight squared = {};
+      for (std::size_t i = 0; i < 6; ++i) {
+        Eight row;
+        std::memcpy(&row, codes + (block * 6 + i) * 8, sizeof row);
+        const Eight difference = vectors[i] - row;
+        squared += difference * difference;
+      }
+      winner = squared < nearest ? Eight{} + static_cast<double>(block) : winner;
+      nearest = squared < nearest ? squared : nearest;
+    }
+    std::size_t least = 0;
+    for (std::size_t lane = 1; lane < 8; ++lane)
+      if (nearest[lane] < nearest[least]) least = lane;
+    labels[v] = static_cast<std::uint32_t>(8 * winner[least]) + static_cast<std::uint32_t>(least);
+  }
+}
+
+/// One pass by brute force, two ways: the library's plain loop, and eight at a time.
+struct Brute_force {
+  Assignment plain;
+  std::vector<double> blocks;
+  std::vector<std::uint32_t> labels;
+
+  Brute_force() : blocks(regions * 6), labels(subject().numbering.vertex_count()) {
+    for (std::size_t c = 0; c < regions; ++c)
+      for (std::size_t i = 0; i < 6; ++i)
+        blocks[(c / 8 * 6 + i) * 8 + c % 8] =
+            subject().codes(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(i));
+  }
+  double plain_seconds() {
+    return seconds_of([&] { assign_plain(subject().vectors, subject().codes, plain); });
+  }
+  double vector_seconds() {
+    return seconds_of(
+        [&] { nearest_in_blocks(subject().vectors.data(), labels.size(), blocks.data(), regions / 8, labels.data()); });
+  }
+};
+
+/// Keeps the least time of each of several works that take turns.
+struct Least {
+  double seconds = std::numeric_limits<double>::infinity();
+  void add(double time) { seconds = std::min(seconds, time); }
+};
+
+/// `timed`, which returns seconds, and both passes by brute force in turn. `passes` and `vector_passes` say how many
+/// passes it takes; all from the least times.
+template <class Timed>
+void beside_brute_force(benchmark::State& state, Timed timed) {
+  Brute_force brute_force;
+  Least plain, vector, whole;
+  for (auto _ : state) {
+    plain.add(brute_force.plain_seconds());
+    vector.add(brute_force.vector_seconds());
+    const double time = timed();
+    whole.add(time);
+    state.SetIterationTime(time);
+  }
+  if (brute_force.plain.labels != brute_force.labels) state.SkipWithError("the passes by brute force differ");
+  state.counters["vectors"] = static_cast<double>(subject().vectors.rows());
+  state.counters["least_ms"] = 1e3 * whole.seconds;
+  state.counters["pass_ms"] = 1e3 * plain.seconds;
+  state.counters["passes"] = whole.seconds / plain.seconds;
+  state.counters["vector_pass_ms"] = 1e3 * vector.seconds;
+  state.counters["vector_passes"] = whole.seconds / vector.seconds;
+}
+
+/// LBG alone, from vectors to labels; with several threads also one thread, in turn, with the same labels.
+void lbg_on_threads(benchmark::State& state) {
+  const auto threads = static_cast<std::size_t>(state.range(0));
+  Quantisation alone, shared;
+  Least one, several;
+  beside_brute_force(state, [&] {
+    if (threads != 1) one.add(seconds_of([&] { alone = quantise(subject().vectors, regions); }));
+    const double seconds = seconds_of([&] { shared = quantise(subject().vectors, regions, {.threads = threads}); });
+    several.add(seconds);
+    return seconds;
+  });
+  if (threads == 1) return;
+  if (alone.labels != shared.labels) state.SkipWithError("the labels differ");
+  state.counters["one_over_this"] = one.seconds / several.seconds;
+}
+
+/// A strategy by name, from the numbered mesh to labels.
+void strategy(benchmark::State& state, const std::string& name) {
+  const auto chosen = make_strategy(name);
+  beside_brute_force(state, [&] {
+    return seconds_of([&] { benchmark::DoNotOptimize(chosen(subject().input(), regions).labels.data()); });
+  });
+}
+
+BENCHMARK(lbg_on_threads)
+    ->Name("large/lbg/threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->UseManualTime()
+    ->Iterations(10)
+    ->Unit(benchmark::kMillisecond);
+
+/// Those the library has: each by its own name.
+const bool registered = [] {
+  for (const std::string name : {"lbg", "kmeans++", "metis", "vsa"}) {
+    if (std::ranges::find(strategies(), name, &Strategy_entry::name) == strategies().end()) continue;
+    benchmark::RegisterBenchmark(("large/strategy/" + name).c_str(), strategy, name)
+        ->UseManualTime()
+        ->Iterations(3)
+        ->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
+
+}  // namespace
+
+}  // namespace lodestone
