@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any number of threads and either search give the same bits: sums are formed chunk by chunk.
+// Any number of threads, either search and every instruction set give the same bits: sums are formed chunk by chunk.
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <random>
 
+#include "contact/instruction_sets.h"
 #include "lodestone/partition/lbg.h"
 #include "lodestone/partition/nearest_code_vector.h"
 #include "test_meshes.h"
@@ -116,6 +117,14 @@ TEST(Assignment, adds_up_every_vector_once) {
     }
     EXPECT_EQ(assignment.cell_sizes, sizes);
     EXPECT_LT((assignment.cell_sums - sums).cwiseAbs().maxCoeff(), 1e-12 * static_cast<double>(count));
+  }
+}
+
+TEST(Quantise, gives_the_same_bits_on_every_instruction_set) {
+  for (const Eigen::Index components : {3, 6, 7, 10}) {
+    const auto vectors = random_vectors(9003, components, 5);
+    const auto plain = quantise(vectors, 100, {.search = Nearest_search::plain});
+    for_instruction_sets([&] { expect_same(quantise(vectors, 100, {.threads = 2}), plain); });
   }
 }
 

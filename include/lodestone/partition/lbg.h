@@ -49,7 +49,8 @@ struct Quantisation {
 /// Where N is no power of two, the last split takes only the cells with the largest distortion. A cell that becomes
 /// empty starts anew at the vector farthest from its code vector within the cell of largest distortion. Fewer than N
 /// cells come back only when the vectors hold fewer than N different values. O(k M N) per iteration with the plain
-/// search.
+/// search, shared by `threads`; neither their number nor the search changes a bit of labels, code vectors and runs.
+/// Memory: about three copies of the vectors.
 ///
 /// @param vectors  M x k
 /// @param cells    N, >= 1
