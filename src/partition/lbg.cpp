@@ -37,11 +37,15 @@ class Quantiser {
   Quantiser(const Feature_vectors& vectors, const Lbg_options& options)
       : options_(options),
         workers_(options.threads),
-        vectors_(vectors),
+        vectors_(vectors.rows(), vectors.cols()),
         codes_(vectors.colwise().mean()),
         origin_(vectors.rows()) {
     assignment_.labels.assign(vectors.rows(), 0);
-    std::iota(origin_.begin(), origin_.end(), 0);
+    for_chunks([&](std::size_t, std::size_t begin, std::size_t end) {
+      const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
+      vectors_.middleRows(first, count) = vectors.middleRows(first, count);
+      std::iota(origin_.begin() + first, origin_.begin() + first + count, static_cast<std::uint32_t>(begin));
+    });
     if (options.search == Nearest_search::bounded) bounded_.emplace(vectors_, workers_);
   }
   Quantiser(const Quantiser&) = delete;
@@ -57,7 +61,7 @@ class Quantiser {
   std::size_t chunk_count() const { return (origin_.size() + chunk_length() - 1) / chunk_length(); }
   template <class Task>
   void for_chunks(Task task);
-  double distortion() const;
+  double distortion();
   std::vector<double> cell_distortions() const;
   Spread spread(std::size_t begin, std::size_t end) const;
   std::vector<Spread> cell_spreads();
@@ -99,9 +103,13 @@ void Quantiser::assign() {
     assign_plain(vectors_, codes_, assignment_, workers_);
 }
 
-double Quantiser::distortion() const {
+double Quantiser::distortion() {
   const Eigen::Map<const Eigen::VectorXd> distances(assignment_.squared_distances.data(), vectors_.rows());
-  return distances.sum() / static_cast<double>(vectors_.size());
+  std::vector<double> sums(chunk_count());
+  for_chunks([&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    sums[chunk] = distances.segment(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin)).sum();
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(vectors_.size());
 }
 
 std::vector<double> Quantiser::cell_distortions() const {

@@ -116,7 +116,8 @@ Bounded_assignment::Bounded_assignment(const Feature_vectors& vectors, Workers& 
 void Bounded_assignment::reload() {
   constexpr auto block = kernel::block_size;
   const auto count = static_cast<std::size_t>(vectors_.rows()), k = static_cast<std::size_t>(vectors_.cols());
-  blocks_.resize((count + block - 1) / block * block * k);
+  blocks_.resize(static_cast<Eigen::Index>((count + block - 1) / block * block * k));
+  if (count % block > 0) blocks_.tail(static_cast<Eigen::Index>(block * k)).setZero();
   const std::size_t size = chunk_size(count, 0);
   workers_.run((count + size - 1) / size, [&](std::size_t chunk, std::size_t) {
     for (std::size_t v = chunk * size; v < std::min((chunk + 1) * size, count); ++v) {
@@ -125,7 +126,7 @@ void Bounded_assignment::reload() {
       for (std::size_t i = 0; i < k; ++i) components[i * block] = vector[i];
     }
   });
-  forget();
+  previous_.resize(0, 0);  // so that the next call starts anew
 }
 
 void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assignment) {

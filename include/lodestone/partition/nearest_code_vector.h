@@ -73,7 +73,7 @@ class Bounded_assignment {
 
   const Feature_vectors& vectors_;
   Workers& workers_;
-  std::vector<double> blocks_;     ///< the vectors again, eight side by side
+  Eigen::VectorXd blocks_;         ///< the vectors again, eight side by side
   double margin_;                  ///< absolute part of the margin: above the rounding of any distance here
   Feature_vectors previous_;       ///< code vectors of the last call
   std::vector<double> second_;     ///< per vector: lower bound on the distance to all code vectors but its own
