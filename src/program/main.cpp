@@ -79,9 +79,10 @@ void add_exact_options(CLI::App& app, Exact_options& options) {
       ->capture_default_str();
   app.add_flag("--self", options.self_collision, "Mode exact: also report an object's faces that intersect each other");
   app.add_flag("--containment", options.containment, "Mode exact: also report objects that lie inside others");
-  app.add_option("--threads", options.threads, "Mode exact: threads, at most; 0: as many as the machine has")
-      ->check(CLI::Range(std::size_t{0}, std::size_t{1024}))
-      ->capture_default_str();
+}
+
+void add_threads(CLI::App& app, std::size_t& threads, const char* of) {
+  app.add_option("--threads", threads, of)->check(CLI::Range(std::size_t{0}, std::size_t{1024}))->capture_default_str();
 }
 
 void add_detect(CLI::App& program, Detect_command& command) {
@@ -123,6 +124,8 @@ void add_detect(CLI::App& program, Detect_command& command) {
                  "Repartition when a region exceeds so many times the largest area; inf: never")
       ->capture_default_str();
   add_exact_options(app, options.exact);
+  add_threads(app, options.exact.threads,
+              "Of mode exact, and of partitions by lbg, at most; 0: as many as the machine has");
   add_strategy_options(app, command.partition, "Of strategies that draw at random, and of --mode senin");
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")
@@ -138,6 +141,7 @@ void add_partition(CLI::App& program, Partition_command& command) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->capture_default_str();
   add_strategy_options(app, command.strategy, "Of strategies that draw at random");
+  add_threads(app, command.strategy.settings.lbg.threads, "Of lbg, at most; 0: as many as the machine has");
   app.add_flag("--keep-islands", command.options.keep_islands,
                "Leave regions in several pieces as the strategy made them");
   app.add_option("--out", command.out, "Coloured mesh (.ply)")->type_name("FILE")->check(not_empty());
@@ -205,6 +209,7 @@ int run_guarded(int argc, char** argv) {
   }
   int code = exit_code::success;
   detect.options.senin.seed = detect.partition.settings.seed;
+  detect.partition.settings.lbg.threads = detect.options.exact.threads;
   if (program.got_subcommand("detect"))
     code = run(detect);
   else if (program.got_subcommand("partition"))
