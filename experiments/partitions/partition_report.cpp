@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "interval.h"
 #include "lodestone/io/text_table.h"
+#include "measured_run.h"
 #include "partition_plan.h"
 
 namespace lodestone {
@@ -25,6 +27,7 @@ struct Figure {
   std::string key;
   std::string over = {};  ///< empty: the figure itself
   double scale = 1;
+  bool is_time = false;  ///< the median stands for the meshes of a seed, for times have outliers
 
   double of(const Json& row) const {
     const auto value = scale * row.at(key).get<double>();
@@ -49,7 +52,7 @@ const std::vector<Column>& partition_columns() {
       {"radius", {"geodesic_radius", "geodesic_radius"}, 3},
       {"boxes", {"box_volume", "box_volume"}},
       {"balls", {"ball_volume", "ball_volume"}},
-      {"time / lbg", {"partition_time", "seconds", "lbg_seconds"}},
+      {"time / lbg", {"partition_time", "seconds", "lbg_seconds", 1, true}},
       {"peak (MiB)", {"peak_mib", "peak_kib", {}, 1.0 / 1024}, 1},
   };
   return columns;
@@ -63,9 +66,8 @@ const std::vector<Column>& use_columns() {
       {"candidates", {"candidates", "candidates"}, 1},
       {"exact tests", {"exact_tests", "exact_tests"}, 1},
       {"repartitions", {"repartitions", "repartitions"}},
-      {"frame (us)", {"frame_us", "frame_us"}, 1},
-      {"frame / lbg", {"frame_time", "frame_us", "lbg_frame_us"}},
-      {"mean / lbg", {"mean_frame_time", "mean_frame_us", "lbg_mean_frame_us"}},
+      {"frame (us)", {"frame_us", "frame_us", {}, 1, true}, 1},
+      {"frame / lbg", {"frame_time", "frame_us", "lbg_frame_us", 1, true}},
   };
   return columns;
 }
@@ -83,15 +85,19 @@ By_variant sorted_by_variant(const Rows& rows, const std::string& mesh = {}) {
   return sorted;
 }
 
-/// Mean over the rows of each seed, then the interval over the seeds.
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Mean or median over the rows of each seed, then the interval over the seeds.
 Interval summary(const By_seed& seeds, const Figure& figure) {
-  std::vector<double> means;
+  std::vector<double> of_seeds;
   for (const auto& [seed, rows] : seeds) {
-    double sum = 0;
-    for (const Json* row : rows) sum += figure.of(*row);
-    means.push_back(sum / static_cast<double>(rows.size()));
+    std::vector<double> values;
+    for (const Json* row : rows) values.push_back(figure.of(*row));
+    of_seeds.push_back(figure.is_time ? median(values) : mean(values));
   }
-  return confidence_interval(means);
+  return confidence_interval(of_seeds);
 }
 
 /// With its interval where that is not nothing.

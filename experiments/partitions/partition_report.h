@@ -8,8 +8,8 @@
 namespace lodestone {
 
 /// The rows of a sweep as tables in Markdown: partitions and what they find at 32 regions, recall against the number of
-/// regions, the weight of the normals, island repair. A figure is the mean over meshes of one seed, then over seeds,
-/// with the 95 % confidence interval over the seeds.
+/// regions, the weight of the normals, island repair. A figure is the mean over the meshes of one seed, of times the
+/// median, then the mean over the seeds with its 95 % confidence interval.
 std::string partition_report(const std::map<std::string, nlohmann::ordered_json>& rows);
 
 /// The same figures for plots: one entry per variant, number of regions and figure, with its interval, over all meshes;

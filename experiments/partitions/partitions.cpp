@@ -2,6 +2,8 @@
 // Every strategy on every mesh: how good are its partitions, and what do particles find with them?
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "experiment.h"
 #include "lodestone/errors.h"
 #include "lodestone/io/coloured_ply.h"
@@ -16,13 +18,10 @@ namespace lodestone {
 
 namespace {
 
-/// Takes over the rows of other folders, made by the same program.
+/// Takes over the rows of other folders, if one program made them and those that are there.
 void merge(const Experiment_context& context, Row_file& rows) {
   for (const auto& folder : context.merge) {
-    write_manifest(context.out, [&] {
-      check_manifest(folder, partition_manifest());
-      return read_manifest(folder);
-    }());
+    write_manifest(context.out, read_manifest(folder));
     for (const auto& [id, row] : read_rows(folder / "rows.jsonl")) rows.add(row);
   }
 }
@@ -55,15 +54,16 @@ std::string run_partitions(const Experiment_context& context) {
   for (const auto& run : plan) ids.push_back(run.id());
 
   Row_file rows(context.out / "rows.jsonl");
-  write_manifest(context.out, partition_manifest());
   merge(context, rows);
+  // A finished sweep is only reported: by any revision, for no rows are added.
+  const auto to_do = [&](const auto& id) { return !rows.has(id); };
+  if (std::ranges::any_of(ids, to_do)) write_manifest(context.out, partition_manifest());
   const auto failures = sweep(
       ids, rows, {.jobs = context.jobs, .shard = {.k = context.shard, .n = context.shards}},
       [&](std::size_t run) { return execute(plan[run]); }, context.progress);
   if (!failures.empty()) throw Bad_argument(said_of(failures));
 
-  std::size_t missing = 0;
-  for (const auto& id : ids) missing += rows.has(id) ? 0 : 1;
+  const auto missing = std::ranges::count_if(ids, to_do);
   std::map<std::string, nlohmann::ordered_json> chosen;
   for (const auto& id : ids)
     if (rows.has(id)) chosen.emplace(id, rows.rows().at(id));

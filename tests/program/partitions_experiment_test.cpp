@@ -107,6 +107,18 @@ TEST_F(Partitions_experiment, shards_that_ran_apart_are_merged_into_the_whole) {
   EXPECT_EQ(results("c"), expected);
 }
 
+TEST_F(Partitions_experiment, a_finished_sweep_is_reported_by_any_program) {
+  const auto first = run_program(command("a"));
+  expect_success(first);
+  auto manifest = read_json(folder.path() / "a" / "manifest.json");
+  manifest["revision"] = "another";
+  std::ofstream(folder.path() / "a" / "manifest.json") << manifest;
+  const auto again = run_program(command("a"));
+  expect_success(again);
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_EQ(read_json(folder.path() / "a" / "manifest.json"), manifest);
+}
+
 TEST_F(Partitions_experiment, rows_of_another_program_are_not_mixed_in) {
   expect_success(run_program(command("a", {"--shard", "1/20"})));
   auto manifest = read_json(folder.path() / "a" / "manifest.json");
