@@ -54,8 +54,9 @@ struct Detector_options {
   Distance_measure distance_measure = Distance_measure::adjacent_vertices;
   Candidate_choice candidates = Candidate_choice::all;
   Contact_query contacts = Contact_query::all;
-  bool contact_points = false;                                          ///< where faces meet; not with yes_no
-  bool contact_normals = false;                                         ///< which way, how deep; not with yes_no
+  bool contact_points = false;   ///< where faces meet; not with yes_no
+  bool contact_normals = false;  ///< which way, how deep; not with yes_no
+  bool list_candidates = false;  ///< also `Frame::candidates`; in mode `exact` there are none
   std::size_t most_contacts = std::numeric_limits<std::size_t>::max();  ///< listed per object pair; >= 1
   double growth = 1;  ///< repartition when a region exceeds so many times A*; > 0; infinity: never
   Senin_options senin = {};

@@ -52,6 +52,15 @@ struct Pair_result {
   Containment containment = Containment::none;
 };
 
+/// Two regions whose particles came nearer than the collision distance, so that their faces were to be checked.
+struct Candidate_regions {
+  Object_id a = 0;
+  Region_index region_a = 0;  ///< its number within `a`; in mode senin the particle's, which has no region
+  Object_id b = 0;
+  Region_index region_b = 0;
+  double distance = 0;  ///< of the two particles after their walk, in units of the coordinates
+};
+
 /// Everything one frame brought. Pairs that the broad phase dropped are not listed: none of their particles, or not
 /// their boxes, are near.
 struct Frame {
@@ -62,6 +71,9 @@ struct Frame {
   std::vector<Intersection_points> contact_points;
   /// Parallel to `face_pairs`; empty unless asked for. A negative depth tells faces that are near but apart.
   std::vector<Contact_normal> contact_normals;
+  /// `Pair_result::candidates` of each pair, one pair after the other, nearest first within a pair; empty unless asked
+  /// for. Once a face pair has answered the query, the farther ones of its pair are not checked any more.
+  std::vector<Candidate_regions> candidates = {};
   Frame_statistics statistics = {};
 
   std::span<const Face_pair> contacts(const Pair_result& pair) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -70,6 +71,7 @@ class Particle_detection {
   void find_near_pairs(const Collision_filter& filter);
   void walk();
   void check(Object_pair pair);
+  void list_candidates(Object_pair pair);
   void add_contacts(Pair_result& result, std::size_t first);
   void add_geometry(const Pair_result& result);
 
@@ -120,6 +122,7 @@ const Frame& Particle_detection<Mesh, Strategy, Points>::detect(const Collision_
   frame_.face_pairs.clear();
   frame_.contact_points.clear();
   frame_.contact_normals.clear();
+  frame_.candidates.clear();
   frame_.statistics = std::exchange(since_last_frame_, {});
   confirmation_.reset_count();
 
@@ -252,6 +255,7 @@ void Particle_detection<Mesh, Strategy, Points>::check(Object_pair pair) {
   });
   result.candidates = candidates_.size();
   frame_.statistics.candidates += candidates_.size();
+  if (options_.list_candidates) list_candidates(pair);
 
   timed(frame_.statistics.seconds.confirmation, [&] {
     for (const auto& candidate : candidates_) {
@@ -263,6 +267,16 @@ void Particle_detection<Mesh, Strategy, Points>::check(Object_pair pair) {
     add_contacts(result, result.first_contact);
   });
   frame_.pairs.push_back(result);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::list_candidates(Object_pair pair) {
+  for (const auto& candidate : candidates_)
+    frame_.candidates.push_back({.a = pair.a,
+                                 .region_a = candidate.a,
+                                 .b = pair.b,
+                                 .region_b = candidate.b,
+                                 .distance = std::sqrt(candidate.squared_distance)});
 }
 
 /// Sorts the face pairs found for one object pair, each once: faces at a seam are found in several regions.
