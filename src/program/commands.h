@@ -23,7 +23,8 @@ struct Detect_command {
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
   bool truth = false;
-  std::filesystem::path out;  ///< empty: nothing is written
+  std::filesystem::path out, html;  ///< empty: not written
+  std::size_t html_frames = 0;      ///< frames on the page, at most; 0: see page_frame_step
   bool quiet = false;
 };
 
@@ -32,7 +33,7 @@ struct Partition_command {
   Strategy_choice strategy = {};
   std::size_t regions = 12;
   Partition_options options = {};
-  std::filesystem::path out, json;  ///< empty: not written
+  std::filesystem::path out, json, html;  ///< empty: not written
   bool quiet = false;
 };
 
@@ -43,6 +44,7 @@ struct Experiment_command {
   std::size_t jobs = 1;
   std::string shard = "1/1";
   std::vector<std::filesystem::path> merge;
+  std::filesystem::path html;  ///< empty: not written
   bool quiet = false;
 };
 

@@ -15,6 +15,7 @@
 #include "lodestone/io/scene_file.h"
 #include "lodestone/io/text_table.h"
 #include "measured_run.h"
+#include "page_log.h"
 #include "printable.h"
 #include "progress.h"
 
@@ -50,13 +51,20 @@ struct Pair_summary {
   Score score = {};
 };
 
+/// The page shows the candidates too; they are listed apart from what is timed.
+Detector_options detector_options(const Detect_command& command) {
+  Detector_options options = command.options;
+  options.list_candidates = !command.html.empty();
+  return options;
+}
+
 /// A scene being played: the detector, the truth beside it, and what has been seen so far.
 class Run {
  public:
   explicit Run(const Detect_command& command)
       : command_(command),
         scene_(load(command.inputs)),
-        detector_(command.options, make_strategy(command.partition.name, command.partition.settings)) {
+        detector_(detector_options(command), make_strategy(command.partition.name, command.partition.settings)) {
     for (auto& object : scene_.objects) {
       names_.push_back(object.name);
       Object_options options{.particles = command.options.particles > 0 ? 0 : object.particles};
@@ -64,12 +72,15 @@ class Run {
       detector_.add(object.mesh, options);
     }
     measurement_.setting.options = command.options;
+    if (!command.html.empty()) page_.emplace(command, scene_, detector_);
   }
 
   std::size_t frames() const { return scene_.frames; }
   std::string play(std::size_t frame);
   nlohmann::ordered_json summary() const;
   void print() const;
+  /// Null if none was asked for.
+  Page_log* page() { return page_ ? &*page_ : nullptr; }
   /// Whether the truth about a pair is known; not within one object.
   bool has_truth(Object_pair pair) const { return command_.truth && pair.a != pair.b; }
   /// Something was reported that is not true, or missed by the mode that misses nothing.
@@ -78,13 +89,15 @@ class Run {
  private:
   std::optional<std::vector<Pair_truth>> find_truth() const;
   void compare(const Frame& result, const std::vector<Pair_truth>& truth);
+  std::optional<bool> any_truth(const std::optional<std::vector<Pair_truth>>& truth) const;
 
   const Detect_command& command_;
   Scene scene_;
-  Detector<Surface_mesh, Any_strategy> detector_;
+  Scene_detector detector_;
   std::vector<std::string> names_;
   std::map<Object_pair, Pair_summary> pairs_;
   Measurement measurement_;
+  std::optional<Page_log> page_;
   bool contradicted_ = false, missed_ = false;
 };
 
@@ -102,7 +115,15 @@ std::string Run::play(std::size_t frame) {
   const auto truth = find_truth();
   if (truth) compare(result, *truth);
   if (frame > 0 || scene_.frames == 1) measurement_.frames.push_back(result.statistics);
-  return frame_line(frame, names_, result, command_.options, truth);
+  std::string line = frame_line(frame, names_, result, command_.options, truth);
+  if (page_) page_->add(frame, result, line, any_truth(truth));
+  return line;
+}
+
+/// Whether any surfaces intersect, as far as exhaustive checking has told: it does not look at an object by itself.
+std::optional<bool> Run::any_truth(const std::optional<std::vector<Pair_truth>>& truth) const {
+  if (!truth || command_.options.exact.self_collision) return std::nullopt;
+  return std::ranges::any_of(*truth, [](const auto& pair) { return !pair.faces.empty(); });
 }
 
 std::optional<std::vector<Pair_truth>> Run::find_truth() const {
@@ -205,6 +226,21 @@ void Run::print() const {
              exact ? "pairs of leaves" : "iterations", mean_count(measurement_, &Frame_statistics::exact_tests));
 }
 
+/// All of them on disk before the first appears.
+void write_results(Run& scene_run, std::optional<Atomic_file>& frames, const Detect_command& command) {
+  std::optional<Atomic_file> summary;
+  if (frames) {
+    summary.emplace(command.out / "summary.json");
+    summary->write(json_text(scene_run.summary(), 2));
+    frames->finish();
+    summary->finish();
+  }
+  if (scene_run.page() != nullptr) scene_run.page()->finish();
+  if (frames) frames->commit();
+  if (summary) summary->commit();
+  if (scene_run.page() != nullptr) scene_run.page()->commit();
+}
+
 }  // namespace
 
 int run(const Detect_command& command) {
@@ -221,17 +257,11 @@ int run(const Detect_command& command) {
       progress(frame + 1, scene_run.frames());
     }
   }
-  if (frames) {
-    Atomic_file summary(command.out / "summary.json");
-    summary.write(json_text(scene_run.summary(), 2));
-    frames->finish();
-    summary.finish();
-    frames->commit();
-    summary.commit();
-  }
+  write_results(scene_run, frames, command);
   if (!command.quiet) {
     scene_run.print();
     if (frames) fmt::print("results: {}\n", printable(command.out.string()));
+    if (scene_run.page() != nullptr) fmt::print("{}", scene_run.page()->summary());
   }
   return scene_run.contradicts_truth() ? exit_code::contradicts_truth : exit_code::success;
 }

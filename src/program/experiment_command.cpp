@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <optional>
 
 #include "commands.h"
 #include "exit_codes.h"
 #include "experiment.h"
+#include "experiment_plots.h"
 #include "lodestone/io/atomic_file.h"
+#include "page_file.h"
 #include "printable.h"
 #include "progress.h"
 
@@ -26,11 +29,21 @@ std::pair<std::size_t, std::size_t> parts_of(const std::string& shard) {
   throw Bad_argument("--shard: expected K/N with 1 <= K <= N, found '" + shard + "'");
 }
 
+Page page_of(const Experiment& experiment, const std::filesystem::path& out, const std::string& report) {
+  const std::string name(experiment.name);
+  Page page({.kind = Page_kind::experiment, .title = name + ": " + std::string(experiment.question), .report = report});
+  for (auto& plot : experiment_plots(std::filesystem::path(LODESTONE_EXPERIMENTS) / name / "plots", out))
+    page.add_plot(std::move(plot));
+  return page;
+}
+
 }  // namespace
 
 int run(const Experiment_command& command) {
   const auto experiment = std::ranges::find_if(experiments(), [&](const auto& e) { return e.name == command.name; });
   const std::filesystem::path out = command.out.empty() ? std::filesystem::path("out") / command.name : command.out;
+  std::optional<Page_file> page;
+  if (!command.html.empty()) page.emplace(command.html, out);
   std::string report;
   {
     Progress_bar bar(command.name, command.quiet);
@@ -49,7 +62,12 @@ int run(const Experiment_command& command) {
   file.commit();
   if (!command.quiet)
     fmt::print("{}\n{}\n\n{}", experiment->question, std::string(experiment->question.size(), '='), report);
+  if (page) {  // after the report, which must not be lost to a plot that cannot be drawn
+    page->finish(page_of(*experiment, out, report));
+    page->commit();
+  }
   if (!command.quiet) fmt::print("\nreport and figures: {}\n", printable(out.string()));
+  if (!command.quiet && page) fmt::print("{}\n", page->summary());
   return exit_code::success;
 }
 

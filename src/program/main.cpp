@@ -41,6 +41,10 @@ CLI::Validator not_empty() {
   return {[](const std::string& text) { return std::string(text.empty() ? "a name is wanted, found none" : ""); }, ""};
 }
 
+CLI::Option* add_html(CLI::App& app, std::filesystem::path& html, const char* what) {
+  return app.add_option("--html", html, what)->type_name("FILE")->check(not_empty());
+}
+
 /// Squares of larger weights leave the range of a double.
 constexpr double largest_normal_weight = 1e6;
 
@@ -130,6 +134,13 @@ void add_detect(CLI::App& program, Detect_command& command) {
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")
       ->check(not_empty());
+  auto* const html =
+      add_html(app, command.html, "One page (.html) to watch the run on; --contacts is then all if not given");
+  app.add_option("--html-frames", command.html_frames,
+                 "Frames on the page, at most: the first of every so many; 0: so many that it stays small")
+      ->needs(html)
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
+      ->capture_default_str();
   app.add_flag("--quiet", command.quiet, "No progress bar, no table");
   app.footer(strategy_list());
 }
@@ -146,6 +157,7 @@ void add_partition(CLI::App& program, Partition_command& command) {
                "Leave regions in several pieces as the strategy made them");
   app.add_option("--out", command.out, "Coloured mesh (.ply)")->type_name("FILE")->check(not_empty());
   app.add_option("--json", command.json, "Statistics")->type_name("FILE")->check(not_empty());
+  add_html(app, command.html, "One page (.html) to look at the regions");
   app.add_flag("--quiet", command.quiet, "No table");
   app.footer(strategy_list());
 }
@@ -179,6 +191,7 @@ void add_experiment(CLI::App& program, Experiment_command& command) {
       ->type_name("DIR")
       ->default_str("out/NAME")
       ->check(not_empty());
+  add_html(app, command.html, "One page (.html) with the report and plots of the figures");
   app.add_flag("--quiet", command.quiet, "No progress bar, no report on the terminal");
   app.footer(list + "\n\n" + exit_code::help);
 }
@@ -210,6 +223,9 @@ int run_guarded(int argc, char** argv) {
   int code = exit_code::success;
   detect.options.senin.seed = detect.partition.settings.seed;
   detect.partition.settings.lbg.threads = detect.options.exact.threads;
+  // What is to be looked at should be there.
+  if (!detect.html.empty() && program.get_subcommand("detect")->count("--contacts") == 0)
+    detect.options.contacts = Contact_query::all;
   if (program.got_subcommand("detect"))
     code = run(detect);
   else if (program.got_subcommand("partition"))

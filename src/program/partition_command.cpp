@@ -15,6 +15,7 @@
 #include "lodestone/io/text_table.h"
 #include "lodestone/partition/partition_measures.h"
 #include "measures_json.h"
+#include "page_file.h"
 #include "printable.h"
 #include "progress.h"
 
@@ -70,6 +71,22 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
           {"seconds", divided.seconds}};
 }
 
+/// The mesh as a page that stands still, each particle where its region begins.
+Page page_of(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
+  const Mesh_numbering numbering(file.mesh);
+  Json numbers = statistics(file, divided, command);
+  numbers.erase("seconds");  // the same page for the same partition
+  Page page(
+      {.kind = Page_kind::partition, .title = command.mesh.filename().string(), .strategy = command.strategy.name});
+  page.set_regions(page.add_object(command.mesh.stem().string(), numbering.vertex_count(), numbering.corners()),
+                   divided.labels);
+  const auto& starts = divided.partition.particles;
+  page.add_frame({.positions = {read_positions(numbering, file.mesh.points())},
+                  .particles = {{starts.begin(), starts.end()}},
+                  .numbers = json_text(numbers)});
+  return page;
+}
+
 void print_table(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
   const auto& statistics = divided.partition.statistics;
   const auto [smallest, largest] = std::ranges::minmax(divided.sizes);
@@ -100,18 +117,24 @@ int run(const Partition_command& command) {
     throw Bad_argument(command.out.string() + ": the coloured mesh is written as .ply");
   if (!command.out.empty() && command.out == command.json)
     throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics need a file each");
+  std::optional<Page_file> page;
+  if (!command.html.empty()) page.emplace(command.html, command.json);
   Mesh_file file = read_mesh(command.mesh);
   const Divided divided = divide(file.mesh, command);
   check_interrupt();
-  std::optional<Atomic_file> json;  // on disk first: if it cannot be written, no mesh is either
+  // On disk first: if one of them cannot be written, no mesh is either.
+  std::optional<Atomic_file> json;
   if (!command.json.empty()) {
     json.emplace(command.json);
     json->write(json_text(statistics(file, divided, command), 2));
     json->finish();
   }
+  if (page) page->finish(page_of(file, divided, command));
   if (!command.out.empty()) write_coloured_ply(command.out, file.mesh, divided.labels);
   if (json) json->commit();
+  if (page) page->commit();
   if (!command.quiet) print_table(file, divided, command);
+  if (!command.quiet && page) fmt::print("\n{}\n", page->summary());
   return exit_code::success;
 }
 

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "page_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "frame_log.h"
+#include "lodestone/contact/triangle_distance.h"
+
+namespace lodestone {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The same question as the run's, to the mode that misses nothing.
+Detector_options exact_question(const Detector_options& options) {
+  Detector_options asked{.mode = Mode::exact, .contacts = Contact_query::yes_no, .exact = options.exact};
+  asked.exact.containment = false;
+  return asked;
+}
+
+Page_head head_of(const Detect_command& command, const Scene& scene, std::size_t frame_step) {
+  const Mode mode = command.options.mode;
+  Page_head head{.title = scene.name, .mode = std::string(name_of(mode)), .frame_step = frame_step};
+  if (mode != Mode::senin) head.strategy = command.partition.name;
+  return head;
+}
+
+std::size_t vertices_of(const Scene& scene) {
+  std::size_t vertices = 0;
+  for (const auto& object : scene.objects) vertices += object.mesh.number_of_vertices();
+  return vertices;
+}
+
+Positions positions_of(const Surface_mesh& mesh) {
+  Positions positions(mesh.number_of_vertices(), 3);
+  for (const auto v : mesh.vertices()) positions.row(v) = coordinates(mesh.point(v));
+  return positions;
+}
+
+Triangle triangle_of(const Surface_mesh& mesh, const Corners& corners) {
+  const auto point = [&](std::uint32_t vertex) { return mesh.point(Surface_mesh::Vertex_index(vertex)); };
+  return {point(corners[0]), point(corners[1]), point(corners[2])};
+}
+
+/// Where two faces meet, or, if they are apart, the nearest point of each.
+Intersection_points meeting_points(const Triangle& a, const Triangle& b) {
+  if (triangles_intersect(a, b)) return triangle_intersection(a, b);
+  const Closest_points nearest = closest_points(a, b);
+  return {nearest.a, nearest.b};
+}
+
+/// A contact per side of a polygon, one for a segment or a point.
+void add_contacts(std::vector<Page_contact>& contacts, const Page_contact& faces, const Intersection_points& points) {
+  const std::size_t sides = points.size() > 2 ? points.size() : 1;
+  for (std::size_t i = 0; i < sides; ++i) {
+    const Point &from = points[i], &to = points[(i + 1) % points.size()];
+    contacts.push_back(faces);
+    contacts.back().ends = {from.x(), from.y(), from.z(), to.x(), to.y(), to.z()};
+  }
+}
+
+Json microseconds(const Stage_times& seconds) {
+  const auto rounded = [](double s) { return std::round(1e8 * s) / 100; };
+  return {{"repartition", rounded(seconds.repartition)}, {"refit", rounded(seconds.refit)},
+          {"broad_phase", rounded(seconds.broad_phase)}, {"relaxation", rounded(seconds.relaxation)},
+          {"candidates", rounded(seconds.candidates)},   {"confirmation", rounded(seconds.confirmation)}};
+}
+
+}  // namespace
+
+Page_log::Page_log(const Detect_command& command, const Scene& scene, const Scene_detector& detector)
+    : command_(command),
+      scene_(scene),
+      detector_(detector),
+      exact_(exact_question(command.options)),
+      frame_step_(page_frame_step(scene.frames, vertices_of(scene), command.html_frames)),
+      page_(head_of(command, scene, frame_step_)),
+      file_(command.html, command.out) {
+  for (const auto& object : scene.objects) {
+    const Mesh_numbering<Surface_mesh> numbering(object.mesh);
+    page_.add_object(object.name, numbering.vertex_count(), numbering.corners());
+    exact_.add(object.mesh);
+  }
+}
+
+void Page_log::add(std::size_t frame, const Frame& result, const std::string& line, std::optional<bool> truth) {
+  if (frame % frame_step_ != 0) return;
+  const Detector_options& options = command_.options;
+  set_regions();
+  Page_frame shown{.positions = {}, .particles = particles(), .numbers = line, .stages = stages(result, truth)};
+  for (const auto& object : scene_.objects) shown.positions.push_back(positions_of(object.mesh));
+  if (options.mode != Mode::exact) shown.candidates = result.candidates;
+  if (options.contacts != Contact_query::yes_no) shown.contacts = contacts(result);
+  page_.add_frame(std::move(shown));
+}
+
+void Page_log::set_regions() {
+  if (command_.options.mode == Mode::senin) return;
+  for (Object_id o = 0; o < scene_.objects.size(); ++o) {
+    const auto& regions = detector_.maps(o).region();
+    std::vector<Region_index> labels;
+    for (const auto v : scene_.objects[o].mesh.vertices()) labels.push_back(regions[v]);
+    page_.set_regions(o, labels);
+  }
+}
+
+std::vector<std::vector<std::uint32_t>> Page_log::particles() const {
+  std::vector<std::vector<std::uint32_t>> at;
+  if (command_.options.mode == Mode::exact) return at;
+  for (Object_id o = 0; o < scene_.objects.size(); ++o) at.push_back(detector_.object(o).particles().at);
+  return at;
+}
+
+std::vector<Page_contact> Page_log::contacts(const Frame& result) const {
+  std::vector<Page_contact> contacts;
+  for (const auto& pair : result.pairs)
+    for (const auto& [a, b] : result.contacts(pair))
+      add_contacts(contacts, {.a = pair.a, .face_a = a, .b = pair.b, .face_b = b},
+                   meeting_points(triangle_of(scene_.objects[pair.a].mesh, page_.corners(pair.a)[a]),
+                                  triangle_of(scene_.objects[pair.b].mesh, page_.corners(pair.b)[b])));
+  return contacts;
+}
+
+std::string Page_log::stages(const Frame& result, std::optional<bool> truth) {
+  const bool positive = truth ? *truth : exact_.detect().collides();
+  const auto distance = positive && command_.options.exact.tolerance == 0 ? std::optional(0.0) : nearest();
+  Json json{{"microseconds", microseconds(result.statistics.seconds)},
+            {"positive", positive},
+            {"found", result.collides()},
+            {"nearest", distance ? Json(*distance) : Json()}};
+  return json.dump();
+}
+
+/// Distance of the two nearest objects. Pairs whose boxes are farther from each other are not looked at.
+std::optional<double> Page_log::nearest() {
+  std::vector<Box> boxes(scene_.objects.size());
+  for (Object_id o = 0; o < boxes.size(); ++o)
+    for (const auto& p : scene_.objects[o].mesh.points()) boxes[o].extend(coordinates(p));
+  std::vector<std::tuple<double, Object_id, Object_id>> gaps;
+  for (Object_id a = 0; a < boxes.size(); ++a)
+    for (Object_id b = a + 1; b < boxes.size(); ++b) gaps.emplace_back(distance_lower_bound(boxes[a], boxes[b]), a, b);
+  std::ranges::sort(gaps);
+  std::optional<double> least;
+  for (const auto& [gap, a, b] : gaps) {
+    if (least && gap >= *least) break;
+    const double distance = exact_.closest(a, b).points.distance;
+    least = std::min(distance, least.value_or(distance));
+  }
+  return least;
+}
+
+std::string Page_log::summary() const {
+  if (frame_step_ == 1) return file_.summary() + "\n";
+  return fmt::format("{}, {} of {} frames: the first of every {} (see --html-frames)\n", file_.summary(),
+                     page_.frames(), scene_.frames, frame_step_);
+}
+
+}  // namespace lodestone

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "lodestone/io/page.h"
+#include "lodestone/io/scene_file.h"
+#include "page_file.h"
+
+namespace lodestone {
+
+using Scene_detector = Detector<Surface_mesh, Any_strategy>;
+
+/// Makes the page of a run of `detect`.
+///
+/// Answers come from the run; beside it a detector of its own tells the truth about the same frames, with the distance
+/// of the two nearest objects. What the run answers does not depend on whether there is a page; its times do a little,
+/// since the next frame finds the caches full of other things.
+class Page_log {
+ public:
+  /// @param scene, detector  of the run; they must outlive this
+  Page_log(const Detect_command& command, const Scene& scene, const Scene_detector& detector);
+
+  /// Takes in the frame that the run has just answered.
+  /// @param line  of frames.jsonl
+  /// @param truth  whether any surfaces intersect, where that has been found out already
+  void add(std::size_t frame, const Frame& result, const std::string& line, std::optional<bool> truth);
+
+  void finish() { file_.finish(page_); }
+  void commit() { file_.commit(); }
+  /// What was written, for the user: a line.
+  std::string summary() const;
+
+ private:
+  void set_regions();
+  std::vector<std::vector<std::uint32_t>> particles() const;
+  std::vector<Page_contact> contacts(const Frame& result) const;
+  std::string stages(const Frame& result, std::optional<bool> truth);
+  std::optional<double> nearest();
+
+  const Detect_command& command_;
+  const Scene& scene_;
+  const Scene_detector& detector_;
+  Scene_detector exact_;
+  std::size_t frame_step_;
+  Page page_;
+  Page_file file_;
+};
+
+}  // namespace lodestone

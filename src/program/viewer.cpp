@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer.h"
+
+#include "lodestone/errors.h"
+
+// The assembler takes the file in: a compiler is slow at a string of megabytes.
+#ifdef LODESTONE_VIEWER
+asm(".pushsection .rodata\n"
+    ".global lodestone_viewer_begin, lodestone_viewer_end\n"
+    "lodestone_viewer_begin:\n"
+    ".incbin \"" LODESTONE_VIEWER
+    "\"\n"
+    "lodestone_viewer_end:\n"
+    ".popsection\n");
+extern "C" const char lodestone_viewer_begin[], lodestone_viewer_end[];
+#endif
+
+namespace lodestone {
+
+std::string_view viewer_template([[maybe_unused]] const std::filesystem::path& page) {
+#ifdef LODESTONE_VIEWER
+  return {lodestone_viewer_begin, lodestone_viewer_end};
+#else
+  throw Bad_output(page.string() + ": this program was built without the viewer, because " LODESTONE_NO_VIEWER);
+#endif
+}
+
+}  // namespace lodestone
