@@ -10,10 +10,12 @@
 #include <span>
 #include <utility>
 
+#include "inside_folder.h"
 #include "json_reader.h"
 #include "lodestone/errors.h"
 #include "lodestone/io/deformation.h"
 #include "lodestone/io/mesh_file.h"
+#include "lodestone/io/numbered_files.h"
 #include "scene_fields.h"
 
 namespace lodestone {
@@ -35,12 +37,9 @@ bool is_finite(const Point& p) { return std::isfinite(p.x()) && std::isfinite(p.
 /// The file that `value` names, inside `folder` even when symbolic links are followed.
 std::filesystem::path path_of(const std::string& name, const Json_value& value, const std::filesystem::path& folder) {
   std::error_code error;
-  const auto inside = std::filesystem::weakly_canonical(folder, error);
-  const auto path = std::filesystem::weakly_canonical(inside / name, error);
+  const bool inside = is_inside(folder, name, error);
   if (error) value.fail(fmt::format("{} cannot be followed: {}", in_quotes(name), error.message()));
-  const auto [end, rest] = std::ranges::mismatch(inside, path);
-  if (std::filesystem::path(name).is_absolute() || end != inside.end() || rest == path.end())
-    value.fail(fmt::format("{} is not inside the scene's folder", in_quotes(name)));
+  if (!inside) value.fail(fmt::format("{} is not inside the scene's folder", in_quotes(name)));
   return folder / name;
 }
 
@@ -71,7 +70,18 @@ std::vector<std::filesystem::path> read_numbered_files(const Json_value& value, 
   return files;
 }
 
+/// "walk_*.obj": all files that are there.
+std::vector<std::filesystem::path> read_found_files(const Json_value& value, const std::filesystem::path& folder) {
+  const std::string pattern = value.text();
+  path_of(pattern, value, folder);
+  std::vector<std::filesystem::path> files;
+  for (const auto& file : value.checked([&] { return find_numbered_files(folder / pattern); }))
+    files.push_back(path_of((std::filesystem::path(pattern).parent_path() / file.filename()).string(), value, folder));
+  return files;
+}
+
 std::vector<std::filesystem::path> read_sequence(const Json_value& value, const std::filesystem::path& folder) {
+  if (value.is_string()) return read_found_files(value, folder);
   if (!value.is_array()) return read_numbered_files(value, folder);
   std::vector<std::filesystem::path> files;
   for (const Json_value& element : value.elements(most_frames)) files.push_back(read_path(element, folder));
@@ -134,10 +144,11 @@ Motion placed(Motion motion, const Placement& placement) {
 /// Deformations start from the mesh as it was placed; positions from files are placed as they are read.
 Motion read_motion(const Json_value& value, const Scene_object& object, const Placement& placement,
                    const std::filesystem::path& folder) {
-  const std::string kind = value.expect_one_key({"pc2", "sequence", "deform"});
+  const std::string kind = value.expect_one_key({"pc2", "mdd", "sequence", "deform"});
   const Json_value source = value.at(kind);
   if (kind == "deform") return deform(rest_positions(object), detail::read_deformations(source));
   if (kind == "pc2") return placed(read_point_cache(read_path(source, folder), object.file_vertices), placement);
+  if (kind == "mdd") return placed(read_mdd_cache(read_path(source, folder), object.file_vertices), placement);
   return placed(read_mesh_sequence(read_sequence(source, folder), object.file_vertices), placement);
 }
 

@@ -82,11 +82,11 @@ TEST_F(Point_cache, reads_sound_frames_before_a_broken_one) {
 
 TEST_F(Point_cache, refuses_another_number_of_vertices) {
   expect_error(three_frames(), 3, ": byte 16: the cache has 2 vertices, expected 3");
-  expect_error(header(0, 3), 0, ": byte 16: the cache has 0 vertices, expected 0");
+  expect_error(header(0, 3), 0, ": byte 16: the cache has 0 vertices, expected 1 or more");
 }
 
 TEST_F(Point_cache, refuses_negative_counts_and_no_frames) {
-  expect_error(header(-2, 3), 2, ": byte 16: the cache has -2 vertices, expected 2");
+  expect_error(header(-2, 3), 2, ": byte 16: the cache has -2 vertices, expected 1 or more");
   expect_error(header(2, -3), 2, ": byte 28: the cache has -3 frames, expected 1 or more");
   expect_error(header(2, 0), 2, ": byte 28: the cache has 0 frames, expected 1 or more");
 }

@@ -59,6 +59,8 @@ bool reader_accepts(const std::string& scene) {
   // Two frames of four vertices, in the PC2 format: 12 characters, version, vertices, start, rate, frames.
   std::string cache("POINTCACHE2\0\1\0\0\0\4\0\0\0\0\0\0\0\0\0\x80\x3f\2\0\0\0", 32);
   folder.write("a.pc2", cache += std::string(96, '\0'));
+  // The same in the MDD format: frames, vertices, the time of each frame.
+  folder.write("a.mdd", std::string("\0\0\0\2\0\0\0\4", 8) + std::string(8 + 96, '\0'));
   for (const std::string name : {"f1.off", "f2.off"}) fs::copy(folder.path() / "a.off", folder.path() / name);
   try {
     read_scene(folder.write("scene.json", scene));
@@ -93,7 +95,10 @@ const std::vector<std::string> good_scenes{
     place("{}"),
     place(R"({"scale": 0.5, "rotate": {"axis": [0, -1, 0], "degrees": -30}, "translate": [0, 0, 0]})"),
     place(R"({"scale": [1, 2, 3]})"),
+    motion(R"({"mdd": "a.mdd"})"),
     motion(R"({"sequence": ["f1.off", "f2.off"]})"),
+    motion(R"({"sequence": "f*.off"})"),
+    motion(R"({"sequence": "f#.off"})"),
     motion(R"({"sequence": {"pattern": "f#.off", "first": 1, "last": 2}})"),
     deformation(R"({"wobble": {}}, {"bend": {}}, {"twist": {}}, {"inflate": {}}, {"spin": {}})"),
     deformation(R"({"wobble": {"amplitude": -1, "waves": 0, "period": 0, "phase": -2}})"),
@@ -176,6 +181,11 @@ const std::vector<std::string> bad_scenes{
     motion(R"({"sequence": []})"),
     motion(R"({"sequence": "f1.off"})"),
     motion(R"({"sequence": [1]})"),
+    motion(R"({"sequence": "f*_*.off"})"),
+    motion(R"({"sequence": "f#*.off"})"),
+    motion(R"({"sequence": "f*.off/f.off"})"),
+    motion(R"({"mdd": 1})"),
+    motion(R"({"mdd": "a.mdd", "pc2": "a.pc2"})"),
     motion(R"({"sequence": {"pattern": "f#.off", "first": 1}})"),
     motion(R"({"sequence": {"pattern": "f.off", "first": 1, "last": 2}})"),
     motion(R"({"sequence": {"pattern": "f#_#.off", "first": 1, "last": 2}})"),

@@ -27,6 +27,10 @@ struct Motion {
 ///                     read: a non-finite coordinate
 Motion read_point_cache(const std::filesystem::path& file, std::size_t vertices);
 
+/// The same from a point cache in the MDD format (LightWave, Blender, Houdini). It has no signature: the size of the
+/// file must be exactly what its header asks for. The times of the frames are not used.
+Motion read_mdd_cache(const std::filesystem::path& file, std::size_t vertices);
+
 /// Motion from one mesh file per frame, all with the same faces. The first is read at once, for its faces; each file is
 /// read when its frame is asked for. Any format of `read_mesh`; positions come in file order.
 /// @param vertices  number of vertices each file must have

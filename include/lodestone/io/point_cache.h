@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace lodestone {
+
+/// PC2: Blender, 3ds Max, Maya; little endian, with a signature. MDD: LightWave, Blender, Houdini; big endian, without.
+enum class Cache_format { pc2, mdd };
+
+/// What a point cache says about itself.
+struct Point_cache {
+  Cache_format format = Cache_format::pc2;
+  std::size_t vertices = 0;
+  std::size_t frames = 0;
+  double frames_per_second = 0;  ///< from the times of an MDD cache; 0: unknown
+};
+
+/// Reads the header of a point cache, by the file's extension `.pc2` or `.mdd`, and holds it against the file's size.
+/// @throws Bad_motion  no such file, another extension, no cache of that format, shorter than its header says
+Point_cache read_point_cache_header(const std::filesystem::path& file);
+
+}  // namespace lodestone

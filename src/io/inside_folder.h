@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace lodestone {
+
+/// Whether `name`, taken relative to `folder`, leads to something inside it, even when symbolic links are followed.
+inline bool is_inside(const std::filesystem::path& folder, const std::string& name, std::error_code& error) {
+  const auto inside = std::filesystem::weakly_canonical(folder, error);
+  const auto path = std::filesystem::weakly_canonical(inside / name, error);
+  const auto [end, rest] = std::ranges::mismatch(inside, path);
+  return !error && !std::filesystem::path(name).is_absolute() && end == inside.end() && rest != path.end();
+}
+
+inline bool is_inside(const std::filesystem::path& folder, const std::string& name) {
+  std::error_code error;
+  return is_inside(folder, name, error);
+}
+
+}  // namespace lodestone
