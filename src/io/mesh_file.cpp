@@ -66,8 +66,7 @@ struct Copy_recorder : PMP::Default_orientation_visitor {
 
 }  // namespace
 
-Mesh_file read_mesh(const std::filesystem::path& file, const Mesh_file_options& options) {
-  const auto soup = read_mesh_soup(file, options);
+Mesh_file mesh_of(const Mesh_soup& soup, const std::string& name) {
   auto tracked = with_distinct_corners(soup);
   PMP::orient_polygon_soup(tracked.points, tracked.faces,
                            CGAL::parameters::visitor(Copy_recorder(tracked.file_vertex)));
@@ -75,9 +74,20 @@ Mesh_file read_mesh(const std::filesystem::path& file, const Mesh_file_options& 
   Mesh_file result{.mesh = {}, .file_vertex = std::move(tracked.file_vertex), .file_vertices = soup.points.size()};
   PMP::polygon_soup_to_polygon_mesh(tracked.points, tracked.faces, result.mesh);
   if (num_faces(result.mesh) != soup.faces.size() || num_vertices(result.mesh) != result.file_vertex.size())
-    throw Bad_mesh(fmt::format("{}: only {} of {} faces fit into a half-edge mesh", file.string(),
-                               num_faces(result.mesh), soup.faces.size()));
+    throw Bad_mesh(fmt::format("{}: only {} of {} faces fit into a half-edge mesh", name, num_faces(result.mesh),
+                               soup.faces.size()));
   return result;
+}
+
+Mesh_file mesh_of(std::span<const Point> points, std::span<const Corners> faces, const std::string& name) {
+  Mesh_soup soup{.points = {points.begin(), points.end()}, .faces = {}};
+  soup.faces.reserve(faces.size());
+  for (const auto& face : faces) soup.faces.emplace_back(face.begin(), face.end());
+  return mesh_of(soup, name);
+}
+
+Mesh_file read_mesh(const std::filesystem::path& file, const Mesh_file_options& options) {
+  return mesh_of(read_mesh_soup(file, options), file.string());
 }
 
 }  // namespace lodestone

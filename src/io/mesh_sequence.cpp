@@ -15,17 +15,7 @@
 namespace lodestone {
 namespace {
 
-using Corners = std::vector<std::array<std::uint32_t, 3>>;
-
-/// Faces in a form that takes little memory: they are kept as long as the motion.
-Corners corners_of(const Mesh_soup& soup) {
-  Corners corners;
-  corners.reserve(soup.faces.size());
-  for (const auto& face : soup.faces)
-    corners.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
-                       static_cast<std::uint32_t>(face[2])});
-  return corners;
-}
+using Faces = std::vector<Corners>;
 
 Mesh_soup read_frame(const std::filesystem::path& file) {
   try {
@@ -38,10 +28,10 @@ Mesh_soup read_frame(const std::filesystem::path& file) {
 /// What all frames must have in common with the first.
 struct First_frame {
   std::filesystem::path file;
-  Corners corners;
+  Faces corners;
 };
 
-void check_same_faces(const std::filesystem::path& file, const Corners& corners, const First_frame& first) {
+void check_same_faces(const std::filesystem::path& file, const Faces& corners, const First_frame& first) {
   if (corners.size() != first.corners.size())
     throw Bad_motion(fmt::format("{}: the mesh has {} faces, {} has {}", file.string(), corners.size(),
                                  first.file.string(), first.corners.size()));

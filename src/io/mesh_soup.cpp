@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <limits>
 #include <sstream>
@@ -19,6 +18,7 @@
 
 #include "lodestone/errors.h"
 #include "mesh_guard.h"
+#include "small_text.h"
 
 namespace lodestone {
 namespace {
@@ -44,12 +44,12 @@ constexpr std::array<Mesh_format, 4> formats = {{
 }};
 
 const Mesh_format& format_of(const std::filesystem::path& file) {
-  auto extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto extension = lower_case(file.extension().string());
   const auto format = std::ranges::find(formats, extension, &Mesh_format::extension);
   if (format == formats.end())
-    throw Bad_mesh(fmt::format("{}: expected a file .off, .obj, .ply or .stl, found extension {}", file.string(),
-                               in_quotes(extension)));
+    throw Bad_mesh(
+        fmt::format("{}: expected a file .off, .obj, .ply or .stl, found extension {}",
+                    file.string(), in_quotes(extension)));
   return *format;
 }
 
@@ -91,6 +91,15 @@ Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_opti
     throw Bad_mesh(fmt::format("{}: CGAL's reader did not deliver the {} vertices and {} faces of the file",
                                file.string(), guarded.vertices, guarded.faces));
   return soup;
+}
+
+std::vector<Corners> corners_of(const Mesh_soup& soup) {
+  std::vector<Corners> corners;
+  corners.reserve(soup.faces.size());
+  for (const auto& face : soup.faces)
+    corners.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
+                       static_cast<std::uint32_t>(face[2])});
+  return corners;
 }
 
 }  // namespace lodestone

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "lodestone/io/mesh_file.h"
@@ -19,5 +20,11 @@ struct Mesh_soup {
 /// its points are numbered in order of first appearance.
 /// @throws Bad_mesh as `read_mesh`
 Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_options& options = {});
+
+/// Its faces in a form that takes little memory.
+std::vector<Corners> corners_of(const Mesh_soup& soup);
+
+/// As `mesh_of` of points and faces.
+Mesh_file mesh_of(const Mesh_soup& soup, const std::string& name);
 
 }  // namespace lodestone

@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "lodestone/concepts.h"
+#include "lodestone/partition/mesh_numbering.h"
 
 namespace lodestone {
 
@@ -36,5 +39,12 @@ struct Mesh_file {
 ///
 /// @throws Bad_mesh with file, line (text formats) or byte (binary formats), and cause
 Mesh_file read_mesh(const std::filesystem::path& file, const Mesh_file_options& options = {});
+
+/// The same from points and triangles in memory.
+/// @param points  finite
+/// @param faces   vertex numbers below the number of points
+/// @param name    what error messages call them
+/// @throws Bad_mesh
+Mesh_file mesh_of(std::span<const Point> points, std::span<const Corners> faces, const std::string& name);
 
 }  // namespace lodestone
