@@ -117,9 +117,10 @@ class Syntax_check final : public nlohmann::json_sax<Json> {
 
 }  // namespace
 
-Json parse_json(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
-  Syntax_check check(text, file.string());
+Json parse_json(const std::filesystem::path& file) { return parse_json_text(read_text(file), file.string()); }
+
+Json parse_json_text(std::string_view text, const std::string& name) {
+  Syntax_check check(text, name);
   Json::sax_parse(text, &check);
   return Json::parse(text);
 }

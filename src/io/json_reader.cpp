@@ -34,8 +34,12 @@ Json_value Json_value::child(const Json& value, const std::string& key) const {
 
 // ---- Objects ----
 
-void Json_value::expect_keys(std::initializer_list<std::string_view> keys) const {
+void Json_value::expect_object() const {
   if (!value_->is_object()) wrong_type("an object");
+}
+
+void Json_value::expect_keys(std::initializer_list<std::string_view> keys) const {
+  expect_object();
   for (const auto& entry : value_->items())
     if (std::ranges::find(keys, entry.key()) == keys.end())
       fail(fmt::format("unknown key {} (expected one of {})", in_quotes(entry.key()), fmt::join(keys, ", ")));
@@ -78,6 +82,12 @@ std::vector<Json_value> Json_value::elements(std::size_t most) const {
   return result;
 }
 
+std::vector<Json_value> Json_value::list(std::string_view key, std::size_t most) const {
+  const auto value = find(key);
+  if (!value || (value->is_array() && value->value_->empty())) return {};
+  return value->elements(most);
+}
+
 Kernel::Vector_3 Json_value::vector() const {
   if (!value_->is_array()) wrong_type("an array of 3 numbers");
   if (value_->size() != 3) fail(fmt::format("expected 3 numbers, found {}", value_->size()));
@@ -94,6 +104,16 @@ std::string Json_value::text() const {
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
   if (std::ranges::any_of(text, is_control)) fail(fmt::format("{} has a control character", in_quotes(text)));
   return text;
+}
+
+std::string Json_value::any_text() const {
+  if (!value_->is_string()) wrong_type("a string");
+  return value_->get<std::string>();
+}
+
+bool Json_value::boolean() const {
+  if (!value_->is_boolean()) wrong_type("true or false");
+  return value_->get<bool>();
 }
 
 std::string Json_value::word(std::initializer_list<std::string_view> words) const {

@@ -24,6 +24,10 @@ using Json = nlohmann::json;
 ///                    object, nesting deeper than 32
 Json parse_json(const std::filesystem::path& file);
 
+/// The same for a text in memory of any length.
+/// @param name  of the file it is from, for messages
+Json parse_json_text(std::string_view text, const std::string& name);
+
 /// `text` as a JSON string: in double quotes, on one line whatever it holds, cut after 80 characters.
 std::string in_quotes(std::string_view text);
 
@@ -37,6 +41,8 @@ class Json_value {
   /// @throws Bad_scene, always: `FILE: PLACE: cause`
   [[noreturn]] void fail(std::string_view cause) const;
 
+  /// Refuses anything but an object.
+  void expect_object() const;
   /// Refuses anything but an object, and one with keys other than these.
   void expect_keys(std::initializer_list<std::string_view> keys) const;
   /// The only key of an object, which must be one of these.
@@ -51,11 +57,16 @@ class Json_value {
 
   /// Refuses an empty array and one of more than `most` elements.
   std::vector<Json_value> elements(std::size_t most) const;
+  /// The elements under a key of an object; none where the key is missing or its array empty.
+  std::vector<Json_value> list(std::string_view key, std::size_t most) const;
   bool is_string() const { return value_->is_string(); }
   bool is_array() const { return value_->is_array(); }
 
   /// Refuses an empty string and control characters, which would break messages, tables and file names.
   std::string text() const;
+  /// A string that may hold anything.
+  std::string any_text() const;
+  bool boolean() const;
   /// One of several words.
   std::string word(std::initializer_list<std::string_view> words) const;
   double number() const;

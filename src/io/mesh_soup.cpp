@@ -16,6 +16,7 @@
 #include <string_view>
 #include <utility>
 
+#include "gltf_scene.h"
 #include "lodestone/errors.h"
 #include "mesh_guard.h"
 #include "small_text.h"
@@ -48,7 +49,7 @@ const Mesh_format& format_of(const std::filesystem::path& file) {
   const auto format = std::ranges::find(formats, extension, &Mesh_format::extension);
   if (format == formats.end())
     throw Bad_mesh(
-        fmt::format("{}: expected a file .off, .obj, .ply or .stl, found extension {}",
+        fmt::format("{}: expected a file .off, .obj, .ply, .stl, .gltf or .glb, found extension {}",
                     file.string(), in_quotes(extension)));
   return *format;
 }
@@ -76,7 +77,13 @@ bool is_complete(const Mesh_soup& soup, const Guarded_mesh& guarded) {
 
 }  // namespace
 
+bool is_gltf(const std::filesystem::path& file) {
+  const auto extension = lower_case(file.extension().string());
+  return extension == ".gltf" || extension == ".glb";
+}
+
 Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_options& options) {
+  if (is_gltf(file)) return soup_of(*read_gltf_scene(file, options));
   const auto& format = format_of(file);
   auto guarded = format.guard(File_bytes(file), options.max_faces);
   // Surface_mesh and CGAL's readers number in 32 bits; a triangle has up to 6 half-edges.

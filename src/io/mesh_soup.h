@@ -16,6 +16,9 @@ struct Mesh_soup {
   std::vector<std::vector<std::size_t>> faces;
 };
 
+/// By the file's extension.
+bool is_gltf(const std::filesystem::path& file);
+
 /// Reads a mesh file through its guard and CGAL's reader. The corners of an STL file are welded where they are equal;
 /// its points are numbered in order of first appearance.
 /// @throws Bad_mesh as `read_mesh`

@@ -141,14 +141,31 @@ Motion placed(Motion motion, const Placement& placement) {
           }};
 }
 
+/// "walk.glb", or {"file": "walk.glb", "animation": "walk", "frames_per_second": 60}.
+Motion read_gltf(const Json_value& value, std::size_t vertices, const std::filesystem::path& folder) {
+  if (value.is_string()) return read_gltf_motion(read_path(value, folder), vertices);
+  value.expect_keys({"file", "animation", "frames_per_second"});
+  Gltf_motion_options options;
+  if (const auto animation = value.find("animation")) {
+    if (animation->is_string())
+      options.animation = animation->text();
+    else
+      options.animation = animation->count(0, most_objects);
+  }
+  options.frames_per_second = value.number("frames_per_second", options.frames_per_second);
+  if (!(options.frames_per_second > 0)) value.at("frames_per_second").fail("expected a number > 0");
+  return read_gltf_motion(read_path(value.at("file"), folder), vertices, options);
+}
+
 /// Deformations start from the mesh as it was placed; positions from files are placed as they are read.
 Motion read_motion(const Json_value& value, const Scene_object& object, const Placement& placement,
                    const std::filesystem::path& folder) {
-  const std::string kind = value.expect_one_key({"pc2", "mdd", "sequence", "deform"});
+  const std::string kind = value.expect_one_key({"pc2", "mdd", "gltf", "sequence", "deform"});
   const Json_value source = value.at(kind);
   if (kind == "deform") return deform(rest_positions(object), detail::read_deformations(source));
   if (kind == "pc2") return placed(read_point_cache(read_path(source, folder), object.file_vertices), placement);
   if (kind == "mdd") return placed(read_mdd_cache(read_path(source, folder), object.file_vertices), placement);
+  if (kind == "gltf") return placed(read_gltf(source, object.file_vertices, folder), placement);
   return placed(read_mesh_sequence(read_sequence(source, folder), object.file_vertices), placement);
 }
 

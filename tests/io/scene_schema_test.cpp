@@ -20,6 +20,7 @@
 #include <valijson/validator.hpp>
 #include <vector>
 
+#include "io/gltf_samples.h"
 #include "io/temporary_folder.h"
 #include "lodestone/errors.h"
 #include "lodestone/io/scene_file.h"
@@ -61,6 +62,9 @@ bool reader_accepts(const std::string& scene) {
   folder.write("a.pc2", cache += std::string(96, '\0'));
   // The same in the MDD format: frames, vertices, the time of each frame.
   folder.write("a.mdd", std::string("\0\0\0\2\0\0\0\4", 8) + std::string(8 + 96, '\0'));
+  auto animated = test::square_gltf();
+  animated.animate(0, "scale", animated.add_numbers({0, 1}), animated.add_points({1, 1, 1, 2, 2, 2}));
+  folder.write("a.gltf", animated.gltf());
   for (const std::string name : {"f1.off", "f2.off"}) fs::copy(folder.path() / "a.off", folder.path() / name);
   try {
     read_scene(folder.write("scene.json", scene));
@@ -96,6 +100,11 @@ const std::vector<std::string> good_scenes{
     place(R"({"scale": 0.5, "rotate": {"axis": [0, -1, 0], "degrees": -30}, "translate": [0, 0, 0]})"),
     place(R"({"scale": [1, 2, 3]})"),
     motion(R"({"mdd": "a.mdd"})"),
+    object(R"("mesh": "a.gltf")"),
+    motion(R"({"gltf": "a.gltf"})"),
+    motion(R"({"gltf": {"file": "a.gltf"}})"),
+    motion(R"({"gltf": {"file": "a.gltf", "animation": 0, "frames_per_second": 2.5}})"),
+    motion(R"({"gltf": {"file": "a.gltf", "animation": "walk"}})"),
     motion(R"({"sequence": ["f1.off", "f2.off"]})"),
     motion(R"({"sequence": "f*.off"})"),
     motion(R"({"sequence": "f#.off"})"),
@@ -185,6 +194,11 @@ const std::vector<std::string> bad_scenes{
     motion(R"({"sequence": "f#*.off"})"),
     motion(R"({"sequence": "f*.off/f.off"})"),
     motion(R"({"mdd": 1})"),
+    motion(R"({"gltf": {"animation": 0}})"),
+    motion(R"({"gltf": {"file": "a.gltf", "animation": -1}})"),
+    motion(R"({"gltf": {"file": "a.gltf", "animation": null}})"),
+    motion(R"({"gltf": {"file": "a.gltf", "frames_per_second": 0}})"),
+    motion(R"({"gltf": {"file": "a.gltf", "extra": 1}})"),
     motion(R"({"mdd": "a.mdd", "pc2": "a.pc2"})"),
     motion(R"({"sequence": {"pattern": "f#.off", "first": 1}})"),
     motion(R"({"sequence": {"pattern": "f.off", "first": 1, "last": 2}})"),

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "lodestone/concepts.h"
@@ -37,5 +39,20 @@ Motion read_mdd_cache(const std::filesystem::path& file, std::size_t vertices);
 /// @throws Bad_motion  no file, a file that does not exist, a broken first one; when a frame is read: a broken file,
 ///                     another number of vertices or other faces than the first
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices);
+
+struct Gltf_motion_options {
+  double frames_per_second = 30;  ///< at which the animation is sampled; > 0
+  /// Which animation of the file: its number from 0, or its name.
+  std::variant<std::size_t, std::string> animation = std::size_t{0};
+};
+
+/// Motion from an animation of a glTF 2.0 file (.gltf, .glb): nodes, skins and morph targets. Frame t is the moment
+/// t / frames_per_second; the last frame is the last before the animation's end, or at it. The file is kept in memory,
+/// frames are computed as asked for. Vertices come as `read_mesh` numbers those of the file.
+/// @param vertices  number of vertices the file must have
+/// @throws Bad_motion    a broken file, another number of vertices, no such animation, more than a million frames
+/// @throws Bad_argument  no frame rate
+Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices,
+                        const Gltf_motion_options& options = {});
 
 }  // namespace lodestone

@@ -39,7 +39,7 @@ struct Scene {
 /// for in the scene's own folder; a path that leaves it is refused.
 ///
 /// @throws Bad_scene  what the schema does not allow, with a JSON pointer, such as
-///                    `scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, sequence,
+///                    `scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, sequence,
 ///                    deform)`; a syntax error, with line and column
 /// @throws Bad_mesh, Bad_motion  a file that the scene names is missing or broken
 Scene read_scene(const std::filesystem::path& file);
