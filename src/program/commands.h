@@ -23,8 +23,8 @@ struct Detect_command {
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
   bool truth = false;
-  std::filesystem::path out, html;  ///< empty: not written
-  std::size_t html_frames = 0;      ///< frames on the page, at most; 0: see page_frame_step
+  std::filesystem::path out, html, paraview;  ///< empty: not written
+  std::size_t html_frames = 0;                ///< frames on the page, at most; 0: see page_frame_step
   bool quiet = false;
 };
 

@@ -16,6 +16,7 @@
 #include "lodestone/io/text_table.h"
 #include "measured_run.h"
 #include "page_log.h"
+#include "paraview_log.h"
 #include "printable.h"
 #include "progress.h"
 
@@ -73,6 +74,7 @@ class Run {
     }
     measurement_.setting.options = command.options;
     if (!command.html.empty()) page_.emplace(command, scene_, detector_);
+    if (!command.paraview.empty()) paraview_.emplace(command.paraview, scene_.frames);
   }
 
   std::size_t frames() const { return scene_.frames; }
@@ -81,6 +83,7 @@ class Run {
   void print() const;
   /// Null if none was asked for.
   Page_log* page() { return page_ ? &*page_ : nullptr; }
+  Paraview_log* paraview() { return paraview_ ? &*paraview_ : nullptr; }
   /// Whether the truth about a pair is known; not within one object.
   bool has_truth(Object_pair pair) const { return command_.truth && pair.a != pair.b; }
   /// Something was reported that is not true, or missed by the mode that misses nothing.
@@ -98,6 +101,7 @@ class Run {
   std::map<Object_pair, Pair_summary> pairs_;
   Measurement measurement_;
   std::optional<Page_log> page_;
+  std::optional<Paraview_log> paraview_;
   bool contradicted_ = false, missed_ = false;
 };
 
@@ -112,6 +116,7 @@ std::string Run::play(std::size_t frame) {
     summary.capped_frames += pair.capped ? 1 : 0;
     summary.contained_frames += pair.containment != Containment::none ? 1 : 0;
   }
+  if (paraview_) paraview_->add(frame, scene_, result);
   const auto truth = find_truth();
   if (truth) compare(result, *truth);
   if (frame > 0 || scene_.frames == 1) measurement_.frames.push_back(result.statistics);
@@ -236,9 +241,11 @@ void write_results(Run& scene_run, std::optional<Atomic_file>& frames, const Det
     summary->finish();
   }
   if (scene_run.page() != nullptr) scene_run.page()->finish();
+  if (scene_run.paraview() != nullptr) scene_run.paraview()->finish();
   if (frames) frames->commit();
   if (summary) summary->commit();
   if (scene_run.page() != nullptr) scene_run.page()->commit();
+  if (scene_run.paraview() != nullptr) scene_run.paraview()->commit();
 }
 
 }  // namespace

@@ -141,6 +141,9 @@ void add_detect(CLI::App& program, Detect_command& command) {
       ->needs(html)
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
+  app.add_option("--paraview", command.paraview, "Folder for meshes.pvd, particles.pvd and contacts.pvd")
+      ->type_name("DIR")
+      ->check(not_empty());
   app.add_flag("--quiet", command.quiet, "No progress bar, no table");
   app.footer(strategy_list());
 }

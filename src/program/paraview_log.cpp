@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "paraview_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "lodestone/contact/triangle_distance.h"
+#include "lodestone/io/atomic_file.h"
+#include "lodestone/region_maps.h"
+
+namespace lodestone {
+
+namespace {
+
+using Region_property_map = Surface_mesh::Property_map<Surface_mesh::Vertex_index, Region_index>;
+using Numbers = std::vector<std::uint32_t>;
+using Marks = std::vector<std::uint8_t>;
+
+Region_property_map property(const Surface_mesh& mesh, const char* name) {
+  return mesh.property_map<Surface_mesh::Vertex_index, Region_index>(name).first;
+}
+
+Triangle triangle_of(const Surface_mesh& mesh, std::uint32_t face) {
+  Triangle corners;
+  std::size_t corner = 0;
+  for (const auto v : mesh.vertices_around_face(mesh.halfedge(Surface_mesh::Face_index(face))))
+    corners[corner++] = mesh.point(v);
+  return corners;
+}
+
+/// Per object and face: 1 if it is part of a contact.
+std::vector<Marks> touched_faces(const Scene& scene, const Frame& result) {
+  std::vector<Marks> touched;
+  touched.reserve(scene.objects.size());
+  for (const auto& object : scene.objects) touched.emplace_back(object.mesh.number_of_faces());
+  for (const auto& pair : result.pairs)
+    for (const auto& [a, b] : result.contacts(pair)) touched[pair.a][a] = touched[pair.b][b] = 1;
+  return touched;
+}
+
+/// All objects as one surface, and what is known of each vertex and face.
+Vtp_data meshes_of(const Scene& scene, const Frame& result) {
+  Vtp_data data;
+  Numbers region, object_of_vertex, vertex, object_of_face, face;
+  Marks particle, contact;
+  const auto touched = touched_faces(scene, result);
+  for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+    const auto& [mesh, file_vertex] = std::tie(scene.objects[o].mesh, scene.objects[o].file_vertex);
+    const auto first = static_cast<std::uint32_t>(data.points.size());
+    const auto regions = property(mesh, "v:region"), particles = property(mesh, "v:particle");
+    for (const auto v : mesh.vertices()) {
+      data.points.push_back(mesh.point(v));
+      region.push_back(regions[v]);
+      particle.push_back(particles[v] == no_particle ? 0 : 1);
+      object_of_vertex.push_back(o);
+      vertex.push_back(file_vertex[v]);
+    }
+    for (const auto f : mesh.faces()) {
+      auto& corners = data.polygons.emplace_back();
+      for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+        corners.push_back(first + static_cast<std::uint32_t>(v));
+      object_of_face.push_back(o);
+      face.push_back(f);
+    }
+    contact.insert(contact.end(), touched[o].begin(), touched[o].end());
+  }
+  data.point_data = {{"region", std::move(region)},
+                     {"particle", std::move(particle)},
+                     {"object", std::move(object_of_vertex)},
+                     {"vertex", std::move(vertex)}};
+  data.cell_data = {{"object", std::move(object_of_face)}, {"face", std::move(face)}, {"contact", std::move(contact)}};
+  return data;
+}
+
+Vtp_data particles_of(const Scene& scene) {
+  Vtp_data data;
+  Numbers region, object;
+  for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+    const auto& mesh = scene.objects[o].mesh;
+    const auto particles = property(mesh, "v:particle");
+    for (const auto v : mesh.vertices()) {
+      if (particles[v] == no_particle) continue;
+      data.vertices.push_back({static_cast<std::uint32_t>(data.points.size())});
+      data.points.push_back(mesh.point(v));
+      region.push_back(particles[v]);
+      object.push_back(o);
+    }
+  }
+  data.point_data = {{"region", std::move(region)}, {"object", std::move(object)}};
+  return data;
+}
+
+/// Where two faces meet, or, if they are only near, their nearest points.
+Intersection_points meeting_points(const Triangle& a, const Triangle& b) {
+  auto points = triangle_intersection(a, b);
+  if (!points.empty()) return points;
+  const auto nearest = closest_points(a, b);
+  points.push_back(nearest.a);
+  points.push_back(nearest.b);
+  return points;
+}
+
+/// Contacts of one kind: points, segments or polygons.
+struct Contact_cells {
+  std::vector<std::vector<std::uint32_t>> cells = {};
+  std::array<Numbers, 4> sources = {};  ///< object a, object b, face a, face b
+};
+
+Vtp_data contacts_of(const Scene& scene, const Frame& result) {
+  Vtp_data data;
+  std::array<Contact_cells, 3> kinds;
+  for (const auto& pair : result.pairs)
+    for (const auto& [a, b] : result.contacts(pair)) {
+      const auto points =
+          meeting_points(triangle_of(scene.objects[pair.a].mesh, a), triangle_of(scene.objects[pair.b].mesh, b));
+      auto& kind = kinds[std::min<std::size_t>(points.size(), 3) - 1];
+      auto& cell = kind.cells.emplace_back();
+      for (const Point& point : points) {
+        cell.push_back(static_cast<std::uint32_t>(data.points.size()));
+        data.points.push_back(point);
+      }
+      const std::array<std::uint32_t, 4> source{pair.a, pair.b, a, b};
+      for (std::size_t i = 0; i < source.size(); ++i) kind.sources[i].push_back(source[i]);
+    }
+  constexpr std::array names{"object_a", "object_b", "face_a", "face_b"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Numbers values;
+    for (const auto& kind : kinds) values.insert(values.end(), kind.sources[i].begin(), kind.sources[i].end());
+    data.cell_data.push_back({names[i], std::move(values)});
+  }
+  data.vertices = std::move(kinds[0].cells);
+  data.lines = std::move(kinds[1].cells);
+  data.polygons = std::move(kinds[2].cells);
+  return data;
+}
+
+}  // namespace
+
+Paraview_log::Paraview_log(const std::filesystem::path& folder, std::size_t frames)
+    : files_(folder), digits_(std::max<std::size_t>(4, fmt::formatted_size("{}", frames - 1))) {}
+
+void Paraview_log::add(std::size_t frame, const Scene& scene, const Frame& result) {
+  write(meshes_, frame, meshes_of(scene, result));
+  write(particles_, frame, particles_of(scene));
+  write(contacts_, frame, contacts_of(scene, result));
+}
+
+void Paraview_log::write(Series& series, std::size_t frame, const Vtp_data& data) {
+  const auto name = fmt::format("frames/{}_{:0{}}.vtp", series.name, frame, digits_);
+  write_vtp(files_.add(name), data);
+  series.steps.push_back({static_cast<double>(frame), name});
+}
+
+void Paraview_log::finish() {
+  for (const Series* series : {&meshes_, &particles_, &contacts_}) {
+    Atomic_file list(files_.add(std::string(series->name) + ".pvd"));
+    list.write(pvd_text(series->steps));
+    list.commit();
+  }
+}
+
+}  // namespace lodestone

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lodestone/frame.h"
+#include "lodestone/io/atomic_files.h"
+#include "lodestone/io/scene_file.h"
+#include "lodestone/io/vtp.h"
+
+namespace lodestone {
+
+/// A run as files for ParaView: meshes, particles and contacts of each frame in `frames/*.vtp`, and over time in
+/// `meshes.pvd`, `particles.pvd` and `contacts.pvd`. Nothing is there before `commit`.
+class Paraview_log {
+ public:
+  /// @param frames  number of frames to come
+  Paraview_log(const std::filesystem::path& folder, std::size_t frames);
+
+  /// @param scene   posed at `frame`; its meshes carry what the detector has left on them
+  /// @param result  what was found there
+  void add(std::size_t frame, const Scene& scene, const Frame& result);
+  /// Writes the lists of frames. After it only a rename can fail.
+  void finish();
+  void commit() { files_.commit(); }
+
+ private:
+  struct Series {
+    const char* name;
+    std::vector<Pvd_step> steps = {};
+  };
+  void write(Series& series, std::size_t frame, const Vtp_data& data);
+
+  Atomic_files files_;
+  std::size_t digits_;
+  Series meshes_{"meshes"}, particles_{"particles"}, contacts_{"contacts"};
+};
+
+}  // namespace lodestone
