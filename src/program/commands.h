@@ -48,9 +48,16 @@ struct Experiment_command {
   bool quiet = false;
 };
 
+struct Info_command {
+  std::filesystem::path file;
+  std::filesystem::path mesh;  ///< of a point cache; may be empty
+  bool json = false;
+};
+
 /// Each prints its table to the standard output and returns the program's exit code.
 int run(const Detect_command& command);
 int run(const Partition_command& command);
 int run(const Experiment_command& command);
+int run(const Info_command& command);
 
 }  // namespace lodestone

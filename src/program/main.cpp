@@ -165,6 +165,15 @@ void add_partition(CLI::App& program, Partition_command& command) {
   app.footer(strategy_list());
 }
 
+void add_info(CLI::App& program, Info_command& command) {
+  auto& app = *program.add_subcommand("info", "Tell what a file holds, and what may be wrong with it");
+  app.add_option("FILE", command.file, "Mesh, pattern of meshes such as 'cloth_*.obj', point cache, glTF or scene")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--mesh", command.mesh, "The mesh that a point cache moves")->type_name("FILE")->check(not_empty());
+  app.add_flag("--json", command.json, "Print JSON");
+}
+
 void add_experiment(CLI::App& program, Experiment_command& command) {
   auto& app = *program.add_subcommand("experiment", "Run one of the experiments");
   std::vector<std::string> names;
@@ -210,9 +219,11 @@ int run_guarded(int argc, char** argv) {
   Detect_command detect;
   Partition_command partition;
   Experiment_command experiment;
+  Info_command info;
   experiment.scenes = LODESTONE_SCENES;
   add_detect(program, detect);
   add_partition(program, partition);
+  add_info(program, info);
   add_experiment(program, experiment);
 
   try {
@@ -233,6 +244,8 @@ int run_guarded(int argc, char** argv) {
     code = run(detect);
   else if (program.got_subcommand("partition"))
     code = run(partition);
+  else if (program.got_subcommand("info"))
+    code = run(info);
   else
     code = run(experiment);
   if (std::fflush(stdout) != 0) throw Bad_output("the standard output cannot be written");

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "io/gltf_samples.h"
+#include "io/mesh_samples.h"
+#include "io/scene_samples.h"
+#include "io/temporary_folder.h"
+#include "program/run_program.h"
+
+namespace lodestone::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The square with a triangle through it, a vertex too many, a vertex twice, and a face without area.
+const std::string trouble =
+    "OFF\n9 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.7 0.2 -1\n0.7 0.2 1\n0.8 0.2 1\n5 5 5\n0 0 0\n"
+    "3 0 1 2\n3 0 2 3\n3 4 5 6\n3 0 8 1\n";
+
+class Info : public testing::Test {
+ protected:
+  static Json info(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "info");
+    arguments.emplace_back("--json");
+    const auto result = run_program(arguments);
+    expect_success(result);
+    return Json::parse(result.out);
+  }
+  std::string write(const std::string& name, const std::string& bytes) const {
+    return folder.write(name, bytes).string();
+  }
+
+  Temporary_folder folder;
+};
+
+TEST_F(Info, of_a_mesh_tells_what_may_be_wrong_with_it) {
+  const Json found = info({write("a.off", trouble)});
+  EXPECT_EQ(found["kind"], "mesh");
+  EXPECT_EQ(found["frames"], 1);
+  const Json& object = found["objects"].at(0);
+  EXPECT_EQ(object["vertices"], 9);
+  EXPECT_EQ(object["faces"], 4);
+  EXPECT_EQ(object["components"], 2);
+  EXPECT_EQ(object["closed"], false);
+  EXPECT_EQ(object["border_edges"], 8);
+  EXPECT_EQ(object["non_manifold_edges"], 0);
+  EXPECT_EQ(object["degenerate_faces"], 1);
+  EXPECT_EQ(object["duplicate_vertices"], 1);
+  EXPECT_EQ(object["unused_vertices"], 1);
+  EXPECT_EQ(object["self_intersections"], 1);
+  EXPECT_EQ(object["box"], Json({{0, 0, -1}, {1, 1, 1}}));
+}
+
+TEST_F(Info, as_text_says_the_same) {
+  const auto result = run_program({"info", write("a.off", trouble)});
+  expect_success(result);
+  for (const std::string part : {"a.off", "open", "degenerate faces", "(0 0 -1) to (1 1 1)"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
+}
+
+TEST_F(Info, of_a_closed_one) {
+  const Json object = info({write("a.off", tetrahedron())})["objects"].at(0);
+  EXPECT_EQ(object["closed"], true);
+  EXPECT_EQ(object["self_intersections"], 0);
+}
+
+TEST_F(Info, of_a_point_cache_with_and_without_its_mesh) {
+  const auto cache =
+      write("a.mdd", packed<std::int32_t>({2, 4}, std::endian::big) + packed<float>({0, 0.04}, std::endian::big) +
+                         packed<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 7}, std::endian::big) +
+                         packed<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 9}, std::endian::big));
+  const Json alone = info({cache});
+  EXPECT_EQ(alone["kind"], "mdd");
+  EXPECT_EQ(alone["frames"], 2);
+  EXPECT_NEAR(alone["frames_per_second"].get<double>(), 25, 1e-4);
+  EXPECT_EQ(alone["objects"][0]["vertices"], 4);
+  EXPECT_EQ(alone["objects"][0]["box"], Json({{0, 0, 0}, {1, 1, 7}}));
+  EXPECT_FALSE(alone["objects"][0].contains("faces"));
+  const Json both = info({cache, "--mesh", write("a.off", square_off)});
+  EXPECT_EQ(both["objects"][0]["faces"], 2);
+  EXPECT_EQ(both["objects"][0]["box"], alone["objects"][0]["box"]);
+}
+
+TEST_F(Info, of_a_sequence_a_gltf_file_and_a_scene) {
+  write("f1.off", square_off);
+  write("f2.off", square_off);
+  EXPECT_EQ(info({(folder.path() / "f*.off").string()})["frames"], 2);
+  const Json gltf = info({write("a.glb", rich_gltf().glb())});
+  EXPECT_EQ(gltf["kind"], "gltf");
+  EXPECT_EQ(gltf["frames"], 61);
+  EXPECT_EQ(gltf["objects"][0]["faces"], 2);
+  const Json scene = info({write("scene.json", R"({"frames": 5, "objects": [{"name": "one", "mesh": "f1.off"},
+    {"name": "two", "shape": {"icosphere": {"frequency": 2}}, "motion": {"deform": [{"spin": {}}]}}]})")});
+  EXPECT_EQ(scene["kind"], "scene");
+  EXPECT_EQ(scene["frames"], 5);
+  EXPECT_EQ(scene["objects"].size(), 2U);
+  EXPECT_EQ(scene["objects"][1]["name"], "two");
+  EXPECT_EQ(scene["objects"][1]["faces"], 80);
+  EXPECT_EQ(scene["objects"][1]["closed"], true);
+}
+
+TEST_F(Info, of_what_cannot_be_read_is_an_error) {
+  expect_error(run_program({"info", write("a.off", "rubbish")}), 3, "a.off:1: ");
+  expect_error(run_program({"info", write("a.glb", "glTF")}), 3, "a.glb: byte 4");
+  expect_error(run_program({"info", write("a.mdd", "rubbish")}), 3, "a.mdd");
+  expect_error(run_program({"info", write("a.xyz", "")}), 3, "a.xyz");
+  expect_error(run_program({"info", (folder.path() / "none*.off").string()}), 3, "there is no such file");
+  expect_error(run_program({"info", write("b.off", square_off), "--mesh", write("c.off", square_off)}), 2, "b.off");
+  expect_error(run_program({"info"}), 2, "");
+}
+
+}  // namespace
+}  // namespace lodestone::test
