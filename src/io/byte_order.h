@@ -18,11 +18,11 @@ T load(const char* bytes, std::endian order = std::endian::little) {
   return std::bit_cast<T>(raw);
 }
 
-/// Adds the bytes of `value` in little-endian order.
+/// Adds the bytes of `value`.
 template <class T>
-void append(std::string& bytes, T value) {
+void append(std::string& bytes, T value, std::endian order = std::endian::little) {
   auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  if (std::endian::native != std::endian::little) std::ranges::reverse(raw);
+  if (order != std::endian::native) std::ranges::reverse(raw);
   bytes.append(raw.data(), raw.size());
 }
 

@@ -54,10 +54,20 @@ struct Info_command {
   bool json = false;
 };
 
+struct Convert_command {
+  std::filesystem::path input, output;
+  std::filesystem::path mesh;  ///< of a point cache; may be empty
+  std::string frames;          ///< first:last:step; empty: all
+  double rate = 0;             ///< frames per second; 0: what the input says, else 30
+  std::size_t regions = 0;     ///< 0: no colours
+  bool quiet = false;
+};
+
 /// Each prints its table to the standard output and returns the program's exit code.
 int run(const Detect_command& command);
 int run(const Partition_command& command);
 int run(const Experiment_command& command);
 int run(const Info_command& command);
+int run(const Convert_command& command);
 
 }  // namespace lodestone

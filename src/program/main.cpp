@@ -174,6 +174,27 @@ void add_info(CLI::App& program, Info_command& command) {
   app.add_flag("--json", command.json, "Print JSON");
 }
 
+void add_convert(CLI::App& program, Convert_command& command) {
+  auto& app = *program.add_subcommand("convert", "Turn one kind of animation file into another");
+  app.add_option("IN", command.input, "Mesh, pattern such as 'cloth_*.obj', point cache (.pc2 .mdd), glTF")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("OUT", command.output, "Point cache, glTF (.gltf .glb), mesh or pattern such as 'out/cloth_####.ply'")
+      ->required()
+      ->type_name("FILE")
+      ->check(not_empty());
+  app.add_option("--mesh", command.mesh, "The mesh that a point cache moves")->type_name("FILE")->check(not_empty());
+  app.add_option("--frames", command.frames, "FIRST:LAST:STEP, counted from 0, LAST included; each may be left out")
+      ->type_name("FRAMES")
+      ->check(not_empty());
+  app.add_option("--fps", command.rate, "Frames per second, to read glTF and to write it and MDD")
+      ->check(CLI::Range(1e-3, 1e6).description("0.001 to 1e6"))
+      ->default_str("what IN says, else 30");
+  app.add_option("--regions", command.regions, "glTF: divide the surface into so many regions and colour them")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
+  app.add_flag("--quiet", command.quiet, "No progress bar, no report");
+}
+
 void add_experiment(CLI::App& program, Experiment_command& command) {
   auto& app = *program.add_subcommand("experiment", "Run one of the experiments");
   std::vector<std::string> names;
@@ -220,10 +241,12 @@ int run_guarded(int argc, char** argv) {
   Partition_command partition;
   Experiment_command experiment;
   Info_command info;
+  Convert_command convert;
   experiment.scenes = LODESTONE_SCENES;
   add_detect(program, detect);
   add_partition(program, partition);
   add_info(program, info);
+  add_convert(program, convert);
   add_experiment(program, experiment);
 
   try {
@@ -246,6 +269,8 @@ int run_guarded(int argc, char** argv) {
     code = run(partition);
   else if (program.got_subcommand("info"))
     code = run(info);
+  else if (program.got_subcommand("convert"))
+    code = run(convert);
   else
     code = run(experiment);
   if (std::fflush(stdout) != 0) throw Bad_output("the standard output cannot be written");

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "io/gltf_samples.h"
+#include "io/mesh_samples.h"
+#include "io/temporary_folder.h"
+#include "lodestone/io/animation.h"
+#include "lodestone/io/point_cache.h"
+#include "program/run_program.h"
+
+namespace lodestone::test {
+namespace {
+
+class Convert : public testing::Test {
+ protected:
+  Convert() {
+    folder.write("square.off", square_off);
+    for (int frame = 0; frame < 12; ++frame) {
+      auto bytes = square_off;
+      folder.write("f" + std::to_string(frame) + ".off",
+                   bytes.replace(bytes.find("1 1 0"), 5, "1 1 " + std::to_string(frame) + ".25"));
+    }
+  }
+  std::string path(const std::string& name) const { return (folder.path() / name).string(); }
+  void convert(const std::string& from, const std::string& to, const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> arguments{"convert", path(from), path(to), "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    expect_success(run_program(arguments));
+  }
+  /// Height of the square's third corner in each frame.
+  std::vector<double> heights(const std::string& name) const {
+    const auto animation = read_animation(path(name));
+    std::vector<Point> positions(animation.vertices);
+    std::vector<double> result;
+    for (std::size_t frame = 0; frame < animation.motion.frames; ++frame) {
+      animation.motion.pose(frame, positions);
+      result.push_back(positions[2].z());
+    }
+    return result;
+  }
+
+  Temporary_folder folder;
+  const std::vector<double> all{0.25, 1.25, 2.25, 3.25, 4.25, 5.25, 6.25, 7.25, 8.25, 9.25, 10.25, 11.25};
+};
+
+TEST_F(Convert, goes_round_through_every_format) {
+  convert("f*.off", "a.pc2");
+  convert("a.pc2", "a.mdd");
+  convert("a.mdd", "a.glb", {"--mesh", path("square.off")});
+  convert("a.glb", "b.gltf", {"--fps", "30"});
+  convert("b.gltf", "out/g####.ply");
+  convert("out/g####.ply", "out/h*.obj");
+  for (const auto* name : {"a.pc2", "a.mdd", "a.glb", "b.gltf", "out/g*.ply", "out/h*.obj"})
+    EXPECT_EQ(heights(name), all) << name;
+}
+
+TEST_F(Convert, takes_the_frames_it_is_told) {
+  const auto expect_frames = [&](const std::string& choice, const std::vector<double>& expected) {
+    convert("f*.off", "a.pc2", {"--frames", choice});
+    EXPECT_EQ(heights("a.pc2"), expected) << choice;
+  };
+  expect_frames("2:4", {2.25, 3.25, 4.25});
+  expect_frames("::5", {0.25, 5.25, 10.25});
+  expect_frames("9:", {9.25, 10.25, 11.25});
+  expect_frames(":1", {0.25, 1.25});
+  expect_frames("3", {3.25});
+  expect_frames("1:11:18446744073709551615", {1.25});
+  for (const auto* choice : {"5:4", "0:12", "12", "::0", "a", "1:2:3:4", "-1", "1.5", ""})
+    expect_error(run_program({"convert", path("f*.off"), path("b.pc2"), "--frames", choice}), 2, "");
+  EXPECT_FALSE(exists(folder.path() / "b.pc2"));
+}
+
+TEST_F(Convert, keeps_the_time_that_passes) {
+  convert("f*.off", "a.mdd", {"--fps", "60", "--frames", "::2"});
+  EXPECT_NEAR(read_point_cache_header(path("a.mdd")).frames_per_second, 30, 1e-3);
+  convert("a.mdd", "b.mdd");
+  EXPECT_NEAR(read_point_cache_header(path("b.mdd")).frames_per_second, 30, 1e-3);
+}
+
+TEST_F(Convert, samples_gltf_at_any_rate) {
+  folder.write("a.glb", rich_gltf().glb());
+  convert("a.glb", "a.pc2");
+  EXPECT_EQ(read_point_cache_header(path("a.pc2")).frames, 61U);
+  convert("a.glb", "a.pc2", {"--fps", "10"});
+  EXPECT_EQ(read_point_cache_header(path("a.pc2")).frames, 21U);
+}
+
+TEST_F(Convert, colours_regions) {
+  convert("f*.off", "a.gltf", {"--regions", "2"});
+  const auto json = read_json(path("a.gltf"));
+  EXPECT_TRUE(json["meshes"][0]["primitives"][0]["attributes"].contains("COLOR_0"));
+  EXPECT_EQ(heights("a.gltf"), all);
+}
+
+TEST_F(Convert, refuses_what_makes_no_sense) {
+  convert("f*.off", "a.pc2");
+  expect_error(run_program({"convert", path("a.pc2"), path("a.glb")}), 2, "name its mesh");
+  expect_error(run_program({"convert", path("a.pc2"), path("a.mdd"), "--regions", "2"}), 2, "--regions");
+  expect_error(run_program({"convert", path("f*.off"), path("a.off")}), 2, "12 frames need a pattern");
+  expect_error(run_program({"convert", path("f*.off"), path("a.xyz")}), 2, "a.xyz");
+  expect_error(run_program({"convert", path("f*.off"), path("square.off/a.pc2")}), 4, "square.off");
+  expect_error(run_program({"convert", path("g*.off"), path("b.pc2")}), 3, "there is no such file");
+  remove(folder.path() / "f7.off");
+  expect_error(run_program({"convert", path("f*.off"), path("b.pc2")}), 3, "f7.off");
+  expect_error(run_program({"convert", path("f*.off")}), 2, "");
+  EXPECT_FALSE(exists(folder.path() / "b.pc2"));
+  EXPECT_FALSE(exists(folder.path() / "a.glb"));
+}
+
+TEST_F(Convert, an_error_in_a_later_frame_leaves_no_result) {
+  folder.write("f8.off", "OFF\n");
+  for (const auto* name : {"out/a.pc2", "out/a.mdd", "out/a.glb", "out/a.gltf", "out/a#.obj"})
+    expect_error(run_program({"convert", path("f*.off"), path(name)}), 3, "f8.off");
+  EXPECT_EQ(content_of(folder.path() / "out"), std::set<std::string>{});
+}
+
+}  // namespace
+}  // namespace lodestone::test
