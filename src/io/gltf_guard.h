@@ -16,10 +16,10 @@ using Bytes = std::vector<unsigned char>;
 
 /// The JSON of a glTF file, and of a `.glb` the bytes behind it.
 struct Gltf_document {
-  std::string name;     ///< of the file, for messages
-  nlohmann::json json;  ///< an object
+  std::string name = {};     ///< of the file, for messages
+  nlohmann::json json = {};  ///< an object
   bool has_binary = false;
-  Bytes binary;
+  Bytes binary = {};
 };
 
 /// Takes a `.gltf` or `.glb` apart, by how it begins.
@@ -34,8 +34,8 @@ std::vector<Bytes> read_gltf_buffers(Gltf_document& document, const std::filesys
 
 /// What a guard has found in a file.
 struct Guarded_gltf {
-  std::string plain;  ///< JSON for tinygltf: what Lodestone uses, nothing else. Buffer i has the URI `i`
-  std::vector<Bytes> buffers;
+  std::string plain = {};  ///< JSON for tinygltf: what Lodestone uses, nothing else. Buffer i has the URI `i`
+  std::vector<Bytes> buffers = {};
 };
 
 /// Checks every number that something else is counted or looked up by: sizes against what the file holds, indices

@@ -26,13 +26,13 @@ using Coordinate_list = std::vector<double>;
 /// A mesh of the file, its primitives one after the other. Vertices that are the same in everything that moves them
 /// (seams of textures make copies) are named by one number in the faces.
 struct Gltf_shape {
-  Coordinate_list positions;
-  std::vector<Coordinate_list> targets;  ///< per morph target: what it adds, or nothing
-  std::vector<double> weights;           ///< of the targets, unless the node has its own
-  std::size_t influences = 0;            ///< joints per vertex
-  std::vector<std::uint32_t> joints;     ///< `influences` per vertex: places in the skin's list
-  std::vector<double> joint_weights;     ///< their sum is 1 for each vertex
-  std::vector<Corners> faces;
+  Coordinate_list positions = {};
+  std::vector<Coordinate_list> targets = {};  ///< per morph target: what it adds, or nothing
+  std::vector<double> weights = {};           ///< of the targets, unless the node has its own
+  std::size_t influences = 0;                 ///< joints per vertex
+  std::vector<std::uint32_t> joints = {};     ///< `influences` per vertex: places in the skin's list
+  std::vector<double> joint_weights = {};     ///< their sum is 1 for each vertex
+  std::vector<Corners> faces = {};
 
   std::size_t vertices() const { return positions.size() / 3; }
 };
@@ -47,18 +47,18 @@ struct Gltf_place {
 
 struct Gltf_node {
   std::size_t parent = no_index;
-  Gltf_place place;
-  std::vector<double> weights;  ///< of morph targets; empty: those of the mesh
+  Gltf_place place = {};
+  std::vector<double> weights = {};  ///< of morph targets; empty: those of the mesh
 };
 
 struct Gltf_skin {
-  std::vector<std::size_t> joints;         ///< nodes
-  std::vector<Eigen::Affine3d> from_mesh;  ///< per joint: from the mesh at rest into the joint's own axes
+  std::vector<std::size_t> joints = {};         ///< nodes
+  std::vector<Eigen::Affine3d> from_mesh = {};  ///< per joint: from the mesh at rest into the joint's own axes
 };
 
 /// A mesh where a node shows it.
 struct Gltf_part {
-  std::shared_ptr<const Gltf_shape> shape;
+  std::shared_ptr<const Gltf_shape> shape = {};
   std::size_t node = 0;
   std::size_t skin = no_index;
   std::size_t first_vertex = 0;
@@ -72,24 +72,24 @@ struct Gltf_curve {
   std::size_t node = 0;
   Gltf_path path = Gltf_path::translation;
   Gltf_interpolation interpolation = Gltf_interpolation::linear;
-  std::size_t width = 3;       ///< numbers per value
-  std::vector<double> times;   ///< seconds, increasing
-  std::vector<double> values;  ///< per time: the value; cubic: tangent before, value, tangent behind
+  std::size_t width = 3;            ///< numbers per value
+  std::vector<double> times = {};   ///< seconds, increasing
+  std::vector<double> values = {};  ///< per time: the value; cubic: tangent before, value, tangent behind
 };
 
 struct Gltf_animation {
-  std::string name;
+  std::string name = {};
   double seconds = 0;  ///< the last time of any curve
-  std::vector<Gltf_curve> curves;
+  std::vector<Gltf_curve> curves = {};
 };
 
 struct Gltf_scene {
-  std::string name;  ///< of the file
-  std::vector<Gltf_node> nodes;
-  std::vector<std::size_t> order;  ///< of the nodes: parents first
-  std::vector<Gltf_skin> skins;
-  std::vector<Gltf_part> parts;
-  std::vector<Gltf_animation> animations;
+  std::string name = {};  ///< of the file
+  std::vector<Gltf_node> nodes = {};
+  std::vector<std::size_t> order = {};  ///< of the nodes: parents first
+  std::vector<Gltf_skin> skins = {};
+  std::vector<Gltf_part> parts = {};
+  std::vector<Gltf_animation> animations = {};
   std::size_t vertices = 0;  ///< of all parts
 };
 
