@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "game_model.h"
 #include "gltf_motion.h"
 #include "lodestone/errors.h"
 #include "lodestone/io/deformation.h"
@@ -38,6 +39,14 @@ Animation gltf(const fs::path& file, const Animation_options& options) {
   return result;
 }
 
+Animation game_model(const fs::path& file) {
+  auto model = read_game_model(file);
+  return {.kind = model->is_md2 ? "md2" : "md3",
+          .vertices = model->vertices,
+          .faces = model->faces,
+          .motion = motion_of(std::move(model))};
+}
+
 Animation sequence(const fs::path& pattern) {
   auto files = find_numbered_files(pattern);
   const auto first = read_mesh_soup(files.front());
@@ -69,6 +78,7 @@ Animation read_animation(const fs::path& input, const Animation_options& options
   if (!options.mesh.empty())
     throw Bad_argument(fmt::format("{}: only a point cache needs a mesh beside it", input.string()));
   if (is_pattern(input)) return sequence(input);
+  if (is_game_model(input)) return game_model(input);
   return is_gltf(input) ? gltf(input, options) : still(input);
 }
 

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <utility>
 
+#include "game_model.h"
 #include "gltf_scene.h"
 #include "lodestone/errors.h"
 #include "mesh_guard.h"
@@ -49,7 +50,7 @@ const Mesh_format& format_of(const std::filesystem::path& file) {
   const auto format = std::ranges::find(formats, extension, &Mesh_format::extension);
   if (format == formats.end())
     throw Bad_mesh(
-        fmt::format("{}: expected a file .off, .obj, .ply, .stl, .gltf or .glb, found extension {}",
+        fmt::format("{}: expected a file .off, .obj, .ply, .stl, .gltf, .glb, .md2 or .md3, found extension {}",
                     file.string(), in_quotes(extension)));
   return *format;
 }
@@ -77,6 +78,23 @@ bool is_complete(const Mesh_soup& soup, const Guarded_mesh& guarded) {
 
 }  // namespace
 
+namespace {
+
+/// A game model in its first frame.
+Mesh_soup soup_of(const Game_model& model) {
+  Mesh_soup soup;
+  soup.points.resize(model.vertices);
+  try {
+    pose_game_model(model, 0, soup.points);
+  } catch (const Bad_motion& error) {
+    throw Bad_mesh(error.what());
+  }
+  for (const auto& face : model.faces) soup.faces.emplace_back(face.begin(), face.end());
+  return soup;
+}
+
+}  // namespace
+
 bool is_gltf(const std::filesystem::path& file) {
   const auto extension = lower_case(file.extension().string());
   return extension == ".gltf" || extension == ".glb";
@@ -84,6 +102,7 @@ bool is_gltf(const std::filesystem::path& file) {
 
 Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_options& options) {
   if (is_gltf(file)) return soup_of(*read_gltf_scene(file, options));
+  if (is_game_model(file)) return soup_of(*read_game_model(file, options));
   const auto& format = format_of(file);
   auto guarded = format.guard(File_bytes(file), options.max_faces);
   // Surface_mesh and CGAL's readers number in 32 bits; a triangle has up to 6 half-edges.

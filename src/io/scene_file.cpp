@@ -160,12 +160,13 @@ Motion read_gltf(const Json_value& value, std::size_t vertices, const std::files
 /// Deformations start from the mesh as it was placed; positions from files are placed as they are read.
 Motion read_motion(const Json_value& value, const Scene_object& object, const Placement& placement,
                    const std::filesystem::path& folder) {
-  const std::string kind = value.expect_one_key({"pc2", "mdd", "gltf", "sequence", "deform"});
+  const std::string kind = value.expect_one_key({"pc2", "mdd", "gltf", "keyframes", "sequence", "deform"});
   const Json_value source = value.at(kind);
   if (kind == "deform") return deform(rest_positions(object), detail::read_deformations(source));
   if (kind == "pc2") return placed(read_point_cache(read_path(source, folder), object.file_vertices), placement);
   if (kind == "mdd") return placed(read_mdd_cache(read_path(source, folder), object.file_vertices), placement);
   if (kind == "gltf") return placed(read_gltf(source, object.file_vertices, folder), placement);
+  if (kind == "keyframes") return placed(read_game_motion(read_path(source, folder), object.file_vertices), placement);
   return placed(read_mesh_sequence(read_sequence(source, folder), object.file_vertices), placement);
 }
 

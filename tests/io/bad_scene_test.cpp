@@ -49,7 +49,7 @@ TEST(Bad_scene_file, unknown_key_in_a_motion) {
   EXPECT_EQ(
       error_of(
           R"({"objects": [{"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "a.off", "motion": {"pc": "a"}}]})"),
-      R"(scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, sequence, deform))");
+      R"(scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, keyframes, sequence, deform))");
 }
 
 TEST(Bad_scene_file, unknown_keys_everywhere_else) {
@@ -80,7 +80,7 @@ TEST(Bad_scene_file, missing_keys) {
   EXPECT_EQ(error_of(R"({"objects": [{"mesh": "a.off"}]})"), R"(scene.json: /objects/0: missing key "name")");
   EXPECT_EQ(error_of(R"({"objects": [{"name": "a"}]})"), "scene.json: /objects/0: missing key: one of mesh, shape");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "motion": {})")),
-            "scene.json: /objects/0/motion: missing key: one of pc2, mdd, gltf, sequence, deform");
+            "scene.json: /objects/0/motion: missing key: one of pc2, mdd, gltf, keyframes, sequence, deform");
   EXPECT_EQ(error_of(with_object(R"("shape": {"uv_sphere": {"slices": 5}})")),
             R"(scene.json: /objects/0/shape/uv_sphere: missing key "stacks")");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "place": {"rotate": {"axis": [1, 0, 0]}})")),

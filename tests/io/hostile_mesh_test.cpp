@@ -67,8 +67,8 @@ TEST_F(Hostile_mesh, an_empty_file) {
 }
 
 TEST_F(Hostile_mesh, an_unknown_or_missing_extension) {
-  expect_error("mesh.xyz", square_off, ": expected a file .off, .obj, .ply, .stl, .gltf or .glb, found extension '.xyz'");
-  expect_error("mesh", square_off, ": expected a file .off, .obj, .ply, .stl, .gltf or .glb, found extension ''");
+  expect_error("mesh.xyz", square_off, ": expected a file .off, .obj, .ply, .stl, .gltf, .glb, .md2 or .md3, found extension '.xyz'");
+  expect_error("mesh", square_off, ": expected a file .off, .obj, .ply, .stl, .gltf, .glb, .md2 or .md3, found extension ''");
 }
 
 TEST_F(Hostile_mesh, binary_rubbish) {

@@ -14,7 +14,7 @@ namespace lodestone {
 
 /// Triangles whose vertices move, as files hold them.
 struct Animation {
-  std::string kind;                 ///< mesh, sequence, pc2, mdd, gltf
+  std::string kind;                 ///< mesh, sequence, pc2, mdd, gltf, md2, md3
   std::size_t vertices = 0;         ///< of the file
   std::vector<Corners> faces = {};  ///< vertex numbers of the file; none of a point cache without its mesh
   Motion motion = {};               ///< at least one frame

@@ -33,6 +33,11 @@ Motion read_point_cache(const std::filesystem::path& file, std::size_t vertices)
 /// file must be exactly what its header asks for. The times of the frames are not used.
 Motion read_mdd_cache(const std::filesystem::path& file, std::size_t vertices);
 
+/// Motion from the frames of a game model, MD2 or MD3. The file is kept in memory.
+/// @param vertices  number of vertices the model must have
+/// @throws Bad_motion  a broken file, another number of vertices; when a frame is read: a non-finite coordinate
+Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices);
+
 /// Motion from one mesh file per frame, all with the same faces. The first is read at once, for its faces; each file is
 /// read when its frame is asked for. Any format of `read_mesh`; positions come in file order.
 /// @param vertices  number of vertices each file must have
