@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Colours of what is drawn; those of the page stand in style.css.
+
+/**
+ * The same as in files that `lodestone partition --out` writes: hues in steps of the golden section, in three
+ * lightnesses.
+ * @param {number} region
+ * @returns {[number, number, number]} 0 to 255
+ */
+export function region_colour(region) {
+  const hue = 6 * ((0.61803398874989485 * region) % 1);
+  const lightness = 0.75 + (0.2 * (region % 3)) / 2;
+  const channel = (offset) => {
+    const distance = Math.abs(((hue + offset) % 6) - 3) - 1;
+    return Math.round(255 * lightness * (0.25 + 0.75 * Math.min(1, Math.max(0, distance))));
+  };
+  return [channel(0), channel(4), channel(2)];
+}
+
+/** Of whole objects, where no regions are. */
+const object_colours = [[154, 172, 200], [214, 186, 148], [160, 193, 168], [196, 166, 193], [190, 190, 160], [160, 188, 196]];
+
+export const object_colour = (object) => object_colours[object % object_colours.length];
+
+/** Marks on the surfaces, which can have any colour: a core in one colour, with a rim that parts it from what is behind. */
+export const marks = {
+  particle: { core: [1, 1, 1], rim: [0.07, 0.08, 0.1] },
+  near: [1, 0.82, 0.1],  // a particle or region of a candidate pair
+  candidate: { core: [1, 0.82, 0.1], rim: [0.2, 0.14, 0] },
+  segment: { core: [1, 1, 1], rim: [0.72, 0, 0.32] },
+  trail: { core: [1, 1, 1], rim: [0.07, 0.08, 0.1] },
+  face: [0.86, 0.05, 0.4],
+};
+
+export const stage_background = { light: '#eceef1', dark: '#101316' };

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Control by keyboard, and the list of keys.
+import { by_id, element } from './dom.mjs';
+import { layers } from './layers.mjs';
+
+/**
+ * @param {{player: import('./player.mjs').Player, shown: import('./layers.mjs').Shown, reset: () => void,
+ *          turn: (angle: number, rise: number, nearer: number) => void}} parts
+ */
+export function listen_to_keys({ player, shown, reset, turn }) {
+  const dialog = make_help();
+  const moves = player.frames > 1;
+  const in_time = (act) => (moves ? act : undefined);
+  const acts = {
+    ' ': in_time(() => player.toggle()),
+    k: in_time(() => player.toggle()),
+    ArrowLeft: in_time((event) => player.step(event.shiftKey ? -10 : -1)),
+    ArrowRight: in_time((event) => player.step(event.shiftKey ? 10 : 1)),
+    Home: in_time(() => player.step(-player.frames)),
+    End: in_time(() => player.step(player.frames)),
+    '+': in_time(() => player.change_speed(1)),
+    '=': in_time(() => player.change_speed(1)),
+    '-': in_time(() => player.change_speed(-1)),
+    l: in_time(() => player.set_loop(!player.loop)),
+    r: reset,
+    a: () => turn(-0.15, 0, 1),
+    d: () => turn(0.15, 0, 1),
+    w: () => turn(0, 0.12, 1),
+    s: () => turn(0, -0.12, 1),
+    q: () => turn(0, 0, 1.15),
+    e: () => turn(0, 0, 1 / 1.15),
+    '?': () => (dialog.open ? dialog.close() : dialog.showModal()),
+  };
+  layers.forEach(({ key }, i) => {
+    if (shown.available.some((layer) => layer.key === key)) acts[String(i + 1)] = () => shown.set_layer(key, !shown.layers[key]);
+  });
+  document.addEventListener('keydown', (event) => {
+    const act = acts[event.key];
+    if (!act || event.ctrlKey || event.metaKey || event.altKey || is_for_element(event)) return;
+    if (dialog.open && event.key !== '?') return;
+    event.preventDefault();
+    act(event);
+  });
+  by_id('help-button').addEventListener('click', () => dialog.showModal());
+}
+
+/** Space presses the button that has the focus; arrows choose in a list. */
+function is_for_element({ key, target }) {
+  if (key === ' ' && target.closest?.('button, input, select, summary, a')) return true;
+  return Boolean(target.closest?.('select, textarea, input:not([type=checkbox])')) && key !== '?';
+}
+
+function make_help() {
+  const keys = [
+    ['space', 'play or pause'], ['← →', 'one frame back or forward; with shift, ten'], ['Home End', 'first or last frame'], ['+ −', 'faster or slower'],
+    ['l', 'loop or not'], ['1 … 8', `layers: ${layers.map(({ name }) => name.toLowerCase()).join(', ')}`], ['a d w s', 'turn the view'], ['q e', 'farther, nearer'],
+    ['r', 'reset the view'], ['?', 'this list'],
+  ];
+  const dialog = by_id('help');
+  by_id('keys').append(...keys.flatMap(([key, what]) => [
+    element('dt', {}, ...key.split(' ').map((name) => (name === '…' ? '…' : element('kbd', { textContent: name })))),
+    element('dd', { textContent: what }),
+  ]));
+  by_id('help-close').addEventListener('click', () => dialog.close());
+  dialog.addEventListener('click', (event) => event.target === dialog && dialog.close());
+  return dialog;
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What can be shown and hidden, and which of it a page has.
+
+/**
+ * @typedef {object} Layer
+ * @property {string} key
+ * @property {string} name
+ * @property {string} about  in a word or two
+ * @property {boolean} on    at first
+ * @property {(page: import('./container.mjs').Page) => boolean} exists
+ */
+
+/** @type {Layer[]} in the order of their number keys */
+export const layers = [
+  { key: 'surfaces', name: 'Surfaces', about: 'the meshes', on: true, exists: () => true },
+  { key: 'regions', name: 'Region colours', about: 'one each', on: true, exists: has_regions },
+  { key: 'wireframe', name: 'Wireframe', about: 'edges of triangles', on: false, exists: () => true },
+  { key: 'particles', name: 'Particles', about: 'one per region', on: true, exists: has_particles },
+  { key: 'trails', name: 'Trails', about: 'where they walked', on: true, exists: (page) => has_particles(page) && page.header.frames > 1 },
+  { key: 'candidates', name: 'Candidate pairs', about: 'regions to check', on: true, exists: (page) => has_any(page.candidates) },
+  { key: 'segments', name: 'Contact segments', about: 'where they cross', on: true, exists: (page) => has_any(page.contacts, (c) => c.length >= 10) },
+  { key: 'faces', name: 'Intersecting faces', about: 'found exactly', on: true, exists: (page) => has_any(page.contacts) },
+];
+
+function has_regions(page) {
+  return page.objects.some((object) => object.partitions.length > 0);
+}
+
+function has_particles(page) {
+  return page.objects.some((object) => object.particles?.some((list) => list.length > 0));
+}
+
+function has_any(lists, fits = () => true) {
+  return Boolean(lists?.some((list) => list.some(fits)));
+}
+
+/** What is shown at present: layers, and per object whether it is visible and whether one sees through it. */
+export class Shown {
+  /** @param {import('./container.mjs').Page} page */
+  constructor(page) {
+    this.available = layers.filter((layer) => layer.exists(page));
+    this.layers = Object.fromEntries(layers.map(({ key, on }) => [key, on]));
+    this.objects = page.objects.map(() => ({ visible: true, translucent: false }));
+    this.listeners = [];
+  }
+
+  on_change(listener) {
+    this.listeners.push(listener);
+    listener();
+  }
+
+  set_layer(key, on) {
+    this.layers[key] = on;
+    this.#changed();
+  }
+
+  /** @param {number} object @param {'visible' | 'translucent'} property */
+  set_object(object, property, on) {
+    this.objects[object][property] = on;
+    this.#changed();
+  }
+
+  #changed() {
+    this.listeners.forEach((listener) => listener());
+  }
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The figures of the frame: its line of frames.jsonl, and what each stage took.
+import { by_id, element, number_text } from './dom.mjs';
+import { set_text } from './panel.mjs';
+
+const names = {
+  iterations: 'Iterations', moves: 'Moves', relaxed: 'Relaxed', candidates: 'Candidates', exact_tests: 'Exact tests', contacts: 'Contacts',
+  repartitions: 'Repartitions', leaf_tests: 'Leaf tests', rebuilds: 'Rebuilds',
+};
+
+export const stage_names = {
+  repartition: 'Repartition', refit: 'Refit', broad_phase: 'Broad phase', relaxation: 'Relaxation', candidates: 'Candidates', confirmation: 'Confirmation',
+};
+
+const words_of = (key) => key.replaceAll('_', ' ').replace(/^./, (c) => c.toUpperCase());
+
+/** @param {import('./container.mjs').Page} page @param {number} frame @returns {any} the frame's line, parsed */
+export function line_of(page, frame) {
+  const text = page.numbers?.[frame];
+  if (text === undefined) return null;
+  try {
+    return JSON.parse(text);
+  } catch {
+    return null;
+  }
+}
+
+/** Rows once made are kept, so that playing changes nothing but text. */
+class Rows {
+  constructor(root, make) {
+    this.root = root;
+    this.make = make;
+    this.rows = new Map();
+  }
+
+  show(values) {
+    const keys = Object.keys(values);
+    if (keys.join('\n') !== [...this.rows.keys()].join('\n')) {
+      this.rows = new Map(keys.map((key) => [key, this.make(key)]));
+      this.root.replaceChildren(...[...this.rows.values()].flatMap(({ nodes }) => nodes));
+    }
+    keys.forEach((key) => this.rows.get(key).set(values[key]));
+  }
+}
+
+/** @param {import('./container.mjs').Page} page @returns {(frame: number) => void} shows those of a frame */
+export function make_numbers(page) {
+  const statistics = new Rows(by_id('statistics'), figure_row);
+  const pairs = new Rows(by_id('pairs'), pair_row);
+  const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(({ microseconds }) => Object.values(microseconds)));
+  const used = Object.keys(stage_names).filter((key) => page.stages?.some(({ microseconds }) => microseconds[key] > 0));
+  const stages = new Rows(by_id('stage-times'), (key) => stage_row(key, most));
+  return (frame) => {
+    const line = line_of(page, frame);
+    const stage = page.stages?.[frame];
+    if (line) {
+      statistics.show({ ...line.statistics, 'colliding pairs': line.pairs.filter(({ collides }) => collides).length, ...(stage ? { 'nearest distance': stage.nearest } : {}) });
+      pairs.show(Object.fromEntries(line.pairs.map((pair) => [`${pair.a} – ${pair.b}`, pair])));
+    }
+    if (stage) {
+      const sum = Object.values(stage.microseconds).reduce((a, b) => a + b, 0);
+      stages.show({ ...Object.fromEntries(used.map((key) => [key, stage.microseconds[key] ?? 0])), sum });
+    }
+  };
+}
+
+function figure_row(key) {
+  const value = element('dd', { id: `number-${key.replaceAll(' ', '_')}` });
+  const set = (figure) => set_text(value, typeof figure === 'boolean' ? (figure ? 'yes' : 'no') : number_text(figure));
+  return { nodes: [element('div', {}, element('dt', { textContent: names[key] ?? words_of(key) }), value)], set };
+}
+
+function pair_row(name) {
+  const state = element('span', { className: 'state' });
+  const set = (pair) => {
+    const missed = pair.truth && !pair.collides;
+    const faces = pair.faces ? `, ${pair.faces.length}${pair.capped ? ' or more' : ''} face ${pair.faces.length === 1 ? 'pair' : 'pairs'}` : '';
+    set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.inside ? `${pair.inside} inside` : 'apart or not found');
+    state.className = `state ${pair.collides ? 'confirmed' : missed ? 'missed' : ''}`;
+  };
+  return { nodes: [element('li', {}, element('span', { className: 'name', textContent: name }), state)], set };
+}
+
+/** A bar whose length grows with the root: stages differ a thousandfold. */
+function stage_row(key, most) {
+  const value = element('dd', { id: `stage-${key}` });
+  const bar = element('i', { className: `bar ${key}` });
+  const set = (microseconds) => {
+    set_text(value, `${number_text(microseconds)} µs`);
+    bar.style.width = `${100 * Math.min(1, Math.sqrt(microseconds / most))}%`;
+  };
+  const name = key === 'sum' ? 'All stages' : stage_names[key] ?? words_of(key);
+  return { nodes: [element('div', { className: key }, element('dt', { textContent: name }), element('span', { className: 'track' }, ...(key === 'sum' ? [] : [bar])), value)], set };
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What became of each frame: whether surfaces met, and whether that was found.
+
+/** @typedef {'none' | 'confirmed' | 'missed'} Outcome */
+
+export const outcome_words = { none: 'No collision', confirmed: 'Collision, confirmed', missed: 'Collision, missed' };
+
+/** @param {import('./container.mjs').Stage_record} stage @returns {Outcome} */
+export function outcome_of({ positive, found }) {
+  if (found) return 'confirmed';
+  return positive ? 'missed' : 'none';
+}
+
+/**
+ * Neighbouring frames of which `is` holds, as [first, count].
+ * @param {number} frames
+ * @param {(frame: number) => boolean} is
+ * @returns {[number, number][]}
+ */
+export function runs(frames, is) {
+  const found = [];
+  for (let frame = 0; frame < frames; ++frame) {
+    if (!is(frame)) continue;
+    if (found.length > 0 && found.at(-1)[0] + found.at(-1)[1] === frame) ++found.at(-1)[1];
+    else found.push([frame, 1]);
+  }
+  return found;
+}
+
+/** Frames of the page from which on an object has new regions. */
+export function repartitions(page) {
+  const frames = page.objects.flatMap(({ partitions }) => partitions.map(({ frame }) => frame));
+  return [...new Set(frames)].filter((frame) => frame > 0).sort((a, b) => a - b);
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Switches for layers and objects.
+import { by_id, element, number_text } from './dom.mjs';
+import { layers } from './layers.mjs';
+
+/**
+ * @param {import('./container.mjs').Page} page
+ * @param {import('./layers.mjs').Shown} shown
+ * @param {() => number} frame  of the page, at present
+ */
+export function make_panel(page, shown, frame) {
+  const boxes = shown.available.map((layer) => layer_row(layer, shown));
+  by_id('layers').append(...boxes.map(({ row }) => row));
+  const rows = page.objects.map((object, i) => object_row(object, i, shown));
+  by_id('objects').append(...rows.map(({ row }) => row));
+  shown.on_change(() => {
+    boxes.forEach(({ box, key }) => (box.checked = shown.layers[key]));
+    rows.forEach(({ visible, translucent }, i) => {
+      visible.checked = shown.objects[i].visible;
+      translucent.checked = shown.objects[i].translucent;
+      translucent.disabled = !visible.checked;
+    });
+  });
+  return () => rows.forEach(({ facts }, i) => set_text(facts, object_facts(page.objects[i], frame())));
+}
+
+function layer_row({ key, name, about }, shown) {
+  const number = layers.findIndex((layer) => layer.key === key) + 1;
+  const box = element('input', { type: 'checkbox', id: `layer-${key}` });
+  box.addEventListener('change', () => shown.set_layer(key, box.checked));
+  const row = element('label', { className: 'switch' }, box, element('span', { className: `sample ${key}`, 'aria-hidden': 'true' }),
+    element('span', { className: 'name', textContent: name }), element('span', { className: 'about', textContent: about }),
+    element('kbd', { textContent: String(number), title: `Key ${number}` }));
+  return { key, box, row };
+}
+
+function object_row({ name }, i, shown) {
+  const make_box = (property, word) => {
+    const box = element('input', { type: 'checkbox', id: `object-${i}-${property}` });
+    box.addEventListener('change', () => shown.set_object(i, property, box.checked));
+    return { box, label: element('label', { className: 'small-switch' }, box, word, element('span', { className: 'spoken', textContent: ` ${name}` })) };
+  };
+  const visible = make_box('visible', 'visible');
+  const translucent = make_box('translucent', 'translucent');
+  const facts = element('div', { className: 'about' });
+  const row = element('div', { className: 'object' },
+    element('div', { className: 'object-head' }, element('span', { className: 'name', textContent: name, title: name }), visible.label, translucent.label), facts);
+  return { row, facts, visible: visible.box, translucent: translucent.box };
+}
+
+function object_facts({ vertices, triangles, partitions, particles }, frame) {
+  const facts = [`${number_text(vertices)} vertices`, `${number_text(triangles)} triangles`];
+  const partition = partitions.findLast((candidate) => candidate.frame <= frame);
+  if (partition) facts.push(`${number_text(partition.regions)} regions`);
+  else if (particles) facts.push(`${number_text(particles[frame].length)} particles`);
+  return facts.join(', ');
+}
+
+/** Untouched text costs no layout. */
+export function set_text(node, text) {
+  if (node.textContent !== text) node.textContent = text;
+}

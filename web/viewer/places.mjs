@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where things are. The scene is moved and scaled into the unit ball: far from zero, 32-bit floats would be too coarse.
+
+/** @param {import('./container.mjs').Page_object[]} objects @returns {{centre: number[], radius: number}} of all boxes */
+export function common_ball(objects) {
+  const least = [0, 1, 2].map((axis) => Math.min(...objects.map(({ box }) => box[axis])));
+  const most = [3, 4, 5].map((axis) => Math.max(...objects.map(({ box }) => box[axis])));
+  return { centre: least.map((x, axis) => (x + most[axis]) / 2), radius: Math.hypot(...most.map((x, axis) => x - least[axis])) / 2 || 1 };
+}
+
+/** Places on one object. */
+export class Places {
+  /** @param {import('./container.mjs').Page_object} object @param {{centre: number[], radius: number}} ball */
+  constructor(object, ball) {
+    const { centre, radius } = ball;
+    this.object = object;
+    this.ball = ball;
+    this.origin = [0, 1, 2].map((axis) => (object.box[axis] - centre[axis]) / radius);
+    this.cell = [0, 1, 2].map((axis) => (object.box[axis + 3] - object.box[axis]) / radius / 65535);
+  }
+
+  /** @returns {[number, number, number]} of a vertex in a frame of the page */
+  of_vertex(frame, vertex) {
+    const q = this.object.frames[frame];
+    const [x, y, z] = this.origin;
+    const [sx, sy, sz] = this.cell;
+    return [x + sx * q[3 * vertex], y + sy * q[3 * vertex + 1], z + sz * q[3 * vertex + 2]];
+  }
+
+  /** Places of about so many vertices, from all frames. */
+  samples(count) {
+    const { frames, vertices } = this.object;
+    // The step of the golden section meets every frame and every part of the mesh.
+    return Array.from({ length: count }, (_, i) =>
+      this.of_vertex(Math.floor((i / count) * frames.length), Math.floor(((i * 0.6180339887498949) % 1) * vertices)));
+  }
+
+  /** The one that holds in a frame. */
+  partition(frame) {
+    return this.object.partitions.findLast((partition) => partition.frame <= frame);
+  }
+
+  /** @returns {[number, number, number] | undefined} of the particle of a region */
+  of_particle(frame, region) {
+    const vertex = this.object.particles?.[frame][region];
+    return vertex === undefined ? undefined : this.of_vertex(frame, vertex);
+  }
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The picture: surfaces and marks of one frame, seen by a camera that orbits. Drawn only when something has changed.
+import { Box3, Color, MOUSE, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { stage_background } from './colours.mjs';
+import { Marks } from './marks.mjs';
+import { common_ball, Places } from './places.mjs';
+import { Sharpness } from './sharpness.mjs';
+import { Surface } from './surface.mjs';
+
+const field_of_view = 30;
+const margin = 1.12;
+const view_from = new Vector3(0.55, -1, 0.5).normalize();
+
+/** @param {HTMLCanvasElement} canvas @returns {WebGL2RenderingContext | null} */
+export function webgl_of(canvas) {
+  try {
+    return canvas.getContext('webgl2', { antialias: false, alpha: false, powerPreference: 'high-performance' });
+  } catch {
+    return null;
+  }
+}
+
+export class View {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {WebGL2RenderingContext} context
+   * @param {import('./container.mjs').Page} page
+   * @param {import('./layers.mjs').Shown} shown
+   * @param {() => boolean} playing
+   */
+  constructor(canvas, context, page, shown, playing) {
+    this.canvas = canvas;
+    this.shown = shown;
+    this.stats = { draws: 0, prepare_ms: 0, draw_ms: 0 };
+    this.sharpness = new Sharpness(() => playing() || this.held, () => (this.resized = true, this.#draw_soon()));
+    const ball = common_ball(page.objects);
+    const places = page.objects.map((object) => new Places(object, ball));
+    this.samples = places.flatMap((of_object) => of_object.samples(400));
+    this.surfaces = page.objects.map((object, i) => new Surface(object, i, places[i]));
+    this.marks = new Marks(page, places);
+    this.scene = new Scene();
+    this.scene.add(...this.surfaces.map(({ group }) => group), this.marks.group);
+    this.renderer = new WebGLRenderer({ canvas, context });
+    this.camera = new PerspectiveCamera(field_of_view, 1, 0.01, 60);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    Object.assign(this.controls, { enableDamping: false, minDistance: 0.15, maxDistance: 20 });
+    this.controls.mouseButtons.MIDDLE = MOUSE.PAN;
+    this.controls.addEventListener('change', () => this.#draw_soon());
+    this.frame = 0;
+    this.stale = true;
+    this.moved = false;
+    this.controls.addEventListener('start', () => (this.moved = this.held = true));
+    this.controls.addEventListener('end', () => {
+      this.held = false;
+      this.#draw_soon();
+    });
+    new ResizeObserver(() => this.#fit()).observe(canvas.parentElement);
+    this.#fit();
+  }
+
+  /** @param {number} frame  of the page */
+  show(frame) {
+    if (frame === this.frame && !this.stale) return;
+    this.frame = frame;
+    this.stale = true;
+    this.#draw_soon();
+  }
+
+  /** After a change of layers or objects. */
+  refresh() {
+    this.stale = true;
+    this.#draw_soon();
+  }
+
+  set_scheme(scheme) {
+    this.scene.background = new Color(stage_background[scheme]);
+    this.#draw_soon();
+  }
+
+  /** The camera as at first: from the side and a little above, near enough that all frames just fit. */
+  reset() {
+    this.moved = false;
+    const { camera, controls } = this;
+    camera.position.copy(view_from);
+    camera.lookAt(0, 0, 0);
+    const seen = this.samples.map((place) => new Vector3(...place).applyQuaternion(camera.quaternion.clone().invert()));
+    const { min, max } = new Box3().setFromPoints(seen);
+    const middle = min.clone().add(max).divideScalar(2);
+    const slope = Math.tan((field_of_view * Math.PI) / 360) / margin;
+    const needed = (p) => Math.max(Math.abs(p.x - middle.x) / camera.aspect, Math.abs(p.y - middle.y)) / slope + p.z;
+    const distance = seen.reduce((most, p) => Math.max(most, needed(p)), max.z + 0.2);
+    controls.target.copy(middle).applyQuaternion(camera.quaternion);
+    camera.position.set(middle.x, middle.y, distance).applyQuaternion(camera.quaternion);
+    controls.update();
+    this.#draw_soon();
+  }
+
+  /** @param {number} angle  to the left, in radians @param {number} nearer  factor of the distance */
+  turn(angle, rise, nearer) {
+    const away = this.camera.position.clone().sub(this.controls.target);
+    const distance = away.length();
+    const elevation = Math.min(1.5, Math.max(-1.5, Math.asin(away.z / distance) + rise));
+    const around = Math.atan2(away.y, away.x) + angle;
+    away.set(Math.cos(elevation) * Math.cos(around), Math.cos(elevation) * Math.sin(around), Math.sin(elevation));
+    this.camera.position.copy(this.controls.target).addScaledVector(away, distance * nearer);
+    this.moved = true;
+    this.controls.update();
+    this.#draw_soon();
+  }
+
+  /** Whether nothing is left to draw. */
+  get settled() {
+    return this.due === undefined && this.sharpness.settled;
+  }
+
+  draw() {
+    const begin = performance.now();
+    this.sharpness.next_draw(begin);
+    if (this.resized) this.#set_size();
+    if (this.stale) this.#prepare();
+    const prepared = performance.now();
+    this.renderer.render(this.scene, this.camera);
+    this.stats.draws += 1;
+    this.stats.prepare_ms = prepared - begin;
+    this.stats.draw_ms = performance.now() - prepared;
+  }
+
+  #prepare() {
+    this.stale = false;
+    const { layers, objects } = this.shown;
+    const near = this.marks.show(this.frame, layers, objects);
+    this.surfaces.forEach((surface, i) => {
+      surface.set_look(objects[i], layers, this.ratio * 1.1);
+      if (!surface.group.visible) return;
+      surface.show(this.frame, layers.wireframe);
+      surface.mark(layers.candidates ? near[i] : []);
+    });
+  }
+
+  #draw_soon() {
+    this.due ??= requestAnimationFrame(() => {
+      this.due = undefined;
+      this.draw();
+    });
+  }
+
+  #fit() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (!width || !height) return;
+    this.size = [width, height];
+    this.resized = true;
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    if (!this.moved) this.reset();
+    if (this.stats.draws > 0) this.draw();  // At once, for a canvas is cleared when its size changes.
+  }
+
+  #set_size() {
+    this.resized = false;
+    this.stale = true;
+    const [width, height] = this.size;
+    this.ratio = this.sharpness.ratio(width, height);
+    this.renderer.setPixelRatio(this.ratio);
+    this.renderer.setSize(width, height, false);
+    this.marks.set_screen(width, height, this.ratio);
+  }
+}

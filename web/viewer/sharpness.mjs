@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How many pixels are drawn per pixel of the page: two, so that edges are smooth; on slow machines one while things move.
+
+const fine = 2;
+const quick = 1;
+const most_pixels = 8e6;
+const slow_ms = 40;      // between two draws
+const slow_draws = 5;    // so many in a row are no hiccup
+const pause_ms = 250;    // after which a picture that stands still is drawn finely
+
+export class Sharpness {
+  /**
+   * @param {() => boolean} moving  whether it plays, or the camera is held
+   * @param {() => void} change     is called when the picture is to be drawn again, with another ratio
+   */
+  constructor(moving, change) {
+    this.moving = moving;
+    this.change = change;
+    this.quick = false;
+    this.slow = 0;
+    this.then = undefined;
+  }
+
+  /** Whether the picture is as fine as it gets. */
+  get settled() {
+    return !this.quick && this.timer === undefined;
+  }
+
+  ratio(width, height) {
+    return Math.min(this.quick ? quick : fine, Math.sqrt(most_pixels / (width * height)));
+  }
+
+  /** Before each draw. @param {number} now  milliseconds */
+  next_draw(now) {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.#rest(), pause_ms);
+    if (!this.moving()) return;
+    if (this.then !== undefined && this.slow < slow_draws) this.slow = now - this.then > slow_ms ? this.slow + 1 : 0;
+    this.then = now;
+    this.#set(this.slow >= slow_draws);
+  }
+
+  #rest() {
+    this.timer = undefined;
+    if (this.moving()) return;
+    this.then = undefined;
+    this.#set(false);
+  }
+
+  #set(quick) {
+    if (quick === this.quick) return;
+    this.quick = quick;
+    this.change();
+  }
+}
