@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pages to look at and to test with: make_page TEMPLATE OUT_FILE [KIND]
+import fs from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { example_run } from './example_run.mjs';
+import { Container_writer, fill, on_grid, particles_section, positions_section, topology_section, varints } from './write_container.mjs';
+
+const sizes = {
+  run: { shapes: [{ rows: 175, columns: 20, regions: 48 }, { rows: 25, columns: 28, regions: 12 }], frames: 300 },  // 3500 and 700 vertices
+  large: { shapes: [{ rows: 500, columns: 50, regions: 64 }, { rows: 159, columns: 158, regions: 32 }], frames: 60 },  // about 50 000 triangles each
+  small: { shapes: [{ rows: 60, columns: 10, regions: 16 }, { rows: 13, columns: 14, regions: 8 }], frames: 40 },
+  partition: { shapes: [{ rows: 175, columns: 20, regions: 32 }, { rows: 3, columns: 3, regions: 1 }], frames: 1 },
+};
+
+export const report = `# Does it walk?
+
+Two settings on **one** scene, with \`--truth\`; <script>alert(1)</script> stays text.
+
+| mesh | particles | recall | a \\| b |
+| :--- | ---: | ---: | :---: |
+| knot | 12 | 0.906 | x |
+| sphere | 32 | 0.979 | \`y\` |
+
+## How
+
+- one
+- two, which goes on
+  in the next line
+
+\`\`\`
+lodestone experiment walks | head
+\`\`\`
+`;
+
+const own_plot = {
+  name: 'sweep',
+  title: 'Recall by particles',
+  description: 'Each point is a run.',
+  spec: { data: { values: [12, 16, 32, 64].map((n) => ({ n, recall: 1 - 1.2 / n })) }, mark: 'point', encoding: { x: { field: 'n', type: 'quantitative' }, y: { field: 'recall', type: 'quantitative' } } },
+};
+
+/**
+ * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact'} kind
+ * @returns {{bytes: Buffer, lines: string[], log: object[]}} the container, its lines of frames.jsonl, and what was made up
+ */
+export function make_container(kind) {
+  const writer = new Container_writer();
+  const title = `Example & test: ${kind}`;
+  const empty = { title, mode: null, strategy: null, frames: 0, first_frame: 0, frame_step: 1, frames_per_second: 30, objects: [], numbers: null, stages: null, candidates: null, contacts: null, plots: [], report: null };
+  if (kind === 'experiment') return { bytes: writer.finish({ ...empty, kind, plots: [own_plot], report }), lines: [], log: [] };
+  const { shapes, frames } = sizes[kind] ?? sizes.small;
+  const { objects, log } = example_run(shapes, frames);
+  const still = kind === 'partition';
+  const shown = still ? objects.slice(0, 1) : objects;
+  const exact = kind === 'exact';
+  const header = { ...empty, kind: still ? 'partition' : 'detect', mode: still ? null : exact ? 'exact' : 'particles', strategy: exact ? null : 'lbg', frames, objects: shown.map((object, i) => add_object(writer, object, i, exact)) };
+  const lines = log.map((entry, f) => JSON.stringify(line_of(entry, f, exact)));
+  if (!still) {
+    header.numbers = writer.add('numbers', `${lines.join('\n')}\n`);
+    header.stages = writer.add('stages', log.map(stage_of));
+    if (!exact) header.candidates = writer.add('candidates', log.map(({ candidates }) => candidates));
+    header.contacts = writer.add('contacts', log.map(({ contacts }) => contacts.map((contact) => (exact ? contact.slice(0, 4) : contact))));
+  }
+  return { bytes: writer.finish(header), lines, log };
+}
+
+function add_object(writer, object, i, exact) {
+  const { box, grid } = on_grid(object.frames);
+  const partitions = object.partitions.map(({ frame, labels }, j) => ({ frame, regions: object.regions, labels: writer.add(`labels ${i}.${j}`, varints(labels)) }));
+  return {
+    name: object.name,
+    vertices: object.neighbours.length,
+    triangles: object.corners.length / 3,
+    box,
+    topology: writer.add(`topology ${i}`, topology_section(object.corners)),
+    positions: writer.add(`positions ${i}`, positions_section(grid)),
+    partitions: exact ? [] : partitions,
+    particles: exact ? null : writer.add(`particles ${i}`, particles_section(object.particles)),
+  };
+}
+
+/** As src/program/frame_log.cpp writes it. */
+function line_of({ moves, iterations, candidates, contacts, positive, found }, frame, exact) {
+  const faces = contacts.map(([, face_a, , face_b]) => [face_a, face_b]).sort((p, q) => p[0] - q[0] || p[1] - q[1]);
+  const counts = { exact_tests: 4 * candidates.length, contacts: contacts.length };
+  const statistics = exact
+    ? { leaf_tests: candidates.length, ...counts, rebuilds: 0 }
+    : { iterations, moves, relaxed: iterations < 3, candidates: candidates.length, ...counts, repartitions: 0 };
+  return { frame, pairs: [{ a: 'knot', b: 'sphere', collides: found, faces, truth: positive }], statistics };
+}
+
+/** Times are made up, but the same in each run. */
+function stage_of({ candidates, iterations, positive, found, nearest }, frame) {
+  const noise = (i) => 0.8 + 0.4 * ((Math.imul(frame * 8 + i + 1, 2654435761) >>> 8) / 2 ** 24);
+  const times = { repartition: frame % 60 === 30 ? 900 : 1, refit: 0, broad_phase: 0.2, relaxation: 4 + 3 * iterations, candidates: 0.8, confirmation: 2.2 * candidates.length };
+  const microseconds = Object.fromEntries(Object.entries(times).map(([name, time], i) => [name, Number((time * noise(i)).toFixed(3))]));
+  return { microseconds, positive, found, nearest };
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const [template, out, kind = 'run'] = process.argv.slice(2);
+  fs.writeFileSync(out, fill(fs.readFileSync(template, 'utf8'), `Example & test: ${kind}`, make_container(kind).bytes));
+}
