@@ -200,6 +200,7 @@ std::vector<std::size_t> cut_clusters(const Oriented_mesh& oriented, const Face_
     for (std::size_t c = 0; c < costs.size(); ++c) costs[c][f] = of_face[c];
     clusters.push_back(std::ranges::min_element(of_face) - of_face.begin());
   }
+  if (edges.empty()) return clusters;  // loose triangles, which CGAL does not expect
   CGAL::alpha_expansion_graphcut(edges, edge_costs, costs, clusters, CGAL::Alpha_expansion_MaxFlow_tag());
   return clusters;
 }
