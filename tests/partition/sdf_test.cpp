@@ -61,15 +61,20 @@ TEST(Sdf, balls_of_unequal_size_are_apart_as_well) {
   EXPECT_GT(std::min(left.second, right.second), 0.95);
 }
 
+TEST(Sdf, smoothing_decides_whether_a_border_is_worth_its_cost) {
+  const auto mesh = dumbbell(1, 1, 0.15);
+  EXPECT_EQ(number_of(segments_of(mesh)), 3U);
+  EXPECT_EQ(number_of(segments_of(mesh, {.smoothing = 100})), 1U);
+}
+
 TEST(Sdf, what_is_equally_thick_everywhere_is_one_segment_per_component) {
   EXPECT_EQ(number_of(segments_of(grid(12, 12))), 1U);  // a sheet: no ray hits anything
   EXPECT_EQ(number_of(segments_of(single_triangle())), 1U);
   auto mesh = grid(5, 5);
-  auto other = grid(4, 4);
-  shift(other, 0, 0, 3);
-  append(mesh, other);
-  deform(other, [](const Point& p) { return Point(p.x(), p.y(), p.z() + 3); });
-  EXPECT_EQ(number_of(segments_of(grid(5, 5))), 1U);
+  auto beside = grid(4, 4);
+  shift(beside, 10);
+  append(mesh, beside);
+  EXPECT_EQ(number_of(segments_of(mesh)), 2U);
 }
 
 TEST(Sdf, the_segments_do_not_depend_on_the_unit) {

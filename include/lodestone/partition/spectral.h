@@ -36,8 +36,9 @@ struct Spectral_options {
 /// largest one dealt first to the emptier side. Positions do not count. Of vertices with equal values the one of lower
 /// number goes to the side of the part's lowest vertex, which has the smaller values by choice of the sign.
 ///
-/// A factorisation of V vertices of a surface takes O(V^1.5) time and O(V log V) memory: 100 000 vertices and 64 regions
-/// take about 10 s. Beyond `most_vertices` this strategy refuses. A graph that is far from that of a surface takes more.
+/// A factorisation of V vertices of a surface takes O(V^1.5) time and O(V log V) memory, more for a graph that is far
+/// from that of a surface: 100 000 vertices and 64 regions take about 10 s. Beyond `most_vertices` this strategy
+/// refuses.
 struct Spectral {
   static constexpr std::string_view name = "spectral";
   static constexpr std::size_t most_vertices = 200000;
