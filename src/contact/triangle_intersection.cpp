@@ -90,12 +90,32 @@ struct Shapes_intersection {
   }
 };
 
+/// Whether the segment from p to q passes through the inside of a triangle, from above to below. All orientations are
+/// the same if it does, so a processor foresees what comes of each.
+bool passes_through(const Point& p, const Point& q, const Triangle& t) {
+  const auto positive = [](const Point& a, const Point& b, const Point& c, const Point& d) {
+    return CGAL::orientation(a, b, c, d) == CGAL::POSITIVE;
+  };
+  return positive(t[0], t[1], t[2], p) && positive(t[0], t[2], t[1], q) && positive(q, p, t[0], t[1]) &&
+         positive(q, p, t[1], t[2]) && positive(q, p, t[2], t[0]);
+}
+
 }  // namespace
 
 bool triangles_intersect(const Triangle& a, const Triangle& b) {
   if (surely_not_collinear(a) && surely_not_collinear(b))
     return CGAL::do_intersect(Kernel::Triangle_3(a[0], a[1], a[2]), Kernel::Triangle_3(b[0], b[1], b[2]));
   return std::visit(Shapes_intersect(), shape<Kernel>(a[0], a[1], a[2]), shape<Kernel>(b[0], b[1], b[2]));
+}
+
+bool triangles_intersect_given(const Triangle& a, const Triangle& b, Crossing likely) {
+  if (likely < no_crossing) {
+    const bool is_of_b = likely % 6 >= 3, starts_below = likely >= 6;
+    const Triangle &edges = is_of_b ? b : a, &face = is_of_b ? a : b;
+    const Point &start = edges[likely % 3], &end = edges[(likely + 1) % 3];
+    if (passes_through(starts_below ? end : start, starts_below ? start : end, face)) return true;
+  }
+  return triangles_intersect(a, b);
 }
 
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b) {

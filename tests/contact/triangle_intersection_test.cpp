@@ -74,6 +74,15 @@ TEST(Oracle, knows_the_known_cases) {
   }
 }
 
+TEST(Triangles_intersect, is_right_in_the_known_cases_whatever_the_guess) {
+  for (const auto& c : known_cases)
+    for (Crossing guess = 0; guess <= no_crossing; ++guess) {
+      const Triangle a = as_triangle(c.a), b = as_triangle(c.b);
+      EXPECT_EQ(triangles_intersect_given(a, b, guess), c.meets) << c.name << ' ' << int{guess};
+      EXPECT_EQ(triangles_intersect_given(b, a, guess), c.meets) << c.name << ' ' << int{guess};
+    }
+}
+
 TEST(Triangles_intersect, is_right_in_the_known_cases_at_any_scale_place_and_order_of_corners) {
   for (const auto& c : known_cases) {
     Integer_triangle a = c.a, b = c.b;

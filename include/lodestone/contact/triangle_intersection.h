@@ -5,6 +5,7 @@
 #include <boost/container/static_vector.hpp>
 
 #include "lodestone/concepts.h"
+#include "lodestone/contact/crossing.h"
 
 namespace lodestone {
 
@@ -27,6 +28,8 @@ Triangle face_triangle(const Face_corners& corners, const Position& position) {
 /// CGAL's `do_intersect` under an exact-predicates kernel asks for triangles with an area. One whose corners are
 /// collinear is taken as what it is, a segment or a point.
 bool triangles_intersect(const Triangle& a, const Triangle& b);
+/// The same with a guess, which may be wrong: where it is right, five orientations are enough.
+bool triangles_intersect_given(const Triangle& a, const Triangle& b, Crossing likely);
 
 /// Corners of the intersection of two triangles: one point, the two ends of a segment, or the corners of the polygon in
 /// which two coplanar triangles overlap (at most 6).
