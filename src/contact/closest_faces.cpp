@@ -32,6 +32,7 @@ class Search {
   Search(const Posed_tree& a, const Posed_tree& b) : a_(a), b_(b) {
     best_.points.distance = std::numeric_limits<double>::infinity();
     best_.faces = {std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()};
+    leaf_pairs_.begin(a, b, 0);
   }
 
   Closest_faces run() {
@@ -78,11 +79,11 @@ class Search {
 
   /// The objects intersect: what is left is to find the lowest of the face pairs that do.
   void look_for_lower(std::uint32_t leaf_a, std::uint32_t leaf_b) {
-    for (const auto& [place_a, place_b] : leaf_pairs_.near_faces(a_, leaf_a, b_, leaf_b, 0)) {
+    for (const auto& [place_a, place_b, crossing] : leaf_pairs_.near_faces(leaf_a, leaf_b)) {
       const Face_pair faces{a_.tree->faces(leaf_a)[place_a], b_.tree->faces(leaf_b)[place_b]};
       if (!(faces < best_.faces)) continue;
       const Triangle a = leaf_triangle(a_, leaf_a, place_a), b = leaf_triangle(b_, leaf_b, place_b);
-      if (triangles_intersect(a, b)) best_ = {faces, closest_points(a, b)};
+      if (triangles_intersect_given(a, b, crossing)) best_ = {faces, closest_points(a, b)};
     }
   }
 

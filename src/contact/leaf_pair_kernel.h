@@ -18,13 +18,19 @@ struct Leaf_view {
   std::size_t vertex_count;
   std::size_t face_count;
   const Tree_box* box;
+  Face_columns* faces;  ///< all of them where they are now, or none: then the kernel fills them in
+};
+
+/// What is asked of two leaves.
+struct Leaf_request {
+  double margin;
+  bool one_mesh;  ///< leave out faces that share a vertex
+  bool one_leaf;  ///< each pair once
 };
 
 /// Writes the face pairs of two leaves that are not proven apart, see `Leaf_pairs::near_faces`.
-/// @param same  `a` and `b` are one leaf: each pair once
-/// @param skip_neighbours  leave out faces that share a vertex: both leaves are of one mesh
 /// @return number of pairs written to `near`, which has room for all
-std::size_t near_faces(const Leaf_view& a, const Leaf_view& b, double margin, bool same, bool skip_neighbours,
-                       Leaf_scratch& scratch, Face_places* near);
+std::size_t near_faces(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request, Leaf_scratch& scratch,
+                       Face_places* near);
 
 }  // namespace lodestone::kernel

@@ -9,28 +9,37 @@ namespace lodestone {
 inline constexpr std::size_t most_leaf_faces = 128;
 inline constexpr std::size_t widest = 8;  ///< doubles of the widest vector that is used
 
+/// Some faces of a leaf by coordinate, so that a vector holds one coordinate of several. There is room for the lanes
+/// past the last face, which have boxes that meet nothing.
+struct alignas(64) Face_columns {
+  using Column = double[most_leaf_faces + widest];
+
+  Column low[3], high[3];  ///< by axis: the face's box, its high side moved out by the margin
+  Column vertices[3];      ///< within one mesh, by corner: its number, which a double holds without loss
+  std::size_t count;
+};
+
+/// Some of the faces of a leaf, by their places; there is room for a whole vector past the last.
+struct Face_list {
+  std::uint8_t places[most_leaf_faces + widest];
+  std::size_t count;
+};
+
 /// Memory of leaf against leaf.
 struct alignas(64) Leaf_scratch {
-  /// A leaf's vertices, copied next to each other, four lanes each; and its faces near the other leaf.
-  struct Side {
-    alignas(64) double positions[3 * most_leaf_faces][4];
-    std::uint8_t outcodes[3 * most_leaf_faces];  ///< one bit per side of a box that the vertex lies beyond
-    std::uint16_t places[most_leaf_faces + 1];   ///< of the faces near the other leaf
-  };
-  Side a, b;
+  double positions[3 * most_leaf_faces][4];  ///< of a leaf's vertices, four lanes each
+  Face_list near_a, near_b;                  ///< faces near the other leaf
+  Face_columns b;                            ///< those of b
 
-  /// The near faces of b by coordinate, so that a vector holds one coordinate of several; with room for the lanes past
-  /// the last.
-  using Column = double[most_leaf_faces + widest];
-  struct alignas(64) Columns {
-    Column low[3], high[3];  ///< by axis: the face's box, its high side moved out by the margin
-    Column vertices[3];      ///< by corner: its number in the mesh, which a double holds without loss
-  } columns;
+  /// Pairs of faces whose boxes are near: a's place in its leaf, b's among those near a.
+  std::uint8_t pairs_a[most_leaf_faces * most_leaf_faces + widest];
+  std::uint8_t pairs_b[most_leaf_faces * most_leaf_faces + widest];
 
   /// Some pairs of faces by coordinate.
   struct alignas(64) Batch {
     double a[3][3][widest];  ///< by corner and axis
     double b[3][3][widest];
+    double crossing[widest];  ///< a `Crossing`
   } batch;
 };
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "lodestone/contact/crossing.h"
+
 namespace lodestone {
 
 /// Axis-aligned box of a tree node. Four lanes, so that one vector instruction handles a side of it; the fourth means
@@ -35,6 +37,7 @@ using Leaf_corners = std::array<std::uint16_t, 3>;
 struct Face_places {
   std::uint16_t a = 0;
   std::uint16_t b = 0;
+  Crossing crossing = no_crossing;
 };
 
 }  // namespace lodestone

@@ -50,17 +50,18 @@ template <Contact_visitor Visitor>
 Visit visit_contacts(const Posed_tree& a, const Posed_tree& b, double distance, Tree_walk& walk, Visitor&& visitor) {
   const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
     ++walk.leaf_tests;
-    for (const auto& places : walk.leaf_pairs.near_faces(a, leaf_a, b, leaf_b, distance)) {
+    for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
       const Triangle triangle_a = leaf_triangle(a, leaf_a, places.a), triangle_b = leaf_triangle(b, leaf_b, places.b);
       ++walk.exact_tests;
       if (distance > 0 ? !triangles_nearer_than(triangle_a, triangle_b, distance)
-                       : !triangles_intersect(triangle_a, triangle_b))
+                       : !triangles_intersect_given(triangle_a, triangle_b, places.crossing))
         continue;
       if (visitor(Face_pair{a.tree->faces(leaf_a)[places.a], b.tree->faces(leaf_b)[places.b]}) == Visit::stop)
         return Visit::stop;
     }
     return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
+  walk.leaf_pairs.begin(a, b, distance);
   return walk_leaf_pairs(*a.tree, *b.tree, distance, walk.ahead, visit_leaves);
 }
 
@@ -77,16 +78,17 @@ template <Contact_visitor Visitor>
 Visit visit_contacts_within(const Posed_tree& posed, Tree_walk& walk, Visitor&& visitor) {
   const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
     ++walk.leaf_tests;
-    for (const auto& places : walk.leaf_pairs.near_faces_within(posed, leaf_a, leaf_b)) {
+    for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
       ++walk.exact_tests;
-      if (!triangles_intersect(leaf_triangle(posed, leaf_a, places.a), leaf_triangle(posed, leaf_b, places.b)))
-        continue;
+      const Triangle a = leaf_triangle(posed, leaf_a, places.a), b = leaf_triangle(posed, leaf_b, places.b);
+      if (!triangles_intersect_given(a, b, places.crossing)) continue;
       const auto [first, second] =
           std::minmax(posed.tree->faces(leaf_a)[places.a], posed.tree->faces(leaf_b)[places.b]);
       if (visitor(Face_pair{first, second}) == Visit::stop) return Visit::stop;
     }
     return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
+  walk.leaf_pairs.begin_within(posed);
   return walk_leaf_pairs_within(*posed.tree, walk.ahead, visit_leaves);
 }
 
