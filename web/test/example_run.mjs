@@ -62,13 +62,14 @@ function sphere_positions(rows, columns, t) {
 /** Vertices spread over the mesh by taking, again and again, the one farthest from those taken; each vertex goes to the nearest. */
 function nearest_seed_labels(positions, regions) {
   const vertices = positions.length / 3;
+  const place = (v) => positions.slice(3 * v, 3 * v + 3);
   const labels = new Array(vertices).fill(0);
   const nearest = new Array(vertices).fill(Infinity);
   let seed = 0;
   for (let region = 0; region < regions; ++region) {
     let farthest = 0;
     for (let v = 0; v < vertices; ++v) {
-      const distance = Math.hypot(positions[3 * v] - positions[3 * seed], positions[3 * v + 1] - positions[3 * seed + 1], positions[3 * v + 2] - positions[3 * seed + 2]);
+      const distance = length(less(place(v), place(seed)));
       if (distance < nearest[v]) [nearest[v], labels[v]] = [distance, region];
       if (nearest[v] > nearest[farthest]) farthest = v;
     }
@@ -87,12 +88,18 @@ function neighbours_of(corners, vertices) {
 export function example_run([knot, sphere], frames) {
   const time = (f) => f / Math.max(1, frames - 1);
   const objects = [
-    { name: 'knot', corners: torus_faces(knot.rows, knot.columns), at: (f) => knot_positions(knot.rows, knot.columns, time(f)), regions: knot.regions },
-    { name: 'sphere', corners: sphere_faces(sphere.rows, sphere.columns), at: (f) => sphere_positions(sphere.rows, sphere.columns, time(f)), regions: sphere.regions },
-  ].map(({ at, ...object }) => ({ ...object, frames: Array.from({ length: frames }, (_, f) => at(f)) }));
+    { name: 'knot', shape: knot, faces_of: torus_faces, positions_of: knot_positions },
+    { name: 'sphere', shape: sphere, faces_of: sphere_faces, positions_of: sphere_positions },
+  ].map(({ name, shape: { rows, columns, regions }, faces_of, positions_of }) => ({
+    name,
+    regions,
+    corners: faces_of(rows, columns),
+    frames: Array.from({ length: frames }, (_, f) => positions_of(rows, columns, time(f))),
+  }));
   for (const object of objects) {
     const vertices = object.frames[0].length / 3;
-    object.partitions = [0, Math.floor(frames / 2)].slice(0, frames > 1 ? 2 : 1).map((frame) => ({ frame, labels: nearest_seed_labels(object.frames[frame], object.regions) }));
+    const starts = frames > 1 ? [0, Math.floor(frames / 2)] : [0];
+    object.partitions = starts.map((frame) => ({ frame, labels: nearest_seed_labels(object.frames[frame], object.regions) }));
     object.neighbours = neighbours_of(object.corners, vertices);
     object.particles = [];
   }
@@ -103,15 +110,16 @@ export function example_run([knot, sphere], frames) {
 function play_frame(objects, sphere, f, t) {
   const place = (i, vertex) => objects[i].frames[f].slice(3 * vertex, 3 * vertex + 3);
   const { moves, iterations } = walk(objects, f, place);
-  const links = [];
-  objects[0].particles[f].forEach((p, a) => objects[1].particles[f].forEach((q, b) => links.push([0, a, 1, b, length(less(place(0, p), place(1, q)))])));
+  const [first, second] = objects.map(({ particles }) => particles[f]);
+  const links = first.flatMap((p, a) => second.map((q, b) => [0, a, 1, b, length(less(place(0, p), place(1, q)))]));
   const mu = length(less(place(0, 0), place(0, 1)));
   const contacts = crossings(objects, sphere, t, place);
   // What this method misses is made up: now and then no pair of particles is near.
   const candidates = f % 29 < 4 ? [] : links.filter((link) => link[4] < 2.5 * mu).sort((a, b) => a[4] - b[4]);
   const positive = contacts.length > 0;
   const found = positive && candidates.length > 0;
-  return { moves, iterations, candidates, contacts: found ? contacts : [], positive, found, nearest: positive ? 0 : Math.min(...links.map((link) => link[4])) };
+  const nearest = positive ? 0 : Math.min(...links.map((link) => link[4]));
+  return { moves, iterations, candidates, contacts: found ? contacts : [], positive, found, nearest };
 }
 
 /** Particles walk within their regions towards the nearest particle of the other object. */

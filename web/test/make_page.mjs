@@ -36,7 +36,11 @@ const own_plot = {
   name: 'sweep',
   title: 'Recall by particles',
   description: 'Each point is a run.',
-  spec: { data: { values: [12, 16, 32, 64].map((n) => ({ n, recall: 1 - 1.2 / n })) }, mark: 'point', encoding: { x: { field: 'n', type: 'quantitative' }, y: { field: 'recall', type: 'quantitative' } } },
+  spec: {
+    data: { values: [12, 16, 32, 64].map((n) => ({ n, recall: 1 - 1.2 / n })) },
+    mark: 'point',
+    encoding: { x: { field: 'n', type: 'quantitative' }, y: { field: 'recall', type: 'quantitative' } },
+  },
 };
 
 /**
@@ -46,14 +50,24 @@ const own_plot = {
 export function make_container(kind) {
   const writer = new Container_writer();
   const title = `Example & test: ${kind}`;
-  const empty = { title, mode: null, strategy: null, frames: 0, first_frame: 0, frame_step: 1, frames_per_second: 30, objects: [], numbers: null, stages: null, candidates: null, contacts: null, plots: [], report: null };
+  const empty = {
+    title, mode: null, strategy: null, frames: 0, first_frame: 0, frame_step: 1, frames_per_second: 30, objects: [],
+    numbers: null, stages: null, candidates: null, contacts: null, plots: [], report: null,
+  };
   if (kind === 'experiment') return { bytes: writer.finish({ ...empty, kind, plots: [own_plot], report }), lines: [], log: [] };
   const { shapes, frames } = sizes[kind] ?? sizes.small;
   const { objects, log } = example_run(shapes, frames);
   const still = kind === 'partition';
   const shown = still ? objects.slice(0, 1) : objects;
   const exact = kind === 'exact';
-  const header = { ...empty, kind: still ? 'partition' : 'detect', mode: still ? null : exact ? 'exact' : 'particles', strategy: exact ? null : 'lbg', frames, objects: shown.map((object, i) => add_object(writer, object, i, exact)) };
+  const header = {
+    ...empty,
+    kind: still ? 'partition' : 'detect',
+    mode: still ? null : exact ? 'exact' : 'particles',
+    strategy: exact ? null : 'lbg',
+    frames,
+    objects: shown.map((object, i) => add_object(writer, object, i, exact)),
+  };
   const lines = log.map((entry, f) => JSON.stringify(line_of(entry, f, exact)));
   if (!still) {
     header.numbers = writer.add('numbers', `${lines.join('\n')}\n`);
@@ -66,7 +80,8 @@ export function make_container(kind) {
 
 function add_object(writer, object, i, exact) {
   const { box, grid } = on_grid(object.frames);
-  const partitions = object.partitions.map(({ frame, labels }, j) => ({ frame, regions: object.regions, labels: writer.add(`labels ${i}.${j}`, varints(labels)) }));
+  const partitions = object.partitions.map(({ frame, labels }, j) =>
+    ({ frame, regions: object.regions, labels: writer.add(`labels ${i}.${j}`, varints(labels)) }));
   return {
     name: object.name,
     vertices: object.neighbours.length,
@@ -92,7 +107,10 @@ function line_of({ moves, iterations, candidates, contacts, positive, found }, f
 /** Times are made up, but the same in each run. */
 function stage_of({ candidates, iterations, positive, found, nearest }, frame) {
   const noise = (i) => 0.8 + 0.4 * ((Math.imul(frame * 8 + i + 1, 2654435761) >>> 8) / 2 ** 24);
-  const times = { repartition: frame % 60 === 30 ? 900 : 1, refit: 0, broad_phase: 0.2, relaxation: 4 + 3 * iterations, candidates: 0.8, confirmation: 2.2 * candidates.length };
+  const times = {
+    repartition: frame % 60 === 30 ? 900 : 1, refit: 0, broad_phase: 0.2, relaxation: 4 + 3 * iterations, candidates: 0.8,
+    confirmation: 2.2 * candidates.length,
+  };
   const microseconds = Object.fromEntries(Object.entries(times).map(([name, time], i) => [name, Number((time * noise(i)).toFixed(3))]));
   return { microseconds, positive, found, nearest };
 }

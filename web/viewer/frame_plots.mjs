@@ -12,13 +12,19 @@ export function frame_plots(page, scene_frame) {
   return [time_plot, distance_plot, recall_plot].map((plot) => plot(page.stages, scene_frame)).filter(Boolean);
 }
 
-const x = { field: 'frame', type: 'quantitative', title: 'frame', scale: { nice: false, zero: false }, axis: { grid: false, tickCount: 8, format: 'd' } };
+const x = {
+  field: 'frame', type: 'quantitative', title: 'frame',
+  scale: { nice: false, zero: false }, axis: { grid: false, tickCount: 8, format: 'd' },
+};
+const y = (field, scale) => ({ field, type: 'quantitative', title: null, scale });
 const line = (interpolate) => ({ type: 'line', interpolate, strokeWidth: 1.5, tooltip: null, clip: true });
 
 function time_plot(stages, scene_frame) {
   const used = Object.keys(stage_names).filter((key) => stages.some(({ microseconds }) => microseconds[key] > 0));
   if (used.length === 0) return undefined;
-  const values = stages.flatMap(({ microseconds }, i) => used.map((key) => ({ frame: scene_frame(i), stage: stage_names[key], us: microseconds[key] ?? 0 })));
+  const values = stages.flatMap(({ microseconds }, i) =>
+    used.map((key) => ({ frame: scene_frame(i), stage: stage_names[key], us: microseconds[key] ?? 0 })));
+  const names = used.map((key) => stage_names[key]);
   return {
     name: 'time',
     title: 'Time per stage',
@@ -28,8 +34,8 @@ function time_plot(stages, scene_frame) {
       mark: line('step'),
       encoding: {
         x,
-        y: { field: 'us', type: 'quantitative', title: null, scale: { type: 'symlog', constant: 1, domainMin: 0 }, axis: { values: [0, 1, 10, 100, 1000, 1e4, 1e5, 1e6], format: ',d' } },
-        color: { field: 'stage', sort: null, scale: { domain: used.map((key) => stage_names[key]) }, legend: { title: null, orient: 'bottom', columns: 3 } },
+        y: { ...y('us', { type: 'symlog', constant: 1, domainMin: 0 }), axis: { values: [0, 1, 10, 100, 1000, 1e4, 1e5, 1e6], format: ',d' } },
+        color: { field: 'stage', sort: null, scale: { domain: names }, legend: { title: null, orient: 'bottom', columns: 3 } },
       },
     },
   };
@@ -42,7 +48,7 @@ function distance_plot(stages, scene_frame) {
     name: 'distance',
     title: 'Distance of the nearest pair',
     description: 'Between the two objects nearest to each other, in units of the scene; 0 where surfaces meet.',
-    spec: { data: { values }, mark: line('linear'), encoding: { x, y: { field: 'nearest', type: 'quantitative', title: null, scale: { domainMin: 0 } } } },
+    spec: { data: { values }, mark: line('linear'), encoding: { x, y: y('nearest', { domainMin: 0 }) } },
   };
 }
 
@@ -64,7 +70,7 @@ function recall_plot(stages, scene_frame) {
     spec: {
       data: { values },
       mark: line('step-after'),
-      encoding: { x: { ...x, scale: { ...x.scale, domain } }, y: { field: 'recall', type: 'quantitative', title: null, scale: { domain: [0, 1] } } },
+      encoding: { x: { ...x, scale: { ...x.scale, domain } }, y: y('recall', { domain: [0, 1] }) },
     },
   };
 }

@@ -46,15 +46,23 @@ export function listen_to_keys({ player, shown, reset, turn }) {
 
 /** Space presses the button that has the focus; arrows choose in a list. */
 function is_for_element({ key, target }) {
+  if (target.closest?.('dialog:not([open])')) return false;  // It keeps the focus for a moment after it was closed.
   if (key === ' ' && target.closest?.('button, input, select, summary, a')) return true;
   return Boolean(target.closest?.('select, textarea, input:not([type=checkbox])')) && key !== '?';
 }
 
 function make_help() {
   const keys = [
-    ['space', 'play or pause'], ['← →', 'one frame back or forward; with shift, ten'], ['Home End', 'first or last frame'], ['+ −', 'faster or slower'],
-    ['l', 'loop or not'], ['1 … 8', `layers: ${layers.map(({ name }) => name.toLowerCase()).join(', ')}`], ['a d w s', 'turn the view'], ['q e', 'farther, nearer'],
-    ['r', 'reset the view'], ['?', 'this list'],
+    ['space', 'play or pause'],
+    ['← →', 'one frame back or forward; with shift, ten'],
+    ['Home End', 'first or last frame'],
+    ['+ −', 'faster or slower'],
+    ['l', 'loop or not'],
+    ['1 … 8', `layers: ${layers.map(({ name }) => name.toLowerCase()).join(', ')}`],
+    ['a d w s', 'turn the view'],
+    ['q e', 'farther, nearer'],
+    ['r', 'reset the view'],
+    ['?', 'this list'],
   ];
   const dialog = by_id('help');
   by_id('keys').append(...keys.flatMap(([key, what]) => [

@@ -42,7 +42,8 @@ function show_title({ header, objects }) {
   const facts = [];
   if (header.mode) facts.push(`mode ${header.mode}`);
   if (header.strategy) facts.push(`regions by ${header.strategy}`);
-  if (header.frames > 1) facts.push(`${number_text(header.frames)} frames${header.frame_step > 1 ? `, each ${header.frame_step}th of the scene` : ''}`);
+  if (header.frames > 1) facts.push(`${number_text(header.frames)} frames`);
+  if (header.frame_step > 1) facts.push(`one of ${header.frame_step} shown`);
   if (objects.length > 2) facts.push(`${objects.length} objects`);
   by_id('subtitle').textContent = facts.join(' · ');
 }
@@ -80,7 +81,9 @@ function complain(error) {
   const damaged = error instanceof Damaged;
   by_id('problem').hidden = false;
   by_id('problem-text').textContent = damaged ? `${error.message}.`.replace(/^./, (c) => c.toUpperCase()) : `The viewer failed: ${error.message}`;
-  by_id('problem-advice').textContent = damaged ? 'The file may have been cut off or altered on its way; write or copy it again.' : 'This is a fault of the viewer.';
+  by_id('problem-advice').textContent = damaged
+    ? 'The file may have been cut off or altered on its way; write or copy it again.'
+    : 'This is a fault of the viewer.';
   document.documentElement.dataset.ready = 'no';
 }
 
@@ -90,7 +93,8 @@ started.catch(complain);
 /** For tests, and for those who look at a run from the browser's console. */
 window.lodestone = {
   ready: started.then(({ page, player, shown, view, stats, plots_ready }) => {
-    const switches = Object.fromEntries(layers.map(({ key }) => [key, { enumerable: true, get: () => shown.layers[key], set: (on) => shown.set_layer(key, Boolean(on)) }]));
+    const layer_switch = (key) => ({ enumerable: true, get: () => shown.layers[key], set: (on) => shown.set_layer(key, Boolean(on)) });
+    const switches = Object.fromEntries(layers.map(({ key }) => [key, layer_switch(key)]));
     Object.assign(window.lodestone, {
       frames: player.frames,
       frame: () => player.frame,

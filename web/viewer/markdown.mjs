@@ -38,7 +38,8 @@ const cells = (line) => line.trim().slice(1, -1).split(/(?<!\\)\|/).map((cell) =
 
 function table(lines, at) {
   const sides = cells(lines[at + 1]).map((rule) => (rule.endsWith(':') ? (rule.startsWith(':') ? 'center' : 'right') : 'left'));
-  const row = (line, tag) => element('tr', {}, ...cells(line).map((cell, i) => element(tag, { style: `text-align: ${sides[i] ?? 'left'}` }, ...inline(cell))));
+  const cell_of = (tag) => (text, i) => element(tag, { style: `text-align: ${sides[i] ?? 'left'}` }, ...inline(text));
+  const row = (line, tag) => element('tr', {}, ...cells(line).map(cell_of(tag)));
   let end = at + 2;
   while (is_row(lines[end])) ++end;
   const body = element('tbody', {}, ...lines.slice(at + 2, end).map((line) => row(line, 'td')));

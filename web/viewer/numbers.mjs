@@ -9,7 +9,8 @@ const names = {
 };
 
 export const stage_names = {
-  repartition: 'Repartition', refit: 'Refit', broad_phase: 'Broad phase', relaxation: 'Relaxation', candidates: 'Candidates', confirmation: 'Confirmation',
+  repartition: 'Repartition', refit: 'Refit', broad_phase: 'Broad phase', relaxation: 'Relaxation', candidates: 'Candidates',
+  confirmation: 'Confirmation',
 };
 
 const words_of = (key) => key.replaceAll('_', ' ').replace(/^./, (c) => c.toUpperCase());
@@ -54,7 +55,8 @@ export function make_numbers(page) {
     const line = line_of(page, frame);
     const stage = page.stages?.[frame];
     if (line) {
-      statistics.show({ ...line.statistics, 'colliding pairs': line.pairs.filter(({ collides }) => collides).length, ...(stage ? { 'nearest distance': stage.nearest } : {}) });
+      const colliding = line.pairs.filter(({ collides }) => collides).length;
+      statistics.show({ ...line.statistics, 'colliding pairs': colliding, ...(stage ? { 'nearest distance': stage.nearest } : {}) });
       pairs.show(Object.fromEntries(line.pairs.map((pair) => [`${pair.a} – ${pair.b}`, pair])));
     }
     if (stage) {
@@ -90,5 +92,6 @@ function stage_row(key, most) {
     bar.style.width = `${100 * Math.min(1, Math.sqrt(microseconds / most))}%`;
   };
   const name = key === 'sum' ? 'All stages' : stage_names[key] ?? words_of(key);
-  return { nodes: [element('div', { className: key }, element('dt', { textContent: name }), element('span', { className: 'track' }, ...(key === 'sum' ? [] : [bar])), value)], set };
+  const track = element('span', { className: 'track' }, ...(key === 'sum' ? [] : [bar]));
+  return { nodes: [element('div', { className: key }, element('dt', { textContent: name }), track, value)], set };
 }

@@ -38,13 +38,15 @@ function object_row({ name }, i, shown) {
   const make_box = (property, word) => {
     const box = element('input', { type: 'checkbox', id: `object-${i}-${property}` });
     box.addEventListener('change', () => shown.set_object(i, property, box.checked));
-    return { box, label: element('label', { className: 'small-switch' }, box, word, element('span', { className: 'spoken', textContent: ` ${name}` })) };
+    const whose = element('span', { className: 'spoken', textContent: ` ${name}` });
+    return { box, label: element('label', { className: 'small-switch' }, box, word, whose) };
   };
   const visible = make_box('visible', 'visible');
   const translucent = make_box('translucent', 'translucent');
   const facts = element('div', { className: 'about' });
-  const row = element('div', { className: 'object' },
-    element('div', { className: 'object-head' }, element('span', { className: 'name', textContent: name, title: name }), visible.label, translucent.label), facts);
+  const title = element('span', { className: 'name', textContent: name, title: name });
+  const head = element('div', { className: 'object-head' }, title, visible.label, translucent.label);
+  const row = element('div', { className: 'object' }, head, facts);
   return { row, facts, visible: visible.box, translucent: translucent.box };
 }
 

@@ -51,7 +51,8 @@ export class Plots {
     plot.view?.finalize();
     plot.view = undefined;
     try {
-      const options = { mode: 'vega-lite', renderer: 'svg', config: page_plot_config(scheme, this.narrow.matches), actions: false, tooltip: { theme: scheme } };
+      const config = page_plot_config(scheme, this.narrow.matches);
+      const options = { mode: 'vega-lite', renderer: 'svg', config, actions: false, tooltip: { theme: scheme } };
       plot.view = (await embed(plot.place, fitted_plot(plot.spec, this.narrow.matches), options)).view;
     } catch (error) {
       plot.place.textContent = `This plot cannot be drawn: ${error.message}`;

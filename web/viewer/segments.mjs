@@ -94,7 +94,8 @@ export class Segments {
   /** @param {number} ratio  pixels of the screen per pixel of the page */
   set_screen(width, height, ratio) {
     this.uniforms.screen.value.set(width * ratio, height * ratio);
-    for (const [name, size] of Object.entries(this.sizes)) this.uniforms[name].value = size * ratio;
+    const smaller = Math.min(1, Math.max(0.7, Math.min(width, height) / 560));  // on a phone
+    for (const [name, size] of Object.entries(this.sizes)) this.uniforms[name].value = size * ratio * smaller;
   }
 
   #grow(count) {

@@ -41,8 +41,9 @@ export class Sharpness {
   }
 
   #rest() {
-    this.timer = undefined;
-    if (this.moving()) return;
+    // A movement may end without another draw.
+    this.timer = this.moving() ? setTimeout(() => this.#rest(), pause_ms) : undefined;
+    if (this.timer !== undefined) return;
     this.then = undefined;
     this.#set(false);
   }

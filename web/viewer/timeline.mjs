@@ -22,8 +22,10 @@ export class Timeline {
     this.heads = [0, 1].map(() => element('div', { className: 'head' }));
     this.bracket = element('div', { className: 'bracket' });
     this.ticks = element('div', { className: 'ticks' });
-    const overview = bars(player.frames, lanes.filter(({ kind }) => kind !== 'positive').map((lane) => ({ ...lane, top: 0, height: 10 })), 10);
-    this.detail = bars(player.frames, lanes.map((lane, i) => ({ ...lane, top: 2 + i * (lane_height + 2), height: lane_height })), 2 + lanes.length * (lane_height + 2));
+    const outcomes = lanes.filter(({ kind }) => kind === 'confirmed' || kind === 'missed');
+    const overview = bars(player.frames, outcomes.map((lane) => ({ ...lane, top: 0 })), lane_height);
+    const distance = lane_height + 2;
+    this.detail = bars(player.frames, lanes.map((lane, i) => ({ ...lane, top: 2 + i * distance })), 2 + lanes.length * distance);
     this.tracks = [
       element('div', { className: 'overview' }, overview, this.bracket, this.heads[0]),
       element('div', { className: 'detail' }, this.detail, this.ticks, this.heads[1]),
@@ -91,7 +93,8 @@ export class Timeline {
     this.root.setAttribute('aria-valuenow', String(scene_frame.call(this.player)));
     this.root.setAttribute('aria-valuemin', String(this.player.scene_frame(0)));
     this.root.setAttribute('aria-valuemax', String(this.player.scene_frame(this.player.frames - 1)));
-    this.root.setAttribute('aria-valuetext', `frame ${this.player.scene_frame()}${stage ? `, ${outcome_words[outcome_of(stage)].toLowerCase()}` : ''}`);
+    const outcome = stage ? `, ${outcome_words[outcome_of(stage)].toLowerCase()}` : '';
+    this.root.setAttribute('aria-valuetext', `frame ${this.player.scene_frame()}${outcome}`);
     if (frame < start || frame + 1 > start + length) this.#set_window(playing ? frame - 0.1 * length : frame + 0.5 - length / 2, length);
     else this.#show_heads();
   }
@@ -110,7 +113,8 @@ export class Timeline {
         this.pointers.set(event.pointerId, event.clientX);
         if (this.pointers.size === 1) this.#scrub(track, i, event.clientX);
       });
-      for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) track.addEventListener(end, (event) => this.pointers.delete(event.pointerId));
+      for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'])
+        track.addEventListener(end, (event) => this.pointers.delete(event.pointerId));
       track.addEventListener('wheel', (event) => {
         event.preventDefault();
         this.zoom(2 ** (-event.deltaY / 300), this.#frame_at(track, i, event.clientX));
@@ -156,10 +160,11 @@ function lanes_of(page) {
 
 /** A picture as wide as the frames and stretched to its place. */
 function bars(frames, lanes, height) {
-  const picture = svg_element('svg', { viewBox: `0 0 ${frames} ${height}`, preserveAspectRatio: 'none', 'data-height': height, 'aria-hidden': 'true' });
-  for (const { top, height: tall } of lanes) picture.append(svg_element('rect', { class: 'lane', x: 0, y: top, width: frames, height: tall }));
-  for (const { kind, top, height: tall, runs: parts } of lanes)
-    for (const [first, count] of parts) picture.append(svg_element('rect', { class: kind, x: first, y: top, width: count, height: tall }));
+  const viewBox = `0 0 ${frames} ${height}`;
+  const picture = svg_element('svg', { viewBox, preserveAspectRatio: 'none', 'data-height': height, 'aria-hidden': 'true' });
+  const bar = (kind, top, first, count) => picture.append(svg_element('rect', { class: kind, x: first, y: top, width: count, height: lane_height }));
+  for (const { top } of lanes) bar('lane', top, 0, frames);
+  for (const { kind, top, runs: parts } of lanes) for (const [first, count] of parts) bar(kind, top, first, count);
   picture.style.height = `${height}px`;
   return picture;
 }

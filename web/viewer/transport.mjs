@@ -95,6 +95,7 @@ export function show_frame_number(page, player) {
     by_id('outcome').textContent = stage ? outcome_words[outcome] : '';
     by_id('outcome').className = outcome;
     clearTimeout(later);
-    if (!player.playing) later = setTimeout(() => (spoken.textContent = `Frame ${player.scene_frame()}${stage ? `. ${outcome_words[outcome]}` : ''}`), 300);
+    const words = `Frame ${player.scene_frame()}${stage ? `. ${outcome_words[outcome]}` : ''}`;
+    if (!player.playing) later = setTimeout(() => (spoken.textContent = words), 300);
   });
 }

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The viewer in a browser. The machine that runs this may be busy: waiting has an end, but a distant one.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { after, afterEach, before, describe, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { start_browser } from '../src/browser.mjs';
+import { viewer_template } from '../src/viewer_template.mjs';
+import { make_container } from './make_page.mjs';
+import { fill } from './write_container.mjs';
+
+const laptop = { viewport: { width: 1280, height: 800 } };
+const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+const patience = 60000;
+
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'viewer-'));
+let template, browser;
+
+const made = new Map();
+/** The container of a kind, and what went into it. */
+function container(kind) {
+  if (!made.has(kind)) made.set(kind, make_container(kind));
+  return made.get(kind);
+}
+
+/** Writes a page with these data; returns its address. */
+function write(name, data) {
+  const file = path.join(folder, `${name}.html`);
+  fs.writeFileSync(file, fill(template, 'From the <template>', data));
+  return pathToFileURL(file).href;
+}
+
+/** Opens a page; what it logs as an error and what it requests is kept. */
+async function open(url, options = laptop, where = browser) {
+  const page = await where.newPage(options);
+  page.setDefaultTimeout(patience);
+  const heard = { errors: [], requests: [] };
+  page.on('console', (message) => message.type() === 'error' && heard.errors.push(message.text()));
+  page.on('pageerror', (error) => heard.errors.push(error.message));
+  page.on('request', (request) => request.url().startsWith('data:') || heard.requests.push(request.url()));
+  await page.goto(url);
+  await page.waitForSelector('html[data-ready]');
+  return Object.assign(page, { heard });
+}
+
+const open_kind = (kind, options) => open(write(kind, container(kind).bytes), options);
+
+const frame_of = (page) => page.evaluate('lodestone.frame()');
+const settled = (page) => page.waitForFunction('lodestone.stats.settled');
+
+async function goto_frame(page, frame) {
+  await page.evaluate((n) => window.lodestone.goto(n), frame);
+  await settled(page);
+}
+
+/** Keeps the picture in the page, once nothing is left to draw. */
+async function keep_picture(page) {
+  await settled(page);
+  await page.evaluate(() => {
+    window.lodestone.view.draw();
+    const gl = document.getElementById('canvas').getContext('webgl2');
+    const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+    const pixels = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    window.pictures = [...(window.pictures ?? []).slice(-1), pixels];
+  });
+}
+
+/** How many pixels changed visibly between the last two pictures. */
+async function changed_pixels(page) {
+  await keep_picture(page);
+  return page.evaluate(() => {
+    const [a, b] = window.pictures;
+    const differs = (i) => Math.max(Math.abs(a[i] - b[i]), Math.abs(a[i + 1] - b[i + 1]), Math.abs(a[i + 2] - b[i + 2])) > 24;
+    let count = 0;
+    for (let i = 0; i < a.length; i += 4) if (differs(i)) ++count;
+    return count;
+  });
+}
+
+async function changes_picture(page, act, what) {
+  await keep_picture(page);
+  await act();
+  const count = await changed_pixels(page);
+  assert.ok(count > 150, `${what}: ${count} pixels`);
+}
+
+/** A frame in which everything can be seen. */
+const busy_frame = (log) => log.findIndex(({ candidates, contacts }, f) => f > 10 && candidates.length > 0 && contacts.length > 0);
+
+describe('the viewer', () => {
+  before(async () => {
+    template = await viewer_template();
+    browser = await start_browser();
+  });
+  afterEach(async () => {
+    for (const context of browser.contexts()) await context.close();
+  });
+  after(async () => {
+    await browser?.close();
+    fs.rmSync(folder, { recursive: true });
+  });
+
+  test('the template has each placeholder once, and a page opens within three seconds, silently and from one file', async () => {
+    for (const placeholder of ['@LODESTONE_TITLE@', '@LODESTONE_DATA@']) assert.equal(template.split(placeholder).length, 2);
+    const url = write('run', container('run').bytes);
+    let shortest = Infinity;
+    for (let attempt = 0; attempt < 4 && shortest > 3000; ++attempt) {
+      const page = await open(url);
+      const { ready_ms } = await page.evaluate('lodestone.stats');
+      shortest = Math.min(shortest, ready_ms);
+      await page.evaluate('lodestone.plots_ready');
+      assert.deepEqual(page.heard, { errors: [], requests: [url] });
+      assert.equal(await page.title(), 'From the <template>');
+      assert.equal(await page.textContent('#title'), 'Example & test: run');
+      assert.equal(await page.evaluate('lodestone.frames'), 300);
+      await page.close();
+    }
+    assert.ok(shortest <= 3000, `${shortest} ms`);
+  });
+
+  test('the figures are those of frames.jsonl, and time is shown per stage', async () => {
+    const { lines, log } = container('small');
+    const page = await open_kind('small');
+    for (const frame of [0, 17, busy_frame(log), 39]) {
+      await page.evaluate((n) => window.lodestone.goto(n), frame);
+      const line = JSON.parse(lines[frame]);
+      assert.deepEqual(await page.evaluate('lodestone.numbers()'), line);
+      for (const name of ['iterations', 'moves', 'candidates', 'exact_tests', 'contacts'])
+        assert.equal(await page.textContent(`#number-${name}`), String(line.statistics[name]), name);
+      assert.equal(await page.textContent('#number-colliding_pairs'), log[frame].found ? '1' : '0');
+      assert.match(await page.textContent('#stage-relaxation'), /^\d+(\.\d+)? µs$/);
+      const outcome = !log[frame].positive ? 'No collision' : log[frame].found ? 'Collision, confirmed' : 'Collision, missed';
+      assert.equal(await page.textContent('#outcome'), outcome);
+    }
+    await page.waitForFunction(() => document.getElementById('spoken').textContent.startsWith('Frame 39'));
+  });
+
+  test('every layer and every object can be hidden and changed, by click and by hook', async () => {
+    const { log } = container('small');
+    const page = await open_kind('small');
+    await goto_frame(page, busy_frame(log));
+    // Intersecting faces and contacts lie inside; with a translucent knot everything is in view.
+    await changes_picture(page, () => page.check('#object-0-translucent'), 'translucent');
+    const keys = await page.evaluate('Object.keys(lodestone.layers)');
+    assert.deepEqual(keys, ['surfaces', 'regions', 'wireframe', 'particles', 'trails', 'candidates', 'segments', 'faces']);
+    for (const key of keys) {
+      const on = await page.isChecked(`#layer-${key}`);
+      await changes_picture(page, () => page.setChecked(`#layer-${key}`, !on), key);
+      assert.equal(await page.evaluate((name) => window.lodestone.layers[name], key), !on);
+      await page.evaluate(([name, value]) => (window.lodestone.layers[name] = value), [key, on]);
+      assert.equal(await page.isChecked(`#layer-${key}`), on);
+    }
+    await changes_picture(page, () => page.uncheck('#object-1-visible'), 'visible');
+    assert.ok(await page.isDisabled('#object-1-translucent'));
+  });
+
+  test('each key does what the list says', async () => {
+    const page = await open_kind('small');
+    const press = (key) => page.keyboard.press(key);
+    const lands_on = async (key, frame) => (await press(key), assert.equal(await frame_of(page), frame, key));
+    await lands_on('ArrowRight', 1);
+    await lands_on('Shift+ArrowRight', 11);
+    await lands_on('ArrowLeft', 10);
+    await lands_on('End', 39);
+    await lands_on('Shift+ArrowLeft', 29);
+    await lands_on('Home', 0);
+    const speed = () => page.inputValue('#speed');
+    await press('+');
+    assert.equal(await speed(), '2');
+    await press('-');
+    await press('-');
+    assert.equal(await speed(), '0.5');
+    await press('l');
+    assert.equal(await page.getAttribute('#loop', 'aria-pressed'), 'false');
+    for (const [i, key] of (await page.evaluate('Object.keys(lodestone.layers)')).entries()) {
+      const on = await page.isChecked(`#layer-${key}`);
+      await press(String(i + 1));
+      assert.equal(await page.isChecked(`#layer-${key}`), !on, key);
+      await press(String(i + 1));
+    }
+    for (const key of ['a', 'w', 'e']) await changes_picture(page, () => press(key), key);
+    await press('r');
+    await keep_picture(page);
+    for (const key of ['d', 's', 'q', 'r']) await press(key);
+    assert.equal(await changed_pixels(page), 0, 'r');
+    await press('?');
+    assert.ok(await page.isVisible('#help'));
+    await press('ArrowRight');
+    assert.equal(await frame_of(page), 0);
+    await press('Escape');
+    assert.ok(!(await page.isVisible('#help')));
+    await press('Space');
+    await page.waitForFunction('lodestone.frame() > 0');
+    assert.equal(await page.getAttribute('#play', 'aria-label'), 'Pause');
+    await press('Space');
+    assert.equal(await page.getAttribute('#play', 'aria-label'), 'Play');
+  });
+
+  test('it plays to the end and stops there, or goes on in a loop; the camera turns by mouse', async () => {
+    const page = await open_kind('small');
+    assert.equal(await page.evaluate('lodestone.player.playing'), false);
+    await page.click('#loop');
+    await page.selectOption('#speed', '4');
+    await page.click('#play');
+    await page.waitForFunction('!lodestone.player.playing');
+    assert.equal(await frame_of(page), 39);
+    await page.click('#loop');
+    await page.click('#play');
+    await page.waitForFunction('lodestone.player.playing && lodestone.frame() > 20');
+    await page.waitForFunction('lodestone.frame() < 20');
+    await page.click('#play');
+    await changes_picture(page, async () => {
+      await page.mouse.move(400, 300);
+      await page.mouse.down();
+      await page.mouse.move(500, 340, { steps: 3 });
+      await page.mouse.up();
+    }, 'dragging');
+    await changes_picture(page, () => page.click('#reset'), 'reset');
+  });
+
+  test('frames are chosen on the timeline, its legend and the plots', async () => {
+    const { log } = container('small');
+    const page = await open_kind('small');
+    const bar = await page.locator('.detail').boundingBox();
+    const at = (frame) => bar.x + ((frame + 0.5) / 40) * bar.width;
+    await page.mouse.move(at(10), bar.y + 10);
+    await page.mouse.down();
+    assert.equal(await frame_of(page), 10);
+    await page.mouse.move(at(31), bar.y + 10, { steps: 4 });
+    assert.equal(await frame_of(page), 31);
+    await page.mouse.up();
+    await page.mouse.move(at(5), bar.y + 10);
+    assert.equal(await frame_of(page), 31);
+    assert.match(await page.getAttribute('#timeline', 'aria-valuetext'), /^frame 31, /);
+    await page.mouse.wheel(0, -600);
+    await page.waitForFunction(() => Number(document.querySelector('.detail svg').getAttribute('viewBox').split(' ')[2]) < 20);
+    await page.click('#zoom button:last-child');
+    await page.evaluate('lodestone.goto(0)');
+    await page.click('.legend.missed');
+    assert.equal(await frame_of(page), log.findIndex(({ positive, found }) => positive && !found));
+    assert.match(await page.textContent('.legend.missed'), new RegExp(`^${log.filter(({ positive, found }) => positive && !found).length} missed`));
+    await page.evaluate('lodestone.plots_ready');
+    for (const name of ['time', 'distance', 'recall']) {
+      const plot = page.locator(`#plot-${name}`);
+      await plot.scrollIntoViewIfNeeded();
+      const box = await plot.boundingBox();
+      const rule = page.locator('.plot-frame', { has: plot }).locator('.rule');
+      for (const part of [0.7, 0.4]) {
+        await page.mouse.click(box.x + part * box.width, box.y + 60);
+        // The rule follows to where the click was, within half a frame.
+        const { x } = await rule.boundingBox();
+        assert.ok(Math.abs(x - (box.x + part * box.width)) < (0.6 * box.width) / 39, `${name}: ${x}`);
+      }
+    }
+  });
+
+  test('on a phone nothing scrolls sideways, and fingers move and zoom the timeline', async () => {
+    const page = await open_kind('small', phone);
+    await page.evaluate('lodestone.plots_ready');
+    assert.ok((await page.evaluate('document.documentElement.scrollWidth')) <= 390);
+    const bar = await page.locator('.detail').boundingBox();
+    assert.ok(bar.y + bar.height < 844);
+    await page.touchscreen.tap(bar.x + bar.width * 0.5, bar.y + 10);
+    assert.equal(await frame_of(page), 20);
+    const touch = await page.context().newCDPSession(page);
+    const place = (x, id) => ({ x: bar.x + x * bar.width, y: bar.y + 10, id });
+    const fingers = (type, ...places) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: places.map(place) });
+    await fingers('touchStart', 0.45);
+    await fingers('touchStart', 0.45, 0.55);
+    for (const spread of [0.1, 0.15, 0.2]) await fingers('touchMove', 0.5 - spread, 0.5 + spread);
+    await fingers('touchEnd');
+    await page.waitForFunction(() => Number(document.querySelector('.detail svg').getAttribute('viewBox').split(' ')[2]) < 15);
+  });
+
+  test('light and dark differ, by the system and by the button', async () => {
+    const url = write('small', container('small').bytes);
+    const background = (page) => page.evaluate('getComputedStyle(document.body).backgroundColor');
+    const light = await open(url, { ...laptop, colorScheme: 'light' });
+    const dark = await open(url, { ...laptop, colorScheme: 'dark' });
+    assert.notEqual(await background(light), await background(dark));
+    const [pale, deep] = await Promise.all([light, dark].map((page) => settled(page).then(() => page.locator('#stage').screenshot())));
+    assert.ok(!pale.equals(deep));
+    await light.click('#theme');
+    assert.equal(await background(light), await background(dark));
+  });
+
+  test('a partition stands still, mode exact has no regions, and an experiment is a report with plots', async () => {
+    const still = await open_kind('partition');
+    assert.ok(!(await still.isVisible('#time')) && !(await still.isVisible('#numbers')) && (await still.isVisible('#canvas')));
+    const layers_of = (page) => page.locator('#layers input').evaluateAll((boxes) => boxes.map(({ id }) => id.replace('layer-', '')));
+    assert.deepEqual(await layers_of(still), ['surfaces', 'regions', 'wireframe', 'particles']);
+    assert.match(await still.textContent('#objects'), /32 regions/);
+    const exact = await open_kind('exact');
+    assert.deepEqual(await layers_of(exact), ['surfaces', 'wireframe', 'faces']);
+    assert.ok(await exact.isVisible('#number-leaf_tests'));
+    const report = await open_kind('experiment');
+    await report.evaluate('lodestone.plots_ready');
+    assert.ok(!(await report.isVisible('#viewer')));
+    assert.equal(await report.textContent('#report h2'), 'Does it walk?');
+    assert.match(await report.textContent('#report p'), /<script>alert\(1\)<\/script> stays text/);
+    assert.deepEqual(await report.locator('#report th').allTextContents(), ['mesh', 'particles', 'recall', 'a | b']);
+    assert.equal(await report.locator('#report td').nth(1).evaluate((cell) => cell.style.textAlign), 'right');
+    assert.equal(await report.locator('#report li').nth(1).textContent(), 'two, which goes on in the next line');
+    assert.equal(await report.textContent('#report pre'), 'lodestone experiment walks | head');
+    assert.equal(await report.locator('#plot-sweep [aria-roledescription=point]').count(), 4);
+    for (const page of [still, exact, report]) assert.deepEqual(page.heard.errors, []);
+  });
+
+  test('damaged data, another version and the bare template are told apart in words', async () => {
+    const { bytes } = container('partition');
+    const broken = (change) => {
+      const copy = Buffer.from(bytes);
+      change(copy);
+      return copy;
+    };
+    const cases = {
+      cut: [bytes.subarray(0, bytes.length - 200), /ends early/],
+      header: [bytes.subarray(0, 40), /ends early/],
+      overwritten: [broken((copy) => copy.fill(255, copy.length - 400)), /^(Labels|Particles|Positions|Topology) \d.*: /],
+      version: [broken((copy) => void copy.writeUInt32LE(2, 8)), /version 2, and this viewer reads version 1/],
+      other: [Buffer.from('something else altogether'), /not one of Lodestone/],
+      text: ['not / base64 !', /not base64/],
+      bare: ['@' + 'LODESTONE_DATA@', /template/],
+    };
+    for (const [name, [data, message]] of Object.entries(cases)) {
+      const page = await open(write(name, data));
+      assert.match(await page.textContent('#problem-text'), message, name);
+      assert.ok((await page.isVisible('#problem')) && !(await page.isVisible('#viewer')), name);
+      assert.deepEqual(page.heard.errors, [], name);
+      assert.ok(await page.evaluate('lodestone.ready.then(() => false, () => true)'), name);
+      await page.close();
+    }
+  });
+
+  test('without WebGL a message stands for the picture, and the rest works', async (t) => {
+    const plain = await start_browser(['--disable-gpu', '--disable-3d-apis']);
+    t.after(() => plain.close());
+    const { bytes, lines } = container('small');
+    const page = await open(write('small', bytes), laptop, plain);
+    assert.match(await page.textContent('#no-webgl'), /no WebGL 2/);
+    assert.ok(await page.isVisible('#no-webgl'));
+    await page.keyboard.press('End');
+    assert.equal(await page.textContent('#number-moves'), String(JSON.parse(lines[39]).statistics.moves));
+    await page.evaluate('lodestone.plots_ready');
+    assert.ok((await page.locator('#plot-recall svg').count()) > 0);
+    assert.deepEqual(page.heard.errors, []);
+  });
+});

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { region_colour } from '../viewer/colours.mjs';
+import { Damaged, decode_labels, decode_particles, decode_positions, decode_topology, Varint_reader } from '../viewer/decode.mjs';
+import { fold } from '../viewer/normals.mjs';
+import { outcome_of, runs } from '../viewer/outcome.mjs';
+import { Walks } from '../viewer/walks.mjs';
+import { on_grid, particles_section, positions_section, topology_section, varints, zigzag } from './write_container.mjs';
+
+const bytes = (...values) => Uint8Array.from(values);
+
+test('a varint has seven bits per byte, the low ones first', () => {
+  const cases = [
+    [[0], 0], [[127], 127], [[128, 1], 128], [[255, 127], 16383], [[128, 128, 1], 16384],
+    [[255, 255, 255, 255, 15], 2 ** 32 - 1], [[128, 128, 128, 128, 16], 2 ** 32], [[255, 255, 255, 255, 31], 2 ** 33 - 1],
+    [[255, 255, 255, 255, 255, 255, 255, 15], Number.MAX_SAFE_INTEGER],
+  ];
+  for (const [encoded, value] of cases) {
+    const reader = new Varint_reader(bytes(...encoded), 'test');
+    assert.equal(reader.next(), value);
+    reader.finish();
+    assert.deepEqual([...varints([value])], encoded);
+  }
+});
+
+test('zigzag holds small numbers of either sign, and those beyond 32 bits', () => {
+  const values = [0, -1, 1, -2, 2, 65535, -65535, 2 ** 30, -(2 ** 30), 2 ** 31 - 1, -(2 ** 31), 2 ** 32 - 1, -(2 ** 32 - 1)];
+  assert.deepEqual([0, -1, 1, -2, 2].map(zigzag), [0, 1, 2, 3, 4]);
+  const reader = new Varint_reader(varints(values.map(zigzag)), 'test');
+  assert.deepEqual(values.map(() => reader.next_signed()), values);
+});
+
+test('a varint that ends early, is too long, or is followed by more is an error', () => {
+  assert.throws(() => new Varint_reader(bytes(), 'x').next(), new Damaged('x: ends early'));
+  assert.throws(() => new Varint_reader(bytes(128, 255), 'x').next(), new Damaged('x: ends early'));
+  assert.throws(() => new Varint_reader(bytes(...new Array(9).fill(255), 1), 'x').next(), new Damaged('x: a number is too large'));
+  assert.throws(() => new Varint_reader(bytes(1), 'x').finish(), new Damaged('x: 1 bytes too many'));
+});
+
+test('positions come back through extreme differences and continuations that leave the grid', () => {
+  // Continued, 0 -> 65535 gives 131070 and 65535 -> 0 gives -65535.
+  const [one, two, three] = [[0, 65535, 7, 65535, 0, 7], [65535, 0, 7, 0, 65535, 8], [65535, 0, 0, 65535, 0, 65535]];
+  const frames = [one, two, one, three].map((q) => Uint16Array.from(q));
+  assert.deepEqual(decode_positions(positions_section(frames), 4, 2, 'x'), frames);
+  for (const count of [1, 2, 3]) assert.deepEqual(decode_positions(positions_section(frames.slice(0, count)), count, 2, 'x'), frames.slice(0, count));
+});
+
+test('many positions come back as they were', () => {
+  let state = 1;
+  const random = () => (state = (Math.imul(state, 1103515245) + 12345) >>> 0) / 2 ** 32;
+  const frames = Array.from({ length: 7 }, () => Uint16Array.from({ length: 300 }, () => Math.floor(65536 * random() ** 3)));
+  assert.deepEqual(decode_positions(positions_section(frames), 7, 100, 'x'), frames);
+});
+
+test('a coordinate off the grid, a corner or particle without its vertex, and a label without its region are errors', () => {
+  assert.throws(() => decode_positions(varints([0, 0, zigzag(65536)]), 1, 1, 'x'), /off the grid/);
+  assert.throws(() => decode_positions(varints([zigzag(-1), 0, 0]), 1, 1, 'x'), /off the grid/);
+  assert.throws(() => decode_positions(varints([0, 0]), 1, 1, 'x'), /ends early/);
+  assert.throws(() => decode_topology(topology_section([0, 1, 3]), 1, 3, 'x'), /corner 3 of 3/);
+  assert.throws(() => decode_topology(varints([zigzag(-1), 0, 0]), 1, 3, 'x'), /corner -1/);
+  assert.throws(() => decode_particles(particles_section([[3]]), 1, 3, 'x'), /vertex 3 of 3/);
+  assert.throws(() => decode_particles(varints([2 ** 40]), 1, 3, 'x'), /ends early/);
+  assert.throws(() => decode_labels(varints([2, 0, 0]), 3, 2, 'x'), /region 2 of 2/);
+});
+
+test('corners, labels and particles come back, whatever their number from frame to frame', () => {
+  const corners = [0, 4000000, 2, 2, 1, 0];
+  assert.deepEqual([...decode_topology(topology_section(corners), 2, 4000001, 'x')], corners);
+  assert.deepEqual([...decode_labels(varints([0, 299, 130]), 3, 300, 'x')], [0, 299, 130]);
+  assert.deepEqual(decode_particles(particles_section([[1, 2], [], [200, 0, 5]]), 3, 201, 'x').map((list) => [...list]), [[1, 2], [], [200, 0, 5]]);
+});
+
+test('a flat object is on the grid too', () => {
+  assert.deepEqual(on_grid([[0, 0, 5, 1, 2, 5]]).grid, [Uint16Array.of(0, 0, 0, 65535, 65535, 0)]);
+});
+
+test('regions have the colours of the files that hold partitions', () => {
+  // Hue 0 in lightness 0.75: one channel full, two at a quarter. Region 3 is as dark, its hue 0.854 of the circle.
+  assert.deepEqual(region_colour(0), [191, 48, 48]);
+  assert.deepEqual(region_colour(3), [191, 48, 173]);
+});
+
+test('a normal survives being folded into two bytes, within a degree', () => {
+  const unfold = (packed) => {
+    const [u, v] = [packed & 255, packed >> 8].map((x) => x / 127.5 - 1);
+    const z = 1 - Math.abs(u) - Math.abs(v);
+    const [x, y] = z < 0 ? [(1 - Math.abs(v)) * (u < 0 ? -1 : 1), (1 - Math.abs(u)) * (v < 0 ? -1 : 1)] : [u, v];
+    return [x, y, z].map((c) => c / Math.hypot(x, y, z));
+  };
+  for (let i = 0; i < 500; ++i) {
+    const z = 1 - (2 * (i + 0.5)) / 500;
+    const n = [Math.sqrt(1 - z * z) * Math.cos(i * 2.4), Math.sqrt(1 - z * z) * Math.sin(i * 2.4), z];
+    const back = unfold(fold(...n));
+    assert.ok(n.reduce((sum, x, axis) => sum + x * back[axis], 0) > Math.cos(Math.PI / 180), String(n));
+  }
+});
+
+test('a frame is confirmed, missed, or without collision, and neighbours form runs', () => {
+  const outcomes = [[true, true], [true, false], [false, false]].map(([positive, found]) => outcome_of({ positive, found }));
+  assert.deepEqual(outcomes, ['confirmed', 'missed', 'none']);
+  assert.deepEqual(runs(6, (f) => [0, 1, 4].includes(f)), [[0, 2], [4, 1]]);
+});
+
+test('a particle walked along edges, and a repartition ends its way', () => {
+  // A strip of squares: 0 1 2 3 below, 4 5 6 7 above.
+  const corners = Uint32Array.from([0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6]);
+  const particles = [[0], [3], [3], [4]].map((list) => Uint32Array.from(list));
+  const object = { corners, vertices: 8, partitions: [{ frame: 0 }, { frame: 3 }], particles };
+  const walks = new Walks(object);
+  assert.deepEqual(walks.way(1, 0), [0, 1, 2, 3]);
+  assert.deepEqual(walks.way(2, 0), [3]);
+  assert.deepEqual(walks.way(3, 0), []);
+  assert.deepEqual(walks.way(0, 0), []);
+});
