@@ -14,7 +14,7 @@ std::span<const Experiment> experiments() {
       {"collision_distance", "Why is mu the mean over adjacent vertices, not over all?", run_collision_distance},
       {"growth", "Does repartitioning keep an inflating object detectable, and what does it cost?", run_growth},
       {"modes", "What does a frame cost in each mode, and what does it miss?", run_modes},
-      {"partitions", "Which partition is best? Every strategy, measured and in use.", run_partitions},
+      {"partitions", "Which partition strategy is best, by its measures and in use?", run_partitions},
       {"rebuild", "When does a tree of the mode exact become too loose, and does building it anew pay?", run_rebuild},
       {"self_collision", "How fast is self-collision of a deforming mesh, beside CGAL?", run_self_collision},
       {"soak", "Does the exact mode ever differ from exhaustive checking?", run_soak},

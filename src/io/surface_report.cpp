@@ -66,7 +66,9 @@ std::size_t count_duplicates(std::span<const Point> points) {
 }  // namespace
 
 Surface_report inspect_surface(std::span<const Point> points, std::span<const Corners> faces) {
-  Surface_report report{.vertices = points.size(), .faces = faces.size()};
+  Surface_report report;
+  report.vertices = points.size();
+  report.faces = faces.size();
   count_edges(faces, report);
   count_components(points.size(), faces, report);
   report.duplicate_vertices = count_duplicates(points);

@@ -145,7 +145,7 @@ void add_detect(CLI::App& program, Detect_command& command) {
       ->type_name("DIR")
       ->check(not_empty());
   app.add_flag("--quiet", command.quiet, "No progress bar, no table");
-  app.footer(strategy_list());
+  app.footer(strategy_list() + "\n\n" + exit_code::help);
 }
 
 void add_partition(CLI::App& program, Partition_command& command) {
@@ -162,7 +162,7 @@ void add_partition(CLI::App& program, Partition_command& command) {
   app.add_option("--json", command.json, "Statistics")->type_name("FILE")->check(not_empty());
   add_html(app, command.html, "One page (.html) to look at the regions");
   app.add_flag("--quiet", command.quiet, "No table");
-  app.footer(strategy_list());
+  app.footer(strategy_list() + "\n\n" + exit_code::help);
 }
 
 void add_info(CLI::App& program, Info_command& command) {
