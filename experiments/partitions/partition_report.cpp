@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "interval.h"
@@ -138,7 +139,11 @@ std::string columns_table(const By_variant& sorted, const std::vector<std::strin
   return table.text();
 }
 
-std::string regions_table(const By_variant& sorted, const std::vector<std::string>& variants, const Column& column) {
+/// A table of one figure against the number of regions.
+/// @param figure_of  from the number of regions and what the seeds of a variant gave to the interval
+template <class Figure_of>
+std::string regions_table(const By_variant& sorted, const std::vector<std::string>& variants, int decimals,
+                          Figure_of figure_of) {
   std::vector<std::string> header{"strategy"};
   for (const auto regions : partition_counts) header.push_back(fmt::format("{} regions", regions));
   Text_table table(header);
@@ -146,12 +151,44 @@ std::string regions_table(const By_variant& sorted, const std::vector<std::strin
     std::vector<std::string> row{variant};
     for (const auto regions : partition_counts) {
       const auto seeds = sorted.at(variant).find(regions);
-      row.push_back(
-          seeds == sorted.at(variant).end() ? "-" : text_of(summary(seeds->second, column.figure), column.decimals));
+      row.push_back(seeds == sorted.at(variant).end() ? "-" : text_of(figure_of(regions, seeds->second), decimals));
     }
     table.add(std::move(row));
   }
   return table.text();
+}
+
+std::string regions_table(const By_variant& sorted, const std::vector<std::string>& variants, const Column& column) {
+  return regions_table(sorted, variants, column.decimals,
+                       [&](std::size_t, const By_seed& seeds) { return summary(seeds, column.figure); });
+}
+
+/// Recall by mesh, number of regions and seed: of one scene.
+using Recall_by_scene = std::map<std::tuple<std::string, std::size_t, std::uint64_t>, double>;
+
+Recall_by_scene recall_by_scene(const By_regions& by_regions) {
+  Recall_by_scene recall;
+  for (const auto& [regions, seeds] : by_regions)
+    for (const auto& [seed, rows] : seeds)
+      for (const Json* row : rows) recall[{row->at("mesh"), regions, seed}] = row->at("recall");
+  return recall;
+}
+
+/// Recall less that of `lbg` in the same scenes, with the interval of the difference; empty where `lbg` was not asked.
+std::string recall_difference_table(const By_variant& sorted, const std::vector<std::string>& variants) {
+  if (!sorted.contains("lbg")) return {};
+  const auto of_lbg = recall_by_scene(sorted.at("lbg"));
+  return regions_table(sorted, variants, 3, [&](std::size_t regions, const By_seed& seeds) {
+    std::vector<double> of_seeds;
+    for (const auto& [seed, rows] : seeds) {
+      std::vector<double> differences;
+      for (const Json* row : rows)
+        if (const auto lbg = of_lbg.find({row->at("mesh"), regions, seed}); lbg != of_lbg.end())
+          differences.push_back(row->at("recall").get<double>() - lbg->second);
+      if (!differences.empty()) of_seeds.push_back(mean(differences));
+    }
+    return of_seeds.empty() ? Interval{} : confidence_interval(of_seeds);
+  });
 }
 
 std::vector<std::string> present(const By_variant& sorted, const std::vector<std::string>& wanted) {
@@ -200,6 +237,7 @@ std::string partition_report(const Rows& rows) {
   text += fmt::format("\n## In use, {} particles per object\n\n", shown_regions);
   text += columns_table(sorted, strategies, use_columns());
   text += "\n## Recall\n\n" + regions_table(sorted, strategies, use_columns()[0]);
+  text += "\nLess that of `lbg` in the same scenes:\n\n" + recall_difference_table(sorted, strategies);
   text += "\n## Repartitions\n\n" + regions_table(sorted, strategies, use_columns()[5]);
   text += "\n## Weight of the normals\n\n" + columns_table(sorted, weights, partition_columns());
   text += "\nRecall:\n\n" + regions_table(sorted, weights, use_columns()[0]);

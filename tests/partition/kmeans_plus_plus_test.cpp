@@ -146,9 +146,9 @@ TEST(Kmeans_plus_plus, a_cell_that_becomes_empty_starts_anew) {
     EXPECT_EQ(different(labelling_of(mesh, 4, {.seed = seed, .features = {.normal_weight = 0}}).labels), 4U) << seed;
 }
 
-TEST(Kmeans_plus_plus, is_in_the_registry) {
-  expect_in_registry(Kmeans_plus_plus{.options = {.seed = 3, .features = {.normal_weight = 0.3}}},
-                     {.seed = 3, .lbg = {.features = {.normal_weight = 0.3}}});
+TEST(Kmeans_plus_plus, is_in_the_registry_and_stops_there_as_lbg_does) {
+  expect_in_registry(Kmeans_plus_plus{.options = {.seed = 3, .tolerance = 0.02, .features = {.normal_weight = 0.3}}},
+                     {.seed = 3, .lbg = {.tolerance = 0.02, .features = {.normal_weight = 0.3}}});
 }
 
 TEST(Kmeans_plus_plus, stands_awkward_meshes) {
