@@ -58,6 +58,9 @@ test('a partition is a page with one frame and no timeline to play', { skip }, a
   execFileSync(program, ['partition', mesh, '--regions', '3', '--html', file, '--quiet']);
   const { page, errors } = await open(t, folder, file);
   assert.equal(await page.evaluate('lodestone.frames'), 1);
-  assert.equal(await page.evaluate('lodestone.numbers().regions'), 3);
+  const numbers = await page.evaluate('lodestone.numbers()');
+  assert.equal(numbers.regions, 3);
+  assert.equal(await page.textContent('#number-regions'), '3');
+  assert.equal(Number(await page.textContent('#number-size_balance')), numbers.measures.size_balance);
   assert.deepEqual(errors, []);
 });

@@ -54,7 +54,9 @@ export function make_numbers(page) {
   return (frame) => {
     const line = line_of(page, frame);
     const stage = page.stages?.[frame];
-    if (line) {
+    by_id('statistics').classList.toggle('long', Boolean(line && !line.pairs));
+    if (line && !line.pairs) statistics.show(scalars_of(line));
+    if (line?.pairs) {
       const colliding = line.pairs.filter(({ collides }) => collides).length;
       statistics.show({ ...line.statistics, 'colliding pairs': colliding, ...(stage ? { 'nearest distance': stage.nearest } : {}) });
       pairs.show(Object.fromEntries(line.pairs.map((pair) => [`${pair.a} – ${pair.b}`, pair])));
@@ -64,6 +66,11 @@ export function make_numbers(page) {
       stages.show({ ...Object.fromEntries(used.map((key) => [key, stage.microseconds[key] ?? 0])), sum });
     }
   };
+}
+
+/** The numbers of a line that has no pairs, that of a partition, its measures among them. */
+function scalars_of(line) {
+  return Object.fromEntries(Object.entries({ ...line, ...line.measures }).filter(([, value]) => typeof value === 'number'));
 }
 
 function figure_row(key) {
