@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
 
 #include "commands.h"
 #include "exit_codes.h"
 #include "frame_log.h"
+#include "lodestone/contact/contact_search.h"
 #include "lodestone/io/animation.h"
-#include "lodestone/io/mesh_file.h"
 #include "lodestone/io/scene_file.h"
 #include "lodestone/io/surface_report.h"
 #include "lodestone/io/text_table.h"
@@ -41,17 +45,24 @@ struct Info {
   std::vector<Object_report> objects = {};
 };
 
-/// Face pairs of one mesh that intersect, by exact tests of every face.
-void count_self_intersections(const Surface_mesh& mesh, Object_report& report) {
-  Detector<Surface_mesh> detector({.mode = Mode::exact,
-                                   .contacts = Contact_query::all,
-                                   .most_contacts = most_intersections,
-                                   .exact = {.self_collision = true, .threads = 0}});
-  detector.add(mesh);
-  for (const auto& pair : detector.detect().pairs) {
-    report.self_intersections += pair.contacts;
-    report.capped |= pair.capped;
-  }
+/// Face pairs that intersect beside what they share, by exact tests. On the vertices of the file: where a mesh has
+/// copies of one, because its faces are no surface there, they would touch.
+void count_self_intersections(std::span<const Point> points, std::span<const Corners> all_faces,
+                              Object_report& report) {
+  std::vector<Corners> faces;  // one with a corner twice is a line
+  std::ranges::copy_if(all_faces, std::back_inserter(faces), [](const Corners& corners) {
+    return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
+  });
+  if (faces.empty()) return;
+  std::vector<double> coordinates;
+  for (const auto& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+  Tree_object object(faces);
+  object.build({}, coordinates, {});
+  Workers workers(0);
+  Contact_search search(workers);
+  std::vector<Face_pair> found;
+  report.capped = search.within(object, {.most = most_intersections}, found).capped;
+  report.self_intersections = found.size();
 }
 
 Object_report report_of(const std::string& name, const Animation& animation) {
@@ -63,7 +74,7 @@ Object_report report_of(const std::string& name, const Animation& animation) {
     return report;
   }
   report.surface = inspect_surface(points, animation.faces);
-  count_self_intersections(mesh_of(points, animation.faces, name).mesh, report);
+  count_self_intersections(points, animation.faces, report);
   return report;
 }
 
@@ -81,7 +92,7 @@ Object_report report_of(Scene_object& object) {
       corners[corner++] = object.file_vertex[v];
   }
   report.surface = inspect_surface(points, faces);
-  count_self_intersections(object.mesh, report);
+  count_self_intersections(points, faces, report);
   return report;
 }
 

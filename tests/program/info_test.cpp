@@ -67,6 +67,15 @@ TEST_F(Info, of_a_closed_one) {
   EXPECT_EQ(object["self_intersections"], 0);
 }
 
+TEST_F(Info, faces_that_meet_in_an_edge_of_three_do_not_intersect) {
+  const Json object = info({write("a.off",
+                                  "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n"
+                                  "3 0 1 2\n3 0 1 3\n3 0 1 4\n")})["objects"]
+                          .at(0);
+  EXPECT_EQ(object["non_manifold_edges"], 1);
+  EXPECT_EQ(object["self_intersections"], 0);
+}
+
 TEST_F(Info, of_a_point_cache_with_and_without_its_mesh) {
   const auto cache =
       write("a.mdd", packed<std::int32_t>({2, 4}, std::endian::big) + packed<float>({0, 0.04}, std::endian::big) +
