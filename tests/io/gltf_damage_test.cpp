@@ -101,7 +101,9 @@ TEST_F(Gltf_damage, every_value_may_be_another) {
   const std::vector<Json> others{
       -1,    0,   1,  2,   3,       4,    255,           65536,          2147483647,       4294967295U,        1e18,
       1e300, 0.5, "", "x", nullptr, true, Json::array(), Json::object(), Json::array({0}), Json::array({1, 1})};
-  for (const auto& place : all_places(sample.json)) {
+  const auto places = all_places(sample.json);
+  for (const auto& place : places) {
+    read(folder.write("a.gltf", sample.gltf()));
     for (const auto& other : others) {
       auto changed = sample;
       changed.json[place] = other;
@@ -115,7 +117,7 @@ TEST_F(Gltf_damage, every_value_may_be_another) {
       parent.erase(static_cast<Json::size_type>(std::stoul(place.back())));
     read(folder.write("a.gltf", without.gltf()));
   }
-  EXPECT_GT(good, 300U);
+  EXPECT_GT(good, places.size());  // whole ones, and some that can do without a value or with another
   EXPECT_GT(bad, 1000U);
 }
 
