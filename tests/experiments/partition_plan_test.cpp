@@ -110,5 +110,25 @@ TEST(Partition_report, averages_over_meshes_first_and_then_over_seeds) {
   EXPECT_NE(partition_report(rows).find("| lbg      |      2 | 0.550"), std::string::npos) << partition_report(rows);
 }
 
+TEST(Partition_report, sets_recall_against_that_of_lbg_in_the_same_scene) {
+  std::map<std::string, nlohmann::ordered_json> rows;
+  auto row = execute(partition_plan({"cloth_coarse", "lbg"})[0]);
+  row["regions_wanted"] = 32;
+  // Scenes differ by 0.5, the strategies in one scene by 0.125.
+  for (const int seed : {1, 2})
+    for (const char* variant : {"lbg", "metis"}) {
+      row["seed"] = seed;
+      row["variant"] = variant;
+      row["recall"] = 0.5 * (seed - 1) + (row["variant"] == "metis" ? 0.125 : 0);
+      rows[std::string(variant) + std::to_string(seed)] = row;
+    }
+  const auto report = partition_report(rows);
+  const auto table = report.substr(report.find("Less that of `lbg`"));
+  const auto line =
+      table.substr(table.find("| metis"), table.find('\n', table.find("| metis")) - table.find("| metis"));
+  EXPECT_NE(line.find(" 0.125 |"), std::string::npos) << line;
+  EXPECT_EQ(line.find("+-"), std::string::npos) << line;
+}
+
 }  // namespace
 }  // namespace lodestone
