@@ -92,7 +92,8 @@ void add_threads(CLI::App& app, std::size_t& threads, const char* of) {
 void add_detect(CLI::App& program, Detect_command& command) {
   auto& app = *program.add_subcommand("detect", "Find collisions between meshes, or through all frames of a scene");
   auto& options = command.options;
-  app.add_option("INPUT", command.inputs, "A scene (.json), or two or more meshes (.off .obj .ply .stl)")
+  app.add_option("INPUT", command.inputs,
+                 "A scene (.json), or two or more meshes (.off .obj .ply .stl .gltf .glb .md2 .md3)")
       ->required()
       ->type_name("FILE");
   app.add_option("--mode", options.mode,
@@ -150,7 +151,9 @@ void add_detect(CLI::App& program, Detect_command& command) {
 
 void add_partition(CLI::App& program, Partition_command& command) {
   auto& app = *program.add_subcommand("partition", "Divide a mesh into regions");
-  app.add_option("MESH", command.mesh, "Mesh (.off .obj .ply .stl)")->required()->type_name("FILE");
+  app.add_option("MESH", command.mesh, "Mesh (.off .obj .ply .stl .gltf .glb .md2 .md3)")
+      ->required()
+      ->type_name("FILE");
   app.add_option("--regions", command.regions, "Number of regions")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->capture_default_str();
