@@ -19,6 +19,10 @@
 
 namespace lodestone {
 
+/// The vertex point map that a mesh has of its own.
+template <class Mesh>
+using Own_points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::const_type;
+
 /// Finds collisions between many deforming meshes, frame after frame.
 ///
 ///     Detector<Surface_mesh> detector({.mode = Mode::exact});
@@ -36,8 +40,8 @@ namespace lodestone {
 /// @tparam Mesh      any model of Triangle_mesh
 /// @tparam Strategy  how surfaces are divided, see Partition_strategy
 /// @tparam Points    vertex point map
-template <Triangle_mesh Mesh, class Strategy = Lbg,
-          class Points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::const_type>
+/// @tparam Volume    of the trees in mode `exact`, see Bounding_volume
+template <Triangle_mesh Mesh, class Strategy = Lbg, class Points = Own_points<Mesh>, Bounding_volume Volume = Aabb>
 class Detector {
  public:
   /// @throws Bad_argument  an option out of range
@@ -123,10 +127,11 @@ class Detector {
     if (exact_) throw Bad_argument("objects of mode exact have no particles");
     return particles_->object(object);
   }
-  /// The state of one object in mode `exact`: its tree, empty before the first answer. Its boxes are those of the last
-  /// answer that the object was part of; its coordinates are the mesh's own memory: look at them before anything moves.
+  /// The state of one object in mode `exact`: its tree, empty before the first answer. Its volumes are those of the
+  /// last answer that the object was part of; its coordinates are the mesh's own memory: look at them before anything
+  /// moves.
   /// @throws Bad_argument  no such object, another mode
-  const Tree_object& tree(Object_id object) const { return of_exact(object).object(object); }
+  const Basic_tree_object<Volume>& tree(Object_id object) const { return of_exact(object).object(object); }
   /// Its property maps.
   /// @throws Bad_argument  no such object, or one whose mesh could not be written to when it was added
   const Region_maps<Mesh>& maps(Object_id object) const {
@@ -142,7 +147,7 @@ class Detector {
   }
   /// The exact mode, for something that is to be asked of objects.
   template <class... Ids>
-  Exact_detection<Mesh, Strategy, Points>& of_exact(Ids... objects) const {
+  Exact_detection<Mesh, Strategy, Points, Volume>& of_exact(Ids... objects) const {
     (checked(objects), ...);
     if (!exact_) throw Bad_argument("this needs the mode exact");
     return *exact_;
@@ -150,22 +155,23 @@ class Detector {
 
   // One of the two.
   std::unique_ptr<Particle_detection<Mesh, Strategy, Points>> particles_;
-  std::unique_ptr<Exact_detection<Mesh, Strategy, Points>> exact_;
+  std::unique_ptr<Exact_detection<Mesh, Strategy, Points, Volume>> exact_;
   Collision_filter filter_;
   std::vector<const Mesh*> meshes_;
 };
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-Detector<Mesh, Strategy, Points>::Detector(const Detector_options& options, Strategy strategy) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+Detector<Mesh, Strategy, Points, Volume>::Detector(const Detector_options& options, Strategy strategy) {
   check(options);
   if (options.mode == Mode::exact)
-    exact_ = std::make_unique<Exact_detection<Mesh, Strategy, Points>>(options, std::move(strategy));
+    exact_ = std::make_unique<Exact_detection<Mesh, Strategy, Points, Volume>>(options, std::move(strategy));
   else
     particles_ = std::make_unique<Particle_detection<Mesh, Strategy, Points>>(options, std::move(strategy));
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-Object_id Detector<Mesh, Strategy, Points>::add(const Mesh& mesh, Points points, const Object_options& options) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+Object_id Detector<Mesh, Strategy, Points, Volume>::add(const Mesh& mesh, Points points,
+                                                        const Object_options& options) {
   if (exact_)
     exact_->add(mesh, points, options);
   else
@@ -175,8 +181,8 @@ Object_id Detector<Mesh, Strategy, Points>::add(const Mesh& mesh, Points points,
   return static_cast<Object_id>(meshes_.size() - 1);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Detector<Mesh, Strategy, Points>::update(Object_id object) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Detector<Mesh, Strategy, Points, Volume>::update(Object_id object) {
   checked(object);
   if (exact_)
     exact_->update(object);
@@ -184,18 +190,18 @@ void Detector<Mesh, Strategy, Points>::update(Object_id object) {
     particles_->update(object);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Detector<Mesh, Strategy, Points>::update() {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Detector<Mesh, Strategy, Points, Volume>::update() {
   for (Object_id object = 0; object < size(); ++object) update(object);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Detector<Mesh, Strategy, Points>::update(Object_id object, const Eigen::Ref<const Positions>& positions) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Detector<Mesh, Strategy, Points, Volume>::update(Object_id object, const Eigen::Ref<const Positions>& positions) {
   of_exact(object).update(object, positions);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Detector<Mesh, Strategy, Points>::rebuild(Object_id object) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Detector<Mesh, Strategy, Points, Volume>::rebuild(Object_id object) {
   checked(object);
   if (exact_)
     exact_->rebuild(object);
@@ -203,32 +209,32 @@ void Detector<Mesh, Strategy, Points>::rebuild(Object_id object) {
     particles_->rebuild(object);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Detector<Mesh, Strategy, Points>::ignore(Object_id a, Object_id b, bool ignored) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Detector<Mesh, Strategy, Points, Volume>::ignore(Object_id a, Object_id b, bool ignored) {
   checked(a);
   checked(b);
   filter_.ignore({a, b}, ignored);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-const Frame& Detector<Mesh, Strategy, Points>::detect() {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+const Frame& Detector<Mesh, Strategy, Points, Volume>::detect() {
   return exact_ ? exact_->detect(filter_) : particles_->detect(filter_);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-const Frame& Detector<Mesh, Strategy, Points>::detect(Object_id a, Object_id b) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+const Frame& Detector<Mesh, Strategy, Points, Volume>::detect(Object_id a, Object_id b) {
   return of_exact(a, b).detect(filter_, {std::min(a, b), std::max(a, b)});
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-Closest_faces Detector<Mesh, Strategy, Points>::closest(Object_id a, Object_id b) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+Closest_faces Detector<Mesh, Strategy, Points, Volume>::closest(Object_id a, Object_id b) {
   auto& exact = of_exact(a, b);
   if (a == b) throw Bad_argument("the closest faces of object " + std::to_string(a) + " and itself");
   return exact.closest({a, b});
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-bool Detector<Mesh, Strategy, Points>::contains(Object_id outer, Object_id inner) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+bool Detector<Mesh, Strategy, Points, Volume>::contains(Object_id outer, Object_id inner) {
   auto& exact = of_exact(outer, inner);
   if (outer == inner) throw Bad_argument("whether object " + std::to_string(outer) + " contains itself");
   return exact.contains(outer, inner);
@@ -236,5 +242,9 @@ bool Detector<Mesh, Strategy, Points>::contains(Object_id outer, Object_id inner
 
 extern template class Detector<Surface_mesh>;
 extern template class Detector<Surface_mesh, Any_strategy>;
+
+/// A detector in whose mode `exact` the trees have volumes of another kind.
+template <Bounding_volume Volume, Triangle_mesh Mesh = Surface_mesh, class Strategy = Lbg>
+using Volume_detector = Detector<Mesh, Strategy, Own_points<Mesh>, Volume>;
 
 }  // namespace lodestone

@@ -15,10 +15,10 @@ struct Boxed_leaf {
   std::vector<Triangle> triangles;
   std::vector<Box> boxes;
 
-  void fill(const Posed_tree& posed, std::uint32_t leaf) {
+  void fill(const Posed_layout& posed, std::uint32_t leaf) {
     triangles.clear();
     boxes.clear();
-    for (std::uint16_t place = 0; place < posed.tree->faces(leaf).size(); ++place) {
+    for (std::uint16_t place = 0; place < posed.layout->faces(leaf).size(); ++place) {
       triangles.push_back(leaf_triangle(posed, leaf, place));
       Box box;
       for (const Point& p : triangles.back()) box.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
@@ -29,7 +29,7 @@ struct Boxed_leaf {
 
 class Search {
  public:
-  Search(const Posed_tree& a, const Posed_tree& b) : a_(a), b_(b) {
+  Search(const Posed_layout& a, const Posed_layout& b) : a_(a), b_(b) {
     best_.points.distance = std::numeric_limits<double>::infinity();
     best_.faces = {std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()};
     leaf_pairs_.begin(a, b, 0);
@@ -40,12 +40,12 @@ class Search {
     while (!ahead_.empty() && ahead_.top().bound <= best_.points.distance) {
       const Node_pair pair = ahead_.top().pair;
       ahead_.pop();
-      if (a_.tree->is_leaf(pair.a) && b_.tree->is_leaf(pair.b)) {
-        try_leaves(a_.tree->node(pair.a).leaf, b_.tree->node(pair.b).leaf);
+      if (a_.layout->is_leaf(pair.a) && b_.layout->is_leaf(pair.b)) {
+        try_leaves(a_.layout->node(pair.a).leaf, b_.layout->node(pair.b).leaf);
         continue;
       }
       below_.clear();
-      open_pair(*a_.tree, *b_.tree, pair, below_);
+      open_pair(*a_.layout, *b_.layout, pair, a_.boxes[pair.a].extent() >= b_.boxes[pair.b].extent(), below_);
       for (const Node_pair next : below_) push(next);
     }
     return best_;
@@ -59,7 +59,7 @@ class Search {
   };
 
   void push(Node_pair pair) {
-    const double bound = distance_lower_bound(to_box(a_.tree->box(pair.a)), to_box(b_.tree->box(pair.b)));
+    const double bound = distance_lower_bound(to_box(a_.boxes[pair.a]), to_box(b_.boxes[pair.b]));
     if (bound <= best_.points.distance) ahead_.push({bound, pair});
   }
 
@@ -69,7 +69,7 @@ class Search {
     faces_b_.fill(b_, leaf_b);
     for (std::size_t i = 0; i < faces_a_.boxes.size(); ++i)
       for (std::size_t j = 0; j < faces_b_.boxes.size(); ++j) {
-        const Face_pair faces{a_.tree->faces(leaf_a)[i], b_.tree->faces(leaf_b)[j]};
+        const Face_pair faces{a_.layout->faces(leaf_a)[i], b_.layout->faces(leaf_b)[j]};
         const double bound = distance_lower_bound(faces_a_.boxes[i], faces_b_.boxes[j]);
         if (std::tie(bound, faces) >= std::tie(best_.points.distance, best_.faces)) continue;
         const Closest_points points = closest_points(faces_a_.triangles[i], faces_b_.triangles[j]);
@@ -80,15 +80,15 @@ class Search {
   /// The objects intersect: what is left is to find the lowest of the face pairs that do.
   void look_for_lower(std::uint32_t leaf_a, std::uint32_t leaf_b) {
     for (const auto& [place_a, place_b, crossing] : leaf_pairs_.near_faces(leaf_a, leaf_b)) {
-      const Face_pair faces{a_.tree->faces(leaf_a)[place_a], b_.tree->faces(leaf_b)[place_b]};
+      const Face_pair faces{a_.layout->faces(leaf_a)[place_a], b_.layout->faces(leaf_b)[place_b]};
       if (!(faces < best_.faces)) continue;
       const Triangle a = leaf_triangle(a_, leaf_a, place_a), b = leaf_triangle(b_, leaf_b, place_b);
       if (triangles_intersect_given(a, b, crossing)) best_ = {faces, closest_points(a, b)};
     }
   }
 
-  const Posed_tree& a_;
-  const Posed_tree& b_;
+  const Posed_layout& a_;
+  const Posed_layout& b_;
   Closest_faces best_;
   std::priority_queue<Ahead> ahead_;
   std::vector<Node_pair> below_;
@@ -98,6 +98,6 @@ class Search {
 
 }  // namespace
 
-Closest_faces closest_faces(const Posed_tree& a, const Posed_tree& b) { return Search(a, b).run(); }
+Closest_faces closest_faces(const Posed_layout& a, const Posed_layout& b) { return Search(a, b).run(); }
 
 }  // namespace lodestone

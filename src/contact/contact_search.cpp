@@ -4,17 +4,14 @@
 #include <algorithm>
 #include <atomic>
 
-#include "lodestone/contact/face_neighbours.h"
-
 namespace lodestone {
 
 namespace {
 
 /// Pairs of leaves that are looked at before other workers are woken: about 30 microseconds.
 constexpr std::size_t tests_alone = 64;
-/// Tasks that the rest of a walk is cut into, and the vertices of one task of neighbours.
+/// Tasks that the rest of a walk is cut into.
 constexpr std::size_t walk_tasks = 256;
-constexpr std::uint32_t neighbour_vertices = 4096;
 
 /// Opens the first node pairs of a walk, level by level, until there are `walk_tasks`. The order is that of the walk.
 template <class Open>
@@ -38,54 +35,6 @@ void open_top(std::vector<Node_pair>& pairs, Open open) {
 }  // namespace
 
 Contact_search::Contact_search(Workers& workers) : workers_(workers), scratch_(workers.count()) {}
-
-Contact_summary Contact_search::between(const Tree_object& a, const Tree_object& b, const Contact_request& request,
-                                        std::vector<Face_pair>& found) {
-  Plan plan;
-  plan.walk = [&](std::size_t limit, Scratch& scratch, Result& result) {
-    visit_contacts(a.posed(), b.posed(), request.tolerance, scratch.walk, [&](Face_pair pair) {
-      result.found.push_back(pair);
-      return result.found.size() < limit ? Visit::go_on : Visit::stop;
-    });
-  };
-  plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
-    if (!near(a.tree().box(pair.a), b.tree().box(pair.b), request.tolerance)) return true;  // nothing below
-    if (a.tree().is_leaf(pair.a) && b.tree().is_leaf(pair.b)) return false;
-    open_pair(a.tree(), b.tree(), pair, below);
-    return true;
-  };
-  return run(plan, request, found);
-}
-
-Contact_summary Contact_search::within(const Tree_object& object, const Contact_request& request,
-                                       std::vector<Face_pair>& found) {
-  const Region_tree& tree = object.tree();
-  const Vertex_fans& fans = object.fans();
-  Plan plan;
-  plan.walk = [&](std::size_t limit, Scratch& scratch, Result& result) {
-    visit_contacts_within(object.posed(), scratch.walk, [&](Face_pair pair) {
-      result.found.push_back(pair);
-      return result.found.size() < limit ? Visit::go_on : Visit::stop;
-    });
-  };
-  plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
-    if (pair.a != pair.b && !near(tree.box(pair.a), tree.box(pair.b), 0)) return true;
-    if (tree.is_leaf(pair.a) && tree.is_leaf(pair.b)) return false;
-    if (pair.a == pair.b)
-      open_node(tree, pair.a, below);
-    else
-      open_pair(tree, tree, pair, below);
-    return true;
-  };
-  const auto vertices = static_cast<std::uint32_t>(object.vertex_count());
-  for (std::uint32_t first = 0; first < vertices; first += std::min(neighbour_vertices, vertices - first)) {
-    const std::uint32_t end = first + std::min(neighbour_vertices, vertices - first);
-    plan.others.push_back([&, first, end](std::size_t, Scratch& scratch, Result& result) {
-      scratch.neighbours.check(fans, object.corners(), object.coordinates(), first, end, result.found);
-    });
-  }
-  return run(plan, request, found);
-}
 
 Contact_summary Contact_search::run(const Plan& plan, const Contact_request& request, std::vector<Face_pair>& found) {
   const bool all = request.query == Contact_query::all;
@@ -164,5 +113,9 @@ bool Contact_search::run_one(const Task& task, std::size_t index, std::size_t li
   result.exact_tests = scratch.walk.exact_tests + scratch.neighbours.exact_tests() - exact_tests;
   return result.found.size() >= limit;
 }
+
+template Contact_summary Contact_search::between(const Tree_object&, const Tree_object&, const Contact_request&,
+                                                 std::vector<Face_pair>&);
+template Contact_summary Contact_search::within(const Tree_object&, const Contact_request&, std::vector<Face_pair>&);
 
 }  // namespace lodestone

@@ -11,27 +11,26 @@ namespace lodestone {
 namespace {
 
 /// Whether the ray from the point upwards meets the box.
-bool meets_ray(const Tree_box& box, const Point& point) {
+bool meets_ray(const Aabb& box, const Point& point) {
   return box.low[0] <= point.x() && point.x() <= box.high[0] && box.low[1] <= point.y() && point.y() <= box.high[1] &&
          point.z() <= box.high[2];
 }
 
-bool box_within(const Tree_box& inner, const Tree_box& outer) {
+bool box_within(const Aabb& inner, const Aabb& outer) {
   return std::equal(outer.low, outer.low + 3, inner.low, std::less_equal()) &&
          std::equal(inner.high, inner.high + 3, outer.high, std::less_equal());
 }
 
 }  // namespace
 
-bool encloses(const Tree_object& surface, const Point& point) {
-  const Region_tree& tree = surface.tree();
-  const Posed_tree posed = surface.posed();
+bool encloses(const Posed_layout& surface, const Point& point) {
+  const Tree_layout& tree = *surface.layout;
   bool inside = false;
   std::vector<std::uint32_t> ahead{0};
   while (!ahead.empty()) {
     const std::uint32_t n = ahead.back();
     ahead.pop_back();
-    if (!meets_ray(tree.box(n), point)) continue;
+    if (!meets_ray(surface.boxes[n], point)) continue;
     if (!tree.is_leaf(n)) {
       ahead.push_back(tree.node(n).second_child);
       ahead.push_back(n + 1);
@@ -39,16 +38,17 @@ bool encloses(const Tree_object& surface, const Point& point) {
     }
     const std::uint32_t leaf = tree.node(n).leaf;
     for (std::uint16_t place = 0; place < tree.faces(leaf).size(); ++place)
-      inside ^= crosses_upward_ray(leaf_triangle(posed, leaf, place), point);
+      inside ^= crosses_upward_ray(leaf_triangle(surface, leaf, place), point);
   }
   return inside;
 }
 
-bool encloses(const Tree_object& outer, const Tree_object& inner) {
-  if (!box_within(inner.tree().box(0), outer.tree().box(0)) || !outer.closed()) return false;
+bool encloses(const Object_surface& outer, const Posed_layout& outer_layout, const Object_surface& inner,
+              const Posed_layout& inner_layout) {
+  if (!box_within(inner_layout.boxes.front(), outer_layout.boxes.front()) || !outer.closed()) return false;
   return std::ranges::all_of(inner.piece_vertices(), [&](std::uint32_t vertex) {
     const double* p = inner.coordinates().data() + 3 * std::size_t{vertex};
-    return encloses(outer, Point(p[0], p[1], p[2]));
+    return encloses(outer_layout, Point(p[0], p[1], p[2]));
   });
 }
 

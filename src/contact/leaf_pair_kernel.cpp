@@ -55,9 +55,9 @@ HWY_INLINE void copy_positions(const Leaf_view& leaf, double (*positions)[4]) {
   for (std::size_t i = 0; i < vectors; ++i) hn::Store(load_last(vertex, i), d, positions[last] + i * lanes);
 }
 
-HWY_INLINE Tree_box box_of(const Leaf_corners& corners, const double (*positions)[4]) {
+HWY_INLINE Aabb box_of(const Leaf_corners& corners, const double (*positions)[4]) {
   const D d;
-  Tree_box box;
+  Aabb box;
   for (std::size_t i = 0; i < vectors; ++i) {
     const auto p = hn::Load(d, positions[corners[0]] + i * lanes);
     const auto q = hn::Load(d, positions[corners[1]] + i * lanes);
@@ -84,7 +84,7 @@ HWY_INLINE void pose(const Leaf_view& leaf, const Leaf_request& request, double 
   copy_positions(leaf, positions);
   Face_columns& faces = *leaf.faces;
   for (std::size_t f = 0; f < leaf.face_count; ++f) {
-    const Tree_box box = box_of(leaf.corners[f], positions);
+    const Aabb box = box_of(leaf.corners[f], positions);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       faces.low[axis][f] = box.low[axis];
       faces.high[axis][f] = box.high[axis] + request.margin;
@@ -102,7 +102,7 @@ struct Limits {
   Numbers low[3], high[3];
 };
 
-HWY_INLINE Limits limits(const Tree_box& box, double margin) {
+HWY_INLINE Limits limits(const Aabb& box, double margin) {
   return {{all(box.low[0]), all(box.low[1]), all(box.low[2])},
           {all(box.high[0] + margin), all(box.high[1] + margin), all(box.high[2] + margin)}};
 }

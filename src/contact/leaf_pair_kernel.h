@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "contact/leaf_scratch.h"
-#include "lodestone/contact/tree_box.h"
+#include "lodestone/contact/volumes/aabb.h"
 
 /// Leaf against leaf, built for several instruction sets and chosen at run time.
 namespace lodestone::kernel {
@@ -17,7 +17,7 @@ struct Leaf_view {
   const Leaf_corners* corners;
   std::size_t vertex_count;
   std::size_t face_count;
-  const Tree_box* box;
+  const Aabb* box;
   Face_columns* faces;  ///< all of them where they are now, or none: then the kernel fills them in
 };
 

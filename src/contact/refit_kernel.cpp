@@ -126,7 +126,7 @@ HWY_INLINE Refit_sums refit_leaves_ahead(const Refit& refit, std::size_t first, 
   for (std::size_t leaf = first; leaf < end; ++leaf) {
     const Bounds bounds = leaf_bounds<ahead>(refit.coordinates, refit.vertices + refit.vertex_begin[leaf],
                                              refit.vertices + refit.vertex_begin[leaf + 1]);
-    Tree_box& box = refit.boxes[refit.leaf_nodes[leaf]];
+    Aabb& box = refit.boxes[refit.leaf_nodes[leaf]];
     for (std::size_t i = 0; i < vectors; ++i) {
       hn::Store(bounds.low[i], d, box.low + i * lanes);
       hn::Store(bounds.high[i], d, box.high + i * lanes);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lodestone/contact/tree_box.h"
+#include "lodestone/contact/volumes/aabb.h"
 
 /// The inner loop of a refit, built for several instruction sets and chosen at run time. Minima and maxima do not
 /// round, so all give the same boxes.
@@ -19,7 +19,7 @@ struct Refit {
                                       ///< valid numbers more as `vertices_ahead`
   const std::uint32_t* vertex_begin;  ///< per leaf and past the last: start of its list, which is not empty
   const std::uint32_t* leaf_nodes;    ///< per leaf: its place in `boxes`
-  Tree_box* boxes;
+  Aabb* boxes;
   bool beyond_cache;  ///< the coordinates are too many to be found in the cache
 };
 

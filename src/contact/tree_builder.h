@@ -3,14 +3,14 @@
 
 #include <Eigen/Core>
 
-#include "lodestone/contact/region_tree.h"
+#include "lodestone/contact/tree_layout.h"
 
 namespace lodestone {
 
-/// Fills the nodes and leaves of a Region_tree.
+/// Fills the nodes and leaves of a Tree_layout.
 class Tree_builder {
  public:
-  Tree_builder(Region_tree& tree, std::span<const Corners> corners, std::span<const Region_index> labels,
+  Tree_builder(Tree_layout& tree, std::span<const Corners> corners, std::span<const Region_index> labels,
                Coordinates coordinates, const Region_tree_options& options)
       : tree_(tree), corners_(corners), labels_(labels), coordinates_(coordinates), options_(options) {}
 
@@ -33,7 +33,7 @@ class Tree_builder {
   template <class Add>
   void add_halves(std::span<Item> items, Add add);
 
-  Region_tree& tree_;
+  Tree_layout& tree_;
   std::span<const Corners> corners_;
   std::span<const Region_index> labels_;
   Coordinates coordinates_;

@@ -41,9 +41,9 @@ inline std::vector<Tree_case> tree_cases() {
           {"unused vertices", unused}};
 }
 
-inline Tree_box box_around(std::span<const std::uint32_t> vertices, Coordinates coordinates) {
+inline Aabb box_around(std::span<const std::uint32_t> vertices, Coordinates coordinates) {
   constexpr double most = std::numeric_limits<double>::max();
-  Tree_box box{.low = {most, most, most}, .high = {-most, -most, -most}};
+  Aabb box{.low = {most, most, most}, .high = {-most, -most, -most}};
   for (const std::size_t v : vertices)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       box.low[axis] = std::min(box.low[axis], coordinates[3 * v + axis]);
@@ -52,7 +52,7 @@ inline Tree_box box_around(std::span<const std::uint32_t> vertices, Coordinates 
   return box;
 }
 
-inline void expect_equal(const Tree_box& a, const Tree_box& b) {
+inline void expect_equal(const Aabb& a, const Aabb& b) {
   for (int axis = 0; axis < 3; ++axis) {
     ASSERT_EQ(a.low[axis], b.low[axis]);
     ASSERT_EQ(a.high[axis], b.high[axis]);
@@ -61,7 +61,7 @@ inline void expect_equal(const Tree_box& a, const Tree_box& b) {
 
 inline void expect_equal_boxes(const Region_tree& a, const Region_tree& b) {
   ASSERT_EQ(a.node_count(), b.node_count());
-  for (std::uint32_t n = 0; n < a.node_count(); ++n) expect_equal(a.box(n), b.box(n));
+  for (std::uint32_t n = 0; n < a.node_count(); ++n) expect_equal(a.volume(n), b.volume(n));
   EXPECT_EQ(a.looseness(), b.looseness());
 }
 
@@ -83,7 +83,7 @@ inline void expect_tree(const Region_tree& tree, const Face_soup& soup, Coordina
     ASSERT_TRUE(std::ranges::equal(used, vertices)) << "ascending, each once";
     ASSERT_TRUE(tree.is_leaf(tree.leaf_node(leaf)));
     ASSERT_EQ(tree.node(tree.leaf_node(leaf)).leaf, leaf);
-    expect_equal(tree.box(tree.leaf_node(leaf)), box_around(vertices, coordinates));
+    expect_equal(tree.volume(tree.leaf_node(leaf)), box_around(vertices, coordinates));
   }
   EXPECT_TRUE(std::ranges::all_of(times, [](int n) { return n == 1; })) << "each face in one leaf";
   EXPECT_EQ(tree.most_leaf_faces(), most_faces);
@@ -92,13 +92,13 @@ inline void expect_tree(const Region_tree& tree, const Face_soup& soup, Coordina
   EXPECT_EQ(tree.node_count(), 2 * tree.leaf_count() - 1);
   for (std::uint32_t n = 0; n < tree.node_count(); ++n) {
     if (tree.is_leaf(n)) continue;
-    const Tree_box &first = tree.box(n + 1), &second = tree.box(tree.node(n).second_child);
-    Tree_box both = first;
+    const Aabb &first = tree.volume(n + 1), &second = tree.volume(tree.node(n).second_child);
+    Aabb both = first;
     for (int axis = 0; axis < 3; ++axis) {
       both.low[axis] = std::min(both.low[axis], second.low[axis]);
       both.high[axis] = std::max(both.high[axis], second.high[axis]);
     }
-    expect_equal(tree.box(n), both);
+    expect_equal(tree.volume(n), both);
   }
 }
 

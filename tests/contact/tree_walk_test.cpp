@@ -12,17 +12,17 @@
 namespace lodestone {
 namespace {
 
-Tree_box box(double low, double high) {
+Aabb box(double low, double high) {
   return {.low = {low, low, low, std::nan("")}, .high = {high, high, high, std::nan("")}};
 }
 
-TEST(Tree_box, is_near_another_that_it_touches_along_every_axis) {
-  const Tree_box a = box(0, 1);
+TEST(Aabb, is_near_another_that_it_touches_along_every_axis) {
+  const Aabb a = box(0, 1);
   EXPECT_TRUE(near(a, box(1, 2), 0));
   EXPECT_TRUE(near(a, box(-1, 0), 0));
   EXPECT_TRUE(near(a, box(0.25, 0.5), 0));
   for (int axis = 0; axis < 3; ++axis) {
-    Tree_box above = a, below = a;
+    Aabb above = a, below = a;
     above.low[axis] = std::nextafter(1, 2), above.high[axis] = 2;
     below.high[axis] = -std::numeric_limits<double>::denorm_min(), below.low[axis] = -1;
     for (const auto& apart : {above, below}) {
@@ -34,7 +34,7 @@ TEST(Tree_box, is_near_another_that_it_touches_along_every_axis) {
   }
 }
 
-TEST(Tree_box, is_near_whatever_is_not_farther_than_the_margin) {
+TEST(Aabb, is_near_whatever_is_not_farther_than_the_margin) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> place(-1, 1), exponent(-60, 0);
   std::size_t far = 0;
@@ -50,9 +50,9 @@ TEST(Tree_box, is_near_whatever_is_not_farther_than_the_margin) {
   EXPECT_GT(far, 1000U);
 }
 
-TEST(Tree_box, has_the_sum_of_its_sides_as_extent) {
-  EXPECT_EQ(extent({.low = {0, -1, 2, 7}, .high = {1, 1, 6, 0}}), 7);
-  EXPECT_EQ(extent(box(-1e308, 1e308)), std::numeric_limits<double>::infinity());
+TEST(Aabb, has_the_sum_of_its_sides_as_extent) {
+  EXPECT_EQ((Aabb{.low = {0, -1, 2, 7}, .high = {1, 1, 6, 0}}.extent()), 7);
+  EXPECT_EQ(box(-1e308, 1e308).extent(), std::numeric_limits<double>::infinity());
 }
 
 using Leaves = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -76,7 +76,7 @@ TEST(Walk, meets_the_pairs_of_near_leaves_each_once) {
       EXPECT_TRUE(ahead.empty());
       for (std::uint32_t p = 0; p < s.leaf_count(); ++p)
         for (std::uint32_t q = 0; q < t.leaf_count(); ++q)
-          if (near(s.box(s.leaf_node(p)), t.box(t.leaf_node(q)), margin)) expected.emplace_back(p, q);
+          if (near(s.volume(s.leaf_node(p)), t.volume(t.leaf_node(q)), margin)) expected.emplace_back(p, q);
       std::ranges::sort(met);
       EXPECT_EQ(met, expected);
     }
@@ -94,7 +94,8 @@ TEST(Walk, within_a_tree_meets_near_leaves_once_and_each_with_itself) {
     });
     for (std::uint32_t p = 0; p < tree.leaf_count(); ++p)
       for (std::uint32_t q = p; q < tree.leaf_count(); ++q)
-        if (p == q || near(tree.box(tree.leaf_node(p)), tree.box(tree.leaf_node(q)), 0)) expected.emplace_back(p, q);
+        if (p == q || near(tree.volume(tree.leaf_node(p)), tree.volume(tree.leaf_node(q)), 0))
+          expected.emplace_back(p, q);
     std::ranges::sort(met);
     EXPECT_EQ(met, expected) << name;
   }

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "lodestone/contact/tree_box.h"
+#include "lodestone/contact/volumes/aabb.h"
 
 namespace lodestone {
 
@@ -11,7 +11,7 @@ namespace lodestone {
 /// apart.
 using Box = Eigen::AlignedBox3d;
 
-inline Box to_box(const Tree_box& box) {
+inline Box to_box(const Aabb& box) {
   return {Eigen::Vector3d(box.low[0], box.low[1], box.low[2]), Eigen::Vector3d(box.high[0], box.high[1], box.high[2])};
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lodestone/contact/confirmation.h"
-#include "lodestone/contact/leaf_pairs.h"
+#include "lodestone/contact/node_boxes.h"
 #include "lodestone/contact/triangle_distance.h"
 
 namespace lodestone {
@@ -18,6 +18,12 @@ struct Closest_faces {
 ///
 /// Branch and bound over pairs of nodes, the nearest boxes first: O(log F) openings and a few leaves where one place is
 /// clearly nearest, more where the surfaces run side by side.
-Closest_faces closest_faces(const Posed_tree& a, const Posed_tree& b);
+/// @param a, b  with boxes
+Closest_faces closest_faces(const Posed_layout& a, const Posed_layout& b);
+
+template <Bounding_volume Volume>
+Closest_faces closest_faces(const Basic_posed_tree<Volume>& a, const Basic_posed_tree<Volume>& b) {
+  return closest_faces(Node_boxes(a).layout(), Node_boxes(b).layout());
+}
 
 }  // namespace lodestone

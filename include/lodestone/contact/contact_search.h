@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -34,11 +35,14 @@ class Contact_search {
   explicit Contact_search(Workers& workers);
 
   /// Adds the face pairs of two objects to `found`, sorted; none for the query `yes_no`.
-  Contact_summary between(const Tree_object& a, const Tree_object& b, const Contact_request& request,
-                          std::vector<Face_pair>& found);
+  template <Bounding_volume Volume>
+  Contact_summary between(const Basic_tree_object<Volume>& a, const Basic_tree_object<Volume>& b,
+                          const Contact_request& request, std::vector<Face_pair>& found);
   /// Adds the intersecting pairs of faces of one object, a < b, those that share vertices included: see
   /// `faces_intersect`. The tolerance does not count: neighbours are always near.
-  Contact_summary within(const Tree_object& object, const Contact_request& request, std::vector<Face_pair>& found);
+  template <Bounding_volume Volume>
+  Contact_summary within(const Basic_tree_object<Volume>& object, const Contact_request& request,
+                         std::vector<Face_pair>& found);
 
  private:
   /// What one worker keeps.
@@ -72,5 +76,61 @@ class Contact_search {
   std::vector<Result> results_;    ///< per task
   std::vector<Node_pair> starts_;  ///< of the tasks that share a walk
 };
+
+template <Bounding_volume Volume>
+Contact_summary Contact_search::between(const Basic_tree_object<Volume>& a, const Basic_tree_object<Volume>& b,
+                                        const Contact_request& request, std::vector<Face_pair>& found) {
+  Plan plan;
+  plan.walk = [&](std::size_t limit, Scratch& scratch, Result& result) {
+    visit_contacts(a.posed(), b.posed(), request.tolerance, scratch.walk, [&](Face_pair pair) {
+      result.found.push_back(pair);
+      return result.found.size() < limit ? Visit::go_on : Visit::stop;
+    });
+  };
+  plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
+    if (!near(a.tree().volume(pair.a), b.tree().volume(pair.b), request.tolerance)) return true;  // nothing below
+    if (a.tree().is_leaf(pair.a) && b.tree().is_leaf(pair.b)) return false;
+    open_pair(a.tree(), b.tree(), pair, below);
+    return true;
+  };
+  return run(plan, request, found);
+}
+
+template <Bounding_volume Volume>
+Contact_summary Contact_search::within(const Basic_tree_object<Volume>& object, const Contact_request& request,
+                                       std::vector<Face_pair>& found) {
+  const auto& tree = object.tree();
+  const Vertex_fans& fans = object.fans();
+  Plan plan;
+  plan.walk = [&](std::size_t limit, Scratch& scratch, Result& result) {
+    visit_contacts_within(object.posed(), scratch.walk, [&](Face_pair pair) {
+      result.found.push_back(pair);
+      return result.found.size() < limit ? Visit::go_on : Visit::stop;
+    });
+  };
+  plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
+    if (pair.a != pair.b && !near(tree.volume(pair.a), tree.volume(pair.b), 0)) return true;
+    if (tree.is_leaf(pair.a) && tree.is_leaf(pair.b)) return false;
+    if (pair.a == pair.b)
+      open_node(tree, pair.a, below);
+    else
+      open_pair(tree, tree, pair, below);
+    return true;
+  };
+  constexpr std::uint32_t neighbour_vertices = 4096;  // of one task
+  const auto vertices = static_cast<std::uint32_t>(object.vertex_count());
+  for (std::uint32_t first = 0; first < vertices; first += std::min(neighbour_vertices, vertices - first)) {
+    const std::uint32_t end = first + std::min(neighbour_vertices, vertices - first);
+    plan.others.push_back([&, first, end](std::size_t, Scratch& scratch, Result& result) {
+      scratch.neighbours.check(fans, object.corners(), object.coordinates(), first, end, result.found);
+    });
+  }
+  return run(plan, request, found);
+}
+
+extern template Contact_summary Contact_search::between(const Tree_object&, const Tree_object&, const Contact_request&,
+                                                        std::vector<Face_pair>&);
+extern template Contact_summary Contact_search::within(const Tree_object&, const Contact_request&,
+                                                       std::vector<Face_pair>&);
 
 }  // namespace lodestone

@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "lodestone/contact/node_boxes.h"
 #include "lodestone/contact/tree_object.h"
 
 namespace lodestone {
 
 /// Whether a point that is not on the surface lies inside it: whether the ray from it upwards along z crosses an odd
 /// number of faces, exactly. O(log F + crossed leaves).
-/// @param surface  closed, see `Tree_object::closed`
-bool encloses(const Tree_object& surface, const Point& point);
+/// @param surface  closed, see `Object_surface::closed`; with boxes
+bool encloses(const Posed_layout& surface, const Point& point);
 
 /// Whether every piece of `inner` lies inside `outer`, whose surfaces do not intersect. Exact. False where `outer` is
 /// not closed: it has no inside. A hollow in `outer`, bounded by a piece of its surface, is outside.
-bool encloses(const Tree_object& outer, const Tree_object& inner);
+/// @param outer_layout, inner_layout  of the two, with boxes
+bool encloses(const Object_surface& outer, const Posed_layout& outer_layout, const Object_surface& inner,
+              const Posed_layout& inner_layout);
+
+template <Bounding_volume Volume>
+bool encloses(const Basic_tree_object<Volume>& surface, const Point& point) {
+  return encloses(Node_boxes(surface.posed()).layout(), point);
+}
+
+template <Bounding_volume Volume>
+bool encloses(const Basic_tree_object<Volume>& outer, const Basic_tree_object<Volume>& inner) {
+  return encloses(outer, Node_boxes(outer.posed()).layout(), inner, Node_boxes(inner.posed()).layout());
+}
 
 }  // namespace lodestone

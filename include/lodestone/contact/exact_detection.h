@@ -35,9 +35,11 @@ void check_finite(Coordinates coordinates, std::uint32_t object);
 ///
 /// Every call that answers first reads all positions of the objects that it is about and refits their trees: it cannot
 /// answer for where they were before.
-template <Triangle_mesh Mesh, class Strategy, class Points>
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 class Exact_detection {
  public:
+  using Surface = Basic_tree_object<Volume>;
+
   Exact_detection(const Detector_options& options, Strategy strategy)
       : options_(options), strategy_(std::move(strategy)), workers_(options.exact.threads), search_(workers_) {}
 
@@ -65,7 +67,7 @@ class Exact_detection {
   Closest_faces closest(Object_pair pair);
   bool contains(Object_id outer, Object_id inner);
 
-  const Tree_object& object(Object_id object) const { return objects_[object]->surface; }
+  const Surface& object(Object_id object) const { return objects_[object]->surface; }
   const std::optional<Region_maps<Mesh>>& maps(Object_id object) const { return objects_[object]->maps; }
 
  private:
@@ -74,7 +76,7 @@ class Exact_detection {
     Object_options options;
     Mesh_numbering<Mesh> numbering;
     Coordinate_reader<Mesh, Points> reader;
-    Tree_object surface;
+    Surface surface;
     bool built = false;
     std::optional<Positions> given = {};  ///< positions that came through `update`
     std::optional<Region_maps<Mesh>> maps = {};
@@ -103,7 +105,7 @@ class Exact_detection {
 
   // Memory of the stages, kept from frame to frame.
   std::vector<Object_id> all_;
-  std::vector<Tree_object*> surfaces_;
+  std::vector<Surface*> surfaces_;
   std::vector<Coordinates> coordinates_;
   std::vector<Box> boxes_;
   std::vector<double> reach_;
@@ -111,8 +113,9 @@ class Exact_detection {
   std::vector<Object_pair> near_pairs_;
 };
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Exact_detection<Mesh, Strategy, Points>::update(Object_id id, const Eigen::Ref<const Positions>& positions) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::update(Object_id id,
+                                                             const Eigen::Ref<const Positions>& positions) {
   Object& object = *objects_[id];
   if (positions.rows() != object.numbering.vertex_count())
     throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(object.numbering.vertex_count()) +
@@ -122,18 +125,18 @@ void Exact_detection<Mesh, Strategy, Points>::update(Object_id id, const Eigen::
   object.given = std::move(copy);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Exact_detection<Mesh, Strategy, Points>::rebuild(Object_id id) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::rebuild(Object_id id) {
   Object& object = *objects_[id];
   Mesh_numbering<Mesh> numbering(*object.mesh);
   if (numbering.vertex_count() != object.numbering.vertex_count()) object.given.reset();
   object.numbering = std::move(numbering);
-  object.surface = Tree_object(object.numbering.corners());
+  object.surface = Surface(object.numbering.corners());
   object.built = false;
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-const Frame& Exact_detection<Mesh, Strategy, Points>::detect(const Collision_filter& filter) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Collision_filter& filter) {
   for (auto id = static_cast<Object_id>(all_.size()); id < objects_.size(); ++id) all_.push_back(id);
   start_frame(all_);
   timed(frame_.statistics.seconds.broad_phase, [&] { find_near_pairs(filter); });
@@ -143,23 +146,23 @@ const Frame& Exact_detection<Mesh, Strategy, Points>::detect(const Collision_fil
   return finish_frame();
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-const Frame& Exact_detection<Mesh, Strategy, Points>::detect(const Collision_filter& filter, Object_pair pair) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Collision_filter& filter, Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   start_frame(std::span(ids).first(pair.a == pair.b ? 1 : 2));
   if (filter.may_collide(pair.a, pair.b)) timed(frame_.statistics.seconds.confirmation, [&] { check(pair); });
   return finish_frame();
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-Closest_faces Exact_detection<Mesh, Strategy, Points>::closest(Object_pair pair) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+Closest_faces Exact_detection<Mesh, Strategy, Points, Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
   return closest_faces(objects_[pair.a]->surface.posed(), objects_[pair.b]->surface.posed());
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-bool Exact_detection<Mesh, Strategy, Points>::contains(Object_id outer, Object_id inner) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+bool Exact_detection<Mesh, Strategy, Points, Volume>::contains(Object_id outer, Object_id inner) {
   const Object_id ids[] = {outer, inner};
   refresh(ids);
   std::vector<Face_pair> none;
@@ -168,8 +171,8 @@ bool Exact_detection<Mesh, Strategy, Points>::contains(Object_id outer, Object_i
   return encloses(out, in) && !search_.between(out, in, {.query = Contact_query::yes_no}, none).found;
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Exact_detection<Mesh, Strategy, Points>::start_frame(std::span<const Object_id> ids) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::start_frame(std::span<const Object_id> ids) {
   ++frame_.number;
   frame_.pairs.clear();
   frame_.face_pairs.clear();
@@ -180,8 +183,8 @@ void Exact_detection<Mesh, Strategy, Points>::start_frame(std::span<const Object
   timed(frame_.statistics.seconds.refit, [&] { refresh(ids); });
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-const Frame& Exact_detection<Mesh, Strategy, Points>::finish_frame() {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::finish_frame() {
   frame_.statistics.near_pairs = frame_.pairs.size();
   frame_.statistics.contacts = frame_.face_pairs.size();
   frame_.statistics.repartitions = std::exchange(rebuilds_, 0);
@@ -189,8 +192,8 @@ const Frame& Exact_detection<Mesh, Strategy, Points>::finish_frame() {
 }
 
 /// Where the vertices of an object are now.
-template <Triangle_mesh Mesh, class Strategy, class Points>
-Coordinates Exact_detection<Mesh, Strategy, Points>::read(Object_id id) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+Coordinates Exact_detection<Mesh, Strategy, Points, Volume>::read(Object_id id) {
   Object& object = *objects_[id];
   const auto vertices = num_vertices(*object.mesh), faces = num_faces(*object.mesh);
   if constexpr (requires { object.mesh->has_garbage(); })
@@ -207,8 +210,8 @@ Coordinates Exact_detection<Mesh, Strategy, Points>::read(Object_id id) {
 }
 
 /// Divides the surface into regions, and builds a tree over them.
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Exact_detection<Mesh, Strategy, Points>::build(Object_id id, Coordinates coordinates) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::build(Object_id id, Coordinates coordinates) {
   Object& object = *objects_[id];
   check_finite(coordinates, id);
   const auto& numbering = object.numbering;
@@ -226,8 +229,8 @@ void Exact_detection<Mesh, Strategy, Points>::build(Object_id id, Coordinates co
 
 /// Everything that depends on positions: trees of new objects are built, others refitted, and built anew where their
 /// leaves have become too loose.
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Exact_detection<Mesh, Strategy, Points>::refresh(std::span<const Object_id> ids) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::refresh(std::span<const Object_id> ids) {
   surfaces_.clear();
   coordinates_.clear();
   for (const auto id : ids) {
@@ -239,9 +242,9 @@ void Exact_detection<Mesh, Strategy, Points>::refresh(std::span<const Object_id>
     surfaces_.push_back(&objects_[id]->surface);
     coordinates_.push_back(coordinates);
   }
-  refit(surfaces_, coordinates_, workers_);
+  refit<Volume>(surfaces_, coordinates_, workers_);
   for (const auto id : ids) {
-    const Tree_object& surface = objects_[id]->surface;
+    const Surface& surface = objects_[id]->surface;
     if (!surface.finite()) check_finite(surface.coordinates(), id);
     if (!surface.looser_than(options_.exact.loosest)) continue;
     build(id, surface.coordinates());
@@ -249,10 +252,10 @@ void Exact_detection<Mesh, Strategy, Points>::refresh(std::span<const Object_id>
   }
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Exact_detection<Mesh, Strategy, Points>::find_near_pairs(const Collision_filter& filter) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::find_near_pairs(const Collision_filter& filter) {
   boxes_.clear();
-  for (const auto& object : objects_) boxes_.push_back(to_box(object->surface.tree().box(0)));
+  for (const auto& object : objects_) boxes_.push_back(to_box(object->surface.tree().volume(0).bounds()));
   reach_.assign(objects_.size(), options_.exact.tolerance);
   for (const auto pair : broad_phase_.find(boxes_, reach_))
     if (filter.may_collide(pair.a, pair.b)) near_pairs_.push_back(pair);
@@ -262,10 +265,10 @@ void Exact_detection<Mesh, Strategy, Points>::find_near_pairs(const Collision_fi
   std::ranges::sort(near_pairs_);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Exact_detection<Mesh, Strategy, Points>::check(Object_pair pair) {
-  const Tree_object& a = objects_[pair.a]->surface;
-  const Tree_object& b = objects_[pair.b]->surface;
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::check(Object_pair pair) {
+  const Surface& a = objects_[pair.a]->surface;
+  const Surface& b = objects_[pair.b]->surface;
   const Contact_request request{
       .query = options_.contacts, .tolerance = options_.exact.tolerance, .most = options_.most_contacts};
   Pair_result result{.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size()};
@@ -282,10 +285,10 @@ void Exact_detection<Mesh, Strategy, Points>::check(Object_pair pair) {
   frame_.pairs.push_back(result);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-Containment Exact_detection<Mesh, Strategy, Points>::containment(Object_pair pair, bool found) {
-  const Tree_object& a = objects_[pair.a]->surface;
-  const Tree_object& b = objects_[pair.b]->surface;
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+Containment Exact_detection<Mesh, Strategy, Points, Volume>::containment(Object_pair pair, bool found) {
+  const Surface& a = objects_[pair.a]->surface;
+  const Surface& b = objects_[pair.b]->surface;
   const bool a_in_b = encloses(b, a);
   if (!a_in_b && !encloses(a, b)) return Containment::none;
   // What was found may be near without intersecting.
@@ -295,11 +298,11 @@ Containment Exact_detection<Mesh, Strategy, Points>::containment(Object_pair pai
   return a_in_b ? Containment::a_in_b : Containment::b_in_a;
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points>
-void Exact_detection<Mesh, Strategy, Points>::add_geometry(const Pair_result& result) {
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::add_geometry(const Pair_result& result) {
   if (!options_.contact_points && !options_.contact_normals) return;
   const auto triangle = [this](Object_id id, std::uint32_t face) {
-    const Tree_object& surface = objects_[id]->surface;
+    const Surface& surface = objects_[id]->surface;
     return face_triangle(surface.corners()[face],
                          [&](auto vertex) { return surface.coordinates().data() + 3 * std::size_t{vertex}; });
   };

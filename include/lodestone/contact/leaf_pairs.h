@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -10,14 +11,33 @@
 
 namespace lodestone {
 
-/// A tree with the coordinates that it was refitted to.
-struct Posed_tree {
-  const Region_tree* tree = nullptr;
+/// What leaves are looked at with: how faces are grouped, and where they are.
+struct Posed_layout {
+  const Tree_layout* layout = nullptr;
   Coordinates coordinates = {};
+  std::span<const Aabb> boxes = {};  ///< per node; empty: the tree has volumes of another kind
 };
+
+/// A tree with the coordinates that it was refitted to.
+template <Bounding_volume Volume>
+struct Basic_posed_tree {
+  const Basic_region_tree<Volume>* tree = nullptr;
+  Coordinates coordinates = {};
+
+  Posed_layout layout() const {
+    if constexpr (std::same_as<Volume, Aabb>)
+      return {tree, coordinates, tree->volumes()};
+    else
+      return {tree, coordinates};
+  }
+};
+using Posed_tree = Basic_posed_tree<Aabb>;
 
 struct Leaf_scratch;
 struct Face_columns;
+namespace kernel {
+struct Leaf_view;
+}
 
 /// Leaf against leaf: which of their faces are near each other. Holds the memory that it needs; one per thread.
 class Leaf_pairs {
@@ -30,9 +50,9 @@ class Leaf_pairs {
   /// What follows is about the leaves of these two trees, whose vertices do not move meanwhile: what has been read of a
   /// leaf is kept for the next ones that it meets.
   /// @param margin  >= 0
-  void begin(const Posed_tree& a, const Posed_tree& b, double margin);
+  void begin(const Posed_layout& a, const Posed_layout& b, double margin);
   /// The same for the leaves of one tree, and faces that share no vertex.
-  void begin_within(const Posed_tree& tree);
+  void begin_within(const Posed_layout& tree);
 
   /// The face pairs of two leaves that floating point does not prove to be apart; with a margin: farther apart than it.
   /// Each pair once if both leaves are one.
@@ -44,15 +64,21 @@ class Leaf_pairs {
   std::span<const Face_places> near_faces(std::uint32_t leaf_a, std::uint32_t leaf_b);
 
  private:
-  /// Leaves of one tree as they were last looked at.
-  struct Side {
-    Posed_tree posed;
-    std::vector<std::uint32_t> leaves;  ///< per slot: which one it holds
-    std::vector<std::unique_ptr<Face_columns>> faces;
-
-    void begin(const Posed_tree& tree);
-    Face_columns& at(std::uint32_t leaf);
+  /// A leaf as it was last looked at.
+  struct Slot {
+    std::uint32_t leaf;
+    std::unique_ptr<Face_columns> faces;
+    Aabb box;  ///< if the tree has none
   };
+  /// Leaves of one tree.
+  struct Side {
+    Posed_layout posed;
+    std::vector<Slot> slots;
+
+    void begin(const Posed_layout& tree);
+    Slot& at(std::uint32_t leaf);
+  };
+  static kernel::Leaf_view view(Side& side, std::uint32_t leaf);
 
   Side sides_[2];
   double margin_ = 0;

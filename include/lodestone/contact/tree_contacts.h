@@ -32,9 +32,9 @@ struct Tree_walk {
 };
 
 /// The triangle of a face of a leaf.
-inline Triangle leaf_triangle(const Posed_tree& posed, std::uint32_t leaf, std::uint16_t place) {
-  const auto vertices = posed.tree->vertices(leaf);
-  return face_triangle(posed.tree->corners(leaf)[place], [&](std::uint16_t corner) {
+inline Triangle leaf_triangle(const Posed_layout& posed, std::uint32_t leaf, std::uint16_t place) {
+  const auto vertices = posed.layout->vertices(leaf);
+  return face_triangle(posed.layout->corners(leaf)[place], [&](std::uint16_t corner) {
     return posed.coordinates.data() + 3 * std::size_t{vertices[corner]};
   });
 }
@@ -46,12 +46,15 @@ inline Triangle leaf_triangle(const Posed_tree& posed, std::uint32_t leaf, std::
 /// removes those it has been through.
 ///
 /// O(pairs of near leaves x their faces); for two surfaces that meet along a curve about the square root of their size.
-template <Contact_visitor Visitor>
-Visit visit_contacts(const Posed_tree& a, const Posed_tree& b, double distance, Tree_walk& walk, Visitor&& visitor) {
+template <Bounding_volume Volume, Contact_visitor Visitor>
+Visit visit_contacts(const Basic_posed_tree<Volume>& a, const Basic_posed_tree<Volume>& b, double distance,
+                     Tree_walk& walk, Visitor&& visitor) {
+  const Posed_layout layout_a = a.layout(), layout_b = b.layout();
   const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
     ++walk.leaf_tests;
     for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
-      const Triangle triangle_a = leaf_triangle(a, leaf_a, places.a), triangle_b = leaf_triangle(b, leaf_b, places.b);
+      const Triangle triangle_a = leaf_triangle(layout_a, leaf_a, places.a);
+      const Triangle triangle_b = leaf_triangle(layout_b, leaf_b, places.b);
       ++walk.exact_tests;
       if (distance > 0 ? !triangles_nearer_than(triangle_a, triangle_b, distance)
                        : !triangles_intersect_given(triangle_a, triangle_b, places.crossing))
@@ -61,26 +64,28 @@ Visit visit_contacts(const Posed_tree& a, const Posed_tree& b, double distance, 
     }
     return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
-  walk.leaf_pairs.begin(a, b, distance);
+  walk.leaf_pairs.begin(layout_a, layout_b, distance);
   return walk_leaf_pairs(*a.tree, *b.tree, distance, walk.ahead, visit_leaves);
 }
 
 /// The whole walk, from the two roots.
-template <Contact_visitor Visitor>
-Visit visit_contacts(const Posed_tree& a, const Posed_tree& b, double distance, Visitor&& visitor) {
+template <Bounding_volume Volume, Contact_visitor Visitor>
+Visit visit_contacts(const Basic_posed_tree<Volume>& a, const Basic_posed_tree<Volume>& b, double distance,
+                     Visitor&& visitor) {
   Tree_walk walk;
   walk.ahead = {{0, 0}};
   return visit_contacts(a, b, distance, walk, visitor);
 }
 
 /// Visits all intersecting pairs of faces of one mesh that share no vertex; pairs have a < b.
-template <Contact_visitor Visitor>
-Visit visit_contacts_within(const Posed_tree& posed, Tree_walk& walk, Visitor&& visitor) {
+template <Bounding_volume Volume, Contact_visitor Visitor>
+Visit visit_contacts_within(const Basic_posed_tree<Volume>& posed, Tree_walk& walk, Visitor&& visitor) {
+  const Posed_layout layout = posed.layout();
   const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
     ++walk.leaf_tests;
     for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
       ++walk.exact_tests;
-      const Triangle a = leaf_triangle(posed, leaf_a, places.a), b = leaf_triangle(posed, leaf_b, places.b);
+      const Triangle a = leaf_triangle(layout, leaf_a, places.a), b = leaf_triangle(layout, leaf_b, places.b);
       if (!triangles_intersect_given(a, b, places.crossing)) continue;
       const auto [first, second] =
           std::minmax(posed.tree->faces(leaf_a)[places.a], posed.tree->faces(leaf_b)[places.b]);
@@ -88,7 +93,7 @@ Visit visit_contacts_within(const Posed_tree& posed, Tree_walk& walk, Visitor&& 
     }
     return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
-  walk.leaf_pairs.begin_within(posed);
+  walk.leaf_pairs.begin_within(layout);
   return walk_leaf_pairs_within(*posed.tree, walk.ahead, visit_leaves);
 }
 

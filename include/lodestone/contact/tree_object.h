@@ -1,62 +1,77 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "lodestone/contact/leaf_pairs.h"
+#include "lodestone/contact/object_surface.h"
 #include "lodestone/contact/region_tree.h"
-#include "lodestone/contact/vertex_fans.h"
 #include "lodestone/workers.h"
 
 namespace lodestone {
 
-/// One object as the exact mode keeps it from frame to frame: its faces, its tree, where its vertices are now, and what
-/// single queries need to know of its connectivity, found when first asked for.
-class Tree_object {
+/// One object as the exact mode keeps it from frame to frame: its surface, and a tree over it.
+template <Bounding_volume Volume>
+class Basic_tree_object : public Object_surface {
  public:
-  Tree_object() = default;
-  /// @param corners  F >= 1 faces; kept by the caller
-  explicit Tree_object(std::span<const Corners> corners) : corners_(corners) {}
+  using Object_surface::Object_surface;
 
   /// Builds the tree, anew if there is one. O(F log F).
   /// @param labels       V: region of each vertex
   /// @param coordinates  3 V, all finite, not changed before the next refit
-  void build(std::span<const Region_index> labels, Coordinates coordinates, const Region_tree_options& options);
+  void build(std::span<const Region_index> labels, Coordinates coordinates, const Region_tree_options& options) {
+    coordinates_ = coordinates;
+    tree_ = Basic_region_tree<Volume>(corners(), labels, coordinates, options);
+    built_looseness_ = tree_.looseness();
+    finite_ = true;
+  }
 
-  const Region_tree& tree() const { return tree_; }
-  std::span<const Corners> corners() const { return corners_; }
-  std::size_t vertex_count() const { return coordinates_.size() / 3; }
-  Coordinates coordinates() const { return coordinates_; }
-  Posed_tree posed() const { return {&tree_, coordinates_}; }
+  const Basic_region_tree<Volume>& tree() const { return tree_; }
+  Basic_posed_tree<Volume> posed() const { return {&tree_, coordinates_}; }
   /// Whether all coordinates that faces use are finite. Nothing can be asked of an object where one is not.
   bool finite() const { return finite_; }
   /// Whether the leaves have become looser by more than `factor` since the tree was built.
   bool looser_than(double factor) const { return tree_.looseness() > factor * built_looseness_; }
 
-  /// The faces around each vertex. O(V + F) the first time.
-  const Vertex_fans& fans() const;
-  /// Whether each edge has an even number of faces, so that the surface has an inside. O(F log F) the first time.
-  bool closed() const;
-  /// One vertex of each connected piece of the surface. O(V + F) the first time.
-  std::span<const std::uint32_t> piece_vertices() const;
-
  private:
-  friend void refit(std::span<Tree_object* const> objects, std::span<const Coordinates> coordinates, Workers& workers);
+  template <Bounding_volume V>
+  friend void refit(std::span<Basic_tree_object<V>* const> objects, std::span<const Coordinates> coordinates,
+                    Workers& workers);
 
-  std::span<const Corners> corners_;
-  Region_tree tree_;
-  Coordinates coordinates_;
+  Basic_region_tree<Volume> tree_;
   bool finite_ = true;
   double built_looseness_ = 0;
-  mutable std::optional<Vertex_fans> fans_;
-  mutable std::optional<bool> closed_;
-  mutable std::vector<std::uint32_t> piece_vertices_;
 };
+
+/// An object of the mode `exact`.
+using Tree_object = Basic_tree_object<Aabb>;
 
 /// Moves objects to where their vertices are now: all that depends on positions. O(V), shared among the workers.
 /// @param coordinates  per object: 3 V, not changed before the next refit
-void refit(std::span<Tree_object* const> objects, std::span<const Coordinates> coordinates, Workers& workers);
+template <Bounding_volume Volume>
+void refit(std::span<Basic_tree_object<Volume>* const> objects, std::span<const Coordinates> coordinates,
+           Workers& workers) {
+  constexpr std::size_t shared_parts = 8;  // fewer take one thread less time than waking others
+  // The parts of all trees are one list of tasks, so that many small objects are shared as well as a large one.
+  std::vector<std::size_t> first_part{0};
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    objects[o]->coordinates_ = coordinates[o];
+    first_part.push_back(first_part.back() + objects[o]->tree_.part_count());
+  }
+  const auto refit_part = [&](std::size_t task, std::size_t) {
+    const auto o = static_cast<std::size_t>(std::ranges::upper_bound(first_part, task) - first_part.begin()) - 1;
+    objects[o]->tree_.refit_part(task - first_part[o], coordinates[o]);
+  };
+  if (first_part.back() < shared_parts)
+    for (std::size_t task = 0; task < first_part.back(); ++task) refit_part(task, 0);
+  else
+    workers.run(first_part.back(), refit_part);
+  for (std::size_t o = 0; o < objects.size(); ++o) objects[o]->finite_ = objects[o]->tree_.finish_refit(coordinates[o]);
+}
+inline void refit(std::span<Tree_object* const> objects, std::span<const Coordinates> coordinates, Workers& workers) {
+  refit<Aabb>(objects, coordinates, workers);
+}
 
 }  // namespace lodestone

@@ -3,36 +3,18 @@
 
 #include <algorithm>
 
-#include "lodestone/contact/region_tree.h"
+#include "lodestone/contact/tree_layout.h"
 
 namespace lodestone {
 
-namespace {
-
-Tree_box box_of(std::span<const std::uint32_t> vertices, Coordinates coordinates) {
-  Tree_box box{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto value = [&](std::uint32_t vertex) { return coordinates[3 * std::size_t{vertex} + axis]; };
-    box.low[axis] = value(*std::ranges::min_element(vertices, {}, value));
-    box.high[axis] = value(*std::ranges::max_element(vertices, {}, value));
-  }
-  return box;
-}
-
-bool same_box(const Tree_box& a, const Tree_box& b) {
-  return std::equal(a.low, a.low + 3, b.low) && std::equal(a.high, a.high + 3, b.high);
-}
-
-}  // namespace
-
-std::string Region_tree::validate(std::span<const Corners> mesh_corners, Coordinates coordinates) const {
+std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, std::size_t vertex_count) const {
   // Every face is in exactly one leaf, with its own corners.
   std::vector<std::uint32_t> uses(mesh_corners.size(), 0);
   for (std::size_t leaf = 0; leaf < leaf_count(); ++leaf) {
     const auto list = vertices(leaf);
     if (list.empty() || std::ranges::adjacent_find(list, std::greater_equal()) != list.end())
       return fmt::format("leaf {}: its vertices are not listed once each in ascending order", leaf);
-    if (list.back() >= coordinates.size() / 3) return fmt::format("leaf {}: there is no vertex {}", leaf, list.back());
+    if (list.back() >= vertex_count) return fmt::format("leaf {}: there is no vertex {}", leaf, list.back());
     for (std::size_t i = 0; i < faces(leaf).size(); ++i) {
       const std::uint32_t face = faces(leaf)[i];
       if (face >= mesh_corners.size()) return fmt::format("leaf {}: there is no face {}", leaf, face);
@@ -43,13 +25,11 @@ std::string Region_tree::validate(std::span<const Corners> mesh_corners, Coordin
     }
     if (leaf_nodes_[leaf] >= nodes_.size() || !is_leaf(leaf_nodes_[leaf]))
       return fmt::format("leaf {}: its node is none of a leaf", leaf);
-    if (!same_box(box(leaf_nodes_[leaf]), box_of(list, coordinates)))
-      return fmt::format("leaf {}: its box is not that of its vertices", leaf);
   }
   for (std::uint32_t face = 0; face < uses.size(); ++face)
     if (uses[face] != 1) return fmt::format("face {} is in {} leaves", face, uses[face]);
 
-  // A walk from the root meets all nodes and all leaves in their order, and every box encloses the two below it.
+  // A walk from the root meets all nodes and all leaves in their order.
   std::uint32_t next = 0, leaf = 0;
   std::vector<std::uint32_t> ahead{0};
   while (!ahead.empty()) {
@@ -63,10 +43,6 @@ std::string Region_tree::validate(std::span<const Corners> mesh_corners, Coordin
     }
     const std::uint32_t second = nodes_[n].second_child;
     if (second >= nodes_.size()) return fmt::format("node {}: there is no node {}", n, second);
-    for (int axis = 0; axis < 3; ++axis)
-      if (box(n).low[axis] != std::min(box(n + 1).low[axis], box(second).low[axis]) ||
-          box(n).high[axis] != std::max(box(n + 1).high[axis], box(second).high[axis]))
-        return fmt::format("node {}: its box is not that of its children", n);
     ahead.push_back(second);
     ahead.push_back(n + 1);
   }
