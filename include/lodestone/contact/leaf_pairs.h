@@ -24,7 +24,7 @@ struct Basic_posed_tree {
   const Basic_region_tree<Volume>* tree = nullptr;
   Coordinates coordinates = {};
 
-  Posed_layout layout() const {
+  operator Posed_layout() const {
     if constexpr (std::same_as<Volume, Aabb>)
       return {tree, coordinates, tree->volumes()};
     else

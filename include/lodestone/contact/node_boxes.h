@@ -14,7 +14,7 @@ template <Bounding_volume Volume>
 class Node_boxes {
  public:
   /// @param posed  its tree outlives this
-  explicit Node_boxes(const Basic_posed_tree<Volume>& posed) : layout_(posed.layout()) {
+  explicit Node_boxes(const Basic_posed_tree<Volume>& posed) : layout_(posed) {
     if constexpr (!std::same_as<Volume, Aabb>) {
       const Tree_layout& tree = *layout_.layout;
       boxes_.resize(tree.node_count());

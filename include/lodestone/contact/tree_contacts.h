@@ -49,7 +49,7 @@ inline Triangle leaf_triangle(const Posed_layout& posed, std::uint32_t leaf, std
 template <Bounding_volume Volume, Contact_visitor Visitor>
 Visit visit_contacts(const Basic_posed_tree<Volume>& a, const Basic_posed_tree<Volume>& b, double distance,
                      Tree_walk& walk, Visitor&& visitor) {
-  const Posed_layout layout_a = a.layout(), layout_b = b.layout();
+  const Posed_layout layout_a = a, layout_b = b;
   const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
     ++walk.leaf_tests;
     for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
@@ -80,7 +80,7 @@ Visit visit_contacts(const Basic_posed_tree<Volume>& a, const Basic_posed_tree<V
 /// Visits all intersecting pairs of faces of one mesh that share no vertex; pairs have a < b.
 template <Bounding_volume Volume, Contact_visitor Visitor>
 Visit visit_contacts_within(const Basic_posed_tree<Volume>& posed, Tree_walk& walk, Visitor&& visitor) {
-  const Posed_layout layout = posed.layout();
+  const Posed_layout layout = posed;
   const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
     ++walk.leaf_tests;
     for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
