@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which points a slab volume consists of, in rational arithmetic.
+#pragma once
+
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <cmath>
+
+#include "lodestone/contact/volumes/k_dop.h"
+
+namespace lodestone {
+
+using Exact_kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+using Exact_point = Exact_kernel::Point_3;
+using Exact_vector = Exact_kernel::Vector_3;
+
+/// low <= value <= high, where limits may be infinite.
+inline bool within(double low, const CGAL::Exact_rational& value, double high) {
+  const bool above = low == -INFINITY || (std::isfinite(low) && CGAL::Exact_rational(low) <= value);
+  const bool below = high == INFINITY || (std::isfinite(high) && value <= CGAL::Exact_rational(high));
+  return above && below;
+}
+
+template <int K>
+bool inside(const K_dop<K>& dop, const Exact_point& p) {
+  for (int i = 0; i < dop.slabs; ++i) {
+    const auto& d = dop.directions[i];
+    if (!within(dop.low[i], d[0] * p.x() + d[1] * p.y() + d[2] * p.z(), dop.high[i])) return false;
+  }
+  return true;
+}
+
+}  // namespace lodestone
