@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// Loops over the vertices of a leaf for volumes that are bounded by spheres, built for several instruction sets and
+/// chosen at run time. Each vertex has the same roundings in all of them, so all give the same results.
+namespace lodestone::kernel {
+
+/// Vertices of a leaf, coordinate by coordinate, where vectors find them side by side.
+struct Leaf_points {
+  static constexpr std::size_t capacity = 3 * 128;
+  static constexpr std::size_t step = 8;  ///< `size` is a multiple of this: the last vertex is there several times
+
+  alignas(64) double x[capacity];
+  alignas(64) double y[capacity];
+  alignas(64) double z[capacity];
+  std::size_t size;
+};
+
+/// Copies the vertices of a leaf. Reads nothing past the coordinates of the last one.
+/// @param vertices  `count` numbers, at least one and at most the capacity, ascending
+void gather(const double* coordinates, const std::uint32_t* vertices, std::size_t count, Leaf_points& points);
+
+struct Farthest {
+  std::size_t place;        ///< of the vertex, or of one that is as far up to a factor of 1 - 2^-43
+  double squared_distance;  ///< the largest one: computed as x x + y y + z z with each sum and product rounded
+};
+
+/// The vertex farthest from a point.
+Farthest farthest(const Leaf_points& points, const double* centre);
+
+}  // namespace lodestone::kernel
