@@ -5,10 +5,12 @@
 
 #include "lodestone/contact/bounding_volume.h"
 #include "lodestone/contact/volumes/aabb.h"
+#include "lodestone/contact/volumes/bounding_sphere.h"
+#include "lodestone/contact/volumes/k_dop.h"
 
 namespace lodestone {
 
 /// All models of Bounding_volume that the library has: what its tests and experiments run through.
-using Bounding_volumes = std::tuple<Aabb>;
+using Bounding_volumes = std::tuple<Aabb, Bounding_sphere, K_dop<14>, K_dop<18>, K_dop<26>>;
 
 }  // namespace lodestone
