@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "lodestone/contact/volumes/k_dop.h"
+#include "lodestone/contact/volumes/oriented_box.h"
 
 namespace lodestone {
 
@@ -27,6 +28,15 @@ bool inside(const K_dop<K>& dop, const Exact_point& p) {
   for (int i = 0; i < dop.slabs; ++i) {
     const auto& d = dop.directions[i];
     if (!within(dop.low[i], d[0] * p.x() + d[1] * p.y() + d[2] * p.z(), dop.high[i])) return false;
+  }
+  return true;
+}
+
+inline bool inside(const Oriented_box& box, const Exact_point& p) {
+  const Exact_vector from_centre = p - Exact_point(box.centre[0], box.centre[1], box.centre[2]);
+  for (int i = 0; i < 3; ++i) {
+    const Exact_vector axis(box.axes[i][0], box.axes[i][1], box.axes[i][2]);
+    if (!within(-box.half[i], axis * from_centre, box.half[i])) return false;
   }
   return true;
 }
