@@ -11,12 +11,13 @@ namespace lodestone::kernel {
 /// Vertices of a leaf, coordinate by coordinate, where vectors find them side by side.
 struct Leaf_points {
   static constexpr std::size_t capacity = 3 * 128;
-  static constexpr std::size_t step = 8;  ///< `size` is a multiple of this: the last vertex is there several times
+  static constexpr std::size_t step = 8;  ///< the last vertex is repeated until they are a multiple of this
 
   alignas(64) double x[capacity];
   alignas(64) double y[capacity];
   alignas(64) double z[capacity];
-  std::size_t size;
+  std::size_t count;  ///< vertices
+  std::size_t size;   ///< the same with the repetitions
 };
 
 /// Copies the vertices of a leaf. Reads nothing past the coordinates of the last one.
@@ -30,5 +31,31 @@ struct Farthest {
 
 /// The vertex farthest from a point.
 Farthest farthest(const Leaf_points& points, const double* centre);
+
+struct Sum {
+  double x, y, z;
+};
+
+/// Of the vertices seen from a point.
+Sum sum(const Leaf_points& points, const double* origin);
+
+/// Means of products of coordinates; r stands for x x + y y + z z.
+struct Moments {
+  double xx, xy, yy, yz, zz, zx, rx, ry, rz, rr;
+};
+
+/// Of the vertices seen from a point, times a factor.
+Moments moments(const Leaf_points& points, const double* origin, double factor);
+
+struct Directions {
+  double least_squared_distance;
+  double most_squared_distance;
+  double least_cosine;  ///< of the angle between a vertex and the axis, seen from the centre; means nothing if a vertex
+                        ///< is there
+};
+
+/// How far vertices are from a centre, and how far off an axis.
+/// @param squared_distances  gets that of each vertex: computed as those of `farthest` are
+Directions directions(const Leaf_points& points, const double* centre, const double* axis, double* squared_distances);
 
 }  // namespace lodestone::kernel

@@ -73,6 +73,11 @@ bool all_finite(const kernel::Leaf_points& points) {
   return finite;
 }
 
+/// @param distance  of the centres, or a little more
+bool encloses(const Bounding_sphere& a, const Bounding_sphere& b, double distance) {
+  return (distance == 0 ? b.radius : above(distance + b.radius)) <= a.radius;
+}
+
 }  // namespace
 
 void Bounding_sphere::enclose(const Leaf_faces& faces) {
@@ -92,8 +97,8 @@ void Bounding_sphere::enclose(const Leaf_faces& faces) {
 
 void Bounding_sphere::enclose(const Bounding_sphere& a, const Bounding_sphere& b) {
   const double distance = distance_above(a.centre, b.centre);
-  if (above(distance + b.radius) <= a.radius) return void(*this = a);
-  if (above(distance + a.radius) <= b.radius) return void(*this = b);
+  if (encloses(a, b, distance)) return void(*this = a);
+  if (encloses(b, a, distance)) return void(*this = b);
 
   // Any centre will do for what follows.
   const double part = distance <= most ? ((b.radius - a.radius) / distance + 1) / 2 : 0.5;

@@ -130,6 +130,19 @@ TEST(Bounding_sphere, of_two_balls_holds_both_and_is_the_smallest) {
     }
 }
 
+TEST(Bounding_sphere, of_one_in_the_other_is_the_other) {
+  const auto large = ball_at({1, 2, 3}, 3), small = ball_at({1, 2, 4}, 1), inner = ball_at({1, 2, 3}, 1);
+  for (const auto& ball : {large, small, inner, ball_at({1, 2, 3}, 0), ball_at({1, 2, 3}, infinity)}) {
+    Bounding_sphere both;
+    both.enclose(ball, ball);
+    EXPECT_EQ(both, ball);
+    both.enclose(ball, large);
+    EXPECT_EQ(both, ball.radius > 3 ? ball : large);
+    both.enclose(large, ball);
+    EXPECT_EQ(both, ball.radius > 3 ? ball : large);
+  }
+}
+
 TEST(Bounding_sphere, is_near_another_unless_they_are_apart) {
   std::mt19937_64 random(4);
   int apart = 0;
