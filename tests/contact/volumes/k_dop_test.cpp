@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "leaves.h"
+#include "point_leaves.h"
 
 namespace lodestone {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 template <int K>
 K_dop<K> around(const std::vector<Eigen::Vector3d>& points) {
   K_dop<K> dop;
-  dop.enclose(Leaf(points).faces());
+  dop.enclose(Point_leaf(points).faces());
   return dop;
 }
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "leaves.h"
+#include "point_leaves.h"
 #include "slab_membership.h"
 
 namespace lodestone {
@@ -19,7 +19,7 @@ using Box_corners = std::vector<Eigen::Vector3d>;
 
 Oriented_box around(const std::vector<Eigen::Vector3d>& points) {
   Oriented_box box;
-  box.enclose(Leaf(points).faces());
+  box.enclose(Point_leaf(points).faces());
   return box;
 }
 
@@ -62,8 +62,8 @@ bool boxes_meet(const Box_corners& a, const Box_corners& b) {
 TEST(Oriented_box, of_a_turned_box_is_the_box) {
   std::mt19937_64 random(21);
   for (int sample = 0; sample < 1000; ++sample) {
-    const Eigen::Vector3d half(1, 0.5 + 0.3 * random_vector(random).x(), 0.1);
-    const auto box = around(box_corners(half, random_turn(random), 3 * random_vector(random)));
+    const Eigen::Vector3d half(1, 0.5 + 0.3 * vector_in_cube(random).x(), 0.1);
+    const auto box = around(box_corners(half, random_turn(random), 3 * vector_in_cube(random)));
     EXPECT_NEAR(box.volume(), 8 * half.prod(), 1e-9 * half.prod());
     EXPECT_NEAR(box.extent(), 2 * half.sum(), 1e-9);
   }
@@ -73,7 +73,7 @@ TEST(Oriented_box, of_a_turned_rectangle_or_segment_is_as_flat) {
   std::mt19937_64 random(22);
   for (const double width : {0.4, 0.0})
     for (int sample = 0; sample < 1000; ++sample) {
-      const auto box = around(box_corners({1, width, 0}, random_turn(random), random_vector(random)));
+      const auto box = around(box_corners({1, width, 0}, random_turn(random), vector_in_cube(random)));
       EXPECT_NEAR(box.extent(), 2 * (1 + width), 1e-6);
       EXPECT_LE(*std::ranges::min_element(box.half), 1e-7);
     }
@@ -115,7 +115,7 @@ TEST(Oriented_box, is_near_another_exactly_if_the_two_meet) {
   for (int sample = 0; sample < 4000; ++sample) {
     const Eigen::Vector3d half(1, 0.6, 0.02 + 0.3 * (sample % 2));
     const auto a = box_corners(half, random_turn(random), {0, 0, 0});
-    const auto b = box_corners(half, random_turn(random), 1.5 * random_vector(random));
+    const auto b = box_corners(half, random_turn(random), 1.5 * vector_in_cube(random));
     met += boxes_meet(a, b);
     ASSERT_EQ(near(around(a), around(b), 0), boxes_meet(a, b)) << sample;
     ASSERT_EQ(near(around(b), around(a), 0), boxes_meet(a, b)) << sample;
@@ -138,8 +138,8 @@ TEST(Oriented_box, is_near_one_with_which_it_shares_a_corner) {
   for (const double offset : {0.0, 0x1p20})
     for (int sample = 0; sample < 1000; ++sample) {
       const auto axes = around(box_corners({1, 0.6, 0.1}, random_turn(random), {0, 0, 0}));
-      const Eigen::Vector3d p = random_vector(random) + Eigen::Vector3d(offset, 0, 0);
-      const Eigen::Vector3d step = random_vector(random);
+      const Eigen::Vector3d p = vector_in_cube(random) + Eigen::Vector3d(offset, 0, 0);
+      const Eigen::Vector3d step = vector_in_cube(random);
       const auto a = smallest_up_to(p, p + step, axes), b = smallest_up_to(p, p - 0.7 * step, axes);
       ASSERT_TRUE(near(a, b, 0) && near(b, a, 0));
     }

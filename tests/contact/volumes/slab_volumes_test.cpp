@@ -6,8 +6,8 @@
 
 #include "contact/guarded_coordinates.h"
 #include "contact/instruction_sets.h"
-#include "leaves.h"
 #include "lodestone/contact/bounding_volume.h"
+#include "point_leaves.h"
 #include "slab_membership.h"
 
 namespace lodestone {
@@ -40,11 +40,11 @@ Eigen::Vector3d sides(const Aabb& box) {
 
 /// Points of a volume, many of them near its border: those from a vertex outwards, by less and less, that are inside.
 template <class Volume>
-std::vector<Exact_point> points_inside(const Volume& volume, const Leaf& leaf, std::mt19937_64& random) {
+std::vector<Exact_point> points_inside(const Volume& volume, const Point_leaf& leaf, std::mt19937_64& random) {
   const Eigen::Vector3d size = sides(volume.bounds());
   std::vector<Exact_point> points;
   for (int sample = 0; sample < 30; ++sample) {
-    const Eigen::Vector3d step = std::ldexp(1.0, -2 * sample) * size.cwiseProduct(random_vector(random));
+    const Eigen::Vector3d step = std::ldexp(1.0, -2 * sample) * size.cwiseProduct(vector_in_cube(random));
     const Eigen::Vector3d p = leaf.point(random() % leaf.vertices.size()) + step;
     if (p.allFinite() && inside(volume, exact(p))) points.push_back(exact(p));
   }
@@ -89,9 +89,9 @@ TYPED_TEST(Slab_volume, is_near_one_that_shares_a_vertex) {
     const auto size = sides(a.bounds());
     for (int sample = 0; sample < 10; ++sample) {
       std::vector<Eigen::Vector3d> points{leaf.point(random() % leaf.vertices.size())};
-      const Eigen::Vector3d away = random_vector(random);
-      for (int k = 0; k < 6; ++k) points.push_back(points[0] + size.cwiseProduct(away + 0.2 * random_vector(random)));
-      const auto b = around<TypeParam>(Leaf(points).faces());
+      const Eigen::Vector3d away = vector_in_cube(random);
+      for (int k = 0; k < 6; ++k) points.push_back(points[0] + size.cwiseProduct(away + 0.2 * vector_in_cube(random)));
+      const auto b = around<TypeParam>(Point_leaf(points).faces());
       ASSERT_TRUE(near(a, b, 0) && near(b, a, 0)) << leaf.name;
       ASSERT_TRUE(near(a, b, 1e-3) && near(b, a, 1e-320)) << leaf.name;
     }
@@ -102,8 +102,8 @@ TYPED_TEST(Slab_volume, is_near_one_within_the_margin) {
   std::mt19937_64 random(14);
   for (const double scale : {1.0, 0x1p-300, 0x1p300, 1e-320})
     for (int sample = 0; sample < 3000; ++sample) {
-      auto points = points_in_box(10, {0.5, 0.3, sample % 2 * 0.1}, random_vector(random), random);
-      const auto others = points_in_box(10, {0.5, 0.3, 0.1}, 2 * random_vector(random), random);
+      auto points = points_in_box(10, {0.5, 0.3, sample % 2 * 0.1}, vector_in_cube(random), random);
+      const auto others = points_in_box(10, {0.5, 0.3, 0.1}, 2 * vector_in_cube(random), random);
       std::vector<Eigen::Vector3d> a, b;
       for (const auto& p : points) a.push_back(scale * p);
       for (const auto& p : others) b.push_back(scale * p);
@@ -112,7 +112,7 @@ TYPED_TEST(Slab_volume, is_near_one_within_the_margin) {
         for (const auto& q : b) margin = std::min(margin, scale * ((p - q) / scale).norm());
       margin *= 1 + 1e-15;
       margin = std::nextafter(margin, INFINITY);
-      ASSERT_TRUE(near(around<TypeParam>(Leaf(a).faces()), around<TypeParam>(Leaf(b).faces()), margin));
+      ASSERT_TRUE(near(around<TypeParam>(Point_leaf(a).faces()), around<TypeParam>(Point_leaf(b).faces()), margin));
     }
 }
 
@@ -120,8 +120,8 @@ TYPED_TEST(Slab_volume, is_not_near_one_beyond_a_plane) {
   std::mt19937_64 random(15);
   for (const auto& d : K_dop<26>::directions) {
     const Eigen::Vector3d step(3.5 * d[0], 3.5 * d[1], 3.5 * d[2]);
-    const auto a = around<TypeParam>(Leaf(points_in_box(60, {1, 1, 0.5}, {0, 0, 0}, random)).faces());
-    const auto b = around<TypeParam>(Leaf(points_in_box(60, {1, 1, 0.5}, step, random)).faces());
+    const auto a = around<TypeParam>(Point_leaf(points_in_box(60, {1, 1, 0.5}, {0, 0, 0}, random)).faces());
+    const auto b = around<TypeParam>(Point_leaf(points_in_box(60, {1, 1, 0.5}, step, random)).faces());
     EXPECT_FALSE(near(a, b, 0));
     EXPECT_FALSE(near(a, b, 0.25));
     EXPECT_TRUE(near(a, b, step.norm()));
@@ -130,7 +130,7 @@ TYPED_TEST(Slab_volume, is_not_near_one_beyond_a_plane) {
 
 TYPED_TEST(Slab_volume, of_a_single_point_has_no_extent_and_no_volume) {
   for (const double scale : {1.0, 0x1p-300, 0x1p300, 1e-320}) {
-    const Leaf leaf(std::vector(5, Eigen::Vector3d(0.1 * scale, -0.7 * scale, 0.3 * scale)));
+    const Point_leaf leaf(std::vector(5, Eigen::Vector3d(0.1 * scale, -0.7 * scale, 0.3 * scale)));
     const auto a = around<TypeParam>(leaf.faces()), both = around(a, a);
     EXPECT_EQ(a.extent(), 0);
     EXPECT_EQ(a.volume(), 0);
@@ -142,12 +142,12 @@ TYPED_TEST(Slab_volume, of_a_single_point_has_no_extent_and_no_volume) {
 TYPED_TEST(Slab_volume, of_flat_and_straight_leaves_has_next_to_no_volume) {
   std::mt19937_64 random(16);
   for (const double thickness : {0.0, 0.5}) {
-    const auto flat = around<TypeParam>(Leaf(points_in_box(60, {1, thickness, 0}, {1, 2, 3}, random)).faces());
+    const auto flat = around<TypeParam>(Point_leaf(points_in_box(60, {1, thickness, 0}, {1, 2, 3}, random)).faces());
     EXPECT_GT(flat.extent(), 0);
     EXPECT_GE(flat.volume(), 0);
     EXPECT_LE(flat.volume(), sides(flat.bounds()).prod());
   }
-  const Leaf level({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}});
+  const Point_leaf level({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}});
   EXPECT_LE(around<TypeParam>(level.faces()).volume(), 1e-12);
 }
 
@@ -165,7 +165,7 @@ TYPED_TEST(Slab_volume, is_the_same_for_every_instruction_set) {
 TYPED_TEST(Slab_volume, reads_nothing_past_the_last_vertex) {
   std::mt19937_64 random(17);
   for (std::size_t count = 1; count < 40; ++count) {
-    Leaf leaf(points_in_box(count, {1, 1, 1}, {0, 0, 0}, random));
+    Point_leaf leaf(points_in_box(count, {1, 1, 1}, {0, 0, 0}, random));
     const Guarded_coordinates guarded(leaf.coordinates);
     for_instruction_sets([&] {
       const auto volume = around<TypeParam>({guarded.values(), leaf.vertices, leaf.corners});
@@ -178,7 +178,7 @@ TYPED_TEST(Slab_volume, of_coordinates_that_are_not_finite_comes_to_an_end) {
   std::mt19937_64 random(18);
   for (const double bad : {double{NAN}, double{INFINITY}, double{-INFINITY}})
     for (std::size_t place = 0; place < 27; ++place) {
-      Leaf leaf(points_in_box(9, {1, 1, 1}, {0, 0, 0}, random));
+      Point_leaf leaf(points_in_box(9, {1, 1, 1}, {0, 0, 0}, random));
       leaf.coordinates[place] = bad;
       const auto a = around<TypeParam>(leaf.faces()), both = around(a, a);
       near(a, both, 0), a.extent(), a.volume(), both.volume(), a.bounds(), both.bounds();
