@@ -9,6 +9,7 @@
 
 #include "lodestone/contact/volumes/k_dop.h"
 #include "lodestone/contact/volumes/oriented_box.h"
+#include "lodestone/contact/volumes/quospo.h"
 
 namespace lodestone {
 
@@ -37,6 +38,16 @@ inline bool inside(const Oriented_box& box, const Exact_point& p) {
   for (int i = 0; i < 3; ++i) {
     const Exact_vector axis(box.axes[i][0], box.axes[i][1], box.axes[i][2]);
     if (!within(-box.half[i], axis * from_centre, box.half[i])) return false;
+  }
+  return true;
+}
+
+inline bool inside(const Quospo& volume, const Exact_point& p) {
+  const auto directions = volume.turn.directions();
+  for (int i = 0; i < 3; ++i) {
+    const auto& d = directions[i];
+    if (!within(volume.low[i], p[i], volume.high[i])) return false;
+    if (!within(volume.turned_low[i], d[0] * p.x() + d[1] * p.y() + d[2] * p.z(), volume.turned_high[i])) return false;
   }
   return true;
 }

@@ -15,7 +15,7 @@ namespace {
 
 template <class Volume>
 class Slab_volume : public testing::Test {};
-using Slab_volumes = testing::Types<K_dop<14>, K_dop<18>, K_dop<26>, Oriented_box>;
+using Slab_volumes = testing::Types<K_dop<14>, K_dop<18>, K_dop<26>, Oriented_box, Quospo>;
 TYPED_TEST_SUITE(Slab_volume, Slab_volumes);
 
 template <class Volume>
