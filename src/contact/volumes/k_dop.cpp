@@ -5,8 +5,12 @@
 
 #include "contact/volumes/slab_kernel.h"
 #include "contact/volumes/slab_polytope.h"
+#include "lodestone/contact/bounding_volume.h"
 
 namespace lodestone {
+
+static_assert(Bounding_volume<K_dop<14>> && Bounding_volume<K_dop<18>> && Bounding_volume<K_dop<26>>);
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -8,8 +8,12 @@
 
 #include "contact/volumes/principal_axes.h"
 #include "contact/volumes/slab_kernel.h"
+#include "lodestone/contact/bounding_volume.h"
 
 namespace lodestone {
+
+static_assert(Bounding_volume<Oriented_box>);
+
 namespace {
 
 // What is true of axes that are orthonormal up to 3e-15, and is used below; all of it in exact arithmetic. Let A have

@@ -9,8 +9,12 @@
 #include "contact/volumes/principal_axes.h"
 #include "contact/volumes/slab_kernel.h"
 #include "contact/volumes/slab_polytope.h"
+#include "lodestone/contact/bounding_volume.h"
 
 namespace lodestone {
+
+static_assert(Bounding_volume<Quospo>);
+
 namespace {
 
 using Directions = std::array<std::array<double, 3>, 3>;

@@ -24,8 +24,8 @@ struct Oriented_box {
   double half[3];     ///< half widths
   double axes[3][3];  ///< by axis, then x, y, z
 
-  /// The principal axes of the vertices, or those of space where these give a smaller surface. The widths are more than
-  /// they need be by about 2^-48 of themselves. Infinite where coordinates are beyond 1e307.
+  /// The principal axes of the vertices, or those of space where these give a smaller surface. Every width is more than
+  /// it need be by some 2^-46 of the largest. Where one would be beyond 1e307, all are infinite.
   void enclose(const Leaf_faces& faces);
   /// Of boxes with the axes of a, those of b and the principal axes of both (two solid boxes of equal mass) the one of
   /// the smallest surface. O(1).
