@@ -7,14 +7,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "leaves.h"
+#include "point_leaves.h"
 
 namespace lodestone {
 namespace {
 
 Quospo around(const std::vector<Eigen::Vector3d>& points) {
   Quospo volume;
-  volume.enclose(Leaf(points).faces());
+  volume.enclose(Point_leaf(points).faces());
   return volume;
 }
 

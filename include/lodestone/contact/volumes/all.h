@@ -8,12 +8,13 @@
 #include "lodestone/contact/volumes/bounding_sphere.h"
 #include "lodestone/contact/volumes/k_dop.h"
 #include "lodestone/contact/volumes/oriented_box.h"
+#include "lodestone/contact/volumes/quospo.h"
 #include "lodestone/contact/volumes/spherical_shell.h"
 
 namespace lodestone {
 
 /// All models of Bounding_volume that the library has: what its tests and experiments run through.
 using Bounding_volumes =
-    std::tuple<Aabb, Bounding_sphere, Oriented_box, K_dop<14>, K_dop<18>, K_dop<26>, Spherical_shell>;
+    std::tuple<Aabb, Bounding_sphere, Oriented_box, K_dop<14>, K_dop<18>, K_dop<26>, Quospo, Spherical_shell>;
 
 }  // namespace lodestone
