@@ -2,20 +2,14 @@
 // Which points a slab volume consists of, in rational arithmetic.
 #pragma once
 
-#include <CGAL/Exact_rational.h>
-#include <CGAL/Simple_cartesian.h>
-
 #include <cmath>
 
+#include "exact_point.h"
 #include "lodestone/contact/volumes/k_dop.h"
 #include "lodestone/contact/volumes/oriented_box.h"
 #include "lodestone/contact/volumes/quospo.h"
 
 namespace lodestone {
-
-using Exact_kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
-using Exact_point = Exact_kernel::Point_3;
-using Exact_vector = Exact_kernel::Vector_3;
 
 /// low <= value <= high, where limits may be infinite.
 inline bool within(double low, const CGAL::Exact_rational& value, double high) {
