@@ -17,14 +17,14 @@ inline bool inside(const Bounding_sphere& ball, const Exact_point& p) {
 }
 
 inline bool inside(const Spherical_shell& shell, const Exact_point& p) {
-  using Rational = CGAL::Exact_rational;
+  using Number = CGAL::Exact_rational;
   if (!inside(shell.ball, p)) return false;
   const Exact_vector v = p - exact_point(shell.centre), axis = exact_point(shell.axis) - Exact_point(0, 0, 0);
-  const Rational squared = v.squared_length(), along = v * axis;
-  if (squared < Rational(shell.inner) * shell.inner) return false;
-  if (!std::isinf(shell.outer) && squared > Rational(shell.outer) * shell.outer) return false;
+  const Number squared = v.squared_length(), along = v * axis;
+  if (squared < Number(shell.inner) * shell.inner) return false;
+  if (!std::isinf(shell.outer) && squared > Number(shell.outer) * shell.outer) return false;
   // Both sides of the inequality are squared where both are of one sign.
-  const Rational limit = Rational(shell.cosine) * shell.cosine * squared * axis.squared_length();
+  const Number limit = Number(shell.cosine) * shell.cosine * squared * axis.squared_length();
   if (shell.cosine < 0) return along >= 0 || along * along <= limit;
   return along >= 0 && along * along >= limit;
 }
