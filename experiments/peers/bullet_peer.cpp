@@ -12,7 +12,7 @@ namespace {
 
 class Bullet_peer : public Peer {
  public:
-  void add(const Peer_mesh& mesh) override {
+  void add(const Moving_mesh& mesh) override {
     auto& object = *objects_.emplace_back(std::make_unique<Object>());
     object.mesh = mesh;
     object.read_positions();
@@ -51,7 +51,7 @@ class Bullet_peer : public Peer {
   using Local_position = std::array<float, 3>;
 
   struct Object {
-    Peer_mesh mesh;
+    Moving_mesh mesh;
     Eigen::Vector3d centre;
     /// Against the centre: a quantised tree keeps the bounds it was built with, and must not leave them.
     std::vector<Local_position> positions;

@@ -22,7 +22,7 @@ namespace {
 using Triangle_3 = Kernel::Triangle_3;
 using Face_box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 
-Triangle_3 triangle(const Peer_mesh& mesh, std::uint32_t face) {
+Triangle_3 triangle(const Moving_mesh& mesh, std::uint32_t face) {
   const auto points = mesh.points();
   const auto& [p, q, r] = mesh.corners[face];
   return {points[p], points[q], points[r]};
@@ -31,7 +31,7 @@ Triangle_3 triangle(const Peer_mesh& mesh, std::uint32_t face) {
 /// `CGAL::Polygon_mesh_processing::do_intersect`.
 class Do_intersect_peer : public Peer {
  public:
-  void add(const Peer_mesh& mesh) override { meshes_.push_back(mesh); }
+  void add(const Moving_mesh& mesh) override { meshes_.push_back(mesh); }
   void update(std::size_t /*object*/) override {}
   bool any(std::size_t a, std::size_t b) override {
     return CGAL::Polygon_mesh_processing::do_intersect(*meshes_[a].mesh, *meshes_[b].mesh);
@@ -39,14 +39,14 @@ class Do_intersect_peer : public Peer {
   void all(std::size_t /*a*/, std::size_t /*b*/, std::vector<Face_pair>& /*found*/) override {}
 
  private:
-  std::vector<Peer_mesh> meshes_;
+  std::vector<Moving_mesh> meshes_;
 };
 
 /// `CGAL::AABB_tree`, built anew in every frame. The triangles of the smaller mesh that reach the other's box are asked
 /// for one by one.
 class Tree_peer : public Peer {
  public:
-  void add(const Peer_mesh& mesh) override {
+  void add(const Moving_mesh& mesh) override {
     objects_.push_back({mesh, std::make_unique<Tree>()});
     update(objects_.size() - 1);
   }
@@ -87,7 +87,7 @@ class Tree_peer : public Peer {
   using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
   struct Object {
-    Peer_mesh mesh;
+    Moving_mesh mesh;
     std::unique_ptr<Tree> tree;
   };
   struct By_size {
@@ -111,7 +111,7 @@ struct Found_one {};
 template <bool culled>
 class Boxes_peer : public Peer {
  public:
-  void add(const Peer_mesh& mesh) override { objects_.push_back({mesh, {}}); }
+  void add(const Moving_mesh& mesh) override { objects_.push_back({mesh, {}}); }
 
   void update(std::size_t object) override {
     if (culled) objects_[object].bounds = read_every_vertex(objects_[object].mesh.coordinates());
@@ -132,13 +132,13 @@ class Boxes_peer : public Peer {
 
  private:
   struct Object {
-    Peer_mesh mesh;
+    Moving_mesh mesh;
     Box bounds;
   };
 
   template <class Visitor>
   void visit(std::size_t a, std::size_t b, const Visitor& visitor) {
-    const Peer_mesh &mesh_a = objects_[a].mesh, &mesh_b = objects_[b].mesh;
+    const Moving_mesh &mesh_a = objects_[a].mesh, &mesh_b = objects_[b].mesh;
     const Box overlap = culled ? objects_[a].bounds.intersection(objects_[b].bounds) : Box();
     if (culled && overlap.isEmpty()) return;
     make_boxes(mesh_a, overlap, boxes_a_);
@@ -150,7 +150,7 @@ class Boxes_peer : public Peer {
                              });
   }
 
-  static void make_boxes(const Peer_mesh& mesh, const Box& overlap, std::vector<Face_box>& boxes) {
+  static void make_boxes(const Moving_mesh& mesh, const Box& overlap, std::vector<Face_box>& boxes) {
     const auto points = mesh.points();
     boxes.clear();
     for (std::uint32_t face = 0; face < mesh.corners.size(); ++face) {

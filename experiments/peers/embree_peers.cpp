@@ -27,7 +27,7 @@ float rounded_down(double x) {
 }
 float rounded_up(double x) { return -rounded_down(-x); }
 
-Triangle triangle(const Peer_mesh& mesh, std::uint32_t face) {
+Triangle triangle(const Moving_mesh& mesh, std::uint32_t face) {
   const auto points = mesh.points();
   const auto& [p, q, r] = mesh.corners[face];
   return {points[p], points[q], points[r]};
@@ -45,7 +45,7 @@ bool boxes_meet(const Triangle& a, const Triangle& b) {
 
 /// Bounds of one triangle, for Embree.
 void bound(const RTCBoundsFunctionArguments* arguments) {
-  const auto& mesh = *static_cast<const Peer_mesh*>(arguments->geometryUserPtr);
+  const auto& mesh = *static_cast<const Moving_mesh*>(arguments->geometryUserPtr);
   const double* coordinates = mesh.coordinates().data();
   const auto& [p, q, r] = mesh.corners[arguments->primID];
   const double *a = coordinates + 3 * std::size_t{p}, *b = coordinates + 3 * std::size_t{q},
@@ -61,7 +61,7 @@ void bound(const RTCBoundsFunctionArguments* arguments) {
 
 /// What the callback of one query works on. It is called by several threads at once.
 struct Query {
-  const Peer_mesh *a, *b;
+  const Moving_mesh *a, *b;
   bool stop_at_one;
   std::atomic<bool> found_one = false;
   std::array<std::vector<Face_pair>, most_threads> found = {};  ///< per thread
@@ -96,7 +96,7 @@ class Embree_peer : public Peer {
     rtcReleaseDevice(device_);
   }
 
-  void add(const Peer_mesh& mesh) override {
+  void add(const Moving_mesh& mesh) override {
     auto& object = *objects_.emplace_back(std::make_unique<Object>());
     object = {mesh, rtcNewScene(device_), rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER)};
     rtcSetGeometryUserPrimitiveCount(object.geometry, static_cast<unsigned>(mesh.corners.size()));
@@ -130,7 +130,7 @@ class Embree_peer : public Peer {
 
  private:
   struct Object {
-    Peer_mesh mesh;
+    Moving_mesh mesh;
     RTCScene scene;
     RTCGeometry geometry;
   };

@@ -68,7 +68,7 @@ class Impatient_node : public Traversal<Volume>::Node {
 template <class Volume>
 class Fcl_peer : public Peer {
  public:
-  void add(const Peer_mesh& mesh) override {
+  void add(const Moving_mesh& mesh) override {
     auto& object = objects_.emplace_back(Object{mesh, std::make_unique<Model>(), {}});
     object.read_positions();
     std::vector<fcl::Triangle> triangles;
@@ -104,7 +104,7 @@ class Fcl_peer : public Peer {
   using Model = fcl::BVHModel<Volume>;
 
   struct Object {
-    Peer_mesh mesh;
+    Moving_mesh mesh;
     std::unique_ptr<Model> model;
     std::vector<fcl::Vector3d> positions;
 

@@ -27,7 +27,7 @@ class Ode_peer : public Peer {
   }
 
   /// ODE reads positions where they are, in every call.
-  void add(const Peer_mesh& mesh) override {
+  void add(const Moving_mesh& mesh) override {
     const auto data = dGeomTriMeshDataCreate();
     dGeomTriMeshDataBuildDouble(data, mesh.coordinates().data(), sizeof(Point), static_cast<int>(mesh.points().size()),
                                 mesh.corners.data(), static_cast<int>(3 * mesh.corners.size()), sizeof(Corners));

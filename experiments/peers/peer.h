@@ -2,30 +2,14 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "lodestone/concepts.h"
 #include "lodestone/contact/confirmation.h"
-#include "lodestone/partition/mesh_numbering.h"
+#include "moving_mesh.h"
 
 /// Other libraries that answer the same question, each behind the same small interface.
 namespace lodestone {
-
-/// A mesh as every library is shown it: its faces stay, its positions change from frame to frame. Valid as long as the
-/// mesh and the corners.
-struct Peer_mesh {
-  const Surface_mesh* mesh = nullptr;
-  std::span<const Corners> corners;  ///< per face
-
-  std::span<const Point> points() const { return {mesh->points().data(), mesh->number_of_vertices()}; }
-  /// Three per vertex, one vertex after the other.
-  std::span<const double> coordinates() const {
-    static_assert(sizeof(Point) == 3 * sizeof(double));
-    return {reinterpret_cast<const double*>(points().data()), 3 * points().size()};
-  }
-};
 
 /// Seconds after which a query may give up: some would take hours on a large scene.
 constexpr double patience = 1;
@@ -41,7 +25,7 @@ class Peer {
   virtual ~Peer() = default;
 
   /// Builds all that the library keeps of a mesh, from where its vertices are now.
-  virtual void add(const Peer_mesh& mesh) = 0;
+  virtual void add(const Moving_mesh& mesh) = 0;
   /// Brings an object to where its vertices are now: whatever has to be done once per frame and object, including the
   /// conversion to the library's own layout.
   virtual void update(std::size_t object) = 0;

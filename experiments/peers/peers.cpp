@@ -2,50 +2,16 @@
 // Other collision libraries on the same frames: time, memory, and right and wrong answers.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-
 #include "experiment.h"
-#include "lodestone/errors.h"
 #include "lodestone/io/text_table.h"
 #include "measured_run.h"
-#include "peer_run.h"
+#include "peer.h"
+#include "peer_entries.h"
+#include "race_figures.h"
 
 namespace lodestone {
 
 namespace {
-
-constexpr std::array default_scenes{"teapot_sphere_1",  "spheres_5k",       "spheres_50k",
-                                    "spheres_500k",     "spheres_2m",       "torus_knots_20k",
-                                    "torus_knots_200k", "cloth_sphere_80k", "bodies_20_5k"};
-
-std::vector<double> values(const Entry_figures& figures, double Frame_seconds::*figure) {
-  std::vector<double> all;
-  all.reserve(figures.frames.size());
-  for (const auto& frame : figures.frames) all.push_back(frame.*figure);
-  return all;
-}
-
-double median_of(const Entry_figures& figures, double Frame_seconds::*figure) {
-  return median(values(figures, figure));
-}
-
-/// The least value that 95 % of the values do not exceed.
-double percentile_95(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size())));
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-  std::ranges::nth_element(values, place);
-  return *place;
-}
-
-/// Three to four digits.
-std::string milliseconds(double seconds) {
-  const double ms = 1e3 * seconds;
-  return fmt::format("{:.{}f}", ms, ms < 1 ? 4 : ms < 10 ? 3 : ms < 100 ? 2 : ms < 1000 ? 1 : 0);
-}
 
 const char* const nothing = "-";
 
@@ -201,19 +167,14 @@ nlohmann::ordered_json to_json(const Scene_figures& scene) {
 }  // namespace
 
 std::string run_peers(const Experiment_context& context) {
-  std::vector<std::string> names = context.only;
-  if (names.empty()) names.assign(default_scenes.begin(), default_scenes.end());
-  for (const auto& name : names)
-    if (!exists(context.scenes / (name + ".json")))
-      throw Bad_scene(fmt::format("{}: there is no such scene", (context.scenes / (name + ".json")).string()));
-
+  const auto names = race_scenes(context);
   const auto entries = all_entries();
   std::string report;
   nlohmann::ordered_json json;
   constexpr std::size_t steps = 1000;  // per scene
   for (std::size_t s = 0; s < names.size(); ++s) {
     auto scene = read_scene(context.scenes / (names[s] + ".json"));
-    const auto figures = measure_peers(scene, entries, {}, [&](double share) {
+    const auto figures = measure_race(scene, entries, {}, [&](double share) {
       context.progress(s * steps + static_cast<std::size_t>(share * steps), names.size() * steps);
     });
     report += (s > 0 ? "\n" : "") + section(figures);

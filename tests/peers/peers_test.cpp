@@ -31,7 +31,7 @@ class Two_shapes {
     for (std::size_t o = 0; o < meshes_.size(); ++o)
       motions_[o].pose(frame, std::span(&*meshes_[o].points().begin(), meshes_[o].number_of_vertices()));
   }
-  Peer_mesh shown(std::size_t object) const { return {&meshes_[object], corners_[object]}; }
+  Moving_mesh shown(std::size_t object) const { return {&meshes_[object], corners_[object]}; }
   std::vector<Face_pair> truth() const { return exhaustive_face_pairs(meshes_[0], meshes_[1]); }
 
   static constexpr std::size_t frames = 25;

@@ -13,14 +13,14 @@
 namespace lodestone {
 
 /// How much of a scene is measured. What is slow is measured less often, by rules that a reader can check.
-struct Peer_run_options {
+struct Race_options {
   std::size_t triangles = 15'000'000;        ///< of all sampled frames together; decides how many frames are sampled
   std::size_t least_frames = 6;              ///< but at least so many
   std::size_t most_frames = 30;              ///< and at most so many
   std::size_t passes = 5;                    ///< over all sampled frames
   double seconds = 3;                        ///< per entry and scene; beyond it an entry plays no third pass
   double most_seconds = 60;                  ///< per entry and scene; beyond it an entry plays no further frame
-  std::size_t bytes = std::size_t{4} << 30;  ///< of entries that live at the same time, see `measure_peers`
+  std::size_t bytes = std::size_t{4} << 30;  ///< of entries that live at the same time, see `measure_race`
 };
 
 /// Seconds in one frame: for each figure the least over the passes.
@@ -83,7 +83,7 @@ std::vector<std::size_t> spread(std::size_t range, std::size_t count);
 /// Entries whose hierarchies do not fit into `bytes` together play the same frames one batch after the other.
 ///
 /// @param progress  share of the work that is done; may throw to stop
-Scene_figures measure_peers(Scene& scene, std::span<const Entry> entries, const Peer_run_options& options,
-                            const std::function<void(double)>& progress);
+Scene_figures measure_race(Scene& scene, std::span<const Entry> entries, const Race_options& options,
+                           const std::function<void(double)>& progress);
 
 }  // namespace lodestone

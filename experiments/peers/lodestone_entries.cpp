@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "entrant.h"
 #include "lap_timer.h"
 #include "lodestone/detector.h"
+#include "peer_entries.h"
 
 namespace lodestone {
 
@@ -16,7 +16,7 @@ namespace {
 /// One detector for each of the two questions.
 class Lodestone_entrant : public Entrant {
  public:
-  Lodestone_entrant(std::span<const Peer_mesh> meshes, std::size_t threads)
+  Lodestone_entrant(std::span<const Moving_mesh> meshes, std::size_t threads)
       : meshes_(meshes.begin(), meshes.end()),
         any_({.mode = Mode::exact, .contacts = Contact_query::yes_no, .exact = {.threads = threads}}),
         all_({.mode = Mode::exact, .contacts = Contact_query::all, .exact = {.threads = threads}}) {
@@ -71,7 +71,7 @@ class Lodestone_entrant : public Entrant {
     return static_cast<std::size_t>(std::ranges::find(pairs, Object_pair{pair.a, pair.b}) - pairs.begin());
   }
 
-  std::vector<Peer_mesh> meshes_;
+  std::vector<Moving_mesh> meshes_;
   Detector<Surface_mesh> any_, all_;
   Answer answer_;
   bool asks_any_ = true, asks_all_ = true;
@@ -82,7 +82,7 @@ Entry entry(std::size_t threads) {
           .method = threads == 1 ? "exact" : fmt::format("exact, {} threads", threads),
           .volume = "AABB",
           .threads = threads,
-          .build = [threads](std::span<const Peer_mesh> meshes) -> std::unique_ptr<Entrant> {
+          .build = [threads](std::span<const Moving_mesh> meshes) -> std::unique_ptr<Entrant> {
             return std::make_unique<Lodestone_entrant>(meshes, threads);
           }};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "peer_run.h"
+#include "race.h"
 
 #include <gtest/gtest.h>
 
@@ -51,12 +51,12 @@ class Liar : public Entrant {
 };
 
 Entry liar(const Answer& answer) {
-  return {.library = "test", .method = "lie", .volume = "none", .build = [answer](std::span<const Peer_mesh>) {
+  return {.library = "test", .method = "lie", .volume = "none", .build = [answer](std::span<const Moving_mesh>) {
             return std::make_unique<Liar>(answer);
           }};
 }
 
-class Peer_run : public testing::Test {
+class Race : public testing::Test {
  protected:
   /// Two unit spheres: far apart in frames 0 to 2, near in 3, intersecting in 4 and 5.
   void SetUp() override {
@@ -67,22 +67,22 @@ class Peer_run : public testing::Test {
                                           {"frame": 4, "at": [1.5, 0, 0]}]}}]}}]})");
     scene = read_scene(file);
   }
-  Scene_figures measured(const Entry& entry, const Peer_run_options& options = {}) {
-    return measure_peers(scene, std::vector{entry}, options, [](double) {});
+  Scene_figures measured(const Entry& entry, const Race_options& options = {}) {
+    return measure_race(scene, std::vector{entry}, options, [](double) {});
   }
 
   test::Temporary_folder folder;
   Scene scene;
 };
 
-TEST_F(Peer_run, plays_the_frames_in_which_the_boxes_overlap) {
+TEST_F(Race, plays_the_frames_in_which_the_boxes_overlap) {
   const auto figures = measured(liar({.collides = {true}, .contacts = {{}}}));
   EXPECT_EQ(figures.sampled, (std::vector<std::size_t>{3, 4, 5}));
   EXPECT_EQ(figures.asked, 3U);
   EXPECT_EQ(figures.colliding, 2U);
 }
 
-TEST_F(Peer_run, counts_wrong_answers_to_both_sides) {
+TEST_F(Race, counts_wrong_answers_to_both_sides) {
   const auto yes = measured(liar({.collides = {true}, .contacts = {{}}})).entries.at(0);
   EXPECT_EQ(yes.missed, 0U);
   EXPECT_EQ(yes.invented, 1U);
@@ -98,7 +98,7 @@ TEST_F(Peer_run, counts_wrong_answers_to_both_sides) {
   EXPECT_FALSE(no.any_is_right());
 }
 
-TEST_F(Peer_run, figures_are_the_least_over_the_passes) {
+TEST_F(Race, figures_are_the_least_over_the_passes) {
   const auto figures = measured(
       liar({.update_seconds = 0.5, .any_seconds = 0.25, .all_seconds = 2, .collides = {true}, .contacts = {{}}}),
       {.passes = 4});
@@ -109,7 +109,7 @@ TEST_F(Peer_run, figures_are_the_least_over_the_passes) {
   EXPECT_EQ(entry.frames[0].update_and_all, 2.5);
 }
 
-TEST_F(Peer_run, who_gives_up_is_never_right_and_plays_no_further_frame) {
+TEST_F(Race, who_gives_up_is_never_right_and_plays_no_further_frame) {
   const auto entry = measured(liar({.gave_up = true, .collides = {true}, .contacts = {{}}})).entries.at(0);
   EXPECT_TRUE(entry.gave_up);
   EXPECT_EQ(entry.frames.size(), 1U);
@@ -118,7 +118,7 @@ TEST_F(Peer_run, who_gives_up_is_never_right_and_plays_no_further_frame) {
   EXPECT_FALSE(entry.any_is_right());
 }
 
-TEST_F(Peer_run, whose_time_is_over_leaves_early) {
+TEST_F(Race, whose_time_is_over_leaves_early) {
   const auto entry =
       measured(liar({.collides = {true}, .contacts = {{}}}), {.passes = 1, .most_seconds = 0}).entries[0];
   EXPECT_TRUE(entry.left_early);
@@ -126,16 +126,49 @@ TEST_F(Peer_run, whose_time_is_over_leaves_early) {
   EXPECT_FALSE(entry.any_is_right());
 }
 
-TEST_F(Peer_run, entries_that_do_not_fit_into_memory_together_play_the_same_frames) {
-  const auto entries = all_entries();
-  const auto figures = measure_peers(scene, entries, {.passes = 1, .bytes = 1}, [](double) {});
-  EXPECT_GT(figures.batches, entries.size() / 2);
-  ASSERT_EQ(figures.entries.size(), entries.size());
-  for (const auto& entry : figures.entries) {
-    EXPECT_EQ(entry.frames.size(), 3U) << entry.entry.name();
-    if (entry.entry.volume == "RSS") continue;  // known to miss collisions after a refit
-    EXPECT_EQ(entry.missed, 0U) << entry.entry.name() << ' ' << entry.entry.volume;
+/// Remembers where the first vertex of the second object was whenever it was called.
+class Witness : public Entrant {
+ public:
+  struct Seen {
+    std::vector<double> approached, played;
+    std::vector<std::size_t> inspected, pairs;
+  };
+  Witness(const Moving_mesh& mesh, Seen& seen) : mesh_(mesh), seen_(seen) {}
+  bool wants_approach() const override { return true; }
+  void approach() override { seen_.approached.push_back(mesh_.points()[0].x()); }
+  const Answer& play(std::span<const Object_pair> pairs) override {
+    seen_.played.push_back(mesh_.points()[0].x());
+    answer_.collides.assign(pairs.size(), true);
+    answer_.contacts.resize(pairs.size());
+    return answer_;
   }
+  void inspect(std::span<const Object_pair> pairs, std::size_t frame, std::size_t frames) override {
+    EXPECT_EQ(frames, 3U);
+    EXPECT_EQ(mesh_.points()[0].x(), seen_.played[frame]);
+    seen_.inspected.push_back(frame);
+    seen_.pairs.push_back(pairs.size());
+  }
+
+ private:
+  Moving_mesh mesh_;
+  Seen& seen_;
+  Answer answer_;
+};
+
+TEST_F(Race, a_frame_is_approached_from_the_one_before_and_inspected_at_the_end) {
+  Witness::Seen seen;
+  measured({.library = "test",
+            .method = "see",
+            .volume = "none",
+            .build = [&](std::span<const Moving_mesh> meshes) { return std::make_unique<Witness>(meshes[1], seen); }},
+           {.passes = 2});
+  ASSERT_EQ(seen.played.size(), 6U);
+  ASSERT_EQ(seen.approached.size(), 6U);
+  EXPECT_EQ(seen.approached[1], seen.played[0]);  // frames 3, 4 and 5 are the sampled ones
+  EXPECT_EQ(seen.approached[2], seen.played[1]);
+  EXPECT_GT(seen.approached[0], seen.played[0] + 1);
+  EXPECT_EQ(seen.inspected, (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(seen.pairs, (std::vector<std::size_t>{1, 1, 1}));
 }
 
 }  // namespace

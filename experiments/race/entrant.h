@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "lodestone/contact/confirmation.h"
 #include "lodestone/particles/near_pairs.h"
-#include "peer.h"
+#include "moving_mesh.h"
 
-/// What takes part in a measured run: the peers, Lodestone, and the bound of reading every vertex once.
+/// What takes part in a race: a measured run of several methods over the same frames.
 namespace lodestone {
 
 /// What one frame took, and what was answered. All figures are sums over the objects, or over the pairs asked for.
@@ -32,11 +33,18 @@ class Entrant {
 
   /// Whatever only the measurement needs: called once, after time and memory of the build have been taken.
   virtual void prepare() {}
+  /// Whether `approach` wants to be called: by methods whose frame goes on from the one before.
+  virtual bool wants_approach() const { return false; }
+  /// Called before each timed frame, not timed, when the meshes are as they were in the scene one frame earlier.
+  virtual void approach() {}
   /// Begins a pass over all sampled frames. In the first one both questions are asked in every frame.
   virtual void start_pass(std::size_t /*pass*/) {}
   /// Updates all objects, then asks about the pairs: first whether they collide, then for all contacts.
   /// @return valid until the next call
   virtual const Answer& play(std::span<const Object_pair> pairs) = 0;
+  /// Called once per sampled frame when all passes are over, not timed: what is to be counted is counted here.
+  /// @param frame  its place among the sampled ones, of which there are `frames`
+  virtual void inspect(std::span<const Object_pair> /*pairs*/, std::size_t /*frame*/, std::size_t /*frames*/) {}
 };
 
 /// What stands in the row of a table, and how its entrant is made.
@@ -47,15 +55,12 @@ struct Entry {
   std::size_t threads = 1;
   bool answers = true;        ///< false: a bound, which answers nothing
   bool reports_pairs = true;  ///< false: `Answer::contacts` means nothing
-  std::function<std::unique_ptr<Entrant>(std::span<const Peer_mesh>)> build;
+  std::function<std::unique_ptr<Entrant>(std::span<const Moving_mesh>)> build;
 
   std::string name() const { return library + ": " + method; }
 };
 
-/// Everything that takes part, in the order of the tables.
-std::vector<Entry> all_entries();
-
-/// Lodestone's own rows.
-std::vector<Entry> lodestone_entries();
+/// The bound of any exact method: every vertex is read once, and nothing answered.
+Entry read_bound_entry();
 
 }  // namespace lodestone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "peer_run.h"
+#include "race.h"
 
 #include <malloc.h>
 
@@ -93,7 +93,7 @@ struct Player {
 
 class Scene_run {
  public:
-  Scene_run(Scene& scene, const Peer_run_options& options, const std::function<void(double)>& progress)
+  Scene_run(Scene& scene, const Race_options& options, const std::function<void(double)>& progress)
       : scene_(scene), options_(options), progress_(progress) {
     figures_ = {.name = scene.name, .objects = scene.objects.size(), .frames = scene.frames};
     numberings_.reserve(scene.objects.size());
@@ -127,6 +127,7 @@ class Scene_run {
           progress_((static_cast<double>(finished) + share * static_cast<double>(players.size())) /
                     static_cast<double>(entries.size()));
         }
+      inspect(players);
     }
     for (const auto& truth : truths_) {
       figures_.asked += truth.pairs.size();
@@ -194,9 +195,25 @@ class Scene_run {
     for (std::size_t f = 0; f < figures_.sampled.size() && !player.figures->left_early; ++f) {
       if (player.seconds > options_.most_seconds) player.figures->left_early = true;
       if (player.figures->left_early) return;
+      approach(*player.entrant, figures_.sampled[f]);
       restore(f);
       const Answer& answer = player.play(f, truths_[f]);
       if (!answer.gave_up) compare(truths_[f], answer, pass, *player.figures);
+    }
+  }
+
+  void approach(Entrant& entrant, std::size_t frame) {
+    if (frame == 0 || !entrant.wants_approach()) return;
+    pose_all(frame - 1);
+    entrant.approach();
+  }
+
+  /// Shows the sampled frames once more to those who played all of them.
+  void inspect(std::span<Player> players) {
+    for (std::size_t f = 0; f < figures_.sampled.size(); ++f) {
+      restore(f);
+      for (auto& player : players)
+        if (!player.figures->left_early) player.entrant->inspect(truths_[f].pairs, f, figures_.sampled.size());
     }
   }
 
@@ -214,10 +231,10 @@ class Scene_run {
   }
 
   Scene& scene_;
-  const Peer_run_options& options_;
+  const Race_options& options_;
   const std::function<void(double)>& progress_;
   std::vector<Mesh_numbering<Surface_mesh>> numberings_;
-  std::vector<Peer_mesh> meshes_;
+  std::vector<Moving_mesh> meshes_;
   std::vector<Truth> truths_;                               ///< per sampled frame
   std::vector<std::vector<std::vector<Point>>> positions_;  ///< per sampled frame and object
   Scene_figures figures_;
@@ -232,8 +249,8 @@ std::vector<std::size_t> spread(std::size_t range, std::size_t count) {
   return places;
 }
 
-Scene_figures measure_peers(Scene& scene, std::span<const Entry> entries, const Peer_run_options& options,
-                            const std::function<void(double)>& progress) {
+Scene_figures measure_race(Scene& scene, std::span<const Entry> entries, const Race_options& options,
+                           const std::function<void(double)>& progress) {
   return Scene_run(scene, options, progress).run(entries);
 }
 

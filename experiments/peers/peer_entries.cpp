@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "entrant.h"
+#include "peer_entries.h"
 
 #include "lap_timer.h"
-#include "read_bound.h"
+#include "peer.h"
 
 namespace lodestone {
 
@@ -10,7 +10,7 @@ namespace {
 
 class Peer_entrant : public Entrant {
  public:
-  Peer_entrant(std::unique_ptr<Peer> peer, bool reports_pairs, std::span<const Peer_mesh> meshes)
+  Peer_entrant(std::unique_ptr<Peer> peer, bool reports_pairs, std::span<const Moving_mesh> meshes)
       : peer_(std::move(peer)), reports_pairs_(reports_pairs), objects_(meshes.size()) {
     for (const auto& mesh : meshes) peer_->add(mesh);
   }
@@ -42,32 +42,13 @@ class Peer_entrant : public Entrant {
   Answer answer_;
 };
 
-class Read_bound_entrant : public Entrant {
- public:
-  explicit Read_bound_entrant(std::span<const Peer_mesh> meshes)
-      : meshes_(meshes.begin(), meshes.end()), boxes_(meshes.size()) {}
-
-  const Answer& play(std::span<const Object_pair> /*pairs*/) override {
-    Lap_timer timer;
-    for (std::size_t object = 0; object < meshes_.size(); ++object)
-      boxes_[object] = read_every_vertex(meshes_[object].coordinates());
-    answer_.update_seconds = timer.lap();
-    return answer_;
-  }
-
- private:
-  std::vector<Peer_mesh> meshes_;
-  std::vector<Box> boxes_;
-  Answer answer_;
-};
-
 Entry entry(const Peer_kind& kind) {
   return {.library = kind.library,
           .method = kind.method,
           .volume = kind.volume,
           .threads = kind.threads,
           .reports_pairs = kind.reports_pairs,
-          .build = [kind](std::span<const Peer_mesh> meshes) -> std::unique_ptr<Entrant> {
+          .build = [kind](std::span<const Moving_mesh> meshes) -> std::unique_ptr<Entrant> {
             return std::make_unique<Peer_entrant>(kind.make(), kind.reports_pairs, meshes);
           }};
 }
@@ -75,14 +56,7 @@ Entry entry(const Peer_kind& kind) {
 }  // namespace
 
 std::vector<Entry> all_entries() {
-  std::vector<Entry> all{{.library = "bound",
-                          .method = "read every vertex once",
-                          .volume = "none",
-                          .answers = false,
-                          .reports_pairs = false,
-                          .build = [](std::span<const Peer_mesh> meshes) -> std::unique_ptr<Entrant> {
-                            return std::make_unique<Read_bound_entrant>(meshes);
-                          }}};
+  std::vector<Entry> all{read_bound_entry()};
   for (auto& own : lodestone_entries()) all.push_back(std::move(own));
   for (const auto& kind : all_peers()) all.push_back(entry(kind));
   return all;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "entrant.h"
+
+namespace lodestone {
+
+/// Everything that takes part in the experiment `peers`, in the order of the tables.
+std::vector<Entry> all_entries();
+
+/// Lodestone's own rows.
+std::vector<Entry> lodestone_entries();
+
+}  // namespace lodestone
