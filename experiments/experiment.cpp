@@ -18,6 +18,7 @@ std::span<const Experiment> experiments() {
       {"rebuild", "When does a tree of the mode exact become too loose, and does building it anew pay?", run_rebuild},
       {"self_collision", "How fast is self-collision of a deforming mesh, beside CGAL?", run_self_collision},
       {"soak", "Does the exact mode ever differ from exhaustive checking?", run_soak},
+      {"volumes", "What does recomputing bounding volumes cost per frame, and which are tightest?", run_volumes},
 #ifdef LODESTONE_PEERS
       {"peers", "How do other collision libraries fare on the same frames?", run_peers},
 #endif

@@ -14,8 +14,8 @@ struct Experiment_context {
   std::filesystem::path scenes;                                    ///< folder of the scene files
   std::filesystem::path out;                                       ///< folder that receives all figures as JSON
   std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
-  /// Names of the scenes to play, or of meshes and strategies; empty: those of the published figures. Heeded by `peers`
-  /// and `partitions`; the other experiments are about their scenes, and play them all.
+  /// Names of the scenes to play, or of meshes and strategies; empty: those of the published figures. Heeded by
+  /// `peers`, `volumes` and `partitions`; the other experiments are about their scenes, and play them all.
   std::vector<std::string> only = {};
 
   // Of experiments that are sweeps of many runs: `partitions`.
@@ -45,5 +45,6 @@ std::string run_rebuild(const Experiment_context& context);
 std::string run_peers(const Experiment_context& context);
 std::string run_self_collision(const Experiment_context& context);
 std::string run_soak(const Experiment_context& context);
+std::string run_volumes(const Experiment_context& context);
 
 }  // namespace lodestone

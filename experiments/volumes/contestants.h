@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "entrant.h"
+#include "scene_division.h"
+#include "tightness.h"
+
+/// Who takes part in the experiment `volumes`.
+namespace lodestone {
+
+/// What is counted of a tree, beyond what the race measures.
+struct Volume_figures {
+  std::size_t node_bytes = 0;  ///< of a volume
+  std::size_t nodes = 0;       ///< of all objects
+  std::size_t frames = 0;      ///< over which the counts below are added up
+  std::size_t volume_tests = 0;
+  std::size_t leaf_pairs = 0;
+  std::size_t exact_tests = 0;
+  Tightness first = {}, last = {};  ///< in the first and in the last sampled frame
+
+  double per_frame(std::size_t Volume_figures::*count) const {
+    return frames > 0 ? static_cast<double>(this->*count) / static_cast<double>(frames) : 0;
+  }
+};
+
+enum class Contestant_kind { bound, volume, particles };
+
+/// A row of the tables.
+struct Contestant {
+  Contestant_kind kind;
+  std::string model;     ///< the volume; `particles, 12`; `bound`
+  std::string strategy;  ///< empty: none
+  Entry entry;
+  std::shared_ptr<const Volume_figures> figures;  ///< of volumes: filled by the race
+};
+
+/// A tree of each model of Bounding_volume over each division.
+std::vector<Contestant> volume_contestants(const std::vector<std::shared_ptr<Scene_division>>& divisions);
+/// The mode `particles` with so many per object.
+Contestant particle_contestant(std::size_t particles);
+/// Reading every vertex once, all volumes, and the particles of the paper.
+std::vector<Contestant> all_contestants(const std::vector<std::shared_ptr<Scene_division>>& divisions);
+
+}  // namespace lodestone

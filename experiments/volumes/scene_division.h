@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lodestone/partition/mesh_numbering.h"
+#include "moving_mesh.h"
+#include "tree_pieces.h"
+
+namespace lodestone {
+
+/// A strategy that takes part, and up to which size.
+struct Dividing {
+  std::string_view strategy;
+  std::size_t most_vertices;  ///< of an object; scenes with a larger one are played without it, for it would take
+                              ///< longer than all else
+};
+
+/// Those that the experiment compares, `lbg` first.
+std::span<const Dividing> dividings();
+
+/// Regions of each object at the top of its tree.
+constexpr std::size_t division_regions = 64;
+
+/// All objects of a scene divided by one strategy, as they are in the first frame: what the trees of all volumes share.
+class Scene_division {
+ public:
+  Scene_division(std::string_view strategy, std::span<const Moving_mesh> meshes);
+
+  const std::string& strategy() const { return strategy_; }
+  /// Of all partitions together.
+  double seconds() const { return seconds_; }
+  std::span<const Region_index> labels(std::size_t object) const { return labels_[object]; }
+  const Tree_pieces& pieces(std::size_t object) const { return pieces_[object]; }
+
+  /// What the volumes of one frame are measured with: the same for all volumes, so it is found once.
+  struct Measure {
+    std::vector<std::vector<Chosen_faces>> regions;  ///< per object and region
+    Hull_sums hulls;
+  };
+  /// @param frame    a number by which to remember it
+  /// @param layouts  per object: of a tree with these labels
+  const Measure& measure(std::size_t frame, std::span<const Tree_layout* const> layouts,
+                         std::span<const Moving_mesh> meshes);
+
+ private:
+  std::string strategy_;
+  double seconds_ = 0;
+  std::vector<std::vector<Region_index>> labels_;  ///< per object
+  std::vector<Tree_pieces> pieces_;                ///< per object
+  std::map<std::size_t, Measure> measures_;        ///< by frame
+};
+
+/// Divides a scene by every strategy that it is not too large for.
+std::vector<std::shared_ptr<Scene_division>> divide(std::span<const Moving_mesh> meshes);
+
+}  // namespace lodestone

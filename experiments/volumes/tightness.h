@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "lodestone/contact/region_tree.h"
+#include "tree_pieces.h"
+
+namespace lodestone {
+
+/// Volume of bounding volumes over that of the convex hulls of what they enclose: 1 is as tight as a convex body can
+/// be; one that is not convex may be tighter. Each figure is a ratio of sums, so that flat pieces, whose hulls have no
+/// volume, do no harm.
+struct Tightness {
+  double leaves = 0;            ///< fitted to their faces
+  double regions = 0;           ///< fitted to their faces, see `choose_faces`
+  double regions_refitted = 0;  ///< as they stand in the tree: of the volumes below
+  double objects = 0;           ///< as they stand in the tree
+};
+
+/// Volumes of bounding volumes, each kind added up over all pieces.
+struct Volume_sums {
+  double leaves = 0;
+  double regions = 0;
+  double regions_refitted = 0;
+  double objects = 0;
+};
+
+/// Adds the volumes of one tree, which has just been refitted.
+/// @param regions  what volumes of regions are fitted to, see `choose_faces`
+template <Bounding_volume Volume>
+void add_volumes(const Basic_region_tree<Volume>& tree, const Tree_pieces& pieces, Coordinates coordinates,
+                 std::span<const Chosen_faces> regions, Volume_sums& sums) {
+  for (const auto leaf : pieces.leaves) sums.leaves += tree.volume(tree.leaf_node(leaf)).volume();
+  for (const auto& region : regions) {
+    Volume fitted;
+    fitted.enclose(region.posed(coordinates));
+    sums.regions += fitted.volume();
+  }
+  for (const auto& region : pieces.regions) sums.regions_refitted += tree.volume(region.node).volume();
+  sums.objects += tree.volume(0).volume();
+}
+
+/// 0 for what has no hull.
+inline Tightness tightness_of(const Volume_sums& volumes, const Hull_sums& hulls) {
+  const auto ratio = [](double volume, double hull) { return hull > 0 ? volume / hull : 0; };
+  return {.leaves = ratio(volumes.leaves, hulls.leaves),
+          .regions = ratio(volumes.regions, hulls.regions),
+          .regions_refitted = ratio(volumes.regions_refitted, hulls.regions),
+          .objects = ratio(volumes.objects, hulls.objects)};
+}
+
+}  // namespace lodestone

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "volume_scene.h"
+
+/// What stands in the cells of the tables.
+namespace lodestone {
+
+/// There is nothing to say.
+inline const std::string no_cell = "-";
+
+/// A table with a line above and an empty one below.
+inline std::string titled(std::string_view title, const std::string& table) {
+  return fmt::format("{}:\n\n{}\n", title, table);
+}
+
+/// Three digits or so.
+inline std::string ratio_cell(double ratio) {
+  if (!std::isfinite(ratio) || ratio <= 0) return no_cell;
+  return fmt::format("{:.{}f}", ratio, ratio < 0.1 ? 3 : ratio < 10 ? 2 : ratio < 100 ? 1 : 0);
+}
+
+/// Share of the collisions asked about that an entry saw.
+inline double recall(const Volume_scene& scene, std::size_t place) {
+  const auto colliding = static_cast<double>(scene.race.colliding);
+  return 1 - static_cast<double>(scene.race.entries[place].missed) / colliding;
+}
+
+/// In the last sampled frame; nothing but zeros if it did not take part.
+inline Tightness tightness(const Volume_scene& scene, std::string_view model, std::string_view strategy) {
+  const auto place = scene.place_of(model, strategy);
+  return place < 0 ? Tightness{} : scene.contestants[static_cast<std::size_t>(place)].figures->last;
+}
+
+}  // namespace lodestone

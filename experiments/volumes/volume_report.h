@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "volume_scene.h"
+
+namespace lodestone {
+
+/// The volume that others are held against, and the strategy of the tables about volumes.
+constexpr std::string_view reference_model = "aabb";
+constexpr std::string_view reference_strategy = "lbg";
+/// The particles that volumes are held against.
+constexpr std::string_view reference_particles = "particles, 32";
+
+/// All tables, in Markdown: ratios over all scenes first, then a section for each scene.
+std::string volume_report(std::span<const Volume_scene> scenes);
+
+/// One section.
+std::string volume_section(const Volume_scene& scene);
+
+/// All figures. The plots read the lists `rows` and `tightness`, the rest is for whoever wants to know more.
+nlohmann::ordered_json volume_json(std::span<const Volume_scene> scenes);
+
+}  // namespace lodestone
