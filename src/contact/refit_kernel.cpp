@@ -147,6 +147,32 @@ Refit_sums refit_leaves_kernel(const Refit& refit, std::size_t first, std::size_
                             : refit_leaves_ahead<0>(refit, first, end);
 }
 
+/// Four sums run side by side, so that no addition waits for the one before.
+double sum_coordinates_kernel(const Refit& refit, std::size_t leaf) {
+  const D d;
+  const double* const coordinates = refit.coordinates;
+  const std::uint32_t* vertex = refit.vertices + refit.vertex_begin[leaf];
+  const std::uint32_t* const last = refit.vertices + refit.vertex_begin[leaf + 1] - 1;
+  V sums[4][vectors];
+  for (std::size_t i = 0; i < vectors; ++i) {
+    for (auto& sum : sums) sum[i] = hn::Zero(d);
+    sums[0][i] = load_last(coordinates + 3 * std::size_t{*last}, i);
+  }
+  for (; vertex + 4 <= last; vertex += 4)
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (refit.beyond_cache) hwy::Prefetch(coordinates + 3 * std::size_t{vertex[vertices_ahead + k]});
+      for (std::size_t i = 0; i < vectors; ++i)
+        sums[k][i] = hn::Add(sums[k][i], hn::LoadU(d, coordinates + 3 * std::size_t{vertex[k]} + i * lanes));
+    }
+  for (; vertex < last; ++vertex)
+    for (std::size_t i = 0; i < vectors; ++i)
+      sums[1][i] = hn::Add(sums[1][i], hn::LoadU(d, coordinates + 3 * std::size_t{*vertex} + i * lanes));
+  alignas(64) double sum[4];
+  for (std::size_t i = 0; i < vectors; ++i)
+    hn::Store(hn::Add(hn::Add(sums[0][i], sums[1][i]), hn::Add(sums[2][i], sums[3][i])), d, sum + i * lanes);
+  return sum[0] + sum[1] + sum[2];
+}
+
 }  // namespace lodestone::kernel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -157,6 +183,12 @@ HWY_EXPORT(refit_leaves_kernel);
 
 Refit_sums refit_leaves(const Refit& refit, std::size_t first, std::size_t end) {
   return HWY_DYNAMIC_DISPATCH(refit_leaves_kernel)(refit, first, end);
+}
+
+HWY_EXPORT(sum_coordinates_kernel);
+
+double sum_coordinates(const Refit& refit, std::size_t leaf) {
+  return HWY_DYNAMIC_DISPATCH(sum_coordinates_kernel)(refit, leaf);
 }
 
 }  // namespace lodestone::kernel

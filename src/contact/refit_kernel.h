@@ -32,4 +32,8 @@ struct Refit_sums {
 /// Fits the boxes of the leaves `first` to `end`.
 Refit_sums refit_leaves(const Refit& refit, std::size_t first, std::size_t end);
 
+/// Sum of the coordinates of the vertices of one leaf, not finite if one of them is not; `refit.boxes` may be null. It
+/// also asks for the vertices of the leaves that follow, if the coordinates are beyond the cache.
+double sum_coordinates(const Refit& refit, std::size_t leaf);
+
 }  // namespace lodestone::kernel

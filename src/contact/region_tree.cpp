@@ -10,17 +10,24 @@ namespace {
 /// Vertices whose coordinates, 12 MB, share a processor's last cache with little else.
 constexpr std::size_t cached_vertices = 500'000;
 
+kernel::Refit refit_of(const Tree_layout& layout, Coordinates coordinates, Aabb* boxes) {
+  return {.coordinates = coordinates.data(),
+          .vertices = layout.all_vertices().data(),
+          .vertex_begin = layout.vertex_begin().data(),
+          .leaf_nodes = layout.leaf_nodes().data(),
+          .boxes = boxes,
+          .beyond_cache = coordinates.size() / 3 > cached_vertices};
+}
+
 }  // namespace
+
+double sum_coordinates(const Tree_layout& layout, Coordinates coordinates, std::size_t leaf) {
+  return kernel::sum_coordinates(refit_of(layout, coordinates, nullptr), leaf);
+}
 
 Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::size_t first, std::size_t end,
                      std::span<Aabb> boxes) {
-  const kernel::Refit refit{.coordinates = coordinates.data(),
-                            .vertices = layout.all_vertices().data(),
-                            .vertex_begin = layout.vertex_begin().data(),
-                            .leaf_nodes = layout.leaf_nodes().data(),
-                            .boxes = boxes.data(),
-                            .beyond_cache = coordinates.size() / 3 > cached_vertices};
-  const auto [sum, extents] = kernel::refit_leaves(refit, first, end);
+  const auto [sum, extents] = kernel::refit_leaves(refit_of(layout, coordinates, boxes.data()), first, end);
   return {.coordinates = sum, .extents = extents};
 }
 

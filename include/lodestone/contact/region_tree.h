@@ -18,6 +18,9 @@ struct Leaf_sums {
   double extents = 0;      ///< of the volumes
 };
 
+/// Sum of the coordinates of the vertices of one leaf: not finite if one of them is not, else mostly finite.
+double sum_coordinates(const Tree_layout& layout, Coordinates coordinates, std::size_t leaf);
+
 /// Fits the volumes of the leaves `first` to `end`. A volume that can do better for many leaves at a time has an
 /// overload of its own.
 /// @param volumes  per node
@@ -26,12 +29,10 @@ Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::si
                      std::span<Volume> volumes) {
   Leaf_sums sums;
   for (std::size_t leaf = first; leaf < end; ++leaf) {
-    const Leaf_faces faces = layout.leaf_faces(leaf, coordinates);
+    sums.coordinates += sum_coordinates(layout, coordinates, leaf);
     Volume& volume = volumes[layout.leaf_node(leaf)];
-    volume.enclose(faces);
+    volume.enclose(layout.leaf_faces(leaf, coordinates));
     sums.extents += volume.extent();
-    for (std::size_t place = 0; place < faces.vertices.size(); ++place)
-      for (int axis = 0; axis < 3; ++axis) sums.coordinates += faces.position(place)[axis];
   }
   return sums;
 }
