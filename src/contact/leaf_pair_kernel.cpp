@@ -11,6 +11,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "contact/corner_columns-inl.h"
 #include "contact/position_vectors-inl.h"
 #include "contact/separation-inl.h"
 
@@ -80,11 +81,11 @@ HWY_INLINE void end_columns(Face_columns& faces, std::size_t count) {
 }
 
 /// Fills in where the faces of a leaf are.
-HWY_INLINE void pose(const Leaf_view& leaf, const Leaf_request& request, double (*positions)[4]) {
-  copy_positions(leaf, positions);
+HWY_INLINE void pose(const Leaf_view& leaf, const Leaf_request& request) {
   Face_columns& faces = *leaf.faces;
+  copy_positions(leaf, faces.positions);
   for (std::size_t f = 0; f < leaf.face_count; ++f) {
-    const Aabb box = box_of(leaf.corners[f], positions);
+    const Aabb box = box_of(leaf.corners[f], faces.positions);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       faces.low[axis][f] = box.low[axis];
       faces.high[axis][f] = box.high[axis] + request.margin;
@@ -189,45 +190,38 @@ HWY_INLINE std::size_t list_near_pairs(const Face_columns& a, std::size_t face, 
   return count;
 }
 
-HWY_INLINE void copy_corners(const Leaf_view& leaf, std::size_t face, std::size_t lane, double (*columns)[3][widest]) {
-  for (std::size_t corner = 0; corner < 3; ++corner) {
-    const double* vertex = leaf.coordinates + 3 * std::size_t{leaf.vertices[leaf.corners[face][corner]]};
-    for (std::size_t axis = 0; axis < 3; ++axis) columns[corner][axis][lane] = vertex[axis];
-  }
-}
-
-HWY_INLINE Vector3 load_corner(const double (*columns)[widest]) {
-  const Lanes d;
-  return {hn::Load(d, columns[0]), hn::Load(d, columns[1]), hn::Load(d, columns[2])};
-}
-
-/// Takes the listed pairs that planes do not prove apart, as many at a time as a vector has lanes.
+/// Takes the listed pairs that floating point does not prove apart, as many at a time as a vector has lanes.
 /// @param places_b  of b's faces by their numbers in the list; null: the same
 /// @return their number
 HWY_INLINE std::size_t keep_not_apart(const Leaf_view& a, const Leaf_view& b, const std::uint8_t* places_b,
                                       const Leaf_request& request, std::size_t count, Leaf_scratch& scratch,
                                       Face_places* near) {
+  if (count == 0) return 0;
   const Lanes d;
-  auto& batch = scratch.batch;
+  // The last vector is filled up with the last pair.
+  repeat_byte(scratch.pairs_a[count - 1], scratch.pairs_a + count);
+  repeat_byte(scratch.pairs_b[count - 1], scratch.pairs_b + count);
   std::size_t kept = 0;
   for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
-    const std::size_t used = count - first < hn::Lanes(d) ? count - first : hn::Lanes(d);
     Face_places places[widest];
-    Numbers crossing;
-    for (std::size_t lane = 0; lane < used; ++lane) {
+    Lane_faces faces_a{a.faces->positions, {}}, faces_b{b.faces->positions, {}};
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
       const std::uint8_t place_b = scratch.pairs_b[first + lane];
       places[lane] = {scratch.pairs_a[first + lane], places_b == nullptr ? place_b : places_b[place_b]};
-      copy_corners(a, places[lane].a, lane, batch.a);
-      copy_corners(b, places[lane].b, lane, batch.b);
+      faces_a.corners[lane] = a.corners + places[lane].a;
+      faces_b.corners[lane] = b.corners + places[lane].b;
     }
-    const auto left = not_proven_apart(load_corner(batch.a[0]), load_corner(batch.a[1]), load_corner(batch.a[2]),
-                                       load_corner(batch.b[0]), load_corner(batch.b[1]), load_corner(batch.b[2]),
-                                       request.margin, request.one_mesh, hn::FirstN(d, used), crossing);
-    hn::Store(crossing, d, batch.crossing);
+    const Vector3 corners_a[]{load_corner(faces_a, 0), load_corner(faces_a, 1), load_corner(faces_a, 2)};
+    const Vector3 corners_b[]{load_corner(faces_b, 0), load_corner(faces_b, 1), load_corner(faces_b, 2)};
+    Numbers crossing;
+    const auto left = not_proven_apart(corners_a, corners_b, request.margin, request.one_mesh,
+                                       hn::FirstN(d, count - first), crossing);
+    alignas(64) double crossings[widest];
+    hn::Store(crossing, d, crossings);
     for (unsigned bits = mask_bits(d, left); bits != 0; bits &= bits - 1) {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       near[kept] = places[lane];
-      near[kept++].crossing = static_cast<std::uint8_t>(batch.crossing[lane]);
+      near[kept++].crossing = static_cast<std::uint8_t>(crossings[lane]);
     }
   }
   return kept;
@@ -245,7 +239,7 @@ HWY_INLINE std::size_t near_faces_of_two_leaves(const Leaf_view& a, const Leaf_v
                                                 Leaf_scratch& scratch, Face_places* near) {
   const Limits limits_a = list_near(*a.faces, limits(*b.box, request.margin), scratch.near_a);
   if (scratch.near_a.count == 0) return 0;
-  if (b.faces->count == 0) pose(b, request, scratch.positions);
+  if (b.faces->count == 0) pose(b, request);
   const Limits limits_b = list_near(*b.faces, limits_a, scratch.near_b);
   if (scratch.near_b.count == 0) return 0;
   copy_listed(*b.faces, scratch.near_b, request.one_mesh, scratch.b);
@@ -258,7 +252,7 @@ HWY_INLINE std::size_t near_faces_of_two_leaves(const Leaf_view& a, const Leaf_v
 
 std::size_t near_faces_kernel(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request,
                               Leaf_scratch& scratch, Face_places* near) {
-  if (a.faces->count == 0) pose(a, request, scratch.positions);
+  if (a.faces->count == 0) pose(a, request);
   return request.one_leaf ? near_faces_of_one_leaf(a, request, scratch, near)
                           : near_faces_of_two_leaves(a, b, request, scratch, near);
 }

@@ -17,6 +17,7 @@ struct alignas(64) Face_columns {
   Column low[3], high[3];  ///< by axis: the face's box, its high side moved out by the margin
   Column vertices[3];      ///< within one mesh, by corner: its number, which a double holds without loss
   std::size_t count;
+  alignas(64) double positions[3 * most_leaf_faces][4];  ///< of the leaf's vertices; the fourth means nothing
 };
 
 /// Some of the faces of a leaf, by their places; there is room for a whole vector past the last.
@@ -27,20 +28,12 @@ struct Face_list {
 
 /// Memory of leaf against leaf.
 struct alignas(64) Leaf_scratch {
-  double positions[3 * most_leaf_faces][4];  ///< of a leaf's vertices, four lanes each
-  Face_list near_a, near_b;                  ///< faces near the other leaf
-  Face_columns b;                            ///< those of b
+  Face_list near_a, near_b;  ///< faces near the other leaf
+  Face_columns b;            ///< those of b
 
   /// Pairs of faces whose boxes are near: a's place in its leaf, b's among those near a.
   std::uint8_t pairs_a[most_leaf_faces * most_leaf_faces + widest];
   std::uint8_t pairs_b[most_leaf_faces * most_leaf_faces + widest];
-
-  /// Some pairs of faces by coordinate.
-  struct alignas(64) Batch {
-    double a[3][3][widest];  ///< by corner and axis
-    double b[3][3][widest];
-    double crossing[widest];  ///< a `Crossing`
-  } batch;
 };
 
 }  // namespace lodestone

@@ -79,105 +79,148 @@ struct Two_triangles {
   }
 };
 
-/// What the edges of two triangles tell about them, one pair per lane.
+/// What the corners and edges of two triangles tell about them, one pair per lane.
 struct Edge_verdict {
   Truths apart;      ///< proven, whatever the rounding
   Numbers crossing;  ///< a `Crossing`
 };
 
-/// Compares each edge of one triangle with each of the other: whether the triangles are apart (by more than 0) along
-/// the cross product of the two, and which edge passes through the other triangle.
-///
-/// Let e be an edge of a and f one of b. Along e x f the ends of an edge are in one place. With the normals m and n,
-/// the third corner of a is -m.f beyond e, that of b is n.e beyond f, and f is det(e, f, f0 - e0) beyond e.
-///
-/// All of these are determinants, or differences of two, of vectors whose coordinates are below twice the reach, and
-/// off by less than 2^-52 of that. A determinant has 6 products of three coordinates; with the rounding of products and
-/// sums it is off by less than 48 x 11 x 2^-53 of the product of the three reaches, and what a gap consists of by less
-/// than 2000 x 2^-53 of it altogether. Nearly twice that is allowed for.
-HWY_INLINE Edge_verdict compare_edges(const Two_triangles& two, const Vector3& normal_a, const Vector3& normal_b) {
+/// Determinants of two triangles, by corner i of a and j of b. Edge i goes from corner i to the next: e of a, f of b.
+/// The normals are m and n.
+struct Determinants {
+  Numbers height_a[3], height_b[3];  ///< of the corners beyond the plane of the other triangle: n.(a - b0), m.(b - a0)
+  Numbers third_a[3];                ///< -m.f_j: how far a's third corner is beyond an edge of a along e x f_j
+  Numbers third_b[3];                ///< n.e_i: how far b's third corner is beyond an edge of b along e_i x f
+  Numbers side[3][3];                ///< det(e_i, f_j, b_j - a_i): how far f_j is beyond e_i along the cross product
+};
+
+/// All of them come of b_j x b_j+1: seen from a0, with s_j = a1.(b_j x b_j+1) and t_j the same of a2, the sides are
+/// -s_j, s_j - t_j - m.f_j and t_j, and n.a1 and n.a2 are the sums of the s and of the t.
+HWY_INLINE Determinants determinants(const Two_triangles& two) {
+  const Vector3 b[]{two.b0, two.b1, two.b2};
+  const Vector3 moments[]{cross(b[0], b[1]), cross(b[1], b[2]), cross(b[2], b[0])};
+  const auto normal_a = cross(two.a1, two.a2);
+  Determinants of;
+  for (std::size_t j = 0; j < 3; ++j) of.height_b[j] = dot(normal_a, b[j]);
+  for (std::size_t j = 0; j < 3; ++j) {
+    const auto s = dot(two.a1, moments[j]), t = dot(two.a2, moments[j]);
+    of.third_a[j] = hn::Sub(of.height_b[j], of.height_b[(j + 1) % 3]);
+    of.side[0][j] = hn::Neg(s);
+    of.side[1][j] = hn::Add(hn::Sub(s, t), of.third_a[j]);
+    of.side[2][j] = t;
+  }
+  const auto minus_s = hn::Add(hn::Add(of.side[0][0], of.side[0][1]), of.side[0][2]);
+  const auto t = hn::Add(hn::Add(of.side[2][0], of.side[2][1]), of.side[2][2]);
+  of.height_a[0] = hn::Neg(dot(b[0], moments[1]));
+  of.height_a[1] = hn::Sub(of.height_a[0], minus_s);
+  of.height_a[2] = hn::Add(of.height_a[0], t);
+  of.third_b[0] = hn::Neg(minus_s);
+  of.third_b[1] = hn::Add(t, minus_s);
+  of.third_b[2] = hn::Neg(t);
+  return of;
+}
+
+HWY_INLINE Numbers least(const Numbers (&numbers)[3]) { return hn::Min(hn::Min(numbers[0], numbers[1]), numbers[2]); }
+HWY_INLINE Numbers most(const Numbers (&numbers)[3]) { return hn::Max(hn::Max(numbers[0], numbers[1]), numbers[2]); }
+
+/// By how much the triangles are apart along their normals and the cross products of an edge of each: the greatest of
+/// the eleven gaps. Along e x f the ends of an edge are in one place.
+HWY_INLINE Numbers greatest_gap(const Determinants& of) {
   const auto zero = hn::Zero(Lanes());
-  const Vector3 origin{zero, zero, zero};
-  const Vector3 a[]{origin, two.a1, two.a2}, b[]{two.b0, two.b1, two.b2};
-  const Numbers height_a[]{dot(normal_b, origin - b[0]), dot(normal_b, a[1] - b[0]), dot(normal_b, a[2] - b[0])};
-  const Numbers height_b[]{dot(normal_a, b[0]), dot(normal_a, b[1]), dot(normal_a, b[2])};
-
-  const auto& reach = two.reach;
-  // Within these limits what products lose below the normal doubles is far less than that.
-  const auto least = hn::Min(hn::Min(reach.x, reach.y), reach.z), most = hn::Max(hn::Max(reach.x, reach.y), reach.z);
-  const auto measurable = hn::And(hn::Gt(least, all(1e-90)), hn::Lt(most, all(1e90)));
-  const auto needed = hn::Mul(all(4e-13), hn::Mul(hn::Mul(reach.x, reach.y), reach.z));
-
-  Truths apart = hn::Lt(zero, zero);  // none
-  // Whether an edge passes all three of the other triangle on the one side, or all on the other.
-  Truths left[6], right[6];
-  for (std::size_t k = 0; k < 6; ++k) left[k] = right[k] = hn::Not(apart);
+  auto gap = hn::Max(hn::Max(least(of.height_a), hn::Neg(most(of.height_a))),
+                     hn::Max(least(of.height_b), hn::Neg(most(of.height_b))));
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3 e = a[(i + 1) % 3] - a[i];
-    const auto third_b = hn::Sub(height_a[(i + 1) % 3], height_a[i]);
+    const auto low_b = hn::Min(of.third_b[i], zero), high_b = hn::Max(of.third_b[i], zero);
     for (std::size_t j = 0; j < 3; ++j) {
-      const auto f_from_e = dot(cross(e, b[(j + 1) % 3] - b[j]), b[j] - a[i]);
-      const auto third_a = hn::Sub(height_b[j], height_b[(j + 1) % 3]);
-      const auto high_a = hn::Max(third_a, zero), low_a = hn::Min(third_a, zero);
-      const auto high_b = hn::Add(f_from_e, hn::Max(third_b, zero)), low_b = hn::Add(f_from_e, hn::Min(third_b, zero));
-      apart = hn::Or(apart, hn::Or(hn::Gt(hn::Sub(low_b, high_a), needed), hn::Gt(hn::Sub(low_a, high_b), needed)));
-      const auto is_left = hn::Gt(f_from_e, zero), is_right = hn::Lt(f_from_e, zero);
-      left[i] = hn::And(left[i], is_left), right[i] = hn::And(right[i], is_right);
-      left[3 + j] = hn::And(left[3 + j], is_left), right[3 + j] = hn::And(right[3 + j], is_right);
+      const auto low_a = hn::Min(of.third_a[j], zero), high_a = hn::Max(of.third_a[j], zero);
+      gap = hn::Max(gap, hn::Max(hn::Sub(hn::Add(of.side[i][j], low_b), high_a),
+                                 hn::Sub(low_a, hn::Add(of.side[i][j], high_b))));
     }
   }
+  return gap;
+}
+
+/// A `Crossing`: edge k passes the edges of the other triangle all on the one side, and its ends are on both sides of
+/// the plane.
+HWY_INLINE Numbers find_crossing(const Determinants& of) {
+  const auto zero = hn::Zero(Lanes());
   auto crossing = all(no_crossing);
   for (std::size_t k = 0; k < 6; ++k) {
-    const auto* height = k < 3 ? height_a : height_b;
+    const Numbers sides_a[]{of.side[k % 3][0], of.side[k % 3][1], of.side[k % 3][2]};
+    const Numbers sides_b[]{of.side[0][k % 3], of.side[1][k % 3], of.side[2][k % 3]};
+    const auto& sides = k < 3 ? sides_a : sides_b;
+    const auto& height = k < 3 ? of.height_a : of.height_b;
     const auto from = height[k % 3], to = height[(k + 1) % 3];
-    const auto down = hn::And(left[k], hn::And(hn::Gt(from, zero), hn::Lt(to, zero)));
-    const auto up = hn::And(right[k], hn::And(hn::Lt(from, zero), hn::Gt(to, zero)));
+    const auto down = hn::And(hn::Gt(least(sides), zero), hn::And(hn::Gt(from, zero), hn::Lt(to, zero)));
+    const auto up = hn::And(hn::Lt(most(sides), zero), hn::And(hn::Lt(from, zero), hn::Gt(to, zero)));
     crossing = hn::IfThenElse(down, all(static_cast<double>(k)), crossing);
     crossing = hn::IfThenElse(up, all(static_cast<double>(6 + k)), crossing);
   }
-  return {hn::And(apart, measurable), crossing};
+  return crossing;
+}
+
+/// Compares corners with planes, and each edge of one triangle with each of the other: whether the triangles are apart
+/// (by more than 0), and which edge passes through the other triangle.
+///
+/// Let V be the product of the three reaches and u = 2^-53. The coordinates, differences, are off by u of their size. A
+/// determinant of three of them has six products, which are at most V and gather 8 roundings each, those of the
+/// coordinates and of the sums included: it is at most 6 V, and off by less than 48 u V. By these and the roundings of
+/// their sums heights are off by less than 250, sides by less than 240, the thirds of a by less than 110 and those of b
+/// by less than 390 u V; a gap that consists of them, with roundings of sums up to 72 V, by less than 900 u V, which is
+/// 1e-13 V. Twice that is allowed for.
+HWY_INLINE Edge_verdict compare_edges(const Two_triangles& two) {
+  const auto& reach = two.reach;
+  // Within these limits what products lose below the normal doubles is far less than the rest, and nothing overflows.
+  const Numbers reaches[]{reach.x, reach.y, reach.z};
+  const auto measurable = hn::And(hn::Gt(least(reaches), all(1e-90)), hn::Lt(most(reaches), all(1e90)));
+  const auto needed = hn::Mul(all(2e-13), hn::Mul(hn::Mul(reach.x, reach.y), reach.z));
+  const Determinants of = determinants(two);
+  return {hn::And(hn::Gt(greatest_gap(of), needed), measurable), find_crossing(of)};
+}
+
+/// The lanes, of those `among` which is asked, where no direction that one of the triangles alone decides proves them
+/// farther apart than the margin: neither normal, nor one across an edge within a plane.
+HWY_INLINE Truths not_apart_by_planes(const Two_triangles& two, Truths among) {
+  const Lanes d;
+  const auto normal_a = cross(two.a1, two.a2);
+  among = hn::AndNot(two.apart_along(normal_a), among);
+  if (hn::AllFalse(d, among)) return among;
+  const auto f0 = two.b1 - two.b0, f1 = two.b2 - two.b1;
+  const auto normal_b = cross(f0, f1);
+  among = hn::AndNot(two.apart_along(normal_b), among);
+  if (hn::AllFalse(d, among)) return among;
+  // Nearly coplanar ones lie apart within their plane.
+  among = hn::AndNot(two.apart_along(cross(normal_a, two.a1)), among);
+  among = hn::AndNot(two.apart_along(cross(normal_a, two.a2 - two.a1)), among);
+  among = hn::AndNot(two.apart_along(cross(normal_a, two.a2)), among);
+  if (hn::AllFalse(d, among)) return among;
+  among = hn::AndNot(two.apart_along(cross(normal_b, f0)), among);
+  among = hn::AndNot(two.apart_along(cross(normal_b, f1)), among);
+  return hn::AndNot(two.apart_along(cross(normal_b, two.b0 - two.b2)), among);
 }
 
 /// In which lanes floating point does not prove that a and b are farther apart than the margin (0: have no point in
 /// common), of those in `asked`.
 /// @param one_mesh  they are faces of one mesh
 /// @param crossing  is set to a `Crossing` for each of them
-HWY_INLINE Truths not_proven_apart(const Vector3& a0, const Vector3& a1, const Vector3& a2, const Vector3& b0,
-                                   const Vector3& b1, const Vector3& b2, double margin, bool one_mesh, Truths asked,
-                                   Numbers& crossing) {
-  Two_triangles two{a1 - a0, a2 - a0, b0 - a0, b1 - a0, b2 - a0, {}, margin};
+HWY_INLINE Truths not_proven_apart(const Vector3 (&a)[3], const Vector3 (&b)[3], double margin, bool one_mesh,
+                                   Truths asked, Numbers& crossing) {
+  const Lanes d;
+  Two_triangles two{a[1] - a[0], a[2] - a[0], b[0] - a[0], b[1] - a[0], b[2] - a[0], {}, margin};
   two.reach =
       greater(greater(greater(sizes(two.a1), sizes(two.a2)), greater(sizes(two.b0), sizes(two.b1))), sizes(two.b2));
-  const Lanes d;
   crossing = all(no_crossing);
-  const auto normal_a = cross(two.a1, two.a2);
-  auto left = hn::AndNot(two.apart_along(normal_a), asked);
-  if (hn::AllFalse(d, left)) return left;
-  const auto f0 = b1 - b0, f1 = b2 - b1;
-  const auto normal_b = cross(f0, f1);
-  left = hn::AndNot(two.apart_along(normal_b), left);
-  if (hn::AllFalse(d, left)) return left;
-
-  // Nearly coplanar ones lie apart within their plane.
-  const auto not_apart_within_planes = [&](Truths among) HWY_ATTR {
-    among = hn::AndNot(two.apart_along(cross(normal_a, two.a1)), among);
-    among = hn::AndNot(two.apart_along(cross(normal_a, a2 - a1)), among);
-    among = hn::AndNot(two.apart_along(cross(normal_a, two.a2)), among);
-    if (hn::AllFalse(d, among)) return among;
-    among = hn::AndNot(two.apart_along(cross(normal_b, f0)), among);
-    among = hn::AndNot(two.apart_along(cross(normal_b, f1)), among);
-    return hn::AndNot(two.apart_along(cross(normal_b, b0 - b2)), among);
-  };
-  // So do most that are near each other on one surface.
-  if (one_mesh || margin > 0) left = not_apart_within_planes(left);
+  auto left = asked;
+  // Planes separate most faces that are near each other on one surface.
+  if (one_mesh || margin > 0) left = not_apart_by_planes(two, left);
   if (margin > 0 || hn::AllFalse(d, left)) return left;
-  const auto verdict = compare_edges(two, normal_a, normal_b);
+  const auto verdict = compare_edges(two);
   left = hn::AndNot(verdict.apart, left);
   crossing = verdict.crossing;
   const auto unclear = hn::And(left, hn::Eq(crossing, all(no_crossing)));
   if (one_mesh || hn::AllFalse(d, unclear)) return left;
   // What comes of one lane must not depend on the others: their number differs between instruction sets.
-  return hn::Or(hn::AndNot(unclear, left), not_apart_within_planes(unclear));
+  return hn::Or(hn::AndNot(unclear, left), not_apart_by_planes(two, unclear));
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE
