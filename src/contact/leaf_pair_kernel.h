@@ -24,8 +24,9 @@ struct Leaf_view {
 /// What is asked of two leaves.
 struct Leaf_request {
   double margin;
-  bool one_mesh;  ///< leave out faces that share a vertex
-  bool one_leaf;  ///< each pair once
+  double origin[4];  ///< of boxes, any place near the faces: the nearer it is, the less is lost by rounding; the last 0
+  bool one_mesh;     ///< leave out faces that share a vertex
+  bool one_leaf;     ///< each pair once
 };
 
 /// Writes the face pairs of two leaves that are not proven apart, see `Leaf_pairs::near_faces`.

@@ -69,8 +69,11 @@ std::span<const Face_places> Leaf_pairs::near_faces(std::uint32_t leaf_a, std::u
   const bool together = one_mesh_ && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
   const auto b = view(sides_[together ? 0 : 1], leaf_b);
   near_.resize(std::max(near_.size(), a.face_count * b.face_count));
-  const kernel::Leaf_request request{
-      .margin = margin_, .one_mesh = one_mesh_, .one_leaf = one_mesh_ && leaf_a == leaf_b};
+  const double* origin = sides_[0].posed.tree->box(0).low;
+  const kernel::Leaf_request request{.margin = margin_,
+                                     .origin = {origin[0], origin[1], origin[2], 0},
+                                     .one_mesh = one_mesh_,
+                                     .one_leaf = one_mesh_ && leaf_a == leaf_b};
   const std::size_t count = kernel::near_faces(a, b, request, *scratch_, near_.data());
   return {near_.data(), count};
 }

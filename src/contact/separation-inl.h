@@ -133,8 +133,8 @@ HWY_INLINE Numbers greatest_gap(const Determinants& of) {
     const auto low_b = hn::Min(of.third_b[i], zero), high_b = hn::Max(of.third_b[i], zero);
     for (std::size_t j = 0; j < 3; ++j) {
       const auto low_a = hn::Min(of.third_a[j], zero), high_a = hn::Max(of.third_a[j], zero);
-      gap = hn::Max(gap, hn::Max(hn::Sub(hn::Add(of.side[i][j], low_b), high_a),
-                                 hn::Sub(low_a, hn::Add(of.side[i][j], high_b))));
+      gap = hn::Max(
+          gap, hn::Max(hn::Sub(hn::Add(of.side[i][j], low_b), high_a), hn::Sub(low_a, hn::Add(of.side[i][j], high_b))));
     }
   }
   return gap;

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Included once per instruction set, as Highway's own *-inl.h files are.
+#if defined(LODESTONE_NEAR_BOXES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LODESTONE_NEAR_BOXES_INL_H
+#undef LODESTONE_NEAR_BOXES_INL_H
+#else
+#define LODESTONE_NEAR_BOXES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstring>
+#include <limits>
+
+#include "contact/lane_lists.h"
+#include "contact/leaf_scratch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::kernel::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// One side of as many boxes as a vector holds.
+using Box_lanes = hn::CappedTag<float, most_box_lanes>;
+using Sides = hn::Vec<Box_lanes>;
+using Near = hn::Mask<Box_lanes>;
+
+template <class Tag>
+HWY_INLINE unsigned mask_bits(Tag d, hn::Mask<Tag> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return bytes[0] | (hn::MaxLanes(Tag()) > 8 ? bytes[1] << 8U : 0U);
+}
+
+/// Lists the numbers of the lanes whose bits are set, counted from `first`. Eight bytes are written for each eight
+/// lanes, whatever their number: no branch could foretell it.
+/// @return number of bits
+HWY_INLINE std::size_t list_lanes(unsigned bits, std::size_t first, std::uint8_t* list) {
+  const auto list_eight = [](unsigned eight, std::size_t from, std::uint8_t* to) HWY_ATTR {
+    std::uint64_t numbers;
+    std::memcpy(&numbers, lane_lists[eight].data(), 8);
+    numbers += from * 0x0101010101010101;
+    std::memcpy(to, &numbers, 8);
+  };
+  list_eight(bits & 0xff, first, list);
+  if constexpr (hn::MaxLanes(Box_lanes()) > 8) list_eight(bits >> 8, first + 8, list + hwy::PopCount(bits & 0xff));
+  return hwy::PopCount(bits);
+}
+
+HWY_INLINE void repeat_byte(std::size_t byte, std::uint8_t* list) {
+  const std::uint64_t bytes = byte * 0x0101010101010101;
+  std::memcpy(list, &bytes, 8);
+}
+
+/// Gives the lanes past the last face boxes that meet nothing.
+HWY_INLINE void end_columns(Face_columns& faces, std::size_t count) {
+  const Box_lanes d;
+  const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    hn::StoreU(infinity, d, faces.low[axis] + count);
+    hn::StoreU(hn::Neg(infinity), d, faces.high[axis] + count);
+  }
+  faces.count = count;
+}
+
+/// A box in every lane, its high side moved out by the margin.
+struct Limits {
+  Sides low[3], high[3];
+};
+
+HWY_INLINE Limits limits(const float (&low)[4], const float (&high)[4]) {
+  const Box_lanes d;
+  return {{hn::Set(d, low[0]), hn::Set(d, low[1]), hn::Set(d, low[2])},
+          {hn::Set(d, high[0]), hn::Set(d, high[1]), hn::Set(d, high[2])}};
+}
+HWY_INLINE Limits limits(const Face_columns& faces, std::size_t face) {
+  const Box_lanes d;
+  const auto side = [&](const Face_columns::Column& column) HWY_ATTR { return hn::Set(d, column[face]); };
+  return {{side(faces.low[0]), side(faces.low[1]), side(faces.low[2])},
+          {side(faces.high[0]), side(faces.high[1]), side(faces.high[2])}};
+}
+
+/// The lanes in which a face, from the `start`th on, has a box within the margin of another box.
+HWY_INLINE Near near_boxes(const Limits& box, const Face_columns& faces, std::size_t start) {
+  const Box_lanes d;
+  const auto near_along = [&](std::size_t axis) HWY_ATTR {
+    return hn::And(hn::Le(box.low[axis], hn::LoadU(d, faces.high[axis] + start)),
+                   hn::Le(hn::LoadU(d, faces.low[axis] + start), box.high[axis]));
+  };
+  return hn::And(hn::And(near_along(0), near_along(1)), near_along(2));
+}
+
+/// Lists the faces whose boxes are within the margin of a box.
+/// @return the limits of these; they mean nothing if there is none
+HWY_INLINE Limits list_near(const Face_columns& faces, const Limits& box, Face_list& list) {
+  const Box_lanes d;
+  const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+  Limits around;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    around.low[axis] = infinity;
+    around.high[axis] = hn::Neg(infinity);
+  }
+  std::size_t count = 0;
+  for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d)) {
+    const auto near = near_boxes(box, faces, start);
+    count += list_lanes(mask_bits(d, near), start, list.places + count);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto low = hn::IfThenElse(near, hn::Load(d, faces.low[axis] + start), infinity);
+      const auto high = hn::IfThenElse(near, hn::Load(d, faces.high[axis] + start), hn::Neg(infinity));
+      around.low[axis] = hn::Min(around.low[axis], low);
+      around.high[axis] = hn::Max(around.high[axis], high);
+    }
+  }
+  list.count = count;
+  if (count == 0) return around;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    around.low[axis] = hn::MinOfLanes(d, around.low[axis]);
+    around.high[axis] = hn::MaxOfLanes(d, around.high[axis]);
+  }
+  return around;
+}
+
+HWY_INLINE void copy_listed(const Face_columns& faces, const Face_list& list, bool with_vertices, Face_columns& copy) {
+  for (std::size_t f = 0; f < list.count; ++f) {
+    const std::size_t place = list.places[f];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      copy.low[axis][f] = faces.low[axis][place];
+      copy.high[axis][f] = faces.high[axis][place];
+      if (with_vertices) copy.vertices[axis][f] = faces.vertices[axis][place];
+    }
+  }
+  end_columns(copy, list.count);
+}
+
+/// The lanes in which a face of b, from the `start`th on, has a vertex of a's face.
+HWY_INLINE Near share_a_vertex(const Face_columns& a, std::size_t face, const Face_columns& b, std::size_t start) {
+  const hn::Rebind<std::uint32_t, Box_lanes> d;
+  const auto p = hn::Set(d, a.vertices[0][face]), q = hn::Set(d, a.vertices[1][face]);
+  const auto r = hn::Set(d, a.vertices[2][face]);
+  const auto shares = [&](std::size_t corner) HWY_ATTR {
+    const auto vertex = hn::LoadU(d, b.vertices[corner] + start);
+    return hn::Or(hn::Or(hn::Eq(p, vertex), hn::Eq(q, vertex)), hn::Eq(r, vertex));
+  };
+  return hn::RebindMask(Box_lanes(), hn::Or(hn::Or(shares(0), shares(1)), shares(2)));
+}
+
+/// Adds the pairs of a face of a and one of b, from the `first`th on, whose boxes are within the margin.
+/// @param count  of the pairs listed so far
+/// @return the same with these
+HWY_INLINE std::size_t list_near_pairs(const Face_columns& a, std::size_t face, const Face_columns& b,
+                                       std::size_t first, bool skip_neighbours, std::size_t count,
+                                       Leaf_scratch& scratch) {
+  const Box_lanes d;
+  const Limits box = limits(a, face);
+  for (std::size_t start = first; start < b.count; start += hn::Lanes(d)) {
+    auto near = near_boxes(box, b, start);
+    if (skip_neighbours && !hn::AllFalse(d, near)) near = hn::AndNot(share_a_vertex(a, face, b, start), near);
+    for (std::size_t eight = 0; eight < hn::Lanes(d); eight += 8) repeat_byte(face, scratch.pairs_a + count + eight);
+    count += list_lanes(mask_bits(d, near), start, scratch.pairs_b + count);
+  }
+  return count;
+}
+
+}  // namespace lodestone::kernel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
