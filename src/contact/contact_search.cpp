@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "contact/face_pair_order.h"
+
 namespace lodestone {
 
 namespace {
@@ -54,7 +56,7 @@ Contact_summary Contact_search::run(const Plan& plan, const Contact_request& req
   summary.capped = all && found.size() - first > most;
   const std::size_t listed = request.query == Contact_query::yes_no ? 0 : std::min(most, found.size() - first);
   found.resize(first + listed);
-  std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end());
+  sort_face_pairs(std::span(found).subspan(first));
   return summary;
 }
 
