@@ -7,7 +7,7 @@
 
 namespace lodestone::kernel {
 
-/// For each pattern of eight bits the numbers of those that are set, ascending, then anything.
+/// For each pattern of eight bits the numbers of those that are set, ascending, then zeros.
 inline constexpr auto lane_lists = [] {
   std::array<std::array<std::uint8_t, 8>, 256> lists{};
   for (unsigned bits = 0; bits < lists.size(); ++bits) {

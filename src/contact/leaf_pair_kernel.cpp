@@ -121,20 +121,40 @@ HWY_INLINE std::size_t keep_not_apart(const Leaf_view& a, const Leaf_view& b, co
                                        hn::FirstN(d, count - first), crossing);
     alignas(64) double crossings[widest];
     hn::Store(crossing, d, crossings);
-    for (unsigned bits = mask_bits(d, left); bits != 0; bits &= bits - 1) {
-      const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      near[kept] = places[lane];
-      near[kept++].crossing = static_cast<std::uint8_t>(crossings[lane]);
+    // All places of the list are written, whatever their number: no branch could foretell it.
+    std::uint8_t left_lanes[widest];
+    const std::size_t left_count = list_eight(mask_bits(d, left), 0, left_lanes);
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
+      near[kept + i] = places[left_lanes[i]];
+      near[kept + i].crossing = static_cast<std::uint8_t>(crossings[left_lanes[i]]);
     }
+    kept += left_count;
   }
   return kept;
 }
 
-HWY_INLINE std::size_t near_faces_of_one_leaf(const Leaf_view& leaf, const Leaf_request& request, Leaf_scratch& scratch,
-                                              Face_places* near) {
-  const Face_columns& faces = *leaf.faces;
+/// Lists the pairs of different faces of a leaf whose boxes are near, and that share no vertex.
+/// @return their number
+HWY_INLINE std::size_t list_pairs_within(const Face_columns& faces, Leaf_scratch& scratch) {
   std::size_t count = 0;
   for (std::size_t f = 0; f < faces.count; ++f) count = list_near_pairs(faces, f, faces, f + 1, true, count, scratch);
+  return count;
+}
+
+/// Lists the pairs of one of a's listed faces and one of b's whose boxes are near.
+/// @return their number
+template <bool one_mesh>
+HWY_INLINE std::size_t list_pairs(const Face_columns& a, const Face_list& near_a, const Face_columns& b,
+                                    Leaf_scratch& scratch) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < near_a.count; ++i)
+    count = list_near_pairs(a, near_a.places[i], b, 0, one_mesh, count, scratch);
+  return count;
+}
+
+HWY_INLINE std::size_t near_faces_of_one_leaf(const Leaf_view& leaf, const Leaf_request& request, Leaf_scratch& scratch,
+                                              Face_places* near) {
+  const std::size_t count = list_pairs_within(*leaf.faces, scratch);
   return keep_not_apart(leaf, leaf, nullptr, request, count, scratch, near);
 }
 
@@ -147,9 +167,8 @@ HWY_INLINE std::size_t near_faces_of_two_leaves(const Leaf_view& a, const Leaf_v
   if (scratch.near_b.count == 0) return 0;
   copy_listed(*b.faces, scratch.near_b, request.one_mesh, scratch.b);
   list_near(*a.faces, limits_b, scratch.near_a);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < scratch.near_a.count; ++i)
-    count = list_near_pairs(*a.faces, scratch.near_a.places[i], scratch.b, 0, request.one_mesh, count, scratch);
+  const std::size_t count = request.one_mesh ? list_pairs<true>(*a.faces, scratch.near_a, scratch.b, scratch)
+                                             : list_pairs<false>(*a.faces, scratch.near_a, scratch.b, scratch);
   return keep_not_apart(a, b, scratch.near_b.places, request, count, scratch, near);
 }
 

@@ -30,7 +30,7 @@ struct Leaf_request {
 };
 
 /// Writes the face pairs of two leaves that are not proven apart, see `Leaf_pairs::near_faces`.
-/// @return number of pairs written to `near`, which has room for all
+/// @return number of pairs written to `near`, which has room for all and `widest` more
 std::size_t near_faces(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request, Leaf_scratch& scratch,
                        Face_places* near);
 

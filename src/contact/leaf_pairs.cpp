@@ -68,7 +68,7 @@ std::span<const Face_places> Leaf_pairs::near_faces(std::uint32_t leaf_a, std::u
   // Within one mesh a leaf is kept once, unless the two would be kept in the same place.
   const bool together = one_mesh_ && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
   const auto b = view(sides_[together ? 0 : 1], leaf_b);
-  near_.resize(std::max(near_.size(), a.face_count * b.face_count));
+  near_.resize(std::max(near_.size(), a.face_count * b.face_count + widest));
   const double* origin = sides_[0].posed.tree->box(0).low;
   const kernel::Leaf_request request{.margin = margin_,
                                      .origin = {origin[0], origin[1], origin[2], 0},

@@ -29,22 +29,27 @@ template <class Tag>
 HWY_INLINE unsigned mask_bits(Tag d, hn::Mask<Tag> mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0] | (hn::MaxLanes(Tag()) > 8 ? bytes[1] << 8U : 0U);
+  std::uint32_t bits;
+  std::memcpy(&bits, bytes, 4);
+  return bits;
 }
 
-/// Lists the numbers of the lanes whose bits are set, counted from `first`. Eight bytes are written for each eight
-/// lanes, whatever their number: no branch could foretell it.
+/// Lists which of eight bits are set, counted from `first`. Eight bytes are written, whatever their number: no branch
+/// could foretell it.
 /// @return number of bits
-HWY_INLINE std::size_t list_lanes(unsigned bits, std::size_t first, std::uint8_t* list) {
-  const auto list_eight = [](unsigned eight, std::size_t from, std::uint8_t* to) HWY_ATTR {
-    std::uint64_t numbers;
-    std::memcpy(&numbers, lane_lists[eight].data(), 8);
-    numbers += from * 0x0101010101010101;
-    std::memcpy(to, &numbers, 8);
-  };
-  list_eight(bits & 0xff, first, list);
-  if constexpr (hn::MaxLanes(Box_lanes()) > 8) list_eight(bits >> 8, first + 8, list + hwy::PopCount(bits & 0xff));
+HWY_INLINE std::size_t list_eight(unsigned bits, std::size_t first, std::uint8_t* list) {
+  std::uint64_t numbers;
+  std::memcpy(&numbers, lane_lists[bits].data(), 8);
+  numbers += first * 0x0101010101010101;
+  std::memcpy(list, &numbers, 8);
   return hwy::PopCount(bits);
+}
+
+/// The same for as many bits as a vector has boxes.
+HWY_INLINE std::size_t list_lanes(unsigned bits, std::size_t first, std::uint8_t* list) {
+  std::size_t count = list_eight(bits & 0xff, first, list);
+  if constexpr (hn::MaxLanes(Box_lanes()) > 8) count += list_eight(bits >> 8U, first + 8, list + count);
+  return count;
 }
 
 HWY_INLINE void repeat_byte(std::size_t byte, std::uint8_t* list) {
