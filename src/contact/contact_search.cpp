@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "contact/face_pair_order.h"
+#include "lodestone/contact/face_pair_order.h"
 
 namespace lodestone {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/face_pair_order.h"
+#include "lodestone/contact/face_pair_order.h"
 
 #include <algorithm>
 #include <array>

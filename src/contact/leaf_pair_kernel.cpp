@@ -29,7 +29,8 @@ HWY_INLINE void copy_positions(const Leaf_view& leaf, double (*positions)[4]) {
   for (std::size_t i = 0; i < vectors; ++i) hn::Store(load_last(vertex, i), d, positions[last] + i * lanes);
 }
 
-/// A box as faces are compared by: seen from the request's origin, its high side moved out by the margin, and rounded.
+/// A box as faces are compared by: its high side moved out by the margin, in the request's unit, seen from its origin,
+/// and rounded.
 ///
 /// All boxes are rounded alike, and neither of these steps can reverse the order of two numbers: boxes that are within
 /// the margin of each other stay so, whatever is lost.
@@ -43,10 +44,12 @@ HWY_INLINE Rounded_box rounded(const Leaf_request& request, const hn::Vec<D> (&l
   const hn::Rebind<float, D> to;
   Rounded_box box;
   for (std::size_t i = 0; i < vectors; ++i) {
-    const auto origin = hn::LoadU(d, request.origin + i * lanes);
-    const auto moved = hn::Add(high[i], hn::Set(d, request.margin));
-    hn::StoreU(hn::DemoteTo(to, hn::Sub(low[i], origin)), to, box.low + i * lanes);
-    hn::StoreU(hn::DemoteTo(to, hn::Sub(moved, origin)), to, box.high + i * lanes);
+    const auto round = [&](hn::Vec<D> side) HWY_ATTR {
+      const auto from_origin = hn::Sub(side, hn::LoadU(d, request.origin + i * lanes));
+      return hn::DemoteTo(to, hn::Mul(from_origin, hn::Set(d, request.scale)));
+    };
+    hn::StoreU(round(low[i]), to, box.low + i * lanes);
+    hn::StoreU(round(hn::Add(high[i], hn::Set(d, request.margin))), to, box.high + i * lanes);
   }
   return box;
 }
@@ -145,7 +148,7 @@ HWY_INLINE std::size_t list_pairs_within(const Face_columns& faces, Leaf_scratch
 /// @return their number
 template <bool one_mesh>
 HWY_INLINE std::size_t list_pairs(const Face_columns& a, const Face_list& near_a, const Face_columns& b,
-                                    Leaf_scratch& scratch) {
+                                  Leaf_scratch& scratch) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < near_a.count; ++i)
     count = list_near_pairs(a, near_a.places[i], b, 0, one_mesh, count, scratch);

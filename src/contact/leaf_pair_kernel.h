@@ -24,7 +24,8 @@ struct Leaf_view {
 /// What is asked of two leaves.
 struct Leaf_request {
   double margin;
-  double origin[4];  ///< of boxes, any place near the faces: the nearer it is, the less is lost by rounding; the last 0
+  double origin[4];  ///< of boxes: any place, finite; the nearer to the faces, the less is lost by rounding
+  double scale;      ///< that brings their sizes near 1; > 0
   bool one_mesh;     ///< leave out faces that share a vertex
   bool one_leaf;     ///< each pair once
 };

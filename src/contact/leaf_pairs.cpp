@@ -2,6 +2,7 @@
 #include "lodestone/contact/leaf_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "contact/leaf_pair_kernel.h"
@@ -15,6 +16,9 @@ namespace {
 constexpr std::size_t slot_count = 32;
 constexpr auto no_leaf = std::numeric_limits<std::uint32_t>::max();
 
+/// A power of two that brings a size near 1, as far as there is one.
+double unit_scale(double size) { return size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1; }
+
 }  // namespace
 
 Leaf_pairs::Leaf_pairs() : scratch_(std::make_unique_for_overwrite<Leaf_scratch>()) {}
@@ -24,6 +28,10 @@ Leaf_pairs& Leaf_pairs::operator=(Leaf_pairs&&) noexcept = default;
 
 void Leaf_pairs::Side::begin(const Posed_layout& tree) {
   posed = tree;
+  if (tree.boxes.empty())
+    size_box.enclose(tree.layout->leaf_faces(0, tree.coordinates));
+  else
+    size_box = tree.boxes.front();
   slots.resize(slot_count);
   for (Slot& slot : slots) slot.leaf = no_leaf;
 }
@@ -55,6 +63,7 @@ void Leaf_pairs::begin(const Posed_layout& a, const Posed_layout& b, double marg
   sides_[0].begin(a);
   sides_[1].begin(b);
   margin_ = margin;
+  scratch_->scale = unit_scale(sides_[0].size_box.extent());
   one_mesh_ = false;
 }
 
@@ -69,9 +78,10 @@ std::span<const Face_places> Leaf_pairs::near_faces(std::uint32_t leaf_a, std::u
   const bool together = one_mesh_ && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
   const auto b = view(sides_[together ? 0 : 1], leaf_b);
   near_.resize(std::max(near_.size(), a.face_count * b.face_count + widest));
-  const double* origin = sides_[0].posed.tree->box(0).low;
+  const double* origin = sides_[0].size_box.low;
   const kernel::Leaf_request request{.margin = margin_,
                                      .origin = {origin[0], origin[1], origin[2], 0},
+                                     .scale = scratch_->scale,
                                      .one_mesh = one_mesh_,
                                      .one_leaf = one_mesh_ && leaf_a == leaf_b};
   const std::size_t count = kernel::near_faces(a, b, request, *scratch_, near_.data());

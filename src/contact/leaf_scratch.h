@@ -30,6 +30,7 @@ struct Face_list {
 
 /// Memory of leaf against leaf.
 struct alignas(64) Leaf_scratch {
+  double scale;              ///< of boxes, see `kernel::Leaf_request`
   Face_list near_a, near_b;  ///< faces near the other leaf
   Face_columns b;            ///< those of b
 

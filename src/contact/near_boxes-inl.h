@@ -57,13 +57,14 @@ HWY_INLINE void repeat_byte(std::size_t byte, std::uint8_t* list) {
   std::memcpy(list, &bytes, 8);
 }
 
-/// Gives the lanes past the last face boxes that meet nothing.
+/// Gives the lanes past the last face boxes that meet nothing, not even a box without an end: their sides are not
+/// numbers.
 HWY_INLINE void end_columns(Face_columns& faces, std::size_t count) {
   const Box_lanes d;
-  const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+  const auto no_number = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    hn::StoreU(infinity, d, faces.low[axis] + count);
-    hn::StoreU(hn::Neg(infinity), d, faces.high[axis] + count);
+    hn::StoreU(no_number, d, faces.low[axis] + count);
+    hn::StoreU(no_number, d, faces.high[axis] + count);
   }
   faces.count = count;
 }

@@ -187,6 +187,14 @@ TEST(Leaf_pairs, leave_out_faces_that_a_plane_through_one_of_them_separates) {
       ASSERT_TRUE(near_pairs(a.posed(), b.posed(), 0).empty()) << place.scale;
       ASSERT_TRUE(near_pairs(b.posed(), a.posed(), 0).empty()) << place.scale;
     }
+  // Beyond 1e-90 and 1e90 determinants are not relied upon: a normal still separates.
+  const auto pairs = apart_by(1e-9, random, 2000);
+  for (const double scale : {0x1p-310, 0x1p310})
+    for (std::size_t i = 0; i < pairs.size(); i += 2) {
+      a.set(0, placed(pairs[i].first, {scale, 0})), b.set(0, placed(pairs[i].second, {scale, 0}));
+      a.refit(), b.refit();
+      ASSERT_TRUE(near_pairs(a.posed(), b.posed(), 0).empty()) << scale;
+    }
   for (const auto& [s, t] : apart_by(0.1, random, 2000)) {
     a.set(0, s), b.set(0, t);
     a.refit(), b.refit();
@@ -288,6 +296,43 @@ TEST(Leaf_pairs, of_two_leaves_whose_boxes_overlap_are_few) {
   const auto near = near_pairs(a.posed(), b.posed(), 0.15);
   EXPECT_GT(near.size(), 0U);
   EXPECT_LT(near.size(), 128U * 128 / 5);
+}
+
+TEST(Leaf_pairs, of_full_leaves_whose_faces_all_meet_are_all_of_them) {
+  constexpr std::uint32_t full = 128;
+  Leaf a(full), b(full);
+  for (std::uint32_t i = 0; i < full; ++i) {
+    const double x = 0.001 * i;  // upright ones, and level ones that each of them cuts
+    a.set(i, {Point(x, -1, -1), Point(x, 1, -1), Point(x, 0, 2)});
+    b.set(i, {Point(-2, -1, x), Point(2, -1, x), Point(0, 3, x)});
+  }
+  a.refit(), b.refit();
+  for (const double margin : {0.0, 0.5}) {
+    const auto near = near_pairs(a.posed(), b.posed(), margin);
+    EXPECT_EQ(near.size(), full * full);
+    EXPECT_EQ(near.back(), (Face_pair{full - 1, full - 1}));
+  }
+}
+
+/// The boxes of the faces touch, or miss each other by the last digit: what is lost by rounding must not matter.
+TEST(Leaf_pairs, never_leave_out_faces_whose_boxes_only_touch) {
+  Leaf a(16), b(16);
+  for (const Place& place : {Place{1, 0}, {1, 0x1p20}, {1, -0x1p40}, {0x1p-200, 0}, {0x1p-1040, 0}, {0x1p1020, 0}})
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::uint32_t f = 0; f < 16; ++f) {
+        const auto turned = [&](double x, double y, double z) {
+          const double p[]{x, y, z};
+          return Point(p[(3 - axis) % 3], p[(4 - axis) % 3], p[(5 - axis) % 3]);
+        };
+        const double touch = 1.0 / 3, y = f;
+        a.set(f, placed({turned(0, y, 0), turned(touch, y, 0), turned(0, y, 1)}, place));
+        b.set(f, placed({turned(touch, y, 0), turned(1, y, 0), turned(1, y, 1)}, place));
+      }
+      a.refit(), b.refit();
+      const auto near = near_pairs(a.posed(), b.posed(), 0);
+      for (std::uint32_t f = 0; f < 16; ++f)
+        ASSERT_TRUE(std::ranges::binary_search(near, Face_pair{f, f})) << place.scale << ' ' << axis;
+    }
 }
 
 bool share_a_vertex(const Corners& a, const Corners& b) {

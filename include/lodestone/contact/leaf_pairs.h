@@ -73,6 +73,7 @@ class Leaf_pairs {
   /// Leaves of one tree.
   struct Side {
     Posed_layout posed;
+    Aabb size_box;  ///< tells where it is and how large, if only roughly: around all of it, or around a leaf
     std::vector<Slot> slots;
 
     void begin(const Posed_layout& tree);
