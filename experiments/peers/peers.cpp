@@ -177,7 +177,8 @@ std::string run_peers(const Experiment_context& context) {
     const auto figures = measure_race(scene, entries, {}, [&](double share) {
       context.progress(s * steps + static_cast<std::size_t>(share * steps), names.size() * steps);
     });
-    report += (s > 0 ? "\n" : "") + section(figures);
+    if (s > 0) report += "\n";
+    report += section(figures);
     json.push_back(to_json(figures));
   }
   write_json(context.out, "peers", json);
