@@ -10,8 +10,9 @@ namespace lodestone {
 
 namespace {
 
-/// Pairs of leaves that are looked at before other workers are woken: about 30 microseconds.
-constexpr std::size_t tests_alone = 64;
+/// Pairs of leaves that are looked at before other workers are woken: some 30 microseconds. In a tree of many leaves a
+/// test takes longer, for these are no longer in the innermost cache.
+std::size_t tests_alone(std::size_t leaves) { return leaves < 1024 ? 64 : 16; }
 /// Tasks that the rest of a walk is cut into.
 constexpr std::size_t walk_tasks = 256;
 
@@ -64,11 +65,12 @@ Contact_summary Contact_search::run(const Plan& plan, const Contact_request& req
 /// there is any, is shared.
 /// @return number of results that count
 std::size_t Contact_search::run_tasks(const Plan& plan, std::size_t limit) {
+  for (Scratch& scratch : scratch_) scratch.walk.resumes = false;
   const bool shared = workers_.count() > 1 && (limit == 1 || limit == std::numeric_limits<std::size_t>::max());
   results_.resize(std::max<std::size_t>(results_.size(), 1));
   Tree_walk& walk = scratch_.front().walk;
   walk.ahead.assign(1, {0, 0});
-  walk.last_leaf_test = shared ? walk.leaf_tests + tests_alone : std::numeric_limits<std::size_t>::max();
+  walk.last_leaf_test = shared ? walk.leaf_tests + tests_alone(plan.leaves) : std::numeric_limits<std::size_t>::max();
   const bool full = run_one(plan.walk, 0, limit, scratch_.front());
   walk.last_leaf_test = std::numeric_limits<std::size_t>::max();
   if (full) return 1;
@@ -111,6 +113,7 @@ bool Contact_search::run_one(const Task& task, std::size_t index, std::size_t li
   const std::size_t leaf_tests = scratch.walk.leaf_tests;
   const std::size_t exact_tests = scratch.walk.exact_tests + scratch.neighbours.exact_tests();
   task(limit, scratch, result);
+  scratch.walk.resumes = true;
   result.leaf_tests = scratch.walk.leaf_tests - leaf_tests;
   result.exact_tests = scratch.walk.exact_tests + scratch.neighbours.exact_tests() - exact_tests;
   return result.found.size() >= limit;

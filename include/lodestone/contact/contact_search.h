@@ -60,7 +60,8 @@ class Contact_search {
   using Task = std::function<void(std::size_t limit, Scratch& scratch, Result& result)>;
   /// What a search consists of.
   struct Plan {
-    Task walk;  ///< goes on from `scratch.walk.ahead`
+    std::size_t leaves;  ///< of the trees
+    Task walk;           ///< goes on from `scratch.walk.ahead`
     /// Replaces a node pair by those below it, the last to be visited first; false: there is nothing to open.
     std::function<bool(Node_pair pair, std::vector<Node_pair>& below)> open;
     std::vector<Task> others = {};  ///< come after the walk
@@ -81,6 +82,7 @@ template <Bounding_volume Volume>
 Contact_summary Contact_search::between(const Basic_tree_object<Volume>& a, const Basic_tree_object<Volume>& b,
                                         const Contact_request& request, std::vector<Face_pair>& found) {
   Plan plan;
+  plan.leaves = a.tree().leaf_count() + b.tree().leaf_count();
   plan.walk = [&](std::size_t limit, Scratch& scratch, Result& result) {
     visit_contacts(a.posed(), b.posed(), request.tolerance, scratch.walk, [&](Face_pair pair) {
       result.found.push_back(pair);
@@ -102,6 +104,7 @@ Contact_summary Contact_search::within(const Basic_tree_object<Volume>& object, 
   const auto& tree = object.tree();
   const Vertex_fans& fans = object.fans();
   Plan plan;
+  plan.leaves = tree.leaf_count();
   plan.walk = [&](std::size_t limit, Scratch& scratch, Result& result) {
     visit_contacts_within(object.posed(), scratch.walk, [&](Face_pair pair) {
       result.found.push_back(pair);

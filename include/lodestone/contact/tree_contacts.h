@@ -25,6 +25,7 @@ concept Contact_visitor = requires(Visitor& visitor, Face_pair pair) {
 struct Tree_walk {
   std::vector<Node_pair> ahead;
   Leaf_pairs leaf_pairs;
+  bool resumes = false;  ///< trees, positions and distance are those of the walk before: what was read of leaves holds
   /// The walk stops, with the rest in `ahead`, when `leaf_tests` reaches this.
   std::size_t last_leaf_test = std::numeric_limits<std::size_t>::max();
   std::size_t leaf_tests = 0;   ///< pairs of leaves looked at, since the start
@@ -64,7 +65,7 @@ Visit visit_contacts(const Basic_posed_tree<Volume>& a, const Basic_posed_tree<V
     }
     return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
-  walk.leaf_pairs.begin(layout_a, layout_b, distance);
+  if (!walk.resumes) walk.leaf_pairs.begin(layout_a, layout_b, distance);
   return walk_leaf_pairs(*a.tree, *b.tree, distance, walk.ahead, visit_leaves);
 }
 
@@ -93,7 +94,7 @@ Visit visit_contacts_within(const Basic_posed_tree<Volume>& posed, Tree_walk& wa
     }
     return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
-  walk.leaf_pairs.begin_within(layout);
+  if (!walk.resumes) walk.leaf_pairs.begin_within(layout);
   return walk_leaf_pairs_within(*posed.tree, walk.ahead, visit_leaves);
 }
 
