@@ -166,9 +166,9 @@ HWY_INLINE std::size_t near_faces_of_two_leaves(const Leaf_view& a, const Leaf_v
   const Limits limits_a = list_near(*a.faces, limits(request, *b.box), scratch.near_a);
   if (scratch.near_a.count == 0) return 0;
   if (b.faces->count == 0) pose(b, request);
-  const Limits limits_b = list_near(*b.faces, limits_a, scratch.near_b);
+  const Limits limits_b = request.one_mesh ? list_near<true>(*b.faces, limits_a, scratch.near_b, &scratch.b)
+                                           : list_near<false>(*b.faces, limits_a, scratch.near_b, &scratch.b);
   if (scratch.near_b.count == 0) return 0;
-  copy_listed(*b.faces, scratch.near_b, request.one_mesh, scratch.b);
   list_near(*a.faces, limits_b, scratch.near_a);
   const std::size_t count = request.one_mesh ? list_pairs<true>(*a.faces, scratch.near_a, scratch.b, scratch)
                                              : list_pairs<false>(*a.faces, scratch.near_a, scratch.b, scratch);

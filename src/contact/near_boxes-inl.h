@@ -96,9 +96,21 @@ HWY_INLINE Near near_boxes(const Limits& box, const Face_columns& faces, std::si
   return hn::And(hn::And(near_along(0), near_along(1)), near_along(2));
 }
 
+/// Writes the numbers of the lanes that are asked for next to each other, and anything after them.
+HWY_INLINE void store_packed(Sides sides, Near lanes, float* to) {
+  hn::StoreU(hn::Compress(sides, lanes), Box_lanes(), to);
+}
+HWY_INLINE void store_packed(const std::uint32_t* from, Near lanes, std::uint32_t* to) {
+  const hn::Rebind<std::uint32_t, Box_lanes> d;
+  hn::StoreU(hn::Compress(hn::Load(d, from), hn::RebindMask(d, lanes)), d, to);
+}
+
 /// Lists the faces whose boxes are within the margin of a box.
+/// @param copy  null, or where these faces are put next to each other, without the lanes past the last
 /// @return the limits of these; they mean nothing if there is none
-HWY_INLINE Limits list_near(const Face_columns& faces, const Limits& box, Face_list& list) {
+template <bool with_vertices = false>
+HWY_INLINE Limits list_near(const Face_columns& faces, const Limits& box, Face_list& list,
+                            Face_columns* copy = nullptr) {
   const Box_lanes d;
   const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
   Limits around;
@@ -109,33 +121,25 @@ HWY_INLINE Limits list_near(const Face_columns& faces, const Limits& box, Face_l
   std::size_t count = 0;
   for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d)) {
     const auto near = near_boxes(box, faces, start);
-    count += list_lanes(mask_bits(d, near), start, list.places + count);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto low = hn::IfThenElse(near, hn::Load(d, faces.low[axis] + start), infinity);
-      const auto high = hn::IfThenElse(near, hn::Load(d, faces.high[axis] + start), hn::Neg(infinity));
-      around.low[axis] = hn::Min(around.low[axis], low);
-      around.high[axis] = hn::Max(around.high[axis], high);
+      const auto low = hn::Load(d, faces.low[axis] + start), high = hn::Load(d, faces.high[axis] + start);
+      around.low[axis] = hn::Min(around.low[axis], hn::IfThenElse(near, low, infinity));
+      around.high[axis] = hn::Max(around.high[axis], hn::IfThenElse(near, high, hn::Neg(infinity)));
+      if (copy == nullptr) continue;
+      store_packed(low, near, copy->low[axis] + count);
+      store_packed(high, near, copy->high[axis] + count);
+      if constexpr (with_vertices) store_packed(faces.vertices[axis] + start, near, copy->vertices[axis] + count);
     }
+    count += list_lanes(mask_bits(d, near), start, list.places + count);
   }
   list.count = count;
+  if (copy != nullptr) copy->count = count;
   if (count == 0) return around;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     around.low[axis] = hn::MinOfLanes(d, around.low[axis]);
     around.high[axis] = hn::MaxOfLanes(d, around.high[axis]);
   }
   return around;
-}
-
-HWY_INLINE void copy_listed(const Face_columns& faces, const Face_list& list, bool with_vertices, Face_columns& copy) {
-  for (std::size_t f = 0; f < list.count; ++f) {
-    const std::size_t place = list.places[f];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      copy.low[axis][f] = faces.low[axis][place];
-      copy.high[axis][f] = faces.high[axis][place];
-      if (with_vertices) copy.vertices[axis][f] = faces.vertices[axis][place];
-    }
-  }
-  end_columns(copy, list.count);
 }
 
 /// The lanes in which a face of b, from the `start`th on, has a vertex of a's face.
@@ -159,7 +163,7 @@ HWY_INLINE std::size_t list_near_pairs(const Face_columns& a, std::size_t face, 
   const Box_lanes d;
   const Limits box = limits(a, face);
   for (std::size_t start = first; start < b.count; start += hn::Lanes(d)) {
-    auto near = near_boxes(box, b, start);
+    auto near = hn::And(near_boxes(box, b, start), hn::FirstN(d, b.count - start));
     if (skip_neighbours && !hn::AllFalse(d, near)) near = hn::AndNot(share_a_vertex(a, face, b, start), near);
     for (std::size_t eight = 0; eight < hn::Lanes(d); eight += 8) repeat_byte(face, scratch.pairs_a + count + eight);
     count += list_lanes(mask_bits(d, near), start, scratch.pairs_b + count);
