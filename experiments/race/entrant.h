@@ -35,7 +35,8 @@ class Entrant {
   virtual void prepare() {}
   /// Whether `approach` wants to be called: by methods whose frame goes on from the one before.
   virtual bool wants_approach() const { return false; }
-  /// Called before each timed frame, not timed, when the meshes are as they were in the scene one frame earlier.
+  /// Called for each frame of the scene that comes before a sampled one and after the sampled one before that, when the
+  /// meshes are as they are in it. What it takes is no part of the figures of a frame.
   virtual void approach() {}
   /// Begins a pass over all sampled frames. In the first one both questions are asked in every frame.
   virtual void start_pass(std::size_t /*pass*/) {}

@@ -67,7 +67,8 @@ constexpr double never = std::numeric_limits<double>::infinity();
 struct Player {
   Entry_figures* figures;
   std::unique_ptr<Entrant> entrant;
-  double seconds = 0;  ///< of all passes so far
+  double seconds = 0;           ///< of all passes so far
+  double approach_seconds = 0;  ///< between sampled frames
 
   /// Plays the frame that is posed now, number `frame` of those sampled.
   const Answer& play(std::size_t frame, const Truth& truth) {
@@ -191,21 +192,26 @@ class Scene_run {
   /// One pass of one entry over all sampled frames.
   void play(std::size_t pass, Player& player) {
     if (pass > 1 && player.seconds > options_.seconds) return;
+    if (pass > 0 && player.approach_seconds > options_.approach_seconds) return;
     player.entrant->start_pass(pass);
+    std::size_t next = 0;
     for (std::size_t f = 0; f < figures_.sampled.size() && !player.figures->left_early; ++f) {
       if (player.seconds > options_.most_seconds) player.figures->left_early = true;
       if (player.figures->left_early) return;
-      approach(*player.entrant, figures_.sampled[f]);
+      if (player.entrant->wants_approach())
+        for (; next < figures_.sampled[f]; ++next) approach(player, next);
+      next = figures_.sampled[f] + 1;
       restore(f);
       const Answer& answer = player.play(f, truths_[f]);
       if (!answer.gave_up) compare(truths_[f], answer, pass, *player.figures);
     }
   }
 
-  void approach(Entrant& entrant, std::size_t frame) {
-    if (frame == 0 || !entrant.wants_approach()) return;
-    pose_all(frame - 1);
-    entrant.approach();
+  void approach(Player& player, std::size_t frame) {
+    pose_all(frame);
+    const Lap_timer timer;
+    player.entrant->approach();
+    player.approach_seconds += timer.seconds();
   }
 
   /// Shows the sampled frames once more to those who played all of them.

@@ -20,6 +20,7 @@ struct Race_options {
   std::size_t passes = 5;                    ///< over all sampled frames
   double seconds = 3;                        ///< per entry and scene; beyond it an entry plays no third pass
   double most_seconds = 60;                  ///< per entry and scene; beyond it an entry plays no further frame
+  double approach_seconds = 20;              ///< of an entry between sampled frames; beyond it it plays no second pass
   std::size_t bytes = std::size_t{4} << 30;  ///< of entries that live at the same time, see `measure_race`
 };
 

@@ -27,6 +27,15 @@ struct Volume_figures {
   }
 };
 
+/// What particles did in all frames that they played, sampled or not.
+struct Particle_figures {
+  std::size_t frames = 0;
+  double seconds = 0;            ///< of updates and queries
+  std::size_t repartitions = 0;  ///< of objects
+
+  double mean_seconds() const { return frames > 0 ? seconds / static_cast<double>(frames) : 0; }
+};
+
 enum class Contestant_kind { bound, volume, particles };
 
 /// A row of the tables.
@@ -35,7 +44,8 @@ struct Contestant {
   std::string model;     ///< the volume; `particles, 12`; `bound`
   std::string strategy;  ///< empty: none
   Entry entry;
-  std::shared_ptr<const Volume_figures> figures;  ///< of volumes: filled by the race
+  std::shared_ptr<const Volume_figures> figures = nullptr;      ///< of volumes: filled by the race
+  std::shared_ptr<const Particle_figures> particles = nullptr;  ///< the same of particles
 };
 
 /// A tree of each model of Bounding_volume over each division.

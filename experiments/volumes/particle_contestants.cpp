@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "contestants.h"
 #include "lap_timer.h"
@@ -14,17 +15,23 @@ namespace {
 
 class Particle_entrant : public Entrant {
  public:
-  Particle_entrant(std::span<const Moving_mesh> meshes, std::size_t particles)
-      : detector_({.particles = particles, .contacts = Contact_query::yes_no, .growth = 1.25}) {
+  Particle_entrant(std::span<const Moving_mesh> meshes, std::size_t particles,
+                   std::shared_ptr<Particle_figures> figures)
+      : detector_({.particles = particles, .contacts = Contact_query::yes_no, .growth = 1.25}),
+        figures_(std::move(figures)) {
     for (const auto& mesh : meshes) detector_.add(*mesh.mesh);
     detector_.detect();  // divides the surfaces
   }
 
-  /// Particles walk from where they were in the frame before. They cannot jump to a sampled frame.
+  /// Particles walk from where they were in the frame before, so they play all frames of the scene in their order. Only
+  /// from the end back to the start, where a pass begins, do they jump; that does not count.
   bool wants_approach() const override { return true; }
+  void start_pass(std::size_t /*pass*/) override { jumps_ = true; }
   void approach() override {
+    Lap_timer timer;
     detector_.update();
-    detector_.detect();
+    const Frame& frame = detector_.detect();
+    count(timer.lap(), frame);
   }
 
   const Answer& play(std::span<const Object_pair> pairs) override {
@@ -34,6 +41,7 @@ class Particle_entrant : public Entrant {
     answer_.update_seconds = timer.lap();
     const Frame& frame = detector_.detect();
     answer_.any_seconds = timer.lap();
+    count(answer_.update_seconds + answer_.any_seconds, frame);
     for (const auto& found : frame.pairs) {
       const auto place = std::ranges::find(pairs, Object_pair{found.a, found.b}) - pairs.begin();
       if (place < std::ssize(pairs)) answer_.collides[static_cast<std::size_t>(place)] = found.collides;
@@ -42,14 +50,24 @@ class Particle_entrant : public Entrant {
   }
 
  private:
+  void count(double seconds, const Frame& frame) {
+    if (std::exchange(jumps_, false)) return;
+    ++figures_->frames;
+    figures_->seconds += seconds;
+    figures_->repartitions += frame.statistics.repartitions;
+  }
+
   Detector<Surface_mesh> detector_;
+  std::shared_ptr<Particle_figures> figures_;
   Answer answer_;
+  bool jumps_ = false;
 };
 
 }  // namespace
 
 Contestant particle_contestant(std::size_t particles) {
   const std::string model = fmt::format("particles, {}", particles);
+  const auto figures = std::make_shared<Particle_figures>();
   return {.kind = Contestant_kind::particles,
           .model = model,
           .strategy = "lbg",
@@ -57,18 +75,15 @@ Contestant particle_contestant(std::size_t particles) {
                     .method = model,
                     .volume = "none",
                     .reports_pairs = false,
-                    .build = [particles](std::span<const Moving_mesh> meshes) -> std::unique_ptr<Entrant> {
-                      return std::make_unique<Particle_entrant>(meshes, particles);
+                    .build = [=](std::span<const Moving_mesh> meshes) -> std::unique_ptr<Entrant> {
+                      return std::make_unique<Particle_entrant>(meshes, particles, figures);
                     }},
-          .figures = nullptr};
+          .particles = figures};
 }
 
 std::vector<Contestant> all_contestants(const std::vector<std::shared_ptr<Scene_division>>& divisions) {
-  std::vector<Contestant> all{{.kind = Contestant_kind::bound,
-                               .model = "bound",
-                               .strategy = "",
-                               .entry = read_bound_entry(),
-                               .figures = nullptr}};
+  std::vector<Contestant> all{
+      {.kind = Contestant_kind::bound, .model = "bound", .strategy = "", .entry = read_bound_entry()}};
   for (auto& contestant : volume_contestants(divisions)) all.push_back(std::move(contestant));
   for (const std::size_t particles : {12, 32, 64}) all.push_back(particle_contestant(particles));
   return all;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_division.h"
 
-#include <algorithm>
 #include <array>
-#include <limits>
 
 #include "lodestone/partition/partition.h"
 #include "lodestone/partition/strategies.h"
@@ -12,8 +10,6 @@
 namespace lodestone {
 
 namespace {
-
-constexpr std::size_t any_size = std::numeric_limits<std::size_t>::max();
 
 std::vector<Region_index> labels_of(const Moving_mesh& moving, const Any_strategy& strategy, double& seconds) {
   const Mesh_numbering<Surface_mesh> numbering(*moving.mesh);
@@ -29,9 +25,8 @@ std::vector<Region_index> labels_of(const Moving_mesh& moving, const Any_strateg
 
 }  // namespace
 
-std::span<const Dividing> dividings() {
-  static constexpr std::array all{Dividing{"lbg", any_size}, Dividing{"lbg_position", any_size},
-                                  Dividing{"median_split", any_size}, Dividing{"vsa", 150'000}};
+std::span<const std::string_view> dividing_strategies() {
+  static constexpr std::array<std::string_view, 4> all{"lbg", "lbg_position", "median_split", "vsa"};
   return all;
 }
 
@@ -58,11 +53,9 @@ const Scene_division::Measure& Scene_division::measure(std::size_t frame, std::s
 }
 
 std::vector<std::shared_ptr<Scene_division>> divide(std::span<const Moving_mesh> meshes) {
-  std::size_t largest = 0;
-  for (const auto& moving : meshes) largest = std::max(largest, moving.points().size());
   std::vector<std::shared_ptr<Scene_division>> divisions;
-  for (const auto& [strategy, most_vertices] : dividings())
-    if (largest <= most_vertices) divisions.push_back(std::make_shared<Scene_division>(strategy, meshes));
+  for (const auto strategy : dividing_strategies())
+    divisions.push_back(std::make_shared<Scene_division>(strategy, meshes));
   return divisions;
 }
 

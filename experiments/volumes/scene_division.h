@@ -15,15 +15,8 @@
 
 namespace lodestone {
 
-/// A strategy that takes part, and up to which size.
-struct Dividing {
-  std::string_view strategy;
-  std::size_t most_vertices;  ///< of an object; scenes with a larger one are played without it, for it would take
-                              ///< longer than all else
-};
-
-/// Those that the experiment compares, `lbg` first.
-std::span<const Dividing> dividings();
+/// Names of the strategies that the experiment compares, `lbg` first.
+std::span<const std::string_view> dividing_strategies();
 
 /// Regions of each object at the top of its tree.
 constexpr std::size_t division_regions = 64;
@@ -57,7 +50,7 @@ class Scene_division {
   std::map<std::size_t, Measure> measures_;        ///< by frame
 };
 
-/// Divides a scene by every strategy that it is not too large for.
+/// Divides a scene by every strategy.
 std::vector<std::shared_ptr<Scene_division>> divide(std::span<const Moving_mesh> meshes);
 
 }  // namespace lodestone

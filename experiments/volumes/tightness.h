@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <concepts>
+#include <limits>
+
 #include "lodestone/contact/region_tree.h"
+#include "lodestone/contact/volumes/spherical_shell.h"
 #include "tree_pieces.h"
 
 namespace lodestone {
 
 /// Volume of bounding volumes over that of the convex hulls of what they enclose: 1 is as tight as a convex body can
-/// be; one that is not convex may be tighter. Each figure is a ratio of sums, so that flat pieces, whose hulls have no
-/// volume, do no harm.
+/// be; one that is not convex may be tighter. Each figure is a ratio of sums: a flat piece, whose hull has no volume,
+/// adds what is put around it.
 struct Tightness {
   double leaves = 0;            ///< fitted to their faces
-  double regions = 0;           ///< fitted to their faces, see `choose_faces`
+  double regions = 0;           ///< fitted to their faces, see `choose_faces`; not a number where only all would do
   double regions_refitted = 0;  ///< as they stand in the tree: of the volumes below
   double objects = 0;           ///< as they stand in the tree
 };
@@ -33,7 +37,9 @@ void add_volumes(const Basic_region_tree<Volume>& tree, const Tree_pieces& piece
   for (const auto& region : regions) {
     Volume fitted;
     fitted.enclose(region.posed(coordinates));
-    sums.regions += fitted.volume();
+    // How thin a shell is is decided by faces within.
+    const bool stands_for_all = region.complete || !std::same_as<Volume, Spherical_shell>;
+    sums.regions += stands_for_all ? fitted.volume() : std::numeric_limits<double>::quiet_NaN();
   }
   for (const auto& region : pieces.regions) sums.regions_refitted += tree.volume(region.node).volume();
   sums.objects += tree.volume(0).volume();

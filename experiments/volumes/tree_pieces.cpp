@@ -132,7 +132,7 @@ Chosen_faces choose_faces(const Region_piece& region, std::span<const Corners> c
   const auto faces = region.faces.size() <= most_fitted_faces
                          ? region.faces
                          : faces_of(farthest_vertices(region, coordinates), region, corners);
-  Chosen_faces chosen;
+  Chosen_faces chosen{.vertices = {}, .corners = {}, .complete = faces.size() == region.faces.size()};
   for (const auto face : faces)
     chosen.vertices.insert(chosen.vertices.end(), corners[face].begin(), corners[face].end());
   sort_unique(chosen.vertices);

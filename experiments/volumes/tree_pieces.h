@@ -34,6 +34,7 @@ Tree_pieces pieces_of(const Tree_layout& layout, std::span<const Corners> corner
 struct Chosen_faces {
   std::vector<std::uint32_t> vertices;  ///< numbers of those that the faces have, ascending
   std::vector<Leaf_corners> corners;    ///< per face: places in `vertices`
+  bool complete = true;                 ///< these are all faces of the region
 
   Leaf_faces posed(Coordinates coordinates) const { return {coordinates, vertices, corners}; }
 };
@@ -43,7 +44,8 @@ constexpr std::size_t most_fitted_faces = 128;
 
 /// All faces of a region; if they are too many, for each of so many directions a face with a vertex that lies farthest
 /// that way. Among the directions are those of all k-DOPs, so boxes and k-DOPs around these faces are those around the
-/// region; other convex volumes are a few per cent too small.
+/// region. Other convex volumes are fitted to fewer points than they would be: balls around them are a little too
+/// small, boxes that turn may turn another way.
 Chosen_faces choose_faces(const Region_piece& region, std::span<const Corners> corners, Coordinates coordinates);
 
 /// A hull of more points is that of every n-th of them, which makes that of a ball too small by a thousandth or so.

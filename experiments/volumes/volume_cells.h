@@ -31,10 +31,31 @@ inline double recall(const Volume_scene& scene, std::size_t place) {
   return 1 - static_cast<double>(scene.race.entries[place].missed) / colliding;
 }
 
-/// In the last sampled frame; nothing but zeros if it did not take part.
-inline Tightness tightness(const Volume_scene& scene, std::string_view model, std::string_view strategy) {
-  const auto place = scene.place_of(model, strategy);
-  return place < 0 ? Tightness{} : scene.contestants[static_cast<std::size_t>(place)].figures->last;
+/// How many of them, and what it saw that is none.
+inline std::string seen_cell(const Volume_scene& scene, std::size_t place) {
+  const auto& f = scene.race.entries[place];
+  const auto seen = fmt::format("{} of {}", scene.race.colliding - f.missed, scene.race.colliding);
+  return f.invented == 0 ? seen : fmt::format("{}, {} false", seen, f.invented);
 }
+
+/// Two digits.
+inline std::string seconds_cell(double seconds) {
+  return fmt::format("{:.{}f}", seconds, seconds < 0.1 ? 3 : seconds < 1 ? 2 : seconds < 10 ? 1 : 0);
+}
+
+/// In the last sampled frame.
+inline const Tightness& tightness(const Volume_scene& scene, std::string_view model, std::string_view strategy) {
+  return scene.contestants[static_cast<std::size_t>(scene.place_of(model, strategy))].figures->last;
+}
+
+/// What tightness is measured of.
+struct Tightness_piece {
+  const char* name;
+  double Tightness::*figure;
+};
+constexpr Tightness_piece tightness_pieces[] = {{"leaves", &Tightness::leaves},
+                                                {"regions", &Tightness::regions},
+                                                {"regions refitted", &Tightness::regions_refitted},
+                                                {"objects", &Tightness::objects}};
 
 }  // namespace lodestone

@@ -59,7 +59,12 @@ Json row_of(const Volume_scene& scene, std::size_t place) {
   if (f.entry.answers) {
     row["missed"] = f.missed;
     row["invented"] = f.invented;
-    row["recall"] = scene.race.colliding == 0 ? Json() : number(recall(scene, place));
+    row["recall"] = scene.race.colliding == 0 || f.left_early ? Json() : number(recall(scene, place));
+  }
+  if (c.particles) {
+    row["mean_ms"] = number(1e3 * c.particles->mean_seconds());
+    row["played_frames"] = c.particles->frames;
+    row["repartitions"] = c.particles->repartitions;
   }
   if (f.entry.reports_pairs && c.figures) {
     row["wrong_sets"] = f.wrong_sets + f.wrong_later;
@@ -74,9 +79,7 @@ Json row_of(const Volume_scene& scene, std::size_t place) {
 
 void add_tightness(const Volume_scene& scene, const Contestant& c, Json& rows) {
   for (const auto& [frame, tightness] : {std::pair("first", &c.figures->first), std::pair("last", &c.figures->last)})
-    for (const auto& [piece, figure] :
-         {std::pair("leaves", &Tightness::leaves), std::pair("regions", &Tightness::regions),
-          std::pair("regions refitted", &Tightness::regions_refitted), std::pair("objects", &Tightness::objects)})
+    for (const auto& [piece, figure] : tightness_pieces)
       rows.push_back({{"scene", scene.race.name},
                       {"model", c.model},
                       {"strategy", c.strategy},
@@ -99,7 +102,7 @@ Json scene_json(const Volume_scene& scene) {
   Json json{{"scene", race.name},        {"objects", race.objects},     {"triangles", race.triangles},
             {"vertices", race.vertices}, {"frames", race.frames},       {"sampled_frames", race.sampled},
             {"asked", race.asked},       {"colliding", race.colliding}, {"face_pairs", race.contacts},
-            {"batches", race.batches},   {"left_out", scene.left_out}};
+            {"batches", race.batches}};
   for (const auto& [strategy, seconds] : scene.divisions)
     json["partitions"].push_back({{"strategy", strategy}, {"seconds", seconds}});
   for (std::size_t place = 0; place < scene.contestants.size(); ++place)

@@ -35,7 +35,7 @@ std::string ratios_table(std::span<const Volume_scene> scenes, double Frame_seco
   });
 }
 
-/// What a frame of volumes costs beside one of particles: the share of it that is the update.
+/// How much of update + all pairs is the update.
 std::string update_share_table(std::span<const Volume_scene> scenes) {
   return scenes_table(scenes, scenes[0].models(), [&](const Volume_scene& scene, const std::string& model) {
     return ratio_cell(scene.seconds(model, reference_strategy, &Frame_seconds::update) /
@@ -50,36 +50,54 @@ std::string particles_table(std::span<const Volume_scene> scenes) {
   constexpr auto figure = &Frame_seconds::update_and_any;
   return scenes_table(scenes, columns, [&](const Volume_scene& scene, const std::string& model) {
     const auto place = static_cast<std::size_t>(scene.place_of(model, reference_strategy));
-    const double ratio =
-        scene.seconds(model, reference_strategy, figure) / scene.seconds(reference_model, reference_strategy, figure);
-    return scene.race.colliding == 0 ? ratio_cell(ratio)
-                                     : fmt::format("{} ({:.3f})", ratio_cell(ratio), recall(scene, place));
+    const double boxes = scene.seconds(reference_model, reference_strategy, figure);
+    const auto& particles = *scene.contestants[place].particles;
+    return fmt::format("{} / {} / {:.0f} / {}", ratio_cell(scene.seconds(model, reference_strategy, figure) / boxes),
+                       ratio_cell(particles.mean_seconds() / boxes),
+                       100.0 * static_cast<double>(particles.repartitions) / static_cast<double>(particles.frames),
+                       seen_cell(scene, place));
   });
 }
 
-/// Geometric mean over the scenes that every strategy took part in.
-double mean_tightness(std::span<const Volume_scene> scenes, const std::string& model, std::string_view strategy) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (const auto& scene : scenes) {
-    if (!scene.left_out.empty()) continue;
-    sum += std::log(tightness(scene, model, strategy).regions);
-    ++count;
-  }
-  return std::exp(sum / static_cast<double>(count));
+/// Volumes in times of the mean frame of 32 particles.
+std::string mean_ratios_table(std::span<const Volume_scene> scenes) {
+  return scenes_table(scenes, scenes[0].models(), [&](const Volume_scene& scene, const std::string& model) {
+    const auto place = static_cast<std::size_t>(scene.place_of(reference_particles, reference_strategy));
+    return ratio_cell(scene.seconds(model, reference_strategy, &Frame_seconds::update_and_any) /
+                      scene.contestants[place].particles->mean_seconds());
+  });
 }
 
-std::string tightness_table(std::span<const Volume_scene> scenes) {
+/// A row for each strategy, a column for each volume: geometric means over the scenes.
+template <class Figure>
+std::string strategies_table(std::span<const Volume_scene> scenes, const Figure& figure) {
   const auto models = scenes[0].models();
-  std::vector<std::string> header{"strategy"};
+  std::vector<std::string> header{"regions by"};
   header.insert(header.end(), models.begin(), models.end());
   Text_table table(header);
-  for (const auto& dividing : dividings()) {
-    std::vector<std::string> row{std::string(dividing.strategy)};
-    for (const auto& model : models) row.push_back(ratio_cell(mean_tightness(scenes, model, dividing.strategy)));
+  for (const auto strategy : dividing_strategies()) {
+    std::vector<std::string> row{std::string(strategy)};
+    for (const auto& model : models) {
+      double sum = 0;
+      for (const auto& scene : scenes) sum += std::log(figure(scene, model, strategy));
+      row.push_back(ratio_cell(std::exp(sum / static_cast<double>(scenes.size()))));
+    }
     table.add(std::move(row));
   }
   return table.text();
+}
+
+/// Times by strategy, in times of the same volume over regions by the reference.
+std::string strategy_times_table(std::span<const Volume_scene> scenes, double Frame_seconds::*figure) {
+  return strategies_table(scenes, [&](const Volume_scene& scene, const std::string& model, std::string_view strategy) {
+    return scene.seconds(model, strategy, figure) / scene.seconds(model, reference_strategy, figure);
+  });
+}
+
+std::string tightness_table(std::span<const Volume_scene> scenes, double Tightness::*figure) {
+  return strategies_table(scenes, [&](const Volume_scene& scene, const std::string& model, std::string_view strategy) {
+    return tightness(scene, model, strategy).*figure;
+  });
 }
 
 }  // namespace
@@ -96,13 +114,22 @@ std::string volume_report(std::span<const Volume_scene> scenes) {
   text += titled("Update + all pairs, in times of aabb",
                  ratios_table(scenes, &Frame_seconds::update_and_all, reference_model));
   text += titled("Share of the update in update + all pairs", update_share_table(scenes));
-  text += titled("Update + yes/no, in times of 32 particles per object",
+  text += titled("Update + yes/no, in times of the median frame of 32 particles per object",
                  ratios_table(scenes, &Frame_seconds::update_and_any, reference_particles));
-  text += titled("Update + yes/no of particles, in times of aabb (and their recall)", particles_table(scenes));
+  text += titled("The same, in times of their mean frame, repartitions included", mean_ratios_table(scenes));
   text += titled(
-      "Tightness of regions in the last sampled frame, geometric mean over the scenes that every strategy "
-      "took part in",
-      tightness_table(scenes));
+      "Particles: median frame, mean frame (both in times of update + yes/no of aabb) / repartitions in 100 frames / "
+      "collisions seen",
+      particles_table(scenes));
+  text += "What follows are geometric means over the scenes.\n\n";
+  for (const auto& [what, figure] :
+       {std::pair("Update", &Frame_seconds::update), std::pair("Query for all pairs", &Frame_seconds::all),
+        std::pair("Update + all pairs", &Frame_seconds::update_and_all)})
+    text += titled(
+        fmt::format("{} by strategy, in times of the same volume over regions by `{}`", what, reference_strategy),
+        strategy_times_table(scenes, figure));
+  for (const auto& [piece, figure] : tightness_pieces)
+    text += titled(fmt::format("Tightness of {} in the last sampled frame", piece), tightness_table(scenes, figure));
   for (const auto& scene : scenes) text += volume_section(scene);
   text.pop_back();  // the empty line at the end
   return text;

@@ -51,9 +51,6 @@ Volume_scene measure_volumes(Scene& scene, const Race_options& options, const st
     for (const auto& division : divisions) result.divisions.push_back({division->strategy(), division->seconds()});
     result.contestants = all_contestants(divisions);
   }
-  for (const auto& dividing : dividings())
-    if (std::ranges::find(result.divisions, dividing.strategy, &Division_time::strategy) == result.divisions.end())
-      result.left_out.emplace_back(dividing.strategy);
   for (const auto& contestant : result.contestants) entries.push_back(contestant.entry);
   result.race = measure_race(scene, entries, options, progress);
 

@@ -21,8 +21,7 @@ struct Division_time {
 struct Volume_scene {
   Scene_figures race;
   std::vector<Contestant> contestants;   ///< per entry of the race
-  std::vector<Division_time> divisions;  ///< of the strategies that took part
-  std::vector<std::string> left_out;     ///< strategies for which the scene is too large
+  std::vector<Division_time> divisions;  ///< per strategy
 
   /// Place of a contestant among the entries; -1: it did not take part.
   std::ptrdiff_t place_of(std::string_view model, std::string_view strategy) const;

@@ -61,7 +61,7 @@ TEST_F(Volumes_experiment, reports_ratios_over_all_scenes_and_a_section_for_each
   expect_success(run("tiny,copy"));
   const auto report = read_bytes(out / "volumes.md");
   for (const char* part :
-       {"Update, in times of aabb", "in times of 32 particles", "## tiny", "## copy", "Tightness", "particles, 64"})
+       {"Update, in times of aabb", "of 32 particles", "## tiny", "## copy", "Tightness", "particles, 64"})
     EXPECT_NE(report.find(part), std::string::npos) << part << " is not in\n" << report;
 }
 
