@@ -22,7 +22,7 @@ namespace lodestone {
 enum class Mode {
   particles,  ///< one particle per region; may miss a collision, never invents one
   senin,      ///< the predecessor: particles scattered over the surface, no regions
-  exact,      ///< a box tree over the regions: what checking every face against every other would find
+  exact,      ///< a tree of boxes, or other volumes, over the regions: what checking every face against every other would find
 };
 
 /// As the options of the program and its results name it.

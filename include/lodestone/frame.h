@@ -17,7 +17,7 @@ using Object_id = std::uint32_t;
 /// Seconds spent in each stage of one frame.
 struct Stage_times {
   double repartition = 0;   ///< growth checks and repartitions of the updates since the frame before
-  double refit = 0;         ///< reading all positions, fitting all boxes, rebuilding what has become loose
+  double refit = 0;         ///< reading all positions, fitting all volumes, rebuilding what has become loose
   double broad_phase = 0;   ///< reading the particles, near object pairs
   double relaxation = 0;    ///< particles walking
   double candidates = 0;    ///< particle pairs below the collision distance

@@ -113,7 +113,6 @@ bool Contact_search::run_one(const Task& task, std::size_t index, std::size_t li
   const std::size_t leaf_tests = scratch.walk.leaf_tests;
   const std::size_t exact_tests = scratch.walk.exact_tests + scratch.neighbours.exact_tests();
   task(limit, scratch, result);
-  scratch.walk.resumes = true;
   result.leaf_tests = scratch.walk.leaf_tests - leaf_tests;
   result.exact_tests = scratch.walk.exact_tests + scratch.neighbours.exact_tests() - exact_tests;
   return result.found.size() >= limit;

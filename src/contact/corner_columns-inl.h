@@ -9,9 +9,10 @@
 
 #include <hwy/highway.h>
 
+#include "contact/leaf_scratch.h"
 #include "contact/position_vectors-inl.h"
 #include "contact/separation-inl.h"
-#include "lodestone/contact/volumes/aabb.h"
+#include "lodestone/contact/leaf_faces.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::kernel::HWY_NAMESPACE {

@@ -63,7 +63,7 @@ void Leaf_pairs::begin(const Posed_layout& a, const Posed_layout& b, double marg
   sides_[0].begin(a);
   sides_[1].begin(b);
   margin_ = margin;
-  scratch_->scale = unit_scale(sides_[0].size_box.extent());
+  scale_ = unit_scale(sides_[0].size_box.extent());
   one_mesh_ = false;
 }
 
@@ -81,7 +81,7 @@ std::span<const Face_places> Leaf_pairs::near_faces(std::uint32_t leaf_a, std::u
   const double* origin = sides_[0].size_box.low;
   const kernel::Leaf_request request{.margin = margin_,
                                      .origin = {origin[0], origin[1], origin[2], 0},
-                                     .scale = scratch_->scale,
+                                     .scale = scale_,
                                      .one_mesh = one_mesh_,
                                      .one_leaf = one_mesh_ && leaf_a == leaf_b};
   const std::size_t count = kernel::near_faces(a, b, request, *scratch_, near_.data());

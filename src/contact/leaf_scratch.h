@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lodestone/contact/leaf_faces.h"
+
 namespace lodestone {
 
-inline constexpr std::size_t most_leaf_faces = 128;
 inline constexpr std::size_t widest = 8;           ///< doubles of the widest vector that is used
 inline constexpr std::size_t most_box_lanes = 16;  ///< its floats
 
@@ -30,7 +31,6 @@ struct Face_list {
 
 /// Memory of leaf against leaf.
 struct alignas(64) Leaf_scratch {
-  double scale;              ///< of boxes, see `kernel::Leaf_request`
   Face_list near_a, near_b;  ///< faces near the other leaf
   Face_columns b;            ///< those of b
 

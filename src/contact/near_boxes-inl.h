@@ -97,12 +97,12 @@ HWY_INLINE Near near_boxes(const Limits& box, const Face_columns& faces, std::si
 }
 
 /// Writes the numbers of the lanes that are asked for next to each other, and anything after them.
-HWY_INLINE void store_packed(Sides sides, Near lanes, float* to) {
-  hn::StoreU(hn::Compress(sides, lanes), Box_lanes(), to);
+HWY_INLINE void store_packed(Sides sides, Near chosen, float* to) {
+  hn::StoreU(hn::Compress(sides, chosen), Box_lanes(), to);
 }
-HWY_INLINE void store_packed(const std::uint32_t* from, Near lanes, std::uint32_t* to) {
+HWY_INLINE void store_packed(const std::uint32_t* from, Near chosen, std::uint32_t* to) {
   const hn::Rebind<std::uint32_t, Box_lanes> d;
-  hn::StoreU(hn::Compress(hn::Load(d, from), hn::RebindMask(d, lanes)), d, to);
+  hn::StoreU(hn::Compress(hn::Load(d, from), hn::RebindMask(d, chosen)), d, to);
 }
 
 /// Lists the faces whose boxes are within the margin of a box.

@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "contact/leaf_scratch.h"
 #include "lodestone/contact/crossing.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -165,7 +166,7 @@ HWY_INLINE Numbers find_crossing(const Determinants& of) {
 /// Let V be the product of the three reaches and u = 2^-53. The coordinates, differences, are off by u of their size. A
 /// determinant of three of them has six products, which are at most V and gather 8 roundings each, those of the
 /// coordinates and of the sums included: it is at most 6 V, and off by less than 48 u V. By these and the roundings of
-/// their sums heights are off by less than 250, sides by less than 240, the thirds of a by less than 110 and those of b
+/// their sums heights are off by less than 250, sides by at most 241, the thirds of a by less than 110 and those of b
 /// by less than 390 u V; a gap that consists of them, with roundings of sums up to 72 V, by less than 900 u V, which is
 /// 1e-13 V. Twice that is allowed for.
 HWY_INLINE Edge_verdict compare_edges(const Two_triangles& two) {

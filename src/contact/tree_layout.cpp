@@ -13,23 +13,20 @@ namespace lodestone {
 
 namespace {
 
-/// Leaves of a part: few enough that their boxes are still in the cache when the nodes above them are fitted.
+/// Leaves of a part: few enough that their volumes are still in the cache when the nodes above them are fitted.
 constexpr std::uint32_t part_leaves = 128;
 
 }  // namespace
 
 Tree_layout::Tree_layout(std::span<const Corners> corners, std::span<const Region_index> labels,
                          Coordinates coordinates, const Region_tree_options& options) {
-  if (options.leaf_faces < 2 || options.leaf_faces > 128) throw Bad_argument("a leaf must hold at most 2 to 128 faces");
+  if (options.leaf_faces < 2 || options.leaf_faces > most_leaf_faces)
+    throw Bad_argument("a leaf must hold at most 2 to 128 faces");
   if (corners.size() > std::numeric_limits<std::uint32_t>::max() / 3)
     throw Bad_mesh("the mesh has more than 1431655765 faces, which is what a tree can number");
   Tree_builder(*this, corners, labels, coordinates, options).build();
   vertices_.resize(vertices_.size() + kernel::vertices_ahead + 4, vertices_.back());
   find_parts();
-  for (std::size_t leaf = 0; leaf < leaf_count(); ++leaf) {
-    most_leaf_faces_ = std::max(most_leaf_faces_, faces(leaf).size());
-    most_leaf_vertices_ = std::max(most_leaf_vertices_, vertices(leaf).size());
-  }
 }
 
 /// Cuts the tree below its top into subtrees of at most `part_leaves` leaves.

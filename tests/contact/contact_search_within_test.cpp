@@ -130,5 +130,21 @@ TEST(Contact_search_within, finds_the_same_with_any_number_of_workers) {
   }
 }
 
+/// Tasks of neighbours, which look at vertices, then outnumber those of the walk, which looks at leaves: a worker may
+/// begin with either.
+TEST(Contact_search_within, finds_the_same_where_most_tasks_are_about_vertices) {
+  auto mesh = icosphere(40);
+  crumple(mesh, 0.02, 3);
+  Face_soup soup(mesh);
+  soup.coordinates.resize(soup.coordinates.size() + 3 * std::size_t{3'000'000});  // that no face has
+  const Posed_object object(std::move(soup), 16, false);
+  const Answer alone = search_within(object);
+  EXPECT_GT(alone.found.size(), 1000U);
+  for (int repetition = 0; repetition < 10; ++repetition) {
+    Searcher several(0);
+    EXPECT_EQ(several.within(object, {}), alone);
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -69,10 +69,8 @@ inline void expect_equal_boxes(const Region_tree& a, const Region_tree& b) {
 inline void expect_tree(const Region_tree& tree, const Face_soup& soup, Coordinates coordinates) {
   EXPECT_EQ(tree.validate(soup.faces, coordinates), "");
   std::vector<int> times(soup.faces.size(), 0);
-  std::size_t most_faces = 0, most_vertices = 0;
   for (std::uint32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const auto faces = tree.faces(leaf), vertices = tree.vertices(leaf);
-    most_faces = std::max(most_faces, faces.size()), most_vertices = std::max(most_vertices, vertices.size());
     std::set<std::uint32_t> used;
     for (std::size_t i = 0; i < faces.size(); ++i) {
       ++times.at(faces[i]);
@@ -86,8 +84,6 @@ inline void expect_tree(const Region_tree& tree, const Face_soup& soup, Coordina
     expect_equal(tree.volume(tree.leaf_node(leaf)), box_around(vertices, coordinates));
   }
   EXPECT_TRUE(std::ranges::all_of(times, [](int n) { return n == 1; })) << "each face in one leaf";
-  EXPECT_EQ(tree.most_leaf_faces(), most_faces);
-  EXPECT_EQ(tree.most_leaf_vertices(), most_vertices);
 
   EXPECT_EQ(tree.node_count(), 2 * tree.leaf_count() - 1);
   for (std::uint32_t n = 0; n < tree.node_count(); ++n) {

@@ -88,6 +88,7 @@ Contact_summary Contact_search::between(const Basic_tree_object<Volume>& a, cons
       result.found.push_back(pair);
       return result.found.size() < limit ? Visit::go_on : Visit::stop;
     });
+    scratch.walk.resumes = true;
   };
   plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
     if (!near(a.tree().volume(pair.a), b.tree().volume(pair.b), request.tolerance)) return true;  // nothing below
@@ -110,6 +111,7 @@ Contact_summary Contact_search::within(const Basic_tree_object<Volume>& object, 
       result.found.push_back(pair);
       return result.found.size() < limit ? Visit::go_on : Visit::stop;
     });
+    scratch.walk.resumes = true;
   };
   plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
     if (pair.a != pair.b && !near(tree.volume(pair.a), tree.volume(pair.b), 0)) return true;

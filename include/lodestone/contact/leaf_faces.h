@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -12,7 +13,10 @@ namespace lodestone {
 /// Coordinates of all vertices in one frame, by vertex number: x, y, z, x, y, z, ...; 3 V values.
 using Coordinates = std::span<const double>;
 
-/// The corners of a face as places in the vertex list of its leaf, which has at most 3 x 128 vertices.
+/// A leaf of a region tree has at most so many faces, and so at most three times as many vertices.
+inline constexpr std::size_t most_leaf_faces = 128;
+
+/// The corners of a face as places in the vertex list of its leaf.
 using Leaf_corners = std::array<std::uint16_t, 3>;
 
 /// The faces of a leaf, where they are in one frame: what a bounding volume is fitted to.

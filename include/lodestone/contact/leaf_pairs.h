@@ -83,6 +83,7 @@ class Leaf_pairs {
 
   Side sides_[2];
   double margin_ = 0;
+  double scale_ = 1;  ///< of coordinates: a power of two that brings the size of a tree near 1
   bool one_mesh_ = false;
   std::unique_ptr<Leaf_scratch> scratch_;
   std::vector<Face_places> near_;

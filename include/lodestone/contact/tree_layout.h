@@ -56,8 +56,6 @@ class Tree_layout {
   bool is_leaf(std::uint32_t n) const { return nodes_[n].second_child == 0; }
 
   std::size_t leaf_count() const { return leaf_nodes_.size(); }
-  std::size_t most_leaf_faces() const { return most_leaf_faces_; }
-  std::size_t most_leaf_vertices() const { return most_leaf_vertices_; }
   std::uint32_t leaf_node(std::size_t leaf) const { return leaf_nodes_[leaf]; }
   /// Numbers of the faces of a leaf.
   std::span<const std::uint32_t> faces(std::size_t leaf) const {
@@ -107,7 +105,6 @@ class Tree_layout {
   std::vector<Leaf_corners> corners_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> top_nodes_;
-  std::size_t most_leaf_faces_ = 0, most_leaf_vertices_ = 0;
 };
 
 }  // namespace lodestone

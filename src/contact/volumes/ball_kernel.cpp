@@ -26,7 +26,8 @@ constexpr std::size_t vertices_at_once = 4;
 HWY_INLINE void copy_vertices(const double* coordinates, const std::uint32_t* vertices, std::size_t place,
                               Leaf_points& points) {
   const D d;
-  const auto load = [&](std::size_t k) { return hn::LoadU(d, coordinates + 3 * std::size_t{vertices[place + k]}); };
+  const auto load = [&](std::size_t k)
+                        HWY_ATTR { return hn::LoadU(d, coordinates + 3 * std::size_t{vertices[place + k]}); };
   const auto p = load(0), q = load(1), r = load(2), s = load(3);
   const auto pq_even = hn::InterleaveLower(d, p, q), rs_even = hn::InterleaveLower(d, r, s);
   const auto pq_odd = hn::InterleaveUpper(d, p, q), rs_odd = hn::InterleaveUpper(d, r, s);
@@ -131,7 +132,7 @@ Sum sum_kernel(const Leaf_points& points, const double* origin) {
   return {sums[0], sums[1], sums[2]};
 }
 
-Moments moments_kernel(const Leaf_points& points, const double* origin, double factor) {
+Sphere_moments sphere_moments_kernel(const Leaf_points& points, const double* origin, double factor) {
   double m[10];
   add_up<10>(
       points, origin, factor,
@@ -184,7 +185,7 @@ namespace lodestone::kernel {
 HWY_EXPORT(gather_kernel);
 HWY_EXPORT(farthest_kernel);
 HWY_EXPORT(sum_kernel);
-HWY_EXPORT(moments_kernel);
+HWY_EXPORT(sphere_moments_kernel);
 HWY_EXPORT(directions_kernel);
 
 void gather(const double* coordinates, const std::uint32_t* vertices, std::size_t count, Leaf_points& points) {
@@ -197,8 +198,8 @@ Farthest farthest(const Leaf_points& points, const double* centre) {
 
 Sum sum(const Leaf_points& points, const double* origin) { return HWY_DYNAMIC_DISPATCH(sum_kernel)(points, origin); }
 
-Moments moments(const Leaf_points& points, const double* origin, double factor) {
-  return HWY_DYNAMIC_DISPATCH(moments_kernel)(points, origin, factor);
+Sphere_moments sphere_moments(const Leaf_points& points, const double* origin, double factor) {
+  return HWY_DYNAMIC_DISPATCH(sphere_moments_kernel)(points, origin, factor);
 }
 
 Directions directions(const Leaf_points& points, const double* centre, const double* axis, double* squared_distances) {

@@ -4,13 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lodestone/contact/leaf_faces.h"
+
 /// Loops over the vertices of a leaf for volumes that are bounded by spheres, built for several instruction sets and
 /// chosen at run time. Each vertex has the same roundings in all of them, so all give the same results.
 namespace lodestone::kernel {
 
 /// Vertices of a leaf, coordinate by coordinate, where vectors find them side by side.
 struct Leaf_points {
-  static constexpr std::size_t capacity = 3 * 128;
+  static constexpr std::size_t capacity = 3 * most_leaf_faces;
   static constexpr std::size_t step = 8;  ///< the last vertex is repeated until they are a multiple of this
 
   alignas(64) double x[capacity];
@@ -40,12 +42,12 @@ struct Sum {
 Sum sum(const Leaf_points& points, const double* origin);
 
 /// Means of products of coordinates; r stands for x x + y y + z z.
-struct Moments {
+struct Sphere_moments {
   double xx, xy, yy, yz, zz, zx, rx, ry, rz, rr;
 };
 
 /// Of the vertices seen from a point, times a factor.
-Moments moments(const Leaf_points& points, const double* origin, double factor);
+Sphere_moments sphere_moments(const Leaf_points& points, const double* origin, double factor);
 
 struct Directions {
   double least_squared_distance;
@@ -55,7 +57,8 @@ struct Directions {
 };
 
 /// How far vertices are from a centre, and how far off an axis.
-/// @param squared_distances  gets that of each vertex: computed as those of `farthest` are
+/// @param squared_distances  aligned to 64 bytes, with room for `capacity`; gets that of each vertex: computed as those
+/// of `farthest` are
 Directions directions(const Leaf_points& points, const double* centre, const double* axis, double* squared_distances);
 
 }  // namespace lodestone::kernel

@@ -31,7 +31,7 @@ Eigen::Vector4d least_eigenvector(Eigen::Matrix4d matrix) {
 /// The sphere of \cite taubin1991: the mean of (size |p|^2 + normal . p + constant)^2 is least where that of the
 /// squared gradient is 1. The mean of p is 0, so the constant is -size q with the mean q of |p|^2; and the squared
 /// gradient is 4 size^2 q + normal^2. So 2 sqrt(q) size and the normal are an eigenvector.
-Fitted_sphere fitted_sphere(const kernel::Moments& moments) {
+Fitted_sphere fitted_sphere(const kernel::Sphere_moments& moments) {
   const double mean_square = moments.xx + moments.yy + moments.zz, unit = 2 * std::sqrt(mean_square);
   const double square = (moments.rr - mean_square * mean_square) / (unit * unit);
   const double x = moments.rx / unit, y = moments.ry / unit, z = moments.rz / unit;
@@ -61,7 +61,7 @@ Eigen::Vector3d shell_centre(const Leaf_faces& faces, const kernel::Leaf_points&
   const Eigen::Map<const Eigen::Vector3d> origin(ball.centre);
   const auto sum = kernel::sum(points, ball.centre);
   const Eigen::Vector3d mean = origin + Eigen::Vector3d(sum.x, sum.y, sum.z) / static_cast<double>(points.count);
-  const auto sphere = fitted_sphere(kernel::moments(points, mean.data(), 1 / ball.radius));
+  const auto sphere = fitted_sphere(kernel::sphere_moments(points, mean.data(), 1 / ball.radius));
 
   const double opposite = 2 * std::abs(sphere.size), length = sphere.normal.norm();
   if (length <= farthest * opposite) return mean - ball.radius / (2 * sphere.size) * sphere.normal;

@@ -101,7 +101,7 @@ void Spherical_shell::enclose(const Spherical_shell& a, const Spherical_shell& b
     shell.inner = spheres.inner;
     shell.outer = spheres.outer;
     enclose_with_cone(shell, spheres, a, b);
-    if (shell.volume() < around.volume()) both = shell;
+    if (shell.has_shell() && shell.volume() < around.volume()) both = shell;
   }
   *this = both;
 }

@@ -93,7 +93,7 @@ HWY_INLINE Positions load_positions(const Places& places, std::size_t first) {
 
 /// Least and greatest of the numbers that a projection makes of each vertex.
 template <class Projection>
-struct Limits {
+struct Projection_limits {
   static constexpr std::size_t count = Projection::count;
   Numbers low[count], high[count];
 
@@ -126,7 +126,7 @@ struct Limits {
 template <class Projection>
 HWY_INLINE void limits(const Leaf_faces& faces, const Projection& projection, double* low, double* high) {
   const Places places(faces);
-  Limits<Projection> found;
+  Projection_limits<Projection> found;
   found.start(projection, load_positions<true>(places, places.rest()));
   for (std::size_t first = 0; first < places.rest(); first += together)
     found.extend(projection, load_positions<false>(places, first));

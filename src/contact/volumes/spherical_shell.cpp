@@ -56,7 +56,7 @@ Spherical_shell shell_about(const Eigen::Vector3d& centre, const Leaf_faces& fac
   Spherical_shell shell = plain_shell(ball);
   const Eigen::Vector3d axis = (Vector(ball.centre) - centre).normalized();
   std::copy_n(centre.data(), 3, shell.centre);
-  double squared[kernel::Leaf_points::capacity];
+  alignas(64) double squared[kernel::Leaf_points::capacity];
   const auto directions = kernel::directions(points, shell.centre, axis.data(), squared);
   shell.outer = above(std::sqrt(directions.most_squared_distance));
 
@@ -101,7 +101,7 @@ void Spherical_shell::enclose(const Leaf_faces& faces) {
   const auto fitted = shell_centre(faces, points, around);
   if (!fitted.allFinite()) return;
   const auto shell = shell_about(fitted, faces, points, around);
-  if (shell.volume() < around.volume()) *this = shell;
+  if (shell.has_shell() && shell.volume() < around.volume()) *this = shell;
 }
 
 double Spherical_shell::volume() const {
