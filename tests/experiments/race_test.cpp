@@ -126,7 +126,7 @@ TEST_F(Race, whose_time_is_over_leaves_early) {
   EXPECT_FALSE(entry.any_is_right());
 }
 
-/// Remembers where the first vertex of the second object was whenever it was called.
+/// Remembers how high the first vertex of the second object was whenever it was called.
 class Witness : public Entrant {
  public:
   struct Seen {
@@ -135,16 +135,16 @@ class Witness : public Entrant {
   };
   Witness(const Moving_mesh& mesh, Seen& seen) : mesh_(mesh), seen_(seen) {}
   bool wants_approach() const override { return true; }
-  void approach() override { seen_.approached.push_back(mesh_.points()[0].x()); }
+  void approach() override { seen_.approached.push_back(mesh_.points()[0].y()); }
   const Answer& play(std::span<const Object_pair> pairs) override {
-    seen_.played.push_back(mesh_.points()[0].x());
+    seen_.played.push_back(mesh_.points()[0].y());
     answer_.collides.assign(pairs.size(), true);
     answer_.contacts.resize(pairs.size());
     return answer_;
   }
   void inspect(std::span<const Object_pair> pairs, std::size_t frame, std::size_t frames) override {
-    EXPECT_EQ(frames, 3U);
-    EXPECT_EQ(mesh_.points()[0].x(), seen_.played[frame]);
+    EXPECT_EQ(frames, 2U);
+    EXPECT_EQ(mesh_.points()[0].y(), seen_.played[frame]);
     seen_.inspected.push_back(frame);
     seen_.pairs.push_back(pairs.size());
   }
@@ -155,20 +155,34 @@ class Witness : public Entrant {
   Answer answer_;
 };
 
-TEST_F(Race, a_frame_is_approached_from_the_one_before_and_inspected_at_the_end) {
+TEST_F(Race, all_frames_before_the_last_sampled_one_are_played_in_order_and_the_sampled_ones_inspected_at_the_end) {
   Witness::Seen seen;
   measured({.library = "test",
             .method = "see",
             .volume = "none",
             .build = [&](std::span<const Moving_mesh> meshes) { return std::make_unique<Witness>(meshes[1], seen); }},
-           {.passes = 2});
-  ASSERT_EQ(seen.played.size(), 6U);
-  ASSERT_EQ(seen.approached.size(), 6U);
-  EXPECT_EQ(seen.approached[1], seen.played[0]);  // frames 3, 4 and 5 are the sampled ones
-  EXPECT_EQ(seen.approached[2], seen.played[1]);
-  EXPECT_GT(seen.approached[0], seen.played[0] + 1);
-  EXPECT_EQ(seen.inspected, (std::vector<std::size_t>{0, 1, 2}));
-  EXPECT_EQ(seen.pairs, (std::vector<std::size_t>{1, 1, 1}));
+           {.least_frames = 2, .most_frames = 2, .passes = 2});
+  // Frames 3 and 5 are sampled, at y = 1.5 and 0; frames 0, 1, 2 and 4 come before, at 1, 1, 1 and 0.
+  ASSERT_EQ(seen.played.size(), 4U);
+  const double base = seen.played[1];
+  const auto at = [&](std::vector<double> heights) {
+    for (double& height : heights) height += base;
+    return heights;
+  };
+  EXPECT_EQ(seen.played, at({1.5, 0, 1.5, 0}));
+  EXPECT_EQ(seen.approached, at({1, 1, 1, 0, 1, 1, 1, 0}));
+  EXPECT_EQ(seen.inspected, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(seen.pairs, (std::vector<std::size_t>{1, 1}));
+}
+
+TEST_F(Race, who_takes_long_between_sampled_frames_plays_no_second_pass) {
+  Witness::Seen seen;
+  measured({.library = "test",
+            .method = "see",
+            .volume = "none",
+            .build = [&](std::span<const Moving_mesh> meshes) { return std::make_unique<Witness>(meshes[1], seen); }},
+           {.least_frames = 2, .most_frames = 2, .passes = 2, .approach_seconds = 0});
+  EXPECT_EQ(seen.played.size(), 2U);
 }
 
 }  // namespace

