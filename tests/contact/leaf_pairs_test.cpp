@@ -1,83 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "lodestone/contact/leaf_pairs.h"
-
+// Faces of two leaves that meet, or come near each other, are listed.
 #include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
 #include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
 
 #include <map>
 #include <set>
 
-#include "face_soup.h"
 #include "hard_pairs.h"
-#include "instruction_sets.h"
+#include "leaf_pairs.h"
 #include "lodestone/contact/triangle_distance.h"
 
 namespace lodestone {
 namespace {
-
-using Numbers = std::vector<Face_pair>;
-
-/// A tree of a single leaf whose faces share no vertex, refitted to triangles.
-class Leaf {
- public:
-  explicit Leaf(std::uint32_t faces) {
-    soup_.coordinates.resize(9 * std::size_t{faces});
-    for (std::uint32_t i = 0; i < faces; ++i) soup_.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    tree_ = Region_tree(soup_.faces, {}, soup_.coordinates, {.leaf_faces = 128});
-  }
-
-  void set(std::size_t face, const Triangle& t) {
-    double* x = soup_.coordinates.data() + 9 * face;
-    for (const auto& corner : t)
-      for (int axis = 0; axis < 3; ++axis) *x++ = corner[axis];
-  }
-  void refit() { ASSERT_TRUE(tree_.refit(soup_.coordinates)); }
-  std::size_t size() const { return soup_.faces.size(); }
-  Triangle triangle(std::size_t face) const { return soup_.triangle(face); }
-  Posed_tree posed() const { return {&tree_, soup_.coordinates}; }
-
- private:
-  Face_soup soup_;
-  Region_tree tree_;
-};
-
-/// Faces by number instead of place, sorted.
-Numbers numbered(std::span<const Face_places> places, const Posed_tree& a, std::uint32_t leaf_a, const Posed_tree& b,
-                 std::uint32_t leaf_b) {
-  Numbers pairs;
-  for (const auto& place : places) pairs.push_back({a.tree->faces(leaf_a)[place.a], b.tree->faces(leaf_b)[place.b]});
-  std::ranges::sort(pairs);
-  return pairs;
-}
-
-/// The near pairs of two trees of one leaf, the same for each instruction set.
-Numbers near_pairs(const Posed_tree& a, const Posed_tree& b, double margin) {
-  Leaf_pairs leaf_pairs;
-  std::vector<Numbers> answers;
-  for_instruction_sets([&] {
-    leaf_pairs.begin(a, b, margin);
-    answers.push_back(numbered(leaf_pairs.near_faces(0, 0), a, 0, b, 0));
-  });
-  for (const auto& answer : answers) EXPECT_EQ(answer, answers[0]);
-  EXPECT_EQ(std::ranges::adjacent_find(answers[0]), answers[0].end()) << "a pair twice";
-  return answers[0];
-}
-
-struct Place {
-  double scale, offset;
-};
-const std::vector<Place> places{{1, 0},        {1, 0x1p20},  {1, -0x1p40},   {0x1p-300, 0},
-                                {0x1p-340, 0}, {0x1p300, 0}, {0x1p-1050, 0}, {0x1p1020, 0}};
-
-Triangle placed(Triangle t, const Place& place) {
-  for (auto& p : t) {
-    const auto moved = [&](double x) { return place.scale * x + place.offset; };
-    p = {moved(p.x()), moved(p.y()), moved(p.z())};
-  }
-  return t;
-}
 
 struct Tally {
   std::size_t pairs = 0, near = 0, true_ones = 0;
@@ -87,8 +21,9 @@ struct Tally {
 template <class Check>
 Tally for_leaves(std::size_t per_kind, const Check& check) {
   Tally total;
-  std::map<std::uint32_t, std::array<Leaf, 2>> leaves;
-  for (const std::uint32_t size : {1U, 2U, 7U, 32U}) leaves.try_emplace(size, std::array{Leaf(size), Leaf(size)});
+  std::map<std::uint32_t, std::array<Single_leaf, 2>> leaves;
+  for (const std::uint32_t size : {1U, 2U, 7U, 32U})
+    leaves.try_emplace(size, std::array{Single_leaf(size), Single_leaf(size)});
   Hard_pairs hard(1);
   for (const auto& kind : Hard_pairs::kinds())
     for (const auto& place : places) {
@@ -111,7 +46,8 @@ Tally for_leaves(std::size_t per_kind, const Check& check) {
 
 /// Checks that the pairs left out are apart, which `near(a, b)` tells; of those listed, one in a few is looked at.
 template <class Near>
-void expect_none_left_out(const Leaf& a, const Leaf& b, const Numbers& listed, Tally& tally, const Near& near) {
+void expect_none_left_out(const Single_leaf& a, const Single_leaf& b, const Numbers& listed, Tally& tally,
+                          const Near& near) {
   auto next = listed.begin();
   for (std::uint32_t i = 0; i < a.size(); ++i)
     for (std::uint32_t j = 0; j < b.size(); ++j) {
@@ -125,7 +61,7 @@ void expect_none_left_out(const Leaf& a, const Leaf& b, const Numbers& listed, T
 }
 
 TEST(Leaf_pairs, never_leave_out_faces_that_intersect) {
-  const auto tally = for_leaves(3200, [](const Leaf& a, const Leaf& b, Tally& total) {
+  const auto tally = for_leaves(3200, [](const Single_leaf& a, const Single_leaf& b, Tally& total) {
     expect_none_left_out(a, b, near_pairs(a.posed(), b.posed(), 0), total, triangles_intersect);
   });
   EXPECT_GT(tally.pairs, 1000000U);
@@ -135,7 +71,7 @@ TEST(Leaf_pairs, never_leave_out_faces_that_intersect) {
 
 TEST(Leaf_pairs, never_leave_out_faces_nearer_than_the_margin) {
   std::mt19937_64 random(2);
-  const auto tally = for_leaves(128, [&](const Leaf& a, const Leaf& b, Tally& total) {
+  const auto tally = for_leaves(128, [&](const Single_leaf& a, const Single_leaf& b, Tally& total) {
     // A margin that decides about some pair by the last digit, or thereabouts.
     const double distance = closest_points(a.triangle(random() % a.size()), b.triangle(random() % b.size())).distance;
     const double factors[]{1, 1 - 0x1p-53, 1 + 0x1p-52, 1 - 1e-9, 1 + 1e-9, 0.5, 2};
@@ -146,94 +82,6 @@ TEST(Leaf_pairs, never_leave_out_faces_nearer_than_the_margin) {
   });
   EXPECT_GT(tally.true_ones, 300U) << "of one in 16";
   EXPECT_LT(tally.near, tally.pairs * 3 / 4);
-}
-
-/// Pairs whose boxes overlap, apart along the normal of one of them or within its plane across an edge.
-std::vector<Triangle_pair> apart_by(double gap, std::mt19937_64& random, int count) {
-  std::vector<Triangle_pair> pairs;
-  std::uniform_real_distribution<double> unit(-1, 1);
-  while (std::ssize(pairs) < count) {
-    const auto vector = [&] {
-      const double x = unit(random), y = unit(random), z = unit(random);
-      return Eigen::Vector3d(x, y, z);
-    };
-    std::array<Eigen::Vector3d, 3> a{vector(), vector(), vector()}, b{vector(), vector(), vector()};
-    const Eigen::Vector3d edge = a[1] - a[0], normal = edge.cross(a[2] - a[0]);
-    if (normal.norm() < 0.1) continue;
-    const Eigen::Vector3d axis = (pairs.size() % 2 == 0 ? normal : normal.cross(edge)).normalized();
-    const auto along = [&](const auto& p) { return axis.dot(p); };
-    const double top = std::max({along(a[0]), along(a[1]), along(a[2])});
-    const double low = std::min({along(b[0]), along(b[1]), along(b[2])});
-    Eigen::AlignedBox3d box_a, box_b;
-    for (auto& p : b) p += (top - low + gap) * axis, box_b.extend(p);
-    for (const auto& p : a) box_a.extend(p);
-    if (!box_a.intersects(box_b)) continue;
-    const auto triangle = [](const auto& t) {
-      const auto point = [](const auto& p) { return Point(p.x(), p.y(), p.z()); };
-      return Triangle{point(t[0]), point(t[1]), point(t[2])};
-    };
-    pairs.emplace_back(triangle(a), triangle(b));
-  }
-  return pairs;
-}
-
-TEST(Leaf_pairs, leave_out_faces_that_a_plane_through_one_of_them_separates) {
-  std::mt19937_64 random(1);
-  Leaf a(1), b(1);
-  for (const Place& place : {Place{1, 0}, {1, 1}, {0x1p-200, 0}, {0x1p200, 0}})
-    for (const auto& [s, t] : apart_by(1e-9, random, 2000)) {
-      a.set(0, placed(s, place)), b.set(0, placed(t, place));
-      a.refit(), b.refit();
-      ASSERT_TRUE(near_pairs(a.posed(), b.posed(), 0).empty()) << place.scale;
-      ASSERT_TRUE(near_pairs(b.posed(), a.posed(), 0).empty()) << place.scale;
-    }
-  // Beyond 1e-90 and 1e90 determinants are not relied upon: a normal still separates.
-  const auto pairs = apart_by(1e-9, random, 2000);
-  for (const double scale : {0x1p-310, 0x1p310})
-    for (std::size_t i = 0; i < pairs.size(); i += 2) {
-      a.set(0, placed(pairs[i].first, {scale, 0})), b.set(0, placed(pairs[i].second, {scale, 0}));
-      a.refit(), b.refit();
-      ASSERT_TRUE(near_pairs(a.posed(), b.posed(), 0).empty()) << scale;
-    }
-  for (const auto& [s, t] : apart_by(0.1, random, 2000)) {
-    a.set(0, s), b.set(0, t);
-    a.refit(), b.refit();
-    ASSERT_TRUE(near_pairs(a.posed(), b.posed(), 0.1 - 1e-9).empty());
-  }
-}
-
-/// Pairs that are a gap apart across an edge of each, and along no direction that only one of them decides: two edges
-/// at right angles, one above the other, and faces that lean aside from them.
-std::vector<Triangle_pair> apart_across_edges(double gap, std::mt19937_64& random, int count) {
-  std::vector<Triangle_pair> pairs;
-  std::uniform_real_distribution<double> unit(-1, 1);
-  for (int i = 0; i < count; ++i) {
-    const double w = unit(random), u = unit(random), v = unit(random), t = unit(random);
-    const Eigen::Matrix3d rotation = Eigen::Quaterniond(w, u, v, t).normalized().toRotationMatrix();
-    const auto point = [&](double x, double y, double z) {
-      const Eigen::Vector3d p = rotation * Eigen::Vector3d(x, y, z);
-      return Point(p.x(), p.y(), p.z());
-    };
-    const double x = 0.2 * unit(random), y = 0.2 * unit(random);
-    Triangle a{point(-2, y, 0), point(2, y, 0), point(0, y + 1.5, -2)};
-    Triangle b{point(x, -2, gap), point(x, 2, gap), point(x - 1.5, 0, 2 + gap)};
-    std::ranges::rotate(a, a.begin() + i % 3);
-    std::ranges::rotate(b, b.begin() + i / 3 % 3);
-    pairs.emplace_back(a, b);
-  }
-  return pairs;
-}
-
-TEST(Leaf_pairs, leave_out_faces_that_an_edge_of_each_separates) {
-  std::mt19937_64 random(1);
-  Leaf a(1), b(1);
-  for (const Place& place : {Place{1, 0}, {1, 1}, {0x1p-200, 0}, {0x1p200, 0}})
-    for (const auto& [s, t] : apart_across_edges(1e-9, random, 500)) {
-      a.set(0, placed(s, place)), b.set(0, placed(t, place));
-      a.refit(), b.refit();
-      ASSERT_TRUE(near_pairs(a.posed(), b.posed(), 0).empty()) << place.scale;
-      ASSERT_TRUE(near_pairs(b.posed(), a.posed(), 0).empty()) << place.scale;
-    }
 }
 
 TEST(Leaf_pairs, know_an_edge_that_passes_through_the_other_face) {
@@ -248,7 +96,7 @@ TEST(Leaf_pairs, know_an_edge_that_passes_through_the_other_face) {
     return t;
   };
   std::set<Crossing> seen;
-  Leaf a(1), b(1);
+  Single_leaf a(1), b(1);
   Leaf_pairs leaf_pairs;
   for (int i = 0; i < 2000; ++i) {
     const Triangle s = triangle(), t = triangle();
@@ -273,7 +121,7 @@ TEST(Leaf_pairs, know_an_edge_that_passes_through_the_other_face) {
 }
 
 TEST(Leaf_pairs, are_read_anew_after_every_begin) {
-  Leaf a(1), b(1);
+  Single_leaf a(1), b(1);
   const Triangle s{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};
   a.set(0, s), b.set(0, s);
   a.refit(), b.refit();
@@ -286,21 +134,9 @@ TEST(Leaf_pairs, are_read_anew_after_every_begin) {
   EXPECT_TRUE(leaf_pairs.near_faces(0, 0).empty());
 }
 
-TEST(Leaf_pairs, of_two_leaves_whose_boxes_overlap_are_few) {
-  Face_soup low(cloth(8, 8)), high = low;
-  deform(low, [](const Point& p) { return Point(p.x(), p.y(), p.x()); });
-  deform(high, [](const Point& p) { return Point(p.x(), p.y(), p.x() + 0.2); });
-  const Posed_object a(low, 128, false), b(high, 128, false);
-  ASSERT_EQ(a.object().tree().leaf_count(), 1U);
-  EXPECT_TRUE(near_pairs(a.posed(), b.posed(), 0).empty());
-  const auto near = near_pairs(a.posed(), b.posed(), 0.15);
-  EXPECT_GT(near.size(), 0U);
-  EXPECT_LT(near.size(), 128U * 128 / 5);
-}
-
 TEST(Leaf_pairs, of_full_leaves_whose_faces_all_meet_are_all_of_them) {
   constexpr std::uint32_t full = 128;
-  Leaf a(full), b(full);
+  Single_leaf a(full), b(full);
   for (std::uint32_t i = 0; i < full; ++i) {
     const double x = 0.001 * i;  // upright ones, and level ones that each of them cuts
     a.set(i, {Point(x, -1, -1), Point(x, 1, -1), Point(x, 0, 2)});
@@ -316,7 +152,7 @@ TEST(Leaf_pairs, of_full_leaves_whose_faces_all_meet_are_all_of_them) {
 
 /// The boxes of the faces touch, or miss each other by the last digit: what is lost by rounding must not matter.
 TEST(Leaf_pairs, never_leave_out_faces_whose_boxes_only_touch) {
-  Leaf a(16), b(16);
+  Single_leaf a(16), b(16);
   for (const Place& place : {Place{1, 0}, {1, 0x1p20}, {1, -0x1p40}, {0x1p-200, 0}, {0x1p-1040, 0}, {0x1p1020, 0}})
     for (int axis = 0; axis < 3; ++axis) {
       for (std::uint32_t f = 0; f < 16; ++f) {
@@ -376,8 +212,7 @@ TEST(Leaf_pairs, within_one_mesh_are_each_pair_once_of_faces_that_share_no_verte
     for (std::uint64_t seed = 1; seed <= 6; ++seed)
       for (const auto& place : places) {
         const auto soup = lattice_soup(128, 20U << seed % 3U * 2, 6, seed);
-        intersecting +=
-            expect_pairs_within(Posed_object(lodestone::placed(soup, place.scale, place.offset), leaf_faces));
+        intersecting += expect_pairs_within(Posed_object(placed(soup, place.scale, place.offset), leaf_faces));
       }
     for (const double distance : {0.02, 0.1, 0.5})
       intersecting += expect_pairs_within(Posed_object(crumpled(icosphere(3), distance, 1), leaf_faces));
