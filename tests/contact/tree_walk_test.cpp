@@ -122,7 +122,9 @@ void expect_stops(std::size_t contacts, const Walk_to& visit) {
     const std::size_t before = walk.exact_tests;
     EXPECT_EQ(visit(walk, counter), last <= contacts ? Visit::stop : Visit::go_on);
     EXPECT_EQ(counter.calls, std::min(last, contacts));
-    if (last > contacts) EXPECT_TRUE(walk.ahead.empty());
+    if (last > contacts) {
+      EXPECT_TRUE(walk.ahead.empty());
+    }
     EXPECT_GE(walk.exact_tests - before, std::max(tests_before, counter.calls)) << "a longer walk of the same order";
     tests_before = walk.exact_tests - before;
   }
