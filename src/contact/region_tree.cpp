@@ -5,6 +5,9 @@
 
 namespace lodestone {
 
+/// A node's box is one line of the cache: a walk that looks at it waits once, and a refit writes whole lines.
+static_assert(sizeof(Aabb) == 64);
+
 namespace {
 
 /// Vertices whose coordinates, 12 MB, share a processor's last cache with little else.
