@@ -9,15 +9,16 @@
 
 namespace lodestone {
 
-/// What encloses the faces below a node of a region tree. The page docs/concepts/bounding_volume.md defines every
-/// operation; in short:
+/// What encloses the faces below a node of a region tree: a set of points, given exactly by the numbers that it holds.
+/// The page docs/concepts/bounding_volume.md defines every operation; in short:
 ///
 /// - `v.enclose(faces)` fits v to the faces of a leaf: every point of every face lies in v, whatever the rounding
-/// - `v.enclose(a, b)` fits v to two volumes: what a or b enclose lies in v
-/// - `near(a, b, margin)` is false only if what a and b enclose is farther apart than `margin` >= 0
+/// - `v.enclose(a, b)` fits v to two volumes: what a or b were fitted to lies in v
+/// - `near(a, b, margin)` is false only if no point of a is within `margin` >= 0 of a point of b
 /// - `v.extent()` is a length that tells which of two volumes is larger; 0 for a point
-/// - `v.volume()` is the volume itself, in cubic units, up to rounding: the smaller, the tighter
-/// - `v.bounds()` is an axis-aligned box around what v encloses
+/// - `v.volume()` is the volume of the set, in cubic units, up to rounding, or a bound above it, where the model says
+///   so: the smaller, the tighter
+/// - `v.bounds()` is an axis-aligned box around what v was fitted to
 /// - `v == w`: the same fit to the same faces gives the same volume
 /// - `V::name` is how tables and messages call it
 template <class V>
