@@ -2,17 +2,15 @@
 // The distance of two triangles in rational arithmetic.
 #pragma once
 
-#include <CGAL/Exact_rational.h>
-
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "exact_point.h"
 #include "lodestone/contact/triangle_intersection.h"
 
 namespace lodestone {
 
-using Rational = CGAL::Exact_rational;
 using Rational_vector = std::array<Rational, 3>;
 
 inline Rational_vector minus(const Rational_vector& p, const Rational_vector& q) {

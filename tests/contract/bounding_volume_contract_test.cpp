@@ -174,7 +174,7 @@ TYPED_TEST(Bounding_volume_contract, a_volume_is_as_large_as_it_says) {
     for (int i = 0; i < samples; ++i) {
       const double x = unit(this->random_), y = unit(this->random_), z = unit(this->random_);
       const Point p(low[0] + x * width[0], low[1] + y * width[1], low[2] + z * width[2]);
-      within += inside(volume, exact(p)) ? 1 : 0;
+      within += inside(volume, exact_point(p)) ? 1 : 0;
     }
     const double share = static_cast<double>(within) / samples, room = width[0] * width[1] * width[2];
     const double deviation = std::sqrt(share * (1 - share) / samples);

@@ -16,7 +16,7 @@ Point last_inside(const Volume& volume, const Point& from, const Point& to) {
   double low = 0, high = 1;
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
-    (inside(volume, exact(at(middle))) ? low : high) = middle;
+    (inside(volume, exact_point(at(middle))) ? low : high) = middle;
   }
   return at(low);
 }
@@ -78,7 +78,7 @@ TYPED_TEST(Bounding_volume_set, the_volume_around_two_has_every_point_of_both) {
     for (int part = 0; part < 2; ++part)
       for (int k = 0; k < 2; ++k) {
         const Point p = this->border_point(parts[part], soups[part], place).first;
-        EXPECT_TRUE(inside(both, exact(p))) << p << ", " << text(place);
+        EXPECT_TRUE(inside(both, exact_point(p))) << p << ", " << text(place);
       }
   }
 }
@@ -94,8 +94,8 @@ TYPED_TEST(Bounding_volume_set, the_volume_around_one_and_another_that_hardly_st
     const Point q(p.x() + step * (ahead.x() - p.x()), p.y() + step * (ahead.y() - p.y()),
                   p.z() + step * (ahead.z() - p.z()));
     const auto other = volume_of<TypeParam>(this->beyond(q, this->any_vertex(soup)));
-    EXPECT_TRUE(inside(volume_of<TypeParam>(volume, other), exact(q))) << q << ", " << text(place);
-    EXPECT_TRUE(inside(volume_of<TypeParam>(other, volume), exact(q))) << q << ", " << text(place);
+    EXPECT_TRUE(inside(volume_of<TypeParam>(volume, other), exact_point(q))) << q << ", " << text(place);
+    EXPECT_TRUE(inside(volume_of<TypeParam>(other, volume), exact_point(q))) << q << ", " << text(place);
   }
 }
 

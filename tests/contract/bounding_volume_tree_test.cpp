@@ -67,7 +67,7 @@ class Bounding_volume_tree : public ::testing::Test {
       const std::size_t leaf = tree.leaf_count() <= leaves_seen ? i : random_() % tree.leaf_count();
       std::vector<Exact_point> points;
       for (std::size_t k = 0; k < vertices_seen; ++k)
-        points.push_back(exact(soup.point(tree.vertices(leaf)[random_() % tree.vertices(leaf).size()])));
+        points.push_back(exact_point(soup.point(tree.vertices(leaf)[random_() % tree.vertices(leaf).size()])));
       for (std::size_t k = 0; k < faces_seen; ++k) {
         const auto face = tree.faces(leaf)[random_() % tree.faces(leaf).size()];
         for (const auto& p : points_of(soup.triangle(face), {}, random_)) points.push_back(p);

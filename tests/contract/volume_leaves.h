@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "contract/volume_membership.h"
+// A model that is new needs an `inside` of its own.
+#include "contact/volumes/ball_membership.h"
+#include "contact/volumes/slab_membership.h"
 #include "contract/volume_models.h"
 
 namespace lodestone {
@@ -135,38 +137,14 @@ inline std::vector<Placement> extreme_scales() {
   return all;
 }
 
-inline Exact_point between(const Exact_point& p, const Exact_point& q, const Exact_number& t) {
-  return p + t * (q - p);
-}
-
-/// The point of a triangle, segment or point that is nearest to another.
-inline Exact_point nearest_point(const std::array<Exact_point, 3>& t, const Exact_point& c) {
-  Exact_point best = t[0];
-  const auto offer = [&](const Exact_point& p) {
-    if ((p - c).squared_length() < (best - c).squared_length()) best = p;
-  };
-  for (int i = 0; i < 3; ++i) {
-    const Exact_point &p = t[i], &q = t[(i + 1) % 3];
-    const auto along = q - p;
-    offer(p);
-    if (along.squared_length() == 0) continue;
-    const Exact_number foot = (c - p) * along / along.squared_length();
-    if (foot > 0 && foot < 1) offer(p + foot * along);
-  }
-  const auto normal = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
-  if (normal.squared_length() == 0) return best;
-  const Exact_point foot = c - ((c - t[0]) * normal / normal.squared_length()) * normal;
-  for (int i = 0; i < 3; ++i)
-    if (CGAL::cross_product(t[(i + 1) % 3] - t[i], foot - t[i]) * normal < 0) return best;
-  return foot;
-}
+inline Exact_point between(const Exact_point& p, const Exact_point& q, const Rational& t) { return p + t * (q - p); }
 
 /// Middles of edges, places on edges and anywhere in a face, and those nearest to the given centres.
 inline std::vector<Exact_point> points_of(const Triangle& face, const std::vector<Exact_point>& centres,
                                           std::mt19937_64& random) {
-  const std::array<Exact_point, 3> t{exact(face[0]), exact(face[1]), exact(face[2])};
+  const Exact_triangle t{exact_point(face[0]), exact_point(face[1]), exact_point(face[2])};
   std::vector<Exact_point> points;
-  const auto weight = [&]() -> Exact_number { return Exact_number(static_cast<double>(random() % 65)) / 64; };
+  const auto weight = [&]() -> Rational { return Rational(static_cast<double>(random() % 65)) / 64; };
   for (int i = 0; i < 3; ++i) {
     points.push_back(CGAL::midpoint(t[i], t[(i + 1) % 3]));
     points.push_back(between(t[i], t[(i + 1) % 3], weight()));
@@ -183,7 +161,7 @@ inline std::vector<Exact_point> likely_centres(const Face_soup& soup) {
   const double size = positions.cwiseAbs().maxCoeff();
   std::vector<Exact_point> centres;
   const auto add = [&](const Eigen::Vector3d& p) {
-    if (p.allFinite()) centres.push_back(exact(Point(p.x(), p.y(), p.z())));
+    if (p.allFinite()) centres.push_back(exact_point(Point(p.x(), p.y(), p.z())));
   };
   add(0.5 * positions.colwise().minCoeff() + 0.5 * positions.colwise().maxCoeff());
   if (!(size > 0) || !std::isfinite(1 / size)) return centres;
@@ -207,7 +185,7 @@ template <class Volume>
   std::vector<bool> seen(soup.vertex_count());
   for (const auto& face : soup.faces)
     for (const auto v : face) {
-      if (!seen[v] && !inside(volume, exact(soup.point(v))))
+      if (!seen[v] && !inside(volume, exact_point(soup.point(v))))
         return ::testing::AssertionFailure() << "vertex " << v << " lies outside: " << soup.point(v);
       seen[v] = true;
     }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "contact/face_soup.h"
+#include "contact/volumes/leaves.h"
 #include "lodestone/contact/volumes/all.h"
 
 namespace lodestone {
@@ -36,6 +37,28 @@ struct Volume_names {
   }
 };
 
+/// The faces of a soup as one leaf.
+inline Leaf leaf_of(const Face_soup& soup) {
+  Leaf leaf;
+  leaf.coordinates = soup.coordinates;
+  for (const auto& face : soup.faces) leaf.vertices.insert(leaf.vertices.end(), face.begin(), face.end());
+  std::ranges::sort(leaf.vertices);
+  leaf.vertices.erase(std::unique(leaf.vertices.begin(), leaf.vertices.end()), leaf.vertices.end());
+  for (const auto& face : soup.faces) {
+    Leaf_corners places{};
+    for (int corner = 0; corner < 3; ++corner)
+      places[corner] =
+          static_cast<std::uint16_t>(std::ranges::lower_bound(leaf.vertices, face[corner]) - leaf.vertices.begin());
+    leaf.corners.push_back(places);
+  }
+  return leaf;
+}
+
+template <class Volume>
+Volume volume_of(const Face_soup& soup) {
+  return volume_of<Volume>(leaf_of(soup));
+}
+
 /// The volume of a single face.
 template <class Volume>
 Volume volume_of(const Triangle& t) {
@@ -45,32 +68,6 @@ Volume volume_of(const Triangle& t) {
   constexpr std::array<Leaf_corners, 1> corners{{{0, 1, 2}}};
   Volume volume;
   volume.enclose(Leaf_faces{.coordinates = coordinates, .vertices = vertices, .corners = corners});
-  return volume;
-}
-
-/// The volume of all faces of a soup, which are one leaf.
-template <class Volume>
-Volume volume_of(const Face_soup& soup) {
-  std::vector<std::uint32_t> vertices;
-  for (const auto& face : soup.faces) vertices.insert(vertices.end(), face.begin(), face.end());
-  std::ranges::sort(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  std::vector<Leaf_corners> corners;
-  for (const auto& face : soup.faces) {
-    Leaf_corners places{};
-    for (int corner = 0; corner < 3; ++corner)
-      places[corner] = static_cast<std::uint16_t>(std::ranges::lower_bound(vertices, face[corner]) - vertices.begin());
-    corners.push_back(places);
-  }
-  Volume volume;
-  volume.enclose(Leaf_faces{.coordinates = soup.coordinates, .vertices = vertices, .corners = corners});
-  return volume;
-}
-
-template <class Volume>
-Volume volume_of(const Volume& a, const Volume& b) {
-  Volume volume;
-  volume.enclose(a, b);
   return volume;
 }
 

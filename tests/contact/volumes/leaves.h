@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Leaves to which volumes are fitted.
+// Leaves to fit volumes to.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "exact_point.h"
 #include "lodestone/contact/leaf_faces.h"
 
 namespace lodestone {
@@ -24,7 +23,7 @@ struct Leaf {
   std::vector<Leaf_corners> corners;
 
   Leaf_faces faces() const { return {coordinates, vertices, corners}; }
-  Exact_point point(std::size_t place) const { return exact_point(faces().position(place)); }
+  Eigen::Vector3d point(std::size_t place) const { return Eigen::Map<const Eigen::Vector3d>(faces().position(place)); }
   void add(const Eigen::Vector3d& p) {
     vertices.push_back(static_cast<std::uint32_t>(vertices.size()));
     coordinates.insert(coordinates.end(), p.begin(), p.end());
@@ -42,10 +41,61 @@ inline Leaf strip(const std::vector<Eigen::Vector3d>& points) {
   return leaf;
 }
 
+template <class Volume>
+Volume volume_of(const Leaf& leaf) {
+  Volume volume;
+  volume.enclose(leaf.faces());
+  return volume;
+}
+
+template <class Volume>
+Volume volume_of(const std::vector<Eigen::Vector3d>& points) {
+  return volume_of<Volume>(strip(points));
+}
+
+template <class Volume>
+Volume volume_of(const Volume& a, const Volume& b) {
+  Volume volume;
+  volume.enclose(a, b);
+  return volume;
+}
+
 inline Eigen::Vector3d random_vector(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   const double x = normal(random), y = normal(random), z = normal(random);
   return {x, y, z};
+}
+
+inline Eigen::Vector3d vector_in_cube(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const double x = unit(random), y = unit(random), z = unit(random);
+  return {x, y, z};
+}
+
+inline Eigen::Matrix3d random_turn(std::mt19937_64& random) {
+  return Eigen::AngleAxisd(4 * vector_in_cube(random).x(), vector_in_cube(random).normalized()).toRotationMatrix();
+}
+
+/// Corners of a box whose sides are along the columns of `axes`: corner k is on the upper side of axis i where bit i
+/// of k is set.
+inline std::vector<Eigen::Vector3d> box_corners(const Eigen::Vector3d& half, const Eigen::Matrix3d& axes,
+                                                const Eigen::Vector3d& centre = {0, 0, 0}) {
+  std::vector<Eigen::Vector3d> corners;
+  for (int k = 0; k < 8; ++k) {
+    const Eigen::Vector3d side(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    corners.push_back(centre + axes * half.cwiseProduct(side));
+  }
+  return corners;
+}
+
+/// As many points in a turned box of the given half widths about a centre, some of which may be 0.
+inline std::vector<Eigen::Vector3d> points_in_box(std::size_t count, const Eigen::Vector3d& half,
+                                                  const Eigen::Vector3d& centre, std::mt19937_64& random) {
+  const Eigen::Matrix3d turn = random_turn(random);
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t k = 0; k < count; ++k)
+    points.push_back(centre + turn * half.cwiseProduct(vector_in_cube(random)).eval());
+  return points;
 }
 
 /// A square grid of side 1 about the origin in the plane z = 0, each point of which `map` moves.
@@ -129,6 +179,26 @@ void for_placed_leaves(const Check& check) {
       SCOPED_TRACE(name + ", times " + std::to_string(std::ilogb(factor)) + ", at " + std::to_string(offset));
       check(placed(leaf, factor, offset));
     }
+}
+
+/// Bodies, flat and straight ones, and single points, of every size, about the origin and far from it.
+inline std::vector<Named_leaf> hard_leaves() {
+  std::mt19937_64 random(7);
+  std::vector<Named_leaf> leaves;
+  const Eigen::Vector3d shapes[]{{1, 0.6, 0.2}, {1, 0.4, 1e-9}, {1, 0.7, 0}, {1, 0, 0}, {0, 0, 0}};
+  for (const double scale : {1.0, 0x1p-300, 0x1p300, 1e307, 1.7e308, 1e-307, 0x1p-1070, 1e150, 1e-160})
+    for (const double offset : {0.0, 1.0, 0x1p20, 1e6})
+      for (const auto& shape : shapes)
+        for (const std::size_t count : {1, 3, 8, 9, 17, 60}) {
+          if (!std::isfinite(scale * (offset + 1))) continue;
+          const Eigen::Vector3d centre = offset * Eigen::Vector3d(1, -0.7, 0.3);
+          auto points = points_in_box(count, 0.5 * shape, centre, random);
+          for (auto& p : points) p *= scale;
+          leaves.push_back({"scale " + std::to_string(std::log2(scale)) + ", offset " + std::to_string(offset) + ", " +
+                                std::to_string(count) + " vertices",
+                            strip(points)});
+        }
+  return leaves;
 }
 
 }  // namespace lodestone

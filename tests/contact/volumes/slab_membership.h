@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which points a slab volume consists of, in rational arithmetic.
+// Which points lie in volumes that are bounded by planes, decided exactly.
 #pragma once
 
 #include <cmath>
 
-#include "exact_point.h"
+#include "contact/exact_point.h"
+#include "lodestone/contact/volumes/aabb.h"
 #include "lodestone/contact/volumes/k_dop.h"
 #include "lodestone/contact/volumes/oriented_box.h"
 #include "lodestone/contact/volumes/quospo.h"
@@ -12,10 +13,16 @@
 namespace lodestone {
 
 /// low <= value <= high, where limits may be infinite.
-inline bool within(double low, const CGAL::Exact_rational& value, double high) {
-  const bool above = low == -INFINITY || (std::isfinite(low) && CGAL::Exact_rational(low) <= value);
-  const bool below = high == INFINITY || (std::isfinite(high) && value <= CGAL::Exact_rational(high));
+inline bool within(double low, const Rational& value, double high) {
+  const bool above = low == -INFINITY || (std::isfinite(low) && Rational(low) <= value);
+  const bool below = high == INFINITY || (std::isfinite(high) && value <= Rational(high));
   return above && below;
+}
+
+inline bool inside(const Aabb& box, const Exact_point& p) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!within(box.low[axis], p[axis], box.high[axis])) return false;
+  return true;
 }
 
 template <int K>
@@ -28,7 +35,7 @@ bool inside(const K_dop<K>& dop, const Exact_point& p) {
 }
 
 inline bool inside(const Oriented_box& box, const Exact_point& p) {
-  const Exact_vector from_centre = p - Exact_point(box.centre[0], box.centre[1], box.centre[2]);
+  const Exact_vector from_centre = p - exact_point(box.centre);
   for (int i = 0; i < 3; ++i) {
     const Exact_vector axis(box.axes[i][0], box.axes[i][1], box.axes[i][2]);
     if (!within(-box.half[i], axis * from_centre, box.half[i])) return false;

@@ -6,8 +6,8 @@
 
 #include "contact/guarded_coordinates.h"
 #include "contact/instruction_sets.h"
+#include "leaves.h"
 #include "lodestone/contact/bounding_volume.h"
-#include "point_leaves.h"
 #include "slab_membership.h"
 
 namespace lodestone {
@@ -18,82 +18,58 @@ class Slab_volume : public testing::Test {};
 using Slab_volumes = testing::Types<K_dop<14>, K_dop<18>, K_dop<26>, Oriented_box, Quospo>;
 TYPED_TEST_SUITE(Slab_volume, Slab_volumes);
 
-template <class Volume>
-Volume around(const Leaf_faces& faces) {
-  Volume volume;
-  volume.enclose(faces);
-  return volume;
-}
-
-template <class Volume>
-Volume around(const Volume& a, const Volume& b) {
-  Volume volume;
-  volume.enclose(a, b);
-  return volume;
-}
-
-Exact_point exact(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
 Eigen::Vector3d sides(const Aabb& box) {
   return {box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]};
 }
 
 /// Points of a volume, many of them near its border: those from a vertex outwards, by less and less, that are inside.
 template <class Volume>
-std::vector<Exact_point> points_inside(const Volume& volume, const Point_leaf& leaf, std::mt19937_64& random) {
+std::vector<Exact_point> points_inside(const Volume& volume, const Leaf& leaf, std::mt19937_64& random) {
   const Eigen::Vector3d size = sides(volume.bounds());
   std::vector<Exact_point> points;
   for (int sample = 0; sample < 30; ++sample) {
     const Eigen::Vector3d step = std::ldexp(1.0, -2 * sample) * size.cwiseProduct(vector_in_cube(random));
     const Eigen::Vector3d p = leaf.point(random() % leaf.vertices.size()) + step;
-    if (p.allFinite() && inside(volume, exact(p))) points.push_back(exact(p));
+    if (p.allFinite() && inside(volume, exact_point(p))) points.push_back(exact_point(p));
   }
   return points;
 }
 
 TYPED_TEST(Slab_volume, is_a_bounding_volume) { EXPECT_TRUE(Bounding_volume<TypeParam>); }
 
-TYPED_TEST(Slab_volume, has_every_vertex_inside_in_exact_arithmetic) {
-  for (const auto& leaf : hard_leaves()) {
-    const auto volume = around<TypeParam>(leaf.faces());
-    for (std::size_t k = 0; k < leaf.vertices.size(); ++k)
-      ASSERT_TRUE(inside(volume, exact(leaf.point(k)))) << leaf.name << ", vertex " << k;
-  }
-}
-
 TYPED_TEST(Slab_volume, has_what_is_inside_either_of_two_inside_the_one_around_both) {
   const auto leaves = hard_leaves();
   std::mt19937_64 random(11);
   for (std::size_t i = 0; i + 1 < leaves.size(); ++i) {
-    const auto a = around<TypeParam>(leaves[i].faces()), b = around<TypeParam>(leaves[i + 1].faces());
-    const TypeParam both[]{around(a, b), around(b, a), around(a, a)};
-    for (const auto& p : points_inside(a, leaves[i], random))
+    const auto a = volume_of<TypeParam>(leaves[i].leaf), b = volume_of<TypeParam>(leaves[i + 1].leaf);
+    const TypeParam both[]{volume_of(a, b), volume_of(b, a), volume_of(a, a)};
+    for (const auto& p : points_inside(a, leaves[i].leaf, random))
       for (const auto& volume : both) ASSERT_TRUE(inside(volume, p)) << leaves[i].name << " and " << leaves[i + 1].name;
   }
 }
 
 TYPED_TEST(Slab_volume, bounds_contain_what_is_inside) {
   std::mt19937_64 random(12);
-  for (const auto& leaf : hard_leaves()) {
-    const auto volume = around<TypeParam>(leaf.faces());
+  for (const auto& [name, leaf] : hard_leaves()) {
+    const auto volume = volume_of<TypeParam>(leaf);
     const Aabb box = volume.bounds();
     for (const auto& p : points_inside(volume, leaf, random))
-      for (int axis = 0; axis < 3; ++axis) ASSERT_TRUE(within(box.low[axis], p[axis], box.high[axis])) << leaf.name;
+      for (int axis = 0; axis < 3; ++axis) ASSERT_TRUE(within(box.low[axis], p[axis], box.high[axis])) << name;
   }
 }
 
 TYPED_TEST(Slab_volume, is_near_one_that_shares_a_vertex) {
   std::mt19937_64 random(13);
-  for (const auto& leaf : hard_leaves()) {
-    const auto a = around<TypeParam>(leaf.faces());
+  for (const auto& [name, leaf] : hard_leaves()) {
+    const auto a = volume_of<TypeParam>(leaf);
     const auto size = sides(a.bounds());
     for (int sample = 0; sample < 10; ++sample) {
       std::vector<Eigen::Vector3d> points{leaf.point(random() % leaf.vertices.size())};
       const Eigen::Vector3d away = vector_in_cube(random);
       for (int k = 0; k < 6; ++k) points.push_back(points[0] + size.cwiseProduct(away + 0.2 * vector_in_cube(random)));
-      const auto b = around<TypeParam>(Point_leaf(points).faces());
-      ASSERT_TRUE(near(a, b, 0) && near(b, a, 0)) << leaf.name;
-      ASSERT_TRUE(near(a, b, 1e-3) && near(b, a, 1e-320)) << leaf.name;
+      const auto b = volume_of<TypeParam>(points);
+      ASSERT_TRUE(near(a, b, 0) && near(b, a, 0)) << name;
+      ASSERT_TRUE(near(a, b, 1e-3) && near(b, a, 1e-320)) << name;
     }
   }
 }
@@ -112,7 +88,7 @@ TYPED_TEST(Slab_volume, is_near_one_within_the_margin) {
         for (const auto& q : b) margin = std::min(margin, scale * ((p - q) / scale).norm());
       margin *= 1 + 1e-15;
       margin = std::nextafter(margin, INFINITY);
-      ASSERT_TRUE(near(around<TypeParam>(Point_leaf(a).faces()), around<TypeParam>(Point_leaf(b).faces()), margin));
+      ASSERT_TRUE(near(volume_of<TypeParam>(a), volume_of<TypeParam>(b), margin));
     }
 }
 
@@ -120,8 +96,8 @@ TYPED_TEST(Slab_volume, is_not_near_one_beyond_a_plane) {
   std::mt19937_64 random(15);
   for (const auto& d : K_dop<26>::directions) {
     const Eigen::Vector3d step(3.5 * d[0], 3.5 * d[1], 3.5 * d[2]);
-    const auto a = around<TypeParam>(Point_leaf(points_in_box(60, {1, 1, 0.5}, {0, 0, 0}, random)).faces());
-    const auto b = around<TypeParam>(Point_leaf(points_in_box(60, {1, 1, 0.5}, step, random)).faces());
+    const auto a = volume_of<TypeParam>(points_in_box(60, {1, 1, 0.5}, {0, 0, 0}, random));
+    const auto b = volume_of<TypeParam>(points_in_box(60, {1, 1, 0.5}, step, random));
     EXPECT_FALSE(near(a, b, 0));
     EXPECT_FALSE(near(a, b, 0.25));
     EXPECT_TRUE(near(a, b, step.norm()));
@@ -130,8 +106,8 @@ TYPED_TEST(Slab_volume, is_not_near_one_beyond_a_plane) {
 
 TYPED_TEST(Slab_volume, of_a_single_point_has_no_extent_and_no_volume) {
   for (const double scale : {1.0, 0x1p-300, 0x1p300, 1e-320}) {
-    const Point_leaf leaf(std::vector(5, Eigen::Vector3d(0.1 * scale, -0.7 * scale, 0.3 * scale)));
-    const auto a = around<TypeParam>(leaf.faces()), both = around(a, a);
+    const Leaf leaf = strip(std::vector(5, Eigen::Vector3d(0.1 * scale, -0.7 * scale, 0.3 * scale)));
+    const auto a = volume_of<TypeParam>(leaf), both = volume_of(a, a);
     EXPECT_EQ(a.extent(), 0);
     EXPECT_EQ(a.volume(), 0);
     EXPECT_EQ(both.extent(), 0);
@@ -142,22 +118,22 @@ TYPED_TEST(Slab_volume, of_a_single_point_has_no_extent_and_no_volume) {
 TYPED_TEST(Slab_volume, of_flat_and_straight_leaves_has_next_to_no_volume) {
   std::mt19937_64 random(16);
   for (const double thickness : {0.0, 0.5}) {
-    const auto flat = around<TypeParam>(Point_leaf(points_in_box(60, {1, thickness, 0}, {1, 2, 3}, random)).faces());
+    const auto flat = volume_of<TypeParam>(points_in_box(60, {1, thickness, 0}, {1, 2, 3}, random));
     EXPECT_GT(flat.extent(), 0);
     EXPECT_GE(flat.volume(), 0);
     EXPECT_LE(flat.volume(), sides(flat.bounds()).prod());
   }
-  const Point_leaf level({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}});
-  EXPECT_LE(around<TypeParam>(level.faces()).volume(), 1e-12);
+  const Leaf level = strip({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}});
+  EXPECT_LE(volume_of<TypeParam>(level).volume(), 1e-12);
 }
 
 TYPED_TEST(Slab_volume, is_the_same_for_every_instruction_set) {
-  for (const auto& leaf : hard_leaves()) {
-    const auto first = around<TypeParam>(leaf.faces());
+  for (const auto& [name, leaf] : hard_leaves()) {
+    const auto first = volume_of<TypeParam>(leaf);
     for_instruction_sets([&] {
-      const auto again = around<TypeParam>(leaf.faces());
-      ASSERT_EQ(std::memcmp(&first, &again, sizeof first), 0) << leaf.name;
-      ASSERT_TRUE(first == again) << leaf.name;
+      const auto again = volume_of<TypeParam>(leaf);
+      ASSERT_EQ(std::memcmp(&first, &again, sizeof first), 0) << name;
+      ASSERT_TRUE(first == again) << name;
     });
   }
 }
@@ -165,11 +141,12 @@ TYPED_TEST(Slab_volume, is_the_same_for_every_instruction_set) {
 TYPED_TEST(Slab_volume, reads_nothing_past_the_last_vertex) {
   std::mt19937_64 random(17);
   for (std::size_t count = 1; count < 40; ++count) {
-    Point_leaf leaf(points_in_box(count, {1, 1, 1}, {0, 0, 0}, random));
+    Leaf leaf = strip(points_in_box(count, {1, 1, 1}, {0, 0, 0}, random));
     const Guarded_coordinates guarded(leaf.coordinates);
     for_instruction_sets([&] {
-      const auto volume = around<TypeParam>({guarded.values(), leaf.vertices, leaf.corners});
-      ASSERT_TRUE(volume == around<TypeParam>(leaf.faces()));
+      TypeParam volume;
+      volume.enclose({guarded.values(), leaf.vertices, leaf.corners});
+      ASSERT_TRUE(volume == volume_of<TypeParam>(leaf));
     });
   }
 }
@@ -178,9 +155,9 @@ TYPED_TEST(Slab_volume, of_coordinates_that_are_not_finite_comes_to_an_end) {
   std::mt19937_64 random(18);
   for (const double bad : {double{NAN}, double{INFINITY}, double{-INFINITY}})
     for (std::size_t place = 0; place < 27; ++place) {
-      Point_leaf leaf(points_in_box(9, {1, 1, 1}, {0, 0, 0}, random));
+      Leaf leaf = strip(points_in_box(9, {1, 1, 1}, {0, 0, 0}, random));
       leaf.coordinates[place] = bad;
-      const auto a = around<TypeParam>(leaf.faces()), both = around(a, a);
+      const auto a = volume_of<TypeParam>(leaf), both = volume_of(a, a);
       near(a, both, 0), a.extent(), a.volume(), both.volume(), a.bounds(), both.bounds();
     }
 }

@@ -17,49 +17,13 @@ namespace {
 
 static_assert(Bounding_volume<Spherical_shell>);
 
-using Rational = CGAL::Exact_rational;
-using Exact_triangle = std::array<Exact_point, 3>;
-
-Spherical_shell shell_of(const Leaf& leaf) {
-  Spherical_shell shell;
-  shell.enclose(leaf.faces());
-  return shell;
-}
-
-Spherical_shell shell_of(const Spherical_shell& a, const Spherical_shell& b) {
-  Spherical_shell shell;
-  shell.enclose(a, b);
-  return shell;
-}
-
-Exact_point nearest(const Exact_point& p, const Exact_point& q, const Exact_point& to) {
-  const Exact_vector along = q - p;
-  if (along.squared_length() == 0) return p;
-  const Rational part = (to - p) * along / along.squared_length();
-  return part <= 0 ? p : part >= 1 ? q : p + part * along;
-}
-
-/// The point of a triangle nearest to another point.
-Exact_point nearest(const Exact_triangle& t, const Exact_point& to) {
-  const Exact_vector u = t[1] - t[0], v = t[2] - t[0], w = to - t[0];
-  const Rational uu = u * u, uv = u * v, vv = v * v, determinant = uu * vv - uv * uv;
-  if (determinant != 0) {
-    const Rational a = (vv * (u * w) - uv * (v * w)) / determinant, b = (uu * (v * w) - uv * (u * w)) / determinant;
-    if (a >= 0 && b >= 0 && a + b <= 1) return t[0] + a * u + b * v;
-  }
-  Exact_point best = nearest(t[0], t[1], to);
-  for (const Exact_point& p : {nearest(t[1], t[2], to), nearest(t[2], t[0], to)})
-    if (squared_distance(p, to) < squared_distance(best, to)) best = p;
-  return best;
-}
-
 /// Points of the faces: corners, the nearest to the centre of a shell, and some anywhere.
 std::vector<Exact_point> face_points(const Leaf& leaf, const double* centre) {
   std::vector<Exact_point> points;
-  for (std::size_t place = 0; place < leaf.vertices.size(); ++place) points.push_back(leaf.point(place));
+  for (std::size_t place = 0; place < leaf.vertices.size(); ++place) points.push_back(exact_point(leaf.point(place)));
   for (const auto& [a, b, c] : leaf.corners) {
     const Exact_triangle t{points[a], points[b], points[c]};
-    points.push_back(nearest(t, exact_point(centre)));
+    points.push_back(nearest_point(t, exact_point(centre)));
     points.push_back(t[0] + (t[1] - t[0]) / 3 + (t[2] - t[0]) / 7);
   }
   return points;
@@ -67,13 +31,6 @@ std::vector<Exact_point> face_points(const Leaf& leaf, const double* centre) {
 
 void expect_inside(const Spherical_shell& shell, const std::vector<Exact_point>& points) {
   for (const auto& p : points) ASSERT_TRUE(inside(shell, p));
-}
-
-TEST(Spherical_shell, holds_every_point_of_a_leaf_exactly) {
-  for_placed_leaves([](const Leaf& leaf) {
-    const auto shell = shell_of(leaf);
-    expect_inside(shell, face_points(leaf, shell.centre));
-  });
 }
 
 TEST(Spherical_shell, holds_random_triangles_exactly) {
@@ -84,7 +41,7 @@ TEST(Spherical_shell, holds_random_triangles_exactly) {
     const Eigen::Vector3d b = a + std::pow(10, -(i % 17)) * random_vector(random), c = a + random_vector(random);
     Leaf leaf = strip({a + offset, b + offset, c + offset, a + offset + random_vector(random)});
     if (i % 3 == 0) leaf = strip({a + offset, b + offset, c + offset});
-    const auto shell = shell_of(leaf);
+    const auto shell = volume_of<Spherical_shell>(leaf);
     shells += shell.has_shell();
     expect_inside(shell, face_points(leaf, shell.centre));
   }
@@ -94,7 +51,7 @@ TEST(Spherical_shell, holds_random_triangles_exactly) {
 TEST(Spherical_shell, of_a_patch_of_a_sphere_is_as_thick_as_its_faces_bulge) {
   for (const double radius : {0.8, 2.0, 10.0, 500.0}) {
     const Leaf leaf = grid(8, 8, [radius](const auto& p) { return onto_sphere(p, radius); });
-    const auto shell = shell_of(leaf);
+    const auto shell = volume_of<Spherical_shell>(leaf);
     ASSERT_TRUE(shell.has_shell());
     EXPECT_NEAR(shell.outer, radius, 1e-6 * radius);
     EXPECT_NEAR(shell.centre[2], -radius, 1e-6 * radius);
@@ -108,7 +65,7 @@ TEST(Spherical_shell, of_a_patch_of_a_sphere_is_as_thick_as_its_faces_bulge) {
 }
 
 TEST(Spherical_shell, of_a_flat_leaf_is_thin) {
-  const auto shell = shell_of(grid(8, 8, [](const auto& p) { return p; }));
+  const auto shell = volume_of<Spherical_shell>(grid(8, 8, [](const auto& p) { return p; }));
   EXPECT_LT(shell.outer - shell.inner, 1e-3);
   EXPECT_LT(shell.volume(), 2e-3 * shell.ball.volume());
   EXPECT_LT(shell.centre[2], -100) << "on the back of the faces";
@@ -116,9 +73,8 @@ TEST(Spherical_shell, of_a_flat_leaf_is_thin) {
 
 TEST(Spherical_shell, is_never_larger_than_the_ball) {
   for_placed_leaves([](const Leaf& leaf) {
-    const auto shell = shell_of(leaf);
-    Bounding_sphere ball;
-    ball.enclose(leaf.faces());
+    const auto shell = volume_of<Spherical_shell>(leaf);
+    const auto ball = volume_of<Bounding_sphere>(leaf);
     EXPECT_EQ(shell.ball, ball);
     EXPECT_EQ(shell.extent(), ball.extent());
     EXPECT_EQ(shell.bounds(), ball.bounds());
@@ -144,7 +100,7 @@ std::vector<Exact_point> points_of(const Spherical_shell& shell, int count, std:
       }
       p = centre + (shell.inner + (shell.outer - shell.inner) * often_an_end()) * direction;
     }
-    if (inside(shell, exact_point(p.data()))) points.push_back(exact_point(p.data()));
+    if (inside(shell, exact_point(p))) points.push_back(exact_point(p));
   }
   return points;
 }
@@ -160,7 +116,7 @@ std::vector<Spherical_shell> assorted_shells(std::mt19937_64& random) {
         Eigen::Map<Eigen::Vector3d> p(moved.coordinates.data() + 3 * v);
         p = (turn * p + step).eval();
       }
-      shells.push_back(shell_of(moved));
+      shells.push_back(volume_of<Spherical_shell>(moved));
     }
   return shells;
 }
@@ -173,7 +129,7 @@ TEST(Spherical_shell, of_two_holds_both_exactly) {
   for (std::size_t i = 0; i < shells.size(); ++i) points.push_back(points_of(shells[i], 40, random));
   for (std::size_t i = 0; i < 4000; ++i) {
     const std::size_t a = random() % shells.size(), b = i % shells.size();
-    const auto both = shell_of(shells[a], shells[b]);
+    const auto both = volume_of(shells[a], shells[b]);
     with_shell += both.has_shell();
     expect_inside(both, points[a]);
     expect_inside(both, points[b]);
@@ -187,10 +143,11 @@ TEST(Spherical_shell, of_two_holds_both_exactly) {
 
 TEST(Spherical_shell, of_neighbours_on_one_sphere_is_about_its_centre) {
   const auto patch = [](double x, double y) {
-    return shell_of(grid(8, 8, [=](const auto& p) { return onto_sphere(p + Eigen::Vector3d(x, y, 0), 3); }));
+    return volume_of<Spherical_shell>(
+        grid(8, 8, [=](const auto& p) { return onto_sphere(p + Eigen::Vector3d(x, y, 0), 3); }));
   };
-  const auto one = patch(0, 0), both = shell_of(one, patch(1, 0)),
-             four = shell_of(both, shell_of(patch(0, 1), patch(1, 1)));
+  const auto one = patch(0, 0), both = volume_of(one, patch(1, 0)),
+             four = volume_of(both, volume_of(patch(0, 1), patch(1, 1)));
   EXPECT_NEAR(both.centre[2], -3, 1e-4);
   EXPECT_LT(both.outer - both.inner, 1.01 * (one.outer - one.inner));
   EXPECT_LT(four.outer - four.inner, 1.01 * (one.outer - one.inner));
@@ -226,8 +183,8 @@ TEST(Spherical_shell, is_near_one_that_is_as_far_as_the_margin) {
     const double margin = i % 3 == 0 ? 0 : integer();
     for (auto& p : b) p[i % 3] += margin;
     const double offset = i % 5 == 0 ? 0x1p20 : 0;
-    const auto first = shell_of(placed(strip({a[0], a[1], a[2]}), 1, offset));
-    const auto second = shell_of(placed(strip({b[0], b[1], b[2], b[3]}), 1, offset));
+    const auto first = volume_of<Spherical_shell>(placed(strip({a[0], a[1], a[2]}), 1, offset));
+    const auto second = volume_of<Spherical_shell>(placed(strip({b[0], b[1], b[2], b[3]}), 1, offset));
     ASSERT_TRUE(near(first, second, margin));
     ASSERT_TRUE(near(second, first, margin));
   }
@@ -235,7 +192,7 @@ TEST(Spherical_shell, is_near_one_that_is_as_far_as_the_margin) {
 
 TEST(Spherical_shell, tells_surfaces_apart_whose_balls_meet) {
   const auto layer = [](double radius, double turn) {
-    return shell_of(grid(8, 8, [=](const auto& p) -> Eigen::Vector3d {
+    return volume_of<Spherical_shell>(grid(8, 8, [=](const auto& p) -> Eigen::Vector3d {
       return Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitX()) *
              (onto_sphere(p, radius) + Eigen::Vector3d(0, 0, radius));
     }));
@@ -244,7 +201,7 @@ TEST(Spherical_shell, tells_surfaces_apart_whose_balls_meet) {
   EXPECT_FALSE(near(layer(3, 0), layer(3.1, 0.05), 0.05));
   EXPECT_TRUE(near(layer(3, 0), layer(3.1, 0.05), 0.15));
   const auto plate = [](double height, double slope) {
-    return shell_of(
+    return volume_of<Spherical_shell>(
         grid(8, 8, [=](const auto& p) { return Eigen::Vector3d(p.x() + height, p.y(), height + slope * p.x()); }));
   };
   EXPECT_FALSE(near(plate(0, 0), plate(0.02, 0), 0)) << "plates";
@@ -255,7 +212,7 @@ TEST(Spherical_shell, tells_surfaces_apart_whose_balls_meet) {
 TEST(Spherical_shell, is_the_same_for_every_instruction_set_and_never_reads_past_the_last_vertex) {
   for_placed_leaves([](const Leaf& leaf) {
     const Guarded_coordinates guarded(leaf.coordinates);
-    Spherical_shell best = shell_of(leaf), other;
+    Spherical_shell best = volume_of<Spherical_shell>(leaf), other;
     for_instruction_sets([&] {
       other.enclose({guarded.values(), leaf.vertices, leaf.corners});
       ASSERT_EQ(other, best);
@@ -265,17 +222,18 @@ TEST(Spherical_shell, is_the_same_for_every_instruction_set_and_never_reads_past
 
 TEST(Spherical_shell, denies_nothing_where_numbers_end) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto unit = shell_of(grid(8, 8, [](const auto& p) { return onto_sphere(p, 1); }));
+  const auto unit = volume_of<Spherical_shell>(grid(8, 8, [](const auto& p) { return onto_sphere(p, 1); }));
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
     for (auto leaf : {grid(8, 8, [](const auto& p) { return p; }), strip({Eigen::Vector3d(1, 2, 3)})})
       for (double& x : leaf.coordinates) {
         const double before = std::exchange(x, bad);
-        const auto shell = shell_of(leaf);
+        const auto shell = volume_of<Spherical_shell>(leaf);
         EXPECT_TRUE(near(shell, unit, 0));
-        EXPECT_TRUE(near(unit, shell_of(unit, shell), 0));
+        EXPECT_TRUE(near(unit, volume_of(unit, shell), 0));
         x = before;
       }
-    EXPECT_TRUE(near(unit, shell_of(grid(8, 8, [](const auto& p) { return onto_sphere(p, 2); })), std::abs(bad)));
+    EXPECT_TRUE(near(unit, volume_of<Spherical_shell>(grid(8, 8, [](const auto& p) { return onto_sphere(p, 2); })),
+                     std::abs(bad)));
   }
 }
 
