@@ -66,14 +66,20 @@ class Bounding_volume_tree : public ::testing::Test {
     for (std::size_t i = 0; i < std::min(leaves_seen, tree.leaf_count()); ++i) {
       const std::size_t leaf = tree.leaf_count() <= leaves_seen ? i : random_() % tree.leaf_count();
       std::vector<Exact_point> points;
+      std::vector<Exact_triangle> triangles;
       for (std::size_t k = 0; k < vertices_seen; ++k)
         points.push_back(exact_point(soup.point(tree.vertices(leaf)[random_() % tree.vertices(leaf).size()])));
       for (std::size_t k = 0; k < faces_seen; ++k) {
         const auto face = tree.faces(leaf)[random_() % tree.faces(leaf).size()];
+        const auto [a, b, c] = soup.triangle(face);
+        triangles.push_back({exact_point(a), exact_point(b), exact_point(c)});
         for (const auto& p : points_of(soup.triangle(face), {}, random_)) points.push_back(p);
       }
       visit_upwards(parents, tree.leaf_node(leaf), [&](std::uint32_t n) {
-        const auto outside = std::ranges::count_if(points, [&](const auto& p) { return !inside(tree.volume(n), p); });
+        const auto& volume = tree.volume(n);
+        auto outside = std::ranges::count_if(points, [&](const auto& p) { return !inside(volume, p); });
+        for (const auto& centre : own_centres(volume))
+          for (const auto& t : triangles) outside += inside(volume, nearest_point(t, centre)) ? 0 : 1;
         EXPECT_EQ(outside, 0) << name << ": node " << n << " above leaf " << leaf;
       });
     }

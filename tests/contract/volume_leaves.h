@@ -177,11 +177,22 @@ inline std::vector<Exact_point> likely_centres(const Face_soup& soup) {
   return centres;
 }
 
-/// Whether the corners of all faces lie in a volume, and other points of some of the faces.
+/// The centre of a volume that has one. A hole, if there is any, is about it.
 template <class Volume>
-::testing::AssertionResult encloses(const Volume& volume, const Face_soup& soup,
-                                    const std::vector<Exact_point>& centres, std::mt19937_64& random) {
+std::vector<Exact_point> own_centres(const Volume& volume) {
+  if constexpr (requires { volume.centre; })
+    if (std::ranges::all_of(volume.centre, [](double x) { return std::isfinite(x); }))
+      return {exact_point(volume.centre)};
+  return {};
+}
+
+/// Whether the corners of all faces lie in a volume, and other points of some of the faces: also those that are nearest
+/// to the volume's own centre and to others.
+template <class Volume>
+::testing::AssertionResult encloses(const Volume& volume, const Face_soup& soup, std::vector<Exact_point> centres,
+                                    std::mt19937_64& random) {
   constexpr std::size_t looked_at = 10;
+  for (const auto& centre : own_centres(volume)) centres.push_back(centre);
   std::vector<bool> seen(soup.vertex_count());
   for (const auto& face : soup.faces)
     for (const auto v : face) {
