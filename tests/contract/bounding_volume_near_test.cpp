@@ -8,6 +8,15 @@
 namespace lodestone {
 namespace {
 
+/// Of the pairs that are not denied, one in so many is looked at. It has no factor in common with the number of
+/// questions that a test asks of each pair, so that all of them have their turn.
+constexpr std::size_t sampled_every = 7;
+
+/// How many pairs each test of triangles asks for at least; only those beyond the range of double are passed over.
+constexpr std::size_t hard_pairs_asked = 390'000, distance_pairs_asked = 170'000, images_asked = 290'000,
+                      random_pairs_asked = 250'000;
+static_assert(hard_pairs_asked + distance_pairs_asked + images_asked + random_pairs_asked >= 1'000'000);
+
 template <class Volume>
 class Bounding_volume_near : public ::testing::Test {
  protected:
@@ -24,7 +33,7 @@ class Bounding_volume_near : public ::testing::Test {
   void check(const Leaf& a, const Leaf& b, double margin, const char* kind, Meet meet) {
     const Volume volume_a = volume_of<Volume>(a), volume_b = volume_of<Volume>(b);
     if (are_near(volume_a, volume_b, margin)) {
-      if (asked_ % 8 == 0) ++sampled_, met_ += meet(a, b) ? 1 : 0;
+      if (asked_ % sampled_every == 0) ++sampled_, met_ += meet(a, b) ? 1 : 0;
     } else if (meet(a, b)) {
       if (wrong_++ == 0)
         first_wrong_ << kind << ", margin " << std::hexfloat << margin << ": " << shown(a) << " | " << shown(b);
@@ -60,6 +69,7 @@ TYPED_TEST(Bounding_volume_near, no_hard_pair_that_meets_is_denied) {
       const Placement place = any_placement(this->random_);
       this->check(placed(a, place), placed(b, place), kind.name);
     }
+  EXPECT_GE(this->asked_, hard_pairs_asked);
   EXPECT_GT(this->denied_, this->asked_ / 50);
   EXPECT_GT(this->met_, this->sampled_ / 5);
 }
@@ -73,6 +83,7 @@ TYPED_TEST(Bounding_volume_near, no_pair_that_meets_is_denied_among_those_whose_
       const Placement place = any_placement(this->random_);
       this->check(placed(a, place), placed(b, place), kind.name);
     }
+  EXPECT_GE(this->asked_, distance_pairs_asked);
   EXPECT_GT(this->denied_, this->asked_ / 50);
   EXPECT_GT(this->met_, this->sampled_ / 20);
 }
@@ -84,6 +95,7 @@ TYPED_TEST(Bounding_volume_near, no_triangle_is_denied_its_image_in_a_corner) {
     const auto image = mirrored(soup, static_cast<std::uint32_t>(i % 3)).triangle(0);
     this->check(t, image, "image in a corner");
   }
+  EXPECT_GE(this->asked_, images_asked);
   EXPECT_EQ(this->denied_, 0U);
 }
 
@@ -93,6 +105,7 @@ TYPED_TEST(Bounding_volume_near, no_random_pair_that_meets_is_denied) {
     const auto a = any_triangle(this->random_), b = any_triangle(this->random_);
     this->check(placed(a, place), placed(b, place), "anywhere");
   }
+  EXPECT_GE(this->asked_, random_pairs_asked);
   EXPECT_GT(this->denied_, this->asked_ / 50);
   EXPECT_GT(this->met_, this->sampled_ / 50);
 }
@@ -106,6 +119,7 @@ TYPED_TEST(Bounding_volume_near, no_groups_of_faces_that_meet_are_denied) {
     const auto a = place(group(this->random_)), b = place(Placement{1, {x, y, z}}(group(this->random_)));
     this->check(a, b, 0, "groups", soups_meet);
   }
+  EXPECT_GE(this->asked_, 12'000U);
   EXPECT_GT(this->denied_, this->asked_ / 50);
   EXPECT_GT(this->met_, this->sampled_ / 20);
 }
@@ -117,6 +131,7 @@ TYPED_TEST(Bounding_volume_near, no_group_is_denied_its_image_in_a_corner) {
     const auto image = mirrored(soup, static_cast<std::uint32_t>(this->random_() % soup.vertex_count()));
     if (finite(image)) this->check(soup, image, 0, "image in a corner", soups_meet);
   }
+  EXPECT_GE(this->asked_, 18'000U);
   EXPECT_EQ(this->denied_, 0U);
 }
 
@@ -131,6 +146,7 @@ TYPED_TEST(Bounding_volume_near, what_is_far_apart_is_denied) {
       EXPECT_FALSE(this->are_near(volume_of<TypeParam>(place(a)), volume_of<TypeParam>(place(b)), 0)) << text(place);
       EXPECT_FALSE(this->are_near(volume_of<TypeParam>(place(a)), volume_of<TypeParam>(place(b)), 10 * place.scale));
     }
+  EXPECT_EQ(this->asked_, 8000U);
 }
 
 TYPED_TEST(Bounding_volume_near, a_margin_denies_only_what_is_farther_apart) {
@@ -150,6 +166,7 @@ TYPED_TEST(Bounding_volume_near, a_margin_denies_only_what_is_farther_apart) {
       this->check_margin(a, b, distance * (1 - std::pow(10, -16 * unit(this->random_))), kind.name);
       this->check_margin(a, b, distance * unit(this->random_), kind.name);
     }
+  EXPECT_GE(this->asked_, 80'000U);
   EXPECT_GT(this->denied_, this->asked_ / 50);
   EXPECT_GT(this->met_, this->sampled_ / 5);
 }
@@ -178,6 +195,7 @@ TYPED_TEST(Bounding_volume_near, images_moved_away_from_a_corner_are_within_the_
         << this->shown(a) << this->shown(b);
     this->check_margin(a, b, distance * (0.5 + 0.5 * unit(this->random_)), "moved image");
   }
+  EXPECT_GE(this->asked_, 100'000U);
   EXPECT_GT(this->denied_, this->asked_ / 50);
 }
 
@@ -191,6 +209,7 @@ TYPED_TEST(Bounding_volume_near, a_margin_denies_only_groups_that_are_farther_ap
     const double margin = place.scale * std::pow(10, -2 * std::abs(unit(this->random_)));
     this->check(a, b, margin, "groups", [&](const auto& s, const auto& t) { return within_margin(s, t, margin); });
   }
+  EXPECT_GE(this->asked_, 2'000U);
   EXPECT_GT(this->denied_, this->asked_ / 50);
   EXPECT_GT(this->met_, this->sampled_ / 20);
 }
