@@ -44,7 +44,7 @@ struct Spherical_shell {
 
   /// Diameter of the ball.
   double extent() const { return ball.extent(); }
-  /// Of the ball or of what is between the spheres in the cone, whichever is less.
+  /// A bound above that of the set: of the ball or of what is between the spheres in the cone, whichever is less.
   double volume() const;
   /// Of the ball.
   Aabb bounds() const { return ball.bounds(); }
