@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "contact/volumes/ball_kernel.h"
 #include "contact/volumes/rounded_up.h"
 #include "contact/volumes/scale.h"
 #include "contact/volumes/support.h"
+#include "lodestone/errors.h"
 
 namespace lodestone {
 namespace {
@@ -82,6 +84,9 @@ bool encloses(const Bounding_sphere& a, const Bounding_sphere& b, double distanc
 
 void Bounding_sphere::enclose(const Leaf_faces& faces) {
   kernel::Leaf_points points;
+  if (faces.vertices.size() > points.capacity)
+    throw Bad_argument("a ball is fitted to at most 384 vertices, those of a leaf, but there are " +
+                       std::to_string(faces.vertices.size()));
   kernel::gather(faces.coordinates.data(), faces.vertices.data(), faces.vertices.size(), points);
   const Fit ball = fit(points);
   if (is_ordinary(ball.squared_radius)) {

@@ -12,6 +12,7 @@
 #include "contact/instruction_sets.h"
 #include "leaves.h"
 #include "lodestone/contact/bounding_volume.h"
+#include "lodestone/errors.h"
 
 namespace lodestone {
 namespace {
@@ -194,6 +195,13 @@ TEST(Bounding_sphere, denies_nothing_where_numbers_end) {
         x = before;
       }
   }
+}
+
+TEST(Bounding_sphere, refuses_more_vertices_than_a_leaf_can_have) {
+  Bounding_sphere ball;
+  const std::vector<Eigen::Vector3d> most(384, {1, 2, 3}), too_many(385, {1, 2, 3});
+  EXPECT_NO_THROW(ball.enclose(strip(most).faces()));
+  EXPECT_THROW(ball.enclose(strip(too_many).faces()), Bad_argument);
 }
 
 }  // namespace

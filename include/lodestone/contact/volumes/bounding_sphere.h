@@ -23,6 +23,7 @@ struct alignas(32) Bounding_sphere {
   /// Smallest ball around a few of the vertices, to which the farthest of all is added until it is not much farther
   /// than they are: \cite gaertner1999. Since no ball around all can be smaller than that around a few, this bounds
   /// the radius from below. Mostly three to six passes over the V vertices of the leaf, each O(V).
+  /// @throws Bad_argument  more vertices than a leaf can have
   void enclose(const Leaf_faces& faces);
 
   /// Smallest ball around two, up to rounding. One of the two if it encloses the other.

@@ -34,6 +34,7 @@ struct Spherical_shell {
   /// has |p - c|^2 = sum w_i |v_i - c|^2 - s where s = sum_(i < j) w_i w_j |v_i - v_j|^2. With the centre o and the
   /// radius m of the smallest ball around the face in place of c, m^2 >= |p - o|^2 + s. So p is no nearer to c than
   /// the root of the least |v_i - c|^2 minus m^2, and `inner` is the least of these. O(V + F).
+  /// @throws Bad_argument  more vertices than a leaf can have
   void enclose(const Leaf_faces& faces);
 
   /// The ball of the two balls, and if it is smaller a shell about one of the two centres or about a point between
