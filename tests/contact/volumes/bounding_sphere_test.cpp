@@ -199,8 +199,8 @@ TEST(Bounding_sphere, denies_nothing_where_numbers_end) {
 
 TEST(Bounding_sphere, refuses_more_vertices_than_a_leaf_can_have) {
   Bounding_sphere ball;
-  const std::vector<Eigen::Vector3d> most(384, {1, 2, 3}), too_many(385, {1, 2, 3});
-  EXPECT_NO_THROW(ball.enclose(strip(most).faces()));
+  const std::vector<Eigen::Vector3d> full(384, {1, 2, 3}), too_many(385, {1, 2, 3});
+  EXPECT_NO_THROW(ball.enclose(strip(full).faces()));
   EXPECT_THROW(ball.enclose(strip(too_many).faces()), Bad_argument);
 }
 
