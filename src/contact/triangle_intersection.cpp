@@ -7,7 +7,9 @@
 #include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
 #include <CGAL/intersections.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <variant>
 #include <vector>
 
@@ -90,14 +92,37 @@ struct Shapes_intersection {
   }
 };
 
-/// Whether the segment from p to q passes through the inside of a triangle, from above to below. All orientations are
-/// the same if it does, so a processor foresees what comes of each.
+/// The edge of a `Crossing`: which triangle has it, and its ends, that above the other triangle first.
+struct Crossing_edge {
+  std::uint8_t owner;  ///< 0: a
+  std::uint8_t above, below;
+};
+/// By number. No branch could foretell it.
+constexpr auto crossing_edges = [] {
+  std::array<Crossing_edge, no_crossing> edges{};
+  for (std::uint8_t number = 0; number < no_crossing; ++number) {
+    const std::uint8_t owner = number % 6 / 3, corner = number % 3, next = (number + 1) % 3;
+    edges[number] = number < 6 ? Crossing_edge{owner, corner, next} : Crossing_edge{owner, next, corner};
+  }
+  return edges;
+}();
+
+/// Whether the segment from p to q passes through the inside of a triangle, from above to below; `false` proves nothing.
+/// All orientations are the same if it does, so a processor foresees what comes of each.
+///
+/// CGAL's filter branches on whether its points are spread wider along z than along x and y, which no processor
+/// foresees. So z is stretched, by a power of two: that rounds nothing and changes no orientation.
 bool passes_through(const Point& p, const Point& q, const Triangle& t) {
-  const auto positive = [](const Point& a, const Point& b, const Point& c, const Point& d) {
-    return CGAL::orientation(a, b, c, d) == CGAL::POSITIVE;
+  constexpr double stretch = 0x1p10, most = 0x1p1000;
+  const auto stretched = [](const Point& from) { return Point(from.x(), from.y(), stretch * from.z()); };
+  const Point points[]{stretched(p), stretched(q), stretched(t[0]), stretched(t[1]), stretched(t[2])};
+  bool finite = true;
+  for (const Point& point : points) finite &= std::abs(point.z()) < most;
+  const auto positive = [&points](int a, int b, int c, int d) {
+    return CGAL::orientation(points[a], points[b], points[c], points[d]) == CGAL::POSITIVE;
   };
-  return positive(t[0], t[1], t[2], p) && positive(t[0], t[2], t[1], q) && positive(q, p, t[0], t[1]) &&
-         positive(q, p, t[1], t[2]) && positive(q, p, t[2], t[0]);
+  return finite && positive(2, 3, 4, 0) && positive(2, 4, 3, 1) && positive(1, 0, 2, 3) && positive(1, 0, 3, 4) &&
+         positive(1, 0, 4, 2);
 }
 
 }  // namespace
@@ -110,10 +135,10 @@ bool triangles_intersect(const Triangle& a, const Triangle& b) {
 
 bool triangles_intersect_given(const Triangle& a, const Triangle& b, Crossing likely) {
   if (likely < no_crossing) {
-    const bool is_of_b = likely % 6 >= 3, starts_below = likely >= 6;
-    const Triangle &edges = is_of_b ? b : a, &face = is_of_b ? a : b;
-    const Point &start = edges[likely % 3], &end = edges[(likely + 1) % 3];
-    if (passes_through(starts_below ? end : start, starts_below ? start : end, face)) return true;
+    const Triangle* const triangles[]{&a, &b};
+    const auto [owner, above, below] = crossing_edges[likely];
+    const Triangle& edges = *triangles[owner];
+    if (passes_through(edges[above], edges[below], *triangles[1 - owner])) return true;
   }
   return triangles_intersect(a, b);
 }

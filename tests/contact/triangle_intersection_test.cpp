@@ -76,11 +76,12 @@ TEST(Oracle, knows_the_known_cases) {
 
 TEST(Triangles_intersect, is_right_in_the_known_cases_whatever_the_guess) {
   for (const auto& c : known_cases)
-    for (Crossing guess = 0; guess <= no_crossing; ++guess) {
-      const Triangle a = as_triangle(c.a), b = as_triangle(c.b);
-      EXPECT_EQ(triangles_intersect_given(a, b, guess), c.meets) << c.name << ' ' << int{guess};
-      EXPECT_EQ(triangles_intersect_given(b, a, guess), c.meets) << c.name << ' ' << int{guess};
-    }
+    for (const double scale : {1.0, 0x1p-300, 0x1p300, 0x1p-1072, 0x1p995, 0x1p1018})
+      for (Crossing guess = 0; guess <= no_crossing; ++guess) {
+        const Triangle a = as_triangle(c.a, scale), b = as_triangle(c.b, scale);
+        EXPECT_EQ(triangles_intersect_given(a, b, guess), c.meets) << c.name << ' ' << scale << ' ' << int{guess};
+        EXPECT_EQ(triangles_intersect_given(b, a, guess), c.meets) << c.name << ' ' << scale << ' ' << int{guess};
+      }
 }
 
 TEST(Triangles_intersect, is_right_in_the_known_cases_at_any_scale_place_and_order_of_corners) {
