@@ -12,7 +12,7 @@ namespace {
 
 TEST(Face_pair_order, is_that_of_comparing_pairs) {
   std::mt19937_64 random(1);
-  for (const std::size_t count : {0, 1, 2, 30, 47, 48, 49, 300, 5000})
+  for (const std::size_t count : {0, 1, 2, 31, 32, 33, 300, 5000})
     for (const int bits_a : {0, 1, 7, 8, 9, 16, 31, 32})
       for (const int bits_b : {0, 1, 8, 15, 17, 24, 32}) {
         const auto number = [&](int bits) {

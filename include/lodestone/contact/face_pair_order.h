@@ -7,8 +7,7 @@
 
 namespace lodestone {
 
-/// Sorts face pairs, as `std::sort` would: by a, then by b. O(n) for numbers of so many bits: there is nothing in it
-/// that a processor would have to foresee.
+/// Sorts face pairs, as `std::sort` would: by a, then by b. O(n log n), with vector instructions.
 void sort_face_pairs(std::span<Face_pair> pairs);
 
 }  // namespace lodestone
