@@ -96,14 +96,45 @@ HWY_INLINE Near near_boxes(const Limits& box, const Face_columns& faces, std::si
   return hn::And(hn::And(near_along(0), near_along(1)), near_along(2));
 }
 
-/// Writes the numbers of the lanes that are asked for next to each other, and anything after them.
-HWY_INLINE void store_packed(Sides sides, Near chosen, float* to) {
-  hn::StoreU(hn::Compress(sides, chosen), Box_lanes(), to);
-}
-HWY_INLINE void store_packed(const std::uint32_t* from, Near chosen, std::uint32_t* to) {
-  const hn::Rebind<std::uint32_t, Box_lanes> d;
-  hn::StoreU(hn::Compress(hn::Load(d, from), hn::RebindMask(d, chosen)), d, to);
-}
+/// As many vertex numbers as there are boxes in a vector.
+using Vertex_lanes = hn::Rebind<std::uint32_t, Box_lanes>;
+
+/// Writes those lanes that are asked for next to each other, and anything after them.
+#if HWY_TARGET <= HWY_AVX3
+class Packing {
+ public:
+  Packing(Near chosen, unsigned /*bits*/) : chosen_(chosen) {}
+
+  HWY_INLINE void store(Sides sides, float* to) const { hn::StoreU(hn::Compress(sides, chosen_), Box_lanes(), to); }
+  HWY_INLINE void store(hn::Vec<Vertex_lanes> vertices, std::uint32_t* to) const {
+    const Vertex_lanes d;
+    hn::StoreU(hn::Compress(vertices, hn::RebindMask(d, chosen_)), d, to);
+  }
+
+ private:
+  Near chosen_;
+};
+#else
+// Without an instruction for it, Highway's `Compress` has GCC 12 write a table of a kilobyte each time.
+class Packing {
+ public:
+  Packing(Near /*chosen*/, unsigned bits)
+      : lanes_(hn::PromoteTo(Vertex_lanes(),
+                             hn::LoadU(hn::Rebind<std::uint8_t, Box_lanes>(), lane_lists[bits].data()))) {}
+
+  HWY_INLINE void store(Sides sides, float* to) const {
+    const Box_lanes d;
+    hn::StoreU(hn::TableLookupLanes(sides, hn::IndicesFromVec(d, lanes_)), d, to);
+  }
+  HWY_INLINE void store(hn::Vec<Vertex_lanes> vertices, std::uint32_t* to) const {
+    const Vertex_lanes d;
+    hn::StoreU(hn::TableLookupLanes(vertices, hn::IndicesFromVec(d, lanes_)), d, to);
+  }
+
+ private:
+  hn::Vec<Vertex_lanes> lanes_;
+};
+#endif
 
 /// Lists the faces whose boxes are within the margin of a box.
 /// @param copy  null, or where these faces are put next to each other, without the lanes past the last
@@ -121,16 +152,19 @@ HWY_INLINE Limits list_near(const Face_columns& faces, const Limits& box, Face_l
   std::size_t count = 0;
   for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d)) {
     const auto near = near_boxes(box, faces, start);
+    const unsigned bits = mask_bits(d, near);
+    const Packing packing(near, bits);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto low = hn::Load(d, faces.low[axis] + start), high = hn::Load(d, faces.high[axis] + start);
       around.low[axis] = hn::Min(around.low[axis], hn::IfThenElse(near, low, infinity));
       around.high[axis] = hn::Max(around.high[axis], hn::IfThenElse(near, high, hn::Neg(infinity)));
       if (copy == nullptr) continue;
-      store_packed(low, near, copy->low[axis] + count);
-      store_packed(high, near, copy->high[axis] + count);
-      if constexpr (with_vertices) store_packed(faces.vertices[axis] + start, near, copy->vertices[axis] + count);
+      packing.store(low, copy->low[axis] + count);
+      packing.store(high, copy->high[axis] + count);
+      if constexpr (with_vertices)
+        packing.store(hn::Load(Vertex_lanes(), faces.vertices[axis] + start), copy->vertices[axis] + count);
     }
-    count += list_lanes(mask_bits(d, near), start, list.places + count);
+    count += list_lanes(bits, start, list.places + count);
   }
   list.count = count;
   if (copy != nullptr) copy->count = count;
@@ -144,7 +178,7 @@ HWY_INLINE Limits list_near(const Face_columns& faces, const Limits& box, Face_l
 
 /// The lanes in which a face of b, from the `start`th on, has a vertex of a's face.
 HWY_INLINE Near share_a_vertex(const Face_columns& a, std::size_t face, const Face_columns& b, std::size_t start) {
-  const hn::Rebind<std::uint32_t, Box_lanes> d;
+  const Vertex_lanes d;
   const auto p = hn::Set(d, a.vertices[0][face]), q = hn::Set(d, a.vertices[1][face]);
   const auto r = hn::Set(d, a.vertices[2][face]);
   const auto shares = [&](std::size_t corner) HWY_ATTR {
