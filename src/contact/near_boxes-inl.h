@@ -167,7 +167,7 @@ HWY_INLINE Limits list_near(const Face_columns& faces, const Limits& box, Face_l
     count += list_lanes(bits, start, list.places + count);
   }
   list.count = count;
-  if (copy != nullptr) copy->count = count;
+  if (copy != nullptr) end_columns(*copy, count);
   if (count == 0) return around;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     around.low[axis] = hn::MinOfLanes(d, around.low[axis]);
@@ -196,8 +196,9 @@ HWY_INLINE std::size_t list_near_pairs(const Face_columns& a, std::size_t face, 
                                        Leaf_scratch& scratch) {
   const Box_lanes d;
   const Limits box = limits(a, face);
-  for (std::size_t start = first; start < b.count; start += hn::Lanes(d)) {
-    auto near = hn::And(near_boxes(box, b, start), hn::FirstN(d, b.count - start));
+  const std::size_t end = b.count;  // bytes are written, which could be those of b
+  for (std::size_t start = first; start < end; start += hn::Lanes(d)) {
+    auto near = near_boxes(box, b, start);
     if (skip_neighbours && !hn::AllFalse(d, near)) near = hn::AndNot(share_a_vertex(a, face, b, start), near);
     for (std::size_t eight = 0; eight < hn::Lanes(d); eight += 8) repeat_byte(face, scratch.pairs_a + count + eight);
     count += list_lanes(mask_bits(d, near), start, scratch.pairs_b + count);

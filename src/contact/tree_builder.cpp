@@ -52,35 +52,37 @@ void Tree_builder::group_by_region(const std::vector<Item>& faces) {
 }
 
 void Tree_builder::add_regions(std::span<Item> regions) {
-  if (regions.size() > 1) return add_halves(regions, [this](std::span<Item> half) { add_regions(half); });
+  if (regions.size() > 1)
+    return add_parts(regions, regions.size() / 2, [this](std::span<Item> part) { add_regions(part); });
   const Region_index region = regions.front().number;
   add_faces({faces_.data() + region_begin_[region], faces_.data() + region_begin_[region + 1]});
 }
 
 void Tree_builder::add_faces(std::span<Item> faces) {
-  if (faces.size() <= options_.leaf_faces) return add_leaf(faces);
-  add_halves(faces, [this](std::span<Item> half) { add_faces(half); });
+  // As few leaves as there can be, of one size: halves would end anywhere between half full and full.
+  const std::size_t leaves = (faces.size() + options_.leaf_faces - 1) / options_.leaf_faces;
+  if (leaves == 1) return add_leaf(faces);
+  add_parts(faces, faces.size() * (leaves / 2) / leaves, [this](std::span<Item> part) { add_faces(part); });
 }
 
 template <class Add>
-void Tree_builder::add_halves(std::span<Item> items, Add add) {
+void Tree_builder::add_parts(std::span<Item> items, std::size_t first_count, Add add) {
   Eigen::AlignedBox3d box;
   for (const Item& item : items) box.extend(item.centre);
   int axis = 0;
   // Halved, since the whole may be more than a double holds.
   (box.max() / 2 - box.min() / 2).maxCoeff(&axis);
-  const std::size_t half = items.size() / 2;
-  // Equal centres go by number, so that the halves do not depend on the sorting routine.
+  // Equal centres go by number, so that the parts do not depend on the sorting routine.
   const auto before = [axis](const Item& a, const Item& b) {
     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.number < b.number;
   };
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(), before);
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(first_count), items.end(), before);
 
   const std::size_t node = tree_.nodes_.size();
   tree_.nodes_.push_back({.leaf = static_cast<std::uint32_t>(tree_.leaf_nodes_.size())});
-  add(items.first(half));
+  add(items.first(first_count));
   tree_.nodes_[node].second_child = static_cast<std::uint32_t>(tree_.nodes_.size());
-  add(items.subspan(half));
+  add(items.subspan(first_count));
 }
 
 void Tree_builder::add_leaf(std::span<Item> items) {

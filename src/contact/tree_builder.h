@@ -29,9 +29,10 @@ class Tree_builder {
   void add_regions(std::span<Item> regions);
   void add_faces(std::span<Item> faces);
   void add_leaf(std::span<Item> faces);
-  /// Adds a node with two children, for each of which `add` is called with half of the items.
+  /// Adds a node with two children: `add` is called with the first so many items along the longest side, then with the
+  /// others.
   template <class Add>
-  void add_halves(std::span<Item> items, Add add);
+  void add_parts(std::span<Item> items, std::size_t first_count, Add add);
 
   Tree_layout& tree_;
   std::span<const Corners> corners_;

@@ -18,18 +18,21 @@ Region_index region_of(const Corners& corners, const Labels& labels) {
   return std::min({labels[corners[0]], labels[corners[1]], labels[corners[2]]});
 }
 
-/// How full leaves are, and that regions stay apart.
+/// Regions stay apart, and each has as few leaves as there can be, of nearly one size.
 void expect_leaves_of_regions(const Region_tree& tree, const Face_soup& soup, const Labels& labels,
                               std::size_t leaf_faces) {
-  std::map<Region_index, std::size_t> sizes;
-  for (const auto& corners : soup.faces) ++sizes[region_of(corners, labels)];
+  std::map<Region_index, std::size_t> faces_of, leaves_of;
+  for (const auto& corners : soup.faces) ++faces_of[region_of(corners, labels)];
   for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const auto faces = tree.faces(leaf);
     const Region_index region = region_of(soup.faces[faces[0]], labels);
+    ++leaves_of[region];
     for (const auto face : faces) ASSERT_EQ(region_of(soup.faces[face], labels), region);
+    const std::size_t fewest = (faces_of[region] + leaf_faces - 1) / leaf_faces;
     ASSERT_LE(faces.size(), leaf_faces);
-    ASSERT_GE(2 * faces.size(), std::min(leaf_faces, 2 * sizes[region]));
+    ASSERT_NEAR(faces.size(), static_cast<double>(faces_of[region]) / static_cast<double>(fewest), 2);
   }
+  for (const auto& [region, leaves] : leaves_of) ASSERT_EQ(leaves, (faces_of[region] + leaf_faces - 1) / leaf_faces);
 }
 
 TEST(Region_tree, keeps_its_promises_after_the_build_and_after_every_refit) {

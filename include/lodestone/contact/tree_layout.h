@@ -12,7 +12,7 @@
 namespace lodestone {
 
 struct Region_tree_options {
-  std::size_t leaf_faces = 96;  ///< most faces of a leaf, 2 .. 128; leaves of large regions have at least half as many
+  std::size_t leaf_faces = 96;  ///< most faces of a leaf, 2 .. 128; leaves of large regions have nearly as many
 };
 
 /// What a region tree has but for its volumes: how the faces of one object are grouped, from its regions down to leaves
