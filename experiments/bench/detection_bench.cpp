@@ -5,6 +5,7 @@
 #include <chrono>
 #include <numeric>
 
+#include "frame_player.h"
 #include "lodestone/baselines/exhaustive.h"
 #include "measured_run.h"
 
@@ -14,32 +15,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A scene that is read once and whose frames are played in a circle, there and back, so that motion stays smooth.
-class Player {
- public:
-  explicit Player(const std::string& name) : scene_(read_scene(std::string(LODESTONE_SCENES) + "/" + name + ".json")) {}
-
-  Scene& scene() { return scene_; }
-  void next() {
-    for (auto& object : scene_.objects) pose(object, frame_);
-    if (frame_ + 1 == scene_.frames) forward_ = false;
-    if (frame_ == 0) forward_ = true;
-    frame_ += forward_ ? 1 : std::size_t(-1);
-  }
-
- private:
-  Scene scene_;
-  std::size_t frame_ = 0;
-  bool forward_ = true;
-};
-
 /// Frames of one scene with N particles per object. Posing the meshes is not timed.
 ///
 /// Reported time: relaxation, candidates and confirmation, per frame. `median_us` is the median over the frames,
 /// `oracle_median_us` that of exhaustive checking on the same frames, `hops` the steps of all particles per frame,
 /// `us_per_iteration` the time of all relaxations over the number of their iterations.
 void particles(benchmark::State& state, const std::string& scene_name, bool with_oracle) {
-  Player player(scene_name);
+  Frame_player player(scene_name);
   Detector<Surface_mesh> detector(
       {.particles = static_cast<std::size_t>(state.range(0)), .contacts = Contact_query::yes_no});
   for (auto& object : player.scene().objects) detector.add(std::as_const(object.mesh));
