@@ -25,9 +25,10 @@ class Lodestone_entrant : public Entrant {
 
   void prepare() override { build(all_); }
 
-  void start_pass(std::size_t pass) override {
-    asks_any_ = pass == 0 || pass % 2 == 1;
-    asks_all_ = pass == 0 || pass % 2 == 0;
+  std::size_t rounds() const override { return 2; }
+  void start_round(std::size_t round) override {
+    asks_any_ = round == 0 || round % 2 == 1;
+    asks_all_ = round == 0 || round % 2 == 0;
   }
 
   const Answer& play(std::span<const Object_pair> pairs) override {

@@ -38,8 +38,11 @@ class Entrant {
   /// Called for each frame of the scene that comes before a sampled one and after the sampled one before that, when the
   /// meshes are as they are in it. What it takes is no part of the figures of a frame.
   virtual void approach() {}
-  /// Begins a pass over all sampled frames. In the first one both questions are asked in every frame.
-  virtual void start_pass(std::size_t /*pass*/) {}
+  /// How often a pass goes over all sampled frames: twice for who answers the two questions in turns.
+  virtual std::size_t rounds() const { return 1; }
+  /// Begins to go over all sampled frames, counted over all passes. The first time both questions are asked in every
+  /// frame.
+  virtual void start_round(std::size_t /*round*/) {}
   /// Updates all objects, then asks about the pairs: first whether they collide, then for all contacts.
   /// @return valid until the next call
   virtual const Answer& play(std::span<const Object_pair> pairs) = 0;

@@ -39,12 +39,12 @@ void compare_sets(const std::vector<Face_pair>& truth, std::vector<Face_pair> fo
   figures.wrong_sets += missing.empty() && invented.empty() ? 0 : 1;
 }
 
-/// Wrong answers are counted in the first pass; a later one that differs from it makes the entry wrong as well.
-void compare(const Truth& truth, const Answer& answer, std::size_t pass, Entry_figures& counted) {
+/// Wrong answers are counted in the first round; a later one that differs from it makes the entry wrong as well.
+void compare(const Truth& truth, const Answer& answer, std::size_t round, Entry_figures& counted) {
   if (!counted.entry.answers) return;
   Entry_figures later = counted;
-  Entry_figures& figures = pass == 0 ? counted : later;
-  if (pass > 0) figures.missed = figures.invented = figures.wrong_sets = 0;
+  Entry_figures& figures = round == 0 ? counted : later;
+  if (round > 0) figures.missed = figures.invented = figures.wrong_sets = 0;
   for (std::size_t p = 0; p < truth.pairs.size(); ++p) {
     const bool collides = !truth.contacts[p].empty();
     if (std::isfinite(answer.any_seconds)) {
@@ -56,7 +56,7 @@ void compare(const Truth& truth, const Answer& answer, std::size_t pass, Entry_f
   }
   const bool wrong = figures.missed + figures.invented + figures.wrong_sets > 0;
   const bool wrong_before = counted.missed + counted.invented + counted.wrong_sets > 0;
-  if (pass > 0 && wrong && !wrong_before) ++counted.wrong_later;
+  if (round > 0 && wrong && !wrong_before) ++counted.wrong_later;
 }
 
 /// Objects are near when their bounding boxes, each grown by so many of its diagonals to all sides, overlap.
@@ -189,11 +189,17 @@ class Scene_run {
     return players;
   }
 
-  /// One pass of one entry over all sampled frames.
+  /// One pass of one entry.
   void play(std::size_t pass, Player& player) {
     if (pass > 1 && player.seconds > options_.seconds) return;
     if (pass > 0 && player.approach_seconds > options_.approach_seconds) return;
-    player.entrant->start_pass(pass);
+    const std::size_t rounds = player.entrant->rounds();
+    for (std::size_t round = pass * rounds; round < (pass + 1) * rounds; ++round) play_round(round, player);
+  }
+
+  /// Once over all sampled frames.
+  void play_round(std::size_t round, Player& player) {
+    player.entrant->start_round(round);
     std::size_t next = 0;
     for (std::size_t f = 0; f < figures_.sampled.size() && !player.figures->left_early; ++f) {
       if (player.seconds > options_.most_seconds) player.figures->left_early = true;
@@ -203,7 +209,7 @@ class Scene_run {
       next = figures_.sampled[f] + 1;
       restore(f);
       const Answer& answer = player.play(f, truths_[f]);
-      if (!answer.gave_up) compare(truths_[f], answer, pass, *player.figures);
+      if (!answer.gave_up) compare(truths_[f], answer, round, *player.figures);
     }
   }
 

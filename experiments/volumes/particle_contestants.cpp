@@ -26,7 +26,7 @@ class Particle_entrant : public Entrant {
   /// Particles walk from where they were in the frame before, so they play all frames of the scene in their order. Only
   /// from the end back to the start, where a pass begins, do they jump; that does not count.
   bool wants_approach() const override { return true; }
-  void start_pass(std::size_t /*pass*/) override { jumps_ = true; }
+  void start_round(std::size_t /*round*/) override { jumps_ = true; }
   void approach() override {
     Lap_timer timer;
     detector_.update();
