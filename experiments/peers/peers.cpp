@@ -174,7 +174,7 @@ std::string run_peers(const Experiment_context& context) {
   constexpr std::size_t steps = 1000;  // per scene
   for (std::size_t s = 0; s < names.size(); ++s) {
     auto scene = read_scene(context.scenes / (names[s] + ".json"));
-    const auto figures = measure_race(scene, entries, {}, [&](double share) {
+    const auto figures = measure_race(scene, entries, {.more_passes = 15}, [&](double share) {
       context.progress(s * steps + static_cast<std::size_t>(share * steps), names.size() * steps);
     });
     if (s > 0) report += "\n";

@@ -119,12 +119,13 @@ class Scene_run {
     while (figures_.entries.size() < entries.size()) {
       ++figures_.batches;
       auto players = build(entries);
-      for (std::size_t pass = 0; pass < options_.passes; ++pass)
+      const std::size_t passes = options_.passes + options_.more_passes;
+      for (std::size_t pass = 0; pass < passes; ++pass)
         for (std::size_t turn = 0; turn < players.size(); ++turn) {
           play(pass, players[(pass + turn) % players.size()]);
           const auto finished = figures_.entries.size() - players.size();
           const auto share = static_cast<double>(pass * players.size() + turn + 1) /
-                             static_cast<double>(options_.passes * players.size());
+                             static_cast<double>(passes * players.size());
           progress_((static_cast<double>(finished) + share * static_cast<double>(players.size())) /
                     static_cast<double>(entries.size()));
         }
@@ -192,6 +193,7 @@ class Scene_run {
   /// One pass of one entry.
   void play(std::size_t pass, Player& player) {
     if (pass > 1 && player.seconds > options_.seconds) return;
+    if (pass >= options_.passes && player.seconds > options_.soon) return;
     if (pass > 0 && player.approach_seconds > options_.approach_seconds) return;
     const std::size_t rounds = player.entrant->rounds();
     for (std::size_t round = pass * rounds; round < (pass + 1) * rounds; ++round) play_round(round, player);

@@ -18,6 +18,8 @@ struct Race_options {
   std::size_t least_frames = 6;              ///< but at least so many
   std::size_t most_frames = 30;              ///< and at most so many
   std::size_t passes = 5;                    ///< over all sampled frames
+  std::size_t more_passes = 0;               ///< after these, for entries that are done with them soon
+  double soon = 0.5;                         ///< seconds of an entry in a scene; beyond them it gets none of these
   double seconds = 3;                        ///< per entry and scene; beyond it an entry plays no third pass
   double most_seconds = 60;                  ///< per entry and scene; beyond it an entry plays no further frame
   double approach_seconds = 20;              ///< of an entry between sampled frames; beyond it it plays no second pass
