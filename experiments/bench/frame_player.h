@@ -10,7 +10,8 @@ namespace lodestone {
 /// A scene that is read once and whose frames are played in a circle, there and back, so that motion stays smooth.
 class Frame_player {
  public:
-  explicit Frame_player(const std::string& name) : scene_(read_scene(std::string(LODESTONE_SCENES) + "/" + name + ".json")) {}
+  explicit Frame_player(const std::string& name)
+      : scene_(read_scene(std::string(LODESTONE_SCENES) + "/" + name + ".json")) {}
 
   Scene& scene() { return scene_; }
   void next() {

@@ -20,8 +20,8 @@ namespace {
 /// Frames of one scene, update and query, each with all instruction sets, which take turns at being the first. Posing
 /// the meshes is not timed.
 ///
-/// Reported time: the best instruction set. Per instruction set: the median over the frames in which something is found,
-/// in microseconds.
+/// Reported time: the best instruction set. Per instruction set: the median over the frames in which something is
+/// found, in microseconds.
 void instruction_sets(benchmark::State& state, const std::string& scene_name, Contact_query query) {
   Frame_player player(scene_name);
   Detector<Surface_mesh> detector({.mode = Mode::exact, .contacts = query});
@@ -34,7 +34,7 @@ void instruction_sets(benchmark::State& state, const std::string& scene_name, Co
   std::map<std::int64_t, std::vector<double>> seconds;
   for (auto _ : state) {
     player.next();
-    std::ranges::rotate(targets, targets.begin() + 1);
+    std::rotate(targets.begin(), targets.begin() + 1, targets.end());
     double best_seconds = 0;
     for (const auto target : targets) {
       hwy::GetChosenTarget().Update(target);

@@ -124,8 +124,8 @@ class Scene_run {
         for (std::size_t turn = 0; turn < players.size(); ++turn) {
           play(pass, players[(pass + turn) % players.size()]);
           const auto finished = figures_.entries.size() - players.size();
-          const auto share = static_cast<double>(pass * players.size() + turn + 1) /
-                             static_cast<double>(passes * players.size());
+          const auto share =
+              static_cast<double>(pass * players.size() + turn + 1) / static_cast<double>(passes * players.size());
           progress_((static_cast<double>(finished) + share * static_cast<double>(players.size())) /
                     static_cast<double>(entries.size()));
         }

@@ -119,8 +119,8 @@ class Packing {
 class Packing {
  public:
   Packing(Near /*chosen*/, unsigned bits)
-      : lanes_(hn::PromoteTo(Vertex_lanes(),
-                             hn::LoadU(hn::Rebind<std::uint8_t, Box_lanes>(), lane_lists[bits].data()))) {}
+      : lanes_(
+            hn::PromoteTo(Vertex_lanes(), hn::LoadU(hn::Rebind<std::uint8_t, Box_lanes>(), lane_lists[bits].data()))) {}
 
   HWY_INLINE void store(Sides sides, float* to) const {
     const Box_lanes d;

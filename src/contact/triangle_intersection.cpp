@@ -107,8 +107,8 @@ constexpr auto crossing_edges = [] {
   return edges;
 }();
 
-/// Whether the segment from p to q passes through the inside of a triangle, from above to below; `false` proves nothing.
-/// All orientations are the same if it does, so a processor foresees what comes of each.
+/// Whether the segment from p to q passes through the inside of a triangle, from above to below; `false` proves
+/// nothing. All orientations are the same if it does, so a processor foresees what comes of each.
 ///
 /// CGAL's filter branches on whether its points are spread wider along z than along x and y, which no processor
 /// foresees. So z is stretched, by a power of two: that rounds nothing and changes no orientation.
