@@ -164,6 +164,13 @@ nlohmann::ordered_json to_json(const Scene_figures& scene) {
   return json;
 }
 
+/// A pass over a small scene takes a millisecond, in which much may disturb it: there are more of them.
+std::size_t passes(const Scene& scene) {
+  std::size_t triangles = 0;
+  for (const auto& object : scene.objects) triangles += object.mesh.number_of_faces();
+  return triangles < 20'000 ? 20 : 5;
+}
+
 }  // namespace
 
 std::string run_peers(const Experiment_context& context) {
@@ -174,7 +181,7 @@ std::string run_peers(const Experiment_context& context) {
   constexpr std::size_t steps = 1000;  // per scene
   for (std::size_t s = 0; s < names.size(); ++s) {
     auto scene = read_scene(context.scenes / (names[s] + ".json"));
-    const auto figures = measure_race(scene, entries, {.more_passes = 15}, [&](double share) {
+    const auto figures = measure_race(scene, entries, {.passes = passes(scene)}, [&](double share) {
       context.progress(s * steps + static_cast<std::size_t>(share * steps), names.size() * steps);
     });
     if (s > 0) report += "\n";

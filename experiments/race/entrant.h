@@ -17,8 +17,8 @@ namespace lodestone {
 /// What one frame took, and what was answered. All figures are sums over the objects, or over the pairs asked for.
 struct Answer {
   double update_seconds = 0;
-  double any_seconds = 0;                        ///< infinite: not asked in this pass
-  double all_seconds = 0;                        ///< infinite: not asked in this pass
+  double any_seconds = 0;                        ///< infinite: not asked in this round
+  double all_seconds = 0;                        ///< infinite: not asked in this round
   bool gave_up = false;                          ///< in one of the queries: only the update counts
   std::vector<bool> collides;                    ///< per pair asked for
   std::vector<std::vector<Face_pair>> contacts;  ///< per pair asked for, in any order
@@ -38,10 +38,10 @@ class Entrant {
   /// Called for each frame of the scene that comes before a sampled one and after the sampled one before that, when the
   /// meshes are as they are in it. What it takes is no part of the figures of a frame.
   virtual void approach() {}
-  /// How often a pass goes over all sampled frames: twice for who answers the two questions in turns.
+  /// How often a pass goes over all sampled frames: twice for who answers the two questions one after the other.
   virtual std::size_t rounds() const { return 1; }
-  /// Begins to go over all sampled frames, counted over all passes. The first time both questions are asked in every
-  /// frame.
+  /// Begins to go over all sampled frames. In the rounds of a pass together each question is asked once in every frame.
+  /// @param round  of the pass: < rounds()
   virtual void start_round(std::size_t /*round*/) {}
   /// Updates all objects, then asks about the pairs: first whether they collide, then for all contacts.
   /// @return valid until the next call

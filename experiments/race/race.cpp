@@ -39,12 +39,12 @@ void compare_sets(const std::vector<Face_pair>& truth, std::vector<Face_pair> fo
   figures.wrong_sets += missing.empty() && invented.empty() ? 0 : 1;
 }
 
-/// Wrong answers are counted in the first round; a later one that differs from it makes the entry wrong as well.
-void compare(const Truth& truth, const Answer& answer, std::size_t round, Entry_figures& counted) {
+/// Wrong answers are counted in the first pass; a later one that differs from it makes the entry wrong as well.
+void compare(const Truth& truth, const Answer& answer, std::size_t pass, Entry_figures& counted) {
   if (!counted.entry.answers) return;
   Entry_figures later = counted;
-  Entry_figures& figures = round == 0 ? counted : later;
-  if (round > 0) figures.missed = figures.invented = figures.wrong_sets = 0;
+  Entry_figures& figures = pass == 0 ? counted : later;
+  if (pass > 0) figures.missed = figures.invented = figures.wrong_sets = 0;
   for (std::size_t p = 0; p < truth.pairs.size(); ++p) {
     const bool collides = !truth.contacts[p].empty();
     if (std::isfinite(answer.any_seconds)) {
@@ -56,7 +56,7 @@ void compare(const Truth& truth, const Answer& answer, std::size_t round, Entry_
   }
   const bool wrong = figures.missed + figures.invented + figures.wrong_sets > 0;
   const bool wrong_before = counted.missed + counted.invented + counted.wrong_sets > 0;
-  if (round > 0 && wrong && !wrong_before) ++counted.wrong_later;
+  if (pass > 0 && wrong && !wrong_before) ++counted.wrong_later;
 }
 
 /// Objects are near when their bounding boxes, each grown by so many of its diagonals to all sides, overlap.
@@ -75,7 +75,6 @@ struct Player {
     const Lap_timer timer;
     const Answer& answer = entrant->play(truth.pairs);
     seconds += timer.seconds();
-    ++figures->passes;
     if (figures->frames.size() == frame) figures->frames.push_back({never, never, never, never, never});
     auto& least = figures->frames[frame];
     const double update = answer.update_seconds, any = answer.any_seconds, all = answer.all_seconds;
@@ -119,13 +118,12 @@ class Scene_run {
     while (figures_.entries.size() < entries.size()) {
       ++figures_.batches;
       auto players = build(entries);
-      const std::size_t passes = options_.passes + options_.more_passes;
-      for (std::size_t pass = 0; pass < passes; ++pass)
+      for (std::size_t pass = 0; pass < options_.passes; ++pass)
         for (std::size_t turn = 0; turn < players.size(); ++turn) {
           play(pass, players[(pass + turn) % players.size()]);
           const auto finished = figures_.entries.size() - players.size();
-          const auto share =
-              static_cast<double>(pass * players.size() + turn + 1) / static_cast<double>(passes * players.size());
+          const auto share = static_cast<double>(pass * players.size() + turn + 1) /
+                             static_cast<double>(options_.passes * players.size());
           progress_((static_cast<double>(finished) + share * static_cast<double>(players.size())) /
                     static_cast<double>(entries.size()));
         }
@@ -193,14 +191,13 @@ class Scene_run {
   /// One pass of one entry.
   void play(std::size_t pass, Player& player) {
     if (pass > 1 && player.seconds > options_.seconds) return;
-    if (pass >= options_.passes && player.seconds > options_.soon) return;
     if (pass > 0 && player.approach_seconds > options_.approach_seconds) return;
     const std::size_t rounds = player.entrant->rounds();
-    for (std::size_t round = pass * rounds; round < (pass + 1) * rounds; ++round) play_round(round, player);
+    for (std::size_t round = 0; round < rounds; ++round) play_round(pass, round, player);
   }
 
   /// Once over all sampled frames.
-  void play_round(std::size_t round, Player& player) {
+  void play_round(std::size_t pass, std::size_t round, Player& player) {
     player.entrant->start_round(round);
     std::size_t next = 0;
     for (std::size_t f = 0; f < figures_.sampled.size() && !player.figures->left_early; ++f) {
@@ -210,8 +207,9 @@ class Scene_run {
         for (; next < figures_.sampled[f]; ++next) approach(player, next);
       next = figures_.sampled[f] + 1;
       restore(f);
+      if (round == 0) ++player.figures->passes;
       const Answer& answer = player.play(f, truths_[f]);
-      if (!answer.gave_up) compare(truths_[f], answer, round, *player.figures);
+      if (!answer.gave_up) compare(truths_[f], answer, pass, *player.figures);
     }
   }
 

@@ -18,8 +18,6 @@ struct Race_options {
   std::size_t least_frames = 6;              ///< but at least so many
   std::size_t most_frames = 30;              ///< and at most so many
   std::size_t passes = 5;                    ///< over all sampled frames
-  std::size_t more_passes = 0;               ///< after these, for entries that are done with them soon
-  double soon = 0.5;                         ///< seconds of an entry in a scene; beyond them it gets none of these
   double seconds = 3;                        ///< per entry and scene; beyond it an entry plays no third pass
   double most_seconds = 60;                  ///< per entry and scene; beyond it an entry plays no further frame
   double approach_seconds = 20;              ///< of an entry between sampled frames; beyond it it plays no second pass
@@ -80,8 +78,8 @@ std::vector<std::size_t> spread(std::size_t range, std::size_t count);
 /// who needs that broad phase has it as a gift, for it is not timed.
 ///
 /// The entries take turns pass by pass, another one first each time: in its turn an entry plays all sampled frames one
-/// after the other, as it would if it were alone. Before each frame positions are written into the meshes, as a
-/// simulation does. That, the truth and the comparison with it are not timed.
+/// after the other, once per round, as it would if it were alone. Before each frame positions are written into the
+/// meshes, as a simulation does. That, the truth and the comparison with it are not timed.
 ///
 /// Entries whose hierarchies do not fit into `bytes` together play the same frames one batch after the other.
 ///

@@ -11,7 +11,7 @@ namespace lodestone {
 
 namespace {
 
-/// Fewer than this are sorted sooner where they are.
+/// Fewer than this are sorted sooner by std::sort.
 constexpr std::size_t few = 32;
 
 }  // namespace

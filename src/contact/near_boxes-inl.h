@@ -117,6 +117,8 @@ class Packing {
 #else
 // Without an instruction for it, Highway's `Compress` has GCC 12 write a table of a kilobyte each time.
 class Packing {
+  static_assert(hn::MaxLanes(Box_lanes()) <= 8, "what the table has");
+
  public:
   Packing(Near /*chosen*/, unsigned bits)
       : lanes_(
@@ -137,7 +139,7 @@ class Packing {
 #endif
 
 /// Lists the faces whose boxes are within the margin of a box.
-/// @param copy  null, or where these faces are put next to each other, without the lanes past the last
+/// @param copy  null, or where these faces are put next to each other
 /// @return the limits of these; they mean nothing if there is none
 template <bool with_vertices = false>
 HWY_INLINE Limits list_near(const Face_columns& faces, const Limits& box, Face_list& list,

@@ -59,7 +59,7 @@ void Tree_builder::add_regions(std::span<Item> regions) {
 }
 
 void Tree_builder::add_faces(std::span<Item> faces) {
-  // As few leaves as there can be, of one size: halves would end anywhere between half full and full.
+  // As few leaves as there can be, of nearly one size: halves would end anywhere between half full and full.
   const std::size_t leaves = (faces.size() + options_.leaf_faces - 1) / options_.leaf_faces;
   if (leaves == 1) return add_leaf(faces);
   add_parts(faces, faces.size() * (leaves / 2) / leaves, [this](std::span<Item> part) { add_faces(part); });

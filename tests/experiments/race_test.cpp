@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -96,6 +97,48 @@ TEST_F(Race, counts_wrong_answers_to_both_sides) {
   EXPECT_EQ(no.wrong_sets, 3U);
   EXPECT_EQ(no.false_pairs, 3U);
   EXPECT_FALSE(no.any_is_right());
+}
+
+/// Answers whether there is a collision in one round and lists contacts, none, in the next.
+class One_by_one : public Entrant {
+ public:
+  explicit One_by_one(std::vector<std::size_t>& rounds) : rounds_(rounds) {}
+  std::size_t rounds() const override { return 2; }
+  void start_round(std::size_t round) override { rounds_.push_back(round); }
+  const Answer& play(std::span<const Object_pair> pairs) override {
+    constexpr double not_asked = std::numeric_limits<double>::infinity();
+    const bool lists = rounds_.back() == 1;
+    answer_ = {.update_seconds = lists ? 0.5 : 0.25,
+               .any_seconds = lists ? not_asked : 1,
+               .all_seconds = lists ? 2 : not_asked};
+    answer_.collides.assign(pairs.size(), !lists);
+    answer_.contacts.assign(pairs.size(), {});
+    return answer_;
+  }
+
+ private:
+  std::vector<std::size_t>& rounds_;
+  Answer answer_;
+};
+
+TEST_F(Race, who_answers_in_rounds_is_held_to_what_each_is_about) {
+  std::vector<std::size_t> rounds;
+  const auto entry =
+      measured({.library = "test",
+                .method = "one by one",
+                .volume = "none",
+                .build = [&rounds](std::span<const Moving_mesh>) { return std::make_unique<One_by_one>(rounds); }},
+               {.passes = 2})
+          .entries.at(0);
+  EXPECT_EQ(rounds, (std::vector<std::size_t>{0, 1, 0, 1}));
+  EXPECT_EQ(entry.passes, 6U);  // of three frames
+  EXPECT_EQ(entry.missed, 0U);
+  EXPECT_EQ(entry.invented, 1U);
+  EXPECT_EQ(entry.wrong_sets, 2U);
+  EXPECT_EQ(entry.wrong_later, 0U);
+  EXPECT_EQ(entry.frames.at(0).update, 0.25);
+  EXPECT_EQ(entry.frames.at(0).update_and_any, 1.25);
+  EXPECT_EQ(entry.frames.at(0).update_and_all, 2.5);
 }
 
 TEST_F(Race, figures_are_the_least_over_the_passes) {

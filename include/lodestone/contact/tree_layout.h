@@ -38,8 +38,8 @@ class Tree_layout {
 
   Tree_layout() = default;
 
-  /// Groups the regions, and splits each, at the median of their centres along the axis on which these are spread
-  /// widest. O(F log F).
+  /// Groups the regions, by halves of their number, and splits each into as few leaves as there can be, of nearly one
+  /// size; both along the axis on which the centres are spread widest. O(F log F).
   ///
   /// A face belongs to the lowest region that one of its corners is in.
   ///
