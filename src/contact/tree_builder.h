@@ -30,8 +30,7 @@ class Tree_builder {
   void add_faces(std::span<Item> faces);
   void add_leaf(std::span<Item> faces);
   /// Adds a node with two children: `add` is called with the first so many items along the axis on which their
-  /// centres are spread widest, then with the
-  /// others.
+  /// centres are spread widest, then with the others.
   template <class Add>
   void add_parts(std::span<Item> items, std::size_t first_count, Add add);
 

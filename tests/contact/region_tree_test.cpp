@@ -30,7 +30,8 @@ void expect_leaves_of_regions(const Region_tree& tree, const Face_soup& soup, co
     for (const auto face : faces) ASSERT_EQ(region_of(soup.faces[face], labels), region);
     const std::size_t fewest = (faces_of[region] + leaf_faces - 1) / leaf_faces;
     ASSERT_LE(faces.size(), leaf_faces);
-    ASSERT_NEAR(faces.size(), static_cast<double>(faces_of[region]) / static_cast<double>(fewest), 2);
+    ASSERT_NEAR(faces.size(), static_cast<double>(faces_of[region]) / static_cast<double>(fewest), 1);
+    ASSERT_GE(2 * faces.size(), std::min(leaf_faces, 2 * faces_of[region]));
   }
   for (const auto& [region, leaves] : leaves_of) ASSERT_EQ(leaves, (faces_of[region] + leaf_faces - 1) / leaf_faces);
 }
