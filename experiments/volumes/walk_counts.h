@@ -14,8 +14,8 @@ struct Walk_counts {
   std::size_t leaf_pairs = 0;    ///< pairs of leaves whose volumes do not prove them apart
 };
 
-/// Counts what `walk_leaf_pairs` does when it looks for all contacts: a walk of its own, for a counter would slow the
-/// one that is timed.
+/// Counts what a walk down to leaves looks at when it looks for all contacts: a walk of its own, for a counter would
+/// slow the one that is timed, which over boxes compares leaves of small subtrees all with all instead.
 template <Bounding_volume Volume>
 Walk_counts count_walk(const Basic_region_tree<Volume>& a, const Basic_region_tree<Volume>& b) {
   Walk_counts counts;

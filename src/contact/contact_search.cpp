@@ -16,16 +16,18 @@ std::size_t tests_alone(std::size_t leaves) { return leaves < 1024 ? 64 : 16; }
 /// Tasks that the rest of a walk is cut into.
 constexpr std::size_t walk_tasks = 256;
 
-/// Opens the first node pairs of a walk, level by level, until there are `walk_tasks`. The order is that of the walk.
+/// Opens the first node pairs of a walk, level by level, until there are `walk_tasks` more: many of those that there
+/// are already may be pairs of leaves. The order is that of the walk.
 template <class Open>
 void open_top(std::vector<Node_pair>& pairs, Open open) {
+  const std::size_t enough = pairs.size() + walk_tasks;
   std::vector<Node_pair> below, opened;
-  for (bool again = true; again && pairs.size() < walk_tasks; pairs.swap(opened)) {
+  for (bool again = true; again && pairs.size() < enough; pairs.swap(opened)) {
     again = false;
     opened.clear();
     for (const Node_pair pair : pairs) {
       below.clear();
-      if (open(pair, below)) {
+      if (opened.size() < enough && open(pair, below)) {
         again = true;
         opened.insert(opened.end(), below.rbegin(), below.rend());
       } else {

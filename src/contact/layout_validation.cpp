@@ -38,11 +38,14 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
     if (n != next++ || n >= nodes_.size()) return fmt::format("node {} is out of order", n);
     if (nodes_[n].leaf != leaf) return fmt::format("node {}: its first leaf should be {}", n, leaf);
     if (is_leaf(n)) {
+      if (nodes_[n].end_leaf != leaf + 1) return fmt::format("node {}: its end leaf should be {}", n, leaf + 1);
       if (leaf_nodes_[leaf++] != n) return fmt::format("node {} is not the node of its leaf", n);
       continue;
     }
     const std::uint32_t second = nodes_[n].second_child;
-    if (second >= nodes_.size()) return fmt::format("node {}: there is no node {}", n, second);
+    if (second <= n + 1 || second >= nodes_.size()) return fmt::format("node {}: there is no node {}", n, second);
+    if (nodes_[n + 1].end_leaf != nodes_[second].leaf || nodes_[second].end_leaf != nodes_[n].end_leaf)
+      return fmt::format("node {}: its leaves are not those of its children", n);
     ahead.push_back(second);
     ahead.push_back(n + 1);
   }

@@ -83,6 +83,7 @@ void Tree_builder::add_parts(std::span<Item> items, std::size_t first_count, Add
   add(items.first(first_count));
   tree_.nodes_[node].second_child = static_cast<std::uint32_t>(tree_.nodes_.size());
   add(items.subspan(first_count));
+  tree_.nodes_[node].end_leaf = static_cast<std::uint32_t>(tree_.leaf_nodes_.size());
 }
 
 void Tree_builder::add_leaf(std::span<Item> items) {
@@ -105,7 +106,7 @@ void Tree_builder::add_leaf(std::span<Item> items) {
   }
   const auto leaf = static_cast<std::uint32_t>(tree_.leaf_nodes_.size());
   tree_.leaf_nodes_.push_back(static_cast<std::uint32_t>(tree_.nodes_.size()));
-  tree_.nodes_.push_back({.leaf = leaf});
+  tree_.nodes_.push_back({.leaf = leaf, .end_leaf = leaf + 1});
   tree_.face_begin_.push_back(static_cast<std::uint32_t>(tree_.faces_.size()));
   tree_.vertex_begin_.push_back(static_cast<std::uint32_t>(tree_.vertices_.size()));
 }

@@ -92,9 +92,7 @@ Contact_summary Contact_search::between(const Basic_tree_object<Volume>& a, cons
   };
   plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
     if (!near(a.tree().volume(pair.a), b.tree().volume(pair.b), request.tolerance)) return true;  // nothing below
-    if (a.tree().is_leaf(pair.a) && b.tree().is_leaf(pair.b)) return false;
-    open_pair(a.tree(), b.tree(), pair, below);
-    return true;
+    return open_for_tasks(a.tree(), b.tree(), pair, request.tolerance, below);
   };
   return run(plan, request, found);
 }
@@ -115,11 +113,9 @@ Contact_summary Contact_search::within(const Basic_tree_object<Volume>& object, 
   };
   plan.open = [&](Node_pair pair, std::vector<Node_pair>& below) {
     if (pair.a != pair.b && !near(tree.volume(pair.a), tree.volume(pair.b), 0)) return true;
-    if (tree.is_leaf(pair.a) && tree.is_leaf(pair.b)) return false;
-    if (pair.a == pair.b)
-      open_node(tree, pair.a, below);
-    else
-      open_pair(tree, tree, pair, below);
+    if (pair.a != pair.b) return open_for_tasks(tree, tree, pair, 0, below);
+    if (tree.is_leaf(pair.a)) return false;
+    open_node(tree, pair.a, below);
     return true;
   };
   constexpr std::uint32_t neighbour_vertices = 4096;  // of one task

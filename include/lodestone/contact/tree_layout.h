@@ -29,6 +29,7 @@ class Tree_layout {
   struct Node {
     std::uint32_t second_child = 0;  ///< the first one is the next node; 0: the node is a leaf
     std::uint32_t leaf = 0;          ///< number of the first leaf at or below the node
+    std::uint32_t end_leaf = 0;      ///< past the last one
   };
   /// A subtree that is refitted in one go: nodes and leaves are consecutive.
   struct Part {
@@ -102,7 +103,7 @@ class Tree_layout {
   std::vector<std::uint32_t> vertex_begin_;
   std::vector<std::uint32_t> faces_;
   std::vector<std::uint32_t> vertices_;
-  std::vector<Leaf_corners> corners_;
+  std::vector<Leaf_corners> corners_;  ///< and some more at the end for a reader that looks ahead
   std::vector<Part> parts_;
   std::vector<std::uint32_t> top_nodes_;
 };
