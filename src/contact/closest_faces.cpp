@@ -79,11 +79,11 @@ class Search {
 
   /// The objects intersect: what is left is to find the lowest of the face pairs that do.
   void look_for_lower(std::uint32_t leaf_a, std::uint32_t leaf_b) {
-    for (const auto& [place_a, place_b, crossing] : leaf_pairs_.near_faces(leaf_a, leaf_b)) {
-      const Face_pair faces{a_.layout->faces(leaf_a)[place_a], b_.layout->faces(leaf_b)[place_b]};
+    for (const auto& places : leaf_pairs_.near_faces(leaf_a, leaf_b)) {
+      const Face_pair faces{a_.layout->faces(leaf_a)[places.a], b_.layout->faces(leaf_b)[places.b]};
       if (!(faces < best_.faces)) continue;
-      const Triangle a = leaf_triangle(a_, leaf_a, place_a), b = leaf_triangle(b_, leaf_b, place_b);
-      if (triangles_intersect_given(a, b, crossing)) best_ = {faces, closest_points(a, b)};
+      const Triangle a = leaf_triangle(a_, leaf_a, places.a), b = leaf_triangle(b_, leaf_b, places.b);
+      if (triangles_intersect_given(a, b, places.crossing)) best_ = {faces, closest_points(a, b)};
     }
   }
 

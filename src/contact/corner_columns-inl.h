@@ -21,22 +21,25 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// A face of one leaf per lane.
 struct Lane_faces {
-  const double (*positions)[4];  ///< of the leaf's vertices
+  const double* coordinates;      ///< of the mesh
+  const std::uint32_t* vertices;  ///< of the leaf
   const Leaf_corners* corners[widest];
 
-  const double* position(std::size_t lane, std::size_t corner) const { return positions[(*corners[lane])[corner]]; }
+  const double* position(std::size_t lane, std::size_t corner) const {
+    return coordinates + 3 * std::size_t{vertices[(*corners[lane])[corner]]};
+  }
 };
 
 #if HWY_MAX_BYTES >= 32
 /// Where one corner of each face is, by coordinate: rows of four doubles are transposed within registers.
-HWY_INLINE Vector3 load_corner(const Lane_faces& faces, std::size_t corner) {
+HWY_INLINE Vector3<Lanes> load_corner(const Lane_faces& faces, std::size_t corner) {
   const Lanes d;
   // Half a vector has the rows of four lanes.
   const auto rows = [&](std::size_t lane) HWY_ATTR {
 #if HWY_MAX_BYTES >= 64
-    return hn::Combine(d, hn::Load(D(), faces.position(lane + 4, corner)), hn::Load(D(), faces.position(lane, corner)));
+    return hn::Combine(d, load_last(faces.position(lane + 4, corner), 0), load_last(faces.position(lane, corner), 0));
 #else
-    return hn::Load(d, faces.position(lane, corner));
+    return load_last(faces.position(lane, corner), 0);
 #endif
   };
   const auto row0 = rows(0), row1 = rows(1), row2 = rows(2), row3 = rows(3);
@@ -46,7 +49,7 @@ HWY_INLINE Vector3 load_corner(const Lane_faces& faces, std::size_t corner) {
           hn::OddEvenBlocks(xz23, hn::SwapAdjacentBlocks(xz01))};
 }
 #else
-HWY_INLINE Vector3 load_corner(const Lane_faces& faces, std::size_t corner) {
+HWY_INLINE Vector3<Lanes> load_corner(const Lane_faces& faces, std::size_t corner) {
   const Lanes d;
   alignas(16) double columns[3][hn::MaxLanes(Lanes())];
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)

@@ -19,19 +19,35 @@ constexpr auto no_leaf = std::numeric_limits<std::uint32_t>::max();
 /// A power of two that brings a size near 1, as far as there is one.
 double unit_scale(double size) { return size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1; }
 
+/// Rounding and steps are finest where the two trees overlap: only faces there can be near each other. Where they only
+/// touch, the overlap is flat: steps of its size would tell nothing apart, so it counts as a thousandth of a tree.
+kernel::Leaf_request leaf_request(const Aabb& a, const Aabb& b, double margin) {
+  kernel::Leaf_request request{};
+  request.margin = margin;
+  constexpr double most = std::numeric_limits<double>::max();
+  const double extent = std::min(a.extent() > 0 ? a.extent() : b.extent(), most);
+  request.scale = unit_scale(extent);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = std::max(a.low[axis], b.low[axis]);
+    const double high = std::min(std::min(a.high[axis], b.high[axis]) + margin, most);
+    // Scaled first: the difference could overflow.
+    const double size = std::max(extent * request.scale / 1024, high * request.scale - low * request.scale);
+    request.origin[axis] = std::isfinite(low) ? low : 0;
+    request.steps_per_unit[axis] = size > 1e-30 ? static_cast<float>(most_steps / size) : 0;
+  }
+  return request;
+}
+
 }  // namespace
 
-Leaf_pairs::Leaf_pairs() : scratch_(std::make_unique_for_overwrite<Leaf_scratch>()) {}
+Leaf_pairs::Leaf_pairs()
+    : request_(std::make_unique<kernel::Leaf_request>()), scratch_(std::make_unique_for_overwrite<Leaf_scratch>()) {}
 Leaf_pairs::~Leaf_pairs() = default;
 Leaf_pairs::Leaf_pairs(Leaf_pairs&&) noexcept = default;
 Leaf_pairs& Leaf_pairs::operator=(Leaf_pairs&&) noexcept = default;
 
 void Leaf_pairs::Side::begin(const Posed_layout& tree) {
   posed = tree;
-  if (tree.boxes.empty())
-    size_box.enclose(tree.layout->leaf_faces(0, tree.coordinates));
-  else
-    size_box = tree.boxes.front();
   slots.resize(slot_count);
   for (Slot& slot : slots) slot.leaf = no_leaf;
 }
@@ -49,7 +65,7 @@ Leaf_pairs::Slot& Leaf_pairs::Side::at(std::uint32_t leaf) {
 
 kernel::Leaf_view Leaf_pairs::view(Side& side, std::uint32_t leaf) {
   Slot& slot = side.at(leaf);
-  const auto& [layout, coordinates, boxes] = side.posed;
+  const auto& [layout, coordinates, bounds, boxes] = side.posed;
   return {.coordinates = coordinates.data(),
           .vertices = layout->vertices(leaf).data(),
           .corners = layout->corners(leaf).data(),
@@ -62,29 +78,23 @@ kernel::Leaf_view Leaf_pairs::view(Side& side, std::uint32_t leaf) {
 void Leaf_pairs::begin(const Posed_layout& a, const Posed_layout& b, double margin) {
   sides_[0].begin(a);
   sides_[1].begin(b);
-  margin_ = margin;
-  scale_ = unit_scale(sides_[0].size_box.extent());
-  one_mesh_ = false;
+  *request_ = leaf_request(a.bounds, b.bounds, margin);
 }
 
 void Leaf_pairs::begin_within(const Posed_layout& tree) {
   begin(tree, tree, 0);
-  one_mesh_ = true;
+  request_->one_mesh = true;
 }
 
 std::span<const Face_places> Leaf_pairs::near_faces(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+  const bool one_mesh = request_->one_mesh;
+  request_->one_leaf = one_mesh && leaf_a == leaf_b;
   const auto a = view(sides_[0], leaf_a);
   // Within one mesh a leaf is kept once, unless the two would be kept in the same place.
-  const bool together = one_mesh_ && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
+  const bool together = one_mesh && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
   const auto b = view(sides_[together ? 0 : 1], leaf_b);
-  near_.resize(std::max(near_.size(), a.face_count * b.face_count + widest));
-  const double* origin = sides_[0].size_box.low;
-  const kernel::Leaf_request request{.margin = margin_,
-                                     .origin = {origin[0], origin[1], origin[2], 0},
-                                     .scale = scale_,
-                                     .one_mesh = one_mesh_,
-                                     .one_leaf = one_mesh_ && leaf_a == leaf_b};
-  const std::size_t count = kernel::near_faces(a, b, request, *scratch_, near_.data());
+  near_.resize(std::max(near_.size(), a.face_count * b.face_count + most_float_lanes));
+  const std::size_t count = kernel::near_faces(a, b, *request_, *scratch_, near_.data());
   return {near_.data(), count};
 }
 

@@ -8,19 +8,27 @@
 
 namespace lodestone {
 
-inline constexpr std::size_t widest = 8;           ///< doubles of the widest vector that is used
-inline constexpr std::size_t most_box_lanes = 16;  ///< its floats
+inline constexpr std::size_t widest = 8;             ///< doubles of the widest vector that is used
+inline constexpr std::size_t most_float_lanes = 16;  ///< its floats
+inline constexpr std::size_t most_box_lanes = 32;    ///< its sides of boxes
 
-/// Some faces of a leaf by coordinate, so that a vector holds one coordinate of several. There is room for the lanes
-/// past the last face, which have boxes that meet nothing.
+/// Sides of boxes are steps -32767 to 32766; the numbers beyond are left to boxes that meet nothing.
+inline constexpr std::int16_t first_step = -32767;
+inline constexpr float most_steps = 65533;  ///< from the first to the last
+
+/// Where the faces of a leaf are, by coordinate, so that a vector holds one coordinate of several. There is room for
+/// the lanes past the last face, which have boxes that meet nothing.
 struct alignas(64) Face_columns {
-  using Column = float[most_leaf_faces + most_box_lanes];
+  using Sides = std::int16_t[most_leaf_faces + most_box_lanes];
+  using Places = std::uint32_t[most_leaf_faces + most_float_lanes];
+  using Positions = float[3][3 * most_leaf_faces + most_float_lanes];
 
-  alignas(64) Column low[3];                                    ///< by axis: the face's box, rounded
-  Column high[3];                                               ///< moved out by the margin
-  std::uint32_t vertices[3][most_leaf_faces + most_box_lanes];  ///< within one mesh: its vertices, by corner
-  std::size_t count;
-  alignas(64) double positions[3 * most_leaf_faces][4];  ///< of the leaf's vertices; the fourth means nothing
+  alignas(64) Sides low[3];         ///< by axis: the face's box, in steps
+  Sides high[3];                    ///< moved out by the margin
+  std::size_t count;                ///< of faces; 0: nothing else is known
+  alignas(64) Places corners[3];    ///< places of vertices
+  alignas(64) Positions positions;  ///< of the leaf's vertices: rounded, not moved
+  alignas(64) Places vertices[3];   ///< within one mesh: the numbers of the corners in it
 };
 
 /// Some of the faces of a leaf, by their places; there is room for a whole vector past the last.
@@ -29,12 +37,19 @@ struct Face_list {
   std::size_t count;
 };
 
+/// Some boxes of b that one of a's is near.
+struct Near_row {
+  std::uint32_t bits;  ///< one per box, from the `first_b`th on
+  std::uint8_t face_a, first_b;
+};
+
 /// Memory of leaf against leaf.
 struct alignas(64) Leaf_scratch {
-  Face_list near_a, near_b;  ///< faces near the other leaf
-  Face_columns b;            ///< those of b
+  Face_list near_a;    ///< faces near the other leaf
+  Face_list blocks_b;  ///< first faces of the vectors of b's in which there are any
+  Near_row rows[most_leaf_faces * most_leaf_faces + 1];
 
-  /// Pairs of faces whose boxes are near: a's place in its leaf, b's among those near a.
+  /// Pairs of faces that may be near each other, by their places; there is room for a whole vector past the last.
   std::uint8_t pairs_a[most_leaf_faces * most_leaf_faces + most_box_lanes];
   std::uint8_t pairs_b[most_leaf_faces * most_leaf_faces + most_box_lanes];
 };

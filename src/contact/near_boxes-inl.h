@@ -9,8 +9,10 @@
 
 #include <hwy/highway.h>
 
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "contact/lane_lists.h"
 #include "contact/leaf_scratch.h"
@@ -20,24 +22,27 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One side of as many boxes as a vector holds.
-using Box_lanes = hn::CappedTag<float, most_box_lanes>;
+/// One side of as many boxes as a vector holds, in steps.
+using Box_lanes = hn::CappedTag<std::int16_t, most_box_lanes>;
 using Sides = hn::Vec<Box_lanes>;
-using Near = hn::Mask<Box_lanes>;
+/// As many vertices as a vector has floats.
+using Vertex_lanes = hn::CappedTag<std::uint32_t, most_float_lanes>;
 
+/// One bit per lane.
 template <class Tag>
-HWY_INLINE unsigned mask_bits(Tag d, hn::Mask<Tag> mask) {
+HWY_INLINE std::uint32_t mask_bits(Tag d, hn::Mask<Tag> mask) {
+  constexpr std::size_t count = hn::MaxLanes(Tag());
+  std::conditional_t<count <= 8, std::uint8_t, std::conditional_t<count <= 16, std::uint16_t, std::uint32_t>> bits;
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
-  std::uint32_t bits;
-  std::memcpy(&bits, bytes, 4);
+  std::memcpy(&bits, bytes, sizeof bits);
   return bits;
 }
 
 /// Lists which of eight bits are set, counted from `first`. Eight bytes are written, whatever their number: no branch
 /// could foretell it.
 /// @return number of bits
-HWY_INLINE std::size_t list_eight(unsigned bits, std::size_t first, std::uint8_t* list) {
+HWY_INLINE std::size_t list_eight(std::uint32_t bits, std::size_t first, std::uint8_t* list) {
   std::uint64_t numbers;
   std::memcpy(&numbers, lane_lists[bits].data(), 8);
   numbers += first * 0x0101010101010101;
@@ -46,25 +51,30 @@ HWY_INLINE std::size_t list_eight(unsigned bits, std::size_t first, std::uint8_t
 }
 
 /// The same for as many bits as a vector has boxes.
-HWY_INLINE std::size_t list_lanes(unsigned bits, std::size_t first, std::uint8_t* list) {
-  std::size_t count = list_eight(bits & 0xff, first, list);
-  if constexpr (hn::MaxLanes(Box_lanes()) > 8) count += list_eight(bits >> 8U, first + 8, list + count);
+HWY_INLINE std::size_t list_lanes(std::uint32_t bits, std::size_t first, std::uint8_t* list) {
+  std::size_t count = 0;
+  for (std::size_t eight = 0; eight < hn::MaxLanes(Box_lanes()); eight += 8)
+    count += list_eight(bits >> eight & 0xff, first + eight, list + count);
   return count;
 }
 
-HWY_INLINE void repeat_byte(std::size_t byte, std::uint8_t* list) {
+HWY_INLINE void repeat_byte(std::size_t byte, std::size_t count, std::uint8_t* list) {
   const std::uint64_t bytes = byte * 0x0101010101010101;
-  std::memcpy(list, &bytes, 8);
+  for (std::size_t eight = 0; eight < count; eight += 8) std::memcpy(list + eight, &bytes, 8);
 }
 
-/// Gives the lanes past the last face boxes that meet nothing, not even a box without an end: their sides are not
-/// numbers.
+/// Fills up the last vector of the listed pairs with the last pair.
+HWY_INLINE void fill_up(std::size_t count, Leaf_scratch& scratch) {
+  repeat_byte(scratch.pairs_a[count - 1], most_float_lanes, scratch.pairs_a + count);
+  repeat_byte(scratch.pairs_b[count - 1], most_float_lanes, scratch.pairs_b + count);
+}
+
+/// Gives the lanes past the last face boxes that meet nothing.
 HWY_INLINE void end_columns(Face_columns& faces, std::size_t count) {
   const Box_lanes d;
-  const auto no_number = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    hn::StoreU(no_number, d, faces.low[axis] + count);
-    hn::StoreU(no_number, d, faces.high[axis] + count);
+    hn::StoreU(hn::Set(d, std::numeric_limits<std::int16_t>::max()), d, faces.low[axis] + count);
+    hn::StoreU(hn::Set(d, std::numeric_limits<std::int16_t>::min()), d, faces.high[axis] + count);
   }
   faces.count = count;
 }
@@ -74,112 +84,92 @@ struct Limits {
   Sides low[3], high[3];
 };
 
-HWY_INLINE Limits limits(const float (&low)[4], const float (&high)[4]) {
-  const Box_lanes d;
-  return {{hn::Set(d, low[0]), hn::Set(d, low[1]), hn::Set(d, low[2])},
-          {hn::Set(d, high[0]), hn::Set(d, high[1]), hn::Set(d, high[2])}};
-}
 HWY_INLINE Limits limits(const Face_columns& faces, std::size_t face) {
   const Box_lanes d;
-  const auto side = [&](const Face_columns::Column& column) HWY_ATTR { return hn::Set(d, column[face]); };
+  const auto side = [&](const Face_columns::Sides& column) HWY_ATTR { return hn::Set(d, column[face]); };
   return {{side(faces.low[0]), side(faces.low[1]), side(faces.low[2])},
           {side(faces.high[0]), side(faces.high[1]), side(faces.high[2])}};
 }
 
 /// The lanes in which a face, from the `start`th on, has a box within the margin of another box.
-HWY_INLINE Near near_boxes(const Limits& box, const Face_columns& faces, std::size_t start) {
+HWY_INLINE hn::Mask<Box_lanes> near_boxes(const Limits& box, const Face_columns& faces, std::size_t start) {
   const Box_lanes d;
-  const auto near_along = [&](std::size_t axis) HWY_ATTR {
-    return hn::And(hn::Le(box.low[axis], hn::LoadU(d, faces.high[axis] + start)),
-                   hn::Le(hn::LoadU(d, faces.low[axis] + start), box.high[axis]));
+  const auto gap_along = [&](std::size_t axis) HWY_ATTR {
+    return hn::Max(hn::SaturatedSub(box.low[axis], hn::LoadU(d, faces.high[axis] + start)),
+                   hn::SaturatedSub(hn::LoadU(d, faces.low[axis] + start), box.high[axis]));
   };
-  return hn::And(hn::And(near_along(0), near_along(1)), near_along(2));
+  return hn::Lt(hn::Max(hn::Max(gap_along(0), gap_along(1)), gap_along(2)), hn::Set(d, 1));
 }
 
-/// As many vertex numbers as there are boxes in a vector.
-using Vertex_lanes = hn::Rebind<std::uint32_t, Box_lanes>;
-
-/// Writes those lanes that are asked for next to each other, and anything after them.
-#if HWY_TARGET <= HWY_AVX3
-class Packing {
+/// A box that grows around others, lane by lane.
+class Growing_box {
  public:
-  Packing(Near chosen, unsigned /*bits*/) : chosen_(chosen) {}
-
-  HWY_INLINE void store(Sides sides, float* to) const { hn::StoreU(hn::Compress(sides, chosen_), Box_lanes(), to); }
-  HWY_INLINE void store(hn::Vec<Vertex_lanes> vertices, std::uint32_t* to) const {
-    const Vertex_lanes d;
-    hn::StoreU(hn::Compress(vertices, hn::RebindMask(d, chosen_)), d, to);
+  Growing_box() {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      around_.low[axis] = highest();
+      around_.high[axis] = lowest();
+    }
   }
 
- private:
-  Near chosen_;
-};
-#else
-// Without an instruction for it, Highway's `Compress` has GCC 12 write a table of a kilobyte each time.
-class Packing {
-  static_assert(hn::MaxLanes(Box_lanes()) <= 8, "what the table has");
-
- public:
-  Packing(Near /*chosen*/, unsigned bits)
-      : lanes_(
-            hn::PromoteTo(Vertex_lanes(), hn::LoadU(hn::Rebind<std::uint8_t, Box_lanes>(), lane_lists[bits].data()))) {}
-
-  HWY_INLINE void store(Sides sides, float* to) const {
+  HWY_INLINE void add(const Face_columns& faces, std::size_t start, hn::Mask<Box_lanes> chosen) {
     const Box_lanes d;
-    hn::StoreU(hn::TableLookupLanes(sides, hn::IndicesFromVec(d, lanes_)), d, to);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto low = hn::Load(d, faces.low[axis] + start), high = hn::Load(d, faces.high[axis] + start);
+      around_.low[axis] = hn::Min(around_.low[axis], hn::IfThenElse(chosen, low, highest()));
+      around_.high[axis] = hn::Max(around_.high[axis], hn::IfThenElse(chosen, high, lowest()));
+    }
   }
-  HWY_INLINE void store(hn::Vec<Vertex_lanes> vertices, std::uint32_t* to) const {
-    const Vertex_lanes d;
-    hn::StoreU(hn::TableLookupLanes(vertices, hn::IndicesFromVec(d, lanes_)), d, to);
+  /// Around all lanes; means nothing if there was no box.
+  HWY_INLINE Limits all() const {
+    const Box_lanes d;
+    Limits limits;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      limits.low[axis] = hn::MinOfLanes(d, around_.low[axis]);
+      limits.high[axis] = hn::MaxOfLanes(d, around_.high[axis]);
+    }
+    return limits;
   }
 
  private:
-  hn::Vec<Vertex_lanes> lanes_;
-};
-#endif
+  static HWY_INLINE Sides highest() { return hn::Set(Box_lanes(), std::numeric_limits<std::int16_t>::max()); }
+  static HWY_INLINE Sides lowest() { return hn::Set(Box_lanes(), std::numeric_limits<std::int16_t>::min()); }
 
-/// Lists the faces whose boxes are within the margin of a box.
-/// @param copy  null, or where these faces are put next to each other
-/// @return the limits of these; they mean nothing if there is none
-template <bool with_vertices = false>
-HWY_INLINE Limits list_near(const Face_columns& faces, const Limits& box, Face_list& list,
-                            Face_columns* copy = nullptr) {
+  Limits around_;
+};
+
+/// Whether boxes of faces are within the margin of a box.
+/// @param around  is set to a box around these, if there are any
+/// @param blocks  lists the first faces of the vectors in which there are any
+HWY_INLINE bool any_near(const Face_columns& faces, const Limits& box, Limits& around, Face_list& blocks) {
   const Box_lanes d;
-  const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-  Limits around;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    around.low[axis] = infinity;
-    around.high[axis] = hn::Neg(infinity);
-  }
+  Growing_box growing;
   std::size_t count = 0;
   for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d)) {
     const auto near = near_boxes(box, faces, start);
-    const unsigned bits = mask_bits(d, near);
-    const Packing packing(near, bits);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto low = hn::Load(d, faces.low[axis] + start), high = hn::Load(d, faces.high[axis] + start);
-      around.low[axis] = hn::Min(around.low[axis], hn::IfThenElse(near, low, infinity));
-      around.high[axis] = hn::Max(around.high[axis], hn::IfThenElse(near, high, hn::Neg(infinity)));
-      if (copy == nullptr) continue;
-      packing.store(low, copy->low[axis] + count);
-      packing.store(high, copy->high[axis] + count);
-      if constexpr (with_vertices)
-        packing.store(hn::Load(Vertex_lanes(), faces.vertices[axis] + start), copy->vertices[axis] + count);
-    }
-    count += list_lanes(bits, start, list.places + count);
+    growing.add(faces, start, near);
+    blocks.places[count] = static_cast<std::uint8_t>(start);
+    count += hn::AllFalse(d, near) ? 0 : 1;
   }
-  list.count = count;
-  if (copy != nullptr) end_columns(*copy, count);
-  if (count == 0) return around;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    around.low[axis] = hn::MinOfLanes(d, around.low[axis]);
-    around.high[axis] = hn::MaxOfLanes(d, around.high[axis]);
-  }
-  return around;
+  blocks.count = count;
+  if (count == 0) return false;
+  around = growing.all();
+  return true;
 }
 
-/// The lanes in which a face of b, from the `start`th on, has a vertex of a's face.
-HWY_INLINE Near share_a_vertex(const Face_columns& a, std::size_t face, const Face_columns& b, std::size_t start) {
+/// Lists the faces whose boxes are within the margin of a box.
+/// @return whether there are any
+HWY_INLINE bool list_near(const Face_columns& faces, const Limits& box, Face_list& list) {
+  const Box_lanes d;
+  std::size_t count = 0;
+  for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d))
+    count += list_lanes(mask_bits(d, near_boxes(box, faces, start)), start, list.places + count);
+  list.count = count;
+  return count > 0;
+}
+
+/// Bits of those faces of b, from the `start`th on, that have a vertex of a's face.
+HWY_INLINE std::uint32_t share_a_vertex(const Face_columns& a, std::size_t face, const Face_columns& b,
+                                        std::size_t start) {
   const Vertex_lanes d;
   const auto p = hn::Set(d, a.vertices[0][face]), q = hn::Set(d, a.vertices[1][face]);
   const auto r = hn::Set(d, a.vertices[2][face]);
@@ -187,25 +177,69 @@ HWY_INLINE Near share_a_vertex(const Face_columns& a, std::size_t face, const Fa
     const auto vertex = hn::LoadU(d, b.vertices[corner] + start);
     return hn::Or(hn::Or(hn::Eq(p, vertex), hn::Eq(q, vertex)), hn::Eq(r, vertex));
   };
-  return hn::RebindMask(Box_lanes(), hn::Or(hn::Or(shares(0), shares(1)), shares(2)));
+  return mask_bits(d, hn::Or(hn::Or(shares(0), shares(1)), shares(2)));
 }
 
-/// Adds the pairs of a face of a and one of b, from the `first`th on, whose boxes are within the margin.
-/// @param count  of the pairs listed so far
-/// @return the same with these
-HWY_INLINE std::size_t list_near_pairs(const Face_columns& a, std::size_t face, const Face_columns& b,
-                                       std::size_t first, bool skip_neighbours, std::size_t count,
-                                       Leaf_scratch& scratch) {
-  const Box_lanes d;
-  const Limits box = limits(a, face);
-  const std::size_t end = b.count;  // bytes are written, which could be those of b
-  for (std::size_t start = first; start < end; start += hn::Lanes(d)) {
-    auto near = near_boxes(box, b, start);
-    if (skip_neighbours && !hn::AllFalse(d, near)) near = hn::AndNot(share_a_vertex(a, face, b, start), near);
-    for (std::size_t eight = 0; eight < hn::Lanes(d); eight += 8) repeat_byte(face, scratch.pairs_a + count + eight);
-    count += list_lanes(mask_bits(d, near), start, scratch.pairs_b + count);
+/// Leaves out those of some faces of b, given as bits from the `start`th on, that have a vertex of a's face.
+HWY_INLINE std::uint32_t leave_out_neighbours(std::uint32_t bits, const Face_columns& a, std::size_t face,
+                                              const Face_columns& b, std::size_t start) {
+  constexpr std::size_t step = hn::MaxLanes(Vertex_lanes());
+  constexpr std::uint32_t block = (1U << step) - 1;
+  for (std::size_t first = 0; first < hn::MaxLanes(Box_lanes()); first += step)
+    if ((bits >> first & block) != 0) bits &= ~(share_a_vertex(a, face, b, start + first) << first);
+  return bits;
+}
+
+/// Adds the row of b's boxes, a vector of them from the `start`th on, that one of a's is near, if there are any.
+/// @tparam one_mesh  leave out faces that share a vertex
+/// @param rows       listed so far
+/// @return their number with this one
+template <bool one_mesh>
+HWY_INLINE std::size_t add_row(const Limits& box, const Face_columns& a, std::size_t face, const Face_columns& b,
+                               std::size_t start, std::size_t rows, Near_row* list) {
+  std::uint32_t bits = mask_bits(Box_lanes(), near_boxes(box, b, start));
+  if constexpr (one_mesh) bits = leave_out_neighbours(bits, a, face, b, start);
+  // It is written over unless it counts: no branch could foretell which do.
+  list[rows] = {bits, static_cast<std::uint8_t>(face), static_cast<std::uint8_t>(start)};
+  return rows + (bits != 0 ? 1 : 0);
+}
+
+/// Lists the pairs of which rows consist.
+/// @return their number
+HWY_INLINE std::size_t list_pairs_of_rows(std::size_t rows, Leaf_scratch& scratch) {
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const Near_row row = scratch.rows[r];
+    repeat_byte(row.face_a, hn::MaxLanes(Box_lanes()), scratch.pairs_a + count);
+    count += list_lanes(row.bits, row.first_b, scratch.pairs_b + count);
   }
   return count;
+}
+
+/// Lists the pairs of different faces of a leaf whose boxes are near, and that share no vertex.
+/// @return their number
+HWY_INLINE std::size_t list_pairs_within(const Face_columns& faces, Leaf_scratch& scratch) {
+  std::size_t rows = 0;
+  for (std::size_t f = 0; f < faces.count; ++f)
+    for (std::size_t start = f + 1; start < faces.count; start += hn::MaxLanes(Box_lanes()))
+      rows = add_row<true>(limits(faces, f), faces, f, faces, start, rows, scratch.rows);
+  return list_pairs_of_rows(rows, scratch);
+}
+
+/// Lists the pairs of one of a's listed faces and one of b's whose boxes are near.
+/// @return their number
+template <bool one_mesh>
+HWY_INLINE std::size_t list_pairs(const Face_columns& a, const Face_columns& b, Leaf_scratch& scratch) {
+  // Bytes are written, which could be those of this number.
+  const std::size_t blocks = scratch.blocks_b.count;
+  std::size_t rows = 0;
+  for (std::size_t i = 0; i < scratch.near_a.count; ++i) {
+    const std::size_t face = scratch.near_a.places[i];
+    const Limits box = limits(a, face);
+    for (std::size_t block = 0; block < blocks; ++block)
+      rows = add_row<one_mesh>(box, a, face, b, scratch.blocks_b.places[block], rows, scratch.rows);
+  }
+  return list_pairs_of_rows(rows, scratch);
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

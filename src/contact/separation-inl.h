@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <limits>
+
 #include "contact/leaf_scratch.h"
 #include "lodestone/contact/crossing.h"
 
@@ -17,37 +19,42 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One triangle against as many others as a vector has lanes.
+/// Two triangles per lane, in doubles.
 using Lanes = hn::CappedTag<double, widest>;
 using Numbers = hn::Vec<Lanes>;
 using Truths = hn::Mask<Lanes>;
 
 HWY_INLINE Numbers all(double value) { return hn::Set(Lanes(), value); }
 
+template <class Tag>
 struct Vector3 {
-  Numbers x, y, z;
+  hn::Vec<Tag> x, y, z;
 };
 
-HWY_INLINE Vector3 operator-(const Vector3& p, const Vector3& q) {
+template <class Tag>
+HWY_INLINE Vector3<Tag> operator-(const Vector3<Tag>& p, const Vector3<Tag>& q) {
   return {hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
 }
-HWY_INLINE Vector3 operator+(const Vector3& p, const Vector3& q) {
-  return {hn::Add(p.x, q.x), hn::Add(p.y, q.y), hn::Add(p.z, q.z)};
-}
-HWY_INLINE Vector3 cross(const Vector3& u, const Vector3& v) {
+template <class Tag>
+HWY_INLINE Vector3<Tag> cross(const Vector3<Tag>& u, const Vector3<Tag>& v) {
   return {hn::Sub(hn::Mul(u.y, v.z), hn::Mul(u.z, v.y)), hn::Sub(hn::Mul(u.z, v.x), hn::Mul(u.x, v.z)),
           hn::Sub(hn::Mul(u.x, v.y), hn::Mul(u.y, v.x))};
 }
-HWY_INLINE Numbers dot(const Vector3& u, const Vector3& v) {
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> dot(const Vector3<Tag>& u, const Vector3<Tag>& v) {
   return hn::Add(hn::Add(hn::Mul(u.x, v.x), hn::Mul(u.y, v.y)), hn::Mul(u.z, v.z));
 }
-HWY_INLINE Vector3 sizes(const Vector3& u) { return {hn::Abs(u.x), hn::Abs(u.y), hn::Abs(u.z)}; }
-HWY_INLINE Vector3 greater(const Vector3& u, const Vector3& v) {
+template <class Tag>
+HWY_INLINE Vector3<Tag> sizes(const Vector3<Tag>& u) {
+  return {hn::Abs(u.x), hn::Abs(u.y), hn::Abs(u.z)};
+}
+template <class Tag>
+HWY_INLINE Vector3<Tag> greater(const Vector3<Tag>& u, const Vector3<Tag>& v) {
   return {hn::Max(u.x, v.x), hn::Max(u.y, v.y), hn::Max(u.z, v.z)};
 }
 
 /// At least the length of a vector, also where its square is beyond the normal doubles.
-HWY_INLINE Numbers length_bound(const Vector3& u) {
+HWY_INLINE Numbers length_bound(const Vector3<Lanes>& u) {
   const auto squared = dot(u, u);
   const auto normal = hn::And(hn::Gt(squared, all(1e-280)), hn::Lt(squared, all(1e300)));
   const auto sum = hn::Add(hn::Add(hn::Abs(u.x), hn::Abs(u.y)), hn::Abs(u.z));
@@ -55,40 +62,42 @@ HWY_INLINE Numbers length_bound(const Vector3& u) {
 }
 
 /// Two triangles per lane, seen from a's first corner.
+template <class Tag>
 struct Two_triangles {
-  Vector3 a1, a2, b0, b1, b2;
-  Vector3 reach;  ///< the largest coordinates, without sign
-  double margin;
+  Vector3<Tag> a1, a2, b0, b1, b2;
+  Vector3<Tag> reach;  ///< the largest coordinates, without sign
 
-  /// Whether the projections of the two onto an axis are apart by more than the margin, whatever the rounding.
-  ///
-  /// The axis may be any: its own rounding does not matter. A rounded difference is off by 2^-53 of its size, a dot
-  /// product of three terms by less than 4 x 2^-53 of the sum of their sizes, which is at most |axis| . reach: so a gap
-  /// between two of them is off by less than 2e-15 of it. Twice that is allowed for, and 1e-300 for products below the
-  /// normal doubles. Infinities and what comes of them prove nothing.
-  HWY_INLINE Truths apart_along(const Vector3& axis) const {
-    const auto zero = hn::Zero(Lanes());
-    const auto pa1 = dot(axis, a1), pa2 = dot(axis, a2);
-    const auto pb0 = dot(axis, b0), pb1 = dot(axis, b1), pb2 = dot(axis, b2);
-    const auto low_a = hn::Min(hn::Min(pa1, pa2), zero), high_a = hn::Max(hn::Max(pa1, pa2), zero);
-    const auto low_b = hn::Min(hn::Min(pb0, pb1), pb2), high_b = hn::Max(hn::Max(pb0, pb1), pb2);
-    auto needed = hn::Add(hn::Mul(all(4e-15), dot(sizes(axis), reach)), all(1e-300));
-    if (margin > 0) needed = hn::Add(needed, hn::Mul(all(margin), length_bound(axis)));
-    const auto apart = hn::Or(hn::Gt(hn::Sub(low_b, high_a), needed), hn::Gt(hn::Sub(low_a, high_b), needed));
-    // A projection that is not a number could be missing from the minima and maxima.
-    return hn::And(apart, hn::Lt(needed, all(1e308)));
+  HWY_INLINE Two_triangles(const Vector3<Tag> (&a)[3], const Vector3<Tag> (&b)[3])
+      : a1(a[1] - a[0]), a2(a[2] - a[0]), b0(b[0] - a[0]), b1(b[1] - a[0]), b2(b[2] - a[0]) {
+    reach = greater(greater(greater(sizes(a1), sizes(a2)), greater(sizes(b0), sizes(b1))), sizes(b2));
   }
 };
 
-/// What the corners and edges of two triangles tell about them, one pair per lane.
-struct Edge_verdict {
-  Truths apart;      ///< proven, whatever the rounding
-  Numbers crossing;  ///< a `Crossing`
-};
+/// Whether the projections of two triangles onto an axis are apart by more than the margin, whatever the rounding.
+///
+/// The axis may be any: its own rounding does not matter. A rounded difference is off by 2^-53 of its size, a dot
+/// product of three terms by less than 4 x 2^-53 of the sum of their sizes, which is at most |axis| . reach: so a gap
+/// between two of them is off by less than 2e-15 of it. Twice that is allowed for, and 1e-300 for products below the
+/// normal doubles. Infinities and what comes of them prove nothing.
+HWY_INLINE Truths apart_along(const Two_triangles<Lanes>& two, double margin, const Vector3<Lanes>& axis) {
+  const auto zero = hn::Zero(Lanes());
+  const auto pa1 = dot(axis, two.a1), pa2 = dot(axis, two.a2);
+  const auto pb0 = dot(axis, two.b0), pb1 = dot(axis, two.b1), pb2 = dot(axis, two.b2);
+  const auto low_a = hn::Min(hn::Min(pa1, pa2), zero), high_a = hn::Max(hn::Max(pa1, pa2), zero);
+  const auto low_b = hn::Min(hn::Min(pb0, pb1), pb2), high_b = hn::Max(hn::Max(pb0, pb1), pb2);
+  auto needed = hn::Add(hn::Mul(all(4e-15), dot(sizes(axis), two.reach)), all(1e-300));
+  if (margin > 0) needed = hn::Add(needed, hn::Mul(all(margin), length_bound(axis)));
+  const auto apart = hn::Or(hn::Gt(hn::Sub(low_b, high_a), needed), hn::Gt(hn::Sub(low_a, high_b), needed));
+  // A projection that is not a number could be missing from the minima and maxima.
+  return hn::And(apart, hn::Lt(needed, all(1e308)));
+}
 
 /// Determinants of two triangles, by corner i of a and j of b. Edge i goes from corner i to the next: e of a, f of b.
 /// The normals are m and n.
+template <class Tag>
 struct Determinants {
+  using Numbers = hn::Vec<Tag>;
+
   Numbers height_a[3], height_b[3];  ///< of the corners beyond the plane of the other triangle: n.(a - b0), m.(b - a0)
   Numbers third_a[3];                ///< -m.f_j: how far a's third corner is beyond an edge of a along e x f_j
   Numbers third_b[3];                ///< n.e_i: how far b's third corner is beyond an edge of b along e_i x f
@@ -97,11 +106,12 @@ struct Determinants {
 
 /// All of them come of b_j x b_j+1: seen from a0, with s_j = a1.(b_j x b_j+1) and t_j the same of a2, the sides are
 /// -s_j, s_j - t_j - m.f_j and t_j, and n.a1 and n.a2 are the sums of the s and of the t.
-HWY_INLINE Determinants determinants(const Two_triangles& two) {
-  const Vector3 b[]{two.b0, two.b1, two.b2};
-  const Vector3 moments[]{cross(b[0], b[1]), cross(b[1], b[2]), cross(b[2], b[0])};
+template <class Tag>
+HWY_INLINE Determinants<Tag> determinants(const Two_triangles<Tag>& two) {
+  const Vector3<Tag> b[]{two.b0, two.b1, two.b2};
+  const Vector3<Tag> moments[]{cross(b[0], b[1]), cross(b[1], b[2]), cross(b[2], b[0])};
   const auto normal_a = cross(two.a1, two.a2);
-  Determinants of;
+  Determinants<Tag> of;
   for (std::size_t j = 0; j < 3; ++j) of.height_b[j] = dot(normal_a, b[j]);
   for (std::size_t j = 0; j < 3; ++j) {
     const auto s = dot(two.a1, moments[j]), t = dot(two.a2, moments[j]);
@@ -121,13 +131,20 @@ HWY_INLINE Determinants determinants(const Two_triangles& two) {
   return of;
 }
 
-HWY_INLINE Numbers least(const Numbers (&numbers)[3]) { return hn::Min(hn::Min(numbers[0], numbers[1]), numbers[2]); }
-HWY_INLINE Numbers most(const Numbers (&numbers)[3]) { return hn::Max(hn::Max(numbers[0], numbers[1]), numbers[2]); }
+template <class V>
+HWY_INLINE V least(const V (&numbers)[3]) {
+  return hn::Min(hn::Min(numbers[0], numbers[1]), numbers[2]);
+}
+template <class V>
+HWY_INLINE V most(const V (&numbers)[3]) {
+  return hn::Max(hn::Max(numbers[0], numbers[1]), numbers[2]);
+}
 
 /// By how much the triangles are apart along their normals and the cross products of an edge of each: the greatest of
 /// the eleven gaps. Along e x f the ends of an edge are in one place.
-HWY_INLINE Numbers greatest_gap(const Determinants& of) {
-  const auto zero = hn::Zero(Lanes());
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> greatest_gap(const Determinants<Tag>& of) {
+  const auto zero = hn::Zero(Tag());
   auto gap = hn::Max(hn::Max(least(of.height_a), hn::Neg(most(of.height_a))),
                      hn::Max(least(of.height_b), hn::Neg(most(of.height_b))));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -142,86 +159,96 @@ HWY_INLINE Numbers greatest_gap(const Determinants& of) {
 }
 
 /// A `Crossing`: edge k passes the edges of the other triangle all on the one side, and its ends are on both sides of
-/// the plane.
-HWY_INLINE Numbers find_crossing(const Determinants& of) {
-  const auto zero = hn::Zero(Lanes());
-  auto crossing = all(no_crossing);
+/// the plane. None for triangles that touch or are coplanar, whose gap is 0: told by signs alone, it would be any.
+/// @param gap  the greatest
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> find_crossing(const Determinants<Tag>& of, hn::Vec<Tag> gap) {
+  const Tag d;
+  const auto none = hn::Set(d, hn::TFromD<Tag>{no_crossing});
+  const hn::RebindToSigned<Tag> integers;
+  const auto is_signed = [&](hn::Vec<Tag> bits) HWY_ATTR {
+    return hn::RebindMask(d, hn::Lt(hn::BitCast(integers, bits), hn::Zero(integers)));
+  };
+  auto crossing = none;
   for (std::size_t k = 0; k < 6; ++k) {
-    const Numbers sides_a[]{of.side[k % 3][0], of.side[k % 3][1], of.side[k % 3][2]};
-    const Numbers sides_b[]{of.side[0][k % 3], of.side[1][k % 3], of.side[2][k % 3]};
-    const auto& sides = k < 3 ? sides_a : sides_b;
+    const auto side = [&](std::size_t i) HWY_ATTR { return k < 3 ? of.side[k][i] : of.side[i][k - 3]; };
     const auto& height = k < 3 ? of.height_a : of.height_b;
     const auto from = height[k % 3], to = height[(k + 1) % 3];
-    const auto down = hn::And(hn::Gt(least(sides), zero), hn::And(hn::Gt(from, zero), hn::Lt(to, zero)));
-    const auto up = hn::And(hn::Lt(most(sides), zero), hn::And(hn::Lt(from, zero), hn::Gt(to, zero)));
-    crossing = hn::IfThenElse(down, all(static_cast<double>(k)), crossing);
-    crossing = hn::IfThenElse(up, all(static_cast<double>(6 + k)), crossing);
+    const auto below = hn::Or3(side(0), side(1), side(2));
+    const auto above = hn::And(hn::And(side(0), side(1)), side(2));
+    const auto down = hn::AndNot(hn::Or(below, from), to);
+    const auto up = hn::AndNot(to, hn::And(above, from));
+    crossing = hn::IfThenElse(is_signed(down), hn::Set(d, static_cast<hn::TFromD<Tag>>(k)), crossing);
+    crossing = hn::IfThenElse(is_signed(up), hn::Set(d, static_cast<hn::TFromD<Tag>>(6 + k)), crossing);
   }
-  return crossing;
+  return hn::IfThenElse(hn::Lt(gap, hn::Zero(d)), crossing, none);
 }
 
-/// Compares corners with planes, and each edge of one triangle with each of the other: whether the triangles are apart
-/// (by more than 0), and which edge passes through the other triangle.
+/// How large the greatest gap must be to prove two triangles apart (by more than 0), whatever the rounding; infinite
+/// where nothing would.
 ///
-/// Let V be the product of the three reaches and u = 2^-53. The coordinates, differences, are off by u of their size. A
-/// determinant of three of them has six products, which are at most V and gather 8 roundings each, those of the
-/// coordinates and of the sums included: it is at most 6 V, and off by less than 48 u V. By these and the roundings of
-/// their sums heights are off by less than 250, sides by at most 241, the thirds of a by less than 110 and those of b
-/// by less than 390 u V; a gap that consists of them, with roundings of sums up to 72 V, by less than 900 u V, which is
-/// 1e-13 V. Twice that is allowed for.
-HWY_INLINE Edge_verdict compare_edges(const Two_triangles& two) {
-  const auto& reach = two.reach;
-  // Within these limits what products lose below the normal doubles is far less than the rest, and nothing overflows.
-  const Numbers reaches[]{reach.x, reach.y, reach.z};
-  const auto measurable = hn::And(hn::Gt(least(reaches), all(1e-90)), hn::Lt(most(reaches), all(1e90)));
-  const auto needed = hn::Mul(all(2e-13), hn::Mul(hn::Mul(reach.x, reach.y), reach.z));
-  const Determinants of = determinants(two);
-  return {hn::And(hn::Gt(greatest_gap(of), needed), measurable), find_crossing(of)};
+/// Let V be the product of the three reaches and u half the distance from 1 to the next number. The coordinates,
+/// differences, are off by u of their size. A determinant of three of them has six products, which are at most V and
+/// gather 8 roundings each, those of the coordinates and of the sums included: it is at most 6 V, and off by less than
+/// 48 u V. By these and the roundings of their sums heights are off by less than 250, sides by at most 241, the thirds
+/// of a by less than 110 and those of b by less than 390 u V; a gap that consists of them, with roundings of sums up to
+/// 72 V, by less than 900 u V. Twice that is allowed for.
+/// @param limit  of reaches, which must be above its inverse too: then what products lose below the normal numbers is
+///               far less than the rest, and nothing overflows
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> telling_gap(const Two_triangles<Tag>& two, hn::TFromD<Tag> limit) {
+  using T = hn::TFromD<Tag>;
+  const Tag d;
+  const hn::Vec<Tag> reaches[]{two.reach.x, two.reach.y, two.reach.z};
+  const auto measurable =
+      hn::And(hn::Gt(least(reaches), hn::Set(d, 1 / limit)), hn::Lt(most(reaches), hn::Set(d, limit)));
+  const auto volume = hn::Mul(hn::Mul(two.reach.x, two.reach.y), two.reach.z);
+  const auto allowed = hn::Mul(hn::Set(d, 900 * std::numeric_limits<T>::epsilon()), volume);
+  return hn::IfThenElse(measurable, allowed, hn::Set(d, std::numeric_limits<T>::infinity()));
 }
 
 /// The lanes, of those `among` which is asked, where no direction that one of the triangles alone decides proves them
 /// farther apart than the margin: neither normal, nor one across an edge within a plane.
-HWY_INLINE Truths not_apart_by_planes(const Two_triangles& two, Truths among) {
+HWY_INLINE Truths not_apart_by_planes(const Two_triangles<Lanes>& two, double margin, Truths among) {
   const Lanes d;
   const auto normal_a = cross(two.a1, two.a2);
-  among = hn::AndNot(two.apart_along(normal_a), among);
+  among = hn::AndNot(apart_along(two, margin, normal_a), among);
   if (hn::AllFalse(d, among)) return among;
   const auto f0 = two.b1 - two.b0, f1 = two.b2 - two.b1;
   const auto normal_b = cross(f0, f1);
-  among = hn::AndNot(two.apart_along(normal_b), among);
+  among = hn::AndNot(apart_along(two, margin, normal_b), among);
   if (hn::AllFalse(d, among)) return among;
   // Nearly coplanar ones lie apart within their plane.
-  among = hn::AndNot(two.apart_along(cross(normal_a, two.a1)), among);
-  among = hn::AndNot(two.apart_along(cross(normal_a, two.a2 - two.a1)), among);
-  among = hn::AndNot(two.apart_along(cross(normal_a, two.a2)), among);
+  among = hn::AndNot(apart_along(two, margin, cross(normal_a, two.a1)), among);
+  among = hn::AndNot(apart_along(two, margin, cross(normal_a, two.a2 - two.a1)), among);
+  among = hn::AndNot(apart_along(two, margin, cross(normal_a, two.a2)), among);
   if (hn::AllFalse(d, among)) return among;
-  among = hn::AndNot(two.apart_along(cross(normal_b, f0)), among);
-  among = hn::AndNot(two.apart_along(cross(normal_b, f1)), among);
-  return hn::AndNot(two.apart_along(cross(normal_b, two.b0 - two.b2)), among);
+  among = hn::AndNot(apart_along(two, margin, cross(normal_b, f0)), among);
+  among = hn::AndNot(apart_along(two, margin, cross(normal_b, f1)), among);
+  return hn::AndNot(apart_along(two, margin, cross(normal_b, two.b0 - two.b2)), among);
 }
 
 /// In which lanes floating point does not prove that a and b are farther apart than the margin (0: have no point in
 /// common), of those in `asked`.
 /// @param one_mesh  they are faces of one mesh
 /// @param crossing  is set to a `Crossing` for each of them
-HWY_INLINE Truths not_proven_apart(const Vector3 (&a)[3], const Vector3 (&b)[3], double margin, bool one_mesh,
-                                   Truths asked, Numbers& crossing) {
+HWY_INLINE Truths not_proven_apart(const Vector3<Lanes> (&a)[3], const Vector3<Lanes> (&b)[3], double margin,
+                                   bool one_mesh, Truths asked, Numbers& crossing) {
   const Lanes d;
-  Two_triangles two{a[1] - a[0], a[2] - a[0], b[0] - a[0], b[1] - a[0], b[2] - a[0], {}, margin};
-  two.reach =
-      greater(greater(greater(sizes(two.a1), sizes(two.a2)), greater(sizes(two.b0), sizes(two.b1))), sizes(two.b2));
+  const Two_triangles<Lanes> two(a, b);
   crossing = all(no_crossing);
   auto left = asked;
   // Planes separate most faces that are near each other on one surface.
-  if (one_mesh || margin > 0) left = not_apart_by_planes(two, left);
+  if (one_mesh || margin > 0) left = not_apart_by_planes(two, margin, left);
   if (margin > 0 || hn::AllFalse(d, left)) return left;
-  const auto verdict = compare_edges(two);
-  left = hn::AndNot(verdict.apart, left);
-  crossing = verdict.crossing;
+  const auto of = determinants(two);
+  const auto gap = greatest_gap(of);
+  left = hn::AndNot(hn::Gt(gap, telling_gap(two, 1e90)), left);
+  crossing = find_crossing(of, gap);
   const auto unclear = hn::And(left, hn::Eq(crossing, all(no_crossing)));
   if (one_mesh || hn::AllFalse(d, unclear)) return left;
   // What comes of one lane must not depend on the others: their number differs between instruction sets.
-  return hn::Or(hn::AndNot(unclear, left), not_apart_by_planes(two, unclear));
+  return hn::Or(hn::AndNot(unclear, left), not_apart_by_planes(two, margin, unclear));
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

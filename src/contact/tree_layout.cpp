@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/leaf_pair_kernel.h"
 #include "contact/refit_kernel.h"
 #include "contact/tree_builder.h"
 #include "lodestone/errors.h"
@@ -26,6 +27,8 @@ Tree_layout::Tree_layout(std::span<const Corners> corners, std::span<const Regio
     throw Bad_mesh("the mesh has more than 1431655765 faces, which is what a tree can number");
   Tree_builder(*this, corners, labels, coordinates, options).build();
   vertices_.resize(vertices_.size() + kernel::vertices_ahead + 4, vertices_.back());
+  static_assert(kernel::vertices_ahead >= most_float_lanes, "a leaf's vertices are read in vectors");
+  corners_.resize(corners_.size() + kernel::faces_ahead);
   find_parts();
 }
 

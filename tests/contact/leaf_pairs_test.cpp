@@ -22,7 +22,7 @@ template <class Check>
 Tally for_leaves(std::size_t per_kind, const Check& check) {
   Tally total;
   std::map<std::uint32_t, std::array<Single_leaf, 2>> leaves;
-  for (const std::uint32_t size : {1U, 2U, 7U, 32U})
+  for (const std::uint32_t size : {1U, 2U, 7U, 32U, 128U})
     leaves.try_emplace(size, std::array{Single_leaf(size), Single_leaf(size)});
   Hard_pairs hard(1);
   for (const auto& kind : Hard_pairs::kinds())
@@ -67,6 +67,35 @@ TEST(Leaf_pairs, never_leave_out_faces_that_intersect) {
   EXPECT_GT(tally.pairs, 1000000U);
   EXPECT_GT(tally.true_ones, 10000U) << "of one in 16";
   EXPECT_LT(tally.near, tally.pairs / 2);
+}
+
+/// Boxes and corners are rounded to what a mesh of this size needs: faces that are small beside it lose most.
+TEST(Leaf_pairs, never_leave_out_faces_that_are_tiny_beside_their_mesh) {
+  constexpr std::uint32_t tiny = 32;
+  Single_leaf a(tiny + 1), b(tiny + 1);
+  a.set(tiny, {Point(-1, -1, -1), Point(1, 1, 1), Point(1, -1, 0.5)});
+  b.set(tiny, {Point(1, 1, -1), Point(-1, -1, 1), Point(-1, 1, 0.25)});
+  Hard_pairs hard(3);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  Tally tally;
+  for (const auto& kind : Hard_pairs::kinds())
+    for (int exponent = -4; exponent >= -28; exponent -= 3) {
+      SCOPED_TRACE(testing::Message() << kind.name << ", scale 2^" << exponent);
+      for (int round = 0; round < 20; ++round) {
+        for (std::uint32_t i = 0; i < tiny; ++i) {
+          const auto [s, t] = (hard.*kind.make)();
+          const double offset = anywhere(random), scale = std::ldexp(1, exponent);
+          a.set(i, placed(s, {scale, offset})), b.set(i, placed(t, {scale, offset}));
+        }
+        a.refit(), b.refit();
+        tally.pairs += a.size() * b.size();
+        expect_none_left_out(a, b, near_pairs(a.posed(), b.posed(), 0), tally, triangles_intersect);
+        if (HasFailure()) return;
+      }
+    }
+  EXPECT_GT(tally.true_ones, 1000U) << "of one in 16";
+  EXPECT_LT(tally.near, tally.pairs / 4);
 }
 
 TEST(Leaf_pairs, never_leave_out_faces_nearer_than_the_margin) {

@@ -31,9 +31,10 @@ struct Leaf_faces {
 
 /// Two faces by their places in the lists of their leaves.
 struct Face_places {
-  std::uint16_t a = 0;
-  std::uint16_t b = 0;
+  std::uint8_t a = 0;
+  std::uint8_t b = 0;
   Crossing crossing = no_crossing;
+  std::uint8_t unused = 0;  ///< so that a vector can write several
 };
 
 }  // namespace lodestone

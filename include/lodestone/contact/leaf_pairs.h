@@ -15,6 +15,7 @@ namespace lodestone {
 struct Posed_layout {
   const Tree_layout* layout = nullptr;
   Coordinates coordinates = {};
+  Aabb bounds = {};                  ///< around all faces, if only roughly
   std::span<const Aabb> boxes = {};  ///< per node; empty: the tree has volumes of another kind
 };
 
@@ -26,9 +27,9 @@ struct Basic_posed_tree {
 
   operator Posed_layout() const {
     if constexpr (std::same_as<Volume, Aabb>)
-      return {tree, coordinates, tree->volumes()};
+      return {tree, coordinates, tree->volume(0), tree->volumes()};
     else
-      return {tree, coordinates};
+      return {tree, coordinates, tree->volume(0).bounds()};
   }
 };
 using Posed_tree = Basic_posed_tree<Aabb>;
@@ -37,7 +38,8 @@ struct Leaf_scratch;
 struct Face_columns;
 namespace kernel {
 struct Leaf_view;
-}
+struct Leaf_request;
+}  // namespace kernel
 
 /// Leaf against leaf: which of their faces are near each other. Holds the memory that it needs; one per thread.
 class Leaf_pairs {
@@ -58,9 +60,10 @@ class Leaf_pairs {
   /// Each pair once if both leaves are one.
   ///
   /// The box around the near faces of the other leaf rules out faces, boxes of faces rule out pairs, and so do
-  /// directions: along a normal of either face, within the plane of either across its edges, or without a margin across
-  /// an edge of each, the projections of the two are apart by more than all rounding can amount to.
-  /// O(n + m + n m / vector width) for leaves of n and m faces; the result is valid until the next call.
+  /// directions, of corners rounded to floats first: along a normal of either face, within the plane of either across
+  /// its edges, or without a margin across an edge of each, the projections of the two are apart by more than all
+  /// rounding can amount to. O(n + m + n m / vector width) for leaves of n and m faces; the result is valid until the
+  /// next call.
   std::span<const Face_places> near_faces(std::uint32_t leaf_a, std::uint32_t leaf_b);
 
  private:
@@ -73,7 +76,6 @@ class Leaf_pairs {
   /// Leaves of one tree.
   struct Side {
     Posed_layout posed;
-    Aabb size_box;  ///< tells where it is and how large, if only roughly: around all of it, or around a leaf
     std::vector<Slot> slots;
 
     void begin(const Posed_layout& tree);
@@ -82,9 +84,7 @@ class Leaf_pairs {
   static kernel::Leaf_view view(Side& side, std::uint32_t leaf);
 
   Side sides_[2];
-  double margin_ = 0;
-  double scale_ = 1;  ///< of coordinates: a power of two that brings the size of a tree near 1
-  bool one_mesh_ = false;
+  std::unique_ptr<kernel::Leaf_request> request_;
   std::unique_ptr<Leaf_scratch> scratch_;
   std::vector<Face_places> near_;
 };

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Included once per instruction set, as Highway's own *-inl.h files are.
+#if defined(LODESTONE_LEAF_POSE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LODESTONE_LEAF_POSE_INL_H
+#undef LODESTONE_LEAF_POSE_INL_H
+#else
+#define LODESTONE_LEAF_POSE_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "contact/lane_lookup-inl.h"
+#include "contact/leaf_pair_kernel.h"
+#include "contact/leaf_scratch.h"
+#include "contact/near_boxes-inl.h"
+#include "contact/position_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::kernel::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Coordinates in the request's unit, seen from its origin, and rounded; all are rounded alike.
+template <class Tag>
+HWY_INLINE hn::Vec<hn::Rebind<float, Tag>> rounded(Tag d, const Leaf_request& request, hn::Vec<Tag> origin,
+                                                   hn::Vec<Tag> coordinates) {
+  const auto most = hn::Set(d, static_cast<double>(std::numeric_limits<float>::max()));
+  const auto scaled = hn::Mul(hn::Sub(coordinates, origin), hn::Set(d, request.scale));
+  return hn::DemoteTo(hn::Rebind<float, Tag>(), hn::Min(hn::Max(scaled, hn::Neg(most)), most));
+}
+
+/// In which step of the request's region rounded coordinates are, or on which side of it.
+///
+/// Neither this nor rounding can reverse the order of two numbers: boxes that are within the margin of each other stay
+/// so, whatever is lost.
+template <class Tag>
+HWY_INLINE hn::Vec<hn::Rebind<std::int16_t, Tag>> steps(Tag d, hn::Vec<Tag> coordinates, hn::Vec<Tag> per_unit) {
+  const hn::Rebind<std::int32_t, Tag> integers;
+  const auto inside = hn::Min(hn::Max(hn::Mul(coordinates, per_unit), hn::Zero(d)), hn::Set(d, most_steps));
+  return hn::DemoteTo(hn::Rebind<std::int16_t, Tag>(),
+                      hn::Add(hn::ConvertTo(integers, inside), hn::Set(integers, first_step)));
+}
+
+/// Rounds a position moved by `shift`.
+HWY_INLINE void round_position(const Leaf_request& request, double shift, const double* position, float* to) {
+  const D d;
+  for (std::size_t i = 0; i < vectors; ++i) {
+    const auto moved = hn::Add(hn::LoadU(d, position + i * lanes), hn::Set(d, shift));
+    const auto origin = hn::LoadU(d, request.origin + i * lanes);
+    hn::StoreU(rounded(d, request, origin, moved), hn::Rebind<float, D>(), to + i * lanes);
+  }
+}
+
+HWY_INLINE Limits limits(const Leaf_request& request, const Aabb& box) {
+  const hn::CappedTag<float, 4> d;
+  const hn::Rebind<std::int16_t, decltype(d)> narrow;
+  float low[4], high[4];
+  round_position(request, 0, box.low, low);
+  round_position(request, request.margin, box.high, high);
+  std::int16_t low_steps[4], high_steps[4];
+  for (std::size_t i = 0; i < 4; i += hn::Lanes(d)) {
+    const auto per_unit = hn::LoadU(d, request.steps_per_unit + i);
+    hn::StoreU(steps(d, hn::LoadU(d, low + i), per_unit), narrow, low_steps + i);
+    hn::StoreU(steps(d, hn::LoadU(d, high + i), per_unit), narrow, high_steps + i);
+  }
+  const Box_lanes sides;
+  return {{hn::Set(sides, low_steps[0]), hn::Set(sides, low_steps[1]), hn::Set(sides, low_steps[2])},
+          {hn::Set(sides, high_steps[0]), hn::Set(sides, high_steps[1]), hn::Set(sides, high_steps[2])}};
+}
+
+/// The position of a vertex of a leaf; the lanes past z mean nothing.
+HWY_INLINE hn::Vec<D> load_position(const Leaf_view& leaf, std::size_t place, std::size_t i) {
+  return load_last(leaf.coordinates + 3 * std::size_t{leaf.vertices[place]}, i);
+}
+
+/// Boxes of faces, rounded, by axis.
+struct alignas(64) Rounded_boxes {
+  float low[3][most_leaf_faces + most_float_lanes];
+  float high[3][most_leaf_faces + most_float_lanes];
+};
+
+#if HWY_TARGET <= HWY_AVX3
+/// Rounds the positions of a leaf's vertices, moved by `shift`.
+HWY_INLINE void round_positions(const Leaf_view& leaf, const Leaf_request& request, double shift,
+                                Face_columns::Positions& positions) {
+  const Float_lanes d;
+  const hn::Rebind<double, hn::Half<Float_lanes>> wide;
+  const hn::Repartition<double, Float_lanes> pairs;
+  const auto origin = hn::LoadU(D(), request.origin);
+  const auto origins = hn::Combine(wide, origin, origin);
+  for (std::size_t start = 0; start < leaf.vertex_count; start += hn::Lanes(d)) {
+    // Vertices k, k + 4, k + 8 and k + 12, four floats each.
+    const auto row = [&](std::size_t k) HWY_ATTR {
+      const auto position = [&](std::size_t place) HWY_ATTR { return load_position(leaf, start + place, 0); };
+      const auto two_rows = [&](std::size_t first) HWY_ATTR {
+        const auto two = hn::Combine(wide, position(first + 4), position(first));
+        return rounded(wide, request, origins, hn::Add(two, hn::Set(wide, shift)));
+      };
+      return hn::Combine(d, two_rows(k + 8), two_rows(k));
+    };
+    const auto row0 = row(0), row1 = row(1), row2 = row(2), row3 = row(3);
+    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(d, row0, row1));
+    const auto xy23 = hn::BitCast(pairs, hn::InterleaveLower(d, row2, row3));
+    const auto z01 = hn::BitCast(pairs, hn::InterleaveUpper(d, row0, row1));
+    const auto z23 = hn::BitCast(pairs, hn::InterleaveUpper(d, row2, row3));
+    hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, xy01, xy23)), d, positions[0] + start);
+    hn::Store(hn::BitCast(d, hn::InterleaveUpper(pairs, xy01, xy23)), d, positions[1] + start);
+    hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, z01, z23)), d, positions[2] + start);
+  }
+}
+
+HWY_INLINE void copy_corners(const Leaf_view& leaf, Face_columns& faces) {
+  const Vertex_lanes d;
+  const hn::Rebind<std::uint16_t, Vertex_lanes> narrow;
+  for (std::size_t first = 0; first < leaf.face_count; first += hn::Lanes(d)) {
+    hn::Vec<hn::Rebind<std::uint16_t, Vertex_lanes>> places[3];
+    hn::LoadInterleaved3(narrow, leaf.corners[first].data(), places[0], places[1], places[2]);
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      hn::Store(hn::PromoteTo(d, places[corner]), d, faces.corners[corner] + first);
+  }
+}
+
+/// Bounds of the corners of all faces: `low` of where they are, `high` of where they are moved to.
+HWY_INLINE void round_boxes(const Leaf_view& leaf, const Face_columns::Positions& moved, Rounded_boxes& boxes) {
+  const Float_lanes d;
+  const Face_columns& faces = *leaf.faces;
+  for (std::size_t first = 0; first < leaf.face_count; first += hn::Lanes(d)) {
+    const auto corner = [&](std::size_t i) HWY_ATTR { return hn::Load(Vertex_lanes(), faces.corners[i] + first); };
+    const hn::Vec<Vertex_lanes> corners[]{corner(0), corner(1), corner(2)};
+    const auto here = look_up_corners(faces.positions, leaf.vertex_count, corners);
+    const auto there = &moved == &faces.positions ? here : look_up_corners(moved, leaf.vertex_count, corners);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto &low = here.of[axis], &high = there.of[axis];
+      hn::Store(hn::Min(hn::Min(low[0], low[1]), low[2]), d, boxes.low[axis] + first);
+      hn::Store(hn::Max(hn::Max(high[0], high[1]), high[2]), d, boxes.high[axis] + first);
+    }
+  }
+}
+#else
+HWY_INLINE void round_positions(const Leaf_view& leaf, const Leaf_request& request, double shift,
+                                Face_columns::Positions& positions) {
+  for (std::size_t place = 0; place < leaf.vertex_count; ++place) {
+    double position[4];
+    float near[4];
+    for (std::size_t i = 0; i < vectors; ++i) hn::StoreU(load_position(leaf, place, i), D(), position + i * lanes);
+    round_position(request, shift, position, near);
+    for (std::size_t axis = 0; axis < 3; ++axis) positions[axis][place] = near[axis];
+  }
+}
+
+HWY_INLINE void copy_corners(const Leaf_view& leaf, Face_columns& faces) {
+  for (std::size_t f = 0; f < leaf.face_count; ++f)
+    for (std::size_t corner = 0; corner < 3; ++corner) faces.corners[corner][f] = leaf.corners[f][corner];
+}
+
+HWY_INLINE void round_boxes(const Leaf_view& leaf, const Face_columns::Positions& moved, Rounded_boxes& boxes) {
+  for (std::size_t f = 0; f < leaf.face_count; ++f) {
+    const auto& [p, q, r] = leaf.corners[f];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto &low = leaf.faces->positions[axis], &high = moved[axis];
+      boxes.low[axis][f] = std::min({low[p], low[q], low[r]});
+      boxes.high[axis][f] = std::max({high[p], high[q], high[r]});
+    }
+  }
+}
+#endif
+
+/// Writes the boxes in steps.
+HWY_INLINE void boxes_to_steps(const Rounded_boxes& boxes, const Leaf_request& request, std::size_t count,
+                               Face_columns& faces) {
+  const Float_lanes d;
+  const hn::Rebind<std::int16_t, Float_lanes> narrow;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto per_unit = hn::Set(d, request.steps_per_unit[axis]);
+    for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
+      hn::Store(steps(d, hn::Load(d, boxes.low[axis] + first), per_unit), narrow, faces.low[axis] + first);
+      hn::Store(steps(d, hn::Load(d, boxes.high[axis] + first), per_unit), narrow, faces.high[axis] + first);
+    }
+  }
+  end_columns(faces, count);
+}
+
+/// Fills in where the faces of a leaf are.
+HWY_INLINE void pose(const Leaf_view& leaf, const Leaf_request& request) {
+  Face_columns& faces = *leaf.faces;
+  alignas(64) Face_columns::Positions moved;
+  Rounded_boxes boxes;
+  round_positions(leaf, request, 0, faces.positions);
+  if (request.margin > 0) round_positions(leaf, request, request.margin, moved);
+  copy_corners(leaf, faces);
+  round_boxes(leaf, request.margin > 0 ? moved : faces.positions, boxes);
+  if (request.one_mesh)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      for (std::size_t f = 0; f < leaf.face_count; ++f)
+        faces.vertices[corner][f] = leaf.vertices[leaf.corners[f][corner]];
+  boxes_to_steps(boxes, request, leaf.face_count, faces);
+}
+
+}  // namespace lodestone::kernel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

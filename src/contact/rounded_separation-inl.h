@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Included once per instruction set, as Highway's own *-inl.h files are.
+#if defined(LODESTONE_ROUNDED_SEPARATION_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LODESTONE_ROUNDED_SEPARATION_INL_H
+#undef LODESTONE_ROUNDED_SEPARATION_INL_H
+#else
+#define LODESTONE_ROUNDED_SEPARATION_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "contact/lane_lookup-inl.h"
+#include "contact/leaf_pair_kernel.h"
+#include "contact/leaf_pose-inl.h"
+#include "contact/leaf_scratch.h"
+#include "contact/near_boxes-inl.h"
+#include "contact/separation-inl.h"
+#include "lodestone/contact/leaf_faces.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::kernel::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Rounded_vector = Vector3<Float_lanes>;
+
+/// The rounded corners of a face of one leaf per lane.
+struct Rounded_corners {
+  Rounded_vector of[3];
+};
+
+HWY_INLINE Rounded_corners load_corners(const Leaf_view& leaf, const std::uint8_t* faces) {
+  Corner_coordinates coordinates;
+#if HWY_TARGET <= HWY_AVX3
+  const Face_columns& columns = *leaf.faces;
+  const Lane_places places(hn::PromoteTo(Vertex_lanes(), hn::LoadU(hn::Rebind<std::uint8_t, Vertex_lanes>(), faces)));
+  hn::Vec<Vertex_lanes> corners[3];
+  for (auto& corner : corners) corner = hn::Zero(Vertex_lanes());
+  for (std::size_t start = 0; start < columns.count; start += hn::MaxLanes(Vertex_lanes()))
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      corners[corner] = places.look_up(columns.corners[corner], start, corners[corner]);
+  coordinates = look_up_corners(columns.positions, leaf.vertex_count, corners);
+#else
+  alignas(64) float of[3][3][hn::MaxLanes(Float_lanes())];
+  for (std::size_t lane = 0; lane < hn::MaxLanes(Float_lanes()); ++lane)
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::size_t vertex = leaf.corners[faces[lane]][corner];
+      for (std::size_t axis = 0; axis < 3; ++axis) of[axis][corner][lane] = leaf.faces->positions[axis][vertex];
+    }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      coordinates.of[axis][corner] = hn::Load(Float_lanes(), of[axis][corner]);
+#endif
+  const auto& [x, y, z] = coordinates.of;
+  return {{{x[0], y[0], z[0]}, {x[1], y[1], z[1]}, {x[2], y[2], z[2]}}};
+}
+
+/// The largest coordinates within the boxes of two leaves, without sign.
+HWY_INLINE Rounded_vector largest_coordinates(const Leaf_request& request, const Aabb& a, const Aabb& b) {
+  float largest[4] = {};
+  for (const double* corner : {a.low, a.high, b.low, b.high}) {
+    float near[4];
+    round_position(request, 0, corner, near);
+    for (std::size_t axis = 0; axis < 3; ++axis) largest[axis] = std::max(largest[axis], std::abs(near[axis]));
+  }
+  const Float_lanes d;
+  return {hn::Set(d, largest[0]), hn::Set(d, largest[1]), hn::Set(d, largest[2])};
+}
+
+/// Writes those lanes that are asked for next to each other, and anything after them.
+HWY_INLINE void store_chosen(hn::Vec<Vertex_lanes> numbers, hn::Mask<Vertex_lanes> chosen, std::uint32_t bits,
+                             std::uint32_t* to) {
+  const Vertex_lanes d;
+#if HWY_TARGET <= HWY_AVX3
+  static_cast<void>(bits);
+  hn::StoreU(hn::Compress(numbers, chosen), d, to);
+#else
+  // Without an instruction for it, Highway's `Compress` has GCC 12 write a table of a kilobyte each time.
+  static_assert(hn::MaxLanes(Vertex_lanes()) <= 8, "what the table has");
+  static_cast<void>(chosen);
+  const auto lanes_of = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint8_t, Vertex_lanes>(), lane_lists[bits].data()));
+  hn::StoreU(hn::TableLookupLanes(numbers, hn::IndicesFromVec(d, lanes_of)), d, to);
+#endif
+}
+
+/// By how much more two triangles must be apart along an axis of `greatest_gap` because their corners are rounded.
+///
+/// Let M be the largest coordinates and r the reaches, both rounded. A corner is off by less than 1.01 x 2^-24 M along
+/// each coordinate axis: reaches that a gap is told for are above 1e-9, so M is far above the smallest normal float.
+/// (Of corners beyond all floats the reach is 0 or beyond what a gap is told for.) The axis of a gap, that of the
+/// rounded corners, has an x of at most 8 r_y r_z, and likewise y and z. So two triangles whose gap is greater than 2
+/// x 1.01 x 2^-24 x 8 (M_x r_y r_z + r_x M_y r_z + r_x r_y M_z) were apart before. Nearly twice that is allowed for.
+HWY_INLINE Floats gap_lost_by_rounding(const Rounded_vector& reach, const Rounded_vector& largest) {
+  const auto yz = hn::Mul(reach.y, reach.z), xz = hn::Mul(reach.x, reach.z), xy = hn::Mul(reach.x, reach.y);
+  return hn::Mul(hn::Set(Float_lanes(), 0x1p-19F), dot(largest, Rounded_vector{yz, xz, xy}));
+}
+
+struct Sorted_pairs {
+  std::size_t crossing, unclear;
+};
+
+/// Sorts out the listed pairs by their rounded corners: those proven apart are dropped, those that overlap by more than
+/// rounding are written to `near`, with a guess, and the others stay in the list. With margin 0.
+HWY_INLINE Sorted_pairs sort_by_rounded_corners(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request,
+                                                std::size_t count, Leaf_scratch& scratch, Face_places* near) {
+  static_assert(std::endian::native == std::endian::little && sizeof(Face_places) == 4, "they are written as numbers");
+  const Float_lanes d;
+  const Vertex_lanes numbers;
+  const hn::Rebind<std::uint8_t, Float_lanes> bytes;
+  Sorted_pairs sorted{0, 0};
+  if (count == 0) return sorted;
+  const Rounded_vector largest = largest_coordinates(request, *a.box, *b.box);
+  fill_up(count, scratch);
+  for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
+    const std::uint8_t* const places_a = scratch.pairs_a + first;
+    const std::uint8_t* const places_b = scratch.pairs_b + first;
+    const Two_triangles<Float_lanes> two(load_corners(a, places_a).of, load_corners(b, places_b).of);
+    const auto of = determinants(two);
+    const auto gap = greatest_gap(of);
+    // A product of three reaches, and its last digit, are floats within this limit.
+    const auto telling = hn::Add(telling_gap(two, 1e9F), gap_lost_by_rounding(two.reach, largest));
+    const auto crossing = find_crossing(of, gap);
+    const auto left = hn::AndNot(hn::Gt(gap, telling), hn::FirstN(d, count - first));
+    const auto deep = hn::And(left, hn::Lt(gap, hn::Neg(telling)));
+    const auto crosses = hn::And(deep, hn::Lt(crossing, hn::Set(d, float{no_crossing})));
+
+    const auto guess = hn::BitCast(numbers, hn::ConvertTo(hn::Rebind<std::int32_t, Float_lanes>(), crossing));
+    const auto place_a = hn::PromoteTo(numbers, hn::LoadU(bytes, places_a));
+    const auto place_b = hn::PromoteTo(numbers, hn::LoadU(bytes, places_b));
+    const std::uint32_t bits = mask_bits(d, crosses);
+    std::uint32_t found[most_float_lanes] = {};
+    const auto codes = hn::Or(place_a, hn::Or(hn::ShiftLeft<8>(place_b), hn::ShiftLeft<16>(guess)));
+    store_chosen(codes, hn::RebindMask(numbers, crosses), bits, found);
+    std::memcpy(near + sorted.crossing, found, sizeof found);
+    sorted.crossing += hwy::PopCount(bits);
+
+    for (std::uint32_t open = mask_bits(d, hn::AndNot(crosses, left)); open != 0; open &= open - 1) {
+      const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);
+      scratch.pairs_a[sorted.unclear] = places_a[lane];
+      scratch.pairs_b[sorted.unclear] = places_b[lane];
+      ++sorted.unclear;
+    }
+  }
+  return sorted;
+}
+
+}  // namespace lodestone::kernel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
