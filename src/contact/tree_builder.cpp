@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "contact/leaf_pair_kernel.h"
+
 namespace lodestone {
 
 void Tree_builder::build() {
@@ -19,7 +21,7 @@ void Tree_builder::build() {
   tree_.face_begin_.push_back(0);
   tree_.vertex_begin_.push_back(0);
   tree_.faces_.reserve(corners_.size());
-  tree_.corners_.reserve(corners_.size());
+  tree_.corners_.reserve(corners_.size() + kernel::faces_ahead);
   add_regions(regions);
 }
 
