@@ -15,7 +15,7 @@ struct Experiment_context {
   std::filesystem::path out;                                       ///< folder that receives all figures as JSON
   std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
   /// Names of the scenes to play, or of meshes and strategies; empty: those of the published figures. Heeded by
-  /// `peers`, `volumes` and `partitions`; the other experiments are about their scenes, and play them all.
+  /// `peers`, `every_frame`, `volumes` and `partitions`; the other experiments are about their scenes, and play them all.
   std::vector<std::string> only = {};
 
   // Of experiments that are sweeps of many runs: `partitions`.
@@ -38,6 +38,7 @@ std::string run_teapot_sphere(const Experiment_context& context);
 std::string run_scaling(const Experiment_context& context);
 std::string run_predecessor(const Experiment_context& context);
 std::string run_collision_distance(const Experiment_context& context);
+std::string run_every_frame(const Experiment_context& context);
 std::string run_growth(const Experiment_context& context);
 std::string run_modes(const Experiment_context& context);
 std::string run_partitions(const Experiment_context& context);

@@ -49,6 +49,7 @@ double percentile_95(std::vector<double> values) {
 }
 
 std::string milliseconds(double seconds) {
+  if (!std::isfinite(seconds)) return "-";
   const double ms = 1e3 * seconds;
   return fmt::format("{:.{}f}", ms, ms < 1 ? 4 : ms < 10 ? 3 : ms < 100 ? 2 : ms < 1000 ? 1 : 0);
 }

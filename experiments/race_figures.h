@@ -20,7 +20,7 @@ double median_of(const Entry_figures& figures, double Frame_seconds::*figure);
 /// The least value that 95 % of the values do not exceed.
 double percentile_95(std::vector<double> values);
 
-/// Three to four digits.
+/// Three to four digits; a dash for what was not measured.
 std::string milliseconds(double seconds);
 
 }  // namespace lodestone

@@ -103,7 +103,7 @@ void play(Case& moving, std::span<Row> rows) {
       const Frame& result = detectors[r].detect();
       found[r] = result.face_pairs;
       rows[r].rebuilds += result.statistics.repartitions;
-      rows[r].loosenesses.push_back(detectors[r].tree(0).tree().looseness());
+      rows[r].loosenesses.push_back(detectors[r].tree(0).looseness());
       if (frame > 0) rows[r].microseconds.push_back(1e6 * result.statistics.seconds.total());
     }
     // The last row is the one without rebuilds.

@@ -98,11 +98,13 @@ std::size_t differences(const std::vector<Face_pair>& sorted_a, const std::vecto
 /// Two meshes through all their poses.
 class Round {
  public:
-  Round(const std::array<Soak_mesh, 2>& meshes, std::size_t leaf_faces, std::size_t threads)
+  Round(const std::array<Soak_mesh, 2>& meshes, std::size_t regions, std::size_t leaf_faces, std::size_t threads)
       : meshes_(meshes), workers_(threads), search_(workers_) {
     for (std::size_t m = 0; m < 2; ++m) {
       objects_[m] = Tree_object(meshes[m].faces);
-      objects_[m].build({}, posed(m, 0).coordinates(), {.leaf_faces = leaf_faces});
+      const Posed_mesh first = posed(m, 0);
+      objects_[m].build(region_labels(first.positions.rows(), regions), first.coordinates(),
+                        {.leaf_faces = leaf_faces});
     }
   }
 
@@ -130,6 +132,13 @@ class Round {
   }
 
  private:
+  /// Regions of consecutive vertices: neighbours in a surface, anything in a soup.
+  static std::vector<Region_index> region_labels(Eigen::Index vertices, std::size_t regions) {
+    std::vector<Region_index> labels(static_cast<std::size_t>(vertices));
+    for (std::size_t v = 0; v < labels.size(); ++v) labels[v] = static_cast<Region_index>(v * regions / labels.size());
+    return labels;
+  }
+
   Posed_mesh posed(std::size_t mesh, std::size_t pose) const {
     return {meshes_[mesh].faces, meshes_[mesh].poses[pose]};
   }
@@ -158,8 +167,9 @@ Soak_result soak(std::uint64_t seed, std::size_t pairs, const std::function<void
     while (kind.pairs < share || kind.rounds < soak_frames_of_reference) {
       auto meshes = recipe.make(random);
       for (auto& mesh : meshes) move_to_frame_of_reference(mesh, kind.rounds % soak_frames_of_reference);
-      const std::size_t leaf_faces = 2 + random() % 127, threads = random() % 4 == 0 ? 3 : 1;
-      Round(meshes, leaf_faces, threads).run(kind);
+      const std::size_t regions = 1 + random() % 16, leaf_faces = 2 + random() % 127;
+      const std::size_t threads = random() % 4 == 0 ? 3 : 1;
+      Round(meshes, regions, leaf_faces, threads).run(kind);
       if (progress) progress(result.pairs + std::min(kind.pairs, share));
     }
     result.pairs += kind.pairs;

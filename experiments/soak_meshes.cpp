@@ -166,11 +166,47 @@ Pair touching(Random& random) {
   return pair;
 }
 
+/// The second mesh is a speck on a face of the first, down to the last digits of its coordinates.
+Pair unlike_sizes(Random& random) {
+  Pair pair{sphere_mesh(random), sphere_mesh(random)};
+  for (std::size_t pose = 0; pose < soak_poses; ++pose) {
+    const auto& [faces, poses] = pair[0];
+    const auto& [a, b, c] = faces[below(random, faces.size())];
+    const double s = real(random, 0, 1), t = real(random, 0, 1 - s);
+    const Eigen::RowVector3d there = (1 - s - t) * poses[pose].row(a) + s * poses[pose].row(b) + t * poses[pose].row(c);
+    auto& positions = pair[1].poses[pose];
+    const Eigen::RowVector3d middle = positions.colwise().mean();
+    positions = magnitude(random, 1e-15, 0.3) * (positions.rowwise() - middle);
+    positions.rowwise() += there;
+  }
+  return pair;
+}
+
+/// Faces in one tilted plane, up to rounding and a little more: their trees overlap in a sheet.
+Pair sheets(Random& random) {
+  const auto corners = [&](const Eigen::RowVector3d& middle, double size) {
+    return std::array<Eigen::RowVector3d, 3>{middle + place(random, size), middle + place(random, size),
+                                             middle + place(random, size)};
+  };
+  Pair pair{soup(random, corners), soup(random, corners)};
+  for (std::size_t pose = 0; pose < soak_poses; ++pose) {
+    const double thickness = random() % 4 == 0 ? 0 : magnitude(random, 1e-18, 1e-2);
+    const Eigen::RowVector3d slope = random() % 4 == 0 ? Eigen::RowVector3d::Zero() : place(random, 1);
+    for (auto& mesh : pair) {
+      auto& positions = mesh.poses[pose];
+      for (Eigen::Index v = 0; v < positions.rows(); ++v)
+        positions(v, 2) = thickness * positions(v, 2) + slope.x() * positions(v, 0) + slope.y() * positions(v, 1);
+    }
+  }
+  return pair;
+}
+
 }  // namespace
 
 std::vector<Soak_recipe> soak_recipes() {
   return {{"random soup", random_soups},  {"deformed spheres", spheres}, {"lattice", lattices},
-          {"zero-area faces", zero_area}, {"slivers", slivers},          {"touching", touching}};
+          {"zero-area faces", zero_area}, {"slivers", slivers},          {"touching", touching},
+          {"unlike sizes", unlike_sizes}, {"sheets", sheets}};
 }
 
 void move_to_frame_of_reference(Soak_mesh& mesh, std::size_t number) {
@@ -178,6 +214,9 @@ void move_to_frame_of_reference(Soak_mesh& mesh, std::size_t number) {
     if (number == 1) positions *= 0x1p-300;
     if (number == 2) positions *= 0x1p300;
     if (number == 3) positions.array() += 0x1p20;
+    // Where filters just still, or just no longer, may rely on products of three lengths.
+    if (number == 4) positions *= 0x1p-298;
+    if (number == 5) positions *= 0x1p298;
   }
 }
 

@@ -25,11 +25,11 @@ struct Soak_recipe {
 
 inline constexpr std::size_t soak_poses = 4;
 
-/// Every recipe: boxes of the two meshes overlap strongly, coordinates are of the order of 1.
+/// Every recipe: the boxes of the two meshes overlap, coordinates are of the order of 1.
 std::vector<Soak_recipe> soak_recipes();
 
 /// Takes all coordinates to the unit, or to the place, of the given number.
-inline constexpr std::size_t soak_frames_of_reference = 4;
+inline constexpr std::size_t soak_frames_of_reference = 6;
 void move_to_frame_of_reference(Soak_mesh& mesh, std::size_t number);
 
 }  // namespace lodestone

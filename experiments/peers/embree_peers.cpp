@@ -43,6 +43,34 @@ bool boxes_meet(const Triangle& a, const Triangle& b) {
   return true;
 }
 
+/// Whether all of b lies on one side of a's plane, by more than rounding can hide: then no exact test is needed.
+///
+/// A height above the plane is a sum of six products of three differences of coordinates, none longer than `reach`;
+/// what it loses to rounding stays below 60 units in the last place of reach^3.
+bool plane_separates(const Triangle& a, const Triangle& b) {
+  double ab[3], ac[3], reach = 0;
+  const auto difference = [&](const Point& to, double* d) {
+    for (int axis = 0; axis < 3; ++axis) {
+      d[axis] = to[axis] - a[0][axis];
+      reach = std::max(reach, std::abs(d[axis]));
+    }
+  };
+  difference(a[1], ab);
+  difference(a[2], ac);
+  const double normal[3] = {ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
+                            ab[0] * ac[1] - ab[1] * ac[0]};
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const Point& corner : b) {
+    double to[3];
+    difference(corner, to);
+    const double height = normal[0] * to[0] + normal[1] * to[1] + normal[2] * to[2];
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  const double lost = 1e-14 * reach * reach * reach + std::numeric_limits<double>::min();
+  return lowest > lost || highest < -lost;
+}
+
 /// Bounds of one triangle, for Embree.
 void bound(const RTCBoundsFunctionArguments* arguments) {
   const auto& mesh = *static_cast<const Moving_mesh*>(arguments->geometryUserPtr);
@@ -75,7 +103,7 @@ void decide(void* user, RTCCollision* pairs, unsigned count) {
   const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
   for (const RTCCollision* pair = pairs; pair != pairs + count; ++pair) {
     const Triangle a = triangle(*query.a, pair->primID0), b = triangle(*query.b, pair->primID1);
-    if (!boxes_meet(a, b) || !triangles_intersect(a, b)) continue;
+    if (!boxes_meet(a, b) || plane_separates(a, b) || plane_separates(b, a) || !triangles_intersect(a, b)) continue;
     if (query.stop_at_one) {
       query.found_one.store(true, std::memory_order_relaxed);
       return;
@@ -87,7 +115,9 @@ void decide(void* user, RTCCollision* pairs, unsigned count) {
 template <RTCBuildQuality quality, std::size_t threads>
 class Embree_peer : public Peer {
  public:
-  Embree_peer() : device_(rtcNewDevice(fmt::format("threads={}", most_threads).c_str())) {}
+  Embree_peer() : device_(rtcNewDevice(fmt::format("threads={}", most_threads).c_str())) {
+    rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
+  }
   ~Embree_peer() override {
     for (const auto& object : objects_) {
       rtcReleaseGeometry(object->geometry);
@@ -95,6 +125,9 @@ class Embree_peer : public Peer {
     }
     rtcReleaseDevice(device_);
   }
+
+  /// What Embree holds itself: it takes large blocks past the heap.
+  std::optional<std::size_t> bytes() const override { return static_cast<std::size_t>(bytes_.load()); }
 
   void add(const Moving_mesh& mesh) override {
     auto& object = *objects_.emplace_back(std::make_unique<Object>());
@@ -135,6 +168,12 @@ class Embree_peer : public Peer {
     RTCGeometry geometry;
   };
 
+  static bool count_bytes(void* count, ssize_t bytes, bool /*done*/) {
+    *static_cast<std::atomic<ssize_t>*>(count) += bytes;
+    return true;
+  }
+
+  std::atomic<ssize_t> bytes_ = 0;
   RTCDevice device_;
   /// A device's number of threads is that of all devices; what is called within an arena keeps to the arena's.
   tbb::task_arena arena_{static_cast<int>(threads)};

@@ -41,8 +41,12 @@ class Lodestone_entrant : public Entrant {
     answer_.update_seconds = frame.statistics.seconds.refit;
     answer_.any_seconds = timer.seconds() - answer_.update_seconds;
     answer_.collides.assign(pairs.size(), false);
+    answer_.elsewhere = 0;
     for (const auto& pair : frame.pairs)
-      if (const auto place = place_of(pair, pairs); place < pairs.size()) answer_.collides[place] = pair.collides;
+      if (const auto place = place_of(pair, pairs); place < pairs.size())
+        answer_.collides[place] = pair.collides;
+      else
+        answer_.elsewhere += pair.collides ? 1 : 0;
   }
 
   void ask_all(std::span<const Object_pair> pairs) {
@@ -51,10 +55,13 @@ class Lodestone_entrant : public Entrant {
     answer_.update_seconds = frame.statistics.seconds.refit;
     answer_.all_seconds = timer.seconds() - answer_.update_seconds;
     answer_.contacts.assign(pairs.size(), {});
+    answer_.elsewhere = 0;
     for (const auto& pair : frame.pairs)
       if (const auto place = place_of(pair, pairs); place < pairs.size()) {
         const auto contacts = frame.contacts(pair);
         answer_.contacts[place].assign(contacts.begin(), contacts.end());
+      } else {
+        answer_.elsewhere += pair.collides ? 1 : 0;
       }
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ class Peer {
   /// Adds all face pairs that intersect to `found`, in any order. Never called for a peer that does not report them.
   /// @throws Gave_up
   virtual void all(std::size_t a, std::size_t b, std::vector<Face_pair>& found) = 0;
+  /// Bytes that the library holds, where it keeps count; they need not come from the heap.
+  virtual std::optional<std::size_t> bytes() const { return std::nullopt; }
 };
 
 /// What stands in the row of a table, and how its peer is made.

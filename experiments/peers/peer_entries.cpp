@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "peer_entries.h"
 
+#include <limits>
+
 #include "lap_timer.h"
 #include "peer.h"
 
@@ -8,6 +10,7 @@ namespace lodestone {
 
 namespace {
 
+/// A library asked the two questions in rounds of their own: in a frame of either it updates, then answers.
 class Peer_entrant : public Entrant {
  public:
   Peer_entrant(std::unique_ptr<Peer> peer, bool reports_pairs, std::span<const Moving_mesh> meshes)
@@ -15,20 +18,17 @@ class Peer_entrant : public Entrant {
     for (const auto& mesh : meshes) peer_->add(mesh);
   }
 
-  const Answer& play(std::span<const Object_pair> pairs) override {
-    answer_.collides.assign(pairs.size(), false);
-    answer_.contacts.resize(pairs.size());
-    for (auto& contacts : answer_.contacts) contacts.clear();
+  std::optional<std::size_t> bytes() const override { return peer_->bytes(); }
+  std::size_t rounds() const override { return reports_pairs_ ? 2 : 1; }
+  void start_round(std::size_t round) override { asks_all_ = round == 1; }
 
+  const Answer& play(std::span<const Object_pair> pairs) override {
+    answer_.any_seconds = answer_.all_seconds = std::numeric_limits<double>::infinity();
     Lap_timer timer;
     for (std::size_t object = 0; object < objects_; ++object) peer_->update(object);
     answer_.update_seconds = timer.lap();
     try {
-      for (std::size_t p = 0; p < pairs.size(); ++p) answer_.collides[p] = peer_->any(pairs[p].a, pairs[p].b);
-      answer_.any_seconds = timer.lap();
-      if (!reports_pairs_) return answer_;
-      for (std::size_t p = 0; p < pairs.size(); ++p) peer_->all(pairs[p].a, pairs[p].b, answer_.contacts[p]);
-      answer_.all_seconds = timer.lap();
+      (asks_all_ ? answer_.all_seconds : answer_.any_seconds) = asks_all_ ? ask_all(pairs) : ask_any(pairs);
     } catch (const Gave_up&) {
       answer_.gave_up = true;
     }
@@ -36,9 +36,24 @@ class Peer_entrant : public Entrant {
   }
 
  private:
+  double ask_any(std::span<const Object_pair> pairs) {
+    answer_.collides.assign(pairs.size(), false);
+    const Lap_timer timer;
+    for (std::size_t p = 0; p < pairs.size(); ++p) answer_.collides[p] = peer_->any(pairs[p].a, pairs[p].b);
+    return timer.seconds();
+  }
+  double ask_all(std::span<const Object_pair> pairs) {
+    answer_.contacts.resize(pairs.size());
+    for (auto& contacts : answer_.contacts) contacts.clear();
+    const Lap_timer timer;
+    for (std::size_t p = 0; p < pairs.size(); ++p) peer_->all(pairs[p].a, pairs[p].b, answer_.contacts[p]);
+    return timer.seconds();
+  }
+
   std::unique_ptr<Peer> peer_;
   bool reports_pairs_;
   std::size_t objects_;
+  bool asks_all_ = false;
   Answer answer_;
 };
 

@@ -32,7 +32,7 @@ std::string sets_text(const Entry_figures& figures) {
 std::string table(const Scene_figures& scene) {
   Text_table table({"method", "volume", "build (ms)", "memory (MiB)", "update (ms)", "yes/no (ms)", "p95",
                     "update + yes/no (ms)", "all pairs (ms)", "p95", "update + all pairs (ms)", "wrong yes/no",
-                    "wrong sets"});
+                    "wrong sets", "passes"});
   for (const auto& f : scene.entries) {
     const auto cell = [&](bool shown, double Frame_seconds::*figure) {
       return shown ? milliseconds(median_of(f, figure)) : nothing;
@@ -46,7 +46,7 @@ std::string table(const Scene_figures& scene) {
                cell(any, &Frame_seconds::any), high(any, &Frame_seconds::any),
                cell(any, &Frame_seconds::update_and_any), cell(all, &Frame_seconds::all),
                high(all, &Frame_seconds::all), cell(all, &Frame_seconds::update_and_all), answers_text(f),
-               sets_text(f)});
+               sets_text(f), std::to_string(f.frames.empty() ? 0 : f.passes / f.frames.size())});
   }
   return table.text();
 }
@@ -60,7 +60,7 @@ std::string notes(const Scene_figures& scene) {
       text += fmt::format("{} gave up a query after {} s, in frame {}; wrong answers are counted before it.\n", name,
                           patience, scene.sampled[f.frames.size() - 1]);
     else if (f.left_early)
-      text += fmt::format("{} played {} of the {} frames, then its time was over.\n", name, f.frames.size(),
+      text += fmt::format("{} had not answered everything in all {} frames when its time was over.\n", name,
                           scene.sampled.size());
   }
   return text;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct Answer {
   double all_seconds = 0;                        ///< infinite: not asked in this round
   bool gave_up = false;                          ///< in one of the queries: only the update counts
   std::vector<bool> collides;                    ///< per pair asked for
+  std::size_t elsewhere = 0;                     ///< collisions of pairs not asked for, whose boxes are apart
   std::vector<std::vector<Face_pair>> contacts;  ///< per pair asked for, in any order
 };
 
@@ -31,6 +33,8 @@ class Entrant {
   Entrant& operator=(const Entrant&) = delete;
   virtual ~Entrant() = default;
 
+  /// What a library that allocates past the heap says itself that it holds; called right after it was built.
+  virtual std::optional<std::size_t> bytes() const { return std::nullopt; }
   /// Whatever only the measurement needs: called once, after time and memory of the build have been taken.
   virtual void prepare() {}
   /// Whether `approach` wants to be called: by methods whose frame goes on from the one before.

@@ -37,7 +37,7 @@ struct Frame_seconds {
 struct Entry_figures {
   Entry entry;
   double build_seconds = 0;
-  std::size_t bytes = 0;                   ///< of the heap, taken by the build and kept
+  std::size_t bytes = 0;                   ///< taken by the build and kept: of the heap, or see `Entrant::bytes`
   std::size_t passes = 0;                  ///< over all frames together
   std::vector<Frame_seconds> frames = {};  ///< per sampled frame that it played
   bool gave_up = false;                    ///< in the last of these frames, of which only the update counts

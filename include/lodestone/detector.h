@@ -127,11 +127,10 @@ class Detector {
     if (exact_) throw Bad_argument("objects of mode exact have no particles");
     return particles_->object(object);
   }
-  /// The state of one object in mode `exact`: its tree, empty before the first answer. Its volumes are those of the
-  /// last answer that the object was part of; its coordinates are the mesh's own memory: look at them before anything
-  /// moves.
+  /// The tree of one object in mode `exact`, empty before the first answer. Its volumes are those of the last answer
+  /// that the object was part of. It knows no positions, so nothing can be asked of it that they would decide.
   /// @throws Bad_argument  no such object, another mode
-  const Basic_tree_object<Volume>& tree(Object_id object) const { return of_exact(object).object(object); }
+  const Basic_region_tree<Volume>& tree(Object_id object) const { return of_exact(object).tree(object); }
   /// Its property maps.
   /// @throws Bad_argument  no such object, or one whose mesh could not be written to when it was added
   const Region_maps<Mesh>& maps(Object_id object) const {

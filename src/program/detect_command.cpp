@@ -169,7 +169,7 @@ nlohmann::ordered_json Run::summary() const {
                                {"vertices", scene_.objects[o].mesh.number_of_vertices()},
                                {"faces", scene_.objects[o].mesh.number_of_faces()}});
     if (exact)
-      json["objects"].back()["leaves"] = detector_.tree(o).tree().leaf_count();
+      json["objects"].back()["leaves"] = detector_.tree(o).leaf_count();
     else
       json["objects"].back()["particles"] = detector_.object(o).particles().at.size();
   }

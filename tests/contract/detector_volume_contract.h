@@ -98,8 +98,8 @@ TYPED_TEST_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_with_any_
       colliding += expect_exhaustive(found, all_of(meshes));
       expect_same_frame(shared.detect(), found);
       for (Object_id object = 0; object < meshes.size(); ++object) {
-        const auto& tree = alone.tree(object).tree();
-        EXPECT_EQ(tree.validate(Numbered_mesh(meshes[object]).faces, alone.tree(object).posed().coordinates), "");
+        const Numbered_mesh mesh(meshes[object]);
+        EXPECT_EQ(alone.tree(object).validate(mesh.faces, coordinates(mesh.positions)), "");
       }
       next_frame(meshes, frame);
     }

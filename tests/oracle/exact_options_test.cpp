@@ -43,7 +43,7 @@ TEST(Exact_options, at_the_ends_of_their_ranges_are_taken) {
                                  .exact = {.loosest = loosest, .tree = {.leaf_faces = leaf_faces}}});
         add_all(detector, {&a, &b});
         expect_contacts(detector.detect(), 0, 1, truth);
-        const Region_tree& tree = detector.tree(0).tree();
+        const Region_tree& tree = detector.tree(0);
         for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) EXPECT_LE(tree.faces(leaf).size(), leaf_faces);
       }
   Exact_detector detector({.mode = Mode::exact, .exact = {.tolerance = std::numeric_limits<double>::max()}});

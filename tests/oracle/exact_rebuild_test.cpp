@@ -93,8 +93,8 @@ TEST(Exact_rebuild, one_tree_is_built_anew_while_others_stay) {
   EXPECT_EQ(frame.statistics.repartitions, 1U);
   EXPECT_EQ(expect_exhaustive(frame, {&a, &soup, &b}), 3U);
   EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
-  const auto& tree = detector.tree(1);
-  EXPECT_EQ(tree.tree().validate(tree.corners(), tree.coordinates()), "");
+  const Numbered_mesh now(soup);
+  EXPECT_EQ(detector.tree(1).validate(now.faces, coordinates(now.positions)), "");
 }
 
 TEST(Exact_rebuild, does_not_happen_to_a_body_that_is_moved_or_turned) {

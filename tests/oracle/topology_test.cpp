@@ -79,9 +79,8 @@ TEST(Topology, is_right_after_rebuild) {
       detector.rebuild(0);
       for (int frame = 0; frame < 2; ++frame) {
         EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
-        EXPECT_EQ(
-            detector.tree(0).tree().validate(Mesh_numbering<Surface_mesh>(a).corners(), detector.tree(0).coordinates()),
-            "");
+        const Numbered_mesh now(a);
+        EXPECT_EQ(detector.tree(0).validate(now.faces, coordinates(now.positions)), "");
         shift(b, 0.01);
       }
     }

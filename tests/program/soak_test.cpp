@@ -10,10 +10,10 @@ TEST(Soak, a_short_one_finds_no_difference_in_any_kind_of_mesh_and_can_be_repeat
   const auto result = soak(7, 1), again = soak(7, 1);
   EXPECT_EQ(result.differences, 0U);
   EXPECT_EQ(result.invalid_trees, 0U);
-  ASSERT_EQ(result.kinds.size(), 6U);
+  ASSERT_EQ(result.kinds.size(), 8U);
   std::size_t pairs = 0, intersecting = 0;
   for (const auto& kind : result.kinds) {
-    EXPECT_EQ(kind.rounds, 4U) << kind.name;
+    EXPECT_EQ(kind.rounds, 6U) << kind.name;
     EXPECT_GT(kind.pairs, 5000U) << kind.name;
     EXPECT_GT(kind.intersecting, 20U) << kind.name;
     pairs += kind.pairs;
@@ -36,7 +36,7 @@ TEST(Soak, checks_at_least_as_many_pairs_as_asked_for_and_says_how_far_it_is) {
   EXPECT_GE(last, 600'000U);
   EXPECT_LE(last, result.pairs);
   EXPECT_EQ(result.differences, 0U);
-  for (const auto& kind : result.kinds) EXPECT_GE(kind.pairs, 100'000U) << kind.name;
+  for (const auto& kind : result.kinds) EXPECT_GE(kind.pairs, 75'000U) << kind.name;
 }
 
 }  // namespace

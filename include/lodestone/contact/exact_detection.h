@@ -67,7 +67,7 @@ class Exact_detection {
   Closest_faces closest(Object_pair pair);
   bool contains(Object_id outer, Object_id inner);
 
-  const Surface& object(Object_id object) const { return objects_[object]->surface; }
+  const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_[object]->surface.tree(); }
   const std::optional<Region_maps<Mesh>>& maps(Object_id object) const { return objects_[object]->maps; }
 
  private:
