@@ -15,7 +15,8 @@ struct Experiment_context {
   std::filesystem::path out;                                       ///< folder that receives all figures as JSON
   std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
   /// Names of the scenes to play, or of meshes and strategies; empty: those of the published figures. Heeded by
-  /// `peers`, `every_frame`, `volumes` and `partitions`; the other experiments are about their scenes, and play them all.
+  /// `peers`, `every_frame`, `volumes` and `partitions`; the other experiments are about their scenes, and play them
+  /// all.
   std::vector<std::string> only = {};
 
   // Of experiments that are sweeps of many runs: `partitions`.

@@ -27,8 +27,8 @@ struct Soak_result {
 /// Holds `Contact_search`, between two objects and within one, against checking all face pairs whose boxes overlap.
 ///
 /// Rounds are made from the seed: soups and surfaces of 200 to 2000 triangles, of every kind until it has its share of
-/// `pairs`; in one unit, in very small and very large ones, and far from the origin; with 1 to 16 regions, leaves of 2 to
-/// 128 faces, one and several threads. The same seed gives the same rounds.
+/// `pairs`; in one unit, in very small and very large ones, and far from the origin; with 1 to 16 regions, leaves of 2
+/// to 128 faces, one and several threads. The same seed gives the same rounds.
 ///
 /// @param pairs     at least so many face pairs with overlapping boxes
 /// @param progress  called with the pairs checked so far

@@ -204,8 +204,9 @@ Pair sheets(Random& random) {
 }  // namespace
 
 std::vector<Soak_recipe> soak_recipes() {
-  return {{"random soup", random_soups},  {"deformed spheres", spheres}, {"lattice", lattices},
-          {"zero-area faces", zero_area}, {"slivers", slivers},          {"touching", touching},
+  return {{"random soup", random_soups},  {"deformed spheres", spheres},
+          {"lattice", lattices},          {"zero-area faces", zero_area},
+          {"slivers", slivers},           {"touching", touching},
           {"unlike sizes", unlike_sizes}, {"sheets", sheets}};
 }
 

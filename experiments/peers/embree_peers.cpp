@@ -43,34 +43,6 @@ bool boxes_meet(const Triangle& a, const Triangle& b) {
   return true;
 }
 
-/// Whether all of b lies on one side of a's plane, by more than rounding can hide: then no exact test is needed.
-///
-/// A height above the plane is a sum of six products of three differences of coordinates, none longer than `reach`;
-/// what it loses to rounding stays below 60 units in the last place of reach^3.
-bool plane_separates(const Triangle& a, const Triangle& b) {
-  double ab[3], ac[3], reach = 0;
-  const auto difference = [&](const Point& to, double* d) {
-    for (int axis = 0; axis < 3; ++axis) {
-      d[axis] = to[axis] - a[0][axis];
-      reach = std::max(reach, std::abs(d[axis]));
-    }
-  };
-  difference(a[1], ab);
-  difference(a[2], ac);
-  const double normal[3] = {ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
-                            ab[0] * ac[1] - ab[1] * ac[0]};
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (const Point& corner : b) {
-    double to[3];
-    difference(corner, to);
-    const double height = normal[0] * to[0] + normal[1] * to[1] + normal[2] * to[2];
-    lowest = std::min(lowest, height);
-    highest = std::max(highest, height);
-  }
-  const double lost = 1e-14 * reach * reach * reach + std::numeric_limits<double>::min();
-  return lowest > lost || highest < -lost;
-}
-
 /// Bounds of one triangle, for Embree.
 void bound(const RTCBoundsFunctionArguments* arguments) {
   const auto& mesh = *static_cast<const Moving_mesh*>(arguments->geometryUserPtr);
@@ -103,7 +75,7 @@ void decide(void* user, RTCCollision* pairs, unsigned count) {
   const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
   for (const RTCCollision* pair = pairs; pair != pairs + count; ++pair) {
     const Triangle a = triangle(*query.a, pair->primID0), b = triangle(*query.b, pair->primID1);
-    if (!boxes_meet(a, b) || plane_separates(a, b) || plane_separates(b, a) || !triangles_intersect(a, b)) continue;
+    if (!boxes_meet(a, b) || !triangles_intersect(a, b)) continue;
     if (query.stop_at_one) {
       query.found_one.store(true, std::memory_order_relaxed);
       return;

@@ -45,8 +45,8 @@ std::string table(const Scene_figures& scene) {
                fmt::format("{:.1f}", static_cast<double>(f.bytes) / (1 << 20)), cell(true, &Frame_seconds::update),
                cell(any, &Frame_seconds::any), high(any, &Frame_seconds::any),
                cell(any, &Frame_seconds::update_and_any), cell(all, &Frame_seconds::all),
-               high(all, &Frame_seconds::all), cell(all, &Frame_seconds::update_and_all), answers_text(f),
-               sets_text(f), std::to_string(f.frames.empty() ? 0 : f.passes / f.frames.size())});
+               high(all, &Frame_seconds::all), cell(all, &Frame_seconds::update_and_all), answers_text(f), sets_text(f),
+               std::to_string(f.frames.empty() ? 0 : f.passes / f.frames.size())});
   }
   return table.text();
 }

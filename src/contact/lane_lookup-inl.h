@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <cstdint>
+#include <type_traits>
 
 #include "contact/near_boxes-inl.h"
 
@@ -22,46 +23,46 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Float_lanes = hn::Rebind<float, Vertex_lanes>;
 using Floats = hn::Vec<Float_lanes>;
 
-/// Coordinates of the corners of a face per lane, by axis and corner.
-struct Corner_coordinates {
-  Floats of[3][3];
-};
-
 #if HWY_TARGET <= HWY_AVX3
-/// A place in a column per lane.
-class Lane_places {
- public:
-  explicit HWY_INLINE Lane_places(hn::Vec<Vertex_lanes> places)
-      : lane_(hn::And(places, hn::Set(Vertex_lanes(), hn::MaxLanes(Vertex_lanes()) - 1))),
-        block_(hn::Sub(places, lane_)) {}
+/// As many places as a vector holds sides of boxes.
+using Box_places = hn::Rebind<std::uint16_t, Box_lanes>;
 
-  /// What is at these places if they are in the block of the column that starts at `start`, else `other`. A block is a
-  /// vector, and is looked up in a register.
-  template <class T>
-  HWY_INLINE hn::Vec<hn::Rebind<T, Vertex_lanes>> look_up(const T* column, std::size_t start,
-                                                          hn::Vec<hn::Rebind<T, Vertex_lanes>> other) const {
-    const hn::Rebind<T, Vertex_lanes> d;
-    const auto here = hn::RebindMask(d, hn::Eq(block_, hn::Set(Vertex_lanes(), static_cast<std::uint32_t>(start))));
-    const auto found = hn::TableLookupLanes(hn::Load(d, column + start), hn::IndicesFromVec(d, lane_));
-    return hn::IfThenElse(here, found, other);
-  }
+/// Two registers of a column looked up as one table, of which the lowest bits of a place choose a number. Highway has
+/// no such function yet.
+HWY_INLINE Floats look_up_block(const float* block, hn::Vec<Vertex_lanes> places) {
+  const Float_lanes d;
+  return Floats{_mm512_permutex2var_ps(hn::Load(d, block).raw, places.raw, hn::Load(d, block + hn::Lanes(d)).raw)};
+}
+HWY_INLINE hn::Vec<Vertex_lanes> look_up_block(const std::uint32_t* block, hn::Vec<Vertex_lanes> places) {
+  const Vertex_lanes d;
+  return hn::Vec<Vertex_lanes>{
+      _mm512_permutex2var_epi32(hn::Load(d, block).raw, places.raw, hn::Load(d, block + hn::Lanes(d)).raw)};
+}
+HWY_INLINE Sides look_up_block(const std::int16_t* block, hn::Vec<Box_places> places) {
+  const Box_lanes d;
+  return Sides{_mm512_permutex2var_epi16(hn::Load(d, block).raw, places.raw, hn::Load(d, block + hn::Lanes(d)).raw)};
+}
 
- private:
-  hn::Vec<Vertex_lanes> lane_, block_;
+/// What three columns of numbers hold at some places.
+template <class T, class Places>
+struct Looked_up {
+  hn::Vec<hn::Rebind<T, Places>> of[3];
 };
 
-/// @param corners  places of vertices, by corner
-HWY_INLINE Corner_coordinates look_up_corners(const Face_columns::Positions& positions, std::size_t vertex_count,
-                                              const hn::Vec<Vertex_lanes> (&corners)[3]) {
-  const Lane_places places[]{Lane_places(corners[0]), Lane_places(corners[1]), Lane_places(corners[2])};
-  Corner_coordinates coordinates;
-  for (auto& of_axis : coordinates.of)
-    for (auto& of_corner : of_axis) of_corner = hn::Zero(Float_lanes());
-  for (std::size_t start = 0; start < vertex_count; start += hn::MaxLanes(Float_lanes()))
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        coordinates.of[axis][corner] = places[corner].look_up(positions[axis], start, coordinates.of[axis][corner]);
-  return coordinates;
+/// @param count  every place is below it; a column is read in whole blocks
+template <class Places, class Column>
+HWY_INLINE auto look_up(Places d, const Column (&columns)[3], std::size_t count, hn::Vec<Places> places) {
+  using T = std::remove_const_t<std::remove_all_extents_t<Column>>;
+  constexpr std::size_t block = 2 * hn::MaxLanes(d);
+  Looked_up<T, Places> found{
+      {look_up_block(columns[0], places), look_up_block(columns[1], places), look_up_block(columns[2], places)}};
+  for (std::size_t start = block; start < count; start += block) {
+    const auto past = hn::Gt(places, hn::Set(d, static_cast<hn::TFromD<Places>>(start - 1)));
+    const auto in_block = hn::RebindMask(hn::Rebind<T, Places>(), past);
+    for (std::size_t c = 0; c < 3; ++c)
+      found.of[c] = hn::IfThenElse(in_block, look_up_block(columns[c] + start, places), found.of[c]);
+  }
+  return found;
 }
 #endif
 

@@ -11,7 +11,7 @@
 namespace lodestone::kernel {
 
 /// The corners of so many faces past a leaf's last are read, whatever they are.
-inline constexpr std::size_t faces_ahead = most_float_lanes;
+inline constexpr std::size_t faces_ahead = most_box_lanes;
 
 /// A leaf as the kernel reads it.
 struct Leaf_view {

@@ -77,10 +77,9 @@ HWY_INLINE hn::Vec<D> load_position(const Leaf_view& leaf, std::size_t place, st
   return load_last(leaf.coordinates + 3 * std::size_t{leaf.vertices[place]}, i);
 }
 
-/// Boxes of faces, rounded, by axis.
-struct alignas(64) Rounded_boxes {
-  float low[3][most_leaf_faces + most_float_lanes];
-  float high[3][most_leaf_faces + most_float_lanes];
+/// In which steps the vertices of a leaf are, by axis.
+struct alignas(64) Vertex_steps {
+  std::int16_t of[3][3 * most_leaf_faces + most_box_lanes];
 };
 
 #if HWY_TARGET <= HWY_AVX3
@@ -113,30 +112,26 @@ HWY_INLINE void round_positions(const Leaf_view& leaf, const Leaf_request& reque
   }
 }
 
-HWY_INLINE void copy_corners(const Leaf_view& leaf, Face_columns& faces) {
-  const Vertex_lanes d;
-  const hn::Rebind<std::uint16_t, Vertex_lanes> narrow;
+/// Bounds of the steps of the corners of all faces: `low` of where they are, `high` of where they are moved to.
+HWY_INLINE void fit_boxes(const Leaf_view& leaf, const Vertex_steps& here, const Vertex_steps& moved) {
+  const Box_lanes d;
+  const Box_places places;
+  const Vertex_lanes wide;
+  Face_columns& faces = *leaf.faces;
   for (std::size_t first = 0; first < leaf.face_count; first += hn::Lanes(d)) {
-    hn::Vec<hn::Rebind<std::uint16_t, Vertex_lanes>> places[3];
-    hn::LoadInterleaved3(narrow, leaf.corners[first].data(), places[0], places[1], places[2]);
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      hn::Store(hn::PromoteTo(d, places[corner]), d, faces.corners[corner] + first);
-  }
-}
-
-/// Bounds of the corners of all faces: `low` of where they are, `high` of where they are moved to.
-HWY_INLINE void round_boxes(const Leaf_view& leaf, const Face_columns::Positions& moved, Rounded_boxes& boxes) {
-  const Float_lanes d;
-  const Face_columns& faces = *leaf.faces;
-  for (std::size_t first = 0; first < leaf.face_count; first += hn::Lanes(d)) {
-    const auto corner = [&](std::size_t i) HWY_ATTR { return hn::Load(Vertex_lanes(), faces.corners[i] + first); };
-    const hn::Vec<Vertex_lanes> corners[]{corner(0), corner(1), corner(2)};
-    const auto here = look_up_corners(faces.positions, leaf.vertex_count, corners);
-    const auto there = &moved == &faces.positions ? here : look_up_corners(moved, leaf.vertex_count, corners);
+    hn::Vec<Box_places> corners[3];
+    hn::LoadInterleaved3(places, leaf.corners[first].data(), corners[0], corners[1], corners[2]);
+    Looked_up<std::int16_t, Box_places> low[3], high[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = look_up(places, here.of, leaf.vertex_count, corners[c]);
+      high[c] = &moved == &here ? low[c] : look_up(places, moved.of, leaf.vertex_count, corners[c]);
+      hn::Store(hn::PromoteTo(wide, hn::LowerHalf(corners[c])), wide, faces.corners[c] + first);
+      hn::Store(hn::PromoteTo(wide, hn::UpperHalf(hn::Half<Box_places>(), corners[c])), wide,
+                faces.corners[c] + first + hn::Lanes(wide));
+    }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto &low = here.of[axis], &high = there.of[axis];
-      hn::Store(hn::Min(hn::Min(low[0], low[1]), low[2]), d, boxes.low[axis] + first);
-      hn::Store(hn::Max(hn::Max(high[0], high[1]), high[2]), d, boxes.high[axis] + first);
+      hn::Store(hn::Min(hn::Min(low[0].of[axis], low[1].of[axis]), low[2].of[axis]), d, faces.low[axis] + first);
+      hn::Store(hn::Max(hn::Max(high[0].of[axis], high[1].of[axis]), high[2].of[axis]), d, faces.high[axis] + first);
     }
   }
 }
@@ -152,52 +147,49 @@ HWY_INLINE void round_positions(const Leaf_view& leaf, const Leaf_request& reque
   }
 }
 
-HWY_INLINE void copy_corners(const Leaf_view& leaf, Face_columns& faces) {
-  for (std::size_t f = 0; f < leaf.face_count; ++f)
-    for (std::size_t corner = 0; corner < 3; ++corner) faces.corners[corner][f] = leaf.corners[f][corner];
-}
-
-HWY_INLINE void round_boxes(const Leaf_view& leaf, const Face_columns::Positions& moved, Rounded_boxes& boxes) {
+HWY_INLINE void fit_boxes(const Leaf_view& leaf, const Vertex_steps& here, const Vertex_steps& moved) {
   for (std::size_t f = 0; f < leaf.face_count; ++f) {
     const auto& [p, q, r] = leaf.corners[f];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto &low = leaf.faces->positions[axis], &high = moved[axis];
-      boxes.low[axis][f] = std::min({low[p], low[q], low[r]});
-      boxes.high[axis][f] = std::max({high[p], high[q], high[r]});
+      const auto &low = here.of[axis], &high = moved.of[axis];
+      leaf.faces->low[axis][f] = std::min({low[p], low[q], low[r]});
+      leaf.faces->high[axis][f] = std::max({high[p], high[q], high[r]});
     }
   }
 }
 #endif
 
-/// Writes the boxes in steps.
-HWY_INLINE void boxes_to_steps(const Rounded_boxes& boxes, const Leaf_request& request, std::size_t count,
-                               Face_columns& faces) {
+HWY_INLINE void positions_to_steps(const Face_columns::Positions& positions, const Leaf_request& request,
+                                   std::size_t count, Vertex_steps& to) {
   const Float_lanes d;
   const hn::Rebind<std::int16_t, Float_lanes> narrow;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto per_unit = hn::Set(d, request.steps_per_unit[axis]);
-    for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
-      hn::Store(steps(d, hn::Load(d, boxes.low[axis] + first), per_unit), narrow, faces.low[axis] + first);
-      hn::Store(steps(d, hn::Load(d, boxes.high[axis] + first), per_unit), narrow, faces.high[axis] + first);
-    }
+    for (std::size_t first = 0; first < count; first += hn::Lanes(d))
+      hn::Store(steps(d, hn::Load(d, positions[axis] + first), per_unit), narrow, to.of[axis] + first);
   }
-  end_columns(faces, count);
 }
 
 /// Fills in where the faces of a leaf are.
 HWY_INLINE void pose(const Leaf_view& leaf, const Leaf_request& request) {
   Face_columns& faces = *leaf.faces;
-  alignas(64) Face_columns::Positions moved;
-  Rounded_boxes boxes;
+  Vertex_steps here;
   round_positions(leaf, request, 0, faces.positions);
-  if (request.margin > 0) round_positions(leaf, request, request.margin, moved);
-  copy_corners(leaf, faces);
-  round_boxes(leaf, request.margin > 0 ? moved : faces.positions, boxes);
+  positions_to_steps(faces.positions, request, leaf.vertex_count, here);
+  if (request.margin > 0) {
+    alignas(64) Face_columns::Positions moved_positions;
+    Vertex_steps moved;
+    round_positions(leaf, request, request.margin, moved_positions);
+    positions_to_steps(moved_positions, request, leaf.vertex_count, moved);
+    fit_boxes(leaf, here, moved);
+  } else {
+    fit_boxes(leaf, here, here);
+  }
   if (request.one_mesh)
     for (std::size_t corner = 0; corner < 3; ++corner)
       for (std::size_t f = 0; f < leaf.face_count; ++f)
         faces.vertices[corner][f] = leaf.vertices[leaf.corners[f][corner]];
-  boxes_to_steps(boxes, request, leaf.face_count, faces);
+  end_columns(faces, leaf.face_count);
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

@@ -26,7 +26,7 @@ struct alignas(64) Face_columns {
   alignas(64) Sides low[3];         ///< by axis: the face's box, in steps
   Sides high[3];                    ///< moved out by the margin
   std::size_t count;                ///< of faces; 0: nothing else is known
-  alignas(64) Places corners[3];    ///< places of vertices
+  alignas(64) Places corners[3];    ///< places of vertices, where columns are looked up by instructions
   alignas(64) Positions positions;  ///< of the leaf's vertices: rounded, not moved
   alignas(64) Places vertices[3];   ///< within one mesh: the numbers of the corners in it
 };
@@ -39,8 +39,8 @@ struct Face_list {
 
 /// Some boxes of b that one of a's is near.
 struct Near_row {
-  std::uint32_t bits;  ///< one per box, from the `first_b`th on
-  std::uint8_t face_a, first_b;
+  std::uint32_t bits;    ///< one per box
+  std::uint32_t places;  ///< of a's face, and 256 times that of the first of b's boxes: bytes would be merged slowly
 };
 
 /// Memory of leaf against leaf.

@@ -200,7 +200,7 @@ HWY_INLINE std::size_t add_row(const Limits& box, const Face_columns& a, std::si
   std::uint32_t bits = mask_bits(Box_lanes(), near_boxes(box, b, start));
   if constexpr (one_mesh) bits = leave_out_neighbours(bits, a, face, b, start);
   // It is written over unless it counts: no branch could foretell which do.
-  list[rows] = {bits, static_cast<std::uint8_t>(face), static_cast<std::uint8_t>(start)};
+  list[rows] = {bits, static_cast<std::uint32_t>(face + 256 * start)};
   return rows + (bits != 0 ? 1 : 0);
 }
 
@@ -210,8 +210,8 @@ HWY_INLINE std::size_t list_pairs_of_rows(std::size_t rows, Leaf_scratch& scratc
   std::size_t count = 0;
   for (std::size_t r = 0; r < rows; ++r) {
     const Near_row row = scratch.rows[r];
-    repeat_byte(row.face_a, hn::MaxLanes(Box_lanes()), scratch.pairs_a + count);
-    count += list_lanes(row.bits, row.first_b, scratch.pairs_b + count);
+    repeat_byte(row.places % 256, hn::MaxLanes(Box_lanes()), scratch.pairs_a + count);
+    count += list_lanes(row.bits, row.places / 256, scratch.pairs_b + count);
   }
   return count;
 }

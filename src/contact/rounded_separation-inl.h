@@ -35,31 +35,33 @@ struct Rounded_corners {
   Rounded_vector of[3];
 };
 
-HWY_INLINE Rounded_corners load_corners(const Leaf_view& leaf, const std::uint8_t* faces) {
-  Corner_coordinates coordinates;
 #if HWY_TARGET <= HWY_AVX3
-  const Face_columns& columns = *leaf.faces;
-  const Lane_places places(hn::PromoteTo(Vertex_lanes(), hn::LoadU(hn::Rebind<std::uint8_t, Vertex_lanes>(), faces)));
-  hn::Vec<Vertex_lanes> corners[3];
-  for (auto& corner : corners) corner = hn::Zero(Vertex_lanes());
-  for (std::size_t start = 0; start < columns.count; start += hn::MaxLanes(Vertex_lanes()))
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      corners[corner] = places.look_up(columns.corners[corner], start, corners[corner]);
-  coordinates = look_up_corners(columns.positions, leaf.vertex_count, corners);
+HWY_INLINE Rounded_corners load_corners(const Leaf_view& leaf, const std::uint8_t* faces) {
+  const Vertex_lanes d;
+  const auto places = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint8_t, Vertex_lanes>(), faces));
+  const auto corners = look_up(d, leaf.faces->corners, leaf.faces->count, places);
+  Rounded_corners rounded;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const auto [x, y, z] = look_up(d, leaf.faces->positions, leaf.vertex_count, corners.of[corner]).of;
+    rounded.of[corner] = {x, y, z};
+  }
+  return rounded;
+}
 #else
-  alignas(64) float of[3][3][hn::MaxLanes(Float_lanes())];
-  for (std::size_t lane = 0; lane < hn::MaxLanes(Float_lanes()); ++lane)
+HWY_INLINE Rounded_corners load_corners(const Leaf_view& leaf, const std::uint8_t* faces) {
+  const Float_lanes d;
+  alignas(64) float of[3][3][hn::MaxLanes(d)];
+  for (std::size_t lane = 0; lane < hn::MaxLanes(d); ++lane)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::size_t vertex = leaf.corners[faces[lane]][corner];
-      for (std::size_t axis = 0; axis < 3; ++axis) of[axis][corner][lane] = leaf.faces->positions[axis][vertex];
+      for (std::size_t axis = 0; axis < 3; ++axis) of[corner][axis][lane] = leaf.faces->positions[axis][vertex];
     }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      coordinates.of[axis][corner] = hn::Load(Float_lanes(), of[axis][corner]);
-#endif
-  const auto& [x, y, z] = coordinates.of;
-  return {{{x[0], y[0], z[0]}, {x[1], y[1], z[1]}, {x[2], y[2], z[2]}}};
+  Rounded_corners rounded;
+  for (std::size_t corner = 0; corner < 3; ++corner)
+    rounded.of[corner] = {hn::Load(d, of[corner][0]), hn::Load(d, of[corner][1]), hn::Load(d, of[corner][2])};
+  return rounded;
 }
+#endif
 
 /// The largest coordinates within the boxes of two leaves, without sign.
 HWY_INLINE Rounded_vector largest_coordinates(const Leaf_request& request, const Aabb& a, const Aabb& b) {
