@@ -25,7 +25,8 @@ constexpr Chosen_scene chosen_scenes[] = {{"teapot_sphere_1"},
                                           {"cloth_sphere_80k", Truth_source::exact_mode},
                                           {"bodies_20_5k", Truth_source::exact_mode},
                                           {"torus_knots_200k", Truth_source::exact_mode},
-                                          {"spheres_500k", Truth_source::exact_mode}};
+                                          {"spheres_500k", Truth_source::exact_mode},
+                                          {"spheres_2m", Truth_source::exact_mode}};
 
 std::vector<Setting> mode_settings() {
   std::vector<Setting> settings;

@@ -82,7 +82,8 @@ class Detector {
   /// @throws Bad_argument  no such object, another mode
   /// @throws Bad_mesh      another number of rows, a coordinate that is not finite; the object stays as it was
   void update(Object_id object, const Eigen::Ref<const Positions>& positions);
-  /// Says that faces of an object's mesh have come, gone or changed. It is numbered, partitioned and built anew.
+  /// Says that faces of an object's mesh have come, gone or changed. It is numbered, partitioned and built anew. Other
+  /// numbers of vertices or faces are noticed without it, an edge that was flipped is not.
   /// @throws Bad_argument  no such object
   /// @throws Bad_mesh      as `add`; the object stays as it was
   void rebuild(Object_id object);

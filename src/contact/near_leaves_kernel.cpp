@@ -26,7 +26,7 @@ struct Grown_box {
 };
 
 /// 1 if two boxes are within the margin of each other, as `near(Aabb, Aabb, margin)`, else 0.
-HWY_INLINE std::size_t near_boxes(const Grown_box& a, const Aabb& b, double margin) {
+HWY_INLINE std::size_t is_near(const Grown_box& a, const Aabb& b, double margin) {
   const Grown_box other(b, margin);
   std::uint32_t near = 0;
   for (std::size_t i = 0; i < vectors; ++i) {
@@ -43,7 +43,7 @@ HWY_INLINE std::size_t list_leaves(const Leaf_bunch& leaves, const Aabb& box, do
   std::size_t count = 0;
   for (std::uint32_t leaf = 0; leaf < leaves.count; ++leaf) {
     list[count] = static_cast<std::uint8_t>(leaf);
-    count += near_boxes(grown, leaves.boxes[leaves.nodes[leaf]], margin);
+    count += is_near(grown, leaves.boxes[leaves.nodes[leaf]], margin);
   }
   return count;
 }
@@ -58,7 +58,7 @@ void list_near_leaves_kernel(const Leaf_bunch& a, const Leaf_bunch& b, double ma
     for (std::size_t j = 0; j < count_b; ++j) {
       near.a[count] = leaves_a[i];
       near.b[count] = leaves_b[j];
-      count += near_boxes(box, b.boxes[b.nodes[leaves_b[j]]], margin);
+      count += is_near(box, b.boxes[b.nodes[leaves_b[j]]], margin);
     }
   }
   near.count = count;

@@ -211,7 +211,7 @@ void add_experiment(CLI::App& program, Experiment_command& command) {
       ->type_name("DIR")
       ->default_str("data/scenes of the source");
   app.add_option("--only", command.only,
-                 "Scenes to play in place of all, by name (peers, volumes); meshes and strategies (partitions)")
+                 "Scenes to play in place of all, by name (peers, every_frame, volumes); meshes and strategies (partitions)")
       ->delimiter(',')
       ->type_name("NAME");
   app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")

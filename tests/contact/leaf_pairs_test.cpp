@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "guarded_coordinates.h"
 #include "hard_pairs.h"
 #include "leaf_pairs.h"
 #include "lodestone/contact/triangle_distance.h"
@@ -111,6 +112,32 @@ TEST(Leaf_pairs, never_leave_out_faces_nearer_than_the_margin) {
   });
   EXPECT_GT(tally.true_ones, 300U) << "of one in 16";
   EXPECT_LT(tally.near, tally.pairs * 3 / 4);
+}
+
+TEST(Leaf_pairs, never_read_past_the_last_vertex) {
+  std::size_t near = 0;
+  for (const std::uint32_t frequency : {1U, 2U, 4U, 7U}) {
+    const Face_soup ball(icosphere(frequency)), other = placed(ball, 1, 0.3);
+    for (const auto& soup : {ball, shuffled(ball, 1)}) {
+      const Guarded_coordinates here(soup.coordinates), there(other.coordinates);
+      for (const std::size_t leaf_faces : {3, 31, 128})
+        for_instruction_sets([&] {
+          const Region_tree a(soup.faces, {}, here.values(), {.leaf_faces = leaf_faces});
+          const Region_tree b(other.faces, {}, there.values(), {.leaf_faces = leaf_faces});
+          const Posed_tree posed_a{&a, here.values()}, posed_b{&b, there.values()};
+          Leaf_pairs leaf_pairs;
+          for (const double margin : {0.0, 0.1}) {
+            leaf_pairs.begin(posed_a, posed_b, margin);
+            for (std::uint32_t s = 0; s < a.leaf_count(); ++s)
+              for (std::uint32_t t = 0; t < b.leaf_count(); ++t) near += leaf_pairs.near_faces(s, t).size();
+          }
+          leaf_pairs.begin_within(posed_a);
+          for (std::uint32_t s = 0; s < a.leaf_count(); ++s)
+            for (std::uint32_t t = s; t < a.leaf_count(); ++t) near += leaf_pairs.near_faces(s, t).size();
+        });
+    }
+  }
+  EXPECT_GT(near, 1000U);
 }
 
 TEST(Leaf_pairs, know_an_edge_that_passes_through_the_other_face) {

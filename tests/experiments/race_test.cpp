@@ -141,6 +141,30 @@ TEST_F(Race, who_answers_in_rounds_is_held_to_what_each_is_about) {
   EXPECT_EQ(entry.frames.at(0).update_and_all, 2.5);
 }
 
+TEST_F(Race, collisions_of_pairs_whose_boxes_are_apart_count_as_invented) {
+  const auto entry = measured(liar({.collides = {true}, .elsewhere = 2, .contacts = {{}}})).entries.at(0);
+  EXPECT_EQ(entry.invented, 1U + 3 * 2U);  // one in frame 3, two in each of three frames
+  EXPECT_FALSE(entry.any_is_right());
+}
+
+/// Keeps count of its memory.
+class Counts_bytes : public One_by_one {
+ public:
+  using One_by_one::One_by_one;
+  std::optional<std::size_t> bytes() const override { return 12345; }
+};
+
+TEST_F(Race, who_knows_what_it_holds_is_believed) {
+  std::vector<std::size_t> rounds;
+  const auto entry =
+      measured({.library = "test",
+                .method = "count",
+                .volume = "none",
+                .build = [&rounds](std::span<const Moving_mesh>) { return std::make_unique<Counts_bytes>(rounds); }})
+          .entries.at(0);
+  EXPECT_EQ(entry.bytes, 12345U);
+}
+
 TEST_F(Race, figures_are_the_least_over_the_passes) {
   const auto figures = measured(
       liar({.update_seconds = 0.5, .any_seconds = 0.25, .all_seconds = 2, .collides = {true}, .contacts = {{}}}),

@@ -140,6 +140,26 @@ TEST(Exact_detector, lists_at_most_so_many_contacts_and_says_when_there_are_more
     }
 }
 
+TEST(Exact_detector, a_visitor_sees_what_is_within_the_tolerance_until_it_stops) {
+  auto a = sphere(10), b = sphere(10, 1, {0.8, 0.1, 0.2});
+  for (const double tolerance : {0.0, 0.05}) {
+    Exact_detector detector({.mode = Mode::exact, .exact = {.tolerance = tolerance}});
+    add_all(detector, {&a, &b});
+    const auto truth = tolerance > 0 ? near_face_pairs(a, b, tolerance) : exhaustive_face_pairs(a, b);
+    for (const std::size_t most : {std::size_t{1}, std::size_t{7}, truth.size(), truth.size() + 1}) {
+      std::vector<Face_pair> seen;
+      const Visit ended = detector.visit(0, 1, [&](Face_pair pair) {
+        seen.push_back(pair);
+        return seen.size() < most ? Visit::go_on : Visit::stop;
+      });
+      EXPECT_EQ(ended, most <= truth.size() ? Visit::stop : Visit::go_on);
+      EXPECT_EQ(seen.size(), std::min(most, truth.size()));
+      std::ranges::sort(seen);
+      EXPECT_TRUE(std::ranges::includes(truth, seen)) << tolerance;
+    }
+  }
+}
+
 TEST(Exact_detector, a_cap_counts_for_each_pair_of_objects) {
   const auto a = sphere(8), b = sphere(8, 1, {0.8, 0.1, 0.2}), c = sphere(3, 0.2, {-1, 0, 0});
   const auto many = exhaustive_face_pairs(a, b), few = exhaustive_face_pairs(a, c);

@@ -68,6 +68,26 @@ TEST_F(Exact, writes_the_same_bytes_for_any_number_of_threads) {
   }
 }
 
+TEST_F(Exact, writes_the_same_bytes_where_threads_share_a_walk) {
+  // Trees of some 800 leaves, of which far more pairs are near each other than one thread looks at alone.
+  const auto scene = write("large.json", R"({"frames": 3, "objects": [
+      {"name": "left", "shape": {"icosphere": {"frequency": 62}}},
+      {"name": "right", "shape": {"icosphere": {"frequency": 60}}, "motion": {"deform": [
+        {"wobble": {"amplitude": 0.05, "waves": 3, "period": 7}},
+        {"travel": {"path": "linear", "way_points": [{"frame": 0, "at": [0.3, 0.1, 0]},
+                                                     {"frame": 2, "at": [0.5, 0.2, 0.1]}]}}]}}]})");
+  const std::vector<std::string> options{"--contacts", "all", "--self"};
+  expect_success(detect(scene, options));
+  for (const auto& frame : frames()) EXPECT_GT(frame["statistics"]["leaf_tests"], 1000);
+  const auto expected = read_bytes(out / "frames.jsonl");
+  for (const auto* threads : {"2", "3"}) {
+    auto with_threads = options;
+    with_threads.insert(with_threads.end(), {"--threads", threads});
+    expect_success(detect(scene, with_threads));
+    EXPECT_EQ(read_bytes(out / "frames.jsonl"), expected) << threads;
+  }
+}
+
 TEST_F(Exact, says_which_object_lies_inside_which) {
   expect_success(detect(write_bodies(), {"--containment"}));
   const auto first = frames().at(0);

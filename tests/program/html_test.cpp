@@ -369,7 +369,7 @@ TEST_F(Html, of_a_partition_is_the_same_twice) {
 void write_small_scenes(const Temporary_folder& folder) {
   for (const std::string name :
        {"teapot_sphere_1", "torus_knots", "cloth_sphere", "bodies_20", "spheres_5k", "spheres_50k", "torus_knots_20k",
-        "cloth_sphere_80k", "bodies_20_5k", "torus_knots_200k", "spheres_500k"})
+        "cloth_sphere_80k", "bodies_20_5k", "torus_knots_200k", "spheres_500k", "spheres_2m"})
     folder.write(name + ".json", R"({"frames": 3, "objects": [
       {"name": "still", "shape": {"icosphere": {"frequency": 5}}},
       {"name": "moving", "shape": {"icosphere": {"frequency": 4}}, "motion": {"deform": [{"travel":

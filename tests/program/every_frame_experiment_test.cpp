@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "io/temporary_folder.h"
+#include "program/run_program.h"
+
+namespace lodestone::test {
+namespace {
+
+TEST(Every_frame_experiment, counts_what_it_checked_in_each_scene) {
+  const Temporary_folder folder;
+  // The two boxes are apart in frame 0, overlap in frame 1, and the spheres meet in frames 2 and 3.
+  folder.write("tiny.json", R"({"frames": 4, "objects": [
+      {"name": "still", "shape": {"icosphere": {"frequency": 5}}},
+      {"name": "far", "shape": {"icosphere": {"frequency": 2}}, "place": {"translate": [50, 0, 0]}},
+      {"name": "moving", "shape": {"icosphere": {"frequency": 4}}, "motion": {"deform": [{"travel":
+        {"path": "linear", "way_points": [{"frame": 0, "at": [5, 0, 0]}, {"frame": 1, "at": [1.5, 1.5, 1]},
+                                          {"frame": 2, "at": [1.5, 0, 0]}]}}]}}]})");
+  const auto out = folder.path() / "out";
+  expect_success(run_program(
+      {"experiment", "every_frame", "--scenes", folder.path().string(), "--only", "tiny", "--out", out.string()}));
+  EXPECT_EQ(content_of(out), (std::set<std::string>{"every_frame.json", "every_frame.md"}));
+  const auto figures = read_json(out / "every_frame.json");
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures[0]["scene"], "tiny");
+  EXPECT_EQ(figures[0]["frames"], 4);
+  EXPECT_EQ(figures[0]["object_pairs"], 4 * 3);
+  EXPECT_EQ(figures[0]["intersecting"], 2);
+  EXPECT_GT(figures[0]["face_pairs"], 20);
+  EXPECT_EQ(figures[0]["wrong_answers"], 0);
+  EXPECT_EQ(figures[0]["wrong_sets"], 0);
+}
+
+TEST(Every_frame_experiment, refuses_a_scene_that_does_not_exist) {
+  const Temporary_folder folder;
+  expect_error(run_program({"experiment", "every_frame", "--scenes", folder.path().string(), "--only", "none", "--out",
+                            (folder.path() / "out").string()}),
+               3, "none.json");
+}
+
+}  // namespace
+}  // namespace lodestone::test
