@@ -165,6 +165,8 @@ struct Numbered_mesh {
         graph(vertex_graph(numbering.vertex_count(), numbering.corners())),
         positions(read_positions(numbering, mesh.points())),
         faces(numbering.corners()) {}
+
+  std::span<const double> coordinates() const { return {positions.data(), static_cast<std::size_t>(positions.size())}; }
 };
 
 /// Sizes of the connected pieces of each label, by flooding; vertices without edges are passed over.

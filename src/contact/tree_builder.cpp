@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 
 #include "contact/leaf_pair_kernel.h"
 
@@ -68,7 +67,8 @@ void Tree_builder::add_faces(std::span<Item> faces) {
   add_parts(faces, faces.size() * (leaves / 2) / leaves, [this](std::span<Item> part) { add_faces(part); });
 }
 
-void Tree_builder::split(std::span<Item> items, std::size_t first_count) {
+template <class Add>
+void Tree_builder::add_parts(std::span<Item> items, std::size_t first_count, Add add) {
   Eigen::AlignedBox3d box;
   for (const Item& item : items) box.extend(item.centre);
   int axis = 0;
@@ -79,11 +79,7 @@ void Tree_builder::split(std::span<Item> items, std::size_t first_count) {
     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.number < b.number;
   };
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(first_count), items.end(), before);
-}
 
-template <class Add>
-void Tree_builder::add_parts(std::span<Item> items, std::size_t first_count, Add add) {
-  split(items, first_count);
   const std::size_t node = tree_.nodes_.size();
   tree_.nodes_.push_back({.leaf = static_cast<std::uint32_t>(tree_.leaf_nodes_.size())});
   add(items.first(first_count));
@@ -92,20 +88,8 @@ void Tree_builder::add_parts(std::span<Item> items, std::size_t first_count, Add
   tree_.nodes_[node].end_leaf = static_cast<std::uint32_t>(tree_.leaf_nodes_.size());
 }
 
-void Tree_builder::order_leaf(std::span<Item> items) {
-  constexpr std::size_t together = 8;
-  if (items.size() <= together) {
-    std::ranges::sort(items, {}, &Item::number);
-    return;
-  }
-  const std::size_t first_count = std::bit_ceil(items.size()) / 2;
-  split(items, first_count);
-  order_leaf(items.first(first_count));
-  order_leaf(items.subspan(first_count));
-}
-
 void Tree_builder::add_leaf(std::span<Item> items) {
-  order_leaf(items);
+  std::ranges::sort(items, {}, &Item::number);
   const auto first = static_cast<std::ptrdiff_t>(tree_.vertices_.size());
   for (const Item& item : items) {
     tree_.faces_.push_back(item.number);

@@ -29,12 +29,8 @@ class Tree_builder {
   void add_regions(std::span<Item> regions);
   void add_faces(std::span<Item> faces);
   void add_leaf(std::span<Item> faces);
-  /// Brings faces that are near each other together, so that the faces which a vector holds lie in a small box.
-  static void order_leaf(std::span<Item> faces);
-  /// Puts the first so many items along the axis on which centres are spread widest before the others.
-  static void split(std::span<Item> items, std::size_t first_count);
-  /// Adds a node with two children: `add` is called with the first so many items, as `split` puts them, then with the
-  /// others.
+  /// Adds a node with two children: `add` is called with the first so many items along the axis on which their
+  /// centres are spread widest, then with the others.
   template <class Add>
   void add_parts(std::span<Item> items, std::size_t first_count, Add add);
 

@@ -210,8 +210,9 @@ void add_experiment(CLI::App& program, Experiment_command& command) {
   app.add_option("--scenes", command.scenes, "Folder of the scene files")
       ->type_name("DIR")
       ->default_str("data/scenes of the source");
-  app.add_option("--only", command.only,
-                 "Scenes to play in place of all, by name (peers, every_frame, volumes); meshes and strategies (partitions)")
+  app.add_option(
+         "--only", command.only,
+         "Scenes to play in place of all, by name (peers, every_frame, volumes); meshes and strategies (partitions)")
       ->delimiter(',')
       ->type_name("NAME");
   app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <map>
 
 #include "tree_checks.h"
@@ -53,40 +52,6 @@ TEST(Region_tree, keeps_its_promises_after_the_build_and_after_every_refit) {
           expect_tree(tree, soup, now.coordinates);
         }
       }
-}
-
-/// Whether some axis has all first middles on one side of all others, along which the others do not begin earlier.
-bool lie_apart(std::span<const Eigen::Vector3d> first, std::span<const Eigen::Vector3d> others) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto along = [axis](const Eigen::Vector3d& middle) { return middle[axis]; };
-    if (along(*std::ranges::max_element(first, {}, along)) <= along(*std::ranges::min_element(others, {}, along)))
-      return true;
-  }
-  return false;
-}
-
-/// Blocks of 8, 16, 32, ... faces of a leaf lie beside each other, not in each other.
-void expect_blocks_apart(std::span<const Eigen::Vector3d> middles) {
-  if (middles.size() <= 8) return;
-  const std::size_t first = std::bit_ceil(middles.size()) / 2;
-  ASSERT_TRUE(lie_apart(middles.first(first), middles.subspan(first)));
-  expect_blocks_apart(middles.first(first));
-  expect_blocks_apart(middles.subspan(first));
-}
-
-TEST(Region_tree, has_faces_that_a_vector_holds_beside_each_other) {
-  for (const auto& soup : {Face_soup(icosphere(20)), shuffled(Face_soup(icosphere(20)), 1)})
-    for (const std::size_t leaf_faces : {9, 70, 128}) {
-      const Region_tree tree(soup.faces, {}, soup.coordinates, {.leaf_faces = leaf_faces});
-      for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-        std::vector<Eigen::Vector3d> middles;
-        for (const auto face : tree.faces(leaf)) {
-          auto& middle = middles.emplace_back(Eigen::Vector3d::Zero());
-          for (const auto& corner : soup.triangle(face)) middle += coordinates(corner) / 3;
-        }
-        expect_blocks_apart(middles);
-      }
-    }
 }
 
 TEST(Region_tree, takes_any_labels) {

@@ -99,7 +99,7 @@ TYPED_TEST_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_with_any_
       expect_same_frame(shared.detect(), found);
       for (Object_id object = 0; object < meshes.size(); ++object) {
         const Numbered_mesh mesh(meshes[object]);
-        EXPECT_EQ(alone.tree(object).validate(mesh.faces, coordinates(mesh.positions)), "");
+        EXPECT_EQ(alone.tree(object).validate(mesh.faces, mesh.coordinates()), "");
       }
       next_frame(meshes, frame);
     }

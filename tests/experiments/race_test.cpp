@@ -121,15 +121,17 @@ class One_by_one : public Entrant {
   Answer answer_;
 };
 
+/// The entry of an entrant that notes the rounds it starts.
+template <class Kind>
+Entry entry_of(std::vector<std::size_t>& rounds) {
+  return {.library = "test", .method = "rounds", .volume = "none", .build = [&rounds](std::span<const Moving_mesh>) {
+            return std::make_unique<Kind>(rounds);
+          }};
+}
+
 TEST_F(Race, who_answers_in_rounds_is_held_to_what_each_is_about) {
   std::vector<std::size_t> rounds;
-  const auto entry =
-      measured({.library = "test",
-                .method = "one by one",
-                .volume = "none",
-                .build = [&rounds](std::span<const Moving_mesh>) { return std::make_unique<One_by_one>(rounds); }},
-               {.passes = 2})
-          .entries.at(0);
+  const auto entry = measured(entry_of<One_by_one>(rounds), {.passes = 2}).entries.at(0);
   EXPECT_EQ(rounds, (std::vector<std::size_t>{0, 1, 0, 1}));
   EXPECT_EQ(entry.passes, 6U);  // of three frames
   EXPECT_EQ(entry.missed, 0U);
@@ -156,12 +158,7 @@ class Counts_bytes : public One_by_one {
 
 TEST_F(Race, who_knows_what_it_holds_is_believed) {
   std::vector<std::size_t> rounds;
-  const auto entry =
-      measured({.library = "test",
-                .method = "count",
-                .volume = "none",
-                .build = [&rounds](std::span<const Moving_mesh>) { return std::make_unique<Counts_bytes>(rounds); }})
-          .entries.at(0);
+  const auto entry = measured(entry_of<Counts_bytes>(rounds)).entries.at(0);
   EXPECT_EQ(entry.bytes, 12345U);
 }
 

@@ -94,7 +94,7 @@ TEST(Exact_rebuild, one_tree_is_built_anew_while_others_stay) {
   EXPECT_EQ(expect_exhaustive(frame, {&a, &soup, &b}), 3U);
   EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
   const Numbered_mesh now(soup);
-  EXPECT_EQ(detector.tree(1).validate(now.faces, coordinates(now.positions)), "");
+  EXPECT_EQ(detector.tree(1).validate(now.faces, now.coordinates()), "");
 }
 
 TEST(Exact_rebuild, does_not_happen_to_a_body_that_is_moved_or_turned) {

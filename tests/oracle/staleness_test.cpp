@@ -226,10 +226,9 @@ TEST(Staleness, a_coordinate_that_is_not_finite_is_named_and_the_next_frame_is_r
       auto& point = b.point(Surface_mesh::Vertex_index(23));
       const Point before = point;
       point = Point(before.x(), before.y(), value);
-      for (const auto& message :
-           {refusal([&] { detector.detect(); }), refusal([&] { detector.detect(0, 1); }),
-            refusal([&] { detector.closest(1, 0); }), refusal([&] { detector.contains(0, 1); }),
-            refusal([&] { detector.visit(0, 1, [](Face_pair) { return Visit::go_on; }); })}) {
+      for (const auto& message : {refusal([&] { detector.detect(); }), refusal([&] { detector.detect(0, 1); }),
+                                  refusal([&] { detector.closest(1, 0); }), refusal([&] { detector.contains(0, 1); }),
+                                  refusal([&] { detector.visit(0, 1, [](Face_pair) { return Visit::go_on; }); })}) {
         EXPECT_NE(message.find("vertex 23 "), std::string::npos) << message;
         EXPECT_NE(message.find("object 1"), std::string::npos) << message;
       }

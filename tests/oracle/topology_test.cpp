@@ -80,7 +80,7 @@ TEST(Topology, is_right_after_rebuild) {
       for (int frame = 0; frame < 2; ++frame) {
         EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
         const Numbered_mesh now(a);
-        EXPECT_EQ(detector.tree(0).validate(now.faces, coordinates(now.positions)), "");
+        EXPECT_EQ(detector.tree(0).validate(now.faces, now.coordinates()), "");
         shift(b, 0.01);
       }
     }
