@@ -38,7 +38,7 @@ bool encloses(const Posed_layout& surface, const Point& point) {
     }
     const std::uint32_t leaf = tree.node(n).leaf;
     for (std::uint16_t place = 0; place < tree.faces(leaf).size(); ++place)
-      inside ^= crosses_upward_ray(leaf_triangle(surface, leaf, place), point);
+      inside ^= crosses_upward_ray(triangle_of(leaf_corners(surface, leaf, place)), point);
   }
   return inside;
 }

@@ -16,19 +16,24 @@ inline constexpr std::size_t most_box_lanes = 32;    ///< its sides of boxes
 inline constexpr std::int16_t first_step = -32767;
 inline constexpr float most_steps = 65533;  ///< from the first to the last
 
-/// Where the faces of a leaf are, by coordinate, so that a vector holds one coordinate of several. There is room for
-/// the lanes past the last face, which have boxes that meet nothing.
-struct alignas(64) Face_columns {
+/// Boxes of faces by side, so that a vector holds one side of several. There is room for the lanes past the last face,
+/// which have boxes that meet nothing.
+struct alignas(64) Box_columns {
   using Sides = std::int16_t[most_leaf_faces + most_box_lanes];
   using Places = std::uint32_t[most_leaf_faces + most_float_lanes];
+
+  alignas(64) Sides low[3];        ///< by axis, in steps
+  Sides high[3];                   ///< moved out by the margin
+  std::size_t count;               ///< of faces
+  alignas(64) Places vertices[3];  ///< within one mesh: the numbers of the corners in it
+};
+
+/// Where the faces of a leaf are.
+struct Face_columns : Box_columns {
   using Positions = float[3][3 * most_leaf_faces + most_float_lanes];
 
-  alignas(64) Sides low[3];         ///< by axis: the face's box, in steps
-  Sides high[3];                    ///< moved out by the margin
-  std::size_t count;                ///< of faces; 0: nothing else is known
   alignas(64) Places corners[3];    ///< places of vertices, where columns are looked up by instructions
   alignas(64) Positions positions;  ///< of the leaf's vertices: rounded, not moved
-  alignas(64) Places vertices[3];   ///< within one mesh: the numbers of the corners in it
 };
 
 /// Some of the faces of a leaf, by their places; there is room for a whole vector past the last.
@@ -37,16 +42,16 @@ struct Face_list {
   std::size_t count;
 };
 
-/// Some boxes of b that one of a's is near.
+/// Some boxes of a list that one face's is near.
 struct Near_row {
   std::uint32_t bits;    ///< one per box
-  std::uint32_t places;  ///< of a's face, and 256 times that of the first of b's boxes: bytes would be merged slowly
+  std::uint32_t places;  ///< of the face, and 256 times that in the list of the first box: bytes would be merged slowly
 };
 
 /// Memory of leaf against leaf.
 struct alignas(64) Leaf_scratch {
-  Face_list near_a;    ///< faces near the other leaf
-  Face_list blocks_b;  ///< first faces of the vectors of b's in which there are any
+  Face_list near_a, near_b;  ///< faces near the other leaf
+  Box_columns boxes;         ///< of those of one of the leaves
   Near_row rows[most_leaf_faces * most_leaf_faces + 1];
 
   /// Pairs of faces that may be near each other, by their places; there is room for a whole vector past the last.

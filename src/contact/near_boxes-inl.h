@@ -70,7 +70,7 @@ HWY_INLINE void fill_up(std::size_t count, Leaf_scratch& scratch) {
 }
 
 /// Gives the lanes past the last face boxes that meet nothing.
-HWY_INLINE void end_columns(Face_columns& faces, std::size_t count) {
+HWY_INLINE void end_columns(Box_columns& faces, std::size_t count) {
   const Box_lanes d;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     hn::StoreU(hn::Set(d, std::numeric_limits<std::int16_t>::max()), d, faces.low[axis] + count);
@@ -84,21 +84,46 @@ struct Limits {
   Sides low[3], high[3];
 };
 
-HWY_INLINE Limits limits(const Face_columns& faces, std::size_t face) {
+HWY_INLINE Limits limits(const Box_columns& faces, std::size_t face) {
   const Box_lanes d;
-  const auto side = [&](const Face_columns::Sides& column) HWY_ATTR { return hn::Set(d, column[face]); };
+  const auto side = [&](const Box_columns::Sides& column) HWY_ATTR { return hn::Set(d, column[face]); };
   return {{side(faces.low[0]), side(faces.low[1]), side(faces.low[2])},
           {side(faces.high[0]), side(faces.high[1]), side(faces.high[2])}};
 }
 
 /// The lanes in which a face, from the `start`th on, has a box within the margin of another box.
-HWY_INLINE hn::Mask<Box_lanes> near_boxes(const Limits& box, const Face_columns& faces, std::size_t start) {
+HWY_INLINE hn::Mask<Box_lanes> near_boxes(const Limits& box, const Box_columns& faces, std::size_t start) {
   const Box_lanes d;
   const auto gap_along = [&](std::size_t axis) HWY_ATTR {
     return hn::Max(hn::SaturatedSub(box.low[axis], hn::LoadU(d, faces.high[axis] + start)),
                    hn::SaturatedSub(hn::LoadU(d, faces.low[axis] + start), box.high[axis]));
   };
   return hn::Lt(hn::Max(hn::Max(gap_along(0), gap_along(1)), gap_along(2)), hn::Set(d, 1));
+}
+
+/// The least or greatest number of the lanes, in every lane. Highway's own function for it takes twice the
+/// instructions.
+template <bool least>
+HWY_INLINE Sides extreme_of_lanes(Sides sides) {
+#if HWY_TARGET == HWY_SCALAR
+  return sides;
+#else
+  // Halves are folded onto each other; of eight numbers without a sign one instruction finds the least.
+  const auto of_lanes = [](const auto& again, auto d, auto numbers) HWY_ATTR {
+    if constexpr (hn::MaxLanes(d) <= 8) {
+      const hn::RebindToUnsigned<decltype(d)> ordered;
+      constexpr std::uint16_t flip = least ? 0x8000 : 0x7fff;
+      const auto flipped = hn::Xor(hn::BitCast(ordered, numbers), hn::Set(ordered, flip));
+      return static_cast<std::int16_t>(hn::GetLane(hn::MinOfLanes(ordered, flipped)) ^ flip);
+    } else {
+      const hn::Half<decltype(d)> half;
+      const auto low = hn::LowerHalf(half, numbers), high = hn::UpperHalf(half, numbers);
+      return again(again, half, least ? hn::Min(low, high) : hn::Max(low, high));
+    }
+  };
+  const Box_lanes d;
+  return hn::Set(d, of_lanes(of_lanes, d, sides));
+#endif
 }
 
 /// A box that grows around others, lane by lane.
@@ -111,7 +136,7 @@ class Growing_box {
     }
   }
 
-  HWY_INLINE void add(const Face_columns& faces, std::size_t start, hn::Mask<Box_lanes> chosen) {
+  HWY_INLINE void add(const Box_columns& faces, std::size_t start, hn::Mask<Box_lanes> chosen) {
     const Box_lanes d;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto low = hn::Load(d, faces.low[axis] + start), high = hn::Load(d, faces.high[axis] + start);
@@ -121,11 +146,10 @@ class Growing_box {
   }
   /// Around all lanes; means nothing if there was no box.
   HWY_INLINE Limits all() const {
-    const Box_lanes d;
     Limits limits;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      limits.low[axis] = hn::MinOfLanes(d, around_.low[axis]);
-      limits.high[axis] = hn::MaxOfLanes(d, around_.high[axis]);
+      limits.low[axis] = extreme_of_lanes<true>(around_.low[axis]);
+      limits.high[axis] = extreme_of_lanes<false>(around_.high[axis]);
     }
     return limits;
   }
@@ -139,107 +163,29 @@ class Growing_box {
 
 /// Whether boxes of faces are within the margin of a box.
 /// @param around  is set to a box around these, if there are any
-/// @param blocks  lists the first faces of the vectors in which there are any
-HWY_INLINE bool any_near(const Face_columns& faces, const Limits& box, Limits& around, Face_list& blocks) {
+HWY_INLINE bool any_near(const Box_columns& faces, const Limits& box, Limits& around) {
   const Box_lanes d;
   Growing_box growing;
-  std::size_t count = 0;
+  auto any = hn::FirstN(d, 0);
   for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d)) {
     const auto near = near_boxes(box, faces, start);
     growing.add(faces, start, near);
-    blocks.places[count] = static_cast<std::uint8_t>(start);
-    count += hn::AllFalse(d, near) ? 0 : 1;
+    any = hn::Or(any, near);
   }
-  blocks.count = count;
-  if (count == 0) return false;
+  if (hn::AllFalse(d, any)) return false;
   around = growing.all();
   return true;
 }
 
 /// Lists the faces whose boxes are within the margin of a box.
 /// @return whether there are any
-HWY_INLINE bool list_near(const Face_columns& faces, const Limits& box, Face_list& list) {
+HWY_INLINE bool list_near(const Box_columns& faces, const Limits& box, Face_list& list) {
   const Box_lanes d;
   std::size_t count = 0;
   for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d))
     count += list_lanes(mask_bits(d, near_boxes(box, faces, start)), start, list.places + count);
   list.count = count;
   return count > 0;
-}
-
-/// Bits of those faces of b, from the `start`th on, that have a vertex of a's face.
-HWY_INLINE std::uint32_t share_a_vertex(const Face_columns& a, std::size_t face, const Face_columns& b,
-                                        std::size_t start) {
-  const Vertex_lanes d;
-  const auto p = hn::Set(d, a.vertices[0][face]), q = hn::Set(d, a.vertices[1][face]);
-  const auto r = hn::Set(d, a.vertices[2][face]);
-  const auto shares = [&](std::size_t corner) HWY_ATTR {
-    const auto vertex = hn::LoadU(d, b.vertices[corner] + start);
-    return hn::Or(hn::Or(hn::Eq(p, vertex), hn::Eq(q, vertex)), hn::Eq(r, vertex));
-  };
-  return mask_bits(d, hn::Or(hn::Or(shares(0), shares(1)), shares(2)));
-}
-
-/// Leaves out those of some faces of b, given as bits from the `start`th on, that have a vertex of a's face.
-HWY_INLINE std::uint32_t leave_out_neighbours(std::uint32_t bits, const Face_columns& a, std::size_t face,
-                                              const Face_columns& b, std::size_t start) {
-  constexpr std::size_t step = hn::MaxLanes(Vertex_lanes());
-  constexpr std::uint32_t block = (1U << step) - 1;
-  for (std::size_t first = 0; first < hn::MaxLanes(Box_lanes()); first += step)
-    if ((bits >> first & block) != 0) bits &= ~(share_a_vertex(a, face, b, start + first) << first);
-  return bits;
-}
-
-/// Adds the row of b's boxes, a vector of them from the `start`th on, that one of a's is near, if there are any.
-/// @tparam one_mesh  leave out faces that share a vertex
-/// @param rows       listed so far
-/// @return their number with this one
-template <bool one_mesh>
-HWY_INLINE std::size_t add_row(const Limits& box, const Face_columns& a, std::size_t face, const Face_columns& b,
-                               std::size_t start, std::size_t rows, Near_row* list) {
-  std::uint32_t bits = mask_bits(Box_lanes(), near_boxes(box, b, start));
-  if constexpr (one_mesh) bits = leave_out_neighbours(bits, a, face, b, start);
-  // It is written over unless it counts: no branch could foretell which do.
-  list[rows] = {bits, static_cast<std::uint32_t>(face + 256 * start)};
-  return rows + (bits != 0 ? 1 : 0);
-}
-
-/// Lists the pairs of which rows consist.
-/// @return their number
-HWY_INLINE std::size_t list_pairs_of_rows(std::size_t rows, Leaf_scratch& scratch) {
-  std::size_t count = 0;
-  for (std::size_t r = 0; r < rows; ++r) {
-    const Near_row row = scratch.rows[r];
-    repeat_byte(row.places % 256, hn::MaxLanes(Box_lanes()), scratch.pairs_a + count);
-    count += list_lanes(row.bits, row.places / 256, scratch.pairs_b + count);
-  }
-  return count;
-}
-
-/// Lists the pairs of different faces of a leaf whose boxes are near, and that share no vertex.
-/// @return their number
-HWY_INLINE std::size_t list_pairs_within(const Face_columns& faces, Leaf_scratch& scratch) {
-  std::size_t rows = 0;
-  for (std::size_t f = 0; f < faces.count; ++f)
-    for (std::size_t start = f + 1; start < faces.count; start += hn::MaxLanes(Box_lanes()))
-      rows = add_row<true>(limits(faces, f), faces, f, faces, start, rows, scratch.rows);
-  return list_pairs_of_rows(rows, scratch);
-}
-
-/// Lists the pairs of one of a's listed faces and one of b's whose boxes are near.
-/// @return their number
-template <bool one_mesh>
-HWY_INLINE std::size_t list_pairs(const Face_columns& a, const Face_columns& b, Leaf_scratch& scratch) {
-  // Bytes are written, which could be those of this number.
-  const std::size_t blocks = scratch.blocks_b.count;
-  std::size_t rows = 0;
-  for (std::size_t i = 0; i < scratch.near_a.count; ++i) {
-    const std::size_t face = scratch.near_a.places[i];
-    const Limits box = limits(a, face);
-    for (std::size_t block = 0; block < blocks; ++block)
-      rows = add_row<one_mesh>(box, a, face, b, scratch.blocks_b.places[block], rows, scratch.rows);
-  }
-  return list_pairs_of_rows(rows, scratch);
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

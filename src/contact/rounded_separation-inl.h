@@ -64,16 +64,17 @@ HWY_INLINE Rounded_corners load_corners(const Leaf_view& leaf, const std::uint8_
 #endif
 
 /// The largest coordinates within the boxes of two leaves, without sign.
-HWY_INLINE Rounded_vector largest_coordinates(const Leaf_request& request, const Aabb& a, const Aabb& b) {
-  float largest[4] = {};
-  for (const double* corner : {a.low, a.high, b.low, b.high}) {
-    float near[4];
-    round_position(request, 0, corner, near);
-    for (std::size_t axis = 0; axis < 3; ++axis) largest[axis] = std::max(largest[axis], std::abs(near[axis]));
+struct Largest_coordinates {
+  float of[3] = {};
+
+  HWY_INLINE Largest_coordinates(const Leaf_request& request, const Aabb& a, const Aabb& b) {
+    for (const double* corner : {a.low, a.high, b.low, b.high}) {
+      float near[4];
+      round_position(request, 0, corner, near);
+      for (std::size_t axis = 0; axis < 3; ++axis) of[axis] = std::max(of[axis], std::abs(near[axis]));
+    }
   }
-  const Float_lanes d;
-  return {hn::Set(d, largest[0]), hn::Set(d, largest[1]), hn::Set(d, largest[2])};
-}
+};
 
 /// Writes those lanes that are asked for next to each other, and anything after them.
 HWY_INLINE void store_chosen(hn::Vec<Vertex_lanes> numbers, hn::Mask<Vertex_lanes> chosen, std::uint32_t bits,
@@ -98,9 +99,73 @@ HWY_INLINE void store_chosen(hn::Vec<Vertex_lanes> numbers, hn::Mask<Vertex_lane
 /// (Of corners beyond all floats the reach is 0 or beyond what a gap is told for.) The axis of a gap, that of the
 /// rounded corners, has an x of at most 8 r_y r_z, and likewise y and z. So two triangles whose gap is greater than 2
 /// x 1.01 x 2^-24 x 8 (M_x r_y r_z + r_x M_y r_z + r_x r_y M_z) were apart before. Nearly twice that is allowed for.
-HWY_INLINE Floats gap_lost_by_rounding(const Rounded_vector& reach, const Rounded_vector& largest) {
+HWY_INLINE Floats gap_lost_by_rounding(const Rounded_vector& reach, const Largest_coordinates& largest) {
+  const Float_lanes d;
   const auto yz = hn::Mul(reach.y, reach.z), xz = hn::Mul(reach.x, reach.z), xy = hn::Mul(reach.x, reach.y);
-  return hn::Mul(hn::Set(Float_lanes(), 0x1p-19F), dot(largest, Rounded_vector{yz, xz, xy}));
+  return hn::Mul(hn::Set(d, 0x1p-19F),
+                 dot(Rounded_vector{hn::Set(d, largest.of[0]), hn::Set(d, largest.of[1]), hn::Set(d, largest.of[2])},
+                     Rounded_vector{yz, xz, xy}));
+}
+
+/// The allowance for rounded corners, see `allowance`.
+///
+/// A corner is off by less than 1.01 x 2^-24 of the largest coordinate, or by 2^-149 where that is below the normal
+/// floats: a gap by twice that for each unit of the axis. Twice that is allowed for. Corners beyond what is safe may
+/// have been beyond all floats.
+HWY_INLINE Allowance<Float_lanes> rounded_allowance(const Two_triangles<Float_lanes>& two, float margin,
+                                                    const Largest_coordinates& largest) {
+  using Range = Safe_range<float>;
+  const Float_lanes d;
+  const auto lost = [&](std::size_t axis) HWY_ATTR {
+    const float most = largest.of[axis];
+    return hn::Set(d, most < Range::most ? Range::least + 0x1p-22F * most : std::numeric_limits<float>::infinity());
+  };
+  Allowance<Float_lanes> allowed = allowance(two, margin);
+  allowed.rounding.x = hn::Add(allowed.rounding.x, lost(0));
+  allowed.rounding.y = hn::Add(allowed.rounding.y, lost(1));
+  allowed.rounding.z = hn::Add(allowed.rounding.z, lost(2));
+  return allowed;
+}
+
+/// The margin in the unit of rounded coordinates, and no less.
+HWY_INLINE float rounded_margin(const Leaf_request& request) {
+  const double margin = request.margin * request.scale;
+  if (margin == 0) return 0;
+  if (margin >= static_cast<double>(std::numeric_limits<float>::max())) return std::numeric_limits<float>::infinity();
+  return std::nextafter(static_cast<float>(margin), std::numeric_limits<float>::infinity());
+}
+
+/// Keeps some of the listed pairs in the list, given as bits from the `first`th on.
+/// @param kept  number of pairs kept so far, at most `first`
+/// @return the same with these
+HWY_INLINE std::size_t keep_listed(std::size_t first, std::uint32_t bits, std::size_t kept, Leaf_scratch& scratch) {
+  for (; bits != 0; bits &= bits - 1) {
+    const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    scratch.pairs_a[kept] = scratch.pairs_a[first + lane];
+    scratch.pairs_b[kept] = scratch.pairs_b[first + lane];
+    ++kept;
+  }
+  return kept;
+}
+
+/// Drops the listed pairs that normals of their rounded faces, and directions across edges within their planes, prove
+/// farther apart than the margin.
+/// @return how many stay in the list
+HWY_INLINE std::size_t drop_apart_by_rounded_planes(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request,
+                                                    std::size_t count, Leaf_scratch& scratch) {
+  const Float_lanes d;
+  if (count == 0) return 0;
+  const Largest_coordinates largest(request, *a.box, *b.box);
+  const float margin = rounded_margin(request);
+  fill_up(count, scratch);
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
+    const Two_triangles<Float_lanes> two(load_corners(a, scratch.pairs_a + first).of,
+                                         load_corners(b, scratch.pairs_b + first).of);
+    const auto left = not_apart_by_planes(two, rounded_allowance(two, margin, largest), hn::FirstN(d, count - first));
+    kept = keep_listed(first, mask_bits(d, left), kept, scratch);
+  }
+  return kept;
 }
 
 struct Sorted_pairs {
@@ -117,7 +182,7 @@ HWY_INLINE Sorted_pairs sort_by_rounded_corners(const Leaf_view& a, const Leaf_v
   const hn::Rebind<std::uint8_t, Float_lanes> bytes;
   Sorted_pairs sorted{0, 0};
   if (count == 0) return sorted;
-  const Rounded_vector largest = largest_coordinates(request, *a.box, *b.box);
+  const Largest_coordinates largest(request, *a.box, *b.box);
   fill_up(count, scratch);
   for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
     const std::uint8_t* const places_a = scratch.pairs_a + first;
@@ -142,12 +207,7 @@ HWY_INLINE Sorted_pairs sort_by_rounded_corners(const Leaf_view& a, const Leaf_v
     std::memcpy(near + sorted.crossing, found, sizeof found);
     sorted.crossing += hwy::PopCount(bits);
 
-    for (std::uint32_t open = mask_bits(d, hn::AndNot(crosses, left)); open != 0; open &= open - 1) {
-      const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);
-      scratch.pairs_a[sorted.unclear] = places_a[lane];
-      scratch.pairs_b[sorted.unclear] = places_b[lane];
-      ++sorted.unclear;
-    }
+    sorted.unclear = keep_listed(first, mask_bits(d, hn::AndNot(crosses, left)), sorted.unclear, scratch);
   }
   return sorted;
 }

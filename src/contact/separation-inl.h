@@ -53,14 +53,6 @@ HWY_INLINE Vector3<Tag> greater(const Vector3<Tag>& u, const Vector3<Tag>& v) {
   return {hn::Max(u.x, v.x), hn::Max(u.y, v.y), hn::Max(u.z, v.z)};
 }
 
-/// At least the length of a vector, also where its square is beyond the normal doubles.
-HWY_INLINE Numbers length_bound(const Vector3<Lanes>& u) {
-  const auto squared = dot(u, u);
-  const auto normal = hn::And(hn::Gt(squared, all(1e-280)), hn::Lt(squared, all(1e300)));
-  const auto sum = hn::Add(hn::Add(hn::Abs(u.x), hn::Abs(u.y)), hn::Abs(u.z));
-  return hn::Mul(all(1.00000000000001), hn::IfThenElse(normal, hn::Sqrt(squared), sum));
-}
-
 /// Two triangles per lane, seen from a's first corner.
 template <class Tag>
 struct Two_triangles {
@@ -73,23 +65,69 @@ struct Two_triangles {
   }
 };
 
-/// Whether the projections of two triangles onto an axis are apart by more than the margin, whatever the rounding.
+/// Within which products of a few numbers are known to their last digits: `least` is far above the smallest normal
+/// number, `most` far below the largest one.
+template <class T>
+struct Safe_range;
+template <>
+struct Safe_range<double> {
+  static constexpr double least = 1e-300, most = 1e290;
+};
+template <>
+struct Safe_range<float> {
+  static constexpr float least = 1e-36F, most = 1e30F;
+};
+
+/// At least the length of a vector, also where its square is beyond the normal numbers.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> length_bound(const Vector3<Tag>& u) {
+  using T = hn::TFromD<Tag>;
+  const Tag d;
+  const auto squared = dot(u, u);
+  const auto normal =
+      hn::And(hn::Gt(squared, hn::Set(d, Safe_range<T>::least)), hn::Lt(squared, hn::Set(d, Safe_range<T>::most)));
+  const auto sum = hn::Add(hn::Add(hn::Abs(u.x), hn::Abs(u.y)), hn::Abs(u.z));
+  const auto length = hn::IfThenElse(normal, hn::Sqrt(squared), sum);
+  return hn::Mul(hn::Set(d, 1 + 32 * std::numeric_limits<T>::epsilon()), length);
+}
+
+/// What a gap between the projections of two triangles must exceed to prove them farther apart than a margin.
+template <class Tag>
+struct Allowance {
+  Vector3<Tag> rounding;  ///< what rounding may feign, per unit of each coordinate of the axis
+  hn::TFromD<Tag> margin;
+};
+
+/// For corners that are not rounded themselves.
 ///
-/// The axis may be any: its own rounding does not matter. A rounded difference is off by 2^-53 of its size, a dot
-/// product of three terms by less than 4 x 2^-53 of the sum of their sizes, which is at most |axis| . reach: so a gap
-/// between two of them is off by less than 2e-15 of it. Twice that is allowed for, and 1e-300 for products below the
-/// normal doubles. Infinities and what comes of them prove nothing.
-HWY_INLINE Truths apart_along(const Two_triangles<Lanes>& two, double margin, const Vector3<Lanes>& axis) {
-  const auto zero = hn::Zero(Lanes());
+/// Let u be half the distance from 1 to the next number. A difference is off by u of its size, a dot product of three
+/// terms by less than 4 u of the sum of their sizes, which is at most |axis| . reach: so a gap between two of them is
+/// off by less than 18 u of it. Twice that is allowed for.
+template <class Tag>
+HWY_INLINE Allowance<Tag> allowance(const Two_triangles<Tag>& two, hn::TFromD<Tag> margin) {
+  const auto share = hn::Set(Tag(), 18 * std::numeric_limits<hn::TFromD<Tag>>::epsilon());
+  return {{hn::Mul(share, two.reach.x), hn::Mul(share, two.reach.y), hn::Mul(share, two.reach.z)}, margin};
+}
+
+/// Whether the projections of two triangles onto an axis prove them farther apart than the margin.
+///
+/// The axis may be any: its own rounding does not matter. What products lose below the normal numbers is far less than
+/// `least`. Infinities, and what comes of them, prove nothing: a projection is at most 1e7 or 1e15 times what is
+/// allowed for its rounding, and so is finite where that is below `most`.
+template <class Tag>
+HWY_INLINE hn::Mask<Tag> apart_along(const Two_triangles<Tag>& two, const Allowance<Tag>& allowed,
+                                     const Vector3<Tag>& axis) {
+  using Range = Safe_range<hn::TFromD<Tag>>;
+  const Tag d;
+  const auto zero = hn::Zero(d);
   const auto pa1 = dot(axis, two.a1), pa2 = dot(axis, two.a2);
   const auto pb0 = dot(axis, two.b0), pb1 = dot(axis, two.b1), pb2 = dot(axis, two.b2);
   const auto low_a = hn::Min(hn::Min(pa1, pa2), zero), high_a = hn::Max(hn::Max(pa1, pa2), zero);
   const auto low_b = hn::Min(hn::Min(pb0, pb1), pb2), high_b = hn::Max(hn::Max(pb0, pb1), pb2);
-  auto needed = hn::Add(hn::Mul(all(4e-15), dot(sizes(axis), two.reach)), all(1e-300));
-  if (margin > 0) needed = hn::Add(needed, hn::Mul(all(margin), length_bound(axis)));
-  const auto apart = hn::Or(hn::Gt(hn::Sub(low_b, high_a), needed), hn::Gt(hn::Sub(low_a, high_b), needed));
-  // A projection that is not a number could be missing from the minima and maxima.
-  return hn::And(apart, hn::Lt(needed, all(1e308)));
+  auto needed = hn::Add(dot(sizes(axis), allowed.rounding), hn::Set(d, Range::least));
+  if (allowed.margin > 0) needed = hn::Add(needed, hn::Mul(hn::Set(d, allowed.margin), length_bound(axis)));
+  const auto gap = hn::Max(hn::Sub(low_b, high_a), hn::Sub(low_a, high_b));
+  return hn::And(hn::Gt(gap, needed), hn::Lt(needed, hn::Set(d, Range::most)));
 }
 
 /// Determinants of two triangles, by corner i of a and j of b. Edge i goes from corner i to the next: e of a, f of b.
@@ -209,23 +247,26 @@ HWY_INLINE hn::Vec<Tag> telling_gap(const Two_triangles<Tag>& two, hn::TFromD<Ta
 
 /// The lanes, of those `among` which is asked, where no direction that one of the triangles alone decides proves them
 /// farther apart than the margin: neither normal, nor one across an edge within a plane.
-HWY_INLINE Truths not_apart_by_planes(const Two_triangles<Lanes>& two, double margin, Truths among) {
-  const Lanes d;
+template <class Tag>
+HWY_INLINE hn::Mask<Tag> not_apart_by_planes(const Two_triangles<Tag>& two, const Allowance<Tag>& allowed,
+                                             hn::Mask<Tag> among) {
+  const Tag d;
+  const auto apart = [&](const Vector3<Tag>& axis) HWY_ATTR { return apart_along(two, allowed, axis); };
   const auto normal_a = cross(two.a1, two.a2);
-  among = hn::AndNot(apart_along(two, margin, normal_a), among);
+  among = hn::AndNot(apart(normal_a), among);
   if (hn::AllFalse(d, among)) return among;
   const auto f0 = two.b1 - two.b0, f1 = two.b2 - two.b1;
   const auto normal_b = cross(f0, f1);
-  among = hn::AndNot(apart_along(two, margin, normal_b), among);
+  among = hn::AndNot(apart(normal_b), among);
   if (hn::AllFalse(d, among)) return among;
   // Nearly coplanar ones lie apart within their plane.
-  among = hn::AndNot(apart_along(two, margin, cross(normal_a, two.a1)), among);
-  among = hn::AndNot(apart_along(two, margin, cross(normal_a, two.a2 - two.a1)), among);
-  among = hn::AndNot(apart_along(two, margin, cross(normal_a, two.a2)), among);
+  among = hn::AndNot(apart(cross(normal_a, two.a1)), among);
+  among = hn::AndNot(apart(cross(normal_a, two.a2 - two.a1)), among);
+  among = hn::AndNot(apart(cross(normal_a, two.a2)), among);
   if (hn::AllFalse(d, among)) return among;
-  among = hn::AndNot(apart_along(two, margin, cross(normal_b, f0)), among);
-  among = hn::AndNot(apart_along(two, margin, cross(normal_b, f1)), among);
-  return hn::AndNot(apart_along(two, margin, cross(normal_b, two.b0 - two.b2)), among);
+  among = hn::AndNot(apart(cross(normal_b, f0)), among);
+  among = hn::AndNot(apart(cross(normal_b, f1)), among);
+  return hn::AndNot(apart(cross(normal_b, two.b0 - two.b2)), among);
 }
 
 /// In which lanes floating point does not prove that a and b are farther apart than the margin (0: have no point in
@@ -239,7 +280,7 @@ HWY_INLINE Truths not_proven_apart(const Vector3<Lanes> (&a)[3], const Vector3<L
   crossing = all(no_crossing);
   auto left = asked;
   // Planes separate most faces that are near each other on one surface.
-  if (one_mesh || margin > 0) left = not_apart_by_planes(two, margin, left);
+  if (one_mesh || margin > 0) left = not_apart_by_planes(two, allowance(two, margin), left);
   if (margin > 0 || hn::AllFalse(d, left)) return left;
   const auto of = determinants(two);
   const auto gap = greatest_gap(of);
@@ -248,7 +289,7 @@ HWY_INLINE Truths not_proven_apart(const Vector3<Lanes> (&a)[3], const Vector3<L
   const auto unclear = hn::And(left, hn::Eq(crossing, all(no_crossing)));
   if (one_mesh || hn::AllFalse(d, unclear)) return left;
   // What comes of one lane must not depend on the others: their number differs between instruction sets.
-  return hn::Or(hn::AndNot(unclear, left), not_apart_by_planes(two, margin, unclear));
+  return hn::Or(hn::AndNot(unclear, left), not_apart_by_planes(two, allowance(two, margin), unclear));
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

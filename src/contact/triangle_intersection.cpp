@@ -112,9 +112,9 @@ constexpr auto crossing_edges = [] {
 ///
 /// CGAL's filter branches on whether its points are spread wider along z than along x and y, which no processor
 /// foresees. So z is stretched, by a power of two: that rounds nothing and changes no orientation.
-bool passes_through(const Point& p, const Point& q, const Triangle& t) {
+bool passes_through(const double* p, const double* q, const Triangle_corners& t) {
   constexpr double stretch = 0x1p10;
-  const auto stretched = [](const Point& from) { return Point(from.x(), from.y(), stretch * from.z()); };
+  const auto stretched = [](const double* from) { return Point(from[0], from[1], stretch * from[2]); };
   const Point points[]{stretched(p), stretched(q), stretched(t[0]), stretched(t[1]), stretched(t[2])};
   bool finite = true;
   for (const Point& point : points) finite &= std::isfinite(point.z());
@@ -133,14 +133,14 @@ bool triangles_intersect(const Triangle& a, const Triangle& b) {
   return std::visit(Shapes_intersect(), shape<Kernel>(a[0], a[1], a[2]), shape<Kernel>(b[0], b[1], b[2]));
 }
 
-bool triangles_intersect_given(const Triangle& a, const Triangle& b, Crossing likely) {
+bool triangles_intersect_given(const Triangle_corners& a, const Triangle_corners& b, Crossing likely) {
   if (likely < no_crossing) {
-    const Triangle* const triangles[]{&a, &b};
+    const Triangle_corners* const triangles[]{&a, &b};
     const auto [owner, above, below] = crossing_edges[likely];
-    const Triangle& edges = *triangles[owner];
+    const Triangle_corners& edges = *triangles[owner];
     if (passes_through(edges[above], edges[below], *triangles[1 - owner])) return true;
   }
-  return triangles_intersect(a, b);
+  return triangles_intersect(triangle_of(a), triangle_of(b));
 }
 
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b) {

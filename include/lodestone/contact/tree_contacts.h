@@ -32,12 +32,11 @@ struct Tree_walk {
   std::size_t exact_tests = 0;  ///< face pairs given to exact predicates, since the start
 };
 
-/// The triangle of a face of a leaf.
-inline Triangle leaf_triangle(const Posed_layout& posed, std::uint32_t leaf, std::uint16_t place) {
-  const auto vertices = posed.layout->vertices(leaf);
-  return face_triangle(posed.layout->corners(leaf)[place], [&](std::uint16_t corner) {
-    return posed.coordinates.data() + 3 * std::size_t{vertices[corner]};
-  });
+/// The corners of a face of a leaf.
+inline Triangle_corners leaf_corners(const Posed_layout& posed, std::uint32_t leaf, std::uint16_t place) {
+  const auto faces = posed.layout->leaf_faces(leaf, posed.coordinates);
+  const auto [p, q, r] = faces.corners[place];
+  return {faces.position(p), faces.position(q), faces.position(r)};
 }
 
 /// Visits all pairs of faces, one of a and one of b, that intersect (`distance` = 0) or are nearer than `distance`,
@@ -54,11 +53,11 @@ Visit visit_contacts(const Basic_posed_tree<Volume>& a, const Basic_posed_tree<V
   const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
     ++walk.leaf_tests;
     for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
-      const Triangle triangle_a = leaf_triangle(layout_a, leaf_a, places.a);
-      const Triangle triangle_b = leaf_triangle(layout_b, leaf_b, places.b);
+      const Triangle_corners corners_a = leaf_corners(layout_a, leaf_a, places.a);
+      const Triangle_corners corners_b = leaf_corners(layout_b, leaf_b, places.b);
       ++walk.exact_tests;
-      if (distance > 0 ? !triangles_nearer_than(triangle_a, triangle_b, distance)
-                       : !triangles_intersect_given(triangle_a, triangle_b, places.crossing))
+      if (distance > 0 ? !triangles_nearer_than(triangle_of(corners_a), triangle_of(corners_b), distance)
+                       : !triangles_intersect_given(corners_a, corners_b, places.crossing))
         continue;
       if (visitor(Face_pair{a.tree->faces(leaf_a)[places.a], b.tree->faces(leaf_b)[places.b]}) == Visit::stop)
         return Visit::stop;
@@ -86,7 +85,7 @@ Visit visit_contacts_within(const Basic_posed_tree<Volume>& posed, Tree_walk& wa
     ++walk.leaf_tests;
     for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
       ++walk.exact_tests;
-      const Triangle a = leaf_triangle(layout, leaf_a, places.a), b = leaf_triangle(layout, leaf_b, places.b);
+      const Triangle_corners a = leaf_corners(layout, leaf_a, places.a), b = leaf_corners(layout, leaf_b, places.b);
       if (!triangles_intersect_given(a, b, places.crossing)) continue;
       const auto [first, second] =
           std::minmax(posed.tree->faces(leaf_a)[places.a], posed.tree->faces(leaf_b)[places.b]);
