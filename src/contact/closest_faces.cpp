@@ -18,8 +18,9 @@ struct Boxed_leaf {
   void fill(const Posed_layout& posed, std::uint32_t leaf) {
     triangles.clear();
     boxes.clear();
-    for (std::uint16_t place = 0; place < posed.layout->faces(leaf).size(); ++place) {
-      triangles.push_back(triangle_of(leaf_corners(posed, leaf, place)));
+    const Leaf_faces faces = posed.leaf(leaf);
+    for (std::size_t place = 0; place < faces.corners.size(); ++place) {
+      triangles.push_back(triangle_of(leaf_corners(faces, place)));
       Box box;
       for (const Point& p : triangles.back()) box.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
       boxes.push_back(box);
@@ -82,7 +83,7 @@ class Search {
     for (const auto& places : leaf_pairs_.near_faces(leaf_a, leaf_b)) {
       const Face_pair faces{a_.layout->faces(leaf_a)[places.a], b_.layout->faces(leaf_b)[places.b]};
       if (!(faces < best_.faces)) continue;
-      const Triangle_corners a = leaf_corners(a_, leaf_a, places.a), b = leaf_corners(b_, leaf_b, places.b);
+      const Triangle_corners a = leaf_corners(a_.leaf(leaf_a), places.a), b = leaf_corners(b_.leaf(leaf_b), places.b);
       if (!triangles_intersect_given(a, b, places.crossing)) continue;
       best_ = {faces, closest_points(triangle_of(a), triangle_of(b))};
     }

@@ -36,9 +36,9 @@ bool encloses(const Posed_layout& surface, const Point& point) {
       ahead.push_back(n + 1);
       continue;
     }
-    const std::uint32_t leaf = tree.node(n).leaf;
-    for (std::uint16_t place = 0; place < tree.faces(leaf).size(); ++place)
-      inside ^= crosses_upward_ray(triangle_of(leaf_corners(surface, leaf, place)), point);
+    const Leaf_faces leaf = surface.leaf(tree.node(n).leaf);
+    for (std::size_t place = 0; place < leaf.corners.size(); ++place)
+      inside ^= crosses_upward_ray(triangle_of(leaf_corners(leaf, place)), point);
   }
   return inside;
 }

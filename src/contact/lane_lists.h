@@ -18,4 +18,11 @@ inline constexpr auto lane_lists = [] {
   return lists;
 }();
 
+/// The numbers themselves, as bytes.
+inline constexpr auto every_place = [] {
+  std::array<std::uint8_t, 256> places{};
+  for (unsigned place = 0; place < places.size(); ++place) places[place] = static_cast<std::uint8_t>(place);
+  return places;
+}();
+
 }  // namespace lodestone::kernel

@@ -10,6 +10,7 @@
 #include "contact/leaf_pose-inl.h"
 #include "contact/near_box_pairs-inl.h"
 #include "contact/near_boxes-inl.h"
+#include "contact/near_slabs-inl.h"
 #include "contact/rounded_separation-inl.h"
 #include "contact/separation-inl.h"
 
@@ -55,8 +56,9 @@ HWY_INLINE std::size_t keep_not_apart(const Leaf_view& a, const Leaf_view& b, co
 
 /// The same for pairs of which planes separate most: faces of one mesh, or within a margin of each other.
 HWY_INLINE std::size_t keep_not_apart_by_planes(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request,
-                                                std::size_t count, Leaf_scratch& scratch, Face_places* near) {
-  const std::size_t left = drop_apart_by_rounded_planes(a, b, request, count, scratch);
+                                                const Rounding& rounding, std::size_t count, Leaf_scratch& scratch,
+                                                Face_places* near) {
+  const std::size_t left = drop_apart_by_rounded_planes(a, b, rounding, count, scratch);
   return keep_not_apart(a, b, request, left, scratch, near);
 }
 
@@ -69,17 +71,22 @@ HWY_INLINE std::size_t near_faces_of_two_leaves(const Leaf_view& a, const Leaf_v
   if (!any_near(*b.faces, near_a, near_b)) return 0;
   if (!list_near(*a.faces, near_b, scratch.near_a)) return 0;
   list_near(*b.faces, near_a, scratch.near_b);
+  const Rounding rounding(request, *a.box, *b.box);
+  // Neighbouring leaves of one mesh lie within the slab of each other.
+  if (!one_mesh && slabs_pay(scratch) && !keep_within_slabs(a, b, rounding, scratch)) return 0;
   const std::size_t count = list_pairs<one_mesh>(*a.faces, *b.faces, scratch);
-  if (one_mesh || request.margin > 0) return keep_not_apart_by_planes(a, b, request, count, scratch, near);
-  const auto [crossing, unclear] = sort_by_rounded_corners(a, b, request, count, scratch, near);
+  if (one_mesh || request.margin > 0) return keep_not_apart_by_planes(a, b, request, rounding, count, scratch, near);
+  const auto [crossing, unclear] = sort_by_rounded_corners(a, b, rounding, count, scratch, near);
   return crossing + keep_not_apart(a, b, request, unclear, scratch, near + crossing);
 }
 
 std::size_t near_faces_kernel(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request,
                               Leaf_scratch& scratch, Face_places* near) {
   if (a.faces->count == 0) pose(a, request);
-  if (request.one_leaf)
-    return keep_not_apart_by_planes(a, a, request, list_pairs_within(*a.faces, scratch), scratch, near);
+  if (request.one_leaf) {
+    const std::size_t count = list_pairs_within(*a.faces, scratch);
+    return keep_not_apart_by_planes(a, a, request, Rounding(request, *a.box, *a.box), count, scratch, near);
+  }
   return request.one_mesh ? near_faces_of_two_leaves<true>(a, b, request, scratch, near)
                           : near_faces_of_two_leaves<false>(a, b, request, scratch, near);
 }

@@ -129,10 +129,12 @@ HWY_INLINE void fit_boxes(const Leaf_view& leaf, const Vertex_steps& here, const
       hn::Store(hn::PromoteTo(wide, hn::UpperHalf(hn::Half<Box_places>(), corners[c])), wide,
                 faces.corners[c] + first + hn::Lanes(wide));
     }
+    Sides lowest_of[3], highest_of[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      hn::Store(hn::Min(hn::Min(low[0].of[axis], low[1].of[axis]), low[2].of[axis]), d, faces.low[axis] + first);
-      hn::Store(hn::Max(hn::Max(high[0].of[axis], high[1].of[axis]), high[2].of[axis]), d, faces.high[axis] + first);
+      lowest_of[axis] = hn::Min(hn::Min(low[0].of[axis], low[1].of[axis]), low[2].of[axis]);
+      highest_of[axis] = hn::Max(hn::Max(high[0].of[axis], high[1].of[axis]), high[2].of[axis]);
     }
+    store_boxes(lowest_of, highest_of, leaf.face_count - first, faces, first);
   }
 }
 #else
@@ -156,6 +158,7 @@ HWY_INLINE void fit_boxes(const Leaf_view& leaf, const Vertex_steps& here, const
       leaf.faces->high[axis][f] = std::max({high[p], high[q], high[r]});
     }
   }
+  end_columns(*leaf.faces, leaf.face_count);
 }
 #endif
 
@@ -185,11 +188,13 @@ HWY_INLINE void pose(const Leaf_view& leaf, const Leaf_request& request) {
   } else {
     fit_boxes(leaf, here, here);
   }
-  if (request.one_mesh)
+  if (request.one_mesh) {
     for (std::size_t corner = 0; corner < 3; ++corner)
       for (std::size_t f = 0; f < leaf.face_count; ++f)
         faces.vertices[corner][f] = leaf.vertices[leaf.corners[f][corner]];
-  end_columns(faces, leaf.face_count);
+    end_columns(faces, leaf.face_count);  // a leaf against itself reads vectors from any face on
+  }
+  faces.count = leaf.face_count;
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

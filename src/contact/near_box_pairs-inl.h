@@ -56,10 +56,7 @@ HWY_INLINE void gather(const Box_columns& faces, const Face_list& list, Box_colu
         hn::PromoteTo(box_places, hn::LoadU(hn::Rebind<std::uint8_t, Box_lanes>(), list.places + start));
     const auto low = look_up(box_places, faces.low, faces.count, places);
     const auto high = look_up(box_places, faces.high, faces.count, places);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      hn::Store(low.of[axis], d, to.low[axis] + start);
-      hn::Store(high.of[axis], d, to.high[axis] + start);
-    }
+    store_boxes(low.of, high.of, list.count - start, to, start);
     if constexpr (!one_mesh) continue;
     for (std::size_t first = start; first < start + hn::Lanes(d); first += hn::Lanes(vertices)) {
       const auto near =
@@ -69,7 +66,7 @@ HWY_INLINE void gather(const Box_columns& faces, const Face_list& list, Box_colu
         hn::Store(corners.of[corner], vertices, to.vertices[corner] + first);
     }
   }
-  end_columns(to, list.count);
+  to.count = list.count;
 }
 #else
 template <bool one_mesh>
@@ -83,6 +80,7 @@ HWY_INLINE void gather(const Box_columns& faces, const Face_list& list, Box_colu
     }
   }
   end_columns(to, list.count);
+  to.count = list.count;
 }
 #endif
 
@@ -101,15 +99,16 @@ HWY_INLINE std::size_t add_row(const Limits& box, const Box_columns& faces, std:
 }
 
 /// Lists the pairs of which rows consist.
-/// @param of_rows, of_bits  are set to the faces of the rows, and to the places of their bits
+/// @param places             of the boxes that rows count
+/// @param of_rows, of_boxes  are set to the places of both
 /// @return their number
-HWY_INLINE std::size_t list_pairs_of_rows(std::size_t rows, const Near_row* list, std::uint8_t* of_rows,
-                                          std::uint8_t* of_bits) {
+HWY_INLINE std::size_t list_pairs_of_rows(const Near_row* list, std::size_t rows, const std::uint8_t* places,
+                                          std::uint8_t* of_rows, std::uint8_t* of_boxes) {
   std::size_t count = 0;
   for (std::size_t r = 0; r < rows; ++r) {
     const Near_row row = list[r];
     repeat_byte(row.places % 256, hn::MaxLanes(Box_lanes()), of_rows + count);
-    count += list_lanes(row.bits, row.places / 256, of_bits + count);
+    count += list_places(row.bits, places + row.places / 256, of_boxes + count);
   }
   return count;
 }
@@ -121,7 +120,7 @@ HWY_INLINE std::size_t list_pairs_within(const Box_columns& faces, Leaf_scratch&
   for (std::size_t f = 0; f < faces.count; ++f)
     for (std::size_t start = f + 1; start < faces.count; start += hn::MaxLanes(Box_lanes()))
       rows = add_row<true>(limits(faces, f), faces, f, faces, start, rows, scratch.rows);
-  return list_pairs_of_rows(rows, scratch.rows, scratch.pairs_a, scratch.pairs_b);
+  return list_pairs_of_rows(scratch.rows, rows, every_place.data(), scratch.pairs_a, scratch.pairs_b);
 }
 
 /// Some faces of a leaf, and where to list those of pairs.
@@ -146,11 +145,7 @@ HWY_INLINE std::size_t list_pairs(const Side_of_pairs& by_row, const Side_of_pai
     for (std::size_t start = 0; start < scratch.boxes.count; start += hn::MaxLanes(Box_lanes()))
       row_count = add_row<one_mesh>(box, by_row.faces, face, scratch.boxes, start, row_count, scratch.rows);
   }
-  const std::size_t count = list_pairs_of_rows(row_count, scratch.rows, by_row.listed, by_lane.listed);
-  const std::uint8_t* const places = by_lane.near.places;
-  std::uint8_t* const listed = by_lane.listed;
-  for (std::size_t i = 0; i < count; ++i) listed[i] = places[listed[i]];
-  return count;
+  return list_pairs_of_rows(scratch.rows, row_count, by_lane.near.places, by_row.listed, by_lane.listed);
 }
 
 /// Lists the pairs of one of a's near faces and one of b's whose boxes are near.

@@ -50,11 +50,36 @@ HWY_INLINE std::size_t list_eight(std::uint32_t bits, std::size_t first, std::ui
   return hwy::PopCount(bits);
 }
 
-/// The same for as many bits as a vector has boxes.
-HWY_INLINE std::size_t list_lanes(std::uint32_t bits, std::size_t first, std::uint8_t* list) {
+/// Lists the places whose bits are set, of as many as a vector has floats. A vector of bytes is written, or eight. The
+/// list may begin where the places do, or before.
+/// @return number of bits
+#if HWY_TARGET <= HWY_AVX3
+HWY_INLINE std::size_t list_places_of_floats(std::uint32_t bits, const std::uint8_t* places, std::uint8_t* list) {
+  const Vertex_lanes d;
+  const hn::Rebind<std::uint8_t, Vertex_lanes> bytes;
+  const std::uint8_t bits_as_bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+  const auto numbers = hn::PromoteTo(d, hn::LoadU(bytes, places));
+  hn::StoreU(hn::TruncateTo(bytes, hn::Compress(numbers, hn::LoadMaskBits(d, bits_as_bytes))), bytes, list);
+  return hwy::PopCount(bits);
+}
+#else
+HWY_INLINE std::size_t list_places_of_floats(std::uint32_t bits, const std::uint8_t* places, std::uint8_t* list) {
+  static_assert(hn::MaxLanes(Vertex_lanes()) <= 8, "what is listed at a time");
+  std::uint8_t eight[8], lanes[8];
+  std::memcpy(eight, places, 8);
+  const std::size_t count = list_eight(bits, 0, lanes);
+  for (std::size_t i = 0; i < 8; ++i) list[i] = eight[lanes[i]];
+  return count;
+}
+#endif
+
+/// The same for as many places as a vector has boxes.
+HWY_INLINE std::size_t list_places(std::uint32_t bits, const std::uint8_t* places, std::uint8_t* list) {
+  constexpr std::size_t step = hn::MaxLanes(Vertex_lanes());
+  constexpr std::uint32_t block = (1U << step) - 1;
   std::size_t count = 0;
-  for (std::size_t eight = 0; eight < hn::MaxLanes(Box_lanes()); eight += 8)
-    count += list_eight(bits >> eight & 0xff, first + eight, list + count);
+  for (std::size_t first = 0; first < hn::MaxLanes(Box_lanes()); first += step)
+    count += list_places_of_floats(bits >> first & block, places + first, list + count);
   return count;
 }
 
@@ -69,14 +94,28 @@ HWY_INLINE void fill_up(std::size_t count, Leaf_scratch& scratch) {
   repeat_byte(scratch.pairs_b[count - 1], most_float_lanes, scratch.pairs_b + count);
 }
 
+/// Sides of boxes that meet nothing.
+HWY_INLINE Sides highest() { return hn::Set(Box_lanes(), std::numeric_limits<std::int16_t>::max()); }
+HWY_INLINE Sides lowest() { return hn::Set(Box_lanes(), std::numeric_limits<std::int16_t>::min()); }
+
 /// Gives the lanes past the last face boxes that meet nothing.
 HWY_INLINE void end_columns(Box_columns& faces, std::size_t count) {
   const Box_lanes d;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    hn::StoreU(hn::Set(d, std::numeric_limits<std::int16_t>::max()), d, faces.low[axis] + count);
-    hn::StoreU(hn::Set(d, std::numeric_limits<std::int16_t>::min()), d, faces.high[axis] + count);
+    hn::StoreU(highest(), d, faces.low[axis] + count);
+    hn::StoreU(lowest(), d, faces.high[axis] + count);
   }
-  faces.count = count;
+}
+
+/// Stores the boxes of some faces, as many as a vector holds; there may be less than that.
+HWY_INLINE void store_boxes(const Sides (&low)[3], const Sides (&high)[3], std::size_t count, Box_columns& faces,
+                            std::size_t start) {
+  const Box_lanes d;
+  const auto real = hn::FirstN(d, count);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    hn::Store(hn::IfThenElse(real, low[axis], highest()), d, faces.low[axis] + start);
+    hn::Store(hn::IfThenElse(real, high[axis], lowest()), d, faces.high[axis] + start);
+  }
 }
 
 /// A box in every lane, its high side moved out by the margin.
@@ -129,36 +168,38 @@ HWY_INLINE Sides extreme_of_lanes(Sides sides) {
 /// A box that grows around others, lane by lane.
 class Growing_box {
  public:
-  Growing_box() {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      around_.low[axis] = highest();
-      around_.high[axis] = lowest();
-    }
-  }
+  HWY_INLINE Growing_box()
+      : low_x_(highest()),
+        low_y_(highest()),
+        low_z_(highest()),
+        high_x_(lowest()),
+        high_y_(lowest()),
+        high_z_(lowest()) {}
 
   HWY_INLINE void add(const Box_columns& faces, std::size_t start, hn::Mask<Box_lanes> chosen) {
-    const Box_lanes d;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto low = hn::Load(d, faces.low[axis] + start), high = hn::Load(d, faces.high[axis] + start);
-      around_.low[axis] = hn::Min(around_.low[axis], hn::IfThenElse(chosen, low, highest()));
-      around_.high[axis] = hn::Max(around_.high[axis], hn::IfThenElse(chosen, high, lowest()));
-    }
+    add_low(low_x_, faces.low[0] + start, chosen);
+    add_low(low_y_, faces.low[1] + start, chosen);
+    add_low(low_z_, faces.low[2] + start, chosen);
+    add_high(high_x_, faces.high[0] + start, chosen);
+    add_high(high_y_, faces.high[1] + start, chosen);
+    add_high(high_z_, faces.high[2] + start, chosen);
   }
   /// Around all lanes; means nothing if there was no box.
   HWY_INLINE Limits all() const {
-    Limits limits;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      limits.low[axis] = extreme_of_lanes<true>(around_.low[axis]);
-      limits.high[axis] = extreme_of_lanes<false>(around_.high[axis]);
-    }
-    return limits;
+    return {{extreme_of_lanes<true>(low_x_), extreme_of_lanes<true>(low_y_), extreme_of_lanes<true>(low_z_)},
+            {extreme_of_lanes<false>(high_x_), extreme_of_lanes<false>(high_y_), extreme_of_lanes<false>(high_z_)}};
   }
 
  private:
-  static HWY_INLINE Sides highest() { return hn::Set(Box_lanes(), std::numeric_limits<std::int16_t>::max()); }
-  static HWY_INLINE Sides lowest() { return hn::Set(Box_lanes(), std::numeric_limits<std::int16_t>::min()); }
+  static HWY_INLINE void add_low(Sides& low, const std::int16_t* sides, hn::Mask<Box_lanes> chosen) {
+    low = hn::Min(low, hn::IfThenElse(chosen, hn::Load(Box_lanes(), sides), highest()));
+  }
+  static HWY_INLINE void add_high(Sides& high, const std::int16_t* sides, hn::Mask<Box_lanes> chosen) {
+    high = hn::Max(high, hn::IfThenElse(chosen, hn::Load(Box_lanes(), sides), lowest()));
+  }
 
-  Limits around_;
+  Sides low_x_, low_y_, low_z_;
+  Sides high_x_, high_y_, high_z_;
 };
 
 /// Whether boxes of faces are within the margin of a box.
@@ -183,7 +224,7 @@ HWY_INLINE bool list_near(const Box_columns& faces, const Limits& box, Face_list
   const Box_lanes d;
   std::size_t count = 0;
   for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d))
-    count += list_lanes(mask_bits(d, near_boxes(box, faces, start)), start, list.places + count);
+    count += list_places(mask_bits(d, near_boxes(box, faces, start)), every_place.data() + start, list.places + count);
   list.count = count;
   return count > 0;
 }

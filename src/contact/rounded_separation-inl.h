@@ -63,15 +63,24 @@ HWY_INLINE Rounded_corners load_corners(const Leaf_view& leaf, const std::uint8_
 }
 #endif
 
-/// The largest coordinates within the boxes of two leaves, without sign.
-struct Largest_coordinates {
-  float of[3] = {};
+/// The margin in the unit of rounded coordinates, and no less.
+HWY_INLINE float rounded_margin(const Leaf_request& request) {
+  const double margin = request.margin * request.scale;
+  if (margin == 0) return 0;
+  if (margin >= static_cast<double>(std::numeric_limits<float>::max())) return std::numeric_limits<float>::infinity();
+  return std::nextafter(static_cast<float>(margin), std::numeric_limits<float>::infinity());
+}
 
-  HWY_INLINE Largest_coordinates(const Leaf_request& request, const Aabb& a, const Aabb& b) {
+/// What the rounded corners of two leaves are judged by.
+struct Rounding {
+  float largest[3] = {};  ///< coordinates within the boxes of the leaves, without sign
+  float margin;
+
+  HWY_INLINE Rounding(const Leaf_request& request, const Aabb& a, const Aabb& b) : margin(rounded_margin(request)) {
     for (const double* corner : {a.low, a.high, b.low, b.high}) {
       float near[4];
       round_position(request, 0, corner, near);
-      for (std::size_t axis = 0; axis < 3; ++axis) of[axis] = std::max(of[axis], std::abs(near[axis]));
+      for (std::size_t axis = 0; axis < 3; ++axis) largest[axis] = std::max(largest[axis], std::abs(near[axis]));
     }
   }
 };
@@ -99,12 +108,12 @@ HWY_INLINE void store_chosen(hn::Vec<Vertex_lanes> numbers, hn::Mask<Vertex_lane
 /// (Of corners beyond all floats the reach is 0 or beyond what a gap is told for.) The axis of a gap, that of the
 /// rounded corners, has an x of at most 8 r_y r_z, and likewise y and z. So two triangles whose gap is greater than 2
 /// x 1.01 x 2^-24 x 8 (M_x r_y r_z + r_x M_y r_z + r_x r_y M_z) were apart before. Nearly twice that is allowed for.
-HWY_INLINE Floats gap_lost_by_rounding(const Rounded_vector& reach, const Largest_coordinates& largest) {
+HWY_INLINE Floats gap_lost_by_rounding(const Rounded_vector& reach, const Rounding& rounding) {
   const Float_lanes d;
+  const auto [x, y, z] = rounding.largest;
+  const Rounded_vector largest{hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
   const auto yz = hn::Mul(reach.y, reach.z), xz = hn::Mul(reach.x, reach.z), xy = hn::Mul(reach.x, reach.y);
-  return hn::Mul(hn::Set(d, 0x1p-19F),
-                 dot(Rounded_vector{hn::Set(d, largest.of[0]), hn::Set(d, largest.of[1]), hn::Set(d, largest.of[2])},
-                     Rounded_vector{yz, xz, xy}));
+  return hn::Mul(hn::Set(d, 0x1p-19F), dot(largest, Rounded_vector{yz, xz, xy}));
 }
 
 /// The allowance for rounded corners, see `allowance`.
@@ -112,27 +121,18 @@ HWY_INLINE Floats gap_lost_by_rounding(const Rounded_vector& reach, const Larges
 /// A corner is off by less than 1.01 x 2^-24 of the largest coordinate, or by 2^-149 where that is below the normal
 /// floats: a gap by twice that for each unit of the axis. Twice that is allowed for. Corners beyond what is safe may
 /// have been beyond all floats.
-HWY_INLINE Allowance<Float_lanes> rounded_allowance(const Two_triangles<Float_lanes>& two, float margin,
-                                                    const Largest_coordinates& largest) {
+HWY_INLINE Allowance<Float_lanes> rounded_allowance(const Two_triangles<Float_lanes>& two, const Rounding& rounding) {
   using Range = Safe_range<float>;
   const Float_lanes d;
-  const auto lost = [&](std::size_t axis) HWY_ATTR {
-    const float most = largest.of[axis];
-    return hn::Set(d, most < Range::most ? Range::least + 0x1p-22F * most : std::numeric_limits<float>::infinity());
+  const auto lost = [&](float largest) HWY_ATTR {
+    return hn::Set(d,
+                   largest < Range::most ? Range::least + 0x1p-22F * largest : std::numeric_limits<float>::infinity());
   };
-  Allowance<Float_lanes> allowed = allowance(two, margin);
-  allowed.rounding.x = hn::Add(allowed.rounding.x, lost(0));
-  allowed.rounding.y = hn::Add(allowed.rounding.y, lost(1));
-  allowed.rounding.z = hn::Add(allowed.rounding.z, lost(2));
+  Allowance<Float_lanes> allowed = allowance(two, rounding.margin);
+  allowed.rounding.x = hn::Add(allowed.rounding.x, lost(rounding.largest[0]));
+  allowed.rounding.y = hn::Add(allowed.rounding.y, lost(rounding.largest[1]));
+  allowed.rounding.z = hn::Add(allowed.rounding.z, lost(rounding.largest[2]));
   return allowed;
-}
-
-/// The margin in the unit of rounded coordinates, and no less.
-HWY_INLINE float rounded_margin(const Leaf_request& request) {
-  const double margin = request.margin * request.scale;
-  if (margin == 0) return 0;
-  if (margin >= static_cast<double>(std::numeric_limits<float>::max())) return std::numeric_limits<float>::infinity();
-  return std::nextafter(static_cast<float>(margin), std::numeric_limits<float>::infinity());
 }
 
 /// Keeps some of the listed pairs in the list, given as bits from the `first`th on.
@@ -151,18 +151,16 @@ HWY_INLINE std::size_t keep_listed(std::size_t first, std::uint32_t bits, std::s
 /// Drops the listed pairs that normals of their rounded faces, and directions across edges within their planes, prove
 /// farther apart than the margin.
 /// @return how many stay in the list
-HWY_INLINE std::size_t drop_apart_by_rounded_planes(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request,
+HWY_INLINE std::size_t drop_apart_by_rounded_planes(const Leaf_view& a, const Leaf_view& b, const Rounding& rounding,
                                                     std::size_t count, Leaf_scratch& scratch) {
   const Float_lanes d;
   if (count == 0) return 0;
-  const Largest_coordinates largest(request, *a.box, *b.box);
-  const float margin = rounded_margin(request);
   fill_up(count, scratch);
   std::size_t kept = 0;
   for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
     const Two_triangles<Float_lanes> two(load_corners(a, scratch.pairs_a + first).of,
                                          load_corners(b, scratch.pairs_b + first).of);
-    const auto left = not_apart_by_planes(two, rounded_allowance(two, margin, largest), hn::FirstN(d, count - first));
+    const auto left = not_apart_by_planes(two, rounded_allowance(two, rounding), hn::FirstN(d, count - first));
     kept = keep_listed(first, mask_bits(d, left), kept, scratch);
   }
   return kept;
@@ -174,7 +172,7 @@ struct Sorted_pairs {
 
 /// Sorts out the listed pairs by their rounded corners: those proven apart are dropped, those that overlap by more than
 /// rounding are written to `near`, with a guess, and the others stay in the list. With margin 0.
-HWY_INLINE Sorted_pairs sort_by_rounded_corners(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request,
+HWY_INLINE Sorted_pairs sort_by_rounded_corners(const Leaf_view& a, const Leaf_view& b, const Rounding& rounding,
                                                 std::size_t count, Leaf_scratch& scratch, Face_places* near) {
   static_assert(std::endian::native == std::endian::little && sizeof(Face_places) == 4, "they are written as numbers");
   const Float_lanes d;
@@ -182,7 +180,6 @@ HWY_INLINE Sorted_pairs sort_by_rounded_corners(const Leaf_view& a, const Leaf_v
   const hn::Rebind<std::uint8_t, Float_lanes> bytes;
   Sorted_pairs sorted{0, 0};
   if (count == 0) return sorted;
-  const Largest_coordinates largest(request, *a.box, *b.box);
   fill_up(count, scratch);
   for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
     const std::uint8_t* const places_a = scratch.pairs_a + first;
@@ -191,7 +188,7 @@ HWY_INLINE Sorted_pairs sort_by_rounded_corners(const Leaf_view& a, const Leaf_v
     const auto of = determinants(two);
     const auto gap = greatest_gap(of);
     // A product of three reaches, and its last digit, are floats within this limit.
-    const auto telling = hn::Add(telling_gap(two, 1e9F), gap_lost_by_rounding(two.reach, largest));
+    const auto telling = hn::Add(telling_gap(two, 1e9F), gap_lost_by_rounding(two.reach, rounding));
     const auto crossing = find_crossing(of, gap);
     const auto left = hn::AndNot(hn::Gt(gap, telling), hn::FirstN(d, count - first));
     const auto deep = hn::And(left, hn::Lt(gap, hn::Neg(telling)));

@@ -7,6 +7,7 @@
 #include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
 #include <CGAL/intersections.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -116,13 +117,13 @@ bool passes_through(const double* p, const double* q, const Triangle_corners& t)
   constexpr double stretch = 0x1p10;
   const auto stretched = [](const double* from) { return Point(from[0], from[1], stretch * from[2]); };
   const Point points[]{stretched(p), stretched(q), stretched(t[0]), stretched(t[1]), stretched(t[2])};
-  bool finite = true;
-  for (const Point& point : points) finite &= std::isfinite(point.z());
+  double largest = 0;
+  for (const Point& point : points) largest = std::max(largest, std::abs(point.z()));
   const auto positive = [&points](int a, int b, int c, int d) {
     return CGAL::orientation(points[a], points[b], points[c], points[d]) == CGAL::POSITIVE;
   };
-  return finite && positive(2, 3, 4, 0) && positive(2, 4, 3, 1) && positive(1, 0, 2, 3) && positive(1, 0, 3, 4) &&
-         positive(1, 0, 4, 2);
+  return std::isfinite(largest) && positive(2, 3, 4, 0) && positive(2, 4, 3, 1) && positive(1, 0, 2, 3) &&
+         positive(1, 0, 3, 4) && positive(1, 0, 4, 2);
 }
 
 }  // namespace

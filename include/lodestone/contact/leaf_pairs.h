@@ -17,6 +17,8 @@ struct Posed_layout {
   Coordinates coordinates = {};
   Aabb bounds = {};                  ///< around all faces, if only roughly
   std::span<const Aabb> boxes = {};  ///< per node; empty: the tree has volumes of another kind
+
+  Leaf_faces leaf(std::uint32_t number) const { return layout->leaf_faces(number, coordinates); }
 };
 
 /// A tree with the coordinates that it was refitted to.

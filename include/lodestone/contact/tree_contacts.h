@@ -33,10 +33,9 @@ struct Tree_walk {
 };
 
 /// The corners of a face of a leaf.
-inline Triangle_corners leaf_corners(const Posed_layout& posed, std::uint32_t leaf, std::uint16_t place) {
-  const auto faces = posed.layout->leaf_faces(leaf, posed.coordinates);
-  const auto [p, q, r] = faces.corners[place];
-  return {faces.position(p), faces.position(q), faces.position(r)};
+inline Triangle_corners leaf_corners(const Leaf_faces& leaf, std::size_t place) {
+  const auto [p, q, r] = leaf.corners[place];
+  return {leaf.position(p), leaf.position(q), leaf.position(r)};
 }
 
 /// Visits all pairs of faces, one of a and one of b, that intersect (`distance` = 0) or are nearer than `distance`,
@@ -52,15 +51,16 @@ Visit visit_contacts(const Basic_posed_tree<Volume>& a, const Basic_posed_tree<V
   const Posed_layout layout_a = a, layout_b = b;
   const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
     ++walk.leaf_tests;
+    const Leaf_faces faces_a = layout_a.leaf(leaf_a), faces_b = layout_b.leaf(leaf_b);
+    const auto numbers_a = a.tree->faces(leaf_a), numbers_b = b.tree->faces(leaf_b);
     for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
-      const Triangle_corners corners_a = leaf_corners(layout_a, leaf_a, places.a);
-      const Triangle_corners corners_b = leaf_corners(layout_b, leaf_b, places.b);
+      const Triangle_corners corners_a = leaf_corners(faces_a, places.a);
+      const Triangle_corners corners_b = leaf_corners(faces_b, places.b);
       ++walk.exact_tests;
       if (distance > 0 ? !triangles_nearer_than(triangle_of(corners_a), triangle_of(corners_b), distance)
                        : !triangles_intersect_given(corners_a, corners_b, places.crossing))
         continue;
-      if (visitor(Face_pair{a.tree->faces(leaf_a)[places.a], b.tree->faces(leaf_b)[places.b]}) == Visit::stop)
-        return Visit::stop;
+      if (visitor(Face_pair{numbers_a[places.a], numbers_b[places.b]}) == Visit::stop) return Visit::stop;
     }
     return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
   };
@@ -83,12 +83,13 @@ Visit visit_contacts_within(const Basic_posed_tree<Volume>& posed, Tree_walk& wa
   const Posed_layout layout = posed;
   const auto visit_leaves = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
     ++walk.leaf_tests;
+    const Leaf_faces faces_a = layout.leaf(leaf_a), faces_b = layout.leaf(leaf_b);
+    const auto numbers_a = posed.tree->faces(leaf_a), numbers_b = posed.tree->faces(leaf_b);
     for (const auto& places : walk.leaf_pairs.near_faces(leaf_a, leaf_b)) {
       ++walk.exact_tests;
-      const Triangle_corners a = leaf_corners(layout, leaf_a, places.a), b = leaf_corners(layout, leaf_b, places.b);
+      const Triangle_corners a = leaf_corners(faces_a, places.a), b = leaf_corners(faces_b, places.b);
       if (!triangles_intersect_given(a, b, places.crossing)) continue;
-      const auto [first, second] =
-          std::minmax(posed.tree->faces(leaf_a)[places.a], posed.tree->faces(leaf_b)[places.b]);
+      const auto [first, second] = std::minmax(numbers_a[places.a], numbers_b[places.b]);
       if (visitor(Face_pair{first, second}) == Visit::stop) return Visit::stop;
     }
     return walk.leaf_tests < walk.last_leaf_test ? Visit::go_on : Visit::stop;
