@@ -10,17 +10,17 @@ namespace lodestone {
 
 namespace {
 
-/// Pairs of leaves that are looked at before other workers are woken: some 30 microseconds. In a tree of many leaves a
-/// test takes longer, for these are no longer in the innermost cache.
-std::size_t tests_alone(std::size_t leaves) { return leaves < 1024 ? 64 : 16; }
-/// Tasks that the rest of a walk is cut into.
-constexpr std::size_t walk_tasks = 256;
+/// Pairs of leaves that are looked at before other workers are woken: some 50 microseconds. A walk over trees of many
+/// leaves mostly is a long one, and each test takes longer, for they are no longer in the innermost cache.
+std::size_t tests_alone(std::size_t leaves) { return leaves < 1024 ? 64 : 4; }
+/// Tasks that the rest of a walk is cut into, per worker: it takes one thread to find them.
+constexpr std::size_t walk_tasks = 32;
 
-/// Opens the first node pairs of a walk, level by level, until there are `walk_tasks` more: many of those that there
-/// are already may be pairs of leaves. The order is that of the walk.
+/// Opens the first node pairs of a walk, level by level, until there are so many more: many of those that there are
+/// already may be pairs of leaves. The order is that of the walk.
 template <class Open>
-void open_top(std::vector<Node_pair>& pairs, Open open) {
-  const std::size_t enough = pairs.size() + walk_tasks;
+void open_top(std::vector<Node_pair>& pairs, std::size_t more, Open open) {
+  const std::size_t enough = pairs.size() + more;
   std::vector<Node_pair> below, opened;
   for (bool again = true; again && pairs.size() < enough; pairs.swap(opened)) {
     again = false;
@@ -91,7 +91,7 @@ std::size_t Contact_search::run_tasks(const Plan& plan, std::size_t limit) {
 /// not have been met.
 std::size_t Contact_search::run_side_by_side(const Plan& plan, std::size_t limit) {
   starts_.assign(scratch_.front().walk.ahead.rbegin(), scratch_.front().walk.ahead.rend());
-  open_top(starts_, plan.open);
+  open_top(starts_, walk_tasks * workers_.count(), plan.open);
   const std::size_t tasks = starts_.size() + plan.others.size();
   results_.resize(std::max(results_.size(), 1 + tasks));
   std::atomic<std::size_t> last = tasks;

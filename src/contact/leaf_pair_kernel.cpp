@@ -44,7 +44,7 @@ HWY_INLINE std::size_t keep_not_apart(const Leaf_view& a, const Leaf_view& b, co
     hn::Store(crossing, d, crossings);
     // All places of the list are written, whatever their number: no branch could foretell it.
     std::uint8_t left_lanes[widest];
-    const std::size_t left_count = list_eight(mask_bits(d, left), 0, left_lanes);
+    const std::size_t left_count = list_eight(mask_bits(d, left), left_lanes);
     for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
       near[kept + i] = places[left_lanes[i]];
       near[kept + i].crossing = static_cast<std::uint8_t>(crossings[left_lanes[i]]);
@@ -68,9 +68,8 @@ HWY_INLINE std::size_t near_faces_of_two_leaves(const Leaf_view& a, const Leaf_v
   Limits near_a, near_b;
   if (!any_near(*a.faces, limits(request, *b.box), near_a)) return 0;
   if (b.faces->count == 0) pose(b, request);
-  if (!any_near(*b.faces, near_a, near_b)) return 0;
+  if (!list_near(*b.faces, near_a, scratch.near_b, near_b)) return 0;
   if (!list_near(*a.faces, near_b, scratch.near_a)) return 0;
-  list_near(*b.faces, near_a, scratch.near_b);
   const Rounding rounding(request, *a.box, *b.box);
   // Neighbouring leaves of one mesh lie within the slab of each other.
   if (!one_mesh && slabs_pay(scratch) && !keep_within_slabs(a, b, rounding, scratch)) return 0;

@@ -39,14 +39,10 @@ HWY_INLINE std::uint32_t mask_bits(Tag d, hn::Mask<Tag> mask) {
   return bits;
 }
 
-/// Lists which of eight bits are set, counted from `first`. Eight bytes are written, whatever their number: no branch
-/// could foretell it.
+/// Lists which of eight bits are set. Eight bytes are written, whatever their number: no branch could foretell it.
 /// @return number of bits
-HWY_INLINE std::size_t list_eight(std::uint32_t bits, std::size_t first, std::uint8_t* list) {
-  std::uint64_t numbers;
-  std::memcpy(&numbers, lane_lists[bits].data(), 8);
-  numbers += first * 0x0101010101010101;
-  std::memcpy(list, &numbers, 8);
+HWY_INLINE std::size_t list_eight(std::uint32_t bits, std::uint8_t* list) {
+  std::memcpy(list, lane_lists[bits].data(), 8);
   return hwy::PopCount(bits);
 }
 
@@ -65,10 +61,10 @@ HWY_INLINE std::size_t list_places_of_floats(std::uint32_t bits, const std::uint
 #else
 HWY_INLINE std::size_t list_places_of_floats(std::uint32_t bits, const std::uint8_t* places, std::uint8_t* list) {
   static_assert(hn::MaxLanes(Vertex_lanes()) <= 8, "what is listed at a time");
-  std::uint8_t eight[8], lanes[8];
+  std::uint8_t eight[8], chosen[8];
   std::memcpy(eight, places, 8);
-  const std::size_t count = list_eight(bits, 0, lanes);
-  for (std::size_t i = 0; i < 8; ++i) list[i] = eight[lanes[i]];
+  const std::size_t count = list_eight(bits, chosen);
+  for (std::size_t i = 0; i < 8; ++i) list[i] = eight[chosen[i]];
   return count;
 }
 #endif
@@ -219,14 +215,30 @@ HWY_INLINE bool any_near(const Box_columns& faces, const Limits& box, Limits& ar
 }
 
 /// Lists the faces whose boxes are within the margin of a box.
+/// @param visit  is called with the mask of each vector of them, and where it starts
 /// @return whether there are any
-HWY_INLINE bool list_near(const Box_columns& faces, const Limits& box, Face_list& list) {
+template <class Visit>
+HWY_INLINE bool list_near(const Box_columns& faces, const Limits& box, Face_list& list, Visit visit) {
   const Box_lanes d;
   std::size_t count = 0;
-  for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d))
-    count += list_places(mask_bits(d, near_boxes(box, faces, start)), every_place.data() + start, list.places + count);
+  for (std::size_t start = 0; start < faces.count; start += hn::Lanes(d)) {
+    const auto near = near_boxes(box, faces, start);
+    visit(start, near);
+    count += list_places(mask_bits(d, near), every_place.data() + start, list.places + count);
+  }
   list.count = count;
   return count > 0;
+}
+HWY_INLINE bool list_near(const Box_columns& faces, const Limits& box, Face_list& list) {
+  return list_near(faces, box, list, [](std::size_t, hn::Mask<Box_lanes>) HWY_ATTR {});
+}
+/// @param around  is set to a box around these, if there are any
+HWY_INLINE bool list_near(const Box_columns& faces, const Limits& box, Face_list& list, Limits& around) {
+  Growing_box growing;
+  const auto grow = [&](std::size_t start, hn::Mask<Box_lanes> near) HWY_ATTR { growing.add(faces, start, near); };
+  if (!list_near(faces, box, list, grow)) return false;
+  around = growing.all();
+  return true;
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

@@ -73,14 +73,18 @@ HWY_INLINE float rounded_margin(const Leaf_request& request) {
 
 /// What the rounded corners of two leaves are judged by.
 struct Rounding {
-  float largest[3] = {};  ///< coordinates within the boxes of the leaves, without sign
+  float largest[4] = {};  ///< coordinates within the boxes of the leaves, without sign
   float margin;
 
   HWY_INLINE Rounding(const Leaf_request& request, const Aabb& a, const Aabb& b) : margin(rounded_margin(request)) {
-    for (const double* corner : {a.low, a.high, b.low, b.high}) {
-      float near[4];
-      round_position(request, 0, corner, near);
-      for (std::size_t axis = 0; axis < 3; ++axis) largest[axis] = std::max(largest[axis], std::abs(near[axis]));
+    const D d;
+    for (std::size_t i = 0; i < vectors; ++i) {
+      const auto origin = hn::LoadU(d, request.origin + i * lanes);
+      const auto distance = [&](const double* corner)
+                                HWY_ATTR { return hn::Abs(hn::Sub(hn::Load(d, corner + i * lanes), origin)); };
+      const auto farthest =
+          hn::Max(hn::Max(distance(a.low), distance(a.high)), hn::Max(distance(b.low), distance(b.high)));
+      hn::StoreU(rounded(d, request, hn::Zero(d), farthest), hn::Rebind<float, D>(), largest + i * lanes);
     }
   }
 };
@@ -110,8 +114,8 @@ HWY_INLINE void store_chosen(hn::Vec<Vertex_lanes> numbers, hn::Mask<Vertex_lane
 /// x 1.01 x 2^-24 x 8 (M_x r_y r_z + r_x M_y r_z + r_x r_y M_z) were apart before. Nearly twice that is allowed for.
 HWY_INLINE Floats gap_lost_by_rounding(const Rounded_vector& reach, const Rounding& rounding) {
   const Float_lanes d;
-  const auto [x, y, z] = rounding.largest;
-  const Rounded_vector largest{hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
+  const auto in_all_lanes = [&](std::size_t axis) HWY_ATTR { return hn::Set(d, rounding.largest[axis]); };
+  const Rounded_vector largest{in_all_lanes(0), in_all_lanes(1), in_all_lanes(2)};
   const auto yz = hn::Mul(reach.y, reach.z), xz = hn::Mul(reach.x, reach.z), xy = hn::Mul(reach.x, reach.y);
   return hn::Mul(hn::Set(d, 0x1p-19F), dot(largest, Rounded_vector{yz, xz, xy}));
 }
