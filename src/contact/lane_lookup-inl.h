@@ -43,23 +43,22 @@ HWY_INLINE Sides look_up_block(const std::int16_t* block, hn::Vec<Box_places> pl
   return Sides{_mm512_permutex2var_epi16(hn::Load(d, block).raw, places.raw, hn::Load(d, block + hn::Lanes(d)).raw)};
 }
 
-/// What three columns of numbers hold at some places.
-template <class T, class Places>
+/// What some columns of numbers hold at some places.
+template <class T, class Places, std::size_t columns>
 struct Looked_up {
-  hn::Vec<hn::Rebind<T, Places>> of[3];
+  hn::Vec<hn::Rebind<T, Places>> of[columns];
 };
 
 /// @param count  every place is below it; a column is read in whole blocks
-template <class Places, class Column>
-HWY_INLINE auto look_up(Places d, const Column (&columns)[3], std::size_t count, hn::Vec<Places> places) {
-  using T = std::remove_const_t<std::remove_all_extents_t<Column>>;
+template <class Places, class T, std::size_t column_count, std::size_t length>
+HWY_INLINE auto look_up(Places d, const T (&columns)[column_count][length], std::size_t count, hn::Vec<Places> places) {
   constexpr std::size_t block = 2 * hn::MaxLanes(d);
-  Looked_up<T, Places> found{
-      {look_up_block(columns[0], places), look_up_block(columns[1], places), look_up_block(columns[2], places)}};
+  Looked_up<T, Places, column_count> found;
+  for (std::size_t c = 0; c < column_count; ++c) found.of[c] = look_up_block(columns[c], places);
   for (std::size_t start = block; start < count; start += block) {
     const auto past = hn::Gt(places, hn::Set(d, static_cast<hn::TFromD<Places>>(start - 1)));
     const auto in_block = hn::RebindMask(hn::Rebind<T, Places>(), past);
-    for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t c = 0; c < column_count; ++c)
       found.of[c] = hn::IfThenElse(in_block, look_up_block(columns[c] + start, places), found.of[c]);
   }
   return found;

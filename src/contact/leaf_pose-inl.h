@@ -112,6 +112,11 @@ HWY_INLINE void round_positions(const Leaf_view& leaf, const Leaf_request& reque
   }
 }
 
+HWY_INLINE hn::Vec<Vertex_lanes> pack_corners(hn::Vec<Vertex_lanes> p, hn::Vec<Vertex_lanes> q,
+                                              hn::Vec<Vertex_lanes> r) {
+  return hn::Or3(p, hn::ShiftLeft<10>(q), hn::ShiftLeft<20>(r));
+}
+
 /// Bounds of the steps of the corners of all faces: `low` of where they are, `high` of where they are moved to.
 HWY_INLINE void fit_boxes(const Leaf_view& leaf, const Vertex_steps& here, const Vertex_steps& moved) {
   const Box_lanes d;
@@ -121,14 +126,16 @@ HWY_INLINE void fit_boxes(const Leaf_view& leaf, const Vertex_steps& here, const
   for (std::size_t first = 0; first < leaf.face_count; first += hn::Lanes(d)) {
     hn::Vec<Box_places> corners[3];
     hn::LoadInterleaved3(places, leaf.corners[first].data(), corners[0], corners[1], corners[2]);
-    Looked_up<std::int16_t, Box_places> low[3], high[3];
+    Looked_up<std::int16_t, Box_places, 3> low[3], high[3];
     for (std::size_t c = 0; c < 3; ++c) {
       low[c] = look_up(places, here.of, leaf.vertex_count, corners[c]);
       high[c] = &moved == &here ? low[c] : look_up(places, moved.of, leaf.vertex_count, corners[c]);
-      hn::Store(hn::PromoteTo(wide, hn::LowerHalf(corners[c])), wide, faces.corners[c] + first);
-      hn::Store(hn::PromoteTo(wide, hn::UpperHalf(hn::Half<Box_places>(), corners[c])), wide,
-                faces.corners[c] + first + hn::Lanes(wide));
     }
+    const auto lower = [&](std::size_t c) HWY_ATTR { return hn::PromoteTo(wide, hn::LowerHalf(corners[c])); };
+    const auto upper = [&](std::size_t c)
+                           HWY_ATTR { return hn::PromoteTo(wide, hn::UpperHalf(hn::Half<Box_places>(), corners[c])); };
+    hn::Store(pack_corners(lower(0), lower(1), lower(2)), wide, faces.corners[0] + first);
+    hn::Store(pack_corners(upper(0), upper(1), upper(2)), wide, faces.corners[0] + first + hn::Lanes(wide));
     Sides lowest_of[3], highest_of[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       lowest_of[axis] = hn::Min(hn::Min(low[0].of[axis], low[1].of[axis]), low[2].of[axis]);

@@ -32,7 +32,8 @@ struct alignas(64) Box_columns {
 struct Face_columns : Box_columns {
   using Positions = float[3][3 * most_leaf_faces + most_float_lanes];
 
-  alignas(64) Places corners[3];    ///< places of vertices, where columns are looked up by instructions
+  /// Where columns are looked up by instructions: the places of a face's vertices, ten bits each, in one number.
+  alignas(64) Places corners[1];
   alignas(64) Positions positions;  ///< of the leaf's vertices: rounded, not moved
 };
 

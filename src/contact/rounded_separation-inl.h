@@ -39,10 +39,13 @@ struct Rounded_corners {
 HWY_INLINE Rounded_corners load_corners(const Leaf_view& leaf, const std::uint8_t* faces) {
   const Vertex_lanes d;
   const auto places = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint8_t, Vertex_lanes>(), faces));
-  const auto corners = look_up(d, leaf.faces->corners, leaf.faces->count, places);
+  const auto packed = look_up(d, leaf.faces->corners, leaf.faces->count, places).of[0];
+  const auto ten_bits = hn::Set(d, 0x3ff);
+  const hn::Vec<Vertex_lanes> corners[]{hn::And(packed, ten_bits), hn::And(hn::ShiftRight<10>(packed), ten_bits),
+                                        hn::ShiftRight<20>(packed)};
   Rounded_corners rounded;
   for (std::size_t corner = 0; corner < 3; ++corner) {
-    const auto [x, y, z] = look_up(d, leaf.faces->positions, leaf.vertex_count, corners.of[corner]).of;
+    const auto [x, y, z] = look_up(d, leaf.faces->positions, leaf.vertex_count, corners[corner]).of;
     rounded.of[corner] = {x, y, z};
   }
   return rounded;
