@@ -66,7 +66,7 @@ template <bool one_mesh>
 HWY_INLINE std::size_t near_faces_of_two_leaves(const Leaf_view& a, const Leaf_view& b, const Leaf_request& request,
                                                 Leaf_scratch& scratch, Face_places* near) {
   Limits near_a, near_b;
-  if (!any_near(*a.faces, limits(request, *b.box), near_a)) return 0;
+  if (!any_near(*a.faces, limits_of_leaf(b, request), near_a)) return 0;
   if (b.faces->count == 0) pose(b, request);
   if (!list_near(*b.faces, near_a, scratch.near_b, near_b)) return 0;
   if (!list_near(*a.faces, near_b, scratch.near_a)) return 0;

@@ -58,6 +58,7 @@ Leaf_pairs::Slot& Leaf_pairs::Side::at(std::uint32_t leaf) {
   if (slot.leaf != leaf) {
     slot.leaf = leaf;
     slot.faces->count = 0;
+    slot.faces->knows_leaf = false;
     if (posed.boxes.empty()) slot.box.enclose(posed.layout->leaf_faces(leaf, posed.coordinates));
   }
   return slot;

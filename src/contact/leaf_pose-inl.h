@@ -55,21 +55,26 @@ HWY_INLINE void round_position(const Leaf_request& request, double shift, const 
   }
 }
 
-HWY_INLINE Limits limits(const Leaf_request& request, const Aabb& box) {
-  const hn::CappedTag<float, 4> d;
-  const hn::Rebind<std::int16_t, decltype(d)> narrow;
-  float low[4], high[4];
-  round_position(request, 0, box.low, low);
-  round_position(request, request.margin, box.high, high);
-  std::int16_t low_steps[4], high_steps[4];
-  for (std::size_t i = 0; i < 4; i += hn::Lanes(d)) {
-    const auto per_unit = hn::LoadU(d, request.steps_per_unit + i);
-    hn::StoreU(steps(d, hn::LoadU(d, low + i), per_unit), narrow, low_steps + i);
-    hn::StoreU(steps(d, hn::LoadU(d, high + i), per_unit), narrow, high_steps + i);
+/// The box of a leaf. It is kept, for most leaves meet several others.
+HWY_INLINE Limits limits_of_leaf(const Leaf_view& leaf, const Leaf_request& request) {
+  Face_columns& faces = *leaf.faces;
+  if (!faces.knows_leaf) {
+    const hn::CappedTag<float, 4> d;
+    const hn::Rebind<std::int16_t, decltype(d)> narrow;
+    float low[4], high[4];
+    round_position(request, 0, leaf.box->low, low);
+    round_position(request, request.margin, leaf.box->high, high);
+    for (std::size_t i = 0; i < 4; i += hn::Lanes(d)) {
+      const auto per_unit = hn::LoadU(d, request.steps_per_unit + i);
+      hn::StoreU(steps(d, hn::LoadU(d, low + i), per_unit), narrow, faces.low_of_leaf + i);
+      hn::StoreU(steps(d, hn::LoadU(d, high + i), per_unit), narrow, faces.high_of_leaf + i);
+    }
+    faces.knows_leaf = true;
   }
+  const auto &low = faces.low_of_leaf, &high = faces.high_of_leaf;
   const Box_lanes sides;
-  return {{hn::Set(sides, low_steps[0]), hn::Set(sides, low_steps[1]), hn::Set(sides, low_steps[2])},
-          {hn::Set(sides, high_steps[0]), hn::Set(sides, high_steps[1]), hn::Set(sides, high_steps[2])}};
+  return {{hn::Set(sides, low[0]), hn::Set(sides, low[1]), hn::Set(sides, low[2])},
+          {hn::Set(sides, high[0]), hn::Set(sides, high[1]), hn::Set(sides, high[2])}};
 }
 
 /// The position of a vertex of a leaf; the lanes past z mean nothing.

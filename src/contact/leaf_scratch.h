@@ -28,13 +28,16 @@ struct alignas(64) Box_columns {
   alignas(64) Places vertices[3];  ///< within one mesh: the numbers of the corners in it
 };
 
-/// Where the faces of a leaf are.
+/// Where the faces of a leaf are, and the leaf itself.
 struct Face_columns : Box_columns {
   using Positions = float[3][3 * most_leaf_faces + most_float_lanes];
 
   /// Where columns are looked up by instructions: the places of a face's vertices, ten bits each, in one number.
   alignas(64) Places corners[1];
   alignas(64) Positions positions;  ///< of the leaf's vertices: rounded, not moved
+  std::int16_t low_of_leaf[4];      ///< the leaf's box, as those of faces
+  std::int16_t high_of_leaf[4];
+  bool knows_leaf;  ///< whether it has been filled in
 };
 
 /// Some of the faces of a leaf, by their places; there is room for a whole vector past the last.
