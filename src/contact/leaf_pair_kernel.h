@@ -29,6 +29,7 @@ struct Leaf_request {
   double margin;
   double origin[4];         ///< of rounded coordinates: finite; the nearer to the faces, the less is lost
   double scale;             ///< of them: brings sizes near 1; > 0
+  float rounded_margin;     ///< in their unit, and no less than the margin
   float steps_per_unit[4];  ///< of rounded coordinates, from the origin on, for sides of boxes; 0: all are in one step
   bool one_mesh;            ///< leave out faces that share a vertex
   bool one_leaf;            ///< each pair once

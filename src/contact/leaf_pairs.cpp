@@ -19,6 +19,13 @@ constexpr auto no_leaf = std::numeric_limits<std::uint32_t>::max();
 /// A power of two that brings a size near 1, as far as there is one.
 double unit_scale(double size) { return size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1; }
 
+/// A number, or 0, as a float that is no less.
+float rounded_up(double number) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  if (number >= static_cast<double>(std::numeric_limits<float>::max())) return infinity;
+  return number > 0 ? std::nextafter(static_cast<float>(number), infinity) : 0;
+}
+
 /// Rounding and steps are finest where the two trees overlap: only faces there can be near each other. Where they only
 /// touch, the overlap is flat: steps of its size would tell nothing apart, so it counts as a thousandth of a tree.
 kernel::Leaf_request leaf_request(const Aabb& a, const Aabb& b, double margin) {
@@ -27,6 +34,7 @@ kernel::Leaf_request leaf_request(const Aabb& a, const Aabb& b, double margin) {
   constexpr double most = std::numeric_limits<double>::max();
   const double extent = std::min(a.extent() > 0 ? a.extent() : b.extent(), most);
   request.scale = unit_scale(extent);
+  request.rounded_margin = rounded_up(margin * request.scale);
   for (int axis = 0; axis < 3; ++axis) {
     const double low = std::max(a.low[axis], b.low[axis]);
     const double high = std::min(std::min(a.high[axis], b.high[axis]) + margin, most);

@@ -66,20 +66,12 @@ HWY_INLINE Rounded_corners load_corners(const Leaf_view& leaf, const std::uint8_
 }
 #endif
 
-/// The margin in the unit of rounded coordinates, and no less.
-HWY_INLINE float rounded_margin(const Leaf_request& request) {
-  const double margin = request.margin * request.scale;
-  if (margin == 0) return 0;
-  if (margin >= static_cast<double>(std::numeric_limits<float>::max())) return std::numeric_limits<float>::infinity();
-  return std::nextafter(static_cast<float>(margin), std::numeric_limits<float>::infinity());
-}
-
 /// What the rounded corners of two leaves are judged by.
 struct Rounding {
   float largest[4] = {};  ///< coordinates within the boxes of the leaves, without sign
   float margin;
 
-  HWY_INLINE Rounding(const Leaf_request& request, const Aabb& a, const Aabb& b) : margin(rounded_margin(request)) {
+  HWY_INLINE Rounding(const Leaf_request& request, const Aabb& a, const Aabb& b) : margin(request.rounded_margin) {
     const D d;
     for (std::size_t i = 0; i < vectors; ++i) {
       const auto origin = hn::LoadU(d, request.origin + i * lanes);
