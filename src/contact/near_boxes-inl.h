@@ -46,8 +46,8 @@ HWY_INLINE std::size_t list_eight(std::uint32_t bits, std::uint8_t* list) {
   return hwy::PopCount(bits);
 }
 
-/// Lists the places whose bits are set, of as many as a vector has floats. A vector of bytes is written, or eight. The
-/// list may begin where the places do, or before.
+/// Lists the places whose bits are set, of as many as a vector has floats. So many bytes are written: the list may
+/// begin where the places do, or before.
 /// @return number of bits
 #if HWY_TARGET <= HWY_AVX3
 HWY_INLINE std::size_t list_places_of_floats(std::uint32_t bits, const std::uint8_t* places, std::uint8_t* list) {
@@ -60,11 +60,12 @@ HWY_INLINE std::size_t list_places_of_floats(std::uint32_t bits, const std::uint
 }
 #else
 HWY_INLINE std::size_t list_places_of_floats(std::uint32_t bits, const std::uint8_t* places, std::uint8_t* list) {
-  static_assert(hn::MaxLanes(Vertex_lanes()) <= 8, "what is listed at a time");
-  std::uint8_t eight[8], chosen[8];
-  std::memcpy(eight, places, 8);
+  constexpr std::size_t step = hn::MaxLanes(Vertex_lanes());
+  static_assert(step <= 8, "what is listed at a time");
+  std::uint8_t some[step], chosen[8];
+  std::memcpy(some, places, step);
   const std::size_t count = list_eight(bits, chosen);
-  for (std::size_t i = 0; i < 8; ++i) list[i] = eight[chosen[i]];
+  for (std::size_t i = 0; i < step; ++i) list[i] = some[chosen[i]];
   return count;
 }
 #endif
@@ -88,6 +89,11 @@ HWY_INLINE void repeat_byte(std::size_t byte, std::size_t count, std::uint8_t* l
 HWY_INLINE void fill_up(std::size_t count, Leaf_scratch& scratch) {
   repeat_byte(scratch.pairs_a[count - 1], most_float_lanes, scratch.pairs_a + count);
   repeat_byte(scratch.pairs_b[count - 1], most_float_lanes, scratch.pairs_b + count);
+}
+
+/// The same for a list of faces, which is not empty.
+HWY_INLINE void fill_up(Face_list& list) {
+  repeat_byte(list.places[list.count - 1], most_float_lanes, list.places + list.count);
 }
 
 /// Sides of boxes that meet nothing.

@@ -126,6 +126,8 @@ HWY_INLINE bool keep_within(const Slab& slab, float allowed, const Face_interval
 /// @return whether there are any left of both
 HWY_INLINE bool keep_within_slabs(const Leaf_view& a, const Leaf_view& b, const Rounding& rounding,
                                   Leaf_scratch& scratch) {
+  fill_up(scratch.near_a);
+  fill_up(scratch.near_b);
   const Slab_normal normal_a(a, scratch.near_a), normal_b(b, scratch.near_b);
   Face_intervals intervals_a, intervals_b;
   const Slab slab_a = project(a, scratch.near_a, normal_a, normal_b, intervals_a);
