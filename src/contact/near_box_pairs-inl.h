@@ -129,7 +129,8 @@ struct Side_of_pairs {
   const Face_list& near;
   std::uint8_t* listed;
 
-  std::size_t blocks() const { return (near.count + hn::MaxLanes(Box_lanes()) - 1) / hn::MaxLanes(Box_lanes()); }
+  /// Vectors of the widest that hold them: the order of pairs must not depend on the instruction set.
+  std::size_t blocks() const { return (near.count + most_box_lanes - 1) / most_box_lanes; }
 };
 
 /// Compares the near faces of one leaf, one after the other, with those of the other leaf, a vector at a time.

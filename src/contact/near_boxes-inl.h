@@ -55,7 +55,9 @@ HWY_INLINE std::size_t list_places_of_floats(std::uint32_t bits, const std::uint
   const hn::Rebind<std::uint8_t, Vertex_lanes> bytes;
   const std::uint8_t bits_as_bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
   const auto numbers = hn::PromoteTo(d, hn::LoadU(bytes, places));
-  hn::StoreU(hn::TruncateTo(bytes, hn::Compress(numbers, hn::LoadMaskBits(d, bits_as_bytes))), bytes, list);
+  const auto listed = hn::Compress(numbers, hn::LoadMaskBits(d, bits_as_bytes));
+  // Not `TruncateTo`: that of Highway 1.0.3 is wrong for HWY_AVX3_DL.
+  hn::StoreU(hn::Vec<decltype(bytes)>{_mm512_cvtepi32_epi8(listed.raw)}, bytes, list);
   return hwy::PopCount(bits);
 }
 #else

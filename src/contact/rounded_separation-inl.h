@@ -115,23 +115,19 @@ HWY_INLINE Floats gap_lost_by_rounding(const Rounded_vector& reach, const Roundi
   return hn::Mul(hn::Set(d, 0x1p-19F), dot(largest, Rounded_vector{yz, xz, xy}));
 }
 
-/// The allowance for rounded corners, see `allowance`.
+/// The reach of two triangles whose corners are rounded, for `apart_along`.
 ///
-/// A corner is off by less than 1.01 x 2^-24 of the largest coordinate, or by 2^-149 where that is below the normal
-/// floats: a gap by twice that for each unit of the axis. Twice that is allowed for. Corners beyond what is safe may
-/// have been beyond all floats.
-HWY_INLINE Allowance<Float_lanes> rounded_allowance(const Two_triangles<Float_lanes>& two, const Rounding& rounding) {
-  using Range = Safe_range<float>;
+/// With u = 2^-24 a corner is off by less than 1.01 u of the largest coordinate M, or by 2^-149 where that is below the
+/// normal floats: a gap by twice that for each unit of the axis. `apart_along` allows for 36 u of the reach: an eighth
+/// of M more is 4.5 u M, and 1e-30 more is 2e-36. Corners beyond what is safe may have been beyond all floats.
+HWY_INLINE Rounded_vector reach_when_rounded(const Two_triangles<Float_lanes>& two, const Rounding& rounding) {
   const Float_lanes d;
-  const auto lost = [&](float largest) HWY_ATTR {
-    return hn::Set(d,
-                   largest < Range::most ? Range::least + 0x1p-22F * largest : std::numeric_limits<float>::infinity());
+  const auto longer = [&](Floats reach, float largest) HWY_ATTR {
+    const bool safe = largest < Safe_range<float>::most;
+    return hn::Add(reach, hn::Set(d, safe ? largest / 8 + 1e-30F : std::numeric_limits<float>::infinity()));
   };
-  Allowance<Float_lanes> allowed = allowance(two, rounding.margin);
-  allowed.rounding.x = hn::Add(allowed.rounding.x, lost(rounding.largest[0]));
-  allowed.rounding.y = hn::Add(allowed.rounding.y, lost(rounding.largest[1]));
-  allowed.rounding.z = hn::Add(allowed.rounding.z, lost(rounding.largest[2]));
-  return allowed;
+  return {longer(two.reach.x, rounding.largest[0]), longer(two.reach.y, rounding.largest[1]),
+          longer(two.reach.z, rounding.largest[2])};
 }
 
 /// Keeps some of the listed pairs in the list, given as bits from the `first`th on.
@@ -159,7 +155,8 @@ HWY_INLINE std::size_t drop_apart_by_rounded_planes(const Leaf_view& a, const Le
   for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
     const Two_triangles<Float_lanes> two(load_corners(a, scratch.pairs_a + first).of,
                                          load_corners(b, scratch.pairs_b + first).of);
-    const auto left = not_apart_by_planes(two, rounded_allowance(two, rounding), hn::FirstN(d, count - first));
+    const auto left =
+        not_apart_by_planes(two, reach_when_rounded(two, rounding), rounding.margin, hn::FirstN(d, count - first));
     kept = keep_listed(first, mask_bits(d, left), kept, scratch);
   }
   return kept;

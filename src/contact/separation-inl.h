@@ -66,16 +66,16 @@ struct Two_triangles {
 };
 
 /// Within which products of a few numbers are known to their last digits: `least` is far above the smallest normal
-/// number, `most` far below the largest one.
+/// number, `most` far below the largest one. Sums of squares are known to theirs from `least_square` on.
 template <class T>
 struct Safe_range;
 template <>
 struct Safe_range<double> {
-  static constexpr double least = 1e-300, most = 1e290;
+  static constexpr double least = 1e-300, least_square = 1e-280, most = 1e290;
 };
 template <>
 struct Safe_range<float> {
-  static constexpr float least = 1e-36F, most = 1e30F;
+  static constexpr float least = 1e-36F, least_square = 1e-28F, most = 1e30F;
 };
 
 /// At least the length of a vector, also where its square is beyond the normal numbers.
@@ -84,50 +84,36 @@ HWY_INLINE hn::Vec<Tag> length_bound(const Vector3<Tag>& u) {
   using T = hn::TFromD<Tag>;
   const Tag d;
   const auto squared = dot(u, u);
-  const auto normal =
-      hn::And(hn::Gt(squared, hn::Set(d, Safe_range<T>::least)), hn::Lt(squared, hn::Set(d, Safe_range<T>::most)));
+  const auto normal = hn::And(hn::Gt(squared, hn::Set(d, Safe_range<T>::least_square)),
+                              hn::Lt(squared, hn::Set(d, Safe_range<T>::most)));
   const auto sum = hn::Add(hn::Add(hn::Abs(u.x), hn::Abs(u.y)), hn::Abs(u.z));
   const auto length = hn::IfThenElse(normal, hn::Sqrt(squared), sum);
   return hn::Mul(hn::Set(d, 1 + 32 * std::numeric_limits<T>::epsilon()), length);
 }
 
-/// What a gap between the projections of two triangles must exceed to prove them farther apart than a margin.
-template <class Tag>
-struct Allowance {
-  Vector3<Tag> rounding;  ///< what rounding may feign, per unit of each coordinate of the axis
-  hn::TFromD<Tag> margin;
-};
-
-/// For corners that are not rounded themselves.
-///
-/// Let u be half the distance from 1 to the next number. A difference is off by u of its size, a dot product of three
-/// terms by less than 4 u of the sum of their sizes, which is at most |axis| . reach: so a gap between two of them is
-/// off by less than 18 u of it. Twice that is allowed for.
-template <class Tag>
-HWY_INLINE Allowance<Tag> allowance(const Two_triangles<Tag>& two, hn::TFromD<Tag> margin) {
-  const auto share = hn::Set(Tag(), 18 * std::numeric_limits<hn::TFromD<Tag>>::epsilon());
-  return {{hn::Mul(share, two.reach.x), hn::Mul(share, two.reach.y), hn::Mul(share, two.reach.z)}, margin};
-}
-
 /// Whether the projections of two triangles onto an axis prove them farther apart than the margin.
 ///
-/// The axis may be any: its own rounding does not matter. What products lose below the normal numbers is far less than
-/// `least`. Infinities, and what comes of them, prove nothing: a projection is at most 1e7 or 1e15 times what is
-/// allowed for its rounding, and so is finite where that is below `most`.
+/// The axis may be any: its own rounding does not matter. Let u be half the distance from 1 to the next number. A
+/// difference is off by u of its size, a dot product of three terms by less than 4 u of the sum of their sizes, which
+/// is at most |axis| . reach: so a gap between two of them is off by less than 18 u of it. Twice that is allowed for,
+/// and `least` for what products lose below the normal numbers. Infinities and what comes of them prove nothing.
+/// @param reach  of the triangles; more, if their corners are off by more than a difference is
 template <class Tag>
-HWY_INLINE hn::Mask<Tag> apart_along(const Two_triangles<Tag>& two, const Allowance<Tag>& allowed,
+HWY_INLINE hn::Mask<Tag> apart_along(const Two_triangles<Tag>& two, const Vector3<Tag>& reach, hn::TFromD<Tag> margin,
                                      const Vector3<Tag>& axis) {
-  using Range = Safe_range<hn::TFromD<Tag>>;
+  using T = hn::TFromD<Tag>;
   const Tag d;
   const auto zero = hn::Zero(d);
   const auto pa1 = dot(axis, two.a1), pa2 = dot(axis, two.a2);
   const auto pb0 = dot(axis, two.b0), pb1 = dot(axis, two.b1), pb2 = dot(axis, two.b2);
   const auto low_a = hn::Min(hn::Min(pa1, pa2), zero), high_a = hn::Max(hn::Max(pa1, pa2), zero);
   const auto low_b = hn::Min(hn::Min(pb0, pb1), pb2), high_b = hn::Max(hn::Max(pb0, pb1), pb2);
-  auto needed = hn::Add(dot(sizes(axis), allowed.rounding), hn::Set(d, Range::least));
-  if (allowed.margin > 0) needed = hn::Add(needed, hn::Mul(hn::Set(d, allowed.margin), length_bound(axis)));
+  const auto share = hn::Set(d, 18 * std::numeric_limits<T>::epsilon());
+  auto needed = hn::Add(hn::Mul(share, dot(sizes(axis), reach)), hn::Set(d, Safe_range<T>::least));
+  if (margin > 0) needed = hn::Add(needed, hn::Mul(hn::Set(d, margin), length_bound(axis)));
   const auto gap = hn::Max(hn::Sub(low_b, high_a), hn::Sub(low_a, high_b));
-  return hn::And(hn::Gt(gap, needed), hn::Lt(needed, hn::Set(d, Range::most)));
+  // A projection that is not a number could be missing from the minima and maxima.
+  return hn::And(hn::Gt(gap, needed), hn::Lt(needed, hn::Set(d, Safe_range<T>::most)));
 }
 
 /// Determinants of two triangles, by corner i of a and j of b. Edge i goes from corner i to the next: e of a, f of b.
@@ -247,11 +233,12 @@ HWY_INLINE hn::Vec<Tag> telling_gap(const Two_triangles<Tag>& two, hn::TFromD<Ta
 
 /// The lanes, of those `among` which is asked, where no direction that one of the triangles alone decides proves them
 /// farther apart than the margin: neither normal, nor one across an edge within a plane.
+/// @param reach  see `apart_along`
 template <class Tag>
-HWY_INLINE hn::Mask<Tag> not_apart_by_planes(const Two_triangles<Tag>& two, const Allowance<Tag>& allowed,
-                                             hn::Mask<Tag> among) {
+HWY_INLINE hn::Mask<Tag> not_apart_by_planes(const Two_triangles<Tag>& two, const Vector3<Tag>& reach,
+                                             hn::TFromD<Tag> margin, hn::Mask<Tag> among) {
   const Tag d;
-  const auto apart = [&](const Vector3<Tag>& axis) HWY_ATTR { return apart_along(two, allowed, axis); };
+  const auto apart = [&](const Vector3<Tag>& axis) HWY_ATTR { return apart_along(two, reach, margin, axis); };
   const auto normal_a = cross(two.a1, two.a2);
   among = hn::AndNot(apart(normal_a), among);
   if (hn::AllFalse(d, among)) return among;
@@ -280,7 +267,7 @@ HWY_INLINE Truths not_proven_apart(const Vector3<Lanes> (&a)[3], const Vector3<L
   crossing = all(no_crossing);
   auto left = asked;
   // Planes separate most faces that are near each other on one surface.
-  if (one_mesh || margin > 0) left = not_apart_by_planes(two, allowance(two, margin), left);
+  if (one_mesh || margin > 0) left = not_apart_by_planes(two, two.reach, margin, left);
   if (margin > 0 || hn::AllFalse(d, left)) return left;
   const auto of = determinants(two);
   const auto gap = greatest_gap(of);
@@ -289,7 +276,7 @@ HWY_INLINE Truths not_proven_apart(const Vector3<Lanes> (&a)[3], const Vector3<L
   const auto unclear = hn::And(left, hn::Eq(crossing, all(no_crossing)));
   if (one_mesh || hn::AllFalse(d, unclear)) return left;
   // What comes of one lane must not depend on the others: their number differs between instruction sets.
-  return hn::Or(hn::AndNot(unclear, left), not_apart_by_planes(two, allowance(two, margin), unclear));
+  return hn::Or(hn::AndNot(unclear, left), not_apart_by_planes(two, two.reach, margin, unclear));
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

@@ -41,24 +41,32 @@ class Single_leaf {
   Region_tree tree_;
 };
 
-/// Faces by number instead of place, sorted.
-inline Numbers numbered(std::span<const Face_places> places, const Posed_tree& a, std::uint32_t leaf_a,
-                        const Posed_tree& b, std::uint32_t leaf_b) {
+/// Faces by number instead of place, in the order in which they are listed.
+inline Numbers listed_order(std::span<const Face_places> places, const Posed_tree& a, std::uint32_t leaf_a,
+                            const Posed_tree& b, std::uint32_t leaf_b) {
   Numbers pairs;
   for (const auto& place : places) pairs.push_back({a.tree->faces(leaf_a)[place.a], b.tree->faces(leaf_b)[place.b]});
+  return pairs;
+}
+
+/// The same, sorted.
+inline Numbers numbered(std::span<const Face_places> places, const Posed_tree& a, std::uint32_t leaf_a,
+                        const Posed_tree& b, std::uint32_t leaf_b) {
+  Numbers pairs = listed_order(places, a, leaf_a, b, leaf_b);
   std::ranges::sort(pairs);
   return pairs;
 }
 
-/// The near pairs of two trees of one leaf, the same for each instruction set.
+/// The near pairs of two trees of one leaf, the same for each instruction set and in the same order; sorted.
 inline Numbers near_pairs(const Posed_tree& a, const Posed_tree& b, double margin) {
   Leaf_pairs leaf_pairs;
   std::vector<Numbers> answers;
   for_instruction_sets([&] {
     leaf_pairs.begin(a, b, margin);
-    answers.push_back(numbered(leaf_pairs.near_faces(0, 0), a, 0, b, 0));
+    answers.push_back(listed_order(leaf_pairs.near_faces(0, 0), a, 0, b, 0));
   });
   for (const auto& answer : answers) EXPECT_EQ(answer, answers[0]);
+  std::ranges::sort(answers[0]);
   EXPECT_EQ(std::ranges::adjacent_find(answers[0]), answers[0].end()) << "a pair twice";
   return answers[0];
 }
