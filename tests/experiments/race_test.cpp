@@ -108,9 +108,9 @@ class One_by_one : public Entrant {
   const Answer& play(std::span<const Object_pair> pairs) override {
     constexpr double not_asked = std::numeric_limits<double>::infinity();
     const bool lists = rounds_.back() == 1;
-    answer_ = {.update_seconds = lists ? 0.5 : 0.25,
-               .any_seconds = lists ? not_asked : 1,
-               .all_seconds = lists ? 2 : not_asked};
+    answer_.update_seconds = lists ? 0.5 : 0.25;
+    answer_.any_seconds = lists ? not_asked : 1;
+    answer_.all_seconds = lists ? 2 : not_asked;
     answer_.collides.assign(pairs.size(), !lists);
     answer_.contacts.assign(pairs.size(), {});
     return answer_;
