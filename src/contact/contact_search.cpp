@@ -10,8 +10,8 @@ namespace lodestone {
 
 namespace {
 
-/// Pairs of leaves that are looked at before other workers are woken: some 50 microseconds. A walk over trees of many
-/// leaves mostly is a long one, and each test takes longer, for they are no longer in the innermost cache.
+/// Pairs of leaves that are looked at before other workers are woken: some 50 microseconds in small trees, in which
+/// mostly nothing is left after them. A walk over trees of many leaves mostly is a long one: the others begin at once.
 std::size_t tests_alone(std::size_t leaves) { return leaves < 1024 ? 64 : 4; }
 /// Tasks that the rest of a walk is cut into, per worker: it takes one thread to find them.
 constexpr std::size_t walk_tasks = 32;

@@ -28,7 +28,7 @@ struct alignas(64) Box_columns {
   alignas(64) Places vertices[3];  ///< within one mesh: the numbers of the corners in it
 };
 
-/// Where the faces of a leaf are, and the leaf itself.
+/// Where the faces of a leaf are, and the leaf itself. While the number of faces is 0, only the leaf is known, if that.
 struct Face_columns : Box_columns {
   using Positions = float[3][3 * most_leaf_faces + most_float_lanes];
 
