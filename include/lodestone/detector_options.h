@@ -22,7 +22,7 @@ namespace lodestone {
 enum class Mode {
   particles,  ///< one particle per region; may miss a collision, never invents one
   senin,      ///< the predecessor: particles scattered over the surface, no regions
-  exact,      ///< a tree of boxes, or other volumes, over the regions: what checking every face against every other would find
+  exact,      ///< a tree of volumes over the regions: finds what checking every face against every other would
 };
 
 /// As the options of the program and its results name it.
@@ -38,7 +38,7 @@ struct Exact_options {
   bool self_collision = false;  ///< also report pairs of faces of one object
   bool containment = false;     ///< also tell objects that lie inside others
   std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it
-  double loosest = 1.5;         ///< rebuild an object's tree when its leaves are looser by this factor; > 1
+  double loosest = 2;           ///< rebuild an object's tree when its leaves are looser by this factor; > 1
   Region_tree_options tree = {};
 };
 
