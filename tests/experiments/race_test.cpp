@@ -61,19 +61,19 @@ class Race : public testing::Test {
  protected:
   /// Two unit spheres: far apart in frames 0 to 2, near in 3, intersecting in 4 and 5.
   void SetUp() override {
-    const auto file = folder.write("two.json", R"({"frames": 6, "objects": [
+    const auto file = folder_.write("two.json", R"({"frames": 6, "objects": [
       {"name": "still", "shape": {"icosphere": {"frequency": 5}}},
       {"name": "moving", "shape": {"icosphere": {"frequency": 4}}, "motion": {"deform": [{"travel":
         {"path": "linear", "way_points": [{"frame": 2, "at": [3, 1, 1]}, {"frame": 3, "at": [1.5, 1.5, 1]},
                                           {"frame": 4, "at": [1.5, 0, 0]}]}}]}}]})");
-    scene = read_scene(file);
+    scene_ = read_scene(file);
   }
   Scene_figures measured(const Entry& entry, const Race_options& options = {}) {
-    return measure_race(scene, std::vector{entry}, options, [](double) {});
+    return measure_race(scene_, std::vector{entry}, options, [](double) {});
   }
 
-  test::Temporary_folder folder;
-  Scene scene;
+  test::Temporary_folder folder_;
+  Scene scene_;
 };
 
 TEST_F(Race, plays_the_frames_in_which_the_boxes_overlap) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <memory>
@@ -85,7 +86,7 @@ class Leaf_pairs {
   };
   static kernel::Leaf_view view(Side& side, std::uint32_t leaf);
 
-  Side sides_[2];
+  std::array<Side, 2> sides_;
   std::unique_ptr<kernel::Leaf_request> request_;
   std::unique_ptr<Leaf_scratch> scratch_;
   std::vector<Face_places> near_;
