@@ -10,9 +10,10 @@ namespace lodestone {
 
 namespace {
 
-/// Pairs of leaves that are looked at before other workers are woken: some 50 microseconds in small trees, in which
-/// mostly nothing is left after them. A walk over trees of many leaves mostly is a long one: the others begin at once.
-std::size_t tests_alone(std::size_t leaves) { return leaves < 1024 ? 64 : 4; }
+/// Pairs of leaves that are looked at before other workers are woken: some 50 microseconds in small trees. Mostly
+/// nothing is left after them, or one of them has the first face pair, if that is all that is asked for. A walk over
+/// trees of many leaves for all face pairs mostly is a long one: the others begin at once.
+std::size_t tests_alone(std::size_t leaves, std::size_t limit) { return leaves < 1024 || limit == 1 ? 64 : 4; }
 /// Tasks that the rest of a walk is cut into, per worker: it takes one thread to find them.
 constexpr std::size_t walk_tasks = 32;
 
@@ -72,7 +73,8 @@ std::size_t Contact_search::run_tasks(const Plan& plan, std::size_t limit) {
   results_.resize(std::max<std::size_t>(results_.size(), 1));
   Tree_walk& walk = scratch_.front().walk;
   walk.ahead.assign(1, {0, 0});
-  walk.last_leaf_test = shared ? walk.leaf_tests + tests_alone(plan.leaves) : std::numeric_limits<std::size_t>::max();
+  walk.last_leaf_test =
+      shared ? walk.leaf_tests + tests_alone(plan.leaves, limit) : std::numeric_limits<std::size_t>::max();
   const bool full = run_one(plan.walk, 0, limit, scratch_.front());
   walk.last_leaf_test = std::numeric_limits<std::size_t>::max();
   if (full) return 1;

@@ -60,12 +60,14 @@ void refit(std::span<Basic_tree_object<Volume>* const> objects, std::span<const 
     objects[o]->coordinates_ = coordinates[o];
     first_part.push_back(first_part.back() + objects[o]->tree_.part_count());
   }
-  const auto refit_part = [&](std::size_t task, std::size_t) {
+  // Whoever moves vertices mostly does so in order: the last ones are still in the calling thread's caches.
+  const auto refit_part = [&](std::size_t index, std::size_t) {
+    const std::size_t task = first_part.back() - 1 - index;
     const auto o = static_cast<std::size_t>(std::ranges::upper_bound(first_part, task) - first_part.begin()) - 1;
     objects[o]->tree_.refit_part(task - first_part[o], coordinates[o]);
   };
   if (first_part.back() < shared_parts)
-    for (std::size_t task = 0; task < first_part.back(); ++task) refit_part(task, 0);
+    for (std::size_t index = 0; index < first_part.back(); ++index) refit_part(index, 0);
   else
     workers.run(first_part.back(), refit_part);
   for (std::size_t o = 0; o < objects.size(); ++o) objects[o]->finite_ = objects[o]->tree_.finish_refit(coordinates[o]);
