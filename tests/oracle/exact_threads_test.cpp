@@ -2,6 +2,7 @@
 // The mode exact gives the same bytes for any number of threads.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 
 #include "lodestone/io/shapes.h"
@@ -56,6 +57,31 @@ TEST(Exact_threads, yes_or_no_does_not_depend_on_their_number) {
 
 TEST(Exact_threads, the_first_contact_does_not_depend_on_their_number) {
   expect_the_same_for_any_number_of_threads({.contacts = Contact_query::first});
+}
+
+/// Two slanted cloths, one above the other: the boxes of many leaves overlap, and faces intersect at one corner only.
+TEST(Exact_threads, a_first_contact_that_is_met_late_does_not_depend_on_their_number) {
+  const auto low_end = [](double x, double y) { return x < 0.01 && y < 0.01; };
+  const auto high_end = [](double x, double y) { return x > 0.99 && y > 0.99; };
+  const std::vector<std::function<bool(double, double)>> ends{low_end, high_end};
+  std::size_t most_looked_at = 0;
+  for (const auto& dips : ends)
+    for (const auto query : {Contact_query::yes_no, Contact_query::first}) {
+      auto low = cloth(60, 60), high = cloth(60, 60);
+      deform(low, [](const Point& p) { return Point(p.x(), p.y(), p.x()); });
+      deform(high, [&](const Point& p) { return Point(p.x(), p.y(), p.x() + (dips(p.x(), p.y()) ? -0.01 : 0.02)); });
+      std::vector<Frame> found;
+      for (const std::size_t threads : {1, 2, 3, 0}) {
+        Exact_detector detector(
+            {.mode = Mode::exact, .contacts = query, .exact = {.threads = threads, .tree = {.leaf_faces = 8}}});
+        add_all(detector, {&low, &high});
+        found.push_back(detector.detect());
+        EXPECT_TRUE(found.back().collides());
+        expect_same_frame(found.back(), found.front());
+      }
+      most_looked_at = std::max(most_looked_at, found.front().statistics.candidates);
+    }
+  EXPECT_GT(most_looked_at, 1000U);  // far more than one thread looks at before it wakes others
 }
 
 TEST(Exact_threads, capped_contacts_do_not_depend_on_their_number) {
