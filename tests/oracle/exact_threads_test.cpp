@@ -61,8 +61,8 @@ TEST(Exact_threads, the_first_contact_does_not_depend_on_their_number) {
 
 /// Two slanted cloths, one above the other: the boxes of many leaves overlap, and faces intersect at one corner only.
 TEST(Exact_threads, a_first_contact_that_is_met_late_does_not_depend_on_their_number) {
-  const auto low_end = [](double x, double y) { return x < 0.01 && y < 0.01; };
-  const auto high_end = [](double x, double y) { return x > 0.99 && y > 0.99; };
+  const auto low_end = [](double x, double y) { return x < 0.3 && y < 0.3; };
+  const auto high_end = [](double x, double y) { return x > 0.7 && y > 0.7; };
   const std::vector<std::function<bool(double, double)>> ends{low_end, high_end};
   std::size_t most_looked_at = 0;
   for (const auto& dips : ends)
