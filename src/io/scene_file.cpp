@@ -27,6 +27,7 @@ using detail::Json_value;
 using Placement = std::optional<Kernel::Aff_transformation_3>;
 
 constexpr std::size_t most_objects = 10'000;
+constexpr std::size_t most_ignored = 100'000;
 constexpr std::size_t most_frames = 1'000'000;
 constexpr std::size_t most_particles = 100'000;
 
@@ -202,6 +203,25 @@ std::vector<Scene_object> read_objects(const Json_value& value, const std::files
   return objects;
 }
 
+/// Pairs of names, as numbers of objects.
+std::vector<Object_pair> read_ignored(const Json_value& scene, const std::vector<Scene_object>& objects) {
+  const auto number = [&](const Json_value& name) {
+    const auto found = std::ranges::find(objects, name.text(), &Scene_object::name);
+    if (found == objects.end()) name.fail(fmt::format("there is no object {}", in_quotes(name.text())));
+    return static_cast<std::uint32_t>(found - objects.begin());
+  };
+  std::vector<Object_pair> ignored;
+  for (const Json_value& pair : scene.list("ignore", most_ignored)) {
+    const auto names = pair.elements(2);
+    if (names.size() != 2) pair.fail("expected the names of two objects");
+    const auto [a, b] = std::minmax({number(names[0]), number(names[1])});
+    ignored.push_back({a, b});
+  }
+  std::ranges::sort(ignored);
+  ignored.erase(std::ranges::unique(ignored).begin(), ignored.end());
+  return ignored;
+}
+
 /// Frames of the shortest motion that ends; 0 when none does.
 std::size_t shortest_motion(const std::vector<Scene_object>& objects) {
   std::size_t shortest = 0;
@@ -235,7 +255,7 @@ std::size_t read_frames(const Json_value& scene, const std::vector<Scene_object>
 Scene read_scene(const std::filesystem::path& file) {
   const detail::Json document = detail::parse_json(file);
   const Json_value value(document, file.string());
-  value.expect_keys({"name", "description", "frames", "objects"});
+  value.expect_keys({"name", "description", "frames", "objects", "ignore"});
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 
   Scene scene;
@@ -243,6 +263,7 @@ Scene read_scene(const std::filesystem::path& file) {
   scene.name = name ? name->text() : file.stem().string();
   if (const auto description = value.find("description")) scene.description = description->text();
   scene.objects = read_objects(value.at("objects"), folder);
+  scene.ignored = read_ignored(value, scene.objects);
   scene.frames = read_frames(value, scene.objects);
   return scene;
 }

@@ -24,12 +24,13 @@ namespace lodestone {
 
 namespace {
 
-Scene load(const std::vector<std::filesystem::path>& inputs) {
+Scene load(const std::vector<std::filesystem::path>& inputs, bool self_collision) {
   if (inputs.size() == 1) {
-    if (inputs[0].extension() != ".json")
+    if (inputs[0].extension() == ".json") return read_scene(inputs[0]);
+    if (!self_collision)
       throw Bad_argument(inputs[0].string() +
-                         ": one mesh alone has nothing to collide with; give a scene or two meshes");
-    return read_scene(inputs[0]);
+                         ": one mesh alone has nothing to collide with; give a scene or two meshes, or --mode exact "
+                         "--self for collisions with itself");
   }
   Scene scene;
   scene.name = "meshes";
@@ -64,14 +65,16 @@ class Run {
  public:
   explicit Run(const Detect_command& command)
       : command_(command),
-        scene_(load(command.inputs)),
+        scene_(load(command.inputs, command.options.exact.self_collision)),
         detector_(detector_options(command), make_strategy(command.partition.name, command.partition.settings)) {
     for (auto& object : scene_.objects) {
       names_.push_back(object.name);
       Object_options options{.particles = command.options.particles > 0 ? 0 : object.particles};
       if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
+      options.file_vertex = object.file_vertex;
       detector_.add(object.mesh, options);
     }
+    for (const auto& pair : scene_.ignored) detector_.ignore(pair.a, pair.b);
     measurement_.setting.options = command.options;
     if (!command.html.empty()) page_.emplace(command, scene_, detector_);
     if (!command.paraview.empty()) paraview_.emplace(command.paraview, scene_.frames);
@@ -136,7 +139,8 @@ std::optional<std::vector<Pair_truth>> Run::find_truth() const {
   std::vector<Pair_truth> truth;
   for (Object_id a = 0; a < scene_.objects.size(); ++a)
     for (Object_id b = a + 1; b < scene_.objects.size(); ++b)
-      truth.push_back({a, b, exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh)});
+      if (!std::ranges::binary_search(scene_.ignored, Object_pair{a, b}))
+        truth.push_back({a, b, exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh)});
   return truth;
 }
 

@@ -85,8 +85,9 @@ Page_log::Page_log(const Detect_command& command, const Scene& scene, const Scen
   for (const auto& object : scene.objects) {
     const Mesh_numbering<Surface_mesh> numbering(object.mesh);
     page_.add_object(object.name, numbering.vertex_count(), numbering.corners());
-    exact_.add(object.mesh);
+    exact_.add(object.mesh, {.file_vertex = object.file_vertex});
   }
+  for (const auto& pair : scene.ignored) exact_.ignore(pair.a, pair.b);
 }
 
 void Page_log::add(std::size_t frame, const Frame& result, const std::string& line, std::optional<bool> truth) {
@@ -144,7 +145,9 @@ std::optional<double> Page_log::nearest() {
     for (const auto& p : scene_.objects[o].mesh.points()) boxes[o].extend(coordinates(p));
   std::vector<std::tuple<double, Object_id, Object_id>> gaps;
   for (Object_id a = 0; a < boxes.size(); ++a)
-    for (Object_id b = a + 1; b < boxes.size(); ++b) gaps.emplace_back(distance_lower_bound(boxes[a], boxes[b]), a, b);
+    for (Object_id b = a + 1; b < boxes.size(); ++b)
+      if (!std::ranges::binary_search(scene_.ignored, Object_pair{a, b}))
+        gaps.emplace_back(distance_lower_bound(boxes[a], boxes[b]), a, b);
   std::ranges::sort(gaps);
   std::optional<double> least;
   for (const auto& [gap, a, b] : gaps) {

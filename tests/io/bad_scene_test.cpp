@@ -54,7 +54,7 @@ TEST(Bad_scene_file, unknown_key_in_a_motion) {
 
 TEST(Bad_scene_file, unknown_keys_everywhere_else) {
   EXPECT_EQ(error_of(R"({"object": []})"),
-            R"(scene.json: /: unknown key "object" (expected one of name, description, frames, objects))");
+            R"(scene.json: /: unknown key "object" (expected one of name, description, frames, objects, ignore))");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "colour": 1)")).substr(0, 46),
             R"(scene.json: /objects/0: unknown key "colour" ()");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "place": {"shift": 1})")),
@@ -71,7 +71,7 @@ TEST(Bad_scene_file, unknown_keys_everywhere_else) {
 
 TEST(Bad_scene_file, an_unknown_key_cannot_break_the_line_of_the_message) {
   EXPECT_EQ(error_of(R"({"a\n\u0000b": 1})"),
-            R"(scene.json: /: unknown key "a\n\u0000b" (expected one of name, description, frames, objects))");
+            R"(scene.json: /: unknown key "a\n\u0000b" (expected one of name, description, frames, objects, ignore))");
   EXPECT_LT(error_of("{\"" + std::string(100'000, 'x') + "\": 1}").size(), 300U);
 }
 
@@ -330,6 +330,13 @@ TEST(Bad_scene_file, scene_files_that_are_none) {
   const auto huge = folder.write("huge.json", "");
   std::filesystem::resize_file(huge, std::uintmax_t{1} << 40U);
   EXPECT_EQ(message_of(huge), huge.string() + ": is longer than 16 MiB, too long for a scene");
+}
+
+TEST(Bad_scene_file, ignored_names_that_are_no_objects) {
+  EXPECT_EQ(error_of(R"({"objects": [{"name": "a", "mesh": "a.off"}], "ignore": [["a", "a"], ["a", "A"]]})"),
+            R"(scene.json: /ignore/1/1: there is no object "A")");
+  EXPECT_EQ(error_of(R"({"objects": [{"name": "a", "mesh": "a.off"}], "ignore": [["a"]]})"),
+            "scene.json: /ignore/0: expected the names of two objects");
 }
 
 }  // namespace

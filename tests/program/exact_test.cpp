@@ -157,5 +157,37 @@ TEST_F(Exact, options_of_another_mode_are_refused_with_a_line) {
   EXPECT_NE(result.err.find("--truth"), std::string::npos) << result.err;
 }
 
+TEST_F(Exact, looks_at_a_single_mesh_by_itself) {
+  const auto cross =
+      write("cross.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0.2 0.2 -1\n0.2 0.2 1\n0.3 0.3 1\n3 0 1 2\n3 3 4 5\n");
+  const auto bow = write("bow.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n");
+  expect_success(detect(cross, {"--self", "--contacts", "all"}));
+  EXPECT_EQ(frames().at(0)["pairs"][0]["faces"], Json::array({{0, 1}}));
+  // Two faces that share a vertex, which the mesh holds twice.
+  expect_success(detect(bow, {"--self", "--contacts", "all"}));
+  EXPECT_EQ(frames().at(0)["pairs"][0]["collides"], false);
+  const auto alone = detect(cross, {});
+  EXPECT_NE(alone.exit_code, 0);
+  EXPECT_NE(alone.err.find("--self"), std::string::npos) << alone.err;
+}
+
+TEST_F(Exact, leaves_out_what_the_scene_ignores) {
+  write("a.off", tetrahedron(0));
+  const auto objects = R"("objects": [{"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "a.off"},
+                                      {"name": "c", "mesh": "a.off"}])";
+  const auto scene = write("three.json", "{" + std::string(objects) + R"(, "ignore": [["c", "a"], ["b", "b"]]})");
+  for (const bool particles : {false, true}) {
+    expect_success(particles ? run_program({"detect", scene, "--truth", "--out", out.string()})
+                             : detect(scene, {"--truth"}));
+    const auto pairs = frames().at(0)["pairs"];
+    ASSERT_EQ(pairs.size(), 2U) << pairs;
+    EXPECT_EQ(pairs[0]["b"], "b");
+    EXPECT_EQ(pairs[1]["a"], "b");
+  }
+  expect_success(detect(scene, {"--self"}));
+  EXPECT_EQ(frames().at(0)["pairs"].size(), 4U);  // a and c with themselves, a with b, b with c
+  expect_success(run_program({"detect", scene, "--mode", "exact", "--html", (out / "page.html").string()}));
+}
+
 }  // namespace
 }  // namespace lodestone::test

@@ -10,6 +10,7 @@
 
 #include "lodestone/concepts.h"
 #include "lodestone/io/motion.h"
+#include "lodestone/particles/near_pairs.h"
 
 namespace lodestone {
 
@@ -31,6 +32,7 @@ struct Scene {
   std::string description;
   std::size_t frames = 1;
   std::vector<Scene_object> objects;
+  std::vector<Object_pair> ignored;  ///< pairs of objects not to look at, a <= b, sorted; a = b: an object and itself
 };
 
 /// Reads a scene: JSON as described by docs/scene.schema.json.
