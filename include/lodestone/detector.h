@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,10 +33,11 @@ using Own_points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::con
 ///       for (const auto& pair : detector.detect().pairs) ...
 ///     }
 ///
-/// Meshes stay with the caller, who moves their vertices, calls `rebuild` after any change of their faces, and neither
-/// moves nor assigns to the mesh object itself; they must outlive the detector. How much of a mesh a frame reads, and
-/// what may be missed, depends on the mode: see `Particle_detection` and `Exact_detection`. Answers are never those of
-/// an earlier frame: positions are read by the call that answers. One thread at a time.
+/// Meshes stay with the caller, who moves their vertices, calls `rebuild` after any change of their faces or of their
+/// set of property maps, and neither moves nor assigns to the mesh object itself; they must outlive the detector. How
+/// much of a mesh a frame reads, and what may be missed, depends on the mode: see `Particle_detection` and
+/// `Exact_detection`. Answers are never those of an earlier frame: positions are read by the call that answers. One
+/// thread at a time.
 ///
 /// @tparam Mesh      any model of Triangle_mesh
 /// @tparam Strategy  how surfaces are divided, see Partition_strategy
@@ -50,7 +52,7 @@ class Detector {
   /// Adds an object and leaves `v:region` and `v:particle` on its mesh.
   /// Another detector that the same mesh is added to writes to the same maps.
   /// @throws Bad_mesh      no face, a face that is no triangle
-  /// @throws Bad_argument  the mesh has been added before
+  /// @throws Bad_argument  the mesh has been added before, `file_vertex` has not a number for each vertex
   Object_id add(Mesh& mesh, const Object_options& options = {}) {
     const Object_id object = add(std::as_const(mesh), options);
     if (exact_)
@@ -67,6 +69,9 @@ class Detector {
   }
   /// Adds an object whose positions are read through `points`. One mesh may be added several times with other points.
   Object_id add(const Mesh& mesh, Points points, const Object_options& options = {});
+  /// A mesh that ends with the call cannot be added.
+  Object_id add(const Mesh&& mesh, const Object_options& options = {}) = delete;
+  Object_id add(const Mesh&& mesh, Points points, const Object_options& options = {}) = delete;
 
   /// Says that the vertices of an object have moved. In mode `particles` an object whose regions have outgrown A* is
   /// repartitioned, with its number of particles computed afresh: O(N) while nothing has grown. In mode `exact` it
@@ -82,11 +87,13 @@ class Detector {
   /// @throws Bad_argument  no such object, another mode
   /// @throws Bad_mesh      another number of rows, a coordinate that is not finite; the object stays as it was
   void update(Object_id object, const Eigen::Ref<const Positions>& positions);
-  /// Says that faces of an object's mesh have come, gone or changed. It is numbered, partitioned and built anew. Other
-  /// numbers of vertices or faces are noticed without it, an edge that was flipped is not.
-  /// @throws Bad_argument  no such object
+  /// Says that faces of an object's mesh have come, gone or changed. It is numbered, partitioned and built anew, and
+  /// its positions are those of its mesh, as after `update(object)`. Other numbers of vertices or faces are noticed
+  /// without it, an edge that was flipped is not.
+  /// @param file_vertex    as in Object_options, of the vertices that there are now
+  /// @throws Bad_argument  no such object, `file_vertex` has not a number for each vertex
   /// @throws Bad_mesh      as `add`; the object stays as it was
-  void rebuild(Object_id object);
+  void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex = {});
 
   /// Leaves out a pair of objects, or with `ignored` = false takes it in again; a = b: collisions of a with itself.
   /// @throws Bad_argument  no such object
@@ -103,8 +110,8 @@ class Detector {
   const Frame& detect(Object_id a, Object_id b);
 
   /// Shows the face pairs of two objects to a visitor, which may stop the walk: see `visit_contacts`. Mode `exact`,
-  /// with its tolerance; caps and filters do not count.
-  /// @throws Bad_argument  no such object, one and the same, another mode
+  /// with its tolerance; caps and filters do not count. The visitor cannot call the detector.
+  /// @throws Bad_argument  no such object, one and the same, another mode, a call of the visitor
   /// @throws Bad_mesh      as `detect`
   template <Contact_visitor Visitor>
   Visit visit(Object_id a, Object_id b, Visitor&& visitor) {
@@ -201,10 +208,10 @@ void Detector<Mesh, Strategy, Points, Volume>::update(Object_id object, const Ei
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Detector<Mesh, Strategy, Points, Volume>::rebuild(Object_id object) {
+void Detector<Mesh, Strategy, Points, Volume>::rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) {
   checked(object);
   if (exact_)
-    exact_->rebuild(object);
+    exact_->rebuild(object, file_vertex);
   else
     particles_->rebuild(object);
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "lodestone/baselines/senin.h"
 #include "lodestone/contact/confirmation.h"
@@ -69,6 +70,10 @@ struct Object_options {
   std::optional<Eigen::Vector3d> scattered_side = {};  ///< Senin_options::side of this object
   std::uint32_t groups = 1;                            ///< bits: the groups that the object belongs to
   std::uint32_t meets = ~std::uint32_t{0};             ///< bits: the groups that it can collide with, its own included
+  /// Per vertex of the mesh: its number in the file, as `read_mesh` tells it. Mode `exact` takes vertices of one number
+  /// as one, at the position of the first: a half-edge mesh must double vertices that are not manifold, and faces that
+  /// share one would else touch as strangers. Empty: every vertex is one by itself.
+  std::vector<std::uint32_t> file_vertex = {};
 };
 
 /// Options of another mode are ignored, but for those of the mode `exact` that ask for more than others can answer.

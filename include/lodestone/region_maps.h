@@ -39,8 +39,12 @@ class Region_maps {
   using Map = typename Region_property<Mesh>::Map;
 
   explicit Region_maps(Mesh& mesh)
-      : region_(Region_property<Mesh>::add(mesh, "v:region")),
+      : mesh_(&mesh),
+        region_(Region_property<Mesh>::add(mesh, "v:region")),
         particle_(Region_property<Mesh>::add(mesh, "v:particle")) {}
+
+  /// Finds the maps on the mesh again, or adds them: `Surface_mesh::clear` frees them.
+  void renew() { *this = Region_maps(*mesh_); }
 
   const Map& region() const { return region_; }
   const Map& particle() const { return particle_; }
@@ -65,6 +69,7 @@ class Region_maps {
   }
 
  private:
+  Mesh* mesh_;
   Map region_, particle_;
   std::vector<std::uint32_t> written_;  ///< where particles were written last
 };

@@ -49,11 +49,8 @@ Contact_normal contact_normal(const Triangle& a, const Triangle& b) {
   return contact;
 }
 
-Contact_normal gap_normal(const Triangle& a, const Triangle& b, const Closest_points& nearest) {
-  // Halves: the difference of the largest coordinates would overflow.
-  const Eigen::Vector3d gap(nearest.a.x() / 2 - nearest.b.x() / 2, nearest.a.y() / 2 - nearest.b.y() / 2,
-                            nearest.a.z() / 2 - nearest.b.z() / 2);
-  return {.normal = gap.isZero(0) ? contact_normal(a, b).normal : gap.stableNormalized(), .depth = -nearest.distance};
+Contact_normal gap_normal(const Closest_points& nearest) {
+  return {.normal = nearest.direction, .depth = -nearest.distance};
 }
 
 }  // namespace lodestone

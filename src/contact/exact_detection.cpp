@@ -14,11 +14,24 @@ Positions scaled_positions(Coordinates coordinates) {
   return positions;
 }
 
+namespace {
+
+[[noreturn]] void fail_not_finite(std::size_t vertex, std::uint32_t object) {
+  throw Bad_mesh("vertex " + std::to_string(vertex) + " of object " + std::to_string(object) +
+                 " has a coordinate that is not finite");
+}
+
+}  // namespace
+
 void check_finite(Coordinates coordinates, std::uint32_t object) {
   const auto wrong = std::ranges::find_if(coordinates, [](double x) { return !std::isfinite(x); });
-  if (wrong == coordinates.end()) return;
-  throw Bad_mesh("vertex " + std::to_string((wrong - coordinates.begin()) / 3) + " of object " +
-                 std::to_string(object) + " has a coordinate that is not finite");
+  if (wrong != coordinates.end()) fail_not_finite(static_cast<std::size_t>(wrong - coordinates.begin()) / 3, object);
+}
+
+void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, std::uint32_t object) {
+  for (const std::size_t v : vertices)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!std::isfinite(coordinates[3 * v + axis])) fail_not_finite(v, object);
 }
 
 }  // namespace lodestone

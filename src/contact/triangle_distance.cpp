@@ -57,6 +57,7 @@ class Estimate {
 
   const Nearest_places<double>& places() const { return nearest_; }
   double distance() const { return std::ldexp(distance_, scaled_.exponent); }
+  Eigen::Vector3d direction() const { return nearest_.gap.stableNormalized(); }
 
   /// Whether the triangles are proven not to intersect.
   bool proves_apart() const { return at_least_ > 0; }
@@ -132,6 +133,14 @@ double rounded(const Exact& x) {
   return CGAL::to_double(x);
 }
 
+/// Rounded only once its greatest coordinate is 1: however short a gap is, its direction has all digits.
+Eigen::Vector3d direction(const Nearest_places<Exact>& nearest) {
+  Exact greatest = 0;
+  for (int axis = 0; axis < 3; ++axis) greatest = std::max(greatest, CGAL::abs(nearest.gap[axis]));
+  const auto part = [&](int axis) { return rounded(nearest.gap[axis] / greatest); };
+  return Eigen::Vector3d(part(0), part(1), part(2)).normalized();
+}
+
 Point point(const Triangle& t, const Place<Exact>& place) {
   return {rounded(coordinate(t, place, 0)), rounded(coordinate(t, place, 1)), rounded(coordinate(t, place, 2))};
 }
@@ -158,15 +167,16 @@ double positive(double distance) { return std::max(distance, std::numeric_limits
 Closest_points closest_points(const Triangle& a, const Triangle& b) {
   Estimate estimate(a, b);
   const auto& places = estimate.places();
-  if (estimate.proves_accuracy()) return {point(a, places.a), point(b, places.b), positive(estimate.distance())};
+  if (estimate.proves_accuracy())
+    return {point(a, places.a), point(b, places.b), positive(estimate.distance()), estimate.direction()};
   if (!estimate.proves_apart() && triangles_intersect(a, b)) {
     const Point common = triangle_intersection(a, b).front();
-    return {common, common, 0};
+    return {.a = common, .b = common};
   }
   const auto nearest = exact_nearest_places(a, b);
   const auto& gap = nearest.gap;
   return {point(a, nearest.a), point(b, nearest.b),
-          positive(std::hypot(rounded(gap[0]), rounded(gap[1]), rounded(gap[2])))};
+          positive(std::hypot(rounded(gap[0]), rounded(gap[1]), rounded(gap[2]))), direction(nearest)};
 }
 
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance) {

@@ -191,10 +191,10 @@ TEST(Contact_normal, of_two_overlapping_balls_points_from_one_to_the_other) {
 TEST(Gap_normal, of_a_wall_above_a_floor_points_up_and_tells_their_distance) {
   const Triangle floor = as_triangle({{{0, 0, 0}, {80, 0, 0}, {0, 80, 0}}});
   const Triangle wall = as_triangle({{{16, 8, 1}, {16, 32, 1}, {16, 16, 40}}});
-  const auto gap = gap_normal(wall, floor, closest_points(wall, floor));
+  const auto gap = gap_normal(closest_points(wall, floor));
   EXPECT_LT((gap.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
   EXPECT_EQ(gap.depth, -1);
-  const auto other = gap_normal(floor, wall, closest_points(floor, wall));
+  const auto other = gap_normal(closest_points(floor, wall));
   EXPECT_LT((other.normal + Eigen::Vector3d::UnitZ()).norm(), 1e-15);
 }
 
@@ -203,7 +203,7 @@ TEST(Gap_normal, has_length_one_at_any_scale) {
   const Triangle tip = as_triangle({{{1, 1, 2}, {1, 2, 3}, {2, 1, 3}}});
   for (const int exponent : {-1000, -300, 0, 300, 1000}) {
     const auto a = scaled(tip, std::ldexp(1.0, exponent)), b = scaled(floor, std::ldexp(1.0, exponent));
-    const auto gap = gap_normal(a, b, closest_points(a, b));
+    const auto gap = gap_normal(closest_points(a, b));
     EXPECT_LT((gap.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-15) << exponent;
     EXPECT_EQ(gap.depth, -std::ldexp(2.0, exponent));
   }

@@ -225,5 +225,57 @@ TEST(Distance_lower_bound, stays_finite_at_the_greatest_coordinates) {
   EXPECT_EQ(distance_lower_bound(low, high), most);
 }
 
+/// The unit vector along a vector of exact numbers.
+Eigen::Vector3d unit(const Exact_vector& exact) {
+  Rational greatest = 0;
+  for (int axis = 0; axis < 3; ++axis) greatest = std::max(greatest, CGAL::abs(exact[axis]));
+  return Eigen::Vector3d(CGAL::to_double(exact.x() / greatest), CGAL::to_double(exact.y() / greatest),
+                         CGAL::to_double(exact.z() / greatest))
+      .normalized();
+}
+
+TEST(Closest_points, tell_the_direction_of_a_gap_of_any_size) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> coordinate(-1, 1), inner(0.2, 0.4);
+  std::size_t apart = 0;
+  for (const double gap : {1e-2, 1e-6, 1e-9, 1e-12, 1e-14, 1e-15})
+    for (int trial = 0; trial < 200; ++trial) {
+      const auto corner = [&] {
+        const double x = coordinate(random), y = coordinate(random), z = coordinate(random);
+        return Eigen::Vector3d(10 + x, 10 + y, 10 + z);
+      };
+      const auto as_point = [](const Eigen::Vector3d& p) { return Point(p.x(), p.y(), p.z()); };
+      const Eigen::Vector3d p = corner(), q = corner(), r = corner();
+      const Eigen::Vector3d normal = (q - p).cross(r - p).normalized();
+      const double s = inner(random), t = inner(random);
+      const Eigen::Vector3d tip = p + s * (q - p) + t * (r - p) + gap * normal;
+      const Triangle floor{as_point(p), as_point(q), as_point(r)};
+      const Triangle wall{as_point(tip), as_point(tip + normal + 0.3 * (q - p)),
+                          as_point(tip + normal - 0.2 * (r - p))};
+      const Exact_vector up = CGAL::cross_product(exact_point(floor[1]) - exact_point(floor[0]),
+                                                  exact_point(floor[2]) - exact_point(floor[0]));
+      // Rounded, a short gap may be none.
+      if (!((exact_point(wall[0]) - exact_point(floor[0])) * up > 0)) continue;
+      ++apart;
+      EXPECT_LT((closest_points(wall, floor).direction - unit(up)).norm(), 1e-9) << gap;
+      EXPECT_LT((closest_points(floor, wall).direction + unit(up)).norm(), 1e-9) << gap;
+    }
+  EXPECT_GT(apart, 1000U);
+}
+
+TEST(Closest_points, have_a_direction_of_length_one_where_they_are_apart_and_none_where_they_meet) {
+  for_pairs(150, [](const Triangle& a, const Triangle& b) {
+    for (const double factor : {0x1p-1000, 1.0, 0x1p300}) {
+      const auto found = closest_points(scaled(a, factor), scaled(b, factor));
+      ASSERT_NEAR(found.direction.norm(), found.distance > 0 ? 1 : 0, 1e-15);
+    }
+  });
+  const auto flat = [](double z) { return Triangle{Point(z, z, z), Point(1, z, z), Point(z, 1, z)}; };
+  for (const double gap : {1e-318, 2e-323, 5e-324}) {
+    const Triangle tip{Point(0.25, 0.25, gap), Point(0.25, 0.5, 1), Point(0.5, 0.25, 1)};
+    EXPECT_EQ(closest_points(tip, flat(0)).direction, Eigen::Vector3d::UnitZ());
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

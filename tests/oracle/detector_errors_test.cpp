@@ -92,5 +92,15 @@ TEST(Detector, a_corner_of_a_candidate_region_that_is_not_finite_is_refused) {
   EXPECT_THROW(detector.detect(), Bad_mesh);
 }
 
+template <class Mesh>
+concept Addable = requires(Detector<Surface_mesh>& detector, Mesh&& mesh) {
+  detector.add(std::forward<Mesh>(mesh));
+};
+
+TEST(Detector, a_mesh_that_ends_with_the_call_cannot_be_added) {
+  static_assert(Addable<Surface_mesh&> && Addable<const Surface_mesh&>);
+  static_assert(!Addable<Surface_mesh> && !Addable<const Surface_mesh>);
+}
+
 }  // namespace
 }  // namespace lodestone

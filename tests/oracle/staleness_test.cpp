@@ -2,8 +2,10 @@
 // An answer is never that of an earlier frame, however positions came in.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 
 #include "oracle/exact_truth.h"
 
@@ -239,6 +241,44 @@ TEST(Staleness, a_coordinate_that_is_not_finite_is_named_and_the_next_frame_is_r
       shift(b, -0.1);
       EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b, &c}), 2U);
     }
+}
+
+TEST(Staleness, a_visitor_cannot_change_what_it_is_shown) {
+  auto a = potato(6), b = potato(6, 2);
+  const auto c = potato(6, 3);
+  shift(b, 1.3);
+  Exact_detector detector(exact);
+  add_all(detector, {&a, &b});
+  const auto moved = positions_of(a);
+  const std::vector<std::function<void()>> calls{[&] { detector.update(0, moved); }, [&] { detector.update(0); },
+                                                 [&] { detector.rebuild(0); },       [&] { detector.detect(); },
+                                                 [&] { detector.add(c); },           [&] { detector.closest(0, 1); }};
+  for (const auto& call : calls) {
+    detector.update(0, moved);
+    EXPECT_THROW(detector.visit(0, 1,
+                                [&](Face_pair) {
+                                  call();
+                                  return Visit::go_on;
+                                }),
+                 Bad_argument);
+    EXPECT_EQ(detector.size(), 2U);
+    expect_exhaustive(detector.detect(), {&a, &b});
+  }
+}
+
+TEST(Staleness, a_vertex_without_a_face_is_refused_in_every_frame_in_which_it_is_not_finite) {
+  auto a = potato(6);
+  const auto b = potato(6, 2);
+  const auto v = a.add_vertex(Point(0, 0, 0));
+  Exact_detector detector(exact);
+  add_all(detector, {&a, &b});
+  for (int frame = 0; frame < 3; ++frame) {
+    a.point(v) = Point(0, not_a_number, 0);
+    EXPECT_NE(refusal([&] { detector.detect(); }).find("vertex " + std::to_string(v) + " of object 0"),
+              std::string::npos);
+    a.point(v) = Point(0, 0, 0);
+    expect_exhaustive(detector.detect(), {&a, &b});
+  }
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes whose faces change: noticed where numbers change, and right after `rebuild`.
 #include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <random>
+#include <set>
 
 #include "oracle/exact_truth.h"
 
@@ -196,6 +198,45 @@ TEST(Topology, removed_elements_that_have_not_been_collected_are_refused_by_name
   a.collect_garbage();
   detector.rebuild(0);
   expect_exhaustive(detector.detect(), {&a, &b});
+}
+
+TEST(Topology, a_mesh_that_is_cleared_and_filled_again_carries_its_maps_after_rebuild) {
+  for (const Mode mode : {Mode::exact, Mode::particles}) {
+    auto a = sphere(3), b = sphere(5, 1, {1.5, 0, 0});
+    Exact_detector detector({.mode = mode});
+    detector.add(a);
+    detector.add(b);
+    detector.detect();
+    a.clear();  // and with it the maps
+    CGAL::copy_face_graph(sphere(20), a);
+    detector.rebuild(0);
+    EXPECT_TRUE(detector.detect().collides());
+    const auto regions = a.property_map<Surface_mesh::Vertex_index, Region_index>("v:region").first;
+    std::set<Region_index> seen;
+    for (const auto v : a.vertices()) {
+      EXPECT_EQ(regions[v], detector.maps(0).region()[v]);
+      seen.insert(regions[v]);
+    }
+    EXPECT_GE(seen.size(), 12U);
+  }
+}
+
+TEST(Topology, given_positions_are_not_taken_for_those_of_other_vertices) {
+  Surface_mesh a = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{0, 1, 2}, {3, 4, 5}});
+  const Surface_mesh b = mesh_of({{9, 0, -1}, {9, 0, 1}, {9.5, 1, 0}}, {{0, 1, 2}});
+  Exact_detector detector({.mode = Mode::exact});
+  detector.add(std::as_const(a));
+  detector.add(b);
+  Positions lifted = positions_of(a);
+  lifted.col(2).array() += 5;
+  detector.update(0, lifted);
+  EXPECT_FALSE(detector.detect().collides());
+  // One triangle goes, another comes: as many vertices and faces as before.
+  Euler::remove_face(a.halfedge(Surface_mesh::Face_index(0)), a);
+  a.collect_garbage();
+  append(a, mesh_of({{8, 0, 0}, {10, 0, 0}, {9, 1, 0}}, {{0, 1, 2}}));
+  detector.rebuild(0);
+  EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
 }
 
 }  // namespace

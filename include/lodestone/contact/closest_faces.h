@@ -13,8 +13,9 @@ struct Closest_faces {
   Closest_points points = {};  ///< with their distance, in units of the coordinates; 0 if and only if they intersect
 };
 
-/// The closest faces of two trees. Distances are those of `closest_points`; of several pairs at one distance the
-/// lowest.
+/// The closest faces of two trees. Distances are those of `closest_points`, and no pair is nearer by more than their
+/// error, one part in 2^30. Of several pairs that intersect the lowest; of several that are equally far apart always
+/// the same.
 ///
 /// Branch and bound over pairs of nodes, the nearest boxes first: O(log F) openings and a few leaves where one place is
 /// clearly nearest, more where the surfaces run side by side.

@@ -30,8 +30,8 @@ struct Contact_normal {
 /// with the same depth, save where both faces look the same way.
 Contact_normal contact_normal(const Triangle& a, const Triangle& b);
 
-/// The same for two triangles that are near but apart, by where they come nearest: `normal` points from b to a, and
-/// `depth` is minus their distance. Where the two points round to one, the normal is that of `contact_normal`.
-Contact_normal gap_normal(const Triangle& a, const Triangle& b, const Closest_points& nearest);
+/// The same for two triangles a and b that are near but apart, by where they come nearest: `normal` points from b to a,
+/// and `depth` is minus their distance. Errors are those of `closest_points`.
+Contact_normal gap_normal(const Closest_points& nearest);
 
 }  // namespace lodestone

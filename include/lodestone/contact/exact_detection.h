@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +14,7 @@
 #include "lodestone/contact/closest_faces.h"
 #include "lodestone/contact/contact_search.h"
 #include "lodestone/contact/containment.h"
-#include "lodestone/contact/coordinate_reader.h"
-#include "lodestone/contact/tree_object.h"
+#include "lodestone/contact/exact_object.h"
 #include "lodestone/detector_options.h"
 #include "lodestone/frame.h"
 #include "lodestone/particles/near_pairs.h"
@@ -28,9 +28,6 @@ namespace lodestone {
 /// below the last digit of the largest. Whatever squares lengths can work with them.
 Positions scaled_positions(Coordinates coordinates);
 
-/// @throws Bad_mesh  one of the coordinates of object number `object` is not finite
-void check_finite(Coordinates coordinates, std::uint32_t object);
-
 /// The mode `exact` of a Detector: its objects, and what happens to them in a frame.
 ///
 /// Every call that answers first reads all positions of the objects that it is about and refits their trees: it cannot
@@ -38,22 +35,33 @@ void check_finite(Coordinates coordinates, std::uint32_t object);
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 class Exact_detection {
  public:
+  using Object = Exact_object<Mesh, Points, Volume>;
   using Surface = Basic_tree_object<Volume>;
 
   Exact_detection(const Detector_options& options, Strategy strategy)
       : options_(options), strategy_(std::move(strategy)), workers_(options.exact.threads), search_(workers_) {}
+  // The search refers to the workers.
+  Exact_detection(const Exact_detection&) = delete;
+  Exact_detection& operator=(const Exact_detection&) = delete;
 
   void add(const Mesh& mesh, Points points, const Object_options& options) {
+    check_no_visitor();
     objects_.push_back(std::make_unique<Object>(mesh, points, options));
   }
   void write_maps(Object_id object, Mesh& mesh) { objects_[object]->maps.emplace(mesh); }
 
   /// The mesh is where positions come from.
-  void update(Object_id object) { objects_[object]->given.reset(); }
+  void update(Object_id object) {
+    check_no_visitor();
+    objects_[object]->given.reset();
+  }
   /// These are its positions until the next update.
   void update(Object_id object, const Eigen::Ref<const Positions>& positions);
   /// Reads the faces of the mesh anew.
-  void rebuild(Object_id object);
+  void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) {
+    check_no_visitor();
+    objects_[object]->rebuild(file_vertex);
+  }
 
   const Frame& detect(const Collision_filter& filter);
   const Frame& detect(const Collision_filter& filter, Object_pair pair);
@@ -61,6 +69,7 @@ class Exact_detection {
   Visit visit(Object_pair pair, Visitor&& visitor) {
     const Object_id ids[] = {pair.a, pair.b};
     refresh(ids);
+    const Visiting visiting(visited_);
     return visit_contacts(objects_[pair.a]->surface.posed(), objects_[pair.b]->surface.posed(),
                           options_.exact.tolerance, std::forward<Visitor>(visitor));
   }
@@ -71,21 +80,21 @@ class Exact_detection {
   const std::optional<Region_maps<Mesh>>& maps(Object_id object) const { return objects_[object]->maps; }
 
  private:
-  struct Object {
-    const Mesh* mesh;
-    Object_options options;
-    Mesh_numbering<Mesh> numbering;
-    Coordinate_reader<Mesh, Points> reader;
-    Surface surface;
-    bool built = false;
-    std::optional<Positions> given = {};  ///< positions that came through `update`
-    std::optional<Region_maps<Mesh>> maps = {};
+  /// While a visitor is shown face pairs.
+  class Visiting {
+   public:
+    explicit Visiting(bool& flag) : flag_(flag) { flag_ = true; }
+    ~Visiting() { flag_ = false; }
+    Visiting(const Visiting&) = delete;
 
-    Object(const Mesh& m, Points points, const Object_options& o)
-        : mesh(&m), options(o), numbering(m), reader(points), surface(numbering.corners()) {}
+   private:
+    bool& flag_;
   };
 
-  Coordinates read(Object_id id);
+  /// A visitor's walk reads positions and trees, which no other call may change.
+  void check_no_visitor() const {
+    if (visited_) throw Bad_argument("a visitor called the detector that shows it face pairs");
+  }
   void build(Object_id id, Coordinates coordinates);
   void refresh(std::span<const Object_id> ids);
   void start_frame(std::span<const Object_id> ids);
@@ -102,6 +111,7 @@ class Exact_detection {
   std::vector<std::unique_ptr<Object>> objects_;
   Frame frame_;
   std::size_t rebuilds_ = 0;  ///< since the last frame: other calls rebuild too
+  bool visited_ = false;      ///< a visitor is being shown face pairs
 
   // Memory of the stages, kept from frame to frame.
   std::vector<Object_id> all_;
@@ -116,23 +126,14 @@ class Exact_detection {
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::update(Object_id id,
                                                              const Eigen::Ref<const Positions>& positions) {
+  check_no_visitor();
   Object& object = *objects_[id];
-  if (positions.rows() != object.numbering.vertex_count())
-    throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(object.numbering.vertex_count()) +
+  if (positions.rows() != object.numbering().vertex_count())
+    throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(object.numbering().vertex_count()) +
                    " vertices, but got " + std::to_string(positions.rows()) + " positions");
   Positions copy = positions;
   check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, id);
   object.given = std::move(copy);
-}
-
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::rebuild(Object_id id) {
-  Object& object = *objects_[id];
-  Mesh_numbering<Mesh> numbering(*object.mesh);
-  if (numbering.vertex_count() != object.numbering.vertex_count()) object.given.reset();
-  object.numbering = std::move(numbering);
-  object.surface = Surface(object.numbering.corners());
-  object.built = false;
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
@@ -191,36 +192,18 @@ const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::finish_frame() {
   return frame_;
 }
 
-/// Where the vertices of an object are now.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-Coordinates Exact_detection<Mesh, Strategy, Points, Volume>::read(Object_id id) {
-  Object& object = *objects_[id];
-  const auto vertices = num_vertices(*object.mesh), faces = num_faces(*object.mesh);
-  if constexpr (requires { object.mesh->has_garbage(); })
-    if (object.mesh->has_garbage())
-      throw Bad_mesh("object " + std::to_string(id) +
-                     " holds removed elements: call collect_garbage() on its mesh, then rebuild()");
-  if (vertices != object.numbering.vertex_count() || faces != object.numbering.corners().size())
-    throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(vertices) + " vertices and " +
-                   std::to_string(faces) + " faces, but had " + std::to_string(object.numbering.vertex_count()) +
-                   " and " + std::to_string(object.numbering.corners().size()) +
-                   ": call rebuild() after such a change");
-  if (object.given) return {object.given->data(), static_cast<std::size_t>(object.given->size())};
-  return object.reader.read(object.numbering);
-}
-
 /// Divides the surface into regions, and builds a tree over them.
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::build(Object_id id, Coordinates coordinates) {
   Object& object = *objects_[id];
   check_finite(coordinates, id);
-  const auto& numbering = object.numbering;
+  const auto& numbering = object.numbering();
   const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
   const Positions positions = scaled_positions(coordinates);
   std::size_t regions = options_.least_particles;
   if (options_.particles > 0) regions = options_.particles;
-  if (object.options.particles > 0) regions = object.options.particles;
-  const auto partition = partition_numbered(Partition_input<Mesh>{*object.mesh, numbering, graph, positions},
+  if (object.particles > 0) regions = object.particles;
+  const auto partition = partition_numbered(Partition_input<Mesh>{object.mesh(), numbering, graph, positions},
                                             std::max<std::size_t>(1, regions), strategy_, options_.partition);
   object.surface.build(partition.labels, coordinates, options_.exact.tree);
   object.built = true;
@@ -231,10 +214,11 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::build(Object_id id, Coordi
 /// leaves have become too loose.
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::refresh(std::span<const Object_id> ids) {
+  check_no_visitor();
   surfaces_.clear();
   coordinates_.clear();
   for (const auto id : ids) {
-    const Coordinates coordinates = read(id);
+    const Coordinates coordinates = objects_[id]->read(id);
     if (!objects_[id]->built) {
       build(id, coordinates);
       continue;
@@ -246,6 +230,7 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::refresh(std::span<const Ob
   for (const auto id : ids) {
     const Surface& surface = objects_[id]->surface;
     if (!surface.finite()) check_finite(surface.coordinates(), id);
+    check_finite(surface.coordinates(), objects_[id]->unused(), id);
     if (!surface.looser_than(options_.exact.loosest)) continue;
     build(id, surface.coordinates());
     ++rebuilds_;
@@ -311,7 +296,7 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::add_geometry(const Pair_re
     if (options_.exact.tolerance > 0 && !triangles_intersect(a, b)) {
       const Closest_points nearest = closest_points(a, b);
       if (options_.contact_points) frame_.contact_points.push_back({nearest.a, nearest.b});
-      if (options_.contact_normals) frame_.contact_normals.push_back(gap_normal(a, b, nearest));
+      if (options_.contact_normals) frame_.contact_normals.push_back(gap_normal(nearest));
       continue;
     }
     if (options_.contact_points) frame_.contact_points.push_back(triangle_intersection(a, b));

@@ -111,6 +111,7 @@ void Particle_detection<Mesh, Strategy, Points>::rebuild(Object_id id) {
   const Object& old = *objects_[id];
   auto anew = std::make_unique<Object>(id, *old.mesh, old.points, old.options);
   anew->maps = old.maps;
+  if (anew->maps) anew->maps->renew();
   objects_[id] = std::move(anew);
 }
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lodestone/contact/coordinate_reader.h"
+#include "lodestone/contact/joined_vertices.h"
+#include "lodestone/contact/tree_object.h"
+#include "lodestone/detector_options.h"
+#include "lodestone/region_maps.h"
+
+namespace lodestone {
+
+/// @throws Bad_mesh  one of the coordinates of object number `object` is not finite
+void check_finite(Coordinates coordinates, std::uint32_t object);
+/// The same for the coordinates of some vertices.
+void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, std::uint32_t object);
+
+/// One object of the mode `exact`: its mesh, how positions are read, and its surface.
+template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
+class Exact_object {
+ public:
+  Exact_object(const Mesh& mesh, Points points, const Object_options& options)
+      : particles(options.particles), mesh_(&mesh), numbering_(mesh), reader_(std::move(points)) {
+    number(std::move(numbering_), options.file_vertex);
+  }
+
+  const std::size_t particles;  ///< Object_options::particles
+  Basic_tree_object<Volume> surface;
+  bool built = false;                   ///< whether the surface has a tree
+  std::optional<Positions> given = {};  ///< positions that came through `update`
+  std::optional<Region_maps<Mesh>> maps = {};
+
+  const Mesh& mesh() const { return *mesh_; }
+  const Mesh_numbering<Mesh>& numbering() const { return numbering_; }
+  /// The faces of the surface, with doubled vertices as one.
+  std::span<const Corners> corners() const { return joined_.empty() ? numbering_.corners() : joined_; }
+  /// Vertices that the surface has no face at.
+  std::span<const std::uint32_t> unused() const { return unused_; }
+
+  /// Where the vertices are now.
+  /// @throws Bad_mesh  the mesh of object number `id` has changed since it was numbered
+  Coordinates read(std::uint32_t id);
+
+  /// Reads the faces of the mesh anew; given positions, which may be those of other vertices, are dropped.
+  /// @throws Bad_mesh, Bad_argument  the object stays as it was
+  void rebuild(std::span<const std::uint32_t> file_vertex);
+
+ private:
+  void number(Mesh_numbering<Mesh> numbering, std::span<const std::uint32_t> file_vertex);
+
+  const Mesh* mesh_;
+  Mesh_numbering<Mesh> numbering_;
+  Coordinate_reader<Mesh, Points> reader_;
+  std::vector<Corners> joined_;  ///< none if no vertex is doubled
+  std::vector<std::uint32_t> unused_;
+};
+
+template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
+Coordinates Exact_object<Mesh, Points, Volume>::read(std::uint32_t id) {
+  const auto vertices = num_vertices(*mesh_), faces = num_faces(*mesh_);
+  if constexpr (requires { mesh_->has_garbage(); })
+    if (mesh_->has_garbage())
+      throw Bad_mesh("object " + std::to_string(id) +
+                     " holds removed elements: call collect_garbage() on its mesh, then rebuild()");
+  if (vertices != numbering_.vertex_count() || faces != numbering_.corners().size())
+    throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(vertices) + " vertices and " +
+                   std::to_string(faces) + " faces, but had " + std::to_string(numbering_.vertex_count()) + " and " +
+                   std::to_string(numbering_.corners().size()) + ": call rebuild() after such a change");
+  if (given) return {given->data(), static_cast<std::size_t>(given->size())};
+  return reader_.read(numbering_);
+}
+
+template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
+void Exact_object<Mesh, Points, Volume>::rebuild(std::span<const std::uint32_t> file_vertex) {
+  number(Mesh_numbering<Mesh>(*mesh_), file_vertex);
+  if (maps) maps->renew();
+  given.reset();
+  built = false;
+}
+
+template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
+void Exact_object<Mesh, Points, Volume>::number(Mesh_numbering<Mesh> numbering,
+                                                std::span<const std::uint32_t> file_vertex) {
+  joined_ = join_vertices(numbering.corners(), numbering.vertex_count(), file_vertex);
+  numbering_ = std::move(numbering);
+  unused_ = unused_vertices(corners(), numbering_.vertex_count());
+  surface = Basic_tree_object<Volume>(corners());
+}
+
+}  // namespace lodestone
