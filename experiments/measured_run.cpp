@@ -20,7 +20,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 std::vector<Object_pair> all_pairs(const Scene& scene) {
   std::vector<Object_pair> pairs;
   for (std::uint32_t b = 0; b < scene.objects.size(); ++b)
-    for (std::uint32_t a = 0; a < b; ++a) pairs.push_back({a, b});
+    for (std::uint32_t a = 0; a < b; ++a)
+      if (!scene.ignores({a, b})) pairs.push_back({a, b});
   return pairs;
 }
 
@@ -33,6 +34,7 @@ Scene_detector make_detector(const Scene& scene, const Setting& setting) {
     if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
     detector.add(std::as_const(object.mesh), options);
   }
+  for (const auto& pair : scene.ignored) detector.ignore(pair.a, pair.b);
   return detector;
 }
 

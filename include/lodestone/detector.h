@@ -33,11 +33,11 @@ using Own_points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::con
 ///       for (const auto& pair : detector.detect().pairs) ...
 ///     }
 ///
-/// Meshes stay with the caller, who moves their vertices, calls `rebuild` after any change of their faces or of their
-/// set of property maps, and neither moves nor assigns to the mesh object itself; they must outlive the detector. How
-/// much of a mesh a frame reads, and what may be missed, depends on the mode: see `Particle_detection` and
-/// `Exact_detection`. Answers are never those of an earlier frame: positions are read by the call that answers. One
-/// thread at a time.
+/// Meshes stay with the caller, who moves their vertices, calls `rebuild` after any change of their faces, and after a
+/// removal of their maps `v:region` and `v:particle` as by `clear`, and neither moves nor assigns to the mesh itself;
+/// they must outlive the detector. How much of a mesh a frame reads, and what may be missed, depends on the mode: see
+/// `Particle_detection` and `Exact_detection`. Answers are never those of an earlier frame: positions are read by the
+/// call that answers. One thread at a time.
 ///
 /// @tparam Mesh      any model of Triangle_mesh
 /// @tparam Strategy  how surfaces are divided, see Partition_strategy
@@ -52,7 +52,7 @@ class Detector {
   /// Adds an object and leaves `v:region` and `v:particle` on its mesh.
   /// Another detector that the same mesh is added to writes to the same maps.
   /// @throws Bad_mesh      no face, a face that is no triangle
-  /// @throws Bad_argument  the mesh has been added before, `file_vertex` has not a number for each vertex
+  /// @throws Bad_argument  the mesh has been added before; mode `exact`: `file_vertex` has not a number for each vertex
   Object_id add(Mesh& mesh, const Object_options& options = {}) {
     const Object_id object = add(std::as_const(mesh), options);
     if (exact_)
@@ -90,8 +90,9 @@ class Detector {
   /// Says that faces of an object's mesh have come, gone or changed. It is numbered, partitioned and built anew, and
   /// its positions are those of its mesh, as after `update(object)`. Other numbers of vertices or faces are noticed
   /// without it, an edge that was flipped is not.
-  /// @param file_vertex    as in Object_options, of the vertices that there are now
-  /// @throws Bad_argument  no such object, `file_vertex` has not a number for each vertex
+  /// @param file_vertex    as in Object_options, of the vertices that there are now; left out: every vertex is one by
+  ///                       itself, whatever was said before
+  /// @throws Bad_argument  no such object; mode `exact`: `file_vertex` has not a number for each vertex
   /// @throws Bad_mesh      as `add`; the object stays as it was
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex = {});
 
@@ -110,7 +111,8 @@ class Detector {
   const Frame& detect(Object_id a, Object_id b);
 
   /// Shows the face pairs of two objects to a visitor, which may stop the walk: see `visit_contacts`. Mode `exact`,
-  /// with its tolerance; caps and filters do not count. The visitor cannot call the detector.
+  /// with its tolerance; caps and filters do not count. The visitor can ask nothing of the
+  /// detector and change no object.
   /// @throws Bad_argument  no such object, one and the same, another mode, a call of the visitor
   /// @throws Bad_mesh      as `detect`
   template <Contact_visitor Visitor>
@@ -139,7 +141,7 @@ class Detector {
   /// that the object was part of. It knows no positions, so nothing can be asked of it that they would decide.
   /// @throws Bad_argument  no such object, another mode
   const Basic_region_tree<Volume>& tree(Object_id object) const { return of_exact(object).tree(object); }
-  /// Its property maps.
+  /// Its property maps. Copies of them are of no use after `rebuild`.
   /// @throws Bad_argument  no such object, or one whose mesh could not be written to when it was added
   const Region_maps<Mesh>& maps(Object_id object) const {
     checked(object);

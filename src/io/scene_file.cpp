@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 #include <span>
@@ -205,10 +206,12 @@ std::vector<Scene_object> read_objects(const Json_value& value, const std::files
 
 /// Pairs of names, as numbers of objects.
 std::vector<Object_pair> read_ignored(const Json_value& scene, const std::vector<Scene_object>& objects) {
+  std::map<std::string, std::uint32_t> numbers;
+  for (std::uint32_t o = 0; o < objects.size(); ++o) numbers.emplace(objects[o].name, o);
   const auto number = [&](const Json_value& name) {
-    const auto found = std::ranges::find(objects, name.text(), &Scene_object::name);
-    if (found == objects.end()) name.fail(fmt::format("there is no object {}", in_quotes(name.text())));
-    return static_cast<std::uint32_t>(found - objects.begin());
+    const auto found = numbers.find(name.text());
+    if (found == numbers.end()) name.fail(fmt::format("there is no object {}", in_quotes(name.text())));
+    return found->second;
   };
   std::vector<Object_pair> ignored;
   for (const Json_value& pair : scene.list("ignore", most_ignored)) {

@@ -19,7 +19,7 @@ struct Strategy_choice {
 };
 
 struct Detect_command {
-  std::vector<std::filesystem::path> inputs;  ///< one scene (.json), or two or more meshes that stand still
+  std::vector<std::filesystem::path> inputs;  ///< one scene (.json), or meshes that stand still
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
   bool truth = false;

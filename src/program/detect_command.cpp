@@ -139,7 +139,7 @@ std::optional<std::vector<Pair_truth>> Run::find_truth() const {
   std::vector<Pair_truth> truth;
   for (Object_id a = 0; a < scene_.objects.size(); ++a)
     for (Object_id b = a + 1; b < scene_.objects.size(); ++b)
-      if (!std::ranges::binary_search(scene_.ignored, Object_pair{a, b}))
+      if (!scene_.ignores({a, b}))
         truth.push_back({a, b, exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh)});
   return truth;
 }

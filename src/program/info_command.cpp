@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
@@ -47,12 +45,7 @@ struct Info {
 
 /// Face pairs that intersect beside what they share, by exact tests. On the vertices of the file: where a mesh has
 /// copies of one, because its faces are no surface there, they would touch.
-void count_self_intersections(std::span<const Point> points, std::span<const Corners> all_faces,
-                              Object_report& report) {
-  std::vector<Corners> faces;  // one with a corner twice is a line
-  std::ranges::copy_if(all_faces, std::back_inserter(faces), [](const Corners& corners) {
-    return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
-  });
+void count_self_intersections(std::span<const Point> points, std::span<const Corners> faces, Object_report& report) {
   if (faces.empty()) return;
   std::vector<double> coordinates;
   for (const auto& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});

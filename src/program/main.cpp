@@ -93,7 +93,7 @@ void add_detect(CLI::App& program, Detect_command& command) {
   auto& app = *program.add_subcommand("detect", "Find collisions between meshes, or through all frames of a scene");
   auto& options = command.options;
   app.add_option("INPUT", command.inputs,
-                 "A scene (.json), or two or more meshes (.off .obj .ply .stl .gltf .glb .md2 .md3)")
+                 "A scene (.json), or two or more meshes (.off .obj .ply .stl .gltf .glb .md2 .md3); one with --self")
       ->required()
       ->type_name("FILE");
   app.add_option("--mode", options.mode,

@@ -146,8 +146,7 @@ std::optional<double> Page_log::nearest() {
   std::vector<std::tuple<double, Object_id, Object_id>> gaps;
   for (Object_id a = 0; a < boxes.size(); ++a)
     for (Object_id b = a + 1; b < boxes.size(); ++b)
-      if (!std::ranges::binary_search(scene_.ignored, Object_pair{a, b}))
-        gaps.emplace_back(distance_lower_bound(boxes[a], boxes[b]), a, b);
+      if (!scene_.ignores({a, b})) gaps.emplace_back(distance_lower_bound(boxes[a], boxes[b]), a, b);
   std::ranges::sort(gaps);
   std::optional<double> least;
   for (const auto& [gap, a, b] : gaps) {

@@ -89,14 +89,19 @@ TEST(Doubled_vertices, hide_no_collision) {
 }
 
 TEST(Doubled_vertices, count_once_for_what_is_closed) {
-  const auto file = read_off(two_boxes_at_an_edge);
+  // Two boxes on a common wall that is there twice: each of its edges has four faces, or three and one.
+  const auto file =
+      read_off("OFF\n12 24 0\n0 0 0\n2 0 0\n0 2 0\n2 2 0\n0 0 2\n2 0 2\n0 2 2\n2 2 2\n4 0 0\n4 2 0\n4 0 2\n4 2 2\n" +
+               box_faces({0, 1, 2, 3, 4, 5, 6, 7}) + box_faces({1, 8, 3, 9, 5, 10, 7, 11}));
   auto inside = tetrahedron();
   scale(inside, 0.1);
   shift(inside, 1.4, 1.4, 0.4);
-  Exact_detector detector({.mode = Mode::exact});
-  detector.add(file.mesh, {.file_vertex = file.file_vertex});
-  detector.add(std::as_const(inside));
-  EXPECT_TRUE(detector.contains(0, 1));
+  for (const bool joined : {true, false}) {
+    Exact_detector detector({.mode = Mode::exact});
+    detector.add(file.mesh, {.file_vertex = joined ? file.file_vertex : std::vector<std::uint32_t>()});
+    detector.add(std::as_const(inside));
+    EXPECT_EQ(detector.contains(0, 1), joined);
+  }
 }
 
 TEST(Doubled_vertices, are_told_anew_by_a_rebuild) {

@@ -255,6 +255,8 @@ TEST(Staleness, a_visitor_cannot_change_what_it_is_shown) {
                                                  [&] { detector.add(c); },           [&] { detector.closest(0, 1); }};
   for (const auto& call : calls) {
     detector.update(0, moved);
+    const Frame& frame = detector.detect();
+    const auto number = frame.number;
     EXPECT_THROW(detector.visit(0, 1,
                                 [&](Face_pair) {
                                   call();
@@ -262,6 +264,8 @@ TEST(Staleness, a_visitor_cannot_change_what_it_is_shown) {
                                 }),
                  Bad_argument);
     EXPECT_EQ(detector.size(), 2U);
+    EXPECT_EQ(frame.number, number);
+    EXPECT_EQ(frame.pairs.size(), 1U);
     expect_exhaustive(detector.detect(), {&a, &b});
   }
 }

@@ -298,6 +298,19 @@ TEST_F(Html, a_single_object_is_near_to_nothing) {
   EXPECT_EQ(stages.at(0)["positive"], false);
 }
 
+TEST_F(Html, objects_that_the_scene_ignores_are_not_near_each_other) {
+  write("a.off", tetrahedron());
+  const std::string objects = R"({"objects": [{"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "a.off"}])";
+  const auto positive = [&](const std::string& ignored) {
+    const auto stages =
+        page_of({"detect", write("two.json", objects + ignored + "}"), "--mode", "exact"}).json_section("stages");
+    EXPECT_EQ(stages.at(0)["nearest"].is_null(), !ignored.empty());
+    return stages.at(0)["positive"].get<bool>();
+  };
+  EXPECT_TRUE(positive(""));
+  EXPECT_FALSE(positive(R"(, "ignore": [["b", "a"]])"));
+}
+
 TEST_F(Html, holds_no_more_frames_than_wanted) {
   const auto shown = detect({"--html-frames", "4", "--out", out.string()});
   EXPECT_EQ(shown.header["frames"], 4);

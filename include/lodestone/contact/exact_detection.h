@@ -174,6 +174,7 @@ bool Exact_detection<Mesh, Strategy, Points, Volume>::contains(Object_id outer, 
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::start_frame(std::span<const Object_id> ids) {
+  check_no_visitor();
   ++frame_.number;
   frame_.pairs.clear();
   frame_.face_pairs.clear();

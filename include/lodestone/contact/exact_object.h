@@ -26,22 +26,22 @@ template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
 class Exact_object {
  public:
   Exact_object(const Mesh& mesh, Points points, const Object_options& options)
-      : particles(options.particles), mesh_(&mesh), numbering_(mesh), reader_(std::move(points)) {
-    number(std::move(numbering_), options.file_vertex);
+      : particles(options.particles), mesh_(&mesh), reader_(std::move(points)), faces_(mesh, options.file_vertex) {
+    surface = Basic_tree_object<Volume>(corners());
   }
 
-  const std::size_t particles;  ///< Object_options::particles
-  Basic_tree_object<Volume> surface;
+  const std::size_t particles;          ///< Object_options::particles
+  Basic_tree_object<Volume> surface;    ///< of `corners()`
   bool built = false;                   ///< whether the surface has a tree
   std::optional<Positions> given = {};  ///< positions that came through `update`
   std::optional<Region_maps<Mesh>> maps = {};
 
   const Mesh& mesh() const { return *mesh_; }
-  const Mesh_numbering<Mesh>& numbering() const { return numbering_; }
+  const Mesh_numbering<Mesh>& numbering() const { return faces_.numbering; }
   /// The faces of the surface, with doubled vertices as one.
-  std::span<const Corners> corners() const { return joined_.empty() ? numbering_.corners() : joined_; }
+  std::span<const Corners> corners() const { return faces_.corners(); }
   /// Vertices that the surface has no face at.
-  std::span<const std::uint32_t> unused() const { return unused_; }
+  std::span<const std::uint32_t> unused() const { return faces_.unused; }
 
   /// Where the vertices are now.
   /// @throws Bad_mesh  the mesh of object number `id` has changed since it was numbered
@@ -52,13 +52,23 @@ class Exact_object {
   void rebuild(std::span<const std::uint32_t> file_vertex);
 
  private:
-  void number(Mesh_numbering<Mesh> numbering, std::span<const std::uint32_t> file_vertex);
+  /// What depends on the faces of the mesh alone.
+  struct Faces {
+    Faces(const Mesh& mesh, std::span<const std::uint32_t> file_vertex)
+        : numbering(mesh),
+          joined(join_vertices(numbering.corners(), numbering.vertex_count(), file_vertex)),
+          unused(unused_vertices(corners(), numbering.vertex_count())) {}
+
+    std::span<const Corners> corners() const { return joined.empty() ? numbering.corners() : joined; }
+
+    Mesh_numbering<Mesh> numbering;
+    std::vector<Corners> joined;  ///< none if no vertex is doubled
+    std::vector<std::uint32_t> unused;
+  };
 
   const Mesh* mesh_;
-  Mesh_numbering<Mesh> numbering_;
   Coordinate_reader<Mesh, Points> reader_;
-  std::vector<Corners> joined_;  ///< none if no vertex is doubled
-  std::vector<std::uint32_t> unused_;
+  Faces faces_;
 };
 
 template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
@@ -68,29 +78,23 @@ Coordinates Exact_object<Mesh, Points, Volume>::read(std::uint32_t id) {
     if (mesh_->has_garbage())
       throw Bad_mesh("object " + std::to_string(id) +
                      " holds removed elements: call collect_garbage() on its mesh, then rebuild()");
-  if (vertices != numbering_.vertex_count() || faces != numbering_.corners().size())
+  if (vertices != numbering().vertex_count() || faces != numbering().corners().size())
     throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(vertices) + " vertices and " +
-                   std::to_string(faces) + " faces, but had " + std::to_string(numbering_.vertex_count()) + " and " +
-                   std::to_string(numbering_.corners().size()) + ": call rebuild() after such a change");
+                   std::to_string(faces) + " faces, but had " + std::to_string(numbering().vertex_count()) + " and " +
+                   std::to_string(numbering().corners().size()) + ": call rebuild() after such a change");
   if (given) return {given->data(), static_cast<std::size_t>(given->size())};
-  return reader_.read(numbering_);
+  return reader_.read(numbering());
 }
 
 template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
 void Exact_object<Mesh, Points, Volume>::rebuild(std::span<const std::uint32_t> file_vertex) {
-  number(Mesh_numbering<Mesh>(*mesh_), file_vertex);
+  Faces anew(*mesh_, file_vertex);
   if (maps) maps->renew();
+  // From here on nothing can fail.
+  faces_ = std::move(anew);
+  surface = Basic_tree_object<Volume>(corners());
   given.reset();
   built = false;
-}
-
-template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
-void Exact_object<Mesh, Points, Volume>::number(Mesh_numbering<Mesh> numbering,
-                                                std::span<const std::uint32_t> file_vertex) {
-  joined_ = join_vertices(numbering.corners(), numbering.vertex_count(), file_vertex);
-  numbering_ = std::move(numbering);
-  unused_ = unused_vertices(corners(), numbering_.vertex_count());
-  surface = Basic_tree_object<Volume>(corners());
 }
 
 }  // namespace lodestone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -33,6 +34,9 @@ struct Scene {
   std::size_t frames = 1;
   std::vector<Scene_object> objects;
   std::vector<Object_pair> ignored;  ///< pairs of objects not to look at, a <= b, sorted; a = b: an object and itself
+
+  /// @param pair  a <= b
+  bool ignores(Object_pair pair) const { return std::ranges::binary_search(ignored, pair); }
 };
 
 /// Reads a scene: JSON as described by docs/scene.schema.json.
