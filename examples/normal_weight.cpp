@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/shapes/shapes.h"
 #include "lodestone/partition/lbg.h"
 #include "lodestone/partition/partition_measures.h"
 

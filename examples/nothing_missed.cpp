@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "lodestone/detector.h"
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/shapes/shapes.h"
 
 using namespace lodestone;
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "lodestone/detector.h"
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/shapes/shapes.h"
 #include "lodestone/partition/partition_measures.h"
 
 using namespace lodestone;

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "lodestone/detector.h"
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/shapes/shapes.h"
 
 using namespace lodestone;
 using Polyhedron = CGAL::Polyhedron_3<Kernel>;

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "lodestone/find_collisions.h"
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/shapes/shapes.h"
 
 using namespace lodestone;
 

@@ -2,7 +2,7 @@
 // The slow headers, compiled once.
 #pragma once
 
-#include "../src/precompiled.h"
+#include "precompiled.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <numeric>
 
-#include "frame_player.h"
-#include "lodestone/baselines/exhaustive.h"
-#include "measured_run.h"
+#include "bench/frame_player.h"
+#include "lodestone/queries/exhaustive.h"
+#include "shared/measured_run.h"
 
 namespace lodestone {
 

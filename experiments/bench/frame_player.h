@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lodestone/io/scene_file.h"
+#include "lodestone/io/scenes/scene_file.h"
 
 namespace lodestone {
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "frame_player.h"
-#include "lap_timer.h"
+#include "bench/frame_player.h"
 #include "lodestone/detector.h"
-#include "measured_run.h"
+#include "shared/lap_timer.h"
+#include "shared/measured_run.h"
 
 namespace lodestone {
 

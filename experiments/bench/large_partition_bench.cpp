@@ -9,8 +9,8 @@
 #include <limits>
 #include <string>
 
-#include "lodestone/io/deformation.h"
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/motion/deformation.h"
+#include "lodestone/io/shapes/shapes.h"
 #include "lodestone/partition/strategies.h"
 
 namespace lodestone {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/shapes/shapes.h"
 #include "lodestone/partition/lbg.h"
-#include "measured_run.h"
+#include "shared/measured_run.h"
 
 namespace lodestone {
 

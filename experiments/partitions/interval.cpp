@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interval.h"
+#include "partitions/interval.h"
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 
 namespace lodestone {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "manifest.h"
+#include "partitions/manifest.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <fstream>
 #include <string>
 
-#include "lodestone/errors.h"
-#include "lodestone/io/atomic_file.h"
-#include "partition_plan.h"
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/mesh/errors.h"
+#include "partitions/partition_plan.h"
 #include "revision.h"
 
 namespace lodestone {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "partition_plan.h"
+#include "partitions/partition_plan.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <numeric>
 #include <random>
 
-#include "lodestone/errors.h"
-#include "lodestone/io/deformation.h"
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/motion/deformation.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "lodestone/mesh/errors.h"
 
 namespace lodestone {
 

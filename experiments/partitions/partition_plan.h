@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lodestone/io/scene_file.h"
+#include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/partition/strategies.h"
 
 namespace lodestone {

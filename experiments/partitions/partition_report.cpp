@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "partition_report.h"
+#include "partitions/partition_report.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <tuple>
 #include <vector>
 
-#include "interval.h"
-#include "lodestone/io/text_table.h"
-#include "measured_run.h"
-#include "partition_plan.h"
+#include "lodestone/io/results/text_table.h"
+#include "partitions/interval.h"
+#include "partitions/partition_plan.h"
+#include "shared/measured_run.h"
 
 namespace lodestone {
 

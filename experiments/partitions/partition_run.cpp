@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "partition_run.h"
+#include "partitions/partition_run.h"
 
 #include <fstream>
 #include <limits>
 
+#include "lodestone/mesh/stopwatch.h"
 #include "lodestone/partition/partition_measures.h"
-#include "lodestone/stopwatch.h"
-#include "measured_run.h"
-#include "measures_json.h"
+#include "shared/measured_run.h"
+#include "program/measures_json.h"
 
 namespace lodestone {
 

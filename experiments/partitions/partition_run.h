@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "partition_plan.h"
+#include "partitions/partition_plan.h"
 
 namespace lodestone {
 

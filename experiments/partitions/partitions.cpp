@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
-#include "experiment.h"
-#include "lodestone/errors.h"
-#include "lodestone/io/coloured_ply.h"
-#include "manifest.h"
-#include "measured_run.h"
-#include "partition_plan.h"
-#include "partition_report.h"
-#include "partition_run.h"
-#include "sweep.h"
+#include "lodestone/io/results/coloured_ply.h"
+#include "lodestone/mesh/errors.h"
+#include "partitions/manifest.h"
+#include "partitions/partition_plan.h"
+#include "partitions/partition_report.h"
+#include "partitions/partition_run.h"
+#include "partitions/sweep.h"
+#include "shared/experiment.h"
+#include "shared/measured_run.h"
 
 namespace lodestone {
 

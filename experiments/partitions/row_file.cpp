@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "row_file.h"
+#include "partitions/row_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 
 namespace lodestone {
 

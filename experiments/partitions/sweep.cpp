@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sweep.h"
+#include "partitions/sweep.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 #include <cstring>
 #include <exception>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 
 namespace lodestone {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "row_file.h"
+#include "partitions/row_file.h"
 
 namespace lodestone {
 

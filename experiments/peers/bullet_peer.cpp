@@ -3,8 +3,8 @@
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 
-#include "peer.h"
-#include "read_bound.h"
+#include "peers/peer.h"
+#include "shared/read_bound.h"
 
 namespace lodestone {
 

@@ -11,9 +11,9 @@
 #include <array>
 #include <optional>
 
-#include "lodestone/contact/box.h"
-#include "peer.h"
-#include "read_bound.h"
+#include "lodestone/mesh/box.h"
+#include "peers/peer.h"
+#include "shared/read_bound.h"
 
 namespace lodestone {
 

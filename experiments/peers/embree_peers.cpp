@@ -10,8 +10,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lodestone/contact/triangle_intersection.h"
-#include "peer.h"
+#include "lodestone/triangles/triangle_intersection.h"
+#include "peers/peer.h"
 
 namespace lodestone {
 

@@ -14,8 +14,8 @@
 #include <cstring>
 #include <limits>
 
-#include "lap_timer.h"
-#include "peer.h"
+#include "peers/peer.h"
+#include "shared/lap_timer.h"
 
 namespace lodestone {
 

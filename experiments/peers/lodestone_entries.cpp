@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "lap_timer.h"
 #include "lodestone/detector.h"
-#include "peer_entries.h"
+#include "peers/peer_entries.h"
+#include "shared/lap_timer.h"
 
 namespace lodestone {
 

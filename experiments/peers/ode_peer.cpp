@@ -2,7 +2,7 @@
 // ODE: triangle meshes in OPCODE's box hierarchy, refitted. It merges contacts and has no list of face pairs.
 #include <ode/ode.h>
 
-#include "peer.h"
+#include "peers/peer.h"
 
 namespace lodestone {
 

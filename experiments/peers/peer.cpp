@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "peer.h"
+#include "peers/peer.h"
 
 #include <iterator>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lodestone/contact/confirmation.h"
-#include "moving_mesh.h"
+#include "lodestone/particles/confirmation.h"
+#include "shared/moving_mesh.h"
 
 /// Other libraries that answer the same question, each behind the same small interface.
 namespace lodestone {

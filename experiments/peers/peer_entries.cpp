@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "peer_entries.h"
+#include "peers/peer_entries.h"
 
 #include <limits>
 
-#include "lap_timer.h"
-#include "peer.h"
+#include "peers/peer.h"
+#include "shared/lap_timer.h"
 
 namespace lodestone {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "entrant.h"
+#include "shared/entrant.h"
 
 namespace lodestone {
 

@@ -2,12 +2,12 @@
 // Other collision libraries on the same frames: time, memory, and right and wrong answers.
 #include <fmt/format.h>
 
-#include "experiment.h"
-#include "lodestone/io/text_table.h"
-#include "measured_run.h"
-#include "peer.h"
-#include "peer_entries.h"
-#include "race_figures.h"
+#include "lodestone/io/results/text_table.h"
+#include "peers/peer.h"
+#include "peers/peer_entries.h"
+#include "shared/experiment.h"
+#include "shared/measured_run.h"
+#include "shared/race_figures.h"
 
 namespace lodestone {
 

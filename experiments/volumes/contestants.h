@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "entrant.h"
-#include "scene_division.h"
-#include "tightness.h"
+#include "shared/entrant.h"
+#include "volumes/scene_division.h"
+#include "volumes/tightness.h"
 
 /// Who takes part in the experiment `volumes`.
 namespace lodestone {

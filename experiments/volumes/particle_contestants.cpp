@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "contestants.h"
-#include "lap_timer.h"
 #include "lodestone/detector.h"
+#include "shared/lap_timer.h"
+#include "volumes/contestants.h"
 
 namespace lodestone {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scene_division.h"
+#include "volumes/scene_division.h"
 
 #include <array>
 
+#include "lodestone/mesh/stopwatch.h"
 #include "lodestone/partition/partition.h"
 #include "lodestone/partition/strategies.h"
-#include "lodestone/stopwatch.h"
 
 namespace lodestone {
 

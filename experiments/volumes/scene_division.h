@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "lodestone/partition/mesh_numbering.h"
-#include "moving_mesh.h"
-#include "tree_pieces.h"
+#include "lodestone/mesh/mesh_numbering.h"
+#include "shared/moving_mesh.h"
+#include "volumes/tree_pieces.h"
 
 namespace lodestone {
 

@@ -4,9 +4,9 @@
 #include <concepts>
 #include <limits>
 
-#include "lodestone/contact/region_tree.h"
-#include "lodestone/contact/volumes/spherical_shell.h"
-#include "tree_pieces.h"
+#include "lodestone/tree/region_tree.h"
+#include "lodestone/volumes/spherical_shell.h"
+#include "volumes/tree_pieces.h"
 
 namespace lodestone {
 

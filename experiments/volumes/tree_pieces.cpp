@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tree_pieces.h"
+#include "volumes/tree_pieces.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/convex_hull_3.h>
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "lodestone/concepts.h"
+#include "lodestone/mesh/concepts.h"
 
 namespace lodestone {
 

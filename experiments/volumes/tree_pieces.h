@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "lodestone/contact/tree_layout.h"
+#include "lodestone/tree/tree_layout.h"
 
 /// Which parts of a tree its tightness is measured on.
 namespace lodestone {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "volume_scene.h"
+#include "volumes/volume_scene.h"
 
 /// What stands in the cells of the tables.
 namespace lodestone {

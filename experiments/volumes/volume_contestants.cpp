@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tuple>
 
-#include "lodestone/contact/volumes/all.h"
-#include "volume_entrant.h"
+#include "lodestone/volumes/all.h"
+#include "volumes/volume_entrant.h"
 
 namespace lodestone {
 

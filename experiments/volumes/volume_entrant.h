@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "contestants.h"
-#include "lap_timer.h"
-#include "lodestone/contact/contact_search.h"
-#include "walk_counts.h"
+#include "lodestone/queries/contact_search.h"
+#include "shared/lap_timer.h"
+#include "volumes/contestants.h"
+#include "volumes/walk_counts.h"
 
 namespace lodestone {
 
@@ -58,7 +58,7 @@ class Volume_entrant : public Entrant {
   }
 
  private:
-  using Object = Basic_tree_object<Volume>;
+  using Object = Basic_tree_surface<Volume>;
 
   void update() {
     coordinates_.clear();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
-#include "race_figures.h"
-#include "volume_cells.h"
-#include "volume_report.h"
+#include "shared/race_figures.h"
+#include "volumes/volume_cells.h"
+#include "volumes/volume_report.h"
 
 namespace lodestone {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "volume_report.h"
+#include "volumes/volume_report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "lodestone/io/text_table.h"
-#include "volume_cells.h"
+#include "lodestone/io/results/text_table.h"
+#include "volumes/volume_cells.h"
 
 namespace lodestone {
 

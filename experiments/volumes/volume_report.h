@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "volume_scene.h"
+#include "volumes/volume_scene.h"
 
 namespace lodestone {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "volume_scene.h"
+#include "volumes/volume_scene.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "race_figures.h"
+#include "shared/race_figures.h"
 
 namespace lodestone {
 

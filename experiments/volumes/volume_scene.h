@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "contestants.h"
-#include "race.h"
+#include "shared/race.h"
+#include "volumes/contestants.h"
 
 namespace lodestone {
 

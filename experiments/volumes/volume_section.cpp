@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "lodestone/io/text_table.h"
-#include "race_figures.h"
-#include "volume_cells.h"
-#include "volume_report.h"
+#include "lodestone/io/results/text_table.h"
+#include "shared/race_figures.h"
+#include "volumes/volume_cells.h"
+#include "volumes/volume_report.h"
 
 namespace lodestone {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Trees of every bounding volume over every partition, beside the particles of the paper.
-#include "experiment.h"
-#include "measured_run.h"
-#include "race_figures.h"
-#include "volume_report.h"
+#include "shared/experiment.h"
+#include "shared/measured_run.h"
+#include "shared/race_figures.h"
+#include "volumes/volume_report.h"
 
 namespace lodestone {
 

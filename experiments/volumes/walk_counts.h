@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "lodestone/contact/tree_walk.h"
+#include "lodestone/tree/tree_walk.h"
 
 namespace lodestone {
 

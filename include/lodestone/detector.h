@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "lodestone/collision_filter.h"
-#include "lodestone/contact/exact_detection.h"
-#include "lodestone/detector_options.h"
-#include "lodestone/errors.h"
-#include "lodestone/frame.h"
-#include "lodestone/particles/particle_detection.h"
+#include "lodestone/detection/collision_filter.h"
+#include "lodestone/detection/detector_options.h"
+#include "lodestone/detection/exact_detection.h"
+#include "lodestone/detection/frame.h"
+#include "lodestone/detection/particle_detection.h"
+#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/region_maps.h"
 #include "lodestone/partition/lbg.h"
 #include "lodestone/partition/strategies.h"
-#include "lodestone/region_maps.h"
 
 namespace lodestone {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "force_kernel.h"
+#include "particles/force_kernel.h"
 
 #include <limits>
 

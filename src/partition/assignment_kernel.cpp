@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assignment_kernel.h"
+#include "partition/assignment_kernel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/partition/farthest_point.h"
 #include "lodestone/partition/geodesic_voronoi.h"
 #include "lodestone/partition/random_voronoi.h"
-#include "lodestone/partition/scaled_positions.h"
 
 namespace lodestone {
 
@@ -106,7 +106,7 @@ Centroidal_seeds centroidal_seeds(const Numbered_surface& surface, std::size_t c
 }
 
 Labelling Centroidal::label(const Numbered_surface& surface, std::size_t regions) const {
-  const Positions positions = scaled_exactly(surface.positions);
+  const Positions positions = scaled_positions(surface.positions);
   const auto seeds = centroidal_seeds({surface.graph, positions, surface.faces}, regions, options);
   Geodesic_voronoi cells(surface.graph, positions);
   cells.add(seeds.vertices);

@@ -8,9 +8,9 @@
 
 #include <cmath>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/partition/feature_vectors.h"
-#include "lodestone/partition/scaled_positions.h"
 
 namespace lodestone {
 
@@ -105,7 +105,7 @@ std::vector<double> mean_curvatures(const Numbered_surface& surface, const Curva
   const Positions normals = vertex_normals(surface.positions, surface.faces);
   int exponent = 0;
   std::frexp(surface.positions.cwiseAbs().maxCoeff(), &exponent);
-  const Positions scaled = scaled_exactly(surface.positions);
+  const Positions scaled = scaled_positions(surface.positions);
 
   std::vector<double> curvatures(num_vertices(surface.graph), 0);
   Rings rings(surface.graph);

@@ -4,14 +4,14 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "lodestone/partition/scaled_positions.h"
+#include "lodestone/mesh/scaled_positions.h"
 
 namespace lodestone {
 
 Face_geometry face_geometry(const Numbered_surface& surface) {
   const auto count = static_cast<Eigen::Index>(surface.faces.size());
   Face_geometry result{.normals = Positions::Zero(count, 3), .areas = std::vector<double>(count, 0)};
-  const Positions scaled = scaled_exactly(surface.positions);
+  const Positions scaled = scaled_positions(surface.positions);
   const double extent = (scaled.colwise().maxCoeff() - scaled.colwise().minCoeff()).maxCoeff();
   if (extent == 0) return result;
   for (Eigen::Index f = 0; f < count; ++f) {

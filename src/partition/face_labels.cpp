@@ -6,8 +6,8 @@
 #include <string>
 #include <tuple>
 
-#include "lodestone/errors.h"
-#include "lodestone/partition/scaled_positions.h"
+#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/scaled_positions.h"
 
 namespace lodestone {
 
@@ -25,7 +25,7 @@ bool is_more(const Share& a, const Share& b) { return std::tie(a.area, a.faces) 
 
 /// One share per vertex and label, by vertex, then label.
 std::vector<Share> shares(const Numbered_surface& surface, std::span<const Region_index> face_labels) {
-  const Positions positions = scaled_exactly(surface.positions);
+  const Positions positions = scaled_positions(surface.positions);
   std::vector<Share> all;
   all.reserve(3 * face_labels.size());
   for (std::size_t f = 0; f < face_labels.size(); ++f) {

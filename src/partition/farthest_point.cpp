@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/partition/geodesic_voronoi.h"
 #include "lodestone/partition/random_voronoi.h"
-#include "lodestone/partition/scaled_positions.h"
 
 namespace lodestone {
 
@@ -40,7 +40,7 @@ std::vector<std::uint32_t> farthest_points(const Vertex_graph& graph, const Posi
 }
 
 Labelling Farthest_point::label(const Numbered_surface& surface, std::size_t regions) const {
-  const Positions positions = scaled_exactly(surface.positions);
+  const Positions positions = scaled_positions(surface.positions);
   Geodesic_voronoi cells(surface.graph, positions);
   // All at once: where distances are equal, cells grown one after the other need not be connected.
   cells.add(farthest_points(surface.graph, positions, regions, options.seed));

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "lodestone/partition/scaled_positions.h"
+#include "lodestone/mesh/scaled_positions.h"
 
 namespace lodestone {
 
@@ -12,7 +12,7 @@ namespace {
 
 /// Positions relative to their mean, at most 1 from it.
 Positions scaled_to_unit_ball(const Positions& positions) {
-  Positions scaled = scaled_exactly(positions);
+  Positions scaled = scaled_positions(positions);
   scaled.rowwise() -= scaled.colwise().mean().eval();
   const double extent = scaled.cwiseAbs().maxCoeff();
   if (extent == 0) return scaled;
@@ -31,7 +31,7 @@ void check_weights(const Feature_options& options) {
 }  // namespace
 
 Positions vertex_normals(const Positions& positions, std::span<const Corners> faces) {
-  const Positions scaled = scaled_exactly(positions);
+  const Positions scaled = scaled_positions(positions);
   const double extent = (scaled.colwise().maxCoeff() - scaled.colwise().minCoeff()).maxCoeff();
   Positions normals = Positions::Zero(positions.rows(), 3);
   if (extent == 0) return normals;

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 
 namespace lodestone {
 

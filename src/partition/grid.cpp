@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "lodestone/partition/scaled_positions.h"
+#include "lodestone/mesh/scaled_positions.h"
 
 namespace lodestone {
 
@@ -82,7 +82,7 @@ class Size_search {
 }  // namespace
 
 Labelling Grid::label(const Numbered_surface& surface, std::size_t regions) const {
-  Positions offsets = scaled_exactly(surface.positions);
+  Positions offsets = scaled_positions(surface.positions);
   offsets.rowwise() -= offsets.colwise().minCoeff().eval();
   if (offsets.maxCoeff() == 0) return {.labels = std::vector<Region_index>(offsets.rows(), 0)};
 

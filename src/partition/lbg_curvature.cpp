@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "lodestone/partition/scaled_positions.h"
+#include "lodestone/mesh/scaled_positions.h"
 
 namespace lodestone {
 
 Feature_vectors curvature_factor(const Numbered_surface& surface, const Curvature_options& options) {
   // Scaled, so that the product of curvature and radius is in range though either may not be.
-  const Positions scaled = scaled_exactly(surface.positions);
+  const Positions scaled = scaled_positions(surface.positions);
   const auto curvatures = mean_curvatures({surface.graph, scaled, surface.faces}, options);
   const Eigen::RowVector3d mean = scaled.colwise().mean();
   const double radius = (scaled.rowwise() - mean).rowwise().stableNorm().maxCoeff();

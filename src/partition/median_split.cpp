@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "lodestone/partition/scaled_positions.h"
+#include "lodestone/mesh/scaled_positions.h"
 
 namespace lodestone {
 
@@ -48,7 +48,7 @@ std::pair<Part, Part> halves(const Positions& positions, const Part& part, Regio
 
 Labelling Median_split::label(const Numbered_surface& surface, std::size_t regions) const {
   // The sides of a bounding box must not overflow.
-  const Positions positions = scaled_exactly(surface.positions);
+  const Positions positions = scaled_positions(surface.positions);
   std::vector<std::uint32_t> order(static_cast<std::size_t>(positions.rows()));
   std::iota(order.begin(), order.end(), 0);
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lodestone/partition/scaled_positions.h"
+#include "lodestone/mesh/scaled_positions.h"
 
 namespace lodestone {
 
@@ -28,7 +28,7 @@ struct Changes : CGAL::Polygon_mesh_processing::Default_orientation_visitor {
 double rounded(double x) { return std::ldexp(std::nearbyint(std::ldexp(x, 50)), -50); }
 
 std::vector<Point> rounded_points(const Positions& positions) {
-  const Positions scaled = scaled_exactly(positions);
+  const Positions scaled = scaled_positions(positions);
   std::vector<Point> points;
   points.reserve(positions.rows());
   for (const auto& row : scaled.rowwise()) points.emplace_back(rounded(row[0]), rounded(row[1]), rounded(row[2]));

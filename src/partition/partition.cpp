@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 
 namespace lodestone {
 

@@ -12,9 +12,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "lodestone/contact/box.h"
-#include "lodestone/contact/region_patches.h"
-#include "lodestone/errors.h"
+#include "lodestone/mesh/box.h"
+#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/patch.h"
 #include "lodestone/partition/particle_count.h"
 
 namespace lodestone {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <random>
 
+#include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/partition/geodesic_voronoi.h"
-#include "lodestone/partition/scaled_positions.h"
 
 namespace lodestone {
 
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> random_vertices(const Vertex_graph& graph, std::size_
 }
 
 Labelling Random_voronoi::label(const Numbered_surface& surface, std::size_t regions) const {
-  const Positions positions = scaled_exactly(surface.positions);
+  const Positions positions = scaled_positions(surface.positions);
   Geodesic_voronoi cells(surface.graph, positions);
   cells.add(random_vertices(surface.graph, regions, options.seed));
   return {.labels = cells.labels()};

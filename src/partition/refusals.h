@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 
 namespace lodestone {
 

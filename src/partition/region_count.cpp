@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "lodestone/errors.h"
-#include "lodestone/partition/scaled_positions.h"
+#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/scaled_positions.h"
 
 namespace lodestone {
 
@@ -139,7 +139,7 @@ class Splitting {
 Splitting::Splitting(const Vertex_graph& graph, const Positions& positions, std::vector<Region_index>& labels,
                      std::size_t regions)
     : graph_(graph),
-      positions_(scaled_exactly(positions)),
+      positions_(scaled_positions(positions)),
       labels_(labels),
       members_(members(graph, labels, regions)),
       marks_(labels.size(), 0) {}

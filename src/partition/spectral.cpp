@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 
 namespace lodestone {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 #include "lodestone/partition/centroidal.h"
 #include "lodestone/partition/farthest_point.h"
 #include "lodestone/partition/grid.h"

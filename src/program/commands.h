@@ -37,17 +37,6 @@ struct Partition_command {
   bool quiet = false;
 };
 
-struct Experiment_command {
-  std::string name;
-  std::filesystem::path scenes, out;
-  std::vector<std::string> only;  ///< see Experiment_context, as the others here
-  std::size_t jobs = 1;
-  std::string shard = "1/1";
-  std::vector<std::filesystem::path> merge;
-  std::filesystem::path html;  ///< empty: not written
-  bool quiet = false;
-};
-
 struct Info_command {
   std::filesystem::path file;
   std::filesystem::path mesh;  ///< of a point cache; may be empty
@@ -66,8 +55,11 @@ struct Convert_command {
 /// Each prints its table to the standard output and returns the program's exit code.
 int run(const Detect_command& command);
 int run(const Partition_command& command);
-int run(const Experiment_command& command);
 int run(const Info_command& command);
 int run(const Convert_command& command);
+
+/// Becomes the program of the experiments, which lies beside this one; returns only by an exception.
+/// @throws Bad_argument  it has not been built
+[[noreturn]] void run_experiments(std::vector<char*> arguments);
 
 }  // namespace lodestone

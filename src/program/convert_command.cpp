@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "commands.h"
-#include "exit_codes.h"
-#include "lodestone/io/animation_output.h"
-#include "lodestone/io/mesh_file.h"
-#include "printable.h"
-#include "progress.h"
+#include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/results/animation_output.h"
+#include "program/commands.h"
+#include "program/exit_codes.h"
+#include "program/printable.h"
+#include "program/progress.h"
 
 namespace lodestone {
 

@@ -7,18 +7,18 @@
 #include <optional>
 #include <set>
 
-#include "commands.h"
-#include "exit_codes.h"
-#include "frame_log.h"
-#include "lodestone/baselines/exhaustive.h"
-#include "lodestone/io/atomic_file.h"
-#include "lodestone/io/scene_file.h"
-#include "lodestone/io/text_table.h"
-#include "measured_run.h"
-#include "page_log.h"
-#include "paraview_log.h"
-#include "printable.h"
-#include "progress.h"
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/io/results/text_table.h"
+#include "lodestone/io/scenes/scene_file.h"
+#include "lodestone/queries/exhaustive.h"
+#include "program/commands.h"
+#include "program/exit_codes.h"
+#include "program/frame_log.h"
+#include "program/page_log.h"
+#include "program/paraview_log.h"
+#include "program/printable.h"
+#include "program/progress.h"
+#include "program/measurement.h"
 
 namespace lodestone {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "frame_log.h"
+#include "program/frame_log.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lodestone/detector_options.h"
-#include "lodestone/frame.h"
+#include "lodestone/detection/detector_options.h"
+#include "lodestone/detection/frame.h"
 
 namespace lodestone {
 

@@ -5,16 +5,16 @@
 #include <span>
 #include <vector>
 
-#include "commands.h"
-#include "exit_codes.h"
-#include "frame_log.h"
-#include "lodestone/contact/contact_search.h"
-#include "lodestone/io/animation.h"
-#include "lodestone/io/scene_file.h"
-#include "lodestone/io/surface_report.h"
-#include "lodestone/io/text_table.h"
-#include "printable.h"
-#include "progress.h"
+#include "lodestone/io/motion/animation.h"
+#include "lodestone/io/results/surface_report.h"
+#include "lodestone/io/results/text_table.h"
+#include "lodestone/io/scenes/scene_file.h"
+#include "lodestone/queries/contact_search.h"
+#include "program/commands.h"
+#include "program/exit_codes.h"
+#include "program/frame_log.h"
+#include "program/printable.h"
+#include "program/progress.h"
 
 namespace lodestone {
 
@@ -49,7 +49,7 @@ void count_self_intersections(std::span<const Point> points, std::span<const Cor
   if (faces.empty()) return;
   std::vector<double> coordinates;
   for (const auto& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-  Tree_object object(faces);
+  Tree_surface object(faces);
   object.build({}, coordinates, {});
   Workers workers(0);
   Contact_search search(workers);

@@ -2,18 +2,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <map>
-#include <new>
-#include <system_error>
 #include <vector>
 
-#include "commands.h"
-#include "exit_codes.h"
-#include "experiment.h"
-#include "lodestone/errors.h"
-#include "printable.h"
-#include "progress.h"
+#include "lodestone/mesh/errors.h"
+#include "program/command_line.h"
+#include "program/commands.h"
+#include "program/exit_codes.h"
+#include "program/run_reported.h"
+#include "program/printable.h"
 
 namespace lodestone {
 
@@ -34,15 +31,6 @@ CLI::Validator one_of(const std::map<std::string, Value>& names) {
             return {};
           },
           ""};
-}
-
-/// A script whose variable is empty must not lose its results without a word.
-CLI::Validator not_empty() {
-  return {[](const std::string& text) { return std::string(text.empty() ? "a name is wanted, found none" : ""); }, ""};
-}
-
-CLI::Option* add_html(CLI::App& app, std::filesystem::path& html, const char* what) {
-  return app.add_option("--html", html, what)->type_name("FILE")->check(not_empty());
 }
 
 /// Squares of larger weights leave the range of a double.
@@ -198,42 +186,7 @@ void add_convert(CLI::App& program, Convert_command& command) {
   app.add_flag("--quiet", command.quiet, "No progress bar, no report");
 }
 
-void add_experiment(CLI::App& program, Experiment_command& command) {
-  auto& app = *program.add_subcommand("experiment", "Run one of the experiments");
-  std::vector<std::string> names;
-  std::string list = "Experiments:";
-  for (const auto& experiment : experiments()) {
-    names.emplace_back(experiment.name);
-    list += fmt::format("\n  {:<20} {}", experiment.name, experiment.question);
-  }
-  app.add_option("NAME", command.name, "Which one")->required()->check(CLI::IsMember(names).description(""));
-  app.add_option("--scenes", command.scenes, "Folder of the scene files")
-      ->type_name("DIR")
-      ->default_str("data/scenes of the source");
-  app.add_option(
-         "--only", command.only,
-         "Scenes to play in place of all, by name (peers, every_frame, volumes); meshes and strategies (partitions)")
-      ->delimiter(',')
-      ->type_name("NAME");
-  app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1024}))
-      ->capture_default_str();
-  app.add_option("--shard", command.shard, "Only the K-th of N parts of the runs (partitions)")
-      ->type_name("K/N")
-      ->capture_default_str();
-  app.add_option("--merge", command.merge, "Take over the rows of these folders first (partitions)")
-      ->delimiter(',')
-      ->type_name("DIR");
-  app.add_option("--out", command.out, "Folder for the figures")
-      ->type_name("DIR")
-      ->default_str("out/NAME")
-      ->check(not_empty());
-  add_html(app, command.html, "One page (.html) with the report and plots of the figures");
-  app.add_flag("--quiet", command.quiet, "No progress bar, no report on the terminal");
-  app.footer(list + "\n\n" + exit_code::help);
-}
-
-int run_guarded(int argc, char** argv) {
+int run_commands(int argc, char** argv) {
   CLI::App program("lodestone: collision detection for triangle meshes that deform");
   program.name("lodestone");
   program.set_version_flag("--version", LODESTONE_VERSION);
@@ -243,24 +196,16 @@ int run_guarded(int argc, char** argv) {
 
   Detect_command detect;
   Partition_command partition;
-  Experiment_command experiment;
   Info_command info;
   Convert_command convert;
-  experiment.scenes = LODESTONE_SCENES;
   add_detect(program, detect);
   add_partition(program, partition);
   add_info(program, info);
   add_convert(program, convert);
-  add_experiment(program, experiment);
+  // Listed here for its help; the program of the experiments reads its arguments.
+  program.add_subcommand("experiment", "Run one of the experiments")->prefix_command()->set_help_flag();
 
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    if (asked_for_help) return program.exit(error);
-    fmt::print(stderr, "lodestone: {} (see lodestone --help)\n", printable(error.what()));
-    return exit_code::bad_usage;
-  }
+  if (const auto done = parse(program, argc, argv)) return *done;
   int code = exit_code::success;
   detect.options.senin.seed = detect.partition.settings.seed;
   detect.partition.settings.lbg.threads = detect.options.exact.threads;
@@ -276,14 +221,7 @@ int run_guarded(int argc, char** argv) {
   else if (program.got_subcommand("convert"))
     code = run(convert);
   else
-    code = run(experiment);
-  if (std::fflush(stdout) != 0) throw Bad_output("the standard output cannot be written");
-  return code;
-}
-
-/// One line, whatever the names of files hold.
-int report(const char* what, int code) {
-  fmt::print(stderr, "lodestone: {}\n", printable(what));
+    run_experiments({argv + 2, argv + argc});
   return code;
 }
 
@@ -292,24 +230,5 @@ int report(const char* what, int code) {
 }  // namespace lodestone
 
 int main(int argc, char** argv) {
-  using namespace lodestone;
-  try {
-    handle_interrupts();
-    return run_guarded(argc, argv);
-  } catch (const Interrupted&) {
-    return report("interrupted", exit_code::interrupted);
-  } catch (const Bad_output& error) {
-    return report(error.what(), exit_code::bad_output);
-  } catch (const Bad_argument& error) {
-    return report(error.what(), exit_code::bad_usage);
-  } catch (const Error& error) {
-    return report(error.what(), exit_code::bad_input);
-  } catch (const std::bad_alloc&) {
-    return report("not enough memory for this input", exit_code::bad_input);
-  } catch (const std::system_error& error) {
-    // Whatever is read has errors of its own: this is a folder or the standard output.
-    return report(error.what(), exit_code::bad_output);
-  } catch (const std::exception& error) {
-    return report(error.what(), exit_code::unexpected);
-  }
+  return lodestone::run_reported([&] { return lodestone::run_commands(argc, argv); });
 }

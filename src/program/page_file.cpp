@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "page_file.h"
+#include "program/page_file.h"
 
 #include <fmt/format.h>
 
-#include "lodestone/errors.h"
-#include "printable.h"
-#include "viewer.h"
+#include "lodestone/mesh/errors.h"
+#include "program/printable.h"
+#include "program/viewer.h"
 
 namespace lodestone {
 

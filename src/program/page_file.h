@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "lodestone/io/atomic_file.h"
-#include "lodestone/io/page.h"
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/io/results/page.h"
 
 namespace lodestone {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "page_log.h"
+#include "program/page_log.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "frame_log.h"
-#include "lodestone/contact/triangle_distance.h"
+#include "lodestone/triangles/triangle_distance.h"
+#include "program/frame_log.h"
 
 namespace lodestone {
 

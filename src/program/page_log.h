@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "commands.h"
-#include "lodestone/io/page.h"
-#include "lodestone/io/scene_file.h"
-#include "page_file.h"
+#include "lodestone/io/results/page.h"
+#include "lodestone/io/scenes/scene_file.h"
+#include "program/commands.h"
+#include "program/page_file.h"
 
 namespace lodestone {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "paraview_log.h"
+#include "program/paraview_log.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <array>
 #include <utility>
 
-#include "lodestone/contact/triangle_distance.h"
-#include "lodestone/io/atomic_file.h"
-#include "lodestone/region_maps.h"
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/mesh/region_maps.h"
+#include "lodestone/triangles/triangle_distance.h"
 
 namespace lodestone {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "lodestone/frame.h"
-#include "lodestone/io/atomic_files.h"
-#include "lodestone/io/scene_file.h"
-#include "lodestone/io/vtp.h"
+#include "lodestone/detection/frame.h"
+#include "lodestone/io/files/atomic_files.h"
+#include "lodestone/io/results/vtp.h"
+#include "lodestone/io/scenes/scene_file.h"
 
 namespace lodestone {
 

@@ -6,18 +6,18 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "commands.h"
-#include "exit_codes.h"
-#include "frame_log.h"
-#include "lodestone/io/atomic_file.h"
-#include "lodestone/io/coloured_ply.h"
-#include "lodestone/io/mesh_file.h"
-#include "lodestone/io/text_table.h"
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/results/coloured_ply.h"
+#include "lodestone/io/results/text_table.h"
 #include "lodestone/partition/partition_measures.h"
-#include "measures_json.h"
-#include "page_file.h"
-#include "printable.h"
-#include "progress.h"
+#include "program/commands.h"
+#include "program/exit_codes.h"
+#include "program/frame_log.h"
+#include "program/page_file.h"
+#include "program/printable.h"
+#include "program/progress.h"
+#include "program/measures_json.h"
 
 namespace lodestone {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer.h"
+#include "program/viewer.h"
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 
 // The assembler takes the file in: a compiler is slow at a string of megabytes.
 #ifdef LODESTONE_VIEWER

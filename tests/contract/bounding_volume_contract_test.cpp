@@ -2,9 +2,9 @@
 // What every model of Bounding_volume promises of a leaf, in exact arithmetic.
 #include <limits>
 
-#include "contact/hard_pairs.h"
-#include "contact/instruction_sets.h"
 #include "contract/volume_leaves.h"
+#include "support/hard_pairs.h"
+#include "support/instruction_sets.h"
 
 namespace lodestone {
 namespace {

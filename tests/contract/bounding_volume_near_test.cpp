@@ -2,8 +2,8 @@
 // Every model of Bounding_volume denies only what is apart: against exact predicates.
 #include <limits>
 
-#include "contact/triangle_pairs.h"
 #include "contract/volume_pairs.h"
+#include "support/triangle_pairs.h"
 
 namespace lodestone {
 namespace {

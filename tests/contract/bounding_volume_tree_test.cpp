@@ -2,9 +2,9 @@
 // Region trees of every model of Bounding_volume, through deformations of every kind.
 #include <limits>
 
-#include "contact/tree_checks.h"
 #include "contract/volume_leaves.h"
-#include "lodestone/contact/region_tree.h"
+#include "lodestone/tree/region_tree.h"
+#include "support/tree_checks.h"
 
 namespace lodestone {
 namespace {

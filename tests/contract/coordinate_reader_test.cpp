@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Coordinates of every mesh type, as the trees read them.
-#include "lodestone/contact/coordinate_reader.h"
+#include "lodestone/mesh/coordinate_reader.h"
 
 #include "contract/mesh_types.h"
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "contract/mesh_types.h"
-#include "lodestone/baselines/exhaustive.h"
 #include "lodestone/find_collisions.h"
-#include "test_meshes.h"
+#include "lodestone/queries/exhaustive.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "contract/volume_models.h"
-#include "lodestone/contact/face_neighbours.h"
-#include "lodestone/io/shapes.h"
-#include "oracle/exact_truth.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "lodestone/triangles/neighbour_check.h"
+#include "support/exact_truth.h"
 
 namespace lodestone {
 

@@ -2,8 +2,8 @@
 // Trees of any volumes over a mesh that is no Surface_mesh.
 #include "contract/mesh_types.h"
 #include "contract/volume_models.h"
-#include "lodestone/io/shapes.h"
-#include "oracle/exact_truth.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "support/exact_truth.h"
 
 namespace lodestone {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "contract/mesh_types.h"
-#include "lodestone/io/shapes.h"
-#include "oracle/exact_truth.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "support/exact_truth.h"
 
 namespace lodestone {
 namespace {

@@ -12,7 +12,7 @@
 #include <array>
 #include <vector>
 
-#include "lodestone/concepts.h"
+#include "lodestone/mesh/concepts.h"
 
 namespace lodestone {
 

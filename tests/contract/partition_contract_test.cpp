@@ -5,7 +5,7 @@
 #include "contract/mesh_types.h"
 #include "lodestone/particles/hop_metric.h"
 #include "lodestone/partition/lbg.h"
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

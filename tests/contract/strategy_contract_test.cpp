@@ -5,9 +5,9 @@
 #include <set>
 
 #include "contract/mesh_types.h"
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/shapes/shapes.h"
 #include "lodestone/partition/strategies.h"
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

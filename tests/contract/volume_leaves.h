@@ -10,9 +10,9 @@
 #include <vector>
 
 // A model that is new needs an `inside` of its own.
-#include "contact/volumes/ball_membership.h"
-#include "contact/volumes/slab_membership.h"
 #include "contract/volume_models.h"
+#include "support/ball_membership.h"
+#include "support/slab_membership.h"
 
 namespace lodestone {
 

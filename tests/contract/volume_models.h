@@ -12,9 +12,9 @@
 #include <tuple>
 #include <vector>
 
-#include "contact/face_soup.h"
-#include "contact/volumes/leaves.h"
-#include "lodestone/contact/volumes/all.h"
+#include "lodestone/volumes/all.h"
+#include "support/face_soup.h"
+#include "support/leaves.h"
 
 namespace lodestone {
 

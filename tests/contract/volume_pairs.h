@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "contact/distance_oracle.h"
-#include "contact/hard_pairs.h"
 #include "contract/volume_leaves.h"
-#include "lodestone/contact/triangle_distance.h"
+#include "lodestone/triangles/triangle_distance.h"
+#include "support/distance_oracle.h"
+#include "support/hard_pairs.h"
 
 namespace lodestone {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interval.h"
+#include "partitions/interval.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 
 namespace lodestone {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "partition_plan.h"
+#include "partitions/partition_plan.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "lodestone/detector.h"
-#include "lodestone/errors.h"
-#include "partition_report.h"
-#include "partition_run.h"
+#include "lodestone/mesh/errors.h"
+#include "partitions/partition_report.h"
+#include "partitions/partition_run.h"
 
 namespace lodestone {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "race.h"
+#include "shared/race.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <numeric>
 #include <random>
 
-#include "io/temporary_folder.h"
-#include "lodestone/io/scene_file.h"
-#include "read_bound.h"
+#include "lodestone/io/scenes/scene_file.h"
+#include "shared/read_bound.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone {
 namespace {

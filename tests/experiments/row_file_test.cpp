@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "row_file.h"
+#include "partitions/row_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 
-#include "io/temporary_folder.h"
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone {
 namespace {

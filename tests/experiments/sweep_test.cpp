@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sweep.h"
+#include "partitions/sweep.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,8 +9,8 @@
 #include <set>
 #include <thread>
 
-#include "io/temporary_folder.h"
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tree_pieces.h"
+#include "volumes/tree_pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <numbers>
 #include <set>
 
-#include "lodestone/contact/volumes/all.h"
-#include "lodestone/io/shapes.h"
-#include "scene_division.h"
-#include "tightness.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "lodestone/volumes/all.h"
+#include "volumes/scene_division.h"
+#include "volumes/tightness.h"
 
 namespace lodestone {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <set>
 
-#include "io/temporary_folder.h"
-#include "lodestone/contact/contact_search.h"
-#include "lodestone/io/shapes.h"
-#include "volume_scene.h"
-#include "walk_counts.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "lodestone/queries/contact_search.h"
+#include "support/temporary_folder.h"
+#include "volumes/volume_scene.h"
+#include "volumes/walk_counts.h"
 
 namespace lodestone {
 namespace {
@@ -40,7 +40,7 @@ struct Ball {
     for (const auto& point : mesh.points())
       labels.push_back((point.x() > x ? 1 : 0) + (point.y() > 0 ? 2 : 0) + (point.z() > 0 ? 4 : 0));
     const Moving_mesh moving{&mesh, numbering.corners()};
-    object = std::make_unique<Basic_tree_object<Volume>>(numbering.corners());
+    object = std::make_unique<Basic_tree_surface<Volume>>(numbering.corners());
     object->build(labels, moving.coordinates(), {});
   }
   const Basic_region_tree<Volume>& tree() const { return object->tree(); }
@@ -48,7 +48,7 @@ struct Ball {
   Surface_mesh mesh;
   Mesh_numbering<Surface_mesh> numbering;
   std::vector<Region_index> labels;
-  std::unique_ptr<Basic_tree_object<Volume>> object;
+  std::unique_ptr<Basic_tree_surface<Volume>> object;
 };
 
 TEST(Count_walk, counts_what_the_search_for_all_contacts_does) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The tables of the experiment `volumes`, computed from figures that are easy to compute with.
-#include "volume_report.h"
+#include "volumes/volume_report.h"
 
 #include <gtest/gtest.h>
 

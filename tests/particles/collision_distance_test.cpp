@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

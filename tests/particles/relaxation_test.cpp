@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "count_allocations.h"
-#include "test_meshes.h"
+#include "support/count_allocations.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -11,7 +11,7 @@
 #include "lodestone/partition/islands.h"
 #include "lodestone/partition/lbg.h"
 #include "lodestone/partition/partition.h"
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lathe.h"
-#include "lodestone/errors.h"
-#include "partition_checks.h"
-#include "test_meshes.h"
+#include "lodestone/mesh/errors.h"
+#include "partition/lathe.h"
+#include "partition/partition_checks.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "lodestone/errors.h"
-#include "test_meshes.h"
+#include "lodestone/mesh/errors.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "lodestone/partition/vertex_graph.h"
+#include "lodestone/mesh/vertex_graph.h"
 
 namespace lodestone {
 

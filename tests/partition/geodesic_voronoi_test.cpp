@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 #include "partition/geodesic_oracle.h"
 #include "partition/strategy_cases.h"
 

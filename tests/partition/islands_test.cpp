@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

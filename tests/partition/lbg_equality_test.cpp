@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lodestone/partition/lbg.h"
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

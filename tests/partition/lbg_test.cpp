@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <random>
 
-#include "contact/instruction_sets.h"
 #include "lodestone/partition/lbg.h"
 #include "lodestone/partition/nearest_code_vector.h"
-#include "test_meshes.h"
+#include "support/instruction_sets.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

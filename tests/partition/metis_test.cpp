@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
-#include "partition_checks.h"
-#include "test_meshes.h"
+#include "partition/partition_checks.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

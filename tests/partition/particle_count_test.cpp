@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

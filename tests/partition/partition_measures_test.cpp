@@ -5,9 +5,9 @@
 
 #include <numbers>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 #include "lodestone/partition/lbg.h"
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "lodestone/partition/lbg.h"
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 #include <set>
 
-#include "lodestone/errors.h"
-#include "test_meshes.h"
+#include "lodestone/mesh/errors.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "lodestone/partition/face_labels.h"
-#include "partition_checks.h"
-#include "test_meshes.h"
+#include "partition/partition_checks.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -8,10 +8,10 @@
 #include <map>
 #include <numbers>
 
-#include "lathe.h"
 #include "lodestone/partition/face_labels.h"
-#include "partition_checks.h"
-#include "test_meshes.h"
+#include "partition/lathe.h"
+#include "partition/partition_checks.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

@@ -8,9 +8,9 @@
 #include <limits>
 #include <numbers>
 
-#include "lathe.h"
-#include "partition_checks.h"
-#include "test_meshes.h"
+#include "partition/lathe.h"
+#include "partition/partition_checks.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {

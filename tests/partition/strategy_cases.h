@@ -13,7 +13,7 @@
 
 #include "lodestone/partition/partition.h"
 #include "lodestone/partition/strategies.h"
-#include "test_meshes.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "peer_entries.h"
+#include "peers/peer_entries.h"
 
 #include <gtest/gtest.h>
 
-#include "io/temporary_folder.h"
-#include "lodestone/io/scene_file.h"
-#include "race.h"
+#include "lodestone/io/scenes/scene_file.h"
+#include "shared/race.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone {
 namespace {

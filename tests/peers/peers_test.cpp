@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lodestone/baselines/exhaustive.h"
-#include "lodestone/io/deformation.h"
-#include "lodestone/io/shapes.h"
-#include "peer.h"
+#include "lodestone/io/motion/deformation.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "lodestone/queries/exhaustive.h"
+#include "peers/peer.h"
 
 namespace lodestone {
 namespace {

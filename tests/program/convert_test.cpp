@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "io/gltf_samples.h"
-#include "io/mesh_samples.h"
-#include "io/temporary_folder.h"
-#include "lodestone/io/animation.h"
-#include "lodestone/io/point_cache.h"
+#include "lodestone/io/motion/animation.h"
+#include "lodestone/io/motion/point_cache.h"
 #include "program/run_program.h"
+#include "support/gltf_samples.h"
+#include "support/mesh_samples.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "io/mesh_samples.h"
-#include "io/scene_samples.h"
-#include "io/temporary_folder.h"
-#include "lodestone/baselines/exhaustive.h"
-#include "lodestone/io/mesh_file.h"
-#include "lodestone/io/scene_file.h"
+#include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/scenes/scene_file.h"
+#include "lodestone/queries/exhaustive.h"
 #include "program/run_program.h"
+#include "support/mesh_samples.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "io/temporary_folder.h"
 #include "program/run_program.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

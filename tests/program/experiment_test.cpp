@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "experiment.h"
-#include "fit.h"
-#include "io/temporary_folder.h"
 #include "program/run_program.h"
-#include "score.h"
+#include "runner/experiments.h"
+#include "shared/fit.h"
+#include "program/score.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh_samples.h"
-#include "io/scene_samples.h"
-#include "io/temporary_folder.h"
 #include "program/run_program.h"
+#include "support/mesh_samples.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "io/gltf_samples.h"
-#include "io/mesh_samples.h"
-#include "io/scene_samples.h"
-#include "io/temporary_folder.h"
 #include "program/run_program.h"
+#include "support/gltf_samples.h"
+#include "support/mesh_samples.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

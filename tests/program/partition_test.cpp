@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh_samples.h"
-#include "io/scene_samples.h"
-#include "io/temporary_folder.h"
-#include "lodestone/io/coloured_ply.h"
-#include "lodestone/io/mesh_file.h"
-#include "lodestone/io/shapes.h"
+#include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/results/coloured_ply.h"
+#include "lodestone/io/shapes/shapes.h"
 #include "program/run_program.h"
+#include "support/mesh_samples.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

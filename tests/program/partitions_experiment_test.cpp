@@ -7,8 +7,8 @@
 #include <csignal>
 #include <thread>
 
-#include "io/temporary_folder.h"
 #include "program/run_program.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "experiment.h"
-#include "io/temporary_folder.h"
 #include "program/run_program.h"
+#include "runner/experiments.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "soak.h"
+#include "soak/soak.h"
 
 #include <gtest/gtest.h>
 

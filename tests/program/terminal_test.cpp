@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "io/scene_samples.h"
-#include "io/temporary_folder.h"
 #include "program/run_program.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

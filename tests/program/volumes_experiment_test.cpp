@@ -4,9 +4,9 @@
 
 #include <tuple>
 
-#include "io/temporary_folder.h"
-#include "lodestone/contact/volumes/all.h"
+#include "lodestone/volumes/all.h"
 #include "program/run_program.h"
+#include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {

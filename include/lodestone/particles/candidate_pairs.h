@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "lodestone/concepts.h"
+#include "lodestone/mesh/concepts.h"
 
 namespace lodestone {
 

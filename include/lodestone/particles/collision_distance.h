@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "lodestone/partition/vertex_graph.h"
+#include "lodestone/mesh/vertex_graph.h"
 
 namespace lodestone {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "lodestone/partition/mesh_numbering.h"
-#include "lodestone/partition/vertex_graph.h"
+#include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/vertex_graph.h"
 
 namespace lodestone {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "lodestone/partition/vertex_graph.h"
+#include "lodestone/mesh/vertex_graph.h"
 
 namespace lodestone {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
 #include "lodestone/particles/interaction.h"
 #include "lodestone/particles/region_steps.h"
 

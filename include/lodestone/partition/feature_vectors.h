@@ -7,9 +7,9 @@
 #include <concepts>
 #include <span>
 
-#include "lodestone/concepts.h"
-#include "lodestone/errors.h"
-#include "lodestone/partition/mesh_numbering.h"
+#include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
 

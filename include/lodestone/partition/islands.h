@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "lodestone/partition/vertex_graph.h"
+#include "lodestone/mesh/vertex_graph.h"
 
 namespace lodestone {
 

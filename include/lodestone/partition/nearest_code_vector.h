@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "lodestone/concepts.h"
+#include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/workers.h"
 #include "lodestone/partition/feature_vectors.h"
-#include "lodestone/workers.h"
 
 namespace lodestone {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "lodestone/partition/mesh_numbering.h"
-#include "lodestone/partition/vertex_graph.h"
+#include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/vertex_graph.h"
 
 /// How many particles an object needs: as many as other objects can touch it at once.
 namespace lodestone {

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "lodestone/errors.h"
+#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/vertex_graph.h"
 #include "lodestone/partition/feature_vectors.h"
 #include "lodestone/partition/islands.h"
-#include "lodestone/partition/mesh_numbering.h"
-#include "lodestone/partition/vertex_graph.h"
 
 namespace lodestone {
 

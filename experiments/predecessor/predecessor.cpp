@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The two situations in which the paper says that its predecessor fails, both methods on the same frames.
+#include <fmt/format.h>
+
+#include "lodestone/io/results/text_table.h"
+#include "shared/experiment.h"
+#include "shared/measured_run.h"
+
+namespace lodestone {
+
+namespace {
+
+constexpr int seeds = 5;
+
+std::vector<Setting> both_methods() {
+  std::vector<Setting> settings;
+  for (const std::size_t particles : {4, 12, 32}) {
+    settings.push_back({fmt::format("regions, {}", particles), {.particles = particles}});
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+      settings.push_back({fmt::format("scattered, {}, seed {}", particles, seed),
+                          {.mode = Mode::senin, .particles = particles, .senin = {.seed = seed}}});
+  }
+  return settings;
+}
+
+/// One row for the regions, one for the predecessor over all its seeds.
+void add_rows(Text_table& table, const std::string& scene, std::span<const Measurement> group) {
+  const auto add = [&](const char* method, std::span<const Measurement> runs) {
+    Score score;
+    double lowest = 1, highest = 0, microseconds = 0;
+    for (const auto& m : runs) {
+      score.add(m.score);
+      lowest = std::min(lowest, m.score.recall());
+      highest = std::max(highest, m.score.recall());
+      microseconds += median_total_microseconds(m) / static_cast<double>(runs.size());
+    }
+    table.add({scene, method, std::to_string(runs[0].setting.options.particles), fmt::format("{:.3f}", score.recall()),
+               fmt::format("{:.3f}", lowest), fmt::format("{:.3f}", highest), fmt::format("{:.3f}", score.precision()),
+               fmt::format("{} of {}", score.never_seen(), score.collisions()),
+               fmt::format("{:.1f}", score.mean_delay()), fmt::format("{:.1f}", microseconds)});
+  };
+  add("regions", group.first(1));
+  add("scattered", group.subspan(1));
+}
+
+}  // namespace
+
+std::string run_predecessor(const Experiment_context& context) {
+  const std::vector<std::string> names{"wrong_side", "third_object"};
+  const auto settings = both_methods();
+  Text_table table({"scene", "method", "particles", "recall", "lowest seed", "highest seed", "precision", "never seen",
+                    "delay (frames)", "us per frame"});
+  nlohmann::ordered_json json;
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    std::vector<Scene> scenes;
+    scenes.push_back(read_scene(context.scenes / (names[n] + ".json")));
+    const auto run = measure(scenes, settings, [&](std::size_t done, std::size_t of) {
+      context.progress(n * of + done, names.size() * of);
+    });
+    constexpr std::size_t group = 1 + seeds;
+    for (std::size_t first = 0; first < run.measurements.size(); first += group)
+      add_rows(table, names[n], std::span(run.measurements).subspan(first, group));
+    for (const auto& m : run.measurements) json[names[n]].push_back(to_json(m));
+  }
+  write_json(context.out, "predecessor", json);
+  return fmt::format("`scattered` is the predecessor, over {} seeds.\n\n", seeds) + table.text();
+}
+
+}  // namespace lodestone

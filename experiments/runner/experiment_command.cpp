@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+
+#include "lodestone/io/files/atomic_file.h"
+#include "runner/experiment_command.h"
+#include "program/exit_codes.h"
+#include "runner/experiment_plots.h"
+#include "program/page_file.h"
+#include "program/printable.h"
+#include "program/progress.h"
+#include "runner/experiments.h"
+
+namespace lodestone {
+
+namespace {
+
+/// K and N of `K/N`.
+std::pair<std::size_t, std::size_t> parts_of(const std::string& shard) {
+  std::size_t k = 0, n = 0;
+  const char* const end = shard.data() + shard.size();
+  const auto first = std::from_chars(shard.data(), end, k);
+  if (first.ec == std::errc() && first.ptr != end && *first.ptr == '/') {
+    const auto second = std::from_chars(first.ptr + 1, end, n);
+    if (second.ec == std::errc() && second.ptr == end && k >= 1 && k <= n) return {k, n};
+  }
+  throw Bad_argument("--shard: expected K/N with 1 <= K <= N, found '" + shard + "'");
+}
+
+Page page_of(const Experiment& experiment, const std::filesystem::path& out, const std::string& report) {
+  const std::string name(experiment.name);
+  Page page({.kind = Page_kind::experiment, .title = name + ": " + std::string(experiment.question), .report = report});
+  for (auto& plot : experiment_plots(std::filesystem::path(LODESTONE_EXPERIMENTS) / name / "plots", out))
+    page.add_plot(std::move(plot));
+  return page;
+}
+
+}  // namespace
+
+int run(const Experiment_command& command) {
+  const auto experiment = std::ranges::find_if(experiments(), [&](const auto& e) { return e.name == command.name; });
+  const std::filesystem::path out = command.out.empty() ? std::filesystem::path("out") / command.name : command.out;
+  std::optional<Page_file> page;
+  if (!command.html.empty()) page.emplace(command.html, out);
+  std::string report;
+  {
+    Progress_bar bar(command.name, command.quiet);
+    const auto [shard, shards] = parts_of(command.shard);
+    report = experiment->run({.scenes = command.scenes,
+                              .out = out,
+                              .progress = std::ref(bar),
+                              .only = command.only,
+                              .jobs = command.jobs,
+                              .shard = shard,
+                              .shards = shards,
+                              .merge = command.merge});
+  }
+  Atomic_file file(out / (command.name + ".md"));
+  file.write(report);
+  file.commit();
+  if (!command.quiet)
+    fmt::print("{}\n{}\n\n{}", experiment->question, std::string(experiment->question.size(), '='), report);
+  if (page) {  // after the report, which must not be lost to a plot that cannot be drawn
+    page->finish(page_of(*experiment, out, report));
+    page->commit();
+  }
+  if (!command.quiet) fmt::print("\nreport and figures: {}\n", printable(out.string()));
+  if (!command.quiet && page) fmt::print("{}\n", page->summary());
+  return exit_code::success;
+}
+
+}  // namespace lodestone

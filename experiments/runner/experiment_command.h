@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lodestone {
+
+struct Experiment_command {
+  std::string name;
+  std::filesystem::path scenes, out;
+  std::vector<std::string> only;  ///< see Experiment_context, as the others here
+  std::size_t jobs = 1;
+  std::string shard = "1/1";
+  std::vector<std::filesystem::path> merge;
+  std::filesystem::path html;  ///< empty: not written
+  bool quiet = false;
+};
+
+/// Runs an experiment, prints its report to the standard output and returns the exit code.
+int run(const Experiment_command& command);
+
+}  // namespace lodestone

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "lodestone/io/results/page.h"
+
+namespace lodestone {
+
+/// The plots of an experiment with its figures in them: every *.vl.json of `specs`, by name. None if there is no such
+/// folder. A specification names its data by `{"url": FILE}` or `{"name": TABLE}`, for TABLE.json, at any depth, with
+/// `"format": {"property": P}` where the rows stand below a key.
+/// @param out  folder of the figures
+/// @throws Bad_argument  a specification that is not JSON, or whose data do not exist, are not rows, or lie elsewhere
+std::vector<Page_plot> experiment_plots(const std::filesystem::path& specs, const std::filesystem::path& out);
+
+}  // namespace lodestone

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "runner/experiments.h"
+
+#include <array>
+
+namespace lodestone {
+
+// Each in the folder of its name.
+std::string run_teapot_sphere(const Experiment_context& context);
+std::string run_scaling(const Experiment_context& context);
+std::string run_predecessor(const Experiment_context& context);
+std::string run_collision_distance(const Experiment_context& context);
+std::string run_every_frame(const Experiment_context& context);
+std::string run_growth(const Experiment_context& context);
+std::string run_modes(const Experiment_context& context);
+std::string run_partitions(const Experiment_context& context);
+std::string run_rebuild(const Experiment_context& context);
+std::string run_peers(const Experiment_context& context);
+std::string run_self_collision(const Experiment_context& context);
+std::string run_soak(const Experiment_context& context);
+std::string run_volumes(const Experiment_context& context);
+
+std::span<const Experiment> experiments() {
+  static constexpr auto all = std::to_array<Experiment>({
+      {"teapot_sphere", "How well and how fast does the method find collisions on the paper's pair?",
+       run_teapot_sphere},
+      {"scaling", "How do partition, detection and repartition check grow with k, M and N?", run_scaling},
+      {"predecessor", "Where does the predecessor fail, and does this method hold there?", run_predecessor},
+      {"collision_distance", "Why is mu the mean over adjacent vertices, not over all?", run_collision_distance},
+      {"every_frame", "Does the exact mode equal exhaustive checking in every frame of the scenes?", run_every_frame},
+      {"growth", "Does repartitioning keep an inflating object detectable, and what does it cost?", run_growth},
+      {"modes", "What does a frame cost in each mode, and what does it miss?", run_modes},
+      {"partitions", "Which partition strategy is best, by its measures and in use?", run_partitions},
+      {"rebuild", "When does a tree of the mode exact become too loose, and does building it anew pay?", run_rebuild},
+      {"self_collision", "How fast is self-collision of a deforming mesh, beside CGAL?", run_self_collision},
+      {"soak", "Does the exact mode ever differ from exhaustive checking?", run_soak},
+      {"volumes", "What does recomputing bounding volumes cost per frame, and which are tightest?", run_volumes},
+#ifdef LODESTONE_PEERS
+      {"peers", "How do other collision libraries fare on the same frames?", run_peers},
+#endif
+  });
+  return all;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include "program/command_line.h"
+#include "program/exit_codes.h"
+#include "runner/experiment_command.h"
+#include "program/run_reported.h"
+#include "runner/experiments.h"
+
+namespace lodestone {
+
+namespace {
+
+void add_options(CLI::App& app, Experiment_command& command) {
+  std::vector<std::string> names;
+  std::string list = "Experiments:";
+  for (const auto& experiment : experiments()) {
+    names.emplace_back(experiment.name);
+    list += fmt::format("\n  {:<20} {}", experiment.name, experiment.question);
+  }
+  app.add_option("NAME", command.name, "Which one")->required()->check(CLI::IsMember(names).description(""));
+  app.add_option("--scenes", command.scenes, "Folder of the scene files")
+      ->type_name("DIR")
+      ->default_str("data/scenes of the source");
+  app.add_option(
+         "--only", command.only,
+         "Scenes to play in place of all, by name (peers, every_frame, volumes); meshes and strategies (partitions)")
+      ->delimiter(',')
+      ->type_name("NAME");
+  app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1024}))
+      ->capture_default_str();
+  app.add_option("--shard", command.shard, "Only the K-th of N parts of the runs (partitions)")
+      ->type_name("K/N")
+      ->capture_default_str();
+  app.add_option("--merge", command.merge, "Take over the rows of these folders first (partitions)")
+      ->delimiter(',')
+      ->type_name("DIR");
+  app.add_option("--out", command.out, "Folder for the figures")
+      ->type_name("DIR")
+      ->default_str("out/NAME")
+      ->check(not_empty());
+  add_html(app, command.html, "One page (.html) with the report and plots of the figures");
+  app.add_flag("--quiet", command.quiet, "No progress bar, no report on the terminal");
+  app.footer(list + "\n\n" + exit_code::help);
+}
+
+int run_experiment(int argc, char** argv) {
+  CLI::App app("Run one of the experiments");
+  app.name("lodestone experiment");
+  Experiment_command command;
+  command.scenes = LODESTONE_SCENES;
+  add_options(app, command);
+  if (const auto done = parse(app, argc, argv)) return *done;
+  return run(command);
+}
+
+}  // namespace
+
+}  // namespace lodestone
+
+int main(int argc, char** argv) {
+  return lodestone::run_reported([&] { return lodestone::run_experiment(argc, argv); });
+}

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How partition, detection and repartition check grow, beside the paper's O(kMN), O(N^2) and O(N).
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "lodestone/io/results/text_table.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "shared/experiment.h"
+#include "shared/fit.h"
+#include "shared/measured_run.h"
+
+namespace lodestone {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+constexpr int passes = 5;
+
+template <class Function>
+double seconds_of(Function function) {
+  std::vector<double> seconds;
+  for (int pass = 0; pass < passes; ++pass) {
+    const auto start = Clock::now();
+    function();
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  return median(std::move(seconds));
+}
+
+/// Vectors of a teapot with about M vertices: 32 n^2 - 4 n + 2 of them for n x n quads per patch.
+Feature_vectors teapot_vectors(std::size_t n) {
+  const Surface_mesh mesh = teapot({.u = n, .v = n});
+  const Mesh_numbering<Surface_mesh> numbering(mesh);
+  return feature_vectors(read_positions(numbering, mesh.points()), numbering.corners());
+}
+
+/// The first k columns of a 6-D vector and further smooth factors of the position.
+Feature_vectors with_components(const Feature_vectors& six, Eigen::Index k) {
+  Feature_vectors vectors(six.rows(), k);
+  for (Eigen::Index c = 0; c < k; ++c)
+    vectors.col(c) =
+        c < 6 ? six.col(c).eval() : (2.0 * six.col(c % 3) + six.col((c + 1) % 3)).array().sin().matrix().eval();
+  return vectors;
+}
+
+/// Time of one Lloyd iteration at full N: the number of iterations depends on the data, the cost of one is what O(kMN)
+/// speaks of. Plain and bounded search give the same labels.
+struct Quantise_time {
+  double plain = 0, bounded = 0;  ///< seconds for the whole quantisation
+  std::size_t iterations = 0;     ///< of both
+  double per_iteration() const { return plain / static_cast<double>(iterations); }
+};
+
+Quantise_time time_quantise(const Feature_vectors& vectors, std::size_t cells) {
+  Quantise_time time;
+  time.bounded = seconds_of([&] {
+    const auto result = quantise(vectors, cells);
+    time.iterations = 0;
+    for (const auto& run : result.runs) time.iterations += run.distortion.size();
+  });
+  time.plain = seconds_of([&] { quantise(vectors, cells, {.search = Nearest_search::plain}); });
+  return time;
+}
+
+/// A series of measurements against one parameter, with the exponents that fit.
+class Series {
+ public:
+  explicit Series(std::string parameter) : parameter_(std::move(parameter)) {}
+
+  void add(double x, const Quantise_time& time) {
+    x_.push_back(x);
+    times_.push_back(time);
+  }
+
+  std::string text() const {
+    Text_table table(
+        {parameter_, "plain (ms)", "bounded (ms)", "plain / bounded", "iterations", "plain per iteration (ms)"});
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      table.add({fmt::format("{}", x_[i]), fmt::format("{:.2f}", 1e3 * times_[i].plain),
+                 fmt::format("{:.2f}", 1e3 * times_[i].bounded),
+                 fmt::format("{:.1f}", times_[i].plain / times_[i].bounded), std::to_string(times_[i].iterations),
+                 fmt::format("{:.3f}", 1e3 * times_[i].per_iteration())});
+    const auto [plain, iteration, bounded] = exponents();
+    return table.text() +
+           fmt::format(
+               "\nExponent of {}: {:.2f} for a plain run, {:.2f} for one of its iterations, {:.2f} for a "
+               "bounded run.\n\n",
+               parameter_, plain, iteration, bounded);
+  }
+
+  Json json() const {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      rows.push_back({{parameter_, x_[i]},
+                      {"plain_seconds", times_[i].plain},
+                      {"bounded_seconds", times_[i].bounded},
+                      {"iterations", times_[i].iterations}});
+    const auto [plain, iteration, bounded] = exponents();
+    return {{"rows", rows}, {"exponents", {{"plain", plain}, {"plain_iteration", iteration}, {"bounded", bounded}}}};
+  }
+
+ private:
+  std::tuple<double, double, double> exponents() const {
+    std::vector<double> plain, iteration, bounded;
+    for (const auto& time : times_) {
+      plain.push_back(time.plain);
+      iteration.push_back(time.per_iteration());
+      bounded.push_back(time.bounded);
+    }
+    return {fitted_exponent(x_, plain), fitted_exponent(x_, iteration), fitted_exponent(x_, bounded)};
+  }
+
+  std::string parameter_;
+  std::vector<double> x_;
+  std::vector<Quantise_time> times_;
+};
+
+/// A step of the progress bar after each measurement.
+class Steps {
+ public:
+  Steps(const Experiment_context& context, std::size_t of) : context_(context), of_(of) {}
+  void next() { context_.progress(++done_, of_); }
+
+ private:
+  const Experiment_context& context_;
+  std::size_t of_, done_ = 0;
+};
+
+std::string partition_against_components(Steps& steps, Json& json) {
+  Series series("k");
+  const auto six = teapot_vectors(28);
+  for (const Eigen::Index k : {3, 6, 12, 24}) {
+    series.add(static_cast<double>(k), time_quantise(with_components(six, k), 64));
+    steps.next();
+  }
+  json["k"] = series.json();
+  return fmt::format("Against k, at M = {} and N = 64:\n\n", six.rows()) + series.text();
+}
+
+std::string partition_against_vertices(Steps& steps, Json& json) {
+  Series series("M");
+  for (const std::size_t n : {10, 20, 28, 56}) {
+    const auto vectors = teapot_vectors(n);
+    series.add(static_cast<double>(vectors.rows()), time_quantise(vectors, 64));
+    steps.next();
+  }
+  json["M"] = series.json();
+  return "Against M, at k = 6 and N = 64:\n\n" + series.text();
+}
+
+std::string partition_against_regions(Steps& steps, Json& json) {
+  Series series("N");
+  const auto vectors = teapot_vectors(28);
+  for (const std::size_t cells : {8, 16, 32, 64, 128, 256}) {
+    series.add(static_cast<double>(cells), time_quantise(vectors, cells));
+    steps.next();
+  }
+  json["N"] = series.json();
+  return fmt::format("Against N, at k = 6 and M = {}:\n\n", vectors.rows()) + series.text();
+}
+
+/// Time of the growth check of one object, whether or not anything has grown.
+double growth_check_seconds(const Surface_mesh& mesh, std::size_t particles) {
+  Particle_object<Surface_mesh, Surface_mesh::Property_map<Surface_mesh::Vertex_index, Point>> object(mesh,
+                                                                                                      mesh.points());
+  object.partition(Lbg{}, particles, {}, Distance_measure::adjacent_vertices);
+  constexpr int checks = 1000;
+  return seconds_of([&] {
+           for (int check = 0; check < checks; ++check) object.has_outgrown(2);
+         }) /
+         checks;
+}
+
+std::string detection_against_particles(const Experiment_context& context, Steps& steps, Json& json) {
+  std::vector<Scene> scenes;
+  scenes.push_back(read_scene(context.scenes / "spheres_50k.json"));
+  scenes.front().frames = std::min<std::size_t>(scenes.front().frames, 100);
+  const std::vector<std::size_t> counts{8, 16, 32, 64, 128};
+  std::vector<Setting> settings;
+  settings.reserve(counts.size());
+  for (const auto particles : counts) settings.push_back({std::to_string(particles), {.particles = particles}});
+  const auto run = measure(scenes, settings, [&](auto, auto) { context.progress(0, 1); });
+  steps.next();
+
+  Text_table table(
+      {"N", "relaxation (us)", "iterations", "per iteration (us)", "candidates (us)", "growth check (us)"});
+  std::vector<double> n, iteration, candidates, check;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto& m = run.measurements[i];
+    std::vector<double> per_iteration;
+    for (const auto& frame : m.frames)
+      if (frame.iterations > 0)
+        per_iteration.push_back(1e6 * frame.seconds.relaxation / static_cast<double>(frame.iterations));
+    n.push_back(static_cast<double>(counts[i]));
+    iteration.push_back(median(per_iteration));
+    candidates.push_back(median_microseconds(m, &Stage_times::candidates));
+    check.push_back(1e6 * growth_check_seconds(scenes.front().objects[0].mesh, counts[i]));
+    steps.next();
+    table.add({std::to_string(counts[i]), fmt::format("{:.1f}", median_microseconds(m, &Stage_times::relaxation)),
+               fmt::format("{:.1f}", mean_count(m, &Frame_statistics::iterations)),
+               fmt::format("{:.2f}", iteration.back()), fmt::format("{:.2f}", candidates.back()),
+               fmt::format("{:.2f}", check.back())});
+  }
+  const double of_iteration = fitted_exponent(n, iteration);
+  const double of_candidates = fitted_exponent(n, candidates);
+  const double of_check = fitted_exponent(n, check);
+  json["detection"] = {
+      {"N", n},
+      {"iteration_microseconds", iteration},
+      {"candidate_microseconds", candidates},
+      {"growth_check_microseconds", check},
+      {"exponents", {{"iteration", of_iteration}, {"candidates", of_candidates}, {"check", of_check}}}};
+  return "Detection and repartition check against N, two spheres of 50 000 triangles:\n\n" + table.text() +
+         fmt::format(
+             "\nExponent of N: {:.2f} for one iteration of the relaxation, {:.2f} for the candidate pairs (the paper: "
+             "O(N^2)), {:.2f} for the repartition check (the paper: O(N)).\n",
+             of_iteration, of_candidates, of_check);
+}
+
+}  // namespace
+
+std::string run_scaling(const Experiment_context& context) {
+  Steps steps(context, 4 + 4 + 6 + 1 + 5);
+  Json json;
+  std::string report = fmt::format(
+      "Partition: LBG over a teapot, medians of {} runs. The paper: O(kMN) for each iteration.\n\n", passes);
+  report += partition_against_components(steps, json);
+  report += partition_against_vertices(steps, json);
+  report += partition_against_regions(steps, json);
+  report += detection_against_particles(context, steps, json);
+  write_json(context.out, "scaling", json);
+  return report;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lodestone {
+
+struct Experiment_context {
+  std::filesystem::path scenes;                                    ///< folder of the scene files
+  std::filesystem::path out;                                       ///< folder that receives all figures as JSON
+  std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
+  /// Names of the scenes to play, or of meshes and strategies; empty: those of the published figures. Heeded by
+  /// `peers`, `every_frame`, `volumes` and `partitions`; the other experiments are about their scenes, and play them
+  /// all.
+  std::vector<std::string> only = {};
+
+  // Of experiments that are sweeps of many runs: `partitions`.
+  std::size_t jobs = 1;                           ///< runs at a time
+  std::size_t shard = 1, shards = 1;              ///< which part of the runs, of how many
+  std::vector<std::filesystem::path> merge = {};  ///< folders whose rows are taken over before
+};
+
+/// One question, and the run that answers it.
+struct Experiment {
+  std::string_view name;
+  std::string_view question;
+  /// Measures, writes `<name>.json` into `out`, and returns a report in Markdown.
+  std::string (*run)(const Experiment_context&);
+};
+
+}  // namespace lodestone

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lodestone/io/scenes/scene_file.h"
+#include "program/measurement.h"
+
+namespace lodestone {
+
+/// What answers are held against.
+enum class Truth_source {
+  exhaustive,  ///< every face against every other
+  exact_mode   ///< the mode `exact`, which gives the same: the experiment `peers` checks it on sampled frames
+};
+
+/// Times of the truth, and the measurements, on the same frames in the same process.
+struct Measured_run {
+  std::vector<Measurement> measurements;
+  std::vector<double> oracle_seconds;  ///< exhaustive exact checking, per frame, all pairs together
+};
+
+/// Plays the scenes one after the other. In every frame all settings and the oracle answer in turn.
+///
+/// The first frame of a scene, in which surfaces are partitioned, is scored but not timed.
+///
+/// @param truth  of large scenes: exhaustive checking would take longer than all else together
+Measured_run measure(std::span<Scene> scenes, std::span<const Setting> settings,
+                     const std::function<void(std::size_t, std::size_t)>& progress,
+                     Truth_source truth = Truth_source::exhaustive);
+
+}  // namespace lodestone

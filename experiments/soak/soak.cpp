@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The exact mode against the plainest possible check, on meshes made to be hard.
+#include "soak/soak.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "lodestone/io/results/text_table.h"
+#include "lodestone/queries/contact_search.h"
+#include "lodestone/triangles/neighbour_check.h"
+#include "shared/experiment.h"
+#include "shared/measured_run.h"
+#include "soak/soak_meshes.h"
+
+namespace lodestone {
+
+namespace {
+
+/// The boxes of faces, side by side: all those that overlap one are found in one pass.
+class Face_boxes {
+ public:
+  Face_boxes(const Positions& positions, std::span<const Corners> faces) {
+    for (const auto& [a, b, c] : faces)
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::minmax({positions(a, axis), positions(b, axis), positions(c, axis)});
+        low_[axis].push_back(low);
+        high_[axis].push_back(high);
+      }
+    overlaps_.resize(faces.size());
+  }
+  /// Calls `visit(face)` for those from number `first` on whose boxes overlap that of a face of `other`.
+  template <class Visit_face>
+  void overlapping(const Face_boxes& other, std::size_t other_face, std::size_t first, Visit_face visit) {
+    std::array<double, 3> low{}, high{};
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = other.low_[axis][other_face];
+      high[axis] = other.high_[axis][other_face];
+    }
+    for (std::size_t f = first; f < overlaps_.size(); ++f)
+      overlaps_[f] = (low_[0][f] <= high[0]) & (low[0] <= high_[0][f]) & (low_[1][f] <= high[1]) &
+                     (low[1] <= high_[1][f]) & (low_[2][f] <= high[2]) & (low[2] <= high_[2][f]);
+    for (std::size_t f = first; f < overlaps_.size(); ++f)
+      if (overlaps_[f] != 0) visit(static_cast<std::uint32_t>(f));
+  }
+
+ private:
+  std::array<std::vector<double>, 3> low_, high_;
+  std::vector<std::uint8_t> overlaps_;
+};
+
+/// One mesh of a round in one pose.
+struct Posed_mesh {
+  const std::vector<Corners>& faces;
+  const Positions& positions;
+
+  Triangle triangle(std::uint32_t face) const {
+    return face_triangle(faces[face], [&](std::uint32_t vertex) { return positions.row(vertex); });
+  }
+  Coordinates coordinates() const { return {positions.data(), static_cast<std::size_t>(positions.size())}; }
+};
+
+std::vector<Face_pair> checked_between(const Posed_mesh& a, const Posed_mesh& b, std::size_t& pairs) {
+  const Face_boxes boxes_a(a.positions, a.faces);
+  Face_boxes boxes_b(b.positions, b.faces);
+  std::vector<Face_pair> found;
+  for (std::uint32_t f = 0; f < a.faces.size(); ++f) {
+    const Triangle triangle = a.triangle(f);
+    boxes_b.overlapping(boxes_a, f, 0, [&](std::uint32_t g) {
+      ++pairs;
+      if (triangles_intersect(triangle, b.triangle(g))) found.push_back({f, g});
+    });
+  }
+  return found;
+}
+
+std::vector<Face_pair> checked_within(const Posed_mesh& mesh, std::size_t& pairs) {
+  Face_boxes boxes(mesh.positions, mesh.faces);
+  std::vector<Face_pair> found;
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const Triangle triangle = mesh.triangle(f);
+    boxes.overlapping(boxes, f, f + 1, [&](std::uint32_t g) {
+      ++pairs;
+      // For faces without a common vertex the same as `triangles_intersect`.
+      if (faces_intersect(mesh.faces[f], triangle, mesh.faces[g], mesh.triangle(g))) found.push_back({f, g});
+    });
+  }
+  return found;
+}
+
+std::size_t differences(const std::vector<Face_pair>& sorted_a, const std::vector<Face_pair>& sorted_b) {
+  std::vector<Face_pair> different;
+  std::ranges::set_symmetric_difference(sorted_a, sorted_b, std::back_inserter(different));
+  return different.size();
+}
+
+/// Two meshes through all their poses.
+class Round {
+ public:
+  Round(const std::array<Soak_mesh, 2>& meshes, std::size_t regions, std::size_t leaf_faces, std::size_t threads)
+      : meshes_(meshes), workers_(threads), search_(workers_) {
+    for (std::size_t m = 0; m < 2; ++m) {
+      objects_[m] = Tree_surface(meshes[m].faces);
+      const Posed_mesh first = posed(m, 0);
+      objects_[m].build(region_labels(first.positions.rows(), regions), first.coordinates(),
+                        {.leaf_faces = leaf_faces});
+    }
+  }
+
+  void run(Soak_kind& kind) {
+    ++kind.rounds;
+    for (std::size_t pose = 0; pose < soak_poses; ++pose) {
+      const Posed_mesh a = posed(0, pose), b = posed(1, pose);
+      if (pose > 0) {
+        const std::array<Tree_surface*, 2> objects{&objects_[0], &objects_[1]};
+        const std::array<Coordinates, 2> coordinates{a.coordinates(), b.coordinates()};
+        refit(objects, coordinates, workers_);
+      }
+      for (std::size_t m = 0; m < 2; ++m)
+        if (!objects_[m].tree().validate(meshes_[m].faces, posed(m, pose).coordinates()).empty()) ++kind.invalid_trees;
+
+      std::vector<Face_pair> found;
+      search_.between(objects_[0], objects_[1], {}, found);
+      compare(checked_between(a, b, kind.pairs), found, kind);
+      // Within one of the two: pairs between them are what most of the time should go into.
+      const std::size_t m = pose % 2;
+      found.clear();
+      search_.within(objects_[m], {}, found);
+      compare(checked_within(posed(m, pose), kind.pairs), found, kind);
+    }
+  }
+
+ private:
+  /// Regions of consecutive vertices: neighbours in a surface, anything in a soup.
+  static std::vector<Region_index> region_labels(Eigen::Index vertices, std::size_t regions) {
+    std::vector<Region_index> labels(static_cast<std::size_t>(vertices));
+    for (std::size_t v = 0; v < labels.size(); ++v) labels[v] = static_cast<Region_index>(v * regions / labels.size());
+    return labels;
+  }
+
+  Posed_mesh posed(std::size_t mesh, std::size_t pose) const {
+    return {meshes_[mesh].faces, meshes_[mesh].poses[pose]};
+  }
+
+  static void compare(const std::vector<Face_pair>& checked, const std::vector<Face_pair>& found, Soak_kind& kind) {
+    kind.intersecting += checked.size();
+    kind.differences += differences(checked, found);
+  }
+
+  const std::array<Soak_mesh, 2>& meshes_;
+  Workers workers_;
+  Contact_search search_;
+  std::array<Tree_surface, 2> objects_;
+};
+
+}  // namespace
+
+Soak_result soak(std::uint64_t seed, std::size_t pairs, const std::function<void(std::size_t)>& progress) {
+  const auto recipes = soak_recipes();
+  const std::size_t share = (pairs + recipes.size() - 1) / recipes.size();
+  Soak_result result;
+  for (const auto& recipe : recipes) {
+    Soak_kind kind{.name = recipe.name};
+    std::mt19937_64 random(seed * recipes.size() + result.kinds.size());
+    // Each kind in each frame of reference, however few pairs are asked for.
+    while (kind.pairs < share || kind.rounds < soak_frames_of_reference) {
+      auto meshes = recipe.make(random);
+      for (auto& mesh : meshes) move_to_frame_of_reference(mesh, kind.rounds % soak_frames_of_reference);
+      const std::size_t regions = 1 + random() % 16, leaf_faces = 2 + random() % 127;
+      const std::size_t threads = random() % 4 == 0 ? 3 : 1;
+      Round(meshes, regions, leaf_faces, threads).run(kind);
+      if (progress) progress(result.pairs + std::min(kind.pairs, share));
+    }
+    result.pairs += kind.pairs;
+    result.intersecting += kind.intersecting;
+    result.differences += kind.differences;
+    result.invalid_trees += kind.invalid_trees;
+    result.kinds.push_back(kind);
+  }
+  return result;
+}
+
+std::string run_soak(const Experiment_context& context) {
+  constexpr std::size_t pairs = 100'000'000;
+  constexpr std::uint64_t seed = 1;
+  const auto result = soak(seed, pairs, [&](std::size_t done) {
+    if (context.progress) context.progress(std::min(done, pairs), pairs);
+  });
+
+  Text_table table({"kind", "rounds", "pairs with overlapping boxes", "intersecting", "differences", "invalid trees"});
+  nlohmann::ordered_json json;
+  std::size_t rounds = 0;
+  for (const auto& kind : result.kinds) {
+    table.add({std::string(kind.name), std::to_string(kind.rounds), std::to_string(kind.pairs),
+               std::to_string(kind.intersecting), std::to_string(kind.differences),
+               std::to_string(kind.invalid_trees)});
+    json.push_back({{"kind", kind.name},
+                    {"rounds", kind.rounds},
+                    {"pairs", kind.pairs},
+                    {"intersecting", kind.intersecting},
+                    {"differences", kind.differences},
+                    {"invalid_trees", kind.invalid_trees}});
+    rounds += kind.rounds;
+  }
+  table.add({"all", std::to_string(rounds), std::to_string(result.pairs), std::to_string(result.intersecting),
+             std::to_string(result.differences), std::to_string(result.invalid_trees)});
+  write_json(context.out, "soak", json);
+  return fmt::format(
+             "Two meshes of 200 to 2000 triangles a round, in {} poses: a tree built on the first, refitted to the "
+             "others. Between the two, and within one, every pair of faces whose boxes overlap is checked by itself. "
+             "Seed {}.\n\n",
+             soak_poses, seed) +
+         table.text();
+}
+
+}  // namespace lodestone

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "lodestone/detection/broad_phase.h"
+#include "lodestone/detection/detector_options.h"
+
+namespace lodestone {
+
+/// Which object pairs a detector looks at: those that meet each other's groups, without those that are ignored.
+class Collision_filter {
+ public:
+  void add(const Object_options& object) { objects_.push_back({object.groups, object.meets}); }
+  /// Leaves out a pair, or takes it in again. O(log ignored pairs).
+  void ignore(Object_pair pair, bool ignored) {
+    if (ignored)
+      ignored_.insert(ordered(pair));
+    else
+      ignored_.erase(ordered(pair));
+  }
+  /// Whether a face of a and a face of b, or two faces of a = b, may be reported.
+  bool may_collide(std::uint32_t a, std::uint32_t b) const {
+    if ((objects_[a].groups & objects_[b].meets) == 0 || (objects_[b].groups & objects_[a].meets) == 0) return false;
+    return ignored_.empty() || !ignored_.contains(ordered({a, b}));
+  }
+
+ private:
+  struct Groups {
+    std::uint32_t groups, meets;
+  };
+  static Object_pair ordered(Object_pair pair) { return {std::min(pair.a, pair.b), std::max(pair.a, pair.b)}; }
+
+  std::vector<Groups> objects_;
+  std::set<Object_pair> ignored_;
+};
+
+}  // namespace lodestone

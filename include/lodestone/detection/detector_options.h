@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "lodestone/particles/candidate_pairs.h"
+#include "lodestone/particles/collision_distance.h"
+#include "lodestone/particles/confirmation.h"
+#include "lodestone/particles/senin.h"
+#include "lodestone/partition/particle_count.h"
+#include "lodestone/partition/partition.h"
+#include "lodestone/tree/region_tree.h"
+
+namespace lodestone {
+
+/// Which method answers.
+enum class Mode {
+  particles,  ///< one particle per region; may miss a collision, never invents one
+  senin,      ///< the predecessor: particles scattered over the surface, no regions
+  exact,      ///< a tree of volumes over the regions: finds what checking every face against every other would
+};
+
+/// As the options of the program and its results name it.
+constexpr std::string_view name_of(Mode mode) {
+  constexpr std::string_view names[] = {"particles", "senin", "exact"};
+  return names[static_cast<int>(mode)];
+}
+
+/// What only the mode `exact` is asked.
+struct Exact_options {
+  double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect.
+                                ///< Between two objects: pairs within one are reported if they intersect
+  bool self_collision = false;  ///< also report pairs of faces of one object
+  bool containment = false;     ///< also tell objects that lie inside others
+  std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it
+  double loosest = 2;           ///< rebuild an object's tree when its leaves are looser by this factor; > 1
+  Region_tree_options tree = {};
+};
+
+struct Detector_options {
+  Mode mode = Mode::particles;
+  /// Per object; 0: as many as the rule of `particle_count` asks for. In mode `exact` the regions at the top of a tree;
+  /// 0: `least_particles`.
+  std::size_t particles = 0;
+  std::size_t least_particles = 12;  ///< but at least so many; 1: the rule alone, which can ask for very few
+  Particle_count_options particle_count = {};
+  Partition_options partition = {};
+  double collision_distance = 1;  ///< in multiples of mu, the larger of the two objects'; > 0
+  Distance_measure distance_measure = Distance_measure::adjacent_vertices;
+  Candidate_choice candidates = Candidate_choice::all;
+  Contact_query contacts = Contact_query::all;
+  bool contact_points = false;   ///< where faces meet; not with yes_no
+  bool contact_normals = false;  ///< which way, how deep; not with yes_no
+  bool list_candidates = false;  ///< also `Frame::candidates`; in mode `exact` there are none
+  std::size_t most_contacts = std::numeric_limits<std::size_t>::max();  ///< listed per object pair; >= 1
+  double growth = 1;  ///< repartition when a region exceeds so many times A*; > 0; infinity: never
+  Senin_options senin = {};
+  Exact_options exact = {};
+};
+
+/// What one object has of its own.
+struct Object_options {
+  std::size_t particles = 0;                           ///< 0: as the detector's options say
+  std::optional<Eigen::Vector3d> scattered_side = {};  ///< Senin_options::side of this object
+  std::uint32_t groups = 1;                            ///< bits: the groups that the object belongs to
+  std::uint32_t meets = ~std::uint32_t{0};             ///< bits: the groups that it can collide with, its own included
+  /// Per vertex of the mesh: its number in the file, as `read_mesh` tells it. Mode `exact` takes vertices of one number
+  /// as one, at the position of the first: a half-edge mesh must double vertices that are not manifold, and faces that
+  /// share one would else touch as strangers. Empty: every vertex is one by itself.
+  std::vector<std::uint32_t> file_vertex = {};
+};
+
+/// Options of another mode are ignored, but for those of the mode `exact` that ask for more than others can answer.
+/// @throws Bad_argument  an option out of its range
+void check(const Detector_options& options);
+
+}  // namespace lodestone

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lodestone/particles/confirmation.h"
+#include "lodestone/triangles/contact_normal.h"
+#include "lodestone/triangles/triangle_intersection.h"
+
+namespace lodestone {
+
+/// Number of an object within its detector, from 0 in the order of `add`.
+using Object_id = std::uint32_t;
+
+/// Seconds spent in each stage of one frame.
+struct Stage_times {
+  double repartition = 0;   ///< growth checks and repartitions of the updates since the frame before
+  double refit = 0;         ///< reading all positions, fitting all volumes, rebuilding what has become loose
+  double broad_phase = 0;   ///< reading the particles, near object pairs
+  double relaxation = 0;    ///< particles walking
+  double candidates = 0;    ///< particle pairs below the collision distance
+  double confirmation = 0;  ///< exact checks of candidate regions; in mode exact with the walk that finds them
+  double total() const { return repartition + refit + broad_phase + relaxation + candidates + confirmation; }
+};
+
+struct Frame_statistics {
+  Stage_times seconds = {};
+  std::size_t near_pairs = 0;    ///< object pairs that the broad phase let through, those with themselves included
+  std::size_t iterations = 0;    ///< of the relaxation
+  std::size_t moves = 0;         ///< steps of all particles together
+  bool relaxed = true;           ///< false: the relaxation was stopped by R_max
+  std::size_t candidates = 0;    ///< candidate region pairs; in mode exact pairs of leaves
+  std::size_t exact_tests = 0;   ///< face pairs given to the exact test
+  std::size_t contacts = 0;      ///< intersecting face pairs found, each once
+  std::size_t repartitions = 0;  ///< objects repartitioned since the frame before; in mode exact trees rebuilt
+};
+
+/// Whether one object lies inside the other: their surfaces are apart, and every piece of it is enclosed.
+enum class Containment { none, a_in_b, b_in_a };
+
+/// What was found for one near object pair, a < b; or, with a = b, within one object.
+struct Pair_result {
+  Object_id a = 0;
+  Object_id b = 0;
+  bool collides = false;          ///< something was found: that intersects, or is nearer than the tolerance
+  std::size_t candidates = 0;     ///< candidate region pairs
+  std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
+  std::size_t contacts = 0;
+  bool capped = false;  ///< there are more face pairs than `Detector_options::most_contacts`
+  Containment containment = Containment::none;
+};
+
+/// Two regions whose particles came nearer than the collision distance, so that their faces were to be checked.
+struct Candidate_regions {
+  Object_id a = 0;
+  Region_index region_a = 0;  ///< its number within `a`; in mode senin the particle's, which has no region
+  Object_id b = 0;
+  Region_index region_b = 0;
+  double distance = 0;  ///< of the two particles after their walk, in units of the coordinates
+};
+
+/// Everything one frame brought. Pairs that the broad phase dropped are not listed: none of their particles, or not
+/// their boxes, are near.
+struct Frame {
+  std::uint64_t number = 0;           ///< 1 for the first
+  std::vector<Pair_result> pairs;     ///< by (a, b)
+  std::vector<Face_pair> face_pairs;  ///< of all pairs one after the other, sorted within a pair
+  /// Parallel to `face_pairs`; empty unless asked for. Faces that are near but apart: the nearest point of each.
+  std::vector<Intersection_points> contact_points;
+  /// Parallel to `face_pairs`; empty unless asked for. A negative depth tells faces that are near but apart.
+  std::vector<Contact_normal> contact_normals;
+  /// `Pair_result::candidates` of each pair, one pair after the other, nearest first within a pair; empty unless asked
+  /// for. Once a face pair has answered the query, the farther ones of its pair are not checked any more.
+  std::vector<Candidate_regions> candidates = {};
+  Frame_statistics statistics = {};
+
+  std::span<const Face_pair> contacts(const Pair_result& pair) const {
+    return std::span(face_pairs).subspan(pair.first_contact, pair.contacts);
+  }
+  bool collides() const {
+    for (const auto& pair : pairs)
+      if (pair.collides) return true;
+    return false;
+  }
+  /// Whether `face_pairs` lacks some that were cut off by `Detector_options::most_contacts`.
+  bool capped() const {
+    for (const auto& pair : pairs)
+      if (pair.capped) return true;
+    return false;
+  }
+};
+
+}  // namespace lodestone

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "lodestone/detection/broad_phase.h"
+#include "lodestone/detection/collision_filter.h"
+#include "lodestone/detection/detector_options.h"
+#include "lodestone/detection/frame.h"
+#include "lodestone/detection/particle_object.h"
+#include "lodestone/mesh/region_maps.h"
+#include "lodestone/mesh/stopwatch.h"
+#include "lodestone/particles/candidate_pairs.h"
+
+namespace lodestone {
+
+/// The modes `particles` and `senin` of a Detector: its objects, and what happens to them in a frame.
+///
+/// In a frame positions are read only where a particle looks and in the regions of candidate pairs; `update` reads a
+/// few vertices per region, and all of a region that seems to have grown. After the first frame memory is allocated
+/// only where a result is larger than any before, for such a region, and for repartitions; in mode `senin` also for the
+/// faces around a particle that has moved. An object with a single particle is felt by others, and feels them, within
+/// its diameter.
+template <Triangle_mesh Mesh, class Strategy, class Points>
+class Particle_detection {
+ public:
+  Particle_detection(const Detector_options& options, Strategy strategy)
+      : options_(options), strategy_(std::move(strategy)) {}
+
+  void add(const Mesh& mesh, Points points, const Object_options& options) {
+    const auto id = static_cast<Object_id>(objects_.size());
+    objects_.push_back(std::make_unique<Object>(id, mesh, points, options));
+  }
+  /// Keeps the property maps of a mesh up to date from the next partition on.
+  void write_maps(Object_id object, Mesh& mesh) { objects_[object]->maps.emplace(mesh); }
+
+  /// Repartitions an object that has outgrown A*.
+  void update(Object_id object);
+  /// Reads the faces of the mesh anew.
+  void rebuild(Object_id object);
+  const Frame& detect(const Collision_filter& filter);
+
+  const Particle_object<Mesh, Points>& object(Object_id object) const { return objects_[object]->surface; }
+  const std::optional<Region_maps<Mesh>>& maps(Object_id object) const { return objects_[object]->maps; }
+
+ private:
+  struct Object {
+    Object_id id;
+    const Mesh* mesh;
+    Points points;
+    Object_options options;
+    Particle_object<Mesh, Points> surface;
+    double radius = 0;  ///< of the bounding sphere at the last partition
+    bool prepared = false;
+    std::optional<Region_maps<Mesh>> maps = {};
+
+    Object(Object_id i, const Mesh& m, Points p, const Object_options& o)
+        : id(i), mesh(&m), points(p), options(o), surface(m, p) {}
+  };
+
+  void prepare();
+  void partition(Object& object);
+  std::size_t particles_of(const Object& object) const;
+  void make_room();
+  void find_near_pairs(const Collision_filter& filter);
+  void walk();
+  void check(Object_pair pair);
+  void list_candidates(Object_pair pair);
+  void add_contacts(Pair_result& result, std::size_t first);
+  void add_geometry(const Pair_result& result);
+
+  Detector_options options_;
+  Strategy strategy_;
+  std::vector<std::unique_ptr<Object>> objects_;
+  Frame frame_;
+  Frame_statistics since_last_frame_;  ///< what `update` has to tell the next frame
+
+  // Memory of the stages, kept from frame to frame.
+  std::vector<Box> boxes_;
+  std::vector<double> reach_;
+  Broad_phase broad_phase_;
+  std::vector<Object_pair> near_pairs_;
+  std::vector<std::vector<std::uint32_t>> near_;
+  std::vector<Walking_object<Point_reader<Mesh, Points>>> walking_;
+  Relaxation_scratch relaxation_;
+  std::vector<Candidate_pair> candidates_;
+  Confirmation confirmation_;
+};
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::update(Object_id id) {
+  Object& object = *objects_[id];
+  if (!object.prepared || options_.mode != Mode::particles) return;
+  timed(since_last_frame_.seconds.repartition, [&] {
+    if (!object.surface.has_outgrown(options_.growth)) return;
+    object.radius = object.surface.bounding_sphere().radius;
+    partition(object);
+    make_room();
+    ++since_last_frame_.repartitions;
+  });
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::rebuild(Object_id id) {
+  const Object& old = *objects_[id];
+  auto anew = std::make_unique<Object>(id, *old.mesh, old.points, old.options);
+  anew->maps = old.maps;
+  if (anew->maps) anew->maps->renew();
+  objects_[id] = std::move(anew);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+const Frame& Particle_detection<Mesh, Strategy, Points>::detect(const Collision_filter& filter) {
+  prepare();
+  ++frame_.number;
+  frame_.pairs.clear();
+  frame_.face_pairs.clear();
+  frame_.contact_points.clear();
+  frame_.contact_normals.clear();
+  frame_.candidates.clear();
+  frame_.statistics = std::exchange(since_last_frame_, {});
+  confirmation_.reset_count();
+
+  timed(frame_.statistics.seconds.broad_phase, [&] { find_near_pairs(filter); });
+  timed(frame_.statistics.seconds.relaxation, [&] { walk(); });
+  for (const auto pair : near_pairs_) check(pair);
+
+  frame_.statistics.near_pairs = near_pairs_.size();
+  frame_.statistics.contacts = frame_.face_pairs.size();
+  frame_.statistics.exact_tests = confirmation_.exact_tests();
+  return frame_;
+}
+
+/// Partitions the objects that are new. The radii of all must be known first: particle counts depend on them.
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::prepare() {
+  std::vector<Object*> fresh;
+  for (auto& object : objects_)
+    if (!object->prepared) fresh.push_back(object.get());
+  if (fresh.empty()) return;
+  for (Object* object : fresh) object->radius = object->surface.bounding_sphere().radius;
+  for (Object* object : fresh) partition(*object);
+  make_room();
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::partition(Object& object) {
+  if (options_.mode == Mode::senin) {
+    Senin_options scattering = options_.senin;
+    scattering.seed += object.id;  // objects of one shape must not start alike
+    if (object.options.scattered_side) scattering.side = object.options.scattered_side;
+    object.surface.scatter(particles_of(object), scattering, options_.distance_measure);
+  } else {
+    object.surface.partition(strategy_, particles_of(object), options_.partition, options_.distance_measure);
+  }
+  object.prepared = true;
+  if (object.maps)
+    object.maps->write(object.surface.numbering(), object.surface.labels(), object.surface.particles().at);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+std::size_t Particle_detection<Mesh, Strategy, Points>::particles_of(const Object& object) const {
+  if (object.options.particles > 0) return object.options.particles;
+  if (options_.particles > 0) return options_.particles;
+  std::vector<double> radii;
+  for (const auto& other : objects_) radii.push_back(other->radius);
+  const auto& rule = options_.particle_count;
+  const std::size_t by_rule = particle_count(object.surface.sphere_collection(rule), radii, rule);
+  return std::min(std::max(by_rule, options_.least_particles), rule.most_particles);
+}
+
+/// Sizes the memory of all stages, so that frames need none.
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::make_room() {
+  std::vector<std::size_t> counts;
+  std::size_t faces = 0, vertices = 0;
+  for (const auto& object : objects_) {
+    counts.push_back(object->surface.particles().at.size());
+    for (const auto& patch : object->surface.patches()) {
+      faces = std::max(faces, patch.faces.size());
+      vertices = std::max(vertices, patch.vertices.size());
+    }
+  }
+  const std::size_t most = counts.empty() ? 0 : *std::ranges::max_element(counts);
+  relaxation_.reserve(counts);
+  candidates_.reserve(std::min<std::size_t>(most * most, 1 << 16));
+  walking_.reserve(objects_.size());
+  confirmation_.reserve(faces, vertices);
+  broad_phase_.reserve(objects_.size());
+  near_pairs_.reserve(std::min<std::size_t>(objects_.size() * objects_.size() / 2, 100 * objects_.size()));
+  boxes_.resize(objects_.size());
+  reach_.resize(objects_.size());
+  near_.resize(objects_.size());
+  for (auto& list : near_) list.reserve(std::min<std::size_t>(objects_.size(), 1000));
+  frame_.pairs.reserve(std::min<std::size_t>(objects_.size() * objects_.size() / 2, 100 * objects_.size()));
+  frame_.face_pairs.reserve(1024);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::find_near_pairs(const Collision_filter& filter) {
+  for (std::size_t o = 0; o < objects_.size(); ++o) {
+    auto& surface = objects_[o]->surface;
+    surface.read_particles();
+    boxes_[o].setEmpty();
+    for (const auto& position : surface.particles().positions) boxes_[o].extend(position);
+    reach_[o] = std::max(surface.particles().effective_radius,
+                         options_.collision_distance * surface.particles().collision_distance);
+    near_[o].clear();
+  }
+  near_pairs_.clear();
+  for (const auto& [a, b] : broad_phase_.find(boxes_, reach_)) {
+    if (!filter.may_collide(a, b)) continue;
+    near_pairs_.push_back({a, b});
+    near_[a].push_back(b);
+    near_[b].push_back(a);
+  }
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::walk() {
+  if (near_pairs_.empty()) return;
+  walking_.clear();
+  for (std::size_t o = 0; o < objects_.size(); ++o) {
+    auto& surface = objects_[o]->surface;
+    walking_.push_back({.particles = &surface.particles(),
+                        .steps = &surface.steps(),
+                        .reader = &surface.reader(),
+                        .near = near_[o],
+                        .siblings_repel = options_.mode == Mode::senin});
+  }
+  const Relaxation relaxation =
+      relax(std::span<const Walking_object<Point_reader<Mesh, Points>>>(walking_), relaxation_);
+  frame_.statistics.iterations = relaxation.iterations;
+  frame_.statistics.moves = relaxation.moves;
+  frame_.statistics.relaxed = relaxation.relaxed;
+  if (relaxation.moves == 0) return;
+  for (auto& object : objects_)
+    if (object->maps) object->maps->move_particles(object->surface.numbering(), object->surface.particles().at);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::check(Object_pair pair) {
+  auto& a = objects_[pair.a]->surface;
+  auto& b = objects_[pair.b]->surface;
+  Pair_result result{.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size()};
+  timed(frame_.statistics.seconds.candidates, [&] {
+    const double distance =
+        options_.collision_distance * std::max(a.particles().collision_distance, b.particles().collision_distance);
+    candidate_pairs(a.particles().positions, b.particles().positions, distance, options_.candidates, candidates_);
+  });
+  result.candidates = candidates_.size();
+  frame_.statistics.candidates += candidates_.size();
+  if (options_.list_candidates) list_candidates(pair);
+
+  timed(frame_.statistics.seconds.confirmation, [&] {
+    for (const auto& candidate : candidates_) {
+      result.collides |=
+          confirmation_.confirm(a.posed_patch(candidate.a, frame_.number), b.posed_patch(candidate.b, frame_.number),
+                                options_.contacts, frame_.face_pairs);
+      if (result.collides && options_.contacts != Contact_query::all) break;
+    }
+    add_contacts(result, result.first_contact);
+  });
+  frame_.pairs.push_back(result);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::list_candidates(Object_pair pair) {
+  for (const auto& candidate : candidates_)
+    frame_.candidates.push_back({.a = pair.a,
+                                 .region_a = candidate.a,
+                                 .b = pair.b,
+                                 .region_b = candidate.b,
+                                 .distance = std::sqrt(candidate.squared_distance)});
+}
+
+/// Sorts the face pairs found for one object pair, each once: faces at a seam are found in several regions.
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::add_contacts(Pair_result& result, std::size_t first) {
+  auto& found = frame_.face_pairs;
+  if (options_.contacts == Contact_query::yes_no) found.resize(first);
+  const auto begin = found.begin() + static_cast<std::ptrdiff_t>(first);
+  std::sort(begin, found.end());
+  found.erase(std::unique(begin, found.end()), found.end());
+  result.capped = found.size() - first > options_.most_contacts;
+  if (result.capped) found.resize(first + options_.most_contacts);
+  result.contacts = found.size() - first;
+  add_geometry(result);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points>
+void Particle_detection<Mesh, Strategy, Points>::add_geometry(const Pair_result& result) {
+  if (!options_.contact_points && !options_.contact_normals) return;
+  const auto triangle = [this](Object_id object, std::uint32_t face) {
+    const auto& surface = objects_[object]->surface;
+    return face_triangle(surface.numbering().corners()[face], surface.reader());
+  };
+  for (const auto& [face_a, face_b] : frame_.contacts(result)) {
+    const Triangle a = triangle(result.a, face_a), b = triangle(result.b, face_b);
+    if (options_.contact_points) frame_.contact_points.push_back(triangle_intersection(a, b));
+    if (options_.contact_normals) frame_.contact_normals.push_back(contact_normal(a, b));
+  }
+}
+
+}  // namespace lodestone

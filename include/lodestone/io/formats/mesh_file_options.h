@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+namespace lodestone {
+
+struct Mesh_file_options {
+  std::size_t max_faces = 50'000'000;  ///< files that announce or hold more faces are refused
+};
+
+}  // namespace lodestone

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "lodestone/mesh/concepts.h"
+
+/// Files that ParaView and other programs on VTK open: points with lines and triangles, and lists of them over time.
+namespace lodestone {
+
+/// One number per point or per cell, under a name.
+struct Vtp_array {
+  std::string name;
+  std::variant<std::vector<std::uint8_t>, std::vector<std::uint32_t>, std::vector<double>> values;
+};
+
+/// What a .vtp file holds. Cells are numbered in VTK's order: first all vertices, then all lines, then all polygons.
+struct Vtp_data {
+  std::vector<Point> points = {};
+  std::vector<std::vector<std::uint32_t>> vertices = {};  ///< cells of one point each
+  std::vector<std::vector<std::uint32_t>> lines = {};     ///< of two points or more
+  std::vector<std::vector<std::uint32_t>> polygons = {};  ///< of three points or more
+  std::vector<Vtp_array> point_data = {};
+  std::vector<Vtp_array> cell_data = {};
+};
+
+/// Writes XML PolyData: a header that any text editor shows, and all numbers behind it as raw little-endian bytes
+/// (`appended` data). The file appears whole or not at all.
+/// @throws Bad_output
+/// @throws Bad_argument  an array of another length than its points or cells, a cell that refers to no point
+void write_vtp(const std::filesystem::path& file, const Vtp_data& data);
+
+/// One moment of a .pvd file.
+struct Pvd_step {
+  double time = 0;
+  std::string file;  ///< relative to the .pvd file
+};
+
+/// Text of a .pvd file, the list of .vtp files that ParaView plays as one object over time.
+std::string pvd_text(const std::vector<Pvd_step>& steps);
+
+}  // namespace lodestone

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lodestone/detection/broad_phase.h"
+#include "lodestone/io/motion/motion.h"
+#include "lodestone/mesh/concepts.h"
+
+namespace lodestone {
+
+/// A mesh, how it moves, and what an experiment needs to know about it.
+struct Scene_object {
+  std::string name;
+  Surface_mesh mesh;                       ///< at rest, until `pose` moves it
+  std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its number among the positions of `motion`
+  std::size_t file_vertices = 0;           ///< number of those positions
+  Motion motion;                           ///< of an object that never moves too
+  std::size_t particles = 0;               ///< 0: automatic
+
+  /// Where the particles of the predecessor's method start: only on the part that lies farthest in this direction.
+  std::optional<Kernel::Vector_3> scattered_side;
+};
+
+struct Scene {
+  std::string name;
+  std::string description;
+  std::size_t frames = 1;
+  std::vector<Scene_object> objects;
+  std::vector<Object_pair> ignored;  ///< pairs of objects not to look at, a <= b, sorted; a = b: an object and itself
+
+  /// @param pair  a <= b
+  bool ignores(Object_pair pair) const { return std::ranges::binary_search(ignored, pair); }
+};
+
+/// Reads a scene: JSON as described by docs/scene.schema.json.
+///
+/// Meshes are read or made at once, frames of point caches and mesh sequences as `pose` asks for them. Files are looked
+/// for in the scene's own folder; a path that leaves it is refused.
+///
+/// @throws Bad_scene  what the schema does not allow, with a JSON pointer, such as
+///                    `scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, sequence,
+///                    deform)`; a syntax error, with line and column
+/// @throws Bad_mesh, Bad_motion  a file that the scene names is missing or broken
+Scene read_scene(const std::filesystem::path& file);
+
+/// An object from a mesh file that never moves.
+/// @throws Bad_mesh
+Scene_object still_object(std::string name, const std::filesystem::path& mesh_file);
+
+/// Moves the object's mesh to where it is in `frame`, counted from 0.
+/// @throws Bad_motion  a non-finite coordinate, a broken frame, one past the end; the mesh is then unchanged
+void pose(Scene_object& object, std::size_t frame);
+
+}  // namespace lodestone

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/coordinates.h"
+#include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/vertex_fans.h"
+
+namespace lodestone {
+
+/// The surface of one object: its faces, where its vertices are now, and what single queries need to know of its
+/// connectivity, found when first asked for.
+class Object_surface {
+ public:
+  Object_surface() = default;
+  /// @param corners  F >= 1 faces; kept by the caller
+  explicit Object_surface(std::span<const Corners> corners) : corners_(corners) {}
+
+  std::span<const Corners> corners() const { return corners_; }
+  std::size_t vertex_count() const { return coordinates_.size() / 3; }
+  Coordinates coordinates() const { return coordinates_; }
+
+  /// The faces around each vertex. O(V + F) the first time.
+  const Vertex_fans& fans() const;
+  /// Whether each edge has an even number of faces, so that the surface has an inside. O(F log F) the first time.
+  bool closed() const;
+  /// One vertex of each connected piece of the surface. O(V + F) the first time.
+  std::span<const std::uint32_t> piece_vertices() const;
+
+ protected:
+  Coordinates coordinates_;
+
+ private:
+  std::span<const Corners> corners_;
+  mutable std::optional<Vertex_fans> fans_;
+  mutable std::optional<bool> closed_;
+  mutable std::vector<std::uint32_t> piece_vertices_;
+};
+
+}  // namespace lodestone

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/box.h"
+#include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/vertex_graph.h"
+
+namespace lodestone {
+
+/// A set of faces with the vertices they use listed once.
+struct Patch {
+  std::vector<std::uint32_t> faces = {};     ///< face numbers, ascending
+  std::vector<std::uint32_t> vertices = {};  ///< vertex numbers, ascending
+  std::vector<Corners> corners = {};         ///< per face: its corners as places in `vertices`
+};
+
+/// The patch of the given faces. Cost O(n log n).
+/// @param mesh_corners  corners of every face of the mesh
+Patch make_patch(std::vector<std::uint32_t> faces, std::span<const Corners> mesh_corners);
+
+/// The faces of each region: those with at least one corner in it. A face at a seam belongs to two or three regions, so
+/// that none is lost between them. Cost O(F log F).
+std::vector<Patch> region_patches(std::span<const Corners> mesh_corners, std::span<const Region_index> labels,
+                                  std::size_t regions);
+
+/// A patch with the positions of its vertices in the current frame.
+struct Posed_patch {
+  const Patch* patch = nullptr;
+  std::vector<Eigen::Vector3d> positions;  ///< parallel to `patch->vertices`
+  Box box;
+  std::uint64_t frame = 0;  ///< number of the frame it holds; 0: none yet
+};
+
+/// Reads the positions of a patch, unless it holds those of `frame` already. O(vertices of the patch).
+/// @throws Bad_mesh  a coordinate is not finite
+template <class Reader>
+void pose_patch(Posed_patch& posed, const Reader& reader, std::uint64_t frame) {
+  if (posed.frame == frame) return;
+  posed.box.setEmpty();
+  posed.positions.resize(posed.patch->vertices.size());
+  Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < posed.positions.size(); ++i) {
+    posed.positions[i] = reader(posed.patch->vertices[i]);
+    posed.box.extend(posed.positions[i]);
+    zero += 0 * posed.positions[i];  // stays zero unless a coordinate is not finite
+  }
+  if (!zero.isZero(0)) throw Bad_mesh("a vertex of a candidate region has a coordinate that is not finite");
+  posed.frame = frame;
+}
+
+}  // namespace lodestone

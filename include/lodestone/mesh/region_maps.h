@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/mesh_numbering.h"
+
+namespace lodestone {
+
+/// Value of the particle map at a vertex without a particle.
+inline constexpr Region_index no_particle = std::numeric_limits<Region_index>::max();
+
+/// Type of the property maps in which a mesh carries its regions and particles.
+template <class Mesh>
+struct Region_property {
+  using Map = typename boost::property_map<Mesh, CGAL::dynamic_vertex_property_t<Region_index>>::const_type;
+  static Map add(const Mesh& mesh, const char* /*name*/) {
+    return get(CGAL::dynamic_vertex_property_t<Region_index>(), mesh);
+  }
+};
+
+/// CGAL::Surface_mesh has properties with names, so that other code finds `v:region` and `v:particle` on the mesh.
+template <class P>
+struct Region_property<CGAL::Surface_mesh<P>> {
+  using Mesh = CGAL::Surface_mesh<P>;
+  using Map = typename Mesh::template Property_map<typename Mesh::Vertex_index, Region_index>;
+  static Map add(Mesh& mesh, const char* name) {
+    return mesh.template add_property_map<typename Mesh::Vertex_index, Region_index>(name, no_particle).first;
+  }
+};
+
+/// Regions and particles of one object on its mesh: `v:region` gives the region of each vertex, `v:particle` the region
+/// whose particle is on a vertex, or `no_particle`.
+template <Triangle_mesh Mesh>
+class Region_maps {
+ public:
+  using Map = typename Region_property<Mesh>::Map;
+
+  explicit Region_maps(Mesh& mesh)
+      : mesh_(&mesh),
+        region_(Region_property<Mesh>::add(mesh, "v:region")),
+        particle_(Region_property<Mesh>::add(mesh, "v:particle")) {}
+
+  /// Finds the maps on the mesh again, or adds them: `Surface_mesh::clear` frees them.
+  void renew() { *this = Region_maps(*mesh_); }
+
+  const Map& region() const { return region_; }
+  const Map& particle() const { return particle_; }
+
+  /// Writes all labels, and particles where there were none. O(V).
+  void write(const Mesh_numbering<Mesh>& numbering, const std::vector<Region_index>& labels,
+             const std::vector<std::uint32_t>& particles) {
+    for (std::uint32_t v = 0; v < labels.size(); ++v) {
+      put(region_, numbering.vertex(v), labels[v]);
+      put(particle_, numbering.vertex(v), no_particle);
+    }
+    written_.clear();
+    move_particles(numbering, particles);
+  }
+
+  /// Takes the particles from where they were to where they are. O(N).
+  void move_particles(const Mesh_numbering<Mesh>& numbering, const std::vector<std::uint32_t>& particles) {
+    for (const auto v : written_) put(particle_, numbering.vertex(v), no_particle);
+    for (Region_index region = 0; region < particles.size(); ++region)
+      put(particle_, numbering.vertex(particles[region]), region);
+    written_ = particles;
+  }
+
+ private:
+  Mesh* mesh_;
+  Map region_, particle_;
+  std::vector<std::uint32_t> written_;  ///< where particles were written last
+};
+
+}  // namespace lodestone

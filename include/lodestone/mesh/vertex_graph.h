@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <boost/range/iterator_range.hpp>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/mesh_numbering.h"
+
+namespace lodestone {
+
+/// The edges of a mesh as a Boost.Graph: both directions of every edge, the neighbours of a vertex in ascending order.
+using Vertex_graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
+                                                        boost::no_property, std::uint32_t, std::uint32_t>;
+
+/// Graph of the edges of the given faces. Cost O(F log F).
+Vertex_graph vertex_graph(std::uint32_t vertex_count, std::span<const Corners> faces);
+
+/// Numbers of the neighbours of `vertex`, ascending.
+inline auto neighbours(const Vertex_graph& graph, std::uint32_t vertex) {
+  return boost::make_iterator_range(adjacent_vertices(vertex, graph));
+}
+
+/// True per vertex when it lies on an open border: on an edge that only one face has. Cost O(F log F).
+std::vector<bool> open_border(std::uint32_t vertex_count, std::span<const Corners> faces);
+
+}  // namespace lodestone

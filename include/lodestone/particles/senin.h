@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/patch.h"
+#include "lodestone/mesh/vertex_graph.h"
+
+/// The predecessor: particles scattered over the whole surface that repel their own kind and are drawn to those of
+/// other objects, after Senin et al. 2003 as \cite saenghaengtham2006 describes it. Nothing is partitioned.
+///
+/// Forces and movement are those of `relax()` with `siblings_repel` and every vertex in one region. What the
+/// description leaves open is settled so that the two methods differ in nothing else: when two particles come nearer
+/// than the collision distance, the faces around both are checked, as many as a region would hold.
+namespace lodestone {
+
+struct Senin_options {
+  std::uint64_t seed = 1;                    ///< of the scattering
+  std::optional<Eigen::Vector3d> side = {};  ///< scatter only where the surface lies farthest in this direction
+  std::size_t rings = 0;                     ///< hops around a particle that are checked; 0: as many as fill V / N
+};
+
+/// Vertices at which N particles start: different ones drawn at random, among those with edges.
+/// With `side`, only from those whose offset from the mean along `side` is above half of the largest.
+/// @return N vertices, or as many as there are to draw from
+/// @throws Bad_argument  `side` is zero or not finite
+std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Positions& positions,
+                                             std::size_t particles, const Senin_options& options);
+
+/// Hops around a particle within which about V / N vertices lie: 3 r (r + 1) + 1 of them on a surface of degree 6.
+std::size_t default_rings(std::size_t vertices, std::size_t particles);
+
+/// The faces at each vertex, by number.
+class Vertex_faces {
+ public:
+  Vertex_faces() = default;
+  Vertex_faces(std::uint32_t vertex_count, std::span<const Corners> corners);
+  std::span<const std::uint32_t> at(std::uint32_t vertex) const {
+    return std::span(faces_).subspan(offsets_[vertex], offsets_[vertex + 1] - offsets_[vertex]);
+  }
+
+ private:
+  std::vector<std::size_t> offsets_;
+  std::vector<std::uint32_t> faces_;
+};
+
+/// The faces with a corner at most `rings` hops from `centre`. Cost in the number of faces found, not in V.
+Patch ring_patch(const Vertex_graph& graph, const Vertex_faces& vertex_faces, std::span<const Corners> corners,
+                 std::uint32_t centre, std::size_t rings);
+
+}  // namespace lodestone

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lodestone/tree/tree_layout.h"
+#include "lodestone/volumes/bounding_volume.h"
+
+namespace lodestone {
+
+/// What is added up while volumes are fitted to leaves.
+struct Leaf_sums {
+  double coordinates = 0;  ///< not finite if one of them is not, else mostly finite
+  double extents = 0;      ///< of the volumes
+};
+
+/// Sum of the coordinates of the vertices of one leaf: not finite if one of them is not, else mostly finite.
+double sum_coordinates(const Tree_layout& layout, Coordinates coordinates, std::size_t leaf);
+
+/// Fits the volumes of the leaves `first` to `end`. A volume that can do better for many leaves at a time has an
+/// overload of its own.
+/// @param volumes  per node
+template <Bounding_volume Volume>
+Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::size_t first, std::size_t end,
+                     std::span<Volume> volumes) {
+  Leaf_sums sums;
+  for (std::size_t leaf = first; leaf < end; ++leaf) {
+    sums.coordinates += sum_coordinates(layout, coordinates, leaf);
+    Volume& volume = volumes[layout.leaf_node(leaf)];
+    volume.enclose(layout.leaf_faces(leaf, coordinates));
+    sums.extents += volume.extent();
+  }
+  return sums;
+}
+Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::size_t first, std::size_t end,
+                     std::span<Aabb> boxes);
+
+/// A hierarchy of bounding volumes over the faces of one object, in the layout of Tree_layout. Built once, refitted in
+/// every frame. No volume of a single face is kept.
+///
+/// @tparam Volume  of every node, see Bounding_volume; axis-aligned boxes (Region_tree) are the fastest to refit
+template <Bounding_volume Volume>
+class Basic_region_tree : public Tree_layout {
+ public:
+  Basic_region_tree() = default;
+
+  /// The volumes are those of `coordinates`; the rest as Tree_layout.
+  Basic_region_tree(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
+                    const Region_tree_options& options = {})
+      : Tree_layout(corners, labels, coordinates, options), volumes_(node_count()), part_sums_(parts().size()) {
+    refit(coordinates);
+  }
+
+  /// Fits all volumes to where the vertices are now: leaves to their vertices, each of which is read once, other nodes
+  /// to the volumes of their children. O(V).
+  /// @return false: a coordinate is not finite, and the volumes mean nothing until the next refit
+  bool refit(Coordinates coordinates) {
+    for (std::size_t part = 0; part < part_count(); ++part) refit_part(part, coordinates);
+    return finish_refit(coordinates);
+  }
+
+  /// How many parts a refit consists of. Parts can be refitted in any order and by several threads, then `finish_refit`
+  /// joins them: the volumes are the same as those of `refit`.
+  std::size_t part_count() const { return parts().size(); }
+  void refit_part(std::size_t part, Coordinates coordinates);
+  bool finish_refit(Coordinates coordinates);
+
+  const Volume& volume(std::uint32_t n) const { return volumes_[n]; }
+  std::span<const Volume> volumes() const { return volumes_; }
+
+  /// Mean extent of a leaf's volume, in extents of the root's. It grows when leaves are pulled apart, and for boxes is
+  /// the same for a mesh that is moved, turned by right angles, or scaled. 0 for a point.
+  double looseness() const { return looseness_; }
+
+  /// What contradicts the definition above, in words; empty if nothing does. For tests: O(F log F).
+  /// @param corners, coordinates  of the mesh, and of the last refit
+  std::string validate(std::span<const Corners> corners, Coordinates coordinates) const;
+
+ private:
+  void enclose_children(std::uint32_t n) { volumes_[n].enclose(volumes_[n + 1], volumes_[node(n).second_child]); }
+
+  std::vector<Volume> volumes_;       ///< per node
+  std::vector<Leaf_sums> part_sums_;  ///< of the last refit
+  double looseness_ = 0;
+};
+
+/// The tree of the mode `exact`.
+using Region_tree = Basic_region_tree<Aabb>;
+
+template <Bounding_volume Volume>
+void Basic_region_tree<Volume>::refit_part(std::size_t index, Coordinates coordinates) {
+  const Part& part = parts()[index];
+  part_sums_[index] = fit_leaves(*this, coordinates, part.first_leaf, part.end_leaf, std::span(volumes_));
+  for (std::uint32_t n = part.end_node; n-- > part.first_node;)
+    if (!is_leaf(n)) enclose_children(n);
+}
+
+template <Bounding_volume Volume>
+bool Basic_region_tree<Volume>::finish_refit(Coordinates coordinates) {
+  for (std::size_t i = top_nodes().size(); i-- > 0;) enclose_children(top_nodes()[i]);
+
+  Leaf_sums sums;
+  for (const Leaf_sums& part : part_sums_) {
+    sums.coordinates += part.coordinates;
+    sums.extents += part.extents;
+  }
+  const double whole = volumes_.front().extent();
+  looseness_ = whole > 0 ? sums.extents / static_cast<double>(leaf_count()) / whole : 0;
+  if (!std::isfinite(looseness_)) looseness_ = 0;  // beyond 1e306 the sum overflows: such trees are not judged
+
+  // The sum may have overflowed, or the coordinates themselves are to blame.
+  return std::isfinite(sums.coordinates) || finite(coordinates);
+}
+
+template <Bounding_volume Volume>
+std::string Basic_region_tree<Volume>::validate(std::span<const Corners> corners, Coordinates coordinates) const {
+  if (std::string wrong = validate_layout(corners, coordinates.size() / 3); !wrong.empty()) return wrong;
+  for (std::uint32_t n = 0; n < node_count(); ++n) {
+    Volume fitted;
+    if (is_leaf(n))
+      fitted.enclose(leaf_faces(node(n).leaf, coordinates));
+    else
+      fitted.enclose(volumes_[n + 1], volumes_[node(n).second_child]);
+    if (!(fitted == volumes_[n]))
+      return "node " + std::to_string(n) + ": its volume is not that of " +
+             (is_leaf(n) ? "its vertices" : "its children");
+  }
+  return {};
+}
+
+extern template class Basic_region_tree<Aabb>;
+
+}  // namespace lodestone

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <span>
+
+#include "lodestone/tree/region_tree.h"
+
+namespace lodestone {
+
+/// What leaves are looked at with: how faces are grouped, and where they are.
+struct Layout_view {
+  const Tree_layout* layout = nullptr;
+  Coordinates coordinates = {};
+  Aabb bounds = {};                  ///< around all faces, if only roughly
+  std::span<const Aabb> boxes = {};  ///< per node; empty: the tree has volumes of another kind
+
+  Leaf_faces leaf(std::uint32_t number) const { return layout->leaf_faces(number, coordinates); }
+};
+
+/// A tree with the coordinates that it was refitted to.
+template <Bounding_volume Volume>
+struct Basic_tree_view {
+  const Basic_region_tree<Volume>* tree = nullptr;
+  Coordinates coordinates = {};
+
+  operator Layout_view() const {
+    if constexpr (std::same_as<Volume, Aabb>)
+      return {tree, coordinates, tree->volume(0), tree->volumes()};
+    else
+      return {tree, coordinates, tree->volume(0).bounds()};
+  }
+};
+using Tree_view = Basic_tree_view<Aabb>;
+
+}  // namespace lodestone

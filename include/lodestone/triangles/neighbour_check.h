@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/pairs.h"
+#include "lodestone/mesh/vertex_fans.h"
+#include "lodestone/triangles/triangle_intersection.h"
+
+namespace lodestone {
+
+/// Whether two faces of one mesh intersect: whether they have a point in common that lies on no vertex and no edge
+/// that both have, by vertex number. Exact for any finite coordinates.
+///
+/// Faces with an area intersect exactly when CGAL's `self_intersections` says so (Polygon mesh processing 5.5); so two
+/// with the same three vertices do. Faces without an area are the segments or points that they are: they intersect
+/// where they pass through another face or overlap it outside of what both share, and not where they only close a gap
+/// along an edge. CGAL lists each of them once, as a pair with itself, and looks at no other pair that it is in.
+///
+/// @param corners_a, corners_b  vertex numbers of the faces
+/// @param a, b                  where these vertices are
+bool faces_intersect(const Corners& corners_a, const Triangle& a, const Corners& corners_b, const Triangle& b);
+
+/// Finds the intersecting pairs among the faces that share a vertex. Holds the memory that it needs; one for each
+/// thread.
+class Neighbour_check {
+ public:
+  /// Adds to `found`, in no particular order, the intersecting pairs, a < b, of which the least vertex that both faces
+  /// have is in [first, last). Ranges that split all vertices find each pair once.
+  ///
+  /// A vertex whose faces, seen from some direction, lie side by side costs O(its faces), which is nearly every vertex
+  /// of a smooth surface. Around the others all pairs are looked at, most of them in floating point only.
+  ///
+  /// @param fans, faces  of the mesh
+  /// @param positions    three coordinates per vertex, all finite
+  void check(const Vertex_fans& fans, std::span<const Corners> faces, std::span<const double> positions,
+             std::uint32_t first, std::uint32_t last, std::vector<Face_pair>& found);
+
+  /// Face pairs that went to the exact test since `reset_count`.
+  std::size_t exact_tests() const { return exact_tests_; }
+  void reset_count() { exact_tests_ = 0; }
+
+ private:
+  /// A face seen from the vertex at hand.
+  struct Wing {
+    std::uint32_t face;
+    std::array<std::uint32_t, 2> ends;    ///< the other corners
+    std::array<Eigen::Vector3d, 2> arms;  ///< to them
+    std::array<double, 2> reach;          ///< largest coordinate of each arm
+    Eigen::Vector3d normal;               ///< of the arms: their cross product
+    double area;                          ///< product of the reaches; infinite where it is no measure for errors
+  };
+
+  static Wing make_wing(const double* positions, const Corners& corners, std::uint32_t face, std::uint32_t vertex);
+  static bool surely_beside(const Wing& a, const Wing& b);
+  static bool surely_hinged(const Wing& a, const Wing& b, int other_of_a, int other_of_b);
+  void check_pairs(std::uint32_t vertex, std::span<const std::uint32_t> fan, std::span<const Corners> faces,
+                   const double* positions, std::vector<Face_pair>& found);
+
+  std::vector<Wing> wings_;
+  std::size_t exact_tests_ = 0;
+};
+
+}  // namespace lodestone

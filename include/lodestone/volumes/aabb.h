@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "lodestone/volumes/leaf_faces.h"
+
+namespace lodestone {
+
+/// Axis-aligned box, the volume of \cite cohen1995 and \cite held1995. Minima and maxima of coordinates do not round,
+/// so it is the smallest one. Model of Bounding_volume.
+///
+/// Four lanes, so that one vector instruction handles a side of it; the fourth means nothing.
+struct alignas(64) Aabb {
+  static constexpr std::string_view name = "aabb";
+
+  double low[4];
+  double high[4];
+
+  void enclose(const Leaf_faces& faces);
+  void enclose(const Aabb& a, const Aabb& b) {
+    for (int lane = 0; lane < 4; ++lane) {
+      low[lane] = a.low[lane] < b.low[lane] ? a.low[lane] : b.low[lane];
+      high[lane] = a.high[lane] > b.high[lane] ? a.high[lane] : b.high[lane];
+    }
+  }
+  /// Sum of the three sides; infinite where the true sum is beyond all doubles.
+  double extent() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
+  double volume() const { return (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]); }
+  Aabb bounds() const { return *this; }
+
+  friend bool operator==(const Aabb& a, const Aabb& b) {
+    bool equal = true;
+    for (int axis = 0; axis < 3; ++axis) equal &= (a.low[axis] == b.low[axis]) & (a.high[axis] == b.high[axis]);
+    return equal;
+  }
+};
+
+/// Whether two boxes come within `margin` >= 0 of each other along every axis; with 0: whether they have a point in
+/// common. `false` proves them farther apart: a sum rounded to nearest is never below a double that the true sum is
+/// not below.
+inline bool near(const Aabb& a, const Aabb& b, double margin) {
+  bool result = true;
+  for (int axis = 0; axis < 3; ++axis)
+    result &= (a.low[axis] <= b.high[axis] + margin) & (b.low[axis] <= a.high[axis] + margin);
+  return result;
+}
+
+}  // namespace lodestone

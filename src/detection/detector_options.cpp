@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/detection/detector_options.h"
+
+#include <cmath>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace {
+
+void require(bool holds, const char* requirement) {
+  if (!holds) throw Bad_argument(requirement);
+}
+
+}  // namespace
+
+void check(const Detector_options& options) {
+  const Exact_options& exact = options.exact;
+  require(options.collision_distance > 0 && std::isfinite(options.collision_distance),
+          "the collision distance must be finite and > 0");
+  require(options.growth > 0, "the growth limit must be > 0");
+  require(options.most_contacts > 0, "at least one contact must be allowed");
+  require(options.contacts != Contact_query::yes_no || (!options.contact_points && !options.contact_normals),
+          "contact points and normals need the contacts `first` or `all`");
+  require(exact.tolerance >= 0 && std::isfinite(exact.tolerance), "the tolerance must be finite and >= 0");
+  require(exact.loosest > 1, "a tree must be allowed to become looser than it was built: the factor must be > 1");
+  require(exact.tree.leaf_faces >= 2 && exact.tree.leaf_faces <= 128, "a leaf must hold at most 2 to 128 faces");
+  require(options.mode == Mode::exact || (exact.tolerance == 0 && !exact.self_collision && !exact.containment),
+          "a distance other than 0, self-collision and containment need the mode exact");
+}
+
+}  // namespace lodestone

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/detection/exact_detection.h"
+
+namespace lodestone {
+
+Positions scaled_positions(Coordinates coordinates) {
+  double largest = 0;
+  for (const double x : coordinates) largest = std::max(largest, std::abs(x));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  Positions positions(static_cast<Eigen::Index>(coordinates.size() / 3), 3);
+  std::transform(coordinates.begin(), coordinates.end(), positions.data(),
+                 [exponent](double x) { return std::ldexp(x, -exponent); });
+  return positions;
+}
+
+namespace {
+
+[[noreturn]] void fail_not_finite(std::size_t vertex, std::uint32_t object) {
+  throw Bad_mesh("vertex " + std::to_string(vertex) + " of object " + std::to_string(object) +
+                 " has a coordinate that is not finite");
+}
+
+}  // namespace
+
+void check_finite(Coordinates coordinates, std::uint32_t object) {
+  const auto wrong = std::ranges::find_if(coordinates, [](double x) { return !std::isfinite(x); });
+  if (wrong != coordinates.end()) fail_not_finite(static_cast<std::size_t>(wrong - coordinates.begin()) / 3, object);
+}
+
+void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, std::uint32_t object) {
+  for (const std::size_t v : vertices)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!std::isfinite(coordinates[3 * v + axis])) fail_not_finite(v, object);
+}
+
+}  // namespace lodestone

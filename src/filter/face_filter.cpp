@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/filter/face_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "filter/face_filter_kernel.h"
+#include "filter/filter_scratch.h"
+
+namespace lodestone {
+
+namespace {
+
+/// Leaves of a tree that are kept at a time: a walk meets most leaves again soon or not at all.
+constexpr std::size_t slot_count = 32;
+constexpr auto no_leaf = std::numeric_limits<std::uint32_t>::max();
+
+/// A power of two that brings a size near 1, as far as there is one.
+double unit_scale(double size) { return size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1; }
+
+/// A number, or 0, as a float that is no less.
+float rounded_up(double number) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  if (number >= static_cast<double>(std::numeric_limits<float>::max())) return infinity;
+  return number > 0 ? std::nextafter(static_cast<float>(number), infinity) : 0;
+}
+
+/// Rounding and steps are finest where the two trees overlap: only faces there can be near each other. Where they only
+/// touch, the overlap is flat: steps of its size would tell nothing apart, so it counts as a thousandth of a tree.
+kernel::Filter_request filter_request(const Aabb& a, const Aabb& b, double margin) {
+  kernel::Filter_request request{};
+  request.margin = margin;
+  constexpr double most = std::numeric_limits<double>::max();
+  const double extent = std::min(a.extent() > 0 ? a.extent() : b.extent(), most);
+  request.scale = unit_scale(extent);
+  request.rounded_margin = rounded_up(margin * request.scale);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = std::max(a.low[axis], b.low[axis]);
+    const double high = std::min(std::min(a.high[axis], b.high[axis]) + margin, most);
+    // Scaled first: the difference could overflow.
+    const double size = std::max(extent * request.scale / 1024, high * request.scale - low * request.scale);
+    request.origin[axis] = std::isfinite(low) ? low : 0;
+    request.steps_per_unit[axis] = size > 1e-30 ? static_cast<float>(most_steps / size) : 0;
+  }
+  return request;
+}
+
+}  // namespace
+
+Face_filter::Face_filter()
+    : request_(std::make_unique<kernel::Filter_request>()),
+      scratch_(std::make_unique_for_overwrite<Filter_scratch>()) {}
+Face_filter::~Face_filter() = default;
+Face_filter::Face_filter(Face_filter&&) noexcept = default;
+Face_filter& Face_filter::operator=(Face_filter&&) noexcept = default;
+
+void Face_filter::Side::begin(const Layout_view& tree) {
+  posed = tree;
+  slots.resize(slot_count);
+  for (Slot& slot : slots) slot.leaf = no_leaf;
+}
+
+Face_filter::Slot& Face_filter::Side::at(std::uint32_t leaf) {
+  Slot& slot = slots[leaf % slot_count];
+  if (!slot.faces) slot.faces = std::make_unique_for_overwrite<Face_columns>();
+  if (slot.leaf != leaf) {
+    slot.leaf = leaf;
+    slot.faces->count = 0;
+    slot.faces->knows_leaf = false;
+    if (posed.boxes.empty()) slot.box.enclose(posed.layout->leaf_faces(leaf, posed.coordinates));
+  }
+  return slot;
+}
+
+kernel::Leaf_input Face_filter::view(Side& side, std::uint32_t leaf) {
+  Slot& slot = side.at(leaf);
+  const auto& [layout, coordinates, bounds, boxes] = side.posed;
+  return {.coordinates = coordinates.data(),
+          .vertices = layout->vertices(leaf).data(),
+          .corners = layout->corners(leaf).data(),
+          .vertex_count = layout->vertices(leaf).size(),
+          .face_count = layout->faces(leaf).size(),
+          .box = boxes.empty() ? &slot.box : &boxes[layout->leaf_node(leaf)],
+          .faces = slot.faces.get()};
+}
+
+void Face_filter::begin(const Layout_view& a, const Layout_view& b, double margin) {
+  sides_[0].begin(a);
+  sides_[1].begin(b);
+  *request_ = filter_request(a.bounds, b.bounds, margin);
+}
+
+void Face_filter::begin_within(const Layout_view& tree) {
+  begin(tree, tree, 0);
+  request_->one_mesh = true;
+}
+
+std::span<const Face_candidate> Face_filter::face_candidates(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+  const bool one_mesh = request_->one_mesh;
+  request_->one_leaf = one_mesh && leaf_a == leaf_b;
+  const auto a = view(sides_[0], leaf_a);
+  // Within one mesh a leaf is kept once, unless the two would be kept in the same place.
+  const bool together = one_mesh && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
+  const auto b = view(sides_[together ? 0 : 1], leaf_b);
+  near_.resize(std::max(near_.size(), a.face_count * b.face_count + most_float_lanes));
+  const std::size_t count = kernel::face_candidates(a, b, *request_, *scratch_, near_.data());
+  return {near_.data(), count};
+}
+
+}  // namespace lodestone

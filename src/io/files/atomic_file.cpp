@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/files/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 20;
+
+}  // namespace
+
+Atomic_file::Atomic_file(std::filesystem::path target) : target_(std::move(target)) {
+  std::error_code error;
+  if (target_.filename().empty() || std::filesystem::is_directory(target_, error))
+    throw Bad_output(target_.string() + ": is a folder, a file name is wanted");
+  if (target_.has_parent_path()) {
+    std::filesystem::create_directories(target_.parent_path(), error);
+    if (error) throw Bad_output(target_.parent_path().string() + ": cannot make the folder: " + error.message());
+  }
+  // O_EXCL: never a file, or a link to one, that somebody else has put there.
+  for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
+    temporary_ = target_;
+    temporary_.replace_filename("." + target_.filename().string() + "." + std::to_string(::getpid()) + "." +
+                                std::to_string(attempt));
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) break;
+  }
+  if (descriptor_ < 0) fail("cannot be created");
+}
+
+Atomic_file::~Atomic_file() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(temporary_.c_str());
+}
+
+void Atomic_file::write(std::string_view bytes) {
+  buffer_ += bytes;
+  if (buffer_.size() >= buffer_size) flush();
+}
+
+void Atomic_file::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const auto written = ::write(descriptor_, rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("cannot be written");
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  buffer_.clear();
+}
+
+void Atomic_file::finish() {
+  flush();
+  if (::fsync(descriptor_) != 0) fail("cannot be written");
+}
+
+void Atomic_file::commit() {
+  finish();
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be put in place");
+  ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+void Atomic_file::fail(const char* action) const {
+  throw Bad_output(target_.string() + ": " + action + ": " + std::strerror(errno));
+}
+
+}  // namespace lodestone

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/files/atomic_files.h"
+
+#include <unistd.h>
+
+#include <string>
+#include <system_error>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace fs = std::filesystem;
+
+Atomic_files::Atomic_files(fs::path folder) : folder_(std::move(folder)) {
+  if (folder_.empty()) folder_ = ".";
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw Bad_output(folder_.string() + ": cannot make the folder: " + error.message());
+  bool made = false;
+  for (int attempt = 0; !made && attempt < 100; ++attempt) {
+    hidden_ = folder_ / (".new." + std::to_string(::getpid()) + "." + std::to_string(attempt));
+    made = fs::create_directory(hidden_, error);
+    if (error) break;
+  }
+  if (!made) throw Bad_output(folder_.string() + ": cannot make a folder in it: " + error.message());
+}
+
+Atomic_files::~Atomic_files() {
+  std::error_code ignored;
+  fs::remove_all(hidden_, ignored);
+}
+
+fs::path Atomic_files::add(const fs::path& name) {
+  names_.push_back(name);
+  return hidden_ / name;
+}
+
+void Atomic_files::commit() {
+  std::error_code error;
+  for (const auto& name : names_) {
+    const auto target = folder_ / name;
+    fs::create_directories(target.parent_path(), error);
+    if (!error) fs::rename(hidden_ / name, target, error);
+    if (error) throw Bad_output(target.string() + ": cannot be put in place: " + error.message());
+  }
+  names_.clear();
+}
+
+}  // namespace lodestone

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/files/text_scanner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\v\f";
+/// Far beyond any line of a mesh: a huge binary file is refused here, before all of it is searched for a line's end.
+constexpr std::size_t longest_line = std::size_t{1} << 26U;
+
+/// std::from_chars knows no leading plus, which is legal in every text format.
+std::string_view without_plus(std::string_view word) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+  return plus ? word.substr(1) : word;
+}
+
+template <class Number>
+std::errc parse(std::string_view word, Number& value) {
+  const auto digits = without_plus(word);
+  const auto end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
+  return stop == end ? error : std::errc::invalid_argument;
+}
+
+}  // namespace
+
+bool Text_scanner::next_line() {
+  const auto text = file_->view();
+  while (next_ < text.size()) {
+    ++line_number_;
+    line_ = text.substr(next_, longest_line);
+    line_ = line_.substr(0, line_.find('\n'));
+    if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is no text");
+    next_ = std::min(next_ + line_.size() + 1, text.size());
+    if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
+    if (line_.find_first_not_of(blanks) != std::string_view::npos) return true;
+  }
+  line_ = {};
+  return false;
+}
+
+std::string_view Text_scanner::next_word() {
+  const auto begin = std::min(line_.find_first_not_of(blanks), line_.size());
+  const auto end = std::min(line_.find_first_of(blanks, begin), line_.size());
+  const auto word = line_.substr(begin, end - begin);
+  line_.remove_prefix(end);
+  return word;
+}
+
+std::string_view Text_scanner::next_word_of_file() {
+  auto word = next_word();
+  while (word.empty() && next_line()) word = next_word();
+  return word;
+}
+
+double Text_scanner::number(std::string_view word) const {
+  double value = 0;
+  const auto error = parse(word, value);
+  if (error == std::errc::result_out_of_range)
+    fail(fmt::format("{} is outside the range of a double", in_quotes(word)));
+  if (error != std::errc()) fail(fmt::format("expected a number, found {}", in_quotes(word)));
+  if (!std::isfinite(value)) fail(fmt::format("{} is not a finite number", in_quotes(word)));
+  return value;
+}
+
+std::size_t Text_scanner::count(std::string_view word) const {
+  std::uint64_t value = 0;
+  if (parse(word, value) != std::errc()) fail(fmt::format("expected a count, found {}", in_quotes(word)));
+  return value;
+}
+
+void Text_scanner::fail(std::string_view cause) const {
+  throw Bad_mesh(fmt::format("{}:{}: {}", file_->name(), std::max<std::size_t>(line_number_, 1), cause));
+}
+
+}  // namespace lodestone

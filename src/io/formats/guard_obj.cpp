@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <iterator>
+
+#include "io/formats/mesh_guard.h"
+
+namespace lodestone {
+namespace {
+
+/// Statements that are legal and say nothing about the triangles. Free-form curves and surfaces are not among them:
+/// to skip those would lose part of the shape.
+constexpr std::array<std::string_view, 21> skipped_statements = {
+    "vt",     "vn",     "vp",    "g",        "o",        "s",   "mg",         "l",         "p",     "usemtl", "mtllib",
+    "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech", "stech"};
+
+/// The largest vertex number met, from 1, and where. A face may refer to vertices further down: this is checked last.
+struct Farthest_corner {
+  std::size_t vertex;
+  Text_scanner place;
+};
+
+/// The vertex number, from 1, of a corner written `7`, `-2` (counted back from here) or `7/1/3` (texture, normal).
+std::size_t vertex_number(const Text_scanner& text, std::string_view corner, std::size_t vertices) {
+  const auto word = corner.substr(0, corner.find('/'));
+  std::int64_t number = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || stop != word.data() + word.size())
+    text.fail(fmt::format("expected the number of a vertex, found {}", in_quotes(corner)));
+  if (number == 0) text.fail("face refers to vertex 0, but vertices are counted from 1");
+  if (number > 0) return static_cast<std::size_t>(number);
+  // The least 64-bit integer has no negative: the sum is taken in unsigned arithmetic, which wraps.
+  const auto back = std::uint64_t{0} - static_cast<std::uint64_t>(number);
+  if (back > vertices) text.fail(fmt::format("face refers to vertex {} with {} vertices so far", number, vertices));
+  return vertices + 1 - back;
+}
+
+void copy_face(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& farthest) {
+  mesh.plain += 'f';
+  std::size_t corners = 0;
+  for (auto word = text.next_word(); !word.empty(); word = text.next_word(), ++corners) {
+    const auto vertex = vertex_number(text, word, mesh.vertices);
+    if (vertex > farthest.vertex) farthest = {vertex, text};
+    mesh.corners.add_corner(vertex - 1);
+    fmt::format_to(std::back_inserter(mesh.plain), " {}", vertex);
+  }
+  if (corners != 3) text.fail(not_a_triangle(mesh.faces, corners));
+  mesh.plain += '\n';
+  ++mesh.faces;
+}
+
+void copy_statement(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& farthest) {
+  const auto keyword = text.next_word();
+  if (keyword == "v") {
+    mesh.plain += "v ";
+    copy_coordinates(text, mesh);
+    ++mesh.vertices;
+  } else if (keyword == "f") {
+    copy_face(text, mesh, farthest);
+  } else if (std::ranges::find(skipped_statements, keyword) == skipped_statements.end()) {
+    text.fail(fmt::format("expected a statement of a polygon mesh, found {}", in_quotes(keyword)));
+  }
+}
+
+}  // namespace
+
+Guarded_mesh guard_obj(const File_bytes& file, std::size_t max_faces) {
+  Text_scanner text(file, '#');
+  Guarded_mesh mesh;
+  Farthest_corner farthest{0, text};
+  while (text.next_line()) {
+    copy_statement(text, mesh, farthest);
+    if (mesh.faces > max_faces) text.fail(too_many_faces(mesh.faces, max_faces));
+  }
+  if (farthest.vertex > mesh.vertices)
+    farthest.place.fail(fmt::format("face refers to vertex {} of {}", farthest.vertex, mesh.vertices));
+  if (mesh.faces == 0) text.fail("the file holds no face");
+  return mesh;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats/mesh_soup.h"
+
+#include <cstdint>
+
+namespace lodestone {
+
+std::vector<Corners> corners_of(const Mesh_soup& soup) {
+  std::vector<Corners> corners;
+  corners.reserve(soup.faces.size());
+  for (const auto& face : soup.faces)
+    corners.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
+                       static_cast<std::uint32_t>(face[2])});
+  return corners;
+}
+
+}  // namespace lodestone

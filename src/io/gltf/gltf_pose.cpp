@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/gltf/gltf_scene.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+namespace {
+
+/// The keys on both sides of a time, and how far it is from one to the other.
+struct Between {
+  std::size_t before = 0, after = 0;
+  double part = 0;     ///< 0 to 1
+  double seconds = 0;  ///< from key to key
+};
+
+/// Before the first key and behind the last the curve stands.
+Between between(const std::vector<double>& times, double time) {
+  const auto next = static_cast<std::size_t>(std::ranges::upper_bound(times, time) - times.begin());
+  if (next == 0) return {};
+  if (next == times.size()) return {.before = next - 1, .after = next - 1};
+  const double seconds = times[next] - times[next - 1];
+  return {.before = next - 1, .after = next, .part = (time - times[next - 1]) / seconds, .seconds = seconds};
+}
+
+double cubic(double from, double leaving, double to, double arriving, double part, double seconds) {
+  const double t = part, t2 = t * t, t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * from + seconds * (t3 - 2 * t2 + t) * leaving + (3 * t2 - 2 * t3) * to +
+         seconds * (t3 - t2) * arriving;
+}
+
+/// Numbers of the curve one by one. A rotation must be made a unit quaternion afterwards.
+void sample(const Gltf_curve& curve, double time, std::vector<double>& value) {
+  const auto [before, after, part, seconds] = between(curve.times, time);
+  value.resize(curve.width);
+  const bool is_cubic = curve.interpolation == Gltf_interpolation::cubic;
+  const auto number = [&](std::size_t key, std::size_t kind, std::size_t k) {
+    return curve.values[((is_cubic ? 3 * key + kind : key) * curve.width) + k];
+  };
+  constexpr std::size_t arriving = 0, leaving = 2;
+  const std::size_t here = is_cubic ? 1 : 0;
+  for (std::size_t k = 0; k < curve.width; ++k) {
+    const double from = number(before, here, k);
+    if (before == after || curve.interpolation == Gltf_interpolation::step)
+      value[k] = from;
+    else if (is_cubic)
+      value[k] =
+          cubic(from, number(before, leaving, k), number(after, here, k), number(after, arriving, k), part, seconds);
+    else
+      value[k] = (1 - part) * from + part * number(after, here, k);
+  }
+}
+
+Eigen::Quaterniond quaternion(const double* xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
+
+Eigen::Quaterniond unit(Eigen::Quaterniond rotation, const Gltf_scene& scene, std::size_t node) {
+  const double length = rotation.norm();
+  if (!(length > 0) || !std::isfinite(length))
+    throw Bad_motion(fmt::format("{}: /nodes/{}: a rotation of the animation has no direction", scene.name, node));
+  rotation.coeffs() /= length;
+  return rotation;
+}
+
+/// Linear curves turn at even speed along the shorter way.
+Eigen::Quaterniond sample_rotation(const Gltf_curve& curve, double time, const Gltf_scene& scene) {
+  if (curve.interpolation == Gltf_interpolation::linear) {
+    const auto keys = between(curve.times, time);
+    const auto from = unit(quaternion(curve.values.data() + 4 * keys.before), scene, curve.node);
+    const auto to = unit(quaternion(curve.values.data() + 4 * keys.after), scene, curve.node);
+    return from.slerp(keys.part, to);
+  }
+  std::vector<double> value;
+  sample(curve, time, value);
+  return unit(quaternion(value.data()), scene, curve.node);
+}
+
+/// What the animation has made of each node.
+struct Posed_nodes {
+  std::vector<Eigen::Affine3d> to_world;
+  std::vector<std::vector<double>> weights;  ///< of morph targets; empty: as at rest
+};
+
+Eigen::Affine3d transformation(const Gltf_place& place) {
+  if (place.matrix) return *place.matrix;
+  return Eigen::Translation3d(place.translation) * place.rotation * Eigen::Scaling(place.scale);
+}
+
+Posed_nodes pose_nodes(const Gltf_scene& scene, const Gltf_animation* animation, double time) {
+  const auto count = scene.nodes.size();
+  std::vector<Gltf_place> places;
+  places.reserve(count);
+  Posed_nodes posed{.to_world = std::vector<Eigen::Affine3d>(count), .weights = {}};
+  for (const auto& node : scene.nodes) {
+    places.push_back(node.place);
+    posed.weights.push_back(node.weights);
+  }
+  std::vector<double> value;
+  const auto curves = animation ? std::span(animation->curves) : std::span<const Gltf_curve>();
+  for (const auto& curve : curves) {
+    auto& place = places[curve.node];
+    if (curve.path == Gltf_path::rotation) {
+      place.rotation = sample_rotation(curve, time, scene);
+      continue;
+    }
+    sample(curve, time, value);
+    if (curve.path == Gltf_path::weights)
+      posed.weights[curve.node] = value;
+    else
+      (curve.path == Gltf_path::scale ? place.scale : place.translation) =
+          Eigen::Vector3d(value[0], value[1], value[2]);
+  }
+  for (const auto node : scene.order) {
+    posed.to_world[node] = transformation(places[node]);
+    if (const auto parent = scene.nodes[node].parent; parent != no_index)
+      posed.to_world[node] = posed.to_world[parent] * posed.to_world[node];
+  }
+  return posed;
+}
+
+Coordinate_list morphed(const Gltf_shape& shape, const std::vector<double>& weights) {
+  auto positions = shape.positions;
+  for (std::size_t target = 0; target < shape.targets.size(); ++target) {
+    if (weights[target] == 0) continue;
+    const auto& added = shape.targets[target];
+    for (std::size_t i = 0; i < added.size(); ++i) positions[i] += weights[target] * added[i];
+  }
+  return positions;
+}
+
+std::vector<Eigen::Affine3d> joint_motions(const Gltf_skin& skin, const Posed_nodes& posed) {
+  std::vector<Eigen::Affine3d> motions;
+  motions.reserve(skin.joints.size());
+  for (std::size_t joint = 0; joint < skin.joints.size(); ++joint)
+    motions.push_back(posed.to_world[skin.joints[joint]] * skin.from_mesh[joint]);
+  return motions;
+}
+
+/// A mesh with a skin follows its joints alone, and not its node.
+void pose_part(const Gltf_scene& scene, const Gltf_part& part, const Posed_nodes& posed, std::span<Point> positions) {
+  const auto& shape = *part.shape;
+  const auto& own = posed.weights[part.node];
+  const auto local = morphed(shape, own.empty() ? shape.weights : own);
+  const auto joints =
+      part.skin == no_index ? std::vector<Eigen::Affine3d>() : joint_motions(scene.skins[part.skin], posed);
+  for (std::size_t vertex = 0; vertex < shape.vertices(); ++vertex) {
+    const Eigen::Vector3d at(local[3 * vertex], local[3 * vertex + 1], local[3 * vertex + 2]);
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+    if (joints.empty()) moved = posed.to_world[part.node] * at;
+    for (std::size_t k = 0; k < (joints.empty() ? 0 : shape.influences); ++k) {
+      const auto influence = vertex * shape.influences + k;
+      const double weight = shape.joint_weights[influence];
+      if (weight != 0) moved += weight * (joints[shape.joints[influence]] * at);
+    }
+    if (!moved.allFinite())
+      throw Bad_motion(fmt::format("{}: vertex {} (counted from 0) is moved to a place that is not finite", scene.name,
+                                   part.first_vertex + vertex));
+    positions[part.first_vertex + vertex] = Point(moved.x(), moved.y(), moved.z());
+  }
+}
+
+}  // namespace
+
+void pose_gltf(const Gltf_scene& scene, const Gltf_animation* animation, double time, std::span<Point> positions) {
+  const auto posed = pose_nodes(scene, animation, time);
+  for (const auto& part : scene.parts) pose_part(scene, part, posed, positions);
+}
+
+}  // namespace lodestone

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/meshes/read_mesh_soup.h"
+
+#include <CGAL/IO/OBJ.h>
+#include <CGAL/IO/OFF.h>
+#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/STL.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "io/files/small_text.h"
+#include "io/formats/game_model.h"
+#include "io/formats/mesh_guard.h"
+#include "io/gltf/gltf_scene.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+namespace {
+
+// Some of CGAL's readers print their complaints unless told not to.
+const auto silent = CGAL::parameters::verbose(false);
+
+struct Mesh_format {
+  std::string_view extension;
+  Guarded_mesh (*guard)(const File_bytes&, std::size_t max_faces);
+  bool (*read)(std::istream&, Mesh_soup&);
+};
+
+constexpr std::array<Mesh_format, 4> formats = {{
+    {".off", guard_off,
+     [](std::istream& in, Mesh_soup& soup) { return CGAL::IO::read_OFF(in, soup.points, soup.faces, silent); }},
+    {".obj", guard_obj,
+     [](std::istream& in, Mesh_soup& soup) { return CGAL::IO::read_OBJ(in, soup.points, soup.faces, silent); }},
+    {".ply", guard_ply,
+     [](std::istream& in, Mesh_soup& soup) { return CGAL::IO::read_PLY(in, soup.points, soup.faces, silent); }},
+    {".stl", guard_stl,
+     [](std::istream& in, Mesh_soup& soup) { return CGAL::IO::read_STL(in, soup.points, soup.faces, silent); }},
+}};
+
+const Mesh_format& format_of(const std::filesystem::path& file) {
+  const auto extension = lower_case(file.extension().string());
+  const auto format = std::ranges::find(formats, extension, &Mesh_format::extension);
+  if (format == formats.end())
+    throw Bad_mesh(
+        fmt::format("{}: expected a file .off, .obj, .ply, .stl, .gltf, .glb, .md2 or .md3, found extension {}",
+                    file.string(), in_quotes(extension)));
+  return *format;
+}
+
+void add_point(const Point& point, Checksum& coordinates) {
+  for (int axis = 0; axis < 3; ++axis) coordinates.add_coordinate(point[axis]);
+}
+
+/// Whether the soup holds, number for number, what the guard has read.
+bool is_complete(const Mesh_soup& soup, const Guarded_mesh& guarded) {
+  const bool welded = guarded.vertices == 0;
+  if (soup.faces.size() != guarded.faces || (!welded && soup.points.size() != guarded.vertices)) return false;
+  Checksum coordinates, corners;
+  if (!welded)
+    for (const auto& point : soup.points) add_point(point, coordinates);
+  for (const auto& face : soup.faces) {
+    if (face.size() != 3) return false;
+    for (const auto vertex : face) {
+      if (vertex >= soup.points.size()) return false;
+      welded ? add_point(soup.points[vertex], coordinates) : corners.add_corner(vertex);
+    }
+  }
+  return coordinates == guarded.coordinates && corners == guarded.corners;
+}
+
+/// A game model in its first frame.
+Mesh_soup soup_of(const Game_model& model) {
+  Mesh_soup soup;
+  soup.points.resize(model.vertices);
+  try {
+    pose_game_model(model, 0, soup.points);
+  } catch (const Bad_motion& error) {
+    throw Bad_mesh(error.what());
+  }
+  for (const auto& face : model.faces) soup.faces.emplace_back(face.begin(), face.end());
+  return soup;
+}
+
+}  // namespace
+
+Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_options& options) {
+  if (is_gltf(file)) return soup_of(*read_gltf_scene(file, options));
+  if (is_game_model(file)) return soup_of(*read_game_model(file, options));
+  const auto& format = format_of(file);
+  auto guarded = format.guard(File_bytes(file), options.max_faces);
+  // Surface_mesh and CGAL's readers number in 32 bits; a triangle has up to 6 half-edges.
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+  if (guarded.vertices > most || guarded.faces > most / 6)
+    throw Bad_mesh(fmt::format("{}: {} vertices and {} faces are too many for 32-bit numbers", file.string(),
+                               guarded.vertices, guarded.faces));
+  std::istringstream plain(std::move(guarded.plain));
+  Mesh_soup soup;
+  // A global C++ locale with another decimal sign, for one, makes CGAL's readers misread numbers without notice.
+  if (!format.read(plain, soup) || !is_complete(soup, guarded))
+    throw Bad_mesh(fmt::format("{}: CGAL's reader did not deliver the {} vertices and {} faces of the file",
+                               file.string(), guarded.vertices, guarded.faces));
+  return soup;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "io/formats/mesh_soup.h"
+#include "lodestone/io/meshes/mesh_file.h"
+
+namespace lodestone {
+
+/// Reads a mesh file of any format through its guard and CGAL's reader. The corners of an STL file are welded where
+/// they are equal; its points are numbered in order of first appearance.
+/// @throws Bad_mesh as `read_mesh`
+Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_options& options = {});
+
+/// As `mesh_of` of points and faces.
+Mesh_file mesh_of(const Mesh_soup& soup, const std::string& name);
+
+}  // namespace lodestone

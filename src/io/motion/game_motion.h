@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "io/formats/game_model.h"
+#include "lodestone/io/motion/motion.h"
+
+namespace lodestone {
+
+/// As `read_game_motion`, of a file that has been read.
+Motion motion_of(std::shared_ptr<const Game_model> model);
+
+}  // namespace lodestone

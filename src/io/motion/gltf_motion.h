@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "io/gltf/gltf_scene.h"
+#include "lodestone/io/motion/motion.h"
+
+namespace lodestone {
+
+/// As `read_gltf_motion`, of a file that has been read.
+Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options);
+
+}  // namespace lodestone

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "io/meshes/read_mesh_soup.h"
+#include "lodestone/io/motion/motion.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+namespace {
+
+using Faces = std::vector<Corners>;
+
+Mesh_soup read_frame(const std::filesystem::path& file) {
+  try {
+    return read_mesh_soup(file);
+  } catch (const Bad_mesh& error) {
+    throw Bad_motion(error.what());
+  }
+}
+
+/// What all frames must have in common with the first.
+struct First_frame {
+  std::filesystem::path file;
+  Faces corners;
+};
+
+void check_same_faces(const std::filesystem::path& file, const Faces& corners, const First_frame& first) {
+  if (corners.size() != first.corners.size())
+    throw Bad_motion(fmt::format("{}: the mesh has {} faces, {} has {}", file.string(), corners.size(),
+                                 first.file.string(), first.corners.size()));
+  const auto differing = std::ranges::mismatch(corners, first.corners).in1;
+  if (differing != corners.end())
+    throw Bad_motion(fmt::format("{}: face {} (counted from 0) has other corners than in {}", file.string(),
+                                 differing - corners.begin(), first.file.string()));
+}
+
+void check_vertices(const std::filesystem::path& file, std::size_t found, std::size_t expected) {
+  if (found != expected)
+    throw Bad_motion(fmt::format("{}: the mesh has {} vertices, expected {}", file.string(), found, expected));
+}
+
+void check_files(const std::vector<std::filesystem::path>& files) {
+  if (files.empty()) throw Bad_motion("a sequence of mesh files needs at least one file, found none");
+  std::error_code ignored;
+  for (const auto& file : files)
+    if (!exists(file, ignored)) throw Bad_motion(fmt::format("{}: there is no such file", file.string()));
+}
+
+}  // namespace
+
+Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices) {
+  check_files(files);
+  const auto soup = read_frame(files.front());
+  check_vertices(files.front(), soup.points.size(), vertices);
+  const auto first = std::make_shared<const First_frame>(First_frame{files.front(), corners_of(soup)});
+
+  const auto frames = files.size();
+  const auto pose = [files = std::move(files), first, vertices](std::size_t frame, std::span<Point> positions) {
+    if (frame >= files.size())
+      throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is asked for, the sequence has {}",
+                                   first->file.string(), frame, files.size()));
+    const auto posed = read_frame(files[frame]);
+    check_vertices(files[frame], posed.points.size(), vertices);
+    check_vertices(files[frame], posed.points.size(), positions.size());
+    check_same_faces(files[frame], corners_of(posed), *first);
+    std::ranges::copy(posed.points, positions.begin());
+  };
+  return {.frames = frames, .pose = pose};
+}
+
+}  // namespace lodestone

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "lodestone/io/results/animation_output.h"
+
+namespace lodestone {
+
+/// The frames that are to be written, one after the other.
+class Animation_frames {
+ public:
+  /// @param passes  times that all frames will be read
+  Animation_frames(const Animation& animation, const Animation_output_options& options, std::size_t passes = 1);
+
+  std::size_t size() const { return numbers_.size(); }
+  /// Positions of the i-th frame of the output, in doubles; valid until the next call.
+  /// @throws Bad_motion
+  std::span<const Point> positions(std::size_t i);
+  /// The same in floats, x y z of each vertex after the other.
+  /// @throws Bad_motion  a coordinate is too large for a float
+  std::span<const float> floats(std::size_t i);
+
+ private:
+  const Animation& animation_;
+  const Animation_output_options& options_;
+  std::vector<std::size_t> numbers_;
+  std::vector<Point> positions_;
+  std::vector<float> floats_;
+  std::size_t done_ = 0, passes_;
+};
+
+/// Writes `.gltf` or `.glb`.
+void write_gltf(const std::filesystem::path& output, const Animation& animation,
+                const Animation_output_options& options);
+
+}  // namespace lodestone

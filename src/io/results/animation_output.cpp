@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/results/animation_output.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "io/files/byte_order.h"
+#include "io/files/small_text.h"
+#include "io/gltf/gltf_scene.h"
+#include "io/motion/point_cache_layout.h"
+#include "io/results/animation_frames.h"
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/io/files/atomic_files.h"
+#include "lodestone/io/files/numbered_files.h"
+#include "lodestone/io/motion/point_cache.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace fs = std::filesystem;
+
+// ---- Frames ----
+
+Animation_frames::Animation_frames(const Animation& animation, const Animation_output_options& options,
+                                   std::size_t passes)
+    : animation_(animation),
+      options_(options),
+      numbers_(options.frames),
+      positions_(animation.vertices),
+      passes_(passes) {
+  if (!numbers_.empty()) return;
+  numbers_.resize(animation.motion.frames);
+  std::iota(numbers_.begin(), numbers_.end(), std::size_t{0});
+}
+
+std::span<const Point> Animation_frames::positions(std::size_t i) {
+  if (options_.progress) options_.progress(done_, passes_ * size());
+  ++done_;
+  animation_.motion.pose(numbers_[i], positions_);
+  return positions_;
+}
+
+std::span<const float> Animation_frames::floats(std::size_t i) {
+  floats_.clear();
+  for (const Point& point : positions(i))
+    for (int axis = 0; axis < 3; ++axis) {
+      floats_.push_back(static_cast<float>(point[axis]));
+      if (!std::isfinite(floats_.back()))
+        throw Bad_motion(fmt::format("frame {}, vertex {} (counted from 0): {} is too large for a float", numbers_[i],
+                                     floats_.size() / 3, point[axis]));
+    }
+  return floats_;
+}
+
+namespace {
+
+// ---- Point caches ----
+
+std::string cache_header(Cache_format format, std::size_t vertices, std::size_t frames, double rate) {
+  std::string bytes;
+  const auto count = [](std::size_t value) { return static_cast<std::int32_t>(value); };
+  if (format == Cache_format::pc2) {
+    bytes = pc2::signature;
+    for (const auto value : {std::int32_t{1}, count(vertices)}) append(bytes, value);
+    for (const float value : {0.F, 1.F}) append(bytes, value);  // first frame, frames per sample
+    append(bytes, count(frames));
+    return bytes;
+  }
+  for (const auto value : {frames, vertices}) append(bytes, count(value), std::endian::big);
+  for (std::size_t frame = 0; frame < frames; ++frame)
+    append(bytes, static_cast<float>(static_cast<double>(frame) / rate), std::endian::big);
+  return bytes;
+}
+
+void write_cache(const fs::path& output, Cache_format format, Animation_frames frames, std::size_t vertices,
+                 double rate) {
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+  if (frames.size() > most || vertices > most)
+    throw Bad_argument(
+        fmt::format("{}: {} frames of {} vertices are too many for 32 bits", output.string(), frames.size(), vertices));
+  const auto order = format == Cache_format::pc2 ? std::endian::little : std::endian::big;
+  Atomic_file out(output);
+  out.write(cache_header(format, vertices, frames.size(), rate));
+  std::string bytes;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    bytes.clear();
+    for (const float coordinate : frames.floats(i)) append(bytes, coordinate, order);
+    out.write(bytes);
+  }
+  out.commit();
+}
+
+// ---- Mesh files ----
+
+std::string off_text(std::span<const Point> points, std::span<const Corners> faces) {
+  auto text = fmt::format("OFF\n{} {} 0\n", points.size(), faces.size());
+  for (const Point& p : points) text += fmt::format("{} {} {}\n", p.x(), p.y(), p.z());
+  for (const auto& [a, b, c] : faces) text += fmt::format("3 {} {} {}\n", a, b, c);
+  return text;
+}
+
+std::string obj_text(std::span<const Point> points, std::span<const Corners> faces) {
+  std::string text;
+  for (const Point& p : points) text += fmt::format("v {} {} {}\n", p.x(), p.y(), p.z());
+  for (const auto& [a, b, c] : faces)
+    text += fmt::format("f {} {} {}\n", std::size_t{a} + 1, std::size_t{b} + 1, std::size_t{c} + 1);
+  return text;
+}
+
+std::string ply_text(std::span<const Point> points, std::span<const Corners> faces) {
+  auto bytes = fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+      "property double x\nproperty double y\nproperty double z\n"
+      "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+      points.size(), faces.size());
+  for (const Point& p : points)
+    for (int axis = 0; axis < 3; ++axis) append(bytes, p[axis]);
+  for (const auto& face : faces) {
+    append(bytes, std::uint8_t{3});
+    for (const auto corner : face) append(bytes, corner);
+  }
+  return bytes;
+}
+
+void write_meshes(const fs::path& output, const std::string& extension, Animation_frames frames,
+                  std::span<const Corners> faces) {
+  const bool numbered = is_pattern(output);
+  if (!numbered && frames.size() != 1)
+    throw Bad_argument(fmt::format("{}: {} frames need a pattern of numbered files, such as frame_####{}",
+                                   output.string(), frames.size(), extension));
+  Atomic_files files(output.parent_path());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto points = frames.positions(i);
+    Atomic_file out(files.add((numbered ? numbered_file(output, i) : output).filename()));
+    out.write(extension == ".off"   ? off_text(points, faces)
+              : extension == ".obj" ? obj_text(points, faces)
+                                    : ply_text(points, faces));
+    out.commit();
+  }
+  files.commit();
+}
+
+}  // namespace
+
+void write_animation(const fs::path& output, const Animation& animation, const Animation_output_options& options) {
+  if (!(options.frames_per_second > 0) || !std::isfinite(options.frames_per_second))
+    throw Bad_argument(fmt::format("{} frames per second are no rate", options.frames_per_second));
+  const auto extension = lower_case(output.extension().string());
+  const bool is_mesh = extension == ".off" || extension == ".obj" || extension == ".ply";
+  if (extension == ".pc2" || extension == ".mdd")
+    return write_cache(output, extension == ".pc2" ? Cache_format::pc2 : Cache_format::mdd, {animation, options},
+                       animation.vertices, options.frames_per_second);
+  if (!is_mesh && !is_gltf(output))
+    throw Bad_argument(
+        fmt::format("{}: animations are written as .pc2, .mdd, .gltf, .glb, .obj, .off or .ply", output.string()));
+  if (animation.faces.empty())
+    throw Bad_argument(
+        fmt::format("{}: needs faces, which a point cache does not have: name its mesh", output.string()));
+  if (is_mesh) return write_meshes(output, extension, {animation, options}, animation.faces);
+  write_gltf(output, animation, options);
+}
+
+}  // namespace lodestone

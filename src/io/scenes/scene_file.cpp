@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/scenes/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "io/files/inside_folder.h"
+#include "io/files/json_reader.h"
+#include "io/scenes/scene_fields.h"
+#include "lodestone/io/files/numbered_files.h"
+#include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/motion/deformation.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace {
+
+using detail::in_quotes;
+using detail::Json_value;
+using Placement = std::optional<Kernel::Aff_transformation_3>;
+
+constexpr std::size_t most_objects = 10'000;
+constexpr std::size_t most_ignored = 100'000;
+constexpr std::size_t most_frames = 1'000'000;
+constexpr std::size_t most_particles = 100'000;
+
+bool is_finite(const Point& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
+
+// ---- Files ----
+
+/// The file that `value` names, inside `folder` even when symbolic links are followed.
+std::filesystem::path path_of(const std::string& name, const Json_value& value, const std::filesystem::path& folder) {
+  std::error_code error;
+  const bool inside = is_inside(folder, name, error);
+  if (error) value.fail(fmt::format("{} cannot be followed: {}", in_quotes(name), error.message()));
+  if (!inside) value.fail(fmt::format("{} is not inside the scene's folder", in_quotes(name)));
+  return folder / name;
+}
+
+std::filesystem::path read_path(const Json_value& value, const std::filesystem::path& folder) {
+  return path_of(value.text(), value, folder);
+}
+
+/// `pattern` with its run of # replaced by `number`, with zeros in front to the length of the run.
+std::string numbered(std::string pattern, std::size_t number) {
+  const auto first = pattern.find('#');
+  const auto length = pattern.find_last_of('#') + 1 - first;
+  return pattern.replace(first, length, fmt::format("{:0{}}", number, length));
+}
+
+/// {"pattern": "walk_####.obj", "first": 1, "last": 40}.
+std::vector<std::filesystem::path> read_numbered_files(const Json_value& value, const std::filesystem::path& folder) {
+  value.expect_keys({"pattern", "first", "last"});
+  const Json_value pattern = value.at("pattern");
+  const std::string name = pattern.text();
+  const auto run = name.find('#');
+  if (run == name.npos || name.find('#', name.find_first_not_of('#', run)) != name.npos)
+    pattern.fail(fmt::format("{} must have one run of # in the number's place", in_quotes(name)));
+  const std::size_t first = value.at("first").count(0, most_frames);
+  const std::size_t last = value.at("last").count(first, most_frames);
+
+  std::vector<std::filesystem::path> files;
+  for (std::size_t i = first; i <= last; ++i) files.push_back(path_of(numbered(name, i), pattern, folder));
+  return files;
+}
+
+/// "walk_*.obj": all files that are there.
+std::vector<std::filesystem::path> read_found_files(const Json_value& value, const std::filesystem::path& folder) {
+  const std::string pattern = value.text();
+  path_of(pattern, value, folder);
+  std::vector<std::filesystem::path> files;
+  for (const auto& file : value.checked([&] { return find_numbered_files(folder / pattern); }))
+    files.push_back(path_of((std::filesystem::path(pattern).parent_path() / file.filename()).string(), value, folder));
+  return files;
+}
+
+std::vector<std::filesystem::path> read_sequence(const Json_value& value, const std::filesystem::path& folder) {
+  if (value.is_string()) return read_found_files(value, folder);
+  if (!value.is_array()) return read_numbered_files(value, folder);
+  std::vector<std::filesystem::path> files;
+  for (const Json_value& element : value.elements(most_frames)) files.push_back(read_path(element, folder));
+  return files;
+}
+
+// ---- Meshes ----
+
+Scene_object object_of(Mesh_file&& file) {
+  Scene_object object;
+  object.mesh = std::move(file.mesh);
+  object.file_vertex = std::move(file.file_vertex);
+  object.file_vertices = file.file_vertices;
+  return object;
+}
+
+Scene_object object_of(Surface_mesh&& shape) {
+  Scene_object object;
+  object.file_vertices = shape.number_of_vertices();
+  object.file_vertex.resize(object.file_vertices);
+  std::iota(object.file_vertex.begin(), object.file_vertex.end(), 0U);
+  object.mesh = std::move(shape);
+  return object;
+}
+
+Scene_object read_rest(const Json_value& value, const std::filesystem::path& folder) {
+  if (value.exactly_one_of({"mesh", "shape"}) == "shape") return object_of(detail::read_shape(value.at("shape")));
+  return object_of(read_mesh(read_path(value.at("mesh"), folder)));
+}
+
+/// Positions in the order of the file. Vertices that no face uses are not in the mesh: they stand in for the first one,
+/// so that they change no bounding box.
+std::vector<Point> rest_positions(const Scene_object& object) {
+  const auto& mesh = object.mesh;
+  if (mesh.is_empty()) return std::vector<Point>(object.file_vertices, Point(0, 0, 0));
+  std::vector<Point> positions(object.file_vertices, mesh.point(*mesh.vertices().begin()));
+  for (const auto v : mesh.vertices()) positions[object.file_vertex[v]] = mesh.point(v);
+  return positions;
+}
+
+void place_mesh(Surface_mesh& mesh, const Json_value& value, const Placement& placement) {
+  for (const auto v : mesh.vertices()) {
+    mesh.point(v) = mesh.point(v).transform(*placement);
+    if (!is_finite(mesh.point(v))) value.fail("moves a vertex to a non-finite place");
+  }
+}
+
+// ---- Motion ----
+
+Motion placed(Motion motion, const Placement& placement) {
+  if (!placement) return motion;
+  return {.frames = motion.frames,
+          .pose = [inner = std::move(motion.pose), transformation = *placement](std::size_t frame,
+                                                                                std::span<Point> positions) {
+            inner(frame, positions);
+            for (Point& p : positions) p = p.transform(transformation);
+          }};
+}
+
+/// "walk.glb", or {"file": "walk.glb", "animation": "walk", "frames_per_second": 60}.
+Motion read_gltf(const Json_value& value, std::size_t vertices, const std::filesystem::path& folder) {
+  if (value.is_string()) return read_gltf_motion(read_path(value, folder), vertices);
+  value.expect_keys({"file", "animation", "frames_per_second"});
+  Gltf_motion_options options;
+  if (const auto animation = value.find("animation")) {
+    if (animation->is_string())
+      options.animation = animation->text();
+    else
+      options.animation = animation->count(0, most_objects);
+  }
+  options.frames_per_second = value.number("frames_per_second", options.frames_per_second);
+  if (!(options.frames_per_second > 0)) value.at("frames_per_second").fail("expected a number > 0");
+  return read_gltf_motion(read_path(value.at("file"), folder), vertices, options);
+}
+
+/// Deformations start from the mesh as it was placed; positions from files are placed as they are read.
+Motion read_motion(const Json_value& value, const Scene_object& object, const Placement& placement,
+                   const std::filesystem::path& folder) {
+  const std::string kind = value.expect_one_key({"pc2", "mdd", "gltf", "keyframes", "sequence", "deform"});
+  const Json_value source = value.at(kind);
+  if (kind == "deform") return deform(rest_positions(object), detail::read_deformations(source));
+  if (kind == "pc2") return placed(read_point_cache(read_path(source, folder), object.file_vertices), placement);
+  if (kind == "mdd") return placed(read_mdd_cache(read_path(source, folder), object.file_vertices), placement);
+  if (kind == "gltf") return placed(read_gltf(source, object.file_vertices, folder), placement);
+  if (kind == "keyframes") return placed(read_game_motion(read_path(source, folder), object.file_vertices), placement);
+  return placed(read_mesh_sequence(read_sequence(source, folder), object.file_vertices), placement);
+}
+
+// ---- Objects and scene ----
+
+Scene_object read_object(const Json_value& value, const std::filesystem::path& folder) {
+  value.expect_keys({"name", "mesh", "shape", "place", "motion", "particles", "scattered_side"});
+  const std::string name = value.at("name").text();
+  Scene_object object = read_rest(value, folder);
+  object.name = name;
+  object.particles = value.count("particles", 1, most_particles, 0);
+  if (const auto side = value.find("scattered_side")) object.scattered_side = detail::read_direction(*side);
+
+  Placement placement;
+  if (const auto place = value.find("place")) {
+    placement = detail::read_placement(*place);
+    place_mesh(object.mesh, *place, placement);
+  }
+  const auto motion = value.find("motion");
+  object.motion = motion ? read_motion(*motion, object, placement, folder) : deform(rest_positions(object), {});
+  return object;
+}
+
+std::vector<Scene_object> read_objects(const Json_value& value, const std::filesystem::path& folder) {
+  std::vector<Scene_object> objects;
+  std::set<std::string> names;
+  for (const Json_value& element : value.elements(most_objects)) {
+    objects.push_back(read_object(element, folder));
+    const std::string& name = objects.back().name;
+    if (!names.insert(name).second)
+      element.at("name").fail(fmt::format("{} is taken by an object above", in_quotes(name)));
+  }
+  return objects;
+}
+
+/// Pairs of names, as numbers of objects.
+std::vector<Object_pair> read_ignored(const Json_value& scene, const std::vector<Scene_object>& objects) {
+  std::map<std::string, std::uint32_t> numbers;
+  for (std::uint32_t o = 0; o < objects.size(); ++o) numbers.emplace(objects[o].name, o);
+  const auto number = [&](const Json_value& name) {
+    const auto found = numbers.find(name.text());
+    if (found == numbers.end()) name.fail(fmt::format("there is no object {}", in_quotes(name.text())));
+    return found->second;
+  };
+  std::vector<Object_pair> ignored;
+  for (const Json_value& pair : scene.list("ignore", most_ignored)) {
+    const auto names = pair.elements(2);
+    if (names.size() != 2) pair.fail("expected the names of two objects");
+    const auto [a, b] = std::minmax({number(names[0]), number(names[1])});
+    ignored.push_back({a, b});
+  }
+  std::ranges::sort(ignored);
+  ignored.erase(std::ranges::unique(ignored).begin(), ignored.end());
+  return ignored;
+}
+
+/// Frames of the shortest motion that ends; 0 when none does.
+std::size_t shortest_motion(const std::vector<Scene_object>& objects) {
+  std::size_t shortest = 0;
+  for (const Scene_object& object : objects) {
+    const std::size_t frames = object.motion.frames;
+    if (frames != 0) shortest = shortest == 0 ? frames : std::min(shortest, frames);
+  }
+  return shortest;
+}
+
+bool any_moves(const Json_value& objects) {
+  return std::ranges::any_of(objects.elements(most_objects),
+                             [](const Json_value& object) { return object.has("motion"); });
+}
+
+std::size_t read_frames(const Json_value& scene, const std::vector<Scene_object>& objects) {
+  const std::size_t held = shortest_motion(objects);
+  const auto frames = scene.find("frames");
+  if (!frames) {
+    if (held == 0 && any_moves(scene.at("objects"))) scene.fail("missing key \"frames\": no motion ends by itself");
+    return std::max<std::size_t>(held, 1);
+  }
+  const std::size_t asked = frames->count(1, most_frames);
+  if (held != 0 && asked > held)
+    frames->fail(fmt::format("{} frames are more than the {} of the shortest motion", asked, held));
+  return asked;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) {
+  const detail::Json document = detail::parse_json(file);
+  const Json_value value(document, file.string());
+  value.expect_keys({"name", "description", "frames", "objects", "ignore"});
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+
+  Scene scene;
+  const auto name = value.find("name");
+  scene.name = name ? name->text() : file.stem().string();
+  if (const auto description = value.find("description")) scene.description = description->text();
+  scene.objects = read_objects(value.at("objects"), folder);
+  scene.ignored = read_ignored(value, scene.objects);
+  scene.frames = read_frames(value, scene.objects);
+  return scene;
+}
+
+Scene_object still_object(std::string name, const std::filesystem::path& mesh_file) {
+  Scene_object object = object_of(read_mesh(mesh_file));
+  object.name = std::move(name);
+  object.motion = deform(rest_positions(object), {});
+  return object;
+}
+
+void pose(Scene_object& object, std::size_t frame) {
+  std::vector<Point> positions(object.file_vertices);
+  object.motion.pose(frame, positions);
+  for (const auto v : object.mesh.vertices())
+    if (!is_finite(positions[object.file_vertex[v]]))
+      throw Bad_motion(fmt::format("{}: frame {}: vertex {} has a non-finite coordinate", object.name, frame,
+                                   object.file_vertex[v]));
+  for (const auto v : object.mesh.vertices()) object.mesh.point(v) = positions[object.file_vertex[v]];
+}
+
+}  // namespace lodestone

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/mesh/joined_vertices.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+std::vector<Corners> join_vertices(std::span<const Corners> faces, std::uint32_t vertex_count,
+                                   std::span<const std::uint32_t> file_vertex) {
+  if (file_vertex.empty()) return {};
+  if (file_vertex.size() != vertex_count)
+    throw Bad_argument("file_vertex has " + std::to_string(file_vertex.size()) + " numbers, but the mesh " +
+                       std::to_string(vertex_count) + " vertices");
+  std::vector<std::uint32_t> by_number(vertex_count);
+  std::iota(by_number.begin(), by_number.end(), 0U);
+  std::ranges::stable_sort(by_number, {}, [&](std::uint32_t v) { return file_vertex[v]; });
+
+  std::vector<std::uint32_t> first(vertex_count);  // of the vertices with the same number
+  bool joins = false;
+  for (std::size_t i = 0; i < by_number.size(); ++i) {
+    const std::uint32_t v = by_number[i];
+    const bool again = i > 0 && file_vertex[by_number[i - 1]] == file_vertex[v];
+    first[v] = again ? first[by_number[i - 1]] : v;
+    joins |= again;
+  }
+  if (!joins) return {};
+
+  std::vector<Corners> joined;
+  joined.reserve(faces.size());
+  for (const auto& [a, b, c] : faces) joined.push_back({first[a], first[b], first[c]});
+  return joined;
+}
+
+std::vector<std::uint32_t> unused_vertices(std::span<const Corners> faces, std::uint32_t vertex_count) {
+  std::vector<bool> used(vertex_count, false);
+  for (const auto& corners : faces)
+    for (const auto v : corners) used[v] = true;
+  std::vector<std::uint32_t> unused;
+  for (std::uint32_t v = 0; v < vertex_count; ++v)
+    if (!used[v]) unused.push_back(v);
+  return unused;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/particles/senin.h"
+
+#include <algorithm>
+#include <random>
+#include <unordered_set>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Positions& positions,
+                                             std::size_t particles, const Senin_options& options) {
+  if (options.side && !(options.side->allFinite() && !options.side->isZero(0)))
+    throw Bad_argument("the side on which particles are scattered must be a finite direction");
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(positions.rows());
+  if (options.side) along = (positions.rowwise() - positions.colwise().mean()) * *options.side;
+  const double least = options.side ? along.maxCoeff() / 2 : -1;
+  std::vector<std::uint32_t> places;
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
+    if (along[v] >= least && out_degree(v, graph) > 0) places.push_back(v);
+
+  // The first steps of a shuffle. The remainder, unlike the library's distributions, is the same everywhere.
+  std::mt19937_64 random(options.seed);
+  const std::size_t count = std::min(particles, places.size());
+  for (std::size_t i = 0; i < count; ++i) std::swap(places[i], places[i + random() % (places.size() - i)]);
+  places.resize(count);
+  return places;
+}
+
+std::size_t default_rings(std::size_t vertices, std::size_t particles) {
+  const std::size_t wanted = vertices / std::max<std::size_t>(particles, 1);
+  std::size_t rings = 1;
+  while (3 * rings * (rings + 1) + 1 < wanted) ++rings;
+  return rings;
+}
+
+Vertex_faces::Vertex_faces(std::uint32_t vertex_count, std::span<const Corners> corners)
+    : offsets_(vertex_count + std::size_t{1}, 0), faces_(3 * corners.size()) {
+  for (const auto& face : corners)
+    for (const auto corner : face) ++offsets_[corner + 1];
+  for (std::size_t v = 0; v < vertex_count; ++v) offsets_[v + 1] += offsets_[v];
+  auto next = offsets_;
+  for (std::uint32_t face = 0; face < corners.size(); ++face)
+    for (const auto corner : corners[face]) faces_[next[corner]++] = face;
+}
+
+Patch ring_patch(const Vertex_graph& graph, const Vertex_faces& vertex_faces, std::span<const Corners> corners,
+                 std::uint32_t centre, std::size_t rings) {
+  std::vector<std::uint32_t> reached{centre};
+  std::unordered_set<std::uint32_t> seen{centre};
+  std::size_t ring_begin = 0;
+  for (std::size_t ring = 0; ring < rings && ring_begin < reached.size(); ++ring) {
+    const std::size_t ring_end = reached.size();
+    for (std::size_t i = ring_begin; i < ring_end; ++i)
+      for (const std::uint32_t w : neighbours(graph, reached[i]))
+        if (seen.insert(w).second) reached.push_back(w);
+    ring_begin = ring_end;
+  }
+  std::vector<std::uint32_t> faces;
+  for (const auto v : reached) {
+    const auto at = vertex_faces.at(v);
+    faces.insert(faces.end(), at.begin(), at.end());
+  }
+  std::ranges::sort(faces);
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return make_patch(std::move(faces), corners);
+}
+
+}  // namespace lodestone

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program/run_reported.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+#include <system_error>
+
+#include "lodestone/mesh/errors.h"
+#include "program/exit_codes.h"
+#include "program/printable.h"
+#include "program/progress.h"
+
+namespace lodestone {
+
+namespace {
+
+/// One line, whatever the names of files hold.
+int report(const char* what, int code) {
+  fmt::print(stderr, "lodestone: {}\n", printable(what));
+  return code;
+}
+
+}  // namespace
+
+int run_reported(const std::function<int()>& program) {
+  try {
+    handle_interrupts();
+    const int code = program();
+    if (std::fflush(stdout) != 0) throw Bad_output("the standard output cannot be written");
+    return code;
+  } catch (const Interrupted&) {
+    return report("interrupted", exit_code::interrupted);
+  } catch (const Bad_output& error) {
+    return report(error.what(), exit_code::bad_output);
+  } catch (const Bad_argument& error) {
+    return report(error.what(), exit_code::bad_usage);
+  } catch (const Error& error) {
+    return report(error.what(), exit_code::bad_input);
+  } catch (const std::bad_alloc&) {
+    return report("not enough memory for this input", exit_code::bad_input);
+  } catch (const std::system_error& error) {
+    // Everything that is read has errors of its own: this is a folder or the standard output.
+    return report(error.what(), exit_code::bad_output);
+  } catch (const std::exception& error) {
+    return report(error.what(), exit_code::unexpected);
+  }
+}
+
+}  // namespace lodestone

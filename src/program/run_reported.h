@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+namespace lodestone {
+
+/// Runs a program, flushes its standard output, and tells on one line what went wrong, if anything did.
+/// @return the exit code
+int run_reported(const std::function<int()>& program);
+
+}  // namespace lodestone

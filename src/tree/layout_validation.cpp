@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lodestone/tree/tree_layout.h"
+
+namespace lodestone {
+
+std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, std::size_t vertex_count) const {
+  // Every face is in exactly one leaf, with its own corners.
+  std::vector<std::uint32_t> uses(mesh_corners.size(), 0);
+  for (std::size_t leaf = 0; leaf < leaf_count(); ++leaf) {
+    const auto list = vertices(leaf);
+    if (list.empty() || std::ranges::adjacent_find(list, std::greater_equal()) != list.end())
+      return fmt::format("leaf {}: its vertices are not listed once each in ascending order", leaf);
+    if (list.back() >= vertex_count) return fmt::format("leaf {}: there is no vertex {}", leaf, list.back());
+    for (std::size_t i = 0; i < faces(leaf).size(); ++i) {
+      const std::uint32_t face = faces(leaf)[i];
+      if (face >= mesh_corners.size()) return fmt::format("leaf {}: there is no face {}", leaf, face);
+      ++uses[face];
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        if (list[corners(leaf)[i][corner]] != mesh_corners[face][corner])
+          return fmt::format("leaf {}: face {} has another corner than in the mesh", leaf, face);
+    }
+    if (leaf_nodes_[leaf] >= nodes_.size() || !is_leaf(leaf_nodes_[leaf]))
+      return fmt::format("leaf {}: its node is none of a leaf", leaf);
+  }
+  for (std::uint32_t face = 0; face < uses.size(); ++face)
+    if (uses[face] != 1) return fmt::format("face {} is in {} leaves", face, uses[face]);
+
+  // A walk from the root meets all nodes and all leaves in their order.
+  std::uint32_t next = 0, leaf = 0;
+  std::vector<std::uint32_t> ahead{0};
+  while (!ahead.empty()) {
+    const std::uint32_t n = ahead.back();
+    ahead.pop_back();
+    if (n != next++ || n >= nodes_.size()) return fmt::format("node {} is out of order", n);
+    if (nodes_[n].leaf != leaf) return fmt::format("node {}: its first leaf should be {}", n, leaf);
+    if (is_leaf(n)) {
+      if (nodes_[n].end_leaf != leaf + 1) return fmt::format("node {}: its end leaf should be {}", n, leaf + 1);
+      if (leaf_nodes_[leaf++] != n) return fmt::format("node {} is not the node of its leaf", n);
+      continue;
+    }
+    const std::uint32_t second = nodes_[n].second_child;
+    if (second <= n + 1 || second >= nodes_.size()) return fmt::format("node {}: there is no node {}", n, second);
+    if (nodes_[n + 1].end_leaf != nodes_[second].leaf || nodes_[second].end_leaf != nodes_[n].end_leaf)
+      return fmt::format("node {}: its leaves are not those of its children", n);
+    ahead.push_back(second);
+    ahead.push_back(n + 1);
+  }
+  if (next != nodes_.size() || leaf != leaf_count()) return "the tree has nodes that no walk from its root meets";
+  return {};
+}
+
+}  // namespace lodestone

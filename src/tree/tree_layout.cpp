@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/tree/tree_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lodestone/mesh/errors.h"
+#include "tree/refit_kernel.h"
+#include "tree/tree_builder.h"
+
+namespace lodestone {
+
+namespace {
+
+/// Leaves of a part: few enough that their volumes are still in the cache when the nodes above them are fitted.
+constexpr std::uint32_t part_leaves = 128;
+
+}  // namespace
+
+Tree_layout::Tree_layout(std::span<const Corners> corners, std::span<const Region_index> labels,
+                         Coordinates coordinates, const Region_tree_options& options) {
+  if (options.leaf_faces < 2 || options.leaf_faces > most_leaf_faces)
+    throw Bad_argument("a leaf must hold at most 2 to 128 faces");
+  if (corners.size() > std::numeric_limits<std::uint32_t>::max() / 3)
+    throw Bad_mesh("the mesh has more than 1431655765 faces, which is what a tree can number");
+  Tree_builder(*this, corners, labels, coordinates, options).build();
+  vertices_.resize(vertices_.size() + kernel::vertices_ahead + 4, vertices_.back());
+  static_assert(kernel::vertices_ahead >= most_float_lanes, "a leaf's vertices are read in vectors");
+  corners_.resize(corners_.size() + kernel::faces_ahead);
+  find_parts();
+}
+
+/// Cuts the tree below its top into subtrees of at most `part_leaves` leaves.
+void Tree_layout::find_parts() {
+  struct Subtree {
+    std::uint32_t node, end_node, end_leaf;
+  };
+  std::vector<Subtree> ahead{
+      {0, static_cast<std::uint32_t>(nodes_.size()), static_cast<std::uint32_t>(leaf_nodes_.size())}};
+  while (!ahead.empty()) {
+    const auto [n, end_node, end_leaf] = ahead.back();
+    ahead.pop_back();
+    if (end_leaf - nodes_[n].leaf <= part_leaves) {
+      parts_.push_back({.first_node = n, .end_node = end_node, .first_leaf = nodes_[n].leaf, .end_leaf = end_leaf});
+      continue;
+    }
+    top_nodes_.push_back(n);
+    const std::uint32_t second = nodes_[n].second_child;
+    ahead.push_back({second, end_node, end_leaf});
+    ahead.push_back({n + 1, second, nodes_[second].leaf});
+  }
+}
+
+bool Tree_layout::finite(Coordinates coordinates) const {
+  return std::ranges::all_of(vertices_, [&](std::uint32_t vertex) {
+    const auto position = coordinates.subspan(3 * std::size_t{vertex}, 3);
+    return std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
+  });
+}
+
+}  // namespace lodestone

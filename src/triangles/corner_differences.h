@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lodestone/triangles/triangle_intersection.h"
+
+namespace lodestone {
+
+/// What distance and depth of two triangles are computed from.
+template <class Number>
+struct Corner_differences {
+  using Vector = Eigen::Matrix<Number, 3, 1>;
+
+  std::array<std::array<Vector, 3>, 3> between;  ///< [i][j]: corner i of a minus corner j of b
+  std::array<Vector, 3> edges_a;                 ///< from corner i to the next
+  std::array<Vector, 3> edges_b;
+};
+
+/// The differences of corners times `factor`. No common origin is chosen: each difference is rounded once.
+/// @param coordinate  turns a coordinate into the number
+template <class Number, class Coordinate>
+Corner_differences<Number> corner_differences(const Triangle& a, const Triangle& b, const Coordinate& coordinate) {
+  const auto vectors = [&](const Triangle& t) {
+    std::array<typename Corner_differences<Number>::Vector, 3> corners;
+    for (int i = 0; i < 3; ++i) corners[i] << coordinate(t[i].x()), coordinate(t[i].y()), coordinate(t[i].z());
+    return corners;
+  };
+  const auto p = vectors(a), q = vectors(b);
+  Corner_differences<Number> d;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) d.between[i][j] = p[i] - q[j];
+    d.edges_a[i] = p[(i + 1) % 3] - p[i];
+    d.edges_b[i] = q[(i + 1) % 3] - q[i];
+  }
+  return d;
+}
+
+/// Differences times 2^-exponent, so that the greatest coordinate of `between` is in [1, 2) and products of a few
+/// neither overflow nor lose digits that count. Each coordinate has a relative error of 2^-53 at most, or an absolute
+/// one below 2^-1070.
+struct Scaled_differences {
+  Corner_differences<double> vectors;
+  int exponent = 0;
+};
+
+inline Scaled_differences scaled_differences(const Triangle& a, const Triangle& b) {
+  const auto greatest = [](const Corner_differences<double>& d) {
+    double most = 0;
+    for (const auto& row : d.between)
+      for (const auto& difference : row) most = std::max(most, difference.cwiseAbs().maxCoeff());
+    return most;
+  };
+  Scaled_differences scaled{corner_differences<double>(a, b, [](double x) { return x; })};
+  double size = greatest(scaled.vectors);
+  if (!std::isfinite(size)) {
+    scaled.vectors = corner_differences<double>(a, b, [](double x) { return 0.5 * x; });
+    scaled.exponent = 1;
+    size = greatest(scaled.vectors);
+  }
+  if (size == 0) return scaled;
+  // Beyond 2^-1000 the factor itself would overflow; at 2^-74 products are in no danger yet.
+  const int shift = std::max(std::ilogb(size), -1000);
+  const double factor = std::ldexp(1.0, -shift);
+  for (auto& row : scaled.vectors.between)
+    for (auto& difference : row) difference *= factor;
+  for (auto* edges : {&scaled.vectors.edges_a, &scaled.vectors.edges_b})
+    for (auto& edge : *edges) edge *= factor;
+  scaled.exponent += shift;
+  return scaled;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "lodestone/volumes/leaf_faces.h"
+
+/// The loops over the vertices of a leaf that slab volumes are fitted with, built for several instruction sets and
+/// chosen at run time. Vertices are handled eight at a time and sums are added up in one order whatever the width of a
+/// vector, so all give the same bits. Nothing is read past the z of the last vertex.
+namespace lodestone::kernel {
+
+/// Least and greatest values of x, y and z, then, as `K` has them, of x+y, x-y, x+z, x-z, y+z, y-z, then of x+y+z,
+/// x+y-z, x-y+z, x-y-z, the last four as (x +- y) +- z: K / 2 each, rounded sums and no more.
+/// @param K  14: without the sums of two; 18: without the sums of three; 26: all
+void dop_limits(const Leaf_faces& faces, int K, double* low, double* high);
+
+/// An origin and three directions.
+struct Frame {
+  double origin[3];
+  double axes[3][3];  ///< by axis, then x, y, z
+};
+
+/// Of the differences v of all vertices from an origin, rounded once.
+struct Frame_limits {
+  double low[6];  ///< of x, y and z of v, then of (axis_x v_x + axis_y v_y) + axis_z v_z per axis, each step rounded
+  double high[6];
+};
+
+Frame_limits frame_limits(const Leaf_faces& faces, const Frame& frame);
+
+/// Sums over all vertices of their differences v from the last vertex, times a scale, and of the products of two.
+struct Moments {
+  double first[3];   ///< x, y, z
+  double second[6];  ///< xx, yy, zz, xy, xz, yz
+};
+
+Moments moments(const Leaf_faces& faces, double scale);
+
+}  // namespace lodestone::kernel

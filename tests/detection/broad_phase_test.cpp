@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/detection/broad_phase.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace lodestone {
+namespace {
+
+using Pairs = std::vector<Object_pair>;
+
+Pairs found(Broad_phase& phase, const std::vector<Box>& boxes, const std::vector<double>& reach) {
+  const auto pairs = phase.find(boxes, reach);
+  return {pairs.begin(), pairs.end()};
+}
+
+/// Every pair of boxes that overlap once one has grown by the larger reach on all sides.
+Pairs expected(const std::vector<Box>& boxes, const std::vector<double>& reach) {
+  Pairs pairs;
+  for (std::uint32_t a = 0; a < boxes.size(); ++a)
+    for (std::uint32_t b = a + 1; b < boxes.size(); ++b) {
+      const Eigen::Vector3d grow = Eigen::Vector3d::Constant(std::max(reach[a], reach[b]));
+      if (Box(boxes[a].min() - grow, boxes[a].max() + grow).intersects(boxes[b])) pairs.push_back({a, b});
+    }
+  return pairs;
+}
+
+Box unit_box(double x, double y, double z) { return {Eigen::Vector3d(x, y, z), Eigen::Vector3d(x + 1, y + 1, z + 1)}; }
+
+TEST(Broad_phase, lie_within_the_larger_of_their_reaches) {
+  Broad_phase phase;
+  const std::vector<Box> boxes{unit_box(0, 0, 0), unit_box(3, 0, 0)};  // a gap of 2
+  EXPECT_TRUE(found(phase, boxes, {1.5, 1.5}).empty());
+  EXPECT_EQ(found(phase, boxes, {2.5, 0}), (Pairs{{0, 1}}));
+  EXPECT_EQ(found(phase, boxes, {0, 2.5}), (Pairs{{0, 1}}));
+}
+
+TEST(Broad_phase, must_lie_near_along_every_axis) {
+  Broad_phase phase;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d far = 3 * Eigen::Vector3d::Unit(axis);
+    const std::vector<Box> boxes{unit_box(0, 0, 0), unit_box(far.x(), far.y(), far.z())};
+    EXPECT_TRUE(found(phase, boxes, {1, 1}).empty());
+    EXPECT_EQ(found(phase, boxes, {3, 3}).size(), 1U);
+  }
+}
+
+TEST(Broad_phase, are_sorted_whatever_the_order_in_space) {
+  Broad_phase phase;
+  const std::vector<Box> boxes{unit_box(2, 0, 0), unit_box(1, 0, 0), unit_box(0, 0, 0)};
+  EXPECT_EQ(found(phase, boxes, {5, 5, 5}), (Pairs{{0, 1}, {0, 2}, {1, 2}}));
+}
+
+TEST(Broad_phase, equal_brute_force_over_many_frames_of_moving_boxes) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> coordinate(0, 10), step(-0.7, 0.7), extent(0, 1.5);
+  Broad_phase phase;
+  std::size_t seen = 0;
+  std::vector<Box> boxes;
+  std::vector<double> reach;
+  for (int frame = 0; frame < 300; ++frame) {
+    for (auto& box : boxes) box.translate(Eigen::Vector3d(step(random), step(random), step(random)));
+    if (frame % 60 == 0)  // newcomers
+      for (int i = 0; i < 15; ++i) {
+        const Eigen::Vector3d low(coordinate(random), coordinate(random), coordinate(random));
+        boxes.emplace_back(low, low + Eigen::Vector3d(extent(random), extent(random), extent(random)));
+        reach.push_back(extent(random));
+      }
+    if (frame % 37 == 0) boxes[random() % boxes.size()].translate(Eigen::Vector3d(-9, 9, 0));
+    if (frame % 10 == 0) reach[random() % reach.size()] = 4 * extent(random);
+    const auto pairs = found(phase, boxes, reach);
+    EXPECT_EQ(pairs, expected(boxes, reach)) << frame;
+    seen += pairs.size();
+  }
+  EXPECT_GT(seen, 1000U);
+}
+
+TEST(Broad_phase, of_fewer_than_two_objects_are_none) {
+  Broad_phase phase;
+  EXPECT_TRUE(found(phase, {}, {}).empty());
+  EXPECT_TRUE(found(phase, {unit_box(0, 0, 0)}, {100}).empty());
+}
+
+}  // namespace
+}  // namespace lodestone

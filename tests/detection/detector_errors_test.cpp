@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/detector.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "detection/detector_scenes.h"
+
+namespace lodestone {
+namespace {
+
+TEST(Detector, options_out_of_range_are_refused) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {0.0, -1.0, infinity, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(Detector<Surface_mesh>({.collision_distance = bad}), Bad_argument) << bad;
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(Detector<Surface_mesh>({.growth = bad}), Bad_argument) << bad;
+}
+
+TEST(Detector, a_mesh_added_twice_is_refused) {
+  auto mesh = sphere(3);
+  Detector<Surface_mesh> detector;
+  detector.add(mesh);
+  EXPECT_THROW(detector.add(mesh), Bad_argument);
+  EXPECT_THROW(detector.add(std::as_const(mesh)), Bad_argument);
+  EXPECT_EQ(detector.size(), 1U);
+}
+
+TEST(Detector, an_unknown_object_is_refused) {
+  Detector<Surface_mesh> detector;
+  EXPECT_THROW(detector.update(0), Bad_argument);
+  auto mesh = sphere(3);
+  detector.add(mesh);
+  EXPECT_NO_THROW(detector.update(0));
+  EXPECT_THROW(detector.update(1), Bad_argument);
+}
+
+TEST(Detector, a_mesh_without_faces_or_with_a_quadrilateral_is_refused) {
+  Detector<Surface_mesh> detector;
+  Surface_mesh empty, quadrilateral;
+  EXPECT_THROW(detector.add(empty), Bad_mesh);
+  std::vector<Surface_mesh::Vertex_index> corners;
+  for (const auto& p : {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0)})
+    corners.push_back(quadrilateral.add_vertex(p));
+  quadrilateral.add_face(corners);
+  EXPECT_THROW(detector.add(quadrilateral), Bad_mesh);
+  EXPECT_EQ(detector.size(), 0U);
+}
+
+TEST(Detector, a_coordinate_that_is_not_finite_is_refused_by_the_first_frame) {
+  for (const auto mode : modes) {
+    auto scene = two_spheres(2);
+    scene[1].point(Surface_mesh::Vertex_index(7)) = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
+    Detector<Surface_mesh> detector({.mode = mode, .particles = 8});
+    add_all(detector, scene);
+    EXPECT_THROW(detector.detect(), Bad_mesh);
+  }
+}
+
+TEST(Detector, a_coordinate_that_is_not_finite_is_refused_in_any_frame_that_reads_it) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const auto mode : modes)
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity}) {
+      auto scene = two_spheres(1.8);
+      Detector<Surface_mesh> detector({.mode = mode, .particles = 8, .contacts = Contact_query::all});
+      add_all(detector, scene);
+      detector.detect();
+      deform(scene[1], [&](const Point& p) { return Point(p.x(), bad, p.z()); });
+      EXPECT_THROW(
+          {
+            detector.update();
+            detector.detect();
+          },
+          Bad_mesh);
+    }
+}
+
+TEST(Detector, a_corner_of_a_candidate_region_that_is_not_finite_is_refused) {
+  auto scene = two_spheres(1.8);
+  Detector<Surface_mesh> detector({.particles = 1, .collision_distance = 50, .contacts = Contact_query::all});
+  add_all(detector, scene);
+  detector.detect();
+  // Far from the particle, but in its region.
+  std::uint32_t lost = 0;
+  const auto& at = detector.object(1).particles();
+  for (const auto v : scene[1].vertices()) {
+    const auto& p = scene[1].point(v);
+    if ((Eigen::Vector3d(p.x(), p.y(), p.z()) - at.positions[0]).norm() > 1.5) lost = v;
+  }
+  scene[1].point(Surface_mesh::Vertex_index(lost)) = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
+  EXPECT_THROW(detector.detect(), Bad_mesh);
+}
+
+template <class Mesh>
+concept Addable = requires(Detector<Surface_mesh>& detector, Mesh&& mesh) {
+  detector.add(std::forward<Mesh>(mesh));
+};
+
+TEST(Detector, a_mesh_that_ends_with_the_call_cannot_be_added) {
+  static_assert(Addable<Surface_mesh&> && Addable<const Surface_mesh&>);
+  static_assert(!Addable<Surface_mesh> && !Addable<const Surface_mesh>);
+}
+
+}  // namespace
+}  // namespace lodestone

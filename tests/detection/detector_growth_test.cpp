@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/detector.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "detection/detector_scenes.h"
+
+namespace lodestone {
+namespace {
+
+TEST(Detector, an_object_that_moves_without_growing_is_not_repartitioned) {
+  Scene scene{potato(10), potato(10, 2)};
+  shift(scene[1], 3);
+  Detector<Surface_mesh> detector({.particles = 24});
+  add_all(detector, scene);
+  std::size_t repartitions = 0;
+  for (int frame = 0; frame < 40; ++frame) {
+    repartitions += detector.detect().statistics.repartitions;
+    const double c = std::cos(0.1), s = std::sin(0.1);
+    deform(scene[0], [&](const Point& p) { return Point(c * p.x() - s * p.y() + 0.1, s * p.x() + c * p.y(), p.z()); });
+    shift(scene[1], 0.1, 0.013, -0.07);
+    detector.update();
+  }
+  EXPECT_EQ(repartitions, 0U);
+}
+
+TEST(Detector, an_object_that_shrinks_is_not_repartitioned) {
+  auto scene = two_spheres(2.5);
+  Detector<Surface_mesh> detector({.particles = 24});
+  add_all(detector, scene);
+  for (int frame = 0; frame < 10; ++frame) {
+    EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
+    scale(scene[0], 0.9);
+    detector.update();
+  }
+}
+
+TEST(Detector, an_inflating_object_is_repartitioned_with_its_particles_counted_afresh) {
+  auto scene = two_spheres(9);
+  Detector<Surface_mesh> detector({.least_particles = 1, .contacts = Contact_query::all});
+  add_all(detector, scene);
+  detector.detect();
+  EXPECT_EQ(detector.object(0).particles().at.size(), 2U);  // two objects of one size
+  scale(scene[0], 3);
+  detector.update();
+  EXPECT_EQ(detector.detect().statistics.repartitions, 1U);
+  EXPECT_EQ(detector.object(0).particles().at.size(), 62U);  // floor(2 / (1 - cos(asin(1 / 4))))
+  EXPECT_EQ(detector.object(1).particles().at.size(), 2U);
+  EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
+}
+
+TEST(Detector, an_object_that_inflates_slowly_stays_detectable) {
+  auto scene = two_spheres(3);
+  Detector<Surface_mesh> detector({.particles = 32, .contacts = Contact_query::all});
+  add_all(detector, scene);
+  std::size_t repartitions = 0, positive = 0, found = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    const Frame& result = detector.detect();
+    repartitions += result.statistics.repartitions;
+    found += expect_true(result, scene);
+    positive += exhaustive_face_pairs(scene[0], scene[1]).empty() ? 0 : 1;
+    scale(scene[0], std::pow(3.0, 1 / 60.0));
+    detector.update();
+  }
+  EXPECT_GT(repartitions, 5U);
+  EXPECT_GT(positive, 5U);
+  EXPECT_GT(10 * found, 8 * positive);
+}
+
+TEST(Detector, an_object_that_starts_without_extent_is_repartitioned_when_it_unfolds) {
+  auto scene = two_spheres(5);
+  deform(scene[0], [](const Point&) { return Point(0, 0, 0); });
+  Detector<Surface_mesh> detector({.particles = 12});
+  add_all(detector, scene);
+  EXPECT_NO_THROW(detector.detect());
+  const auto round = sphere(12);
+  for (const auto v : round.vertices()) scene[0].point(v) = round.point(v);
+  detector.update();
+  EXPECT_EQ(detector.detect().statistics.repartitions, 1U);
+}
+
+TEST(Detector, particles_are_counted_beside_objects_without_extent) {
+  Scene scene{sphere(8), single_triangle(), sphere(8, 2, {5, 0, 0})};
+  deform(scene[1], [](const Point&) { return Point(0, 0, 1); });
+  Detector<Surface_mesh> detector({.contacts = Contact_query::all});
+  add_all(detector, scene);
+  expect_true(detector.detect(), scene);
+  for (const Object_id object : {0U, 1U, 2U}) EXPECT_GE(detector.object(object).particles().at.size(), 1U);
+}
+
+TEST(Detector, repartitions_never_if_told_so) {
+  auto scene = two_spheres(9);
+  Detector<Surface_mesh> detector({.particles = 12, .growth = std::numeric_limits<double>::infinity()});
+  add_all(detector, scene);
+  detector.detect();
+  scale(scene[0], 3);
+  detector.update();
+  EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
+}
+
+}  // namespace
+}  // namespace lodestone

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string_view>
+
+#include "lodestone/detector.h"
+#include "lodestone/find_collisions.h"
+#include "lodestone/queries/exhaustive.h"
+#include "support/test_meshes.h"
+
+namespace lodestone {
+namespace {
+
+TEST(Detector_options, all_contacts_are_reported_unless_less_is_asked_for) {
+  EXPECT_EQ(Detector_options{}.contacts, Contact_query::all);
+  const auto a = sphere(12), b = sphere(12, 1, {1.8, 0.1, 0.2});
+  const auto truth = exhaustive_face_pairs(a, b);
+  const auto found = find_collisions(a, b, {.particles = 32});
+  EXPECT_TRUE(found.collide);
+  EXPECT_GT(found.faces.size(), 1U);
+  EXPECT_TRUE(std::ranges::includes(truth, found.faces));
+}
+
+TEST(Detector_options, contact_points_need_contacts) {
+  EXPECT_THROW(Detector<Surface_mesh>({.contacts = Contact_query::yes_no, .contact_points = true}), Bad_argument);
+  EXPECT_NO_THROW(Detector<Surface_mesh>({.contacts = Contact_query::first, .contact_points = true}));
+  EXPECT_NO_THROW(Detector<Surface_mesh>({.contact_points = true}));
+  const auto a = sphere(4), b = sphere(4, 1, {1, 0, 0});
+  EXPECT_THROW(find_collisions(a, b, {.contacts = Contact_query::yes_no, .contact_points = true}), Bad_argument);
+}
+
+TEST(Detector, an_unknown_object_has_neither_state_nor_maps) {
+  constexpr auto largest = std::numeric_limits<Object_id>::max();
+  Detector<Surface_mesh> detector;
+  auto mesh = sphere(3);
+  for (const Object_id bad : {Object_id{0}, Object_id{1}, largest}) {
+    EXPECT_THROW(detector.object(bad), Bad_argument);
+    EXPECT_THROW(detector.maps(bad), Bad_argument);
+  }
+  const auto id = detector.add(mesh);
+  EXPECT_NO_THROW(detector.object(id));
+  EXPECT_NO_THROW(detector.maps(id));
+  for (const Object_id bad : {Object_id{1}, largest}) {
+    EXPECT_THROW(detector.object(bad), Bad_argument);
+    EXPECT_THROW(detector.maps(bad), Bad_argument);
+  }
+}
+
+TEST(Detector, an_object_whose_mesh_cannot_be_written_to_has_no_maps) {
+  Detector<Surface_mesh> detector;
+  const auto mesh = sphere(3);
+  const auto id = detector.add(mesh);
+  EXPECT_THROW(detector.maps(id), Bad_argument);
+  detector.detect();
+  EXPECT_THROW(detector.maps(id), Bad_argument);
+  EXPECT_NO_THROW(detector.object(id));
+}
+
+/// The points of a mesh, moved along x.
+struct Moved_points {
+  using key_type = Surface_mesh::Vertex_index;
+  using value_type = Point;
+  using reference = Point;
+  using category = boost::readable_property_map_tag;
+  const Surface_mesh* mesh = nullptr;
+  double x = 0;
+  friend Point get(const Moved_points& map, Surface_mesh::Vertex_index v) {
+    const Point& p = map.mesh->point(v);
+    return {p.x() + map.x, p.y(), p.z()};
+  }
+};
+
+TEST(Detector, one_constant_mesh_may_be_two_objects_with_point_maps_of_their_own) {
+  const auto mesh = potato(8);
+  const Moved_points here{.mesh = &mesh}, there{.mesh = &mesh, .x = 2.5};
+  Detector<Surface_mesh, Lbg, Moved_points> detector({.particles = 32});
+  EXPECT_EQ(detector.add(mesh, here), 0U);
+  EXPECT_EQ(detector.add(mesh, there), 1U);
+  const Frame& frame = detector.detect();
+  ASSERT_EQ(frame.pairs.size(), 1U);
+  const auto truth = exhaustive_face_pairs(mesh, mesh, CGAL::parameters::vertex_point_map(here),
+                                           CGAL::parameters::vertex_point_map(there));
+  ASSERT_FALSE(truth.empty());
+  EXPECT_TRUE(frame.collides());
+  EXPECT_TRUE(std::ranges::includes(truth, frame.contacts(frame.pairs[0])));
+}
+
+TEST(Detector, one_mesh_may_not_carry_the_maps_of_two_objects) {
+  auto mesh = sphere(3);
+  Detector<Surface_mesh> detector;
+  detector.add(mesh);
+  EXPECT_THROW(detector.add(mesh), Bad_argument);
+  EXPECT_EQ(detector.size(), 1U);
+}
+
+TEST(Detector_options, there_are_never_more_particles_by_rule_than_the_most) {
+  for (const std::size_t most : {1, 4, 20}) {
+    auto a = sphere(8), b = sphere(8, 1, {9, 0, 0});
+    Detector<Surface_mesh> detector({.least_particles = 50, .particle_count = {.most_particles = most}});
+    for (auto* mesh : {&a, &b}) detector.add(*mesh);
+    detector.detect();
+    for (const Object_id object : {0U, 1U}) EXPECT_EQ(detector.object(object).particles().at.size(), most);
+  }
+  auto a = sphere(8), b = sphere(8, 1, {9, 0, 0});
+  Detector<Surface_mesh> detector({.least_particles = 50});
+  for (auto* mesh : {&a, &b}) detector.add(*mesh);
+  detector.detect();
+  for (const Object_id object : {0U, 1U}) EXPECT_EQ(detector.object(object).particles().at.size(), 50U);
+}
+
+/// Regions in a row by vertex number: enough particles without the work of LBG.
+struct By_number {
+  static constexpr std::string_view name = "by_number";
+  template <Triangle_mesh Mesh>
+  Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
+    const std::size_t vertices = input.numbering.vertex_count();
+    Labelling result;
+    for (std::size_t v = 0; v < vertices; ++v)
+      result.labels.push_back(static_cast<Region_index>(v * regions / vertices));
+    return result;
+  }
+};
+
+/// Address space of this process in bytes: memory that is reserved counts, whether it is used or not. 0: not known.
+std::size_t address_space() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+TEST(Detector, many_particles_that_are_far_apart_ask_for_little_memory) {
+  const std::size_t particles = 3000;
+  auto a = sphere(28), b = sphere(28, 1, {100, 0, 0});
+  ASSERT_GE(num_vertices(a), particles);
+  Detector<Surface_mesh, By_number> detector({.particles = particles, .partition = {.keep_islands = true}});
+  for (auto* mesh : {&a, &b}) detector.add(*mesh);
+  const std::size_t before = address_space();
+  if (before == 0) GTEST_SKIP() << "the system does not tell the memory of a process";
+  EXPECT_FALSE(detector.detect().collides());
+  ASSERT_EQ(detector.object(0).particles().at.size(), particles);
+  // Room for every pair of particles would be 9 000 000 candidates of 16 bytes.
+  EXPECT_LT(address_space(), before + particles * particles * sizeof(Candidate_pair) / 2);
+}
+
+}  // namespace
+}  // namespace lodestone

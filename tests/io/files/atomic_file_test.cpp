@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/mesh/errors.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::ptrdiff_t files_in(const std::filesystem::path& folder) {
+  using Iterator = std::filesystem::directory_iterator;
+  return std::distance(Iterator(folder), Iterator());
+}
+
+/// Making the file must fail with a message of one line that begins with `path`.
+void expect_refused(const std::filesystem::path& target, const std::filesystem::path& path) {
+  try {
+    const Atomic_file file(target);
+    ADD_FAILURE() << target << " was opened";
+  } catch (const Bad_output& error) {
+    const std::string message = error.what();
+    EXPECT_TRUE(message.starts_with(path.string() + ": ")) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(Atomic_file, appears_with_all_its_bytes_at_the_commit) {
+  const Temporary_folder folder;
+  const auto target = folder.path() / "result";
+  Atomic_file file(target);
+  file.write("one ");
+  file.write("");
+  file.write(std::string_view("t\0wo", 4));
+  EXPECT_FALSE(exists(target));
+  file.commit();
+  EXPECT_EQ(bytes_of(target), std::string("one t\0wo", 8));
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(Atomic_file, may_be_longer_than_any_buffer) {
+  const Temporary_folder folder;
+  std::string all;
+  Atomic_file file(folder.path() / "result");
+  for (int i = 0; i < 50; ++i) {
+    const std::string part(100'000 + i, static_cast<char>('a' + i % 26));
+    file.write(part);
+    all += part;
+  }
+  EXPECT_FALSE(exists(folder.path() / "result"));
+  file.commit();
+  EXPECT_TRUE(bytes_of(folder.path() / "result") == all);
+}
+
+TEST(Atomic_file, may_be_empty) {
+  const Temporary_folder folder;
+  Atomic_file(folder.path() / "result").commit();
+  EXPECT_TRUE(exists(folder.path() / "result"));
+  EXPECT_EQ(bytes_of(folder.path() / "result"), "");
+}
+
+TEST(Atomic_file, leaves_nothing_without_a_commit) {
+  const Temporary_folder folder;
+  {
+    Atomic_file file(folder.path() / "result");
+    file.write(std::string(5'000'000, 'x'));
+  }
+  EXPECT_EQ(files_in(folder.path()), 0);
+}
+
+TEST(Atomic_file, leaves_what_was_there_without_a_commit) {
+  const Temporary_folder folder;
+  const auto target = folder.write("result", "old");
+  { Atomic_file(target).write("new"); }
+  EXPECT_EQ(bytes_of(target), "old");
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(Atomic_file, takes_the_place_of_what_was_there) {
+  const Temporary_folder folder;
+  const auto target = folder.write("result", "a longer text than the new one");
+  Atomic_file file(target);
+  file.write("new");
+  file.commit();
+  EXPECT_EQ(bytes_of(target), "new");
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(Atomic_file, takes_the_place_of_a_link_not_of_its_target) {
+  const Temporary_folder folder;
+  const auto elsewhere = folder.write("elsewhere", "mine");
+  create_symlink(elsewhere, folder.path() / "result");
+  Atomic_file file(folder.path() / "result");
+  file.write("new");
+  file.commit();
+  EXPECT_EQ(bytes_of(elsewhere), "mine");
+  EXPECT_EQ(bytes_of(folder.path() / "result"), "new");
+}
+
+TEST(Atomic_file, makes_the_folders_it_needs) {
+  const Temporary_folder folder;
+  const auto target = folder.path() / "a" / "b" / "c" / "result";
+  Atomic_file file(target);
+  file.write("new");
+  file.commit();
+  EXPECT_EQ(bytes_of(target), "new");
+}
+
+TEST(Atomic_file, refuses_a_folder_and_what_cannot_be_one) {
+  const Temporary_folder folder;
+  const auto file = folder.write("file", "mine");
+  create_directory(folder.path() / "folder");
+  expect_refused(folder.path() / "folder", folder.path() / "folder");
+  expect_refused(folder.path() / "none" / "", folder.path() / "none" / "");
+  expect_refused(file / "result", file);
+  expect_refused("/proc/lodestone/result", "/proc/lodestone");
+  expect_refused("", "");
+  EXPECT_EQ(bytes_of(file), "mine");
+}
+
+/// In a process of its own, whose files may have 1000 bytes.
+void write_on_full_disk(const std::filesystem::path& target, std::size_t size) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{1000, 1000};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  int code = 0;
+  try {
+    Atomic_file file(target);
+    file.write(std::string(size, 'x'));
+    file.commit();
+  } catch (const Bad_output& error) {
+    code = std::string(error.what()).starts_with(target.string() + ": cannot be written: ") ? 1 : 2;
+  }
+  std::_Exit(code);
+}
+
+TEST(Atomic_file, a_full_disk_is_an_error_and_leaves_nothing) {
+  const Temporary_folder folder;
+  const auto target = folder.write("result", "old");
+  for (const std::size_t size : {1001, 3'000'000}) {
+    EXPECT_EXIT(write_on_full_disk(target, size), testing::ExitedWithCode(1), "");
+    EXPECT_EQ(bytes_of(target), "old");
+    EXPECT_EQ(files_in(folder.path()), 1);
+  }
+  EXPECT_EXIT(write_on_full_disk(target, 1000), testing::ExitedWithCode(0), "");
+  EXPECT_EQ(file_size(target), 1000U);
+}
+
+}  // namespace
+}  // namespace lodestone::test

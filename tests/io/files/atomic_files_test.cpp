@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/files/atomic_files.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/mesh/errors.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Atomic_files_test : public testing::Test {
+ protected:
+  static void write(const fs::path& file, const std::string& text) {
+    Atomic_file out(file);
+    out.write(text);
+    out.commit();
+  }
+  std::set<std::string> visible() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+      if (entry.is_regular_file() && entry.path().string().find("/.new.") == std::string::npos)
+        names.insert(fs::relative(entry.path(), folder.path()).string());
+    return names;
+  }
+  std::string text_of(const std::string& name) const {
+    std::string text;
+    std::getline(std::ifstream(folder.path() / name), text);
+    return text;
+  }
+
+  Temporary_folder folder;
+};
+
+TEST_F(Atomic_files_test, appear_together_in_place_of_what_was_there) {
+  write(folder.path() / "a", "old");
+  {
+    Atomic_files files(folder.path());
+    write(files.add("a"), "new");
+    write(files.add("frames/b"), "b");
+    EXPECT_EQ(visible(), std::set<std::string>{"a"});
+    EXPECT_EQ(text_of("a"), "old");
+    files.commit();
+  }
+  EXPECT_EQ(visible(), (std::set<std::string>{"a", "frames/b"}));
+  EXPECT_EQ(text_of("a"), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
+}
+
+TEST_F(Atomic_files_test, leave_nothing_behind_without_commit) {
+  {
+    Atomic_files files(folder.path());
+    write(files.add("frames/b"), "b");
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST_F(Atomic_files_test, of_two_at_work_do_not_meet) {
+  Atomic_files first(folder.path()), second(folder.path());
+  write(first.add("a"), "first");
+  write(second.add("a"), "second");
+  second.commit();
+  EXPECT_EQ(text_of("a"), "second");
+  first.commit();
+  EXPECT_EQ(text_of("a"), "first");
+}
+
+TEST_F(Atomic_files_test, in_a_folder_that_cannot_be_or_over_a_folder_are_refused) {
+  EXPECT_THROW(Atomic_files(folder.write("file", "") / "inner"), Bad_output);
+  fs::create_directories(folder.path() / "a" / "b");
+  Atomic_files files(folder.path());
+  write(files.add("a"), "text");
+  EXPECT_THROW(files.commit(), Bad_output);
+}
+
+}  // namespace
+}  // namespace lodestone::test

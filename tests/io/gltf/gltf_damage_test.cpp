@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/motion/animation.h"
+#include "lodestone/mesh/errors.h"
+#include "support/gltf_samples.h"
+#include "support/temporary_folder.h"
+#include "support/vandal.h"
+
+namespace lodestone::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Every value of a document but itself, objects and arrays included.
+std::vector<Json::json_pointer> all_places(const Json& document) {
+  std::set<std::string> places;
+  const auto leaves = document.flatten();
+  for (const auto& [place, ignored] : leaves.items())
+    for (Json::json_pointer pointer(place); !pointer.empty(); pointer = pointer.parent_pointer())
+      places.insert(pointer.to_string());
+  std::vector<Json::json_pointer> result;
+  for (const auto& place : places) result.emplace_back(place);
+  return result;
+}
+
+class Gltf_damage : public testing::Test {
+ protected:
+  /// Reads the file and its first and last frame. Anything but success and a typed error of one line is a failure.
+  void read(const std::filesystem::path& file) {
+    try {
+      const auto animation = read_animation(file);
+      std::vector<Point> positions(animation.vertices);
+      for (const std::size_t frame : {std::size_t{0}, animation.motion.frames - 1})
+        animation.motion.pose(frame, positions);
+      EXPECT_TRUE(mesh_of(positions, animation.faces, file.string()).mesh.is_valid(false));
+      ++good;
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      EXPECT_TRUE(message.starts_with(file.string())) << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      EXPECT_EQ(message.find("tinygltf"), std::string::npos) << "the guard has not seen it: " << message;
+      ++bad;
+    }
+  }
+  void expect_error(const std::string& content, const std::string& part) const {
+    const auto file = folder.write("a.gltf", content);
+    try {
+      read_mesh(file);
+      ADD_FAILURE() << "expected " << part;
+    } catch (const Bad_mesh& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with(file.string())) << error.what();
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+  /// The rich sample with the value at a JSON pointer changed.
+  void expect_error(const std::string& pointer, const Json& value, const std::string& part) const {
+    auto sample = rich_gltf();
+    sample.json[Json::json_pointer(pointer)] = value;
+    expect_error(sample.gltf(), part);
+  }
+
+  Temporary_folder folder;
+  std::size_t good = 0, bad = 0;
+};
+
+TEST_F(Gltf_damage, every_length_is_an_error) {
+  const auto whole = rich_gltf().glb();
+  for (std::size_t length = 0; length < whole.size(); ++length) read(folder.write("a.glb", whole.substr(0, length)));
+  EXPECT_EQ(good, 0U);
+  const auto text = rich_gltf().gltf();
+  for (std::size_t length = 0; length < text.size(); length += 3) read(folder.write("a.gltf", text.substr(0, length)));
+  EXPECT_EQ(good, 0U);
+  read(folder.write("a.glb", whole));
+  read(folder.write("a.gltf", text));
+  EXPECT_EQ(good, 2U);
+}
+
+TEST_F(Gltf_damage, every_byte_may_be_wrong) {
+  const auto whole = rich_gltf().glb();
+  for (std::size_t at = 0; at < whole.size(); ++at)
+    for (const unsigned flip : {0x01U, 0x80U, 0xffU}) {
+      auto bytes = whole;
+      bytes[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ flip);
+      read(folder.write("a.glb", bytes));
+    }
+  EXPECT_GT(good, 500U);
+  EXPECT_GT(bad, 500U);
+}
+
+TEST_F(Gltf_damage, every_value_may_be_another) {
+  const auto sample = rich_gltf();
+  const std::vector<Json> others{
+      -1,    0,   1,  2,   3,       4,    255,           65536,          2147483647,       4294967295U,        1e18,
+      1e300, 0.5, "", "x", nullptr, true, Json::array(), Json::object(), Json::array({0}), Json::array({1, 1})};
+  const auto places = all_places(sample.json);
+  for (const auto& place : places) {
+    read(folder.write("a.gltf", sample.gltf()));
+    for (const auto& other : others) {
+      auto changed = sample;
+      changed.json[place] = other;
+      read(folder.write("a.gltf", changed.gltf()));
+    }
+    auto without = sample;
+    auto& parent = without.json[place.parent_pointer()];
+    if (parent.is_object())
+      parent.erase(place.back());
+    else
+      parent.erase(static_cast<Json::size_type>(std::stoul(place.back())));
+    read(folder.write("a.gltf", without.gltf()));
+  }
+  EXPECT_GT(good, places.size());  // whole ones, and some that can do without a value or with another
+  EXPECT_GT(bad, 1000U);
+}
+
+TEST_F(Gltf_damage, random_blows) {
+  Vandal vandal;
+  for (int round = 0; round < 1500; ++round) {
+    read(folder.write("a.glb", vandal.damaged(rich_gltf().glb())));
+    read(folder.write("a.gltf", vandal.damaged(rich_gltf().gltf())));
+  }
+  EXPECT_GT(bad, 1000U);
+}
+
+TEST_F(Gltf_damage, containers_that_lie_are_told) {
+  const auto glb = square_gltf().glb();
+  const auto changed = [&](std::size_t at, double value) {
+    return std::string(glb).replace(at, 4, packed<std::uint32_t>({value}));
+  };
+  expect_error(glb.substr(0, 11), ": byte 11: the file ends within the header");
+  expect_error(changed(4, 1), ": byte 4: expected version 2, found 1");
+  expect_error(changed(8, 4e9), ": byte 8: 4000000000 bytes are announced, the file has ");
+  expect_error(changed(12, 4e9), ": byte 12: a chunk of 4000000000 bytes cannot stand in the ");
+  expect_error(changed(16, 7), ": byte 12: expected a chunk of JSON");
+  expect_error("", ": the file is empty");
+  expect_error("[]", "/: expected an object");
+  expect_error(std::string(1000, '['), "nested deeper");
+}
+
+TEST_F(Gltf_damage, counts_that_the_file_denies_are_told) {
+  expect_error("/accessors/0/count", 4'000'000, "/accessors/0: 4000000 elements of 12 bytes from byte 0 on are not in");
+  expect_error("/accessors/0/byteOffset", 44, "/accessors/0: 4 elements of 12 bytes from byte 44 on");
+  expect_error("/accessors/3/count", 2'000'000'000, "/accessors/3: has 2000000000 elements, more than the file holds");
+  expect_error("/bufferViews/0/byteLength", 1'000'000, "/bufferViews/0/byteLength: 1000000 is not a whole number");
+  expect_error("/bufferViews/1/byteLength", 450, "/bufferViews/1: 450 bytes from byte 48 on are not in the buffer of");
+  expect_error("/accessors/3/sparse/count", 5, "/accessors/3/sparse/count: 5 is not a whole number from 1 to 4");
+  expect_error("/accessors/3/sparse/values/byteOffset", 4, "/accessors/3/sparse/values: 2 elements of 12 bytes");
+}
+
+TEST_F(Gltf_damage, what_refers_to_nothing_is_told) {
+  expect_error("/meshes/0/primitives/0/indices", 99, "/meshes/0/primitives/0/indices: 99 is not a whole number");
+  expect_error("/nodes/0/mesh", 1, "/nodes/0/mesh: 1 is not a whole number from 0 to 0");
+  expect_error("/nodes/0/children/0", 3, "/nodes/0/children/0: 3 is not");
+  expect_error("/skins/0/joints/1", -1, "/skins/0/joints/1: -1 is not");
+  expect_error("/animations/0/channels/0/sampler", 9, "/animations/0/channels/0/sampler: 9 is not");
+  expect_error("/scene", 1, "/scene: 1 is not");
+  auto sample = square_gltf();
+  sample.json["meshes"][0]["primitives"][0]["indices"] = sample.add_indices({0, 1, 4});
+  expect_error(sample.gltf(), "/meshes/0: index 2 (counted from 0) refers to vertex 4 of 4");
+}
+
+TEST_F(Gltf_damage, nodes_in_circles_and_with_two_parents_are_told) {
+  expect_error("/nodes/2/children", {1}, "/nodes/1: is a child of node 0 and of node 2");
+  expect_error("/nodes/2/children", {0}, "the nodes form a circle");
+  expect_error("/nodes/1/children", {1}, "/nodes/1: is a child of node 0 and of node 1");
+}
+
+TEST_F(Gltf_damage, a_deep_tree_is_no_deep_recursion) {
+  auto sample = square_gltf();
+  sample.json["nodes"] = Json::array();
+  for (int i = 0; i < 50'000; ++i) sample.json["nodes"].push_back({{"children", {i + 1}}});
+  sample.json["nodes"].push_back({{"mesh", 0}});
+  EXPECT_EQ(read_mesh(folder.write("a.gltf", sample.gltf())).mesh.number_of_faces(), 2U);
+}
+
+TEST_F(Gltf_damage, values_that_fit_nothing_are_told) {
+  expect_error("/accessors/1/componentType", 5122, "expected an accessor of whole numbers without sign");
+  expect_error("/nodes/1/rotation", {0, 0, 0, 0}, "/nodes/1: the rotation has no direction");
+  expect_error("/meshes/0/weights", {1}, "/meshes/0/weights: has 1 weights for 2 morph targets");
+  expect_error("/extensionsRequired", {"KHR_draco_mesh_compression"}, "KHR_draco_mesh_compression\" is not read");
+  expect_error("/asset/version", "1.0", "/asset/version: expected 2.0");
+  auto sample = square_gltf();
+  const double infinite = std::numeric_limits<double>::infinity();
+  sample.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+      sample.add_points({0, 0, 0, 1, 0, 0, 1, 1, infinite, 0, 0, 0});
+  expect_error(sample.gltf(), "/accessors/2: element 2 (counted from 0) is not finite");
+  auto times = square_gltf();
+  times.animate(0, "translation", times.add_numbers({1, 1}), times.add_points({0, 0, 0, 1, 0, 0}));
+  expect_error(times.gltf(), ": time 1 (counted from 0) is not after the one before");
+  auto keys = square_gltf();
+  keys.animate(0, "translation", keys.add_numbers({0, 1}), keys.add_points({0, 0, 0}));
+  expect_error(keys.gltf(), "2 times need 2 elements of keys, found 1");
+}
+
+TEST_F(Gltf_damage, buffers_stay_in_the_folder) {
+  const Temporary_folder other;
+  const auto sample = square_gltf();
+  const auto outside = other.write("a.bin", sample.bytes);
+  create_symlink(outside, folder.path() / "link.bin");
+  for (const auto& uri :
+       {outside.string(), "../" + other.path().filename().string() + "/a.bin", std::string("link.bin"),
+        "%2e%2e/" + other.path().filename().string() + "/a.bin", "file://" + outside.string(),
+        std::string("https://example.org/a.bin"), std::string("data:text/plain,hello"), std::string("%00")})
+    expect_error(sample.gltf(uri), "is not a file inside the folder");
+  expect_error(sample.gltf("none.bin"), "none.bin': there is no such file");
+  create_directory(folder.path() / "folder.bin");
+  expect_error(sample.gltf("folder.bin"), "this is not a regular file");
+  folder.write("short.bin", sample.bytes.substr(1));
+  expect_error(sample.gltf("short.bin"), "the file is shorter than the 60 bytes of its buffer");
+  expect_error(sample.gltf("data:application/octet-stream;base64,AAAA"), "the text is too short");
+}
+
+TEST_F(Gltf_damage, a_short_file_cannot_hold_more_than_the_memory) {
+  auto sample = square_gltf();
+  sample.json["nodes"] = Json::array();
+  for (int i = 0; i < 100; ++i) {
+    sample.json["nodes"].push_back({{"mesh", 0}});
+    sample.json["scenes"][0]["nodes"][static_cast<std::size_t>(i)] = i;
+  }
+  const auto file = folder.write("a.gltf", sample.gltf());
+  EXPECT_EQ(read_mesh(file).mesh.number_of_faces(), 200U);
+  EXPECT_THROW(read_mesh(file, {.max_faces = 199}), Bad_mesh);
+}
+
+}  // namespace
+}  // namespace lodestone::test

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/motion/animation.h"
+#include "lodestone/mesh/errors.h"
+#include "support/gltf_samples.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+const std::vector<Point> square_points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+void expect_near(const std::vector<Point>& found, const std::vector<Point>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t v = 0; v < found.size(); ++v)
+    EXPECT_LT(std::sqrt(CGAL::squared_distance(found[v], expected[v])), 1e-6) << v << ": " << found[v];
+}
+
+/// The square moved by a function.
+template <class Move>
+std::vector<Point> moved(const Move& move) {
+  std::vector<Point> points;
+  for (const Point& p : square_points) points.push_back(move(p.x(), p.y(), p.z()));
+  return points;
+}
+
+class Gltf : public testing::Test {
+ protected:
+  std::filesystem::path write(const Gltf_sample& sample) const { return folder.write("a.glb", sample.glb()); }
+  /// All vertices in the frame at this time, at ten frames per second.
+  std::vector<Point> at(const Gltf_sample& sample, double seconds) const {
+    const auto animation = read_animation(write(sample), {.frames_per_second = 10});
+    std::vector<Point> positions(animation.vertices);
+    animation.motion.pose(static_cast<std::size_t>(std::lround(seconds * 10)), positions);
+    return positions;
+  }
+  std::vector<Point> at_rest(const Gltf_sample& sample) const { return at(sample, 0); }
+
+  Temporary_folder folder;
+};
+
+// Containers
+
+TEST_F(Gltf, text_binary_and_separate_buffer_are_the_same) {
+  const auto sample = square_gltf();
+  folder.write("own buffer.bin", sample.bytes + "more");
+  for (const auto& file : {folder.write("a.glb", sample.glb()), folder.write("a.gltf", sample.gltf()),
+                           folder.write("b.gltf", sample.gltf("own%20buffer.bin")),
+                           folder.write("c.GLTF", sample.gltf("./own buffer.bin"))}) {
+    const auto mesh = read_mesh(file);
+    EXPECT_EQ(mesh.file_vertices, 4U);
+    EXPECT_EQ(mesh.mesh.number_of_faces(), 2U);
+    for (const auto v : mesh.mesh.vertices()) EXPECT_EQ(mesh.mesh.point(v), square_points[mesh.file_vertex[v]]);
+  }
+}
+
+TEST_F(Gltf, images_are_not_looked_at) {
+  auto sample = square_gltf();
+  sample.json["images"] = {{{"uri", "none.png"}}, {{"uri", "data:image/png;base64,rubbish"}}};
+  sample.json["textures"] = {{{"source", 99}}};
+  sample.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 77}}}}}}};
+  expect_near(at_rest(sample), square_points);
+}
+
+// Faces
+
+TEST_F(Gltf, vertices_doubled_at_a_seam_are_one) {
+  auto sample = square_gltf();
+  auto& primitive = sample.json["meshes"][0]["primitives"][0];
+  primitive["attributes"]["POSITION"] = sample.add_points({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0});
+  primitive.erase("indices");
+  const auto mesh = read_mesh(write(sample));
+  EXPECT_EQ(mesh.file_vertices, 6U);
+  EXPECT_EQ(mesh.mesh.number_of_vertices(), 4U);
+  EXPECT_EQ(mesh.file_vertex, (std::vector<std::uint32_t>{0, 1, 2, 5}));
+  EXPECT_EQ(read_animation(write(sample)).faces, (std::vector<Corners>{{0, 1, 2}, {0, 2, 5}}));
+}
+
+TEST_F(Gltf, vertices_that_part_in_motion_are_two) {
+  auto sample = square_gltf();
+  auto& primitive = sample.json["meshes"][0]["primitives"][0];
+  primitive["attributes"]["POSITION"] = sample.add_points({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0});
+  primitive.erase("indices");
+  primitive["targets"] = {{{"POSITION", sample.add_points({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0})}}};
+  EXPECT_EQ(read_animation(write(sample)).faces, (std::vector<Corners>{{0, 1, 2}, {3, 2, 5}}));
+}
+
+TEST_F(Gltf, strips_and_fans_become_triangles) {
+  auto sample = square_gltf();
+  auto& primitive = sample.json["meshes"][0]["primitives"][0];
+  primitive["indices"] = sample.add_indices({0, 1, 3, 2});
+  primitive["mode"] = 5;
+  EXPECT_EQ(read_animation(write(sample)).faces, (std::vector<Corners>{{0, 1, 3}, {1, 2, 3}}));
+  primitive["indices"] = sample.add_indices({3, 0, 1, 2});
+  primitive["mode"] = 6;
+  EXPECT_EQ(read_animation(write(sample)).faces, (std::vector<Corners>{{3, 0, 1}, {3, 1, 2}}));
+}
+
+TEST_F(Gltf, points_and_lines_have_no_faces) {
+  auto sample = square_gltf();
+  auto primitive = sample.json["meshes"][0]["primitives"][0];
+  for (const int mode : {0, 1, 2, 3}) {
+    primitive["mode"] = mode;
+    sample.json["meshes"][0]["primitives"].push_back(primitive);
+  }
+  EXPECT_EQ(read_animation(write(sample)).faces, (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST_F(Gltf, one_mesh_at_two_nodes_stands_twice) {
+  auto sample = square_gltf();
+  sample.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {0, 0, 5}}}, {{"mesh", 0}}};
+  sample.json["scenes"] = {{{"nodes", {0}}}, {{"nodes", {0, 1}}}};
+  sample.json["scene"] = 1;
+  auto expected = square_points;
+  for (const Point& p : square_points) expected.emplace_back(p.x(), p.y(), 5);
+  expect_near(at_rest(sample), expected);
+  EXPECT_EQ(read_mesh(write(sample)).mesh.number_of_faces(), 4U);
+}
+
+// Numbers
+
+TEST_F(Gltf, normalized_integers_and_strides_are_read) {
+  auto sample = square_gltf();
+  const auto view =
+      sample.add_view(packed<std::int16_t>({0, 0, 0, 99, 32767, 0, 0, 99, 32767, 32767, 0, 99, 0, 32767, -32768, 99}));
+  sample.json["bufferViews"][view]["byteStride"] = 8;
+  sample.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = sample.add_accessor(
+      {{"bufferView", view}, {"componentType", 5122}, {"normalized", true}, {"count", 4}, {"type", "VEC3"}});
+  sample.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+  expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, -1}});
+}
+
+TEST_F(Gltf, sparse_accessors_change_what_they_name) {
+  auto sample = square_gltf();
+  const auto indices = sample.add_view(packed<std::uint8_t>({1, 3}));
+  const auto values = sample.add_view(packed<float>({5, 5, 5, 6, 6, 6}));
+  sample.json["accessors"][0]["sparse"] = {{"count", 2},
+                                           {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                                           {"values", {{"bufferView", values}}}};
+  expect_near(at_rest(sample), {{0, 0, 0}, {5, 5, 5}, {1, 1, 0}, {6, 6, 6}});
+}
+
+// Motion
+
+TEST_F(Gltf, nodes_carry_their_children) {
+  auto sample = square_gltf();
+  const double half = std::sqrt(0.5);
+  sample.json["nodes"] = {{{"mesh", 0}, {"translation", {1, 0, 0}}, {"scale", {2, 1, 1}}},
+                          {{"children", {0}}, {"rotation", {0, 0, half, half}}},
+                          {{"children", {1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 3, 0, 10, 20, 30, 1}}}};
+  sample.json["scenes"] = {{{"nodes", {2}}}};
+  expect_near(at_rest(sample),
+              moved([](double x, double y, double z) { return Point(10 - y, 20 + 2 * x + 1, 30 + 3 * z); }));
+}
+
+TEST_F(Gltf, straight_curves_go_evenly_from_key_to_key_and_stand_outside) {
+  auto sample = square_gltf();
+  sample.animate(0, "translation", sample.add_numbers({0.5, 1.5}), sample.add_points({0, 0, 0, 0, 0, 4}));
+  sample.animate(0, "scale", sample.add_numbers({0, 2}), sample.add_points({1, 1, 1, 1, 1, 1}));
+  for (const auto& [time, z] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.7, 0.8}, {1.5, 4.0}, {2.0, 4.0}})
+    expect_near(at(sample, time), moved([z = z](double x, double y, double) { return Point(x, y, z); }));
+}
+
+TEST_F(Gltf, steps_hold_until_the_next_key) {
+  auto sample = square_gltf();
+  const auto times = sample.add_numbers({0, 0.1, 0.3, 0.7});
+  sample.animate(0, "translation", times, sample.add_points({0, 0, 0, 0, 0, 1, 0, 0, 3, 0, 0, 7}), "STEP");
+  for (const auto& [time, z] : {std::pair{0.0, 0.0}, {0.1, 1.0}, {0.2, 1.0}, {0.3, 3.0}, {0.6, 3.0}, {0.7, 7.0}})
+    expect_near(at(sample, time), moved([z = z](double x, double y, double) { return Point(x, y, z); }));
+}
+
+TEST_F(Gltf, cubic_curves_are_hermite_splines) {
+  // z(t) = t^3 with its own slopes at 0 and 2 must come back everywhere.
+  auto sample = square_gltf();
+  sample.animate(0, "translation", sample.add_numbers({0, 2}),
+                 sample.add_points({9, 9, 9, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 9, 9, 9}), "CUBICSPLINE");
+  for (const double time : {0.0, 0.5, 1.0, 1.7, 2.0})
+    expect_near(at(sample, time),
+                moved([time](double x, double y, double) { return Point(x, y, time * time * time); }));
+}
+
+TEST_F(Gltf, rotations_turn_evenly_the_shorter_way) {
+  auto sample = square_gltf();
+  const double half = std::sqrt(0.5);
+  sample.animate(0, "rotation", sample.add_numbers({0, 1}), sample.add_quaternions({0, 0, 0, 1, 0, 0, -half, -half}));
+  for (const double time : {0.0, 0.3, 0.5, 1.0}) {
+    const double angle = time * std::acos(0);
+    expect_near(at(sample, time), moved([angle](double x, double y, double z) {
+                  return Point(std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y, z);
+                }));
+  }
+}
+
+TEST_F(Gltf, morph_targets_add_up) {
+  auto sample = rich_gltf();
+  sample.json.erase("animations");
+  sample.json.erase("skins");
+  sample.json["nodes"] = {{{"mesh", 0}, {"weights", {2, 3}}}};
+  expect_near(at_rest(sample), {{0, 0, 2}, {1, 0, 2}, {4, 1, 2}, {0, 4, 2}});
+  sample.json["nodes"] = {{{"mesh", 0}}};  // the mesh has weights 0 and 0.5
+  expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 0}, {1.5, 1, 0}, {0, 1.5, 0}});
+}
+
+TEST_F(Gltf, weights_of_a_curve_take_the_place_of_all_others) {
+  auto sample = rich_gltf();
+  sample.json.erase("animations");
+  sample.json.erase("skins");
+  sample.json["nodes"] = {{{"mesh", 0}, {"weights", {2, 3}}}};
+  const auto view = sample.add_view(packed<std::uint8_t>({0, 255, 255, 0}));
+  const auto weights = sample.add_accessor(
+      {{"bufferView", view}, {"componentType", 5121}, {"normalized", true}, {"count", 4}, {"type", "SCALAR"}});
+  sample.animate(0, "weights", sample.add_numbers({0, 1}), weights);
+  expect_near(at(sample, 0.2), {{0, 0, 0.2}, {1, 0, 0.2}, {1.8, 1, 0.2}, {0, 1.8, 0.2}});
+}
+
+TEST_F(Gltf, skins_move_vertices_with_their_joints_and_not_with_the_node) {
+  auto sample = rich_gltf();
+  sample.json.erase("animations");
+  sample.json["meshes"][0]["weights"] = {0, 0};
+  sample.json["nodes"][0]["translation"] = {100, 0, 0};
+  sample.json["nodes"][0].erase("children");
+  sample.json["scenes"] = {{{"nodes", {0, 1}}}};
+  expect_near(at_rest(sample), square_points);
+  // Joint 1 stands at (1, 0, 0) at rest, and is lifted by 2 here.
+  sample.json["nodes"][2]["translation"] = {1, 0, 2};
+  expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 2 * 127 / 255.0}, {1, 1, 2}, {0, 1, 2}});
+}
+
+TEST_F(Gltf, the_whole_of_it_at_once) {
+  // At 1 s: weights 1 and 0; joint 0 turned by 180 degrees about z; joint 1 at (1, 1, 0) below it, scaled by 1.5.
+  const auto root = [](double x, double y, double z) { return Point(-x, -y, z); };
+  const auto tip = [&](double x, double y, double z) { return root(1 + 1.5 * (x - 1), 1 + 1.5 * y, 1.5 * z); };
+  const double w = 127 / 255.0;
+  const auto a = root(1, 0, 1), b = tip(1, 0, 1);
+  const Point mixed(a.x() + w * (b.x() - a.x()), a.y() + w * (b.y() - a.y()), a.z() + w * (b.z() - a.z()));
+  expect_near(at(rich_gltf(), 1), {root(0, 0, 1), mixed, tip(1, 1, 1), tip(0, 1, 1)});
+}
+
+TEST_F(Gltf, frames_reach_to_the_end_of_the_animation) {
+  auto sample = square_gltf();
+  sample.animate(0, "translation", sample.add_numbers({0, 1.1}), sample.add_points({0, 0, 0, 0, 0, 1}));
+  const auto file = write(sample);
+  EXPECT_EQ(read_animation(file).motion.frames, 34U);
+  EXPECT_EQ(read_animation(file, {.frames_per_second = 10}).motion.frames, 12U);
+  EXPECT_EQ(read_animation(file, {.frames_per_second = 0.5}).motion.frames, 1U);
+  EXPECT_THROW(read_animation(file, {.frames_per_second = 1e6}), Bad_motion);
+  for (const double rate : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_THROW(read_animation(file, {.frames_per_second = rate}), Bad_argument);
+}
+
+TEST_F(Gltf, animations_are_chosen_by_number_or_name) {
+  auto sample = square_gltf();
+  sample.animate(0, "translation", sample.add_numbers({0, 1}), sample.add_points({0, 0, 0, 0, 0, 1}));
+  auto second = sample.json["animations"][0];
+  second["name"] = "run";
+  second["samplers"][0]["output"] = sample.add_points({0, 0, 5, 0, 0, 6});
+  sample.json["animations"].push_back(second);
+  const auto file = write(sample);
+  std::vector<Point> positions(4);
+  for (const auto& options :
+       {Gltf_motion_options{.animation = std::size_t{1}}, Gltf_motion_options{.animation = "run"}}) {
+    read_gltf_motion(file, 4, options).pose(0, positions);
+    EXPECT_EQ(positions[0], Point(0, 0, 5));
+  }
+  EXPECT_THROW(read_gltf_motion(file, 4, {.animation = "fly"}), Bad_motion);
+  EXPECT_THROW(read_gltf_motion(file, 4, {.animation = std::size_t{2}}), Bad_motion);
+  EXPECT_THROW(read_gltf_motion(file, 5), Bad_motion);
+  EXPECT_THROW(read_gltf_motion(write(square_gltf()), 4), Bad_motion);
+  EXPECT_THROW(read_gltf_motion(file, 4).pose(31, positions), Bad_motion);
+}
+
+// Scenes
+
+TEST_F(Gltf, is_mesh_and_motion_of_a_scene) {
+  folder.write("a.gltf", rich_gltf().gltf());
+  auto scene = read(folder, with_object(R"("mesh": "a.gltf", "place": {"translate": [0, 0, 7]},
+    "motion": {"gltf": {"file": "a.gltf", "animation": "walk", "frames_per_second": 10}})"));
+  EXPECT_EQ(scene.frames, 21U);
+  pose(scene.objects[0], 10);
+  const auto& mesh = scene.objects[0].mesh;
+  EXPECT_NEAR(mesh.point(Surface_mesh::Vertex_index(0)).z(), 8, 1e-6);
+  EXPECT_EQ(read(folder, with_object(R"("mesh": "a.gltf", "motion": {"gltf": "a.gltf"})")).frames, 61U);
+  EXPECT_THROW(
+      read(folder, with_object(R"("mesh": "a.gltf", "motion": {"gltf": {"file": "a.gltf", "animation": "x"}})")),
+      Bad_motion);
+}
+
+}  // namespace
+}  // namespace lodestone::test

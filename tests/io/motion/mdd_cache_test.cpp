@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lodestone/io/motion/motion.h"
+#include "lodestone/io/motion/point_cache.h"
+#include "lodestone/mesh/errors.h"
+#include "support/mesh_samples.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+std::string big_floats(std::initializer_list<double> values) { return packed<float>(values, std::endian::big); }
+
+std::string header(double frames, double points) { return packed<std::int32_t>({frames, points}, std::endian::big); }
+
+/// Two vertices, three frames at 25 per second; at frame t they are (t, 0, 0) and (0, t, -t).
+std::string three_frames() {
+  auto bytes = header(3, 2) + big_floats({0, 0.04, 0.08});
+  for (const double t : {0, 1, 2}) bytes += big_floats({t, 0, 0, 0, t, -t});
+  return bytes;
+}
+
+class Mdd_cache : public testing::Test {
+ protected:
+  /// Reading or posing frame 0 must fail with a message that begins with the file's name and `rest`.
+  void expect_error(const std::string& bytes, std::size_t vertices, const std::string& rest) const {
+    const auto file = folder.write("broken.mdd", bytes);
+    try {
+      std::vector<Point> positions(vertices);
+      read_mdd_cache(file, vertices).pose(0, positions);
+      ADD_FAILURE() << "expected" << rest;
+    } catch (const Bad_motion& error) {
+      EXPECT_EQ(std::string(error.what()).substr(0, file.string().size() + rest.size()), file.string() + rest);
+    }
+  }
+
+  Temporary_folder folder;
+};
+
+TEST_F(Mdd_cache, gives_each_frame_in_any_order) {
+  const auto motion = read_mdd_cache(folder.write("a.mdd", three_frames()), 2);
+  EXPECT_EQ(motion.frames, 3U);
+  std::vector<Point> positions(2);
+  for (const std::size_t frame : {2, 0, 1, 2}) {
+    motion.pose(frame, positions);
+    const auto t = static_cast<double>(frame);
+    EXPECT_EQ(positions, (std::vector<Point>{{t, 0, 0}, {0, t, -t}}));
+  }
+}
+
+TEST_F(Mdd_cache, header_tells_counts_and_rate) {
+  const auto cache = read_point_cache_header(folder.write("a.MDD", three_frames()));
+  EXPECT_EQ(cache.format, Cache_format::mdd);
+  EXPECT_EQ(cache.vertices, 2U);
+  EXPECT_EQ(cache.frames, 3U);
+  EXPECT_NEAR(cache.frames_per_second, 25, 1e-5);
+  EXPECT_THROW(read_point_cache_header(folder.write("a.mdc", three_frames())), Bad_motion);
+}
+
+TEST_F(Mdd_cache, refuses_a_frame_past_the_end_and_another_number_of_vertices) {
+  const auto motion = read_mdd_cache(folder.write("a.mdd", three_frames()), 2);
+  std::vector<Point> positions(2);
+  EXPECT_THROW(motion.pose(3, positions), Bad_motion);
+  positions.pop_back();
+  EXPECT_THROW(motion.pose(0, positions), Bad_motion);
+  expect_error(three_frames(), 3, ": byte 4: the cache has 2 vertices, expected 3");
+}
+
+TEST_F(Mdd_cache, names_frame_and_vertex_of_a_coordinate_that_is_not_finite) {
+  for (const double wrong : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    expect_error(header(1, 2) + big_floats({0, 0, 0, 0, 0, wrong, 0}), 2, ": frame 0, vertex 1 (counted from 0): ");
+}
+
+TEST_F(Mdd_cache, refuses_counts_below_one) {
+  expect_error(header(0, 2), 2, ": byte 0: the cache has 0 frames, expected 1 or more");
+  expect_error(header(-3, 2), 2, ": byte 0: the cache has -3 frames, expected 1 or more");
+  expect_error(header(3, -2), 2, ": byte 4: the cache has -2 vertices, expected 1 or more");
+}
+
+TEST_F(Mdd_cache, refuses_a_file_of_another_length_than_its_header_says) {
+  const auto whole = three_frames();
+  for (std::size_t length = 0; length < whole.size(); ++length) expect_error(whole.substr(0, length), 2, ":");
+  expect_error(whole.substr(0, 8), 2, ": 3 frames are announced, but the file ends within their times");
+  expect_error(whole.substr(0, whole.size() - 1), 2, ": 3 frames of 2 vertices are announced, but the file ends");
+  expect_error(whole + 'x', 2, ": 3 frames of 2 vertices take 92 bytes, the file has 93: this is no MDD");
+}
+
+TEST_F(Mdd_cache, refuses_counts_whose_product_overflows) {
+  const double most = std::numeric_limits<std::int32_t>::max();
+  const auto file = folder.write("huge.mdd", header(1, most) + big_floats({0, 0, 0}));
+  EXPECT_THROW(read_mdd_cache(file, static_cast<std::size_t>(most)), Bad_motion);
+  expect_error(header(most, most) + big_floats({0, 0, 0}), 2, ": 2147483647 frames are announced, but");
+}
+
+TEST_F(Mdd_cache, a_pc2_cache_under_another_name_is_refused) {
+  expect_error(std::string("POINTCACHE2\0", 12) + packed<std::int32_t>({1, 2, 0, 0, 1}) + std::string(24, '\0'), 2,
+               ": 1347373390 frames are announced");
+}
+
+TEST_F(Mdd_cache, refuses_a_missing_file_and_one_that_shrinks_while_in_use) {
+  EXPECT_THROW(read_mdd_cache(folder.path() / "none.mdd", 2), Bad_motion);
+  EXPECT_THROW(read_mdd_cache(folder.path(), 2), Bad_motion);
+  const auto file = folder.write("a.mdd", three_frames());
+  const auto motion = read_mdd_cache(file, 2);
+  resize_file(file, 40);
+  std::vector<Point> positions(2);
+  EXPECT_THROW(motion.pose(2, positions), Bad_motion);
+}
+
+}  // namespace
+}  // namespace lodestone::test

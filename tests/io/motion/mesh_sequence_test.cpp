@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "lodestone/io/motion/motion.h"
+#include "lodestone/mesh/errors.h"
+#include "support/mesh_samples.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+/// A triangle at height z, with a vertex in the middle of the list that no face uses.
+std::string raised_triangle(const std::string& z) {
+  return "OFF\n4 1 0\n0 0 " + z + "\n9 9 " + z + "\n1 0 " + z + "\n0 1 " + z + "\n3 0 2 3\n";
+}
+
+class Mesh_sequence : public testing::Test {
+ protected:
+  /// The motion of these two frames must fail at the second with a message that begins with its name and `rest`.
+  void expect_error(const std::string& second, const std::string& rest) const {
+    const auto first_file = folder.write("0.off", raised_triangle("0")), second_file = folder.write("1.off", second);
+    const auto motion = read_mesh_sequence({first_file, second_file}, 4);
+    std::vector<Point> positions(4);
+    EXPECT_NO_THROW(motion.pose(0, positions));
+    try {
+      motion.pose(1, positions);
+      ADD_FAILURE() << "expected" << rest;
+    } catch (const Bad_motion& error) {
+      EXPECT_EQ(std::string(error.what()).substr(0, second_file.string().size() + rest.size()),
+                second_file.string() + rest);
+    }
+  }
+
+  Temporary_folder folder;
+};
+
+TEST_F(Mesh_sequence, gives_positions_in_file_order_also_of_unused_vertices) {
+  const auto motion =
+      read_mesh_sequence({folder.write("0.off", raised_triangle("0")), folder.write("1.off", raised_triangle("5"))}, 4);
+  EXPECT_EQ(motion.frames, 2U);
+  std::vector<Point> positions(4);
+  for (const std::size_t frame : {1, 0}) {
+    motion.pose(frame, positions);
+    const double z = frame == 0 ? 0 : 5;
+    EXPECT_EQ(positions, (std::vector<Point>{{0, 0, z}, {9, 9, z}, {1, 0, z}, {0, 1, z}}));
+  }
+}
+
+TEST_F(Mesh_sequence, mixes_formats) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& [name, bytes] : all_squares()) files.push_back(folder.write(name, bytes));
+  const auto motion = read_mesh_sequence(files, 4);
+  std::vector<Point> positions(4);
+  for (std::size_t frame = 0; frame < files.size(); ++frame) {
+    positions.assign(4, Point(7, 7, 7));
+    motion.pose(frame, positions);
+    EXPECT_EQ(positions, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  }
+}
+
+TEST_F(Mesh_sequence, refuses_no_file_and_a_file_that_does_not_exist) {
+  EXPECT_THROW(read_mesh_sequence({}, 4), Bad_motion);
+  const auto first = folder.write("0.off", raised_triangle("0"));
+  EXPECT_THROW(read_mesh_sequence({first, folder.path() / "none.off"}, 4), Bad_motion);
+}
+
+TEST_F(Mesh_sequence, refuses_a_first_file_that_is_broken_or_has_another_number_of_vertices) {
+  EXPECT_THROW(read_mesh_sequence({folder.write("0.off", "OFF\n")}, 4), Bad_motion);
+  EXPECT_THROW(read_mesh_sequence({folder.write("0.off", raised_triangle("0"))}, 3), Bad_motion);
+}
+
+TEST_F(Mesh_sequence, refuses_a_frame_past_the_end_and_too_little_room) {
+  const auto motion = read_mesh_sequence({folder.write("0.off", raised_triangle("0"))}, 4);
+  std::vector<Point> positions(4);
+  EXPECT_THROW(motion.pose(1, positions), Bad_motion);
+  positions.pop_back();
+  EXPECT_THROW(motion.pose(0, positions), Bad_motion);
+}
+
+TEST_F(Mesh_sequence, names_file_and_line_of_a_broken_frame) {
+  expect_error(raised_triangle("nan"), ":3: 'nan' is not a finite number");
+}
+
+TEST_F(Mesh_sequence, refuses_a_frame_with_another_number_of_vertices) {
+  expect_error("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ": the mesh has 3 vertices, expected 4");
+}
+
+TEST_F(Mesh_sequence, refuses_a_frame_with_other_faces) {
+  expect_error("OFF\n4 1 0\n0 0 0\n9 9 0\n1 0 0\n0 1 0\n3 0 3 2\n", ": face 0 (counted from 0) has other corners than");
+  expect_error(square_off, ": the mesh has 2 faces, ");
+}
+
+}  // namespace
+}  // namespace lodestone::test

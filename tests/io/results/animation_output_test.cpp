@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/results/animation_output.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "lodestone/io/motion/point_cache.h"
+#include "lodestone/mesh/errors.h"
+#include "support/mesh_samples.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where a vertex of the square is in a frame: nothing that a float holds exactly.
+Point place(std::size_t vertex, std::size_t frame) {
+  const auto v = static_cast<double>(vertex), t = static_cast<double>(frame);
+  return {v / 3 + t, std::sin(v + t), t * t / 7 - v};
+}
+
+/// The square with a fifth vertex that no face uses, for five frames.
+Animation moving_square() {
+  Animation animation{.kind = "test", .vertices = 5, .faces = {{0, 1, 2}, {0, 2, 3}}};
+  animation.motion = {.frames = 5, .pose = [](std::size_t frame, std::span<Point> positions) {
+                        for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = place(v, frame);
+                      }};
+  return animation;
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+class Animation_output : public testing::Test {
+ protected:
+  /// The output must hold these frames of the square.
+  void expect_frames(const Animation& found, const std::vector<std::size_t>& frames, double tolerance) const {
+    ASSERT_EQ(found.motion.frames, frames.size());
+    ASSERT_EQ(found.vertices, 5U);
+    std::vector<Point> positions(5);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      found.motion.pose(i, positions);
+      for (std::size_t v = 0; v < 5; ++v)
+        EXPECT_LE(std::sqrt(CGAL::squared_distance(positions[v], place(v, frames[i]))), tolerance) << i << " " << v;
+    }
+  }
+
+  Temporary_folder folder;
+  Animation square = moving_square();
+};
+
+TEST_F(Animation_output, point_caches_are_read_back) {
+  for (const std::string name : {"a.pc2", "a.mdd"}) {
+    write_animation(folder.path() / name, square, {.frames_per_second = 24});
+    const auto found = read_animation(folder.path() / name);
+    expect_frames(found, {0, 1, 2, 3, 4}, 1e-6);
+    EXPECT_TRUE(found.faces.empty());
+  }
+  EXPECT_NEAR(read_point_cache_header(folder.path() / "a.mdd").frames_per_second, 24, 1e-4);
+}
+
+TEST_F(Animation_output, numbered_mesh_files_are_read_back_digit_for_digit) {
+  for (const std::string extension : {".off", ".obj", ".ply"}) {
+    write_animation(folder.path() / "out" / ("f###" + extension), square, {.frames = {4, 2}});
+    const auto found = read_animation(folder.path() / "out" / ("f*" + extension));
+    expect_frames(found, {4, 2}, 0);
+    EXPECT_EQ(found.faces, square.faces);
+    EXPECT_TRUE(exists(folder.path() / "out" / ("f001" + extension)));
+    EXPECT_FALSE(exists(folder.path() / "out" / ("f002" + extension)));
+  }
+}
+
+TEST_F(Animation_output, one_frame_may_be_one_mesh_file) {
+  write_animation(folder.path() / "a.ply", square, {.frames = {3}});
+  expect_frames(read_animation(folder.path() / "a.ply"), {3}, 0);
+  EXPECT_THROW(write_animation(folder.path() / "b.ply", square), Bad_argument);
+  EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"a.ply"});
+}
+
+TEST_F(Animation_output, gltf_is_read_back_with_its_faces) {
+  for (const std::string name : {"a b.gltf", "a.glb"}) {
+    write_animation(folder.path() / name, square, {.frames_per_second = 24});
+    const auto found = read_animation(folder.path() / name, {.frames_per_second = 24});
+    expect_frames(found, {0, 1, 2, 3, 4}, 2e-6);
+    EXPECT_EQ(found.faces, square.faces);
+  }
+  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"a b.gltf", "a b.bin", "a.glb"}));
+  // Twice as many frames: those in between lie halfway.
+  const auto finer = read_animation(folder.path() / "a.glb", {.frames_per_second = 48});
+  EXPECT_EQ(finer.motion.frames, 9U);
+  std::vector<Point> positions(5);
+  finer.motion.pose(3, positions);
+  EXPECT_LT(CGAL::squared_distance(positions[2], CGAL::midpoint(place(2, 1), place(2, 2))), 1e-10);
+}
+
+TEST_F(Animation_output, gltf_of_one_frame_stands_still) {
+  write_animation(folder.path() / "a.glb", square, {.frames = {2}});
+  expect_frames(read_animation(folder.path() / "a.glb"), {2}, 1e-6);
+}
+
+TEST_F(Animation_output, gltf_shows_regions_as_colours) {
+  write_animation(folder.path() / "a.gltf", square, {.regions = {0, 0, 1, 1, 2}});
+  const auto json = nlohmann::json::parse(std::ifstream(folder.path() / "a.gltf"));
+  const auto& colours =
+      json["accessors"][json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"].get<std::size_t>()];
+  EXPECT_EQ(colours["count"], 5);
+  EXPECT_EQ(colours["componentType"], 5121);
+  const auto at = json["bufferViews"][colours["bufferView"].get<std::size_t>()]["byteOffset"].get<std::size_t>();
+  std::ifstream in(folder.path() / "a.bin", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const auto colour = [&](std::size_t v) { return bytes.substr(at + 4 * v, 4); };
+  EXPECT_EQ(colour(0), colour(1));
+  EXPECT_EQ(colour(2), colour(3));
+  EXPECT_NE(colour(1), colour(2));
+  EXPECT_NE(colour(3), colour(4));
+  EXPECT_EQ(colour(4).back(), '\xff');
+  expect_frames(read_animation(folder.path() / "a.gltf"), {0, 1, 2, 3, 4}, 2e-6);
+  EXPECT_THROW(write_animation(folder.path() / "b.glb", square, {.regions = {0}}), Bad_argument);
+}
+
+TEST_F(Animation_output, what_cannot_be_written_leaves_nothing) {
+  const fs::path out = folder.path() / "out";
+  auto broken = square;
+  broken.motion.pose = [pose = square.motion.pose](std::size_t frame, std::span<Point> positions) {
+    pose(frame, positions);
+    if (frame == 3) throw Bad_motion("broken");
+  };
+  auto large = square;
+  large.motion.pose = [pose = square.motion.pose](std::size_t frame, std::span<Point> positions) {
+    pose(frame, positions);
+    if (frame == 3) positions[1] = Point(1e39, 0, 0);
+  };
+  for (const std::string name : {"a.pc2", "a.mdd", "a.gltf", "a.glb", "f#.off"})
+    EXPECT_THROW(write_animation(out / name, broken), Bad_motion) << name;
+  for (const std::string name : {"a.pc2", "a.mdd", "a.gltf", "a.glb"})
+    EXPECT_THROW(write_animation(out / name, large), Bad_motion) << name;
+  auto faceless = square;
+  faceless.faces.clear();
+  for (const std::string name : {"a.gltf", "a.glb", "f#.off"})
+    EXPECT_THROW(write_animation(out / name, faceless), Bad_argument) << name;
+  auto long_one = square;
+  long_one.motion.frames = 2049;
+  EXPECT_THROW(write_animation(out / "a.glb", long_one), Bad_argument);
+  for (const std::string name : {"a.stl", "a", "a.json", "f#_#.off"})
+    EXPECT_THROW(write_animation(out / name, square), Bad_argument) << name;
+  for (const double rate : {0.0, -1.0, std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(write_animation(out / "a.mdd", square, {.frames_per_second = rate}), Bad_argument);
+  if (exists(out)) {
+    EXPECT_EQ(names_in(out), std::set<std::string>{});
+  }
+}
+
+TEST_F(Animation_output, can_be_given_up_between_frames) {
+  struct Enough {};
+  for (const std::string name : {"a.pc2", "a.glb", "a.gltf", "f#.obj"}) {
+    std::size_t calls = 0;
+    EXPECT_THROW(write_animation(folder.path() / name, square,
+                                 {.progress =
+                                      [&](std::size_t done, std::size_t of) {
+                                        EXPECT_LT(done, of);
+                                        if (++calls == 3) throw Enough();
+                                      }}),
+                 Enough);
+    EXPECT_EQ(names_in(folder.path()), std::set<std::string>{}) << name;
+  }
+}
+
+}  // namespace
+}  // namespace lodestone::test

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/mesh/workers.h"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace lodestone {
+namespace {
+
+TEST(Workers, do_each_task_once) {
+  for (const std::size_t threads : {1, 2, 3, 4, 7})
+    for (const std::size_t tasks : {0, 1, 2, 5, 1000, 20000}) {
+      Workers workers(threads);
+      std::vector<std::atomic<int>> times(tasks);
+      workers.run(tasks, [&](std::size_t index, std::size_t) { ++times.at(index); });
+      for (const auto& count : times) ASSERT_EQ(count, 1);
+    }
+}
+
+TEST(Workers, have_numbers_below_their_count_that_no_two_tasks_hold_at_once) {
+  using namespace std::chrono_literals;
+  for (const std::size_t threads : {1, 2, 4, 7}) {
+    Workers workers(threads);
+    EXPECT_LE(workers.count(), threads);
+    EXPECT_GE(workers.count(), 1U);
+    std::vector<std::atomic<bool>> busy(workers.count());
+    std::atomic<int> shared = 0;
+    for (const auto pause : {0us, 20us})
+      workers.run(2000, [&](std::size_t, std::size_t worker) {
+        if (busy.at(worker).exchange(true)) ++shared;
+        if (pause > 0us)
+          std::this_thread::sleep_for(pause);
+        else
+          std::this_thread::yield();
+        busy.at(worker) = false;
+      });
+    EXPECT_EQ(shared, 0);
+  }
+}
+
+TEST(Workers, of_one_work_in_order_in_the_calling_thread) {
+  Workers workers(1);
+  EXPECT_EQ(workers.count(), 1U);
+  const auto caller = std::this_thread::get_id();
+  std::vector<std::size_t> order;
+  workers.run(100, [&](std::size_t index, std::size_t worker) {
+    EXPECT_EQ(worker, 0U);
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    order.push_back(index);
+  });
+  ASSERT_EQ(order.size(), 100U);
+  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], i);
+}
+
+/// Processors that this process may use.
+std::size_t processors() {
+  cpu_set_t allowed;
+  EXPECT_EQ(sched_getaffinity(0, sizeof(allowed), &allowed), 0);
+  return static_cast<std::size_t>(CPU_COUNT(&allowed));
+}
+
+TEST(Workers, of_zero_threads_are_as_many_as_the_machine_has) { EXPECT_EQ(Workers(0).count(), processors()); }
+
+TEST(Workers, are_never_more_than_the_machine_has_and_do_not_print) {
+  testing::internal::CaptureStderr();
+  for (const std::size_t threads : {1, 2, 3, 8, 1000}) {
+    Workers workers(threads);
+    EXPECT_EQ(workers.count(), std::min(threads, processors()));
+    workers.run(100, [](std::size_t, std::size_t) {});
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Workers, rethrow_what_a_task_throws_and_work_on) {
+  for (const std::size_t threads : {1, 2, 4}) {
+    Workers workers(threads);
+    for (const std::size_t culprit : {0, 17, 99}) {
+      const auto task = [&](std::size_t index, std::size_t) {
+        if (index == culprit) throw std::out_of_range("task " + std::to_string(index));
+      };
+      try {
+        workers.run(100, task);
+        FAIL() << "nothing thrown";
+      } catch (const std::out_of_range& error) {
+        EXPECT_EQ(error.what(), "task " + std::to_string(culprit));
+      }
+      std::atomic<int> done = 0;
+      workers.run(100, [&](std::size_t, std::size_t) { ++done; });
+      EXPECT_EQ(done, 100);
+    }
+  }
+}
+
+TEST(Workers, of_two_kinds_can_work_inside_each_other) {
+  Workers outer(2);
+  std::atomic<int> done = 0;
+  outer.run(10, [&](std::size_t, std::size_t) {
+    Workers inner(2);
+    inner.run(10, [&](std::size_t, std::size_t) { ++done; });
+  });
+  EXPECT_EQ(done, 100);
+}
+
+TEST(Workers, can_be_moved) {
+  for (const std::size_t threads : {1, 3}) {
+    Workers first(threads);
+    const std::size_t count = first.count();
+    Workers second(std::move(first));
+    EXPECT_EQ(second.count(), count);
+    std::atomic<int> done = 0;
+    second.run(50, [&](std::size_t, std::size_t) { ++done; });
+    EXPECT_EQ(done, 50);
+  }
+}
+
+}  // namespace
+}  // namespace lodestone

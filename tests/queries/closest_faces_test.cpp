@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/queries/closest_faces.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/face_soup.h"
+
+namespace lodestone {
+namespace {
+
+/// The answer from all pairs of faces.
+Closest_faces by_all_pairs(const Face_soup& a, const Face_soup& b) {
+  Closest_faces best;
+  bool any = false;
+  for (std::uint32_t i = 0; i < a.faces.size(); ++i)
+    for (std::uint32_t j = 0; j < b.faces.size(); ++j) {
+      const auto points = closest_points(a.triangle(i), b.triangle(j));
+      if (!any || points.distance < best.points.distance) best = {{i, j}, points};
+      any = true;
+    }
+  return best;
+}
+
+/// Checks two objects in both orders and with leaves of several sizes; gives their distance.
+double expect_closest(const Face_soup& first, const Face_soup& second) {
+  const auto check = [](const Face_soup& s, const Face_soup& t) {
+    const auto truth = by_all_pairs(s, t);
+    for (const std::size_t leaf_faces : {2, 10, 128}) {
+      const Posed_object a(s, leaf_faces), b(t, 8, false);
+      for (int time = 0; time < 2; ++time) {
+        const auto found = closest_faces(a.view(), b.view());
+        EXPECT_EQ(found.points.distance, truth.points.distance);
+        EXPECT_EQ(found.faces, truth.faces);
+        EXPECT_EQ(found.points.a, truth.points.a);
+        EXPECT_EQ(found.points.b, truth.points.b);
+      }
+    }
+    EXPECT_EQ(truth.points.distance == 0, !true_pairs(s, t).empty());
+    return truth.points.distance;
+  };
+  check(second, first);
+  return check(first, second);
+}
+
+Face_soup moved(Face_soup soup, double x, double y, double z) {
+  deform(soup, [&](const Point& p) { return Point(p.x() + x, p.y() + y, p.z() + z); });
+  return soup;
+}
+
+/// Objects of some dozen faces.
+std::vector<Face_soup> few_faces() {
+  return {icosphere(2),
+          Face_soup(potato(3)),
+          teapot({1, 1}),
+          cloth(6, 5),
+          loose_triangles(40, 0.4, 1),
+          lattice_soup(30, 30, 4, 1),
+          Face_soup(single_triangle())};
+}
+
+TEST(Closest_faces, equal_those_of_all_pairs_in_any_pose) {
+  std::mt19937_64 random(1);
+  int apart = 0, meeting = 0;
+  const auto objects = few_faces();
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    for (std::size_t j = i; j < objects.size(); ++j)
+      for (const double distance : {0.5, 2.0, 5.0}) {
+        SCOPED_TRACE(testing::Message() << i << ' ' << j << ' ' << distance);
+        const auto pose = posed_at_random(objects[j], distance, random);
+        ++(expect_closest(objects[i], pose) > 0 ? apart : meeting);
+      }
+  EXPECT_GT(apart, 20);
+  EXPECT_GT(meeting, 20);
+}
+
+TEST(Closest_faces, of_many_at_one_distance_are_the_lowest) {
+  const Face_soup box(cube(2)), sheet(cloth(4, 4));
+  EXPECT_EQ(expect_closest(box, moved(box, 3, 0, 0)), 2);
+  EXPECT_EQ(expect_closest(box, moved(box, 4, 5, 0)), 5);
+  EXPECT_EQ(expect_closest(sheet, moved(sheet, 0, 0, 0.25)), 0.25);
+  EXPECT_EQ(expect_closest(shuffled(sheet, 1), moved(shuffled(sheet, 2), 0, 0, 0.25)), 0.25);
+}
+
+TEST(Closest_faces, of_shapes_that_touch_or_coincide_are_at_distance_zero) {
+  const Face_soup box(cube(2)), sheet(cloth(4, 4)), ball(icosphere(2));
+  EXPECT_EQ(expect_closest(box, moved(box, 1, 0, 0)), 0);
+  EXPECT_EQ(expect_closest(box, moved(box, 1, 1, 1)), 0);
+  EXPECT_EQ(expect_closest(box, moved(sheet, 0.25, 0.25, 1)), 0);
+  EXPECT_EQ(expect_closest(ball, ball), 0);
+}
+
+TEST(Closest_faces, of_nested_shapes_are_found) {
+  const Face_soup ball(icosphere(2));
+  EXPECT_GT(expect_closest(ball, placed(ball, 0.5)), 0.3);
+  EXPECT_GT(expect_closest(ball, placed(ball, 0x1p-20)), 0.7);
+  EXPECT_GT(expect_closest(placed(cube(2), 8, -4), moved(cube(2), -0.5, -0.5, -0.5)), 3.4);
+}
+
+TEST(Closest_faces, of_shapes_far_apart_or_far_from_the_origin_are_found) {
+  std::mt19937_64 random(2);
+  for (const auto& object : few_faces()) {
+    const auto pose = posed_at_random(object, 1, random);
+    EXPECT_GT(expect_closest(icosphere(2), moved(pose, 0x1p40, 3, 0)), 0x1p39);
+    EXPECT_GT(expect_closest(icosphere(2), moved(pose, 1e200, -1e200, 1e100)), 1e199);
+    expect_closest(placed(icosphere(2), 1, 0x1p20), placed(moved(pose, 2, 2, 0), 1, 0x1p20));
+  }
+}
+
+TEST(Closest_faces, scale_with_powers_of_two) {
+  std::mt19937_64 random(3);
+  for (const auto& object : few_faces()) {
+    const auto pose = posed_at_random(object, 3, random);
+    const double distance = expect_closest(icosphere(2), pose);
+    for (const double factor : {0x1p-600, 0x1p-300, 0x1p300, 0x1p900})
+      EXPECT_EQ(expect_closest(placed(icosphere(2), factor), placed(pose, factor)), factor * distance);
+  }
+}
+
+TEST(Closest_faces, beyond_the_largest_distance_are_the_lowest) {
+  const Face_soup ball(icosphere(1));
+  EXPECT_EQ(expect_closest(placed(ball, 1e300, -1.7e308), placed(ball, 1e300, 1.7e308)),
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(Closest_faces, of_larger_meshes_equal_those_of_all_pairs) {
+  std::mt19937_64 random(4);
+  const Face_soup knot(torus_knot({.radius = 0.7, .tube = 0.1, .segments = 40, .sides = 7})), ball(icosphere(5));
+  EXPECT_GT(expect_closest(knot, moved(ball, 2.5, 0.3, 0.2)), 0);
+  EXPECT_GT(expect_closest(knot, placed(ball, 4)), 0);
+}
+
+}  // namespace
+}  // namespace lodestone

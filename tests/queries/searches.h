@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a search answers, and what must hold for any answer.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "lodestone/queries/contact_search.h"
+#include "support/face_soup.h"
+
+namespace lodestone {
+
+struct Answer {
+  Contact_summary summary;
+  std::vector<Face_pair> found;
+};
+
+inline bool operator==(const Answer& a, const Answer& b) {
+  return a.found == b.found && a.summary.found == b.summary.found && a.summary.capped == b.summary.capped &&
+         a.summary.leaf_tests == b.summary.leaf_tests && a.summary.exact_tests == b.summary.exact_tests;
+}
+
+/// A search with workers of its own, asked again and again.
+class Searcher {
+ public:
+  explicit Searcher(std::size_t threads) : workers_(threads), search_(workers_) {}
+
+  Answer between(const Posed_object& a, const Posed_object& b, const Contact_request& request) {
+    Answer answer;
+    answer.summary = search_.between(a.object(), b.object(), request, answer.found);
+    return answer;
+  }
+  Answer within(const Posed_object& object, const Contact_request& request) {
+    Answer answer;
+    answer.summary = search_.within(object.object(), request, answer.found);
+    return answer;
+  }
+
+ private:
+  Workers workers_;
+  Contact_search search_;
+};
+
+inline Answer search_between(const Posed_object& a, const Posed_object& b, const Contact_request& request = {}) {
+  return Searcher(1).between(a, b, request);
+}
+inline Answer search_within(const Posed_object& object, const Contact_request& request = {}) {
+  return Searcher(1).within(object, request);
+}
+
+/// Checks that searchers with any number of workers answer as one with a single worker. `ask(searcher, request)` gives
+/// an answer.
+template <class Ask>
+void expect_same_for_any_workers(std::size_t contacts, const Ask& ask) {
+  const std::vector<Contact_request> requests{{},
+                                              {.query = Contact_query::first},
+                                              {.query = Contact_query::yes_no},
+                                              {.most = 1},
+                                              {.most = contacts / 2 + 1},
+                                              {.most = contacts},
+                                              {.most = contacts + 1},
+                                              {.tolerance = 0.01},
+                                              {.query = Contact_query::first, .tolerance = 0.01},
+                                              {.tolerance = 0.01, .most = 100}};
+  Searcher alone(1);
+  std::vector<Answer> expected;
+  for (const auto& request : requests) expected.push_back(ask(alone, request));
+  for (const std::size_t threads : {2, 3, 4, 7}) {
+    Searcher several(threads);
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      EXPECT_TRUE(ask(several, requests[i]) == expected[i]) << "request " << i << ", " << threads << " workers";
+  }
+}
+
+/// Checks every query and several caps against all true pairs, sorted. `ask(request)` gives an answer.
+template <class Ask>
+void expect_answers(const std::vector<Face_pair>& truth, double tolerance, const Ask& ask) {
+  const Answer all = ask({.tolerance = tolerance});
+  EXPECT_EQ(all.found, truth);
+  EXPECT_EQ(all.summary.found, !truth.empty());
+  EXPECT_FALSE(all.summary.capped);
+  EXPECT_GE(all.summary.exact_tests, truth.size());
+
+  const Answer yes_no = ask({.query = Contact_query::yes_no, .tolerance = tolerance});
+  EXPECT_EQ(yes_no.summary.found, !truth.empty());
+  EXPECT_FALSE(yes_no.summary.capped);
+  EXPECT_TRUE(yes_no.found.empty());
+
+  const Answer first = ask({.query = Contact_query::first, .tolerance = tolerance});
+  EXPECT_EQ(first.summary.found, !truth.empty());
+  EXPECT_FALSE(first.summary.capped);
+  EXPECT_EQ(first.found.size(), std::min<std::size_t>(1, truth.size()));
+  EXPECT_TRUE(std::ranges::includes(truth, first.found));
+
+  const std::size_t size = truth.size();
+  for (const std::size_t most : {std::size_t{1}, std::size_t{2}, size / 2, size - 1, size, size + 1, 2 * size}) {
+    if (most == 0 || most == ~std::size_t{0}) continue;
+    const Answer some = ask({.tolerance = tolerance, .most = most});
+    EXPECT_EQ(some.found.size(), std::min(most, size)) << most;
+    EXPECT_EQ(some.summary.capped, most < size) << most;
+    EXPECT_EQ(some.summary.found, !truth.empty());
+    EXPECT_TRUE(std::ranges::is_sorted(some.found));
+    EXPECT_TRUE(std::ranges::includes(truth, some.found));
+  }
+}
+
+}  // namespace lodestone

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/tree/region_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "support/tree_checks.h"
+
+namespace lodestone {
+namespace {
+
+using Labels = std::vector<Region_index>;
+
+/// The lowest region that a corner is in.
+Region_index region_of(const Corners& corners, const Labels& labels) {
+  if (labels.empty()) return 0;
+  return std::min({labels[corners[0]], labels[corners[1]], labels[corners[2]]});
+}
+
+/// Regions stay apart, and each has as few leaves as there can be, of nearly one size.
+void expect_leaves_of_regions(const Region_tree& tree, const Face_soup& soup, const Labels& labels,
+                              std::size_t leaf_faces) {
+  std::map<Region_index, std::size_t> faces_of, leaves_of;
+  for (const auto& corners : soup.faces) ++faces_of[region_of(corners, labels)];
+  for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    const auto faces = tree.faces(leaf);
+    const Region_index region = region_of(soup.faces[faces[0]], labels);
+    ++leaves_of[region];
+    for (const auto face : faces) ASSERT_EQ(region_of(soup.faces[face], labels), region);
+    const std::size_t fewest = (faces_of[region] + leaf_faces - 1) / leaf_faces;
+    ASSERT_LE(faces.size(), leaf_faces);
+    ASSERT_NEAR(faces.size(), static_cast<double>(faces_of[region]) / static_cast<double>(fewest), 1);
+    ASSERT_GE(2 * faces.size(), std::min(leaf_faces, 2 * faces_of[region]));
+  }
+  for (const auto& [region, leaves] : leaves_of) ASSERT_EQ(leaves, (faces_of[region] + leaf_faces - 1) / leaf_faces);
+}
+
+TEST(Region_tree, keeps_its_promises_after_the_build_and_after_every_refit) {
+  for (const auto& [name, soup] : tree_cases())
+    for (const std::size_t leaf_faces : {2, 3, 7, 32, 64, 127, 128})
+      for (const bool divided : {false, true}) {
+        SCOPED_TRACE(name + ", " + std::to_string(leaf_faces) + (divided ? ", divided" : ""));
+        const Labels labels = divided ? octants(soup) : Labels();
+        Region_tree tree(soup.faces, labels, soup.coordinates, {.leaf_faces = leaf_faces});
+        expect_tree(tree, soup, soup.coordinates);
+        expect_leaves_of_regions(tree, soup, labels, leaf_faces);
+        std::mt19937_64 random(1);
+        for (const double distance : {0.0, 0.01, 1.0, 100.0}) {
+          const auto now = crumpled(posed_at_random(soup, distance, random), distance, 1);
+          ASSERT_TRUE(tree.refit(now.coordinates));
+          expect_tree(tree, soup, now.coordinates);
+        }
+      }
+}
+
+TEST(Region_tree, takes_any_labels) {
+  std::mt19937_64 random(1);
+  const Face_soup soup(icosphere(6));
+  for (const Region_index regions : {2U, 30U, 5000U}) {
+    Labels labels(soup.vertex_count());
+    for (auto& label : labels) label = static_cast<Region_index>(random() % regions);
+    const Region_tree tree(soup.faces, labels, soup.coordinates, {.leaf_faces = 8});
+    expect_tree(tree, soup, soup.coordinates);
+    expect_leaves_of_regions(tree, soup, labels, 8);
+  }
+}
+
+TEST(Region_tree, of_a_hundred_thousand_faces_keeps_its_promises) {
+  for (const auto& soup : {Face_soup(icosphere(71)), shuffled(Face_soup(cloth(300, 170)), 1)})
+    for (const std::size_t leaf_faces : {2, 32, 128}) {
+      Region_tree tree(soup.faces, octants(soup), soup.coordinates, {.leaf_faces = leaf_faces});
+      expect_leaves_of_regions(tree, soup, octants(soup), leaf_faces);
+      const auto now = crumpled(soup, 0.1, 1);
+      ASSERT_TRUE(tree.refit(now.coordinates));
+      expect_tree(tree, soup, now.coordinates);
+    }
+}
+
+TEST(Region_tree, says_what_does_not_fit_other_faces_or_coordinates) {
+  const Face_soup soup(icosphere(5));
+  const Region_tree tree(soup.faces, octants(soup), soup.coordinates);
+  for (std::size_t i = 0; i < soup.coordinates.size(); i += 7) {
+    auto other = soup.coordinates;
+    other[i] += i % 2 == 0 ? 3 : -3;
+    EXPECT_NE(tree.validate(soup.faces, other), "") << i;
+  }
+  EXPECT_NE(tree.validate(soup.faces, placed(soup, 0.5).coordinates), "") << "boxes that are too large";
+  EXPECT_NE(tree.validate(std::span(soup.faces).first(soup.faces.size() - 1), soup.coordinates), "");
+  auto faces = soup.faces;
+  faces.push_back(faces[0]);
+  EXPECT_NE(tree.validate(faces, soup.coordinates), "");
+  faces = soup.faces;
+  std::swap(faces.front(), faces.back());
+  EXPECT_NE(tree.validate(faces, soup.coordinates), "");
+  faces = soup.faces;
+  faces[9][1] = faces[200][0];
+  EXPECT_NE(tree.validate(faces, soup.coordinates), "");
+}
+
+TEST(Region_tree, refuses_leaf_sizes_out_of_range) {
+  const Face_soup soup(icosphere(2));
+  for (const std::size_t leaf_faces : {std::size_t{0}, std::size_t{1}, std::size_t{129}, ~std::size_t{0}})
+    EXPECT_THROW(Region_tree(soup.faces, {}, soup.coordinates, {.leaf_faces = leaf_faces}), Bad_argument);
+}
+
+}  // namespace
+}  // namespace lodestone
