@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/mesh/object_surface.h"
 
-#include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
-#include <numeric>
-
+#include "lodestone/mesh/components.h"
 #include "lodestone/mesh/is_closed.h"
 
 namespace lodestone {
@@ -21,21 +18,7 @@ bool Object_surface::closed() const {
 
 std::span<const std::uint32_t> Object_surface::piece_vertices() const {
   if (!piece_vertices_.empty()) return piece_vertices_;
-  std::vector<std::uint32_t> rank(vertex_count(), 0), parent(vertex_count());
-  std::iota(parent.begin(), parent.end(), 0);
-  boost::disjoint_sets pieces(rank.data(), parent.data());
-  for (const auto& [a, b, c] : corners_) {
-    pieces.union_set(a, b);
-    pieces.union_set(a, c);
-  }
-  std::vector<bool> seen(vertex_count(), false);
-  std::vector<std::uint32_t> found;
-  for (const auto& face : corners_) {
-    const std::uint32_t piece = pieces.find_set(face[0]);
-    if (!seen[piece]) found.push_back(face[0]);
-    seen[piece] = true;
-  }
-  piece_vertices_ = std::move(found);
+  piece_vertices_ = component_vertices(static_cast<std::uint32_t>(vertex_count()), corners_);
   return piece_vertices_;
 }
 

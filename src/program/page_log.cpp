@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "lodestone/triangles/triangle_distance.h"
 #include "program/frame_log.h"
+#include "program/meeting_points.h"
 
 namespace lodestone {
 
@@ -46,13 +46,6 @@ Positions positions_of(const Surface_mesh& mesh) {
 Triangle triangle_of(const Surface_mesh& mesh, const Corners& corners) {
   const auto point = [&](std::uint32_t vertex) { return mesh.point(Surface_mesh::Vertex_index(vertex)); };
   return {point(corners[0]), point(corners[1]), point(corners[2])};
-}
-
-/// Where two faces meet, or, if they are apart, the nearest point of each.
-Intersection_points meeting_points(const Triangle& a, const Triangle& b) {
-  if (triangles_intersect(a, b)) return triangle_intersection(a, b);
-  const Closest_points nearest = closest_points(a, b);
-  return {nearest.a, nearest.b};
 }
 
 /// A contact per side of a polygon, one for a segment or a point.

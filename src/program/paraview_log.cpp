@@ -9,7 +9,7 @@
 
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/region_maps.h"
-#include "lodestone/triangles/triangle_distance.h"
+#include "program/meeting_points.h"
 
 namespace lodestone {
 
@@ -91,16 +91,6 @@ Vtp_data particles_of(const Scene& scene) {
   }
   data.point_data = {{"region", std::move(region)}, {"object", std::move(object)}};
   return data;
-}
-
-/// Where two faces meet, or, if they are only near, their nearest points.
-Intersection_points meeting_points(const Triangle& a, const Triangle& b) {
-  auto points = triangle_intersection(a, b);
-  if (!points.empty()) return points;
-  const auto nearest = closest_points(a, b);
-  points.push_back(nearest.a);
-  points.push_back(nearest.b);
-  return points;
 }
 
 /// Contacts of one kind: points, segments or polygons.

@@ -12,7 +12,7 @@ namespace lodestone {
 
 namespace {
 
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel::FT;
+using Exact_number = CGAL::Exact_predicates_exact_constructions_kernel::FT;
 
 /// Eight roundings of double: more than any relative error that is bounded with it.
 constexpr double roundings = 0x1p-50;
@@ -122,26 +122,26 @@ bool surely_nearer(const Triangle& a, const Triangle& b, const Nearest_places<do
   return CGAL::certainly(squared < CGAL::square(Interval(limit)));
 }
 
-Nearest_places<Exact> exact_nearest_places(const Triangle& a, const Triangle& b) {
-  const auto differences = corner_differences<Exact>(a, b, [](double x) { return Exact(x); });
+Nearest_places<Exact_number> exact_nearest_places(const Triangle& a, const Triangle& b) {
+  const auto differences = corner_differences<Exact_number>(a, b, [](double x) { return Exact_number(x); });
   return Nearest_places_search(differences)();
 }
 
-double rounded(const Exact& x) {
+double rounded(const Exact_number& x) {
   // exact() first: a lazy number gives its interval's midpoint otherwise, which may be off in the last digits.
   x.exact();
   return CGAL::to_double(x);
 }
 
 /// Rounded only once its greatest coordinate is 1: however short a gap is, its direction has all digits.
-Eigen::Vector3d direction(const Nearest_places<Exact>& nearest) {
-  Exact greatest = 0;
+Eigen::Vector3d direction(const Nearest_places<Exact_number>& nearest) {
+  Exact_number greatest = 0;
   for (int axis = 0; axis < 3; ++axis) greatest = std::max(greatest, CGAL::abs(nearest.gap[axis]));
   const auto part = [&](int axis) { return rounded(nearest.gap[axis] / greatest); };
   return Eigen::Vector3d(part(0), part(1), part(2)).normalized();
 }
 
-Point point(const Triangle& t, const Place<Exact>& place) {
+Point point(const Triangle& t, const Place<Exact_number>& place) {
   return {rounded(coordinate(t, place, 0)), rounded(coordinate(t, place, 1)), rounded(coordinate(t, place, 2))};
 }
 
@@ -187,7 +187,7 @@ bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance
   if (estimate.proves_apart(distance)) return false;
   if (surely_nearer(a, b, estimate.places(), distance)) return true;
   if (!estimate.proves_apart() && triangles_intersect(a, b)) return true;
-  return exact_nearest_places(a, b).squared < CGAL::square(Exact(distance));
+  return exact_nearest_places(a, b).squared < CGAL::square(Exact_number(distance));
 }
 
 double distance_lower_bound(const Box& a, const Box& b) {

@@ -9,6 +9,7 @@
 
 #include "lodestone/mesh/errors.h"
 #include "volumes/ball_kernel.h"
+#include "volumes/infinity.h"
 #include "volumes/rounded_up.h"
 #include "volumes/scale.h"
 #include "volumes/support.h"
@@ -16,7 +17,7 @@
 namespace lodestone {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::max();
+constexpr double most = std::numeric_limits<double>::max();
 
 struct Fit {
   Eigen::Vector3d centre;

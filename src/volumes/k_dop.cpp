@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lodestone/volumes/bounding_volume.h"
+#include "volumes/infinity.h"
 #include "volumes/slab_kernel.h"
 #include "volumes/slab_polytope.h"
 
@@ -12,8 +13,6 @@ namespace lodestone {
 static_assert(Bounding_volume<K_dop<14>> && Bounding_volume<K_dop<18>> && Bounding_volume<K_dop<26>>);
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Moves limits outwards so far that what rounded to numbers between them lies between them.
 ///

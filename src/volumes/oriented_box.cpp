@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lodestone/volumes/bounding_volume.h"
+#include "volumes/infinity.h"
 #include "volumes/principal_axes.h"
 #include "volumes/slab_kernel.h"
 
@@ -27,7 +28,6 @@ namespace {
 using Vector = Eigen::Vector3d;
 using Axes = Eigen::Matrix3d;  // as rows
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_normal = std::numeric_limits<double>::min();
 
 Vector centre_of(const Oriented_box& box) { return Vector(box.centre); }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lodestone/volumes/bounding_volume.h"
+#include "volumes/infinity.h"
 #include "volumes/principal_axes.h"
 #include "volumes/slab_kernel.h"
 #include "volumes/slab_polytope.h"
@@ -18,8 +19,6 @@ static_assert(Bounding_volume<Quospo>);
 namespace {
 
 using Directions = std::array<std::array<double, 3>, 3>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The turn from the axes of space to three lines at right angles: of the 24 there are, the smallest.
 /// @param axes  as rows, right-handed

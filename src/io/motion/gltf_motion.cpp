@@ -12,7 +12,7 @@
 namespace lodestone {
 namespace {
 
-constexpr std::size_t most_frames = 1'000'000;
+constexpr std::size_t most_sampled_frames = 1'000'000;
 
 std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, std::string>& wanted) {
   const auto count = scene.animations.size();
@@ -31,9 +31,9 @@ std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, s
 std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate) {
   // The end may be rounded down by what a float can lose.
   const double frames = std::floor(animation.seconds * rate * (1 + 1e-6)) + 1;
-  if (!(frames <= double{most_frames}))
+  if (!(frames <= double{most_sampled_frames}))
     throw Bad_motion(fmt::format("{}: {} seconds at {} frames per second are more than {} frames", scene.name,
-                                 animation.seconds, rate, most_frames));
+                                 animation.seconds, rate, most_sampled_frames));
   return static_cast<std::size_t>(frames);
 }
 

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // Weights grow with the square of the frames, and graphics cards hold as many layers.
-constexpr std::size_t most_frames = 2048;
+constexpr std::size_t most_gltf_frames = 2048;
 
 // Numbers of the format.
 constexpr int unsigned_byte = 5121, unsigned_int = 5125, floats = 5126;
@@ -86,8 +86,9 @@ class Gltf_writer {
 };
 
 void Gltf_writer::measure() {
-  if (frames_.size() > most_frames)
-    throw Bad_argument(fmt::format("glTF is written with {} frames at most, found {}", most_frames, frames_.size()));
+  if (frames_.size() > most_gltf_frames)
+    throw Bad_argument(
+        fmt::format("glTF is written with {} frames at most, found {}", most_gltf_frames, frames_.size()));
   ranges_.resize(frames_.size());
   for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
     const auto found = frames_.floats(frame);

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/pending/disjoint_sets.hpp>
-#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "lodestone/mesh/components.h"
+#include "lodestone/mesh/joined_vertices.h"
 
 namespace lodestone {
 namespace {
@@ -39,22 +40,6 @@ void count_edges(std::span<const Corners> faces, Surface_report& report) {
   }
 }
 
-void count_components(std::size_t vertices, std::span<const Corners> faces, Surface_report& report) {
-  std::vector<std::uint32_t> rank(vertices), parent(vertices);
-  std::iota(parent.begin(), parent.end(), 0U);
-  boost::disjoint_sets sets(rank.data(), parent.data());
-  std::vector<bool> used(vertices);
-  for (const auto& face : faces)
-    for (const auto vertex : face) {
-      used[vertex] = true;
-      sets.union_set(face[0], vertex);
-    }
-  for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
-    report.unused_vertices += used[vertex] ? 0 : 1;
-    report.components += used[vertex] && sets.find_set(vertex) == vertex ? 1 : 0;
-  }
-}
-
 std::size_t count_duplicates(std::span<const Point> points) {
   std::vector<std::array<double, 3>> sorted;
   sorted.reserve(points.size());
@@ -70,7 +55,9 @@ Surface_report inspect_surface(std::span<const Point> points, std::span<const Co
   report.vertices = points.size();
   report.faces = faces.size();
   count_edges(faces, report);
-  count_components(points.size(), faces, report);
+  const auto vertex_count = static_cast<std::uint32_t>(points.size());
+  report.components = component_vertices(vertex_count, faces).size();
+  report.unused_vertices = unused_vertices(faces, vertex_count).size();
   report.duplicate_vertices = count_duplicates(points);
   for (const auto& [a, b, c] : faces) {
     report.degenerate_faces += CGAL::collinear(points[a], points[b], points[c]) ? 1 : 0;

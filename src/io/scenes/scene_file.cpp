@@ -29,7 +29,7 @@ using Placement = std::optional<Kernel::Aff_transformation_3>;
 
 constexpr std::size_t most_objects = 10'000;
 constexpr std::size_t most_ignored = 100'000;
-constexpr std::size_t most_frames = 1'000'000;
+constexpr std::size_t most_scene_frames = 1'000'000;
 constexpr std::size_t most_particles = 100'000;
 
 bool is_finite(const Point& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
@@ -64,8 +64,8 @@ std::vector<std::filesystem::path> read_numbered_files(const Json_value& value, 
   const auto run = name.find('#');
   if (run == name.npos || name.find('#', name.find_first_not_of('#', run)) != name.npos)
     pattern.fail(fmt::format("{} must have one run of # in the number's place", in_quotes(name)));
-  const std::size_t first = value.at("first").count(0, most_frames);
-  const std::size_t last = value.at("last").count(first, most_frames);
+  const std::size_t first = value.at("first").count(0, most_scene_frames);
+  const std::size_t last = value.at("last").count(first, most_scene_frames);
 
   std::vector<std::filesystem::path> files;
   for (std::size_t i = first; i <= last; ++i) files.push_back(path_of(numbered(name, i), pattern, folder));
@@ -86,7 +86,7 @@ std::vector<std::filesystem::path> read_sequence(const Json_value& value, const 
   if (value.is_string()) return read_found_files(value, folder);
   if (!value.is_array()) return read_numbered_files(value, folder);
   std::vector<std::filesystem::path> files;
-  for (const Json_value& element : value.elements(most_frames)) files.push_back(read_path(element, folder));
+  for (const Json_value& element : value.elements(most_scene_frames)) files.push_back(read_path(element, folder));
   return files;
 }
 
@@ -247,7 +247,7 @@ std::size_t read_frames(const Json_value& scene, const std::vector<Scene_object>
     if (held == 0 && any_moves(scene.at("objects"))) scene.fail("missing key \"frames\": no motion ends by itself");
     return std::max<std::size_t>(held, 1);
   }
-  const std::size_t asked = frames->count(1, most_frames);
+  const std::size_t asked = frames->count(1, most_scene_frames);
   if (held != 0 && asked > held)
     frames->fail(fmt::format("{} frames are more than the {} of the shortest motion", asked, held));
   return asked;
