@@ -107,9 +107,7 @@ class Bullet_peer : public Peer {
 }  // namespace
 
 std::vector<Peer_kind> bullet_peers() {
-  return {{.library = "Bullet",
-           .method = "GImpact, refit",
-           .volume = "AABB, quantised",
+  return {{.entry = {.library = "Bullet", .method = "GImpact, refit", .volume = "AABB, quantised"},
            .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Bullet_peer>(); }}};
 }
 

@@ -179,19 +179,13 @@ std::unique_ptr<Peer> make() {
 }  // namespace
 
 std::vector<Peer_kind> cgal_peers() {
-  return {{.library = "CGAL",
-           .method = "PMP::do_intersect",
-           .volume = "boxes, no tree",
-           .reports_pairs = false,
+  const std::string library = "CGAL", no_tree = "boxes, no tree";
+  return {{.entry = {.library = library, .method = "PMP::do_intersect", .volume = no_tree, .reports_pairs = false},
            .make = make<Do_intersect_peer>},
-          {.library = "CGAL", .method = "AABB_tree, rebuilt", .volume = "AABB", .make = make<Tree_peer>},
-          {.library = "CGAL",
-           .method = "box_intersection_d, all faces",
-           .volume = "boxes, no tree",
+          {.entry = {.library = library, .method = "AABB_tree, rebuilt", .volume = "AABB"}, .make = make<Tree_peer>},
+          {.entry = {.library = library, .method = "box_intersection_d, all faces", .volume = no_tree},
            .make = make<Boxes_peer<false>>},
-          {.library = "CGAL",
-           .method = "box_intersection_d, overlap only",
-           .volume = "boxes, no tree",
+          {.entry = {.library = library, .method = "box_intersection_d, overlap only", .volume = no_tree},
            .make = make<Boxes_peer<true>>}};
 }
 

@@ -154,10 +154,10 @@ class Embree_peer : public Peer {
 
 template <RTCBuildQuality quality, std::size_t threads>
 Peer_kind kind(const char* method) {
-  return {.library = "Embree",
-          .method = threads == 1 ? method : fmt::format("{}, {} threads", method, threads),
-          .volume = "AABB",
-          .threads = threads,
+  return {.entry = {.library = "Embree",
+                    .method = threads == 1 ? method : fmt::format("{}, {} threads", method, threads),
+                    .volume = "AABB",
+                    .threads = threads},
           .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Embree_peer<quality, threads>>(); }};
 }
 

@@ -135,9 +135,8 @@ class Fcl_peer : public Peer {
 
 template <class Volume>
 Peer_kind kind(const char* volume) {
-  return {.library = "FCL", .method = "refit", .volume = volume, .make = []() -> std::unique_ptr<Peer> {
-            return std::make_unique<Fcl_peer<Volume>>();
-          }};
+  return {.entry = {.library = "FCL", .method = "refit", .volume = volume},
+          .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Fcl_peer<Volume>>(); }};
 }
 
 }  // namespace

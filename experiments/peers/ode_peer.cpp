@@ -57,10 +57,7 @@ class Ode_peer : public Peer {
 }  // namespace
 
 std::vector<Peer_kind> ode_peers() {
-  return {{.library = "ODE",
-           .method = "OPCODE, refit",
-           .volume = "AABB",
-           .reports_pairs = false,
+  return {{.entry = {.library = "ODE", .method = "OPCODE, refit", .volume = "AABB", .reports_pairs = false},
            .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Ode_peer>(); }}};
 }
 

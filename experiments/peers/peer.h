@@ -3,11 +3,10 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "lodestone/particles/confirmation.h"
-#include "shared/moving_mesh.h"
+#include "shared/entrant.h"
 
 /// Other libraries that answer the same question, each behind the same small interface.
 namespace lodestone {
@@ -40,17 +39,13 @@ class Peer {
   virtual std::optional<std::size_t> bytes() const { return std::nullopt; }
 };
 
-/// What stands in the row of a table, and how its peer is made.
+/// A peer and its row in the tables.
 struct Peer_kind {
-  std::string library;
-  std::string method;         ///< what is done in each frame
-  std::string volume;         ///< bounding volume of the nodes of its tree
-  std::size_t threads = 1;    ///< that it may use
-  bool reports_pairs = true;  ///< false: it can only say yes or no
+  Entry entry;  ///< without `build`, which `all_entries` adds
   std::unique_ptr<Peer> (*make)() = nullptr;
 };
 
-/// The kinds of each library, one function in one file each: no header of a library is seen outside of it.
+/// The kinds of each library. Each function has a file of its own, and only that file includes the library's headers.
 std::vector<Peer_kind> cgal_peers();
 std::vector<Peer_kind> fcl_peers();
 std::vector<Peer_kind> embree_peers();

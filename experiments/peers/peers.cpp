@@ -120,11 +120,7 @@ std::string ratios(const Scene_figures& scene) {
 }
 
 std::string section(const Scene_figures& scene) {
-  return fmt::format(
-      "## {}\n\n{} objects, {} triangles and {} vertices together. {} of {} frames. The bounding boxes of {} "
-      "object pairs overlap, {} of these intersect, in {} face pairs.\n\n{}\n{}",
-      scene.name, scene.objects, scene.triangles, scene.vertices, scene.sampled.size(), scene.frames, scene.asked,
-      scene.colliding, scene.contacts, table(scene), notes(scene) + ratios(scene));
+  return scene_heading(scene) + table(scene) + "\n" + notes(scene) + ratios(scene);
 }
 
 nlohmann::ordered_json to_json(const Entry_figures& f) {
@@ -155,11 +151,7 @@ nlohmann::ordered_json to_json(const Entry_figures& f) {
 }
 
 nlohmann::ordered_json to_json(const Scene_figures& scene) {
-  nlohmann::ordered_json json{{"scene", scene.name},          {"objects", scene.objects},
-                              {"triangles", scene.triangles}, {"vertices", scene.vertices},
-                              {"frames", scene.frames},       {"sampled_frames", scene.sampled},
-                              {"asked", scene.asked},         {"colliding", scene.colliding},
-                              {"face_pairs", scene.contacts}, {"batches", scene.batches}};
+  auto json = scene_figures_json(scene);
   for (const auto& figures : scene.entries) json["entries"].push_back(to_json(figures));
   return json;
 }
@@ -174,20 +166,15 @@ std::size_t passes(const Scene& scene) {
 }  // namespace
 
 std::string run_peers(const Experiment_context& context) {
-  const auto names = race_scenes(context);
   const auto entries = all_entries();
   std::string report;
   nlohmann::ordered_json json;
-  constexpr std::size_t steps = 1000;  // per scene
-  for (std::size_t s = 0; s < names.size(); ++s) {
-    auto scene = read_scene(context.scenes / (names[s] + ".json"));
-    const auto figures = measure_race(scene, entries, {.passes = passes(scene)}, [&](double share) {
-      context.progress(s * steps + static_cast<std::size_t>(share * steps), names.size() * steps);
-    });
-    if (s > 0) report += "\n";
+  for_each_scene(context, [&](Scene& scene, const Scene_progress& progress) {
+    const auto figures = measure_race(scene, entries, {.passes = passes(scene)}, progress);
+    if (!report.empty()) report += "\n";
     report += section(figures);
     json.push_back(to_json(figures));
-  }
+  });
   write_json(context.out, "peers", json);
   return report;
 }

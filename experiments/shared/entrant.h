@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -25,6 +26,11 @@ struct Answer {
   std::size_t elsewhere = 0;                     ///< collisions of pairs not asked for, whose boxes are apart
   std::vector<std::vector<Face_pair>> contacts;  ///< per pair asked for, in any order
 };
+
+/// Index of a pair among those asked for; their number if it was not asked for.
+inline std::size_t index_of(Object_pair pair, std::span<const Object_pair> pairs) {
+  return static_cast<std::size_t>(std::ranges::find(pairs, pair) - pairs.begin());
+}
 
 class Entrant {
  public:
@@ -63,7 +69,7 @@ struct Entry {
   std::size_t threads = 1;
   bool answers = true;        ///< false: a bound, which answers nothing
   bool reports_pairs = true;  ///< false: `Answer::contacts` means nothing
-  std::function<std::unique_ptr<Entrant>(std::span<const Moving_mesh>)> build;
+  std::function<std::unique_ptr<Entrant>(std::span<const Moving_mesh>)> build = nullptr;
 
   std::string name() const { return library + ": " + method; }
 };

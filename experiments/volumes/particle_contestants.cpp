@@ -2,7 +2,6 @@
 // The method of the paper on the frames of a race: it reads a few vertices, and may miss.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "lodestone/detector.h"
@@ -42,10 +41,9 @@ class Particle_entrant : public Entrant {
     const Frame& frame = detector_.detect();
     answer_.any_seconds = timer.lap();
     count(answer_.update_seconds + answer_.any_seconds, frame);
-    for (const auto& found : frame.pairs) {
-      const auto place = std::ranges::find(pairs, Object_pair{found.a, found.b}) - pairs.begin();
-      if (place < std::ssize(pairs)) answer_.collides[static_cast<std::size_t>(place)] = found.collides;
-    }
+    for (const auto& found : frame.pairs)
+      if (const auto index = index_of({found.a, found.b}, pairs); index < pairs.size())
+        answer_.collides[index] = found.collides;
     return answer_;
   }
 

@@ -98,11 +98,7 @@ Json frames_of(const Volume_scene& scene, std::size_t place) {
 }
 
 Json scene_json(const Volume_scene& scene) {
-  const auto& race = scene.race;
-  Json json{{"scene", race.name},        {"objects", race.objects},     {"triangles", race.triangles},
-            {"vertices", race.vertices}, {"frames", race.frames},       {"sampled_frames", race.sampled},
-            {"asked", race.asked},       {"colliding", race.colliding}, {"face_pairs", race.contacts},
-            {"batches", race.batches}};
+  Json json = scene_figures_json(scene.race);
   for (const auto& [strategy, seconds] : scene.divisions)
     json["partitions"].push_back({{"strategy", strategy}, {"seconds", seconds}});
   for (std::size_t place = 0; place < scene.contestants.size(); ++place)

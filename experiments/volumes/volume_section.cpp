@@ -98,12 +98,7 @@ std::string notes(const Volume_scene& scene) {
 }  // namespace
 
 std::string volume_section(const Volume_scene& scene) {
-  const auto& race = scene.race;
-  std::string text = fmt::format(
-      "## {}\n\n{} objects, {} triangles and {} vertices together. {} of {} frames. The bounding boxes of {} object "
-      "pairs overlap, {} of these intersect, in {} face pairs.\n\n",
-      race.name, race.objects, race.triangles, race.vertices, race.sampled.size(), race.frames, race.asked,
-      race.colliding, race.contacts);
+  std::string text = scene_heading(scene.race);
   text += partitions_text(scene) + notes(scene);
   text += titled("Per frame", times_table(scene));
   text += titled("Tightness in the first / last sampled frame", tightness_table(scene));
