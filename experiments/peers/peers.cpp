@@ -51,22 +51,22 @@ std::string table(const Scene_figures& scene) {
   return table.text();
 }
 
-/// Says which rows do not stand for all frames.
+/// Names the rows that do not cover all frames.
 std::string notes(const Scene_figures& scene) {
   std::string text;
   for (const auto& f : scene.entries) {
     const auto name = fmt::format("- {} ({})", f.entry.name(), f.entry.volume);
     if (f.gave_up)
-      text += fmt::format("{} gave up a query after {} s, in frame {}; wrong answers are counted before it.\n", name,
+      text += fmt::format("{} gave up a query after {} s, in frame {}; its wrong answers are counted up to the frame before.\n", name,
                           patience, scene.sampled[f.frames.size() - 1]);
     else if (f.left_early)
-      text += fmt::format("{} had not answered everything in all {} frames when its time was over.\n", name,
+      text += fmt::format("{} ran out of time before it had answered all {} frames.\n", name,
                           scene.sampled.size());
   }
   return text;
 }
 
-/// The fastest that is right, with one thread, among some of the entries.
+/// The fastest with one thread among the entries that meet a condition; null if there is none.
 template <class Condition>
 const Entry_figures* fastest(const Scene_figures& scene, double Frame_seconds::*figure, const Condition& condition) {
   const Entry_figures* best = nullptr;
@@ -80,7 +80,7 @@ bool is_library(const Entry_figures& f) {
   return f.entry.library != "Lodestone" && f.entry.library != "CGAL" && f.entry.answers;
 }
 
-/// One line per question that a table is read for; none about Lodestone while it has no row.
+/// One line per question: the fastest right library, and how Lodestone compares with it, if it has a right row.
 std::string ratios(const Scene_figures& scene) {
   using Figure = double Frame_seconds::*;
   const auto named = [](std::string_view library, std::string_view method) {
@@ -111,7 +111,7 @@ std::string ratios(const Scene_figures& scene) {
     if (library != nullptr)
       text += fmt::format("; Lodestone takes 1/{:.2f} of its time", median_of(*library, figure) / seconds);
     if (culled != nullptr)
-      text += fmt::format("; 1/{:.2f} of that of the boxes in the overlap", median_of(*culled, figure) / seconds);
+      text += fmt::format("; 1/{:.2f} of the time of `box_intersection_d, overlap only`", median_of(*culled, figure) / seconds);
     if (bound != nullptr)
       text += fmt::format("; {:.2f} times the bound", seconds / median_of(*bound, &Frame_seconds::update));
     text += ".\n";
@@ -156,7 +156,7 @@ nlohmann::ordered_json to_json(const Scene_figures& scene) {
   return json;
 }
 
-/// A pass over a small scene takes a millisecond, in which much may disturb it: there are more of them.
+/// A pass over a small scene takes a millisecond and is easily disturbed, so there are more of them.
 std::size_t passes(const Scene& scene) {
   std::size_t triangles = 0;
   for (const auto& object : scene.objects) triangles += object.mesh.number_of_faces();
