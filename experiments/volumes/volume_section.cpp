@@ -13,7 +13,7 @@ namespace lodestone {
 
 namespace {
 
-/// Wrong answers; of particles, which may miss, the collisions seen.
+/// Number of wrong answers; for particles, which may miss collisions, the collisions seen.
 std::string answers_cell(const Volume_scene& scene, std::size_t place) {
   const Entry_figures& f = scene.race.entries[place];
   if (!f.entry.answers) return no_cell;
@@ -82,15 +82,16 @@ std::string tightness_table(const Volume_scene& scene) {
   return table.text();
 }
 
-/// Says what does not stand for all frames, and who did not take turns.
+/// Names the rows that do not cover all frames, and says whether all contestants took turns.
 std::string notes(const Volume_scene& scene) {
   std::string text;
   if (scene.race.batches > 1)
-    text += fmt::format("- Memory was enough for one of {} groups at a time: only those of a group took turns.\n",
-                        scene.race.batches);
+    text +=
+        fmt::format("- Memory held one of {} groups at a time, so contestants took turns only within their group.\n",
+                    scene.race.batches);
   for (const auto& f : scene.race.entries)
     if (f.left_early)
-      text += fmt::format("- {} ({}) played {} of the {} frames, then its time was over.\n", f.entry.method,
+      text += fmt::format("- {} ({}) played {} of the {} frames, then ran out of time.\n", f.entry.method,
                           f.entry.volume, f.frames.size(), scene.race.sampled.size());
   return text.empty() ? text : text + "\n";
 }
