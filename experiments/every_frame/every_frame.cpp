@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mode exact on every frame of every scene, against exhaustive checking. Nothing is timed.
+// Compares the mode exact with exhaustive checking in every frame of every scene. Nothing is timed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,13 +33,13 @@ Box bounds(const Surface_mesh& mesh) {
   return read_every_vertex({reinterpret_cast<const double*>(points.data()), 3 * mesh.number_of_vertices()});
 }
 
-/// All face pairs of two meshes that intersect; none where their boxes are apart.
+/// All face pairs of two meshes that intersect; none if the bounding boxes of the meshes are apart.
 std::vector<Face_pair> true_pairs(const Surface_mesh& a, const Surface_mesh& b) {
   if (!bounds(a).intersects(bounds(b))) return {};
   return exhaustive_face_pairs(a, b);
 }
 
-/// One scene, asked for all face pairs by one thread and by two, and for yes or no.
+/// Detectors of one scene: all face pairs with one thread and with two, and yes or no.
 class Scene_check {
  public:
   explicit Scene_check(Scene& scene) : scene_(scene) {
@@ -108,8 +108,9 @@ std::string run_every_frame(const Experiment_context& context) {
                     {"wrong_sets", checked.wrong_sets}});
   });
   write_json(context.out, "every_frame", json);
-  return "Asked in every frame: for all face pairs with one thread and with two, and for yes or no. The truth is "
-         "exhaustive checking of all object pairs whose bounding boxes overlap.\n\n" +
+  return "Every frame puts three questions to the mode exact: all face pairs with one thread, all face pairs with two "
+         "threads, and yes or no. The truth is exhaustive checking of all object pairs whose bounding boxes "
+         "overlap.\n\n" +
          table.text();
 }
 
