@@ -42,8 +42,8 @@ class Do_intersect_peer : public Peer {
   std::vector<Moving_mesh> meshes_;
 };
 
-/// `CGAL::AABB_tree`, built anew in every frame. The triangles of the smaller mesh that reach the other's box are asked
-/// for one by one.
+/// `CGAL::AABB_tree`, rebuilt in every frame. A query takes one triangle of the smaller mesh; only triangles that reach
+/// the other mesh's box are queried.
 class Tree_peer : public Peer {
  public:
   void add(const Moving_mesh& mesh) override {
@@ -54,7 +54,7 @@ class Tree_peer : public Peer {
   void update(std::size_t object) override {
     const auto& [mesh, tree] = objects_[object];
     tree->rebuild(faces(*mesh.mesh).begin(), faces(*mesh.mesh).end(), *mesh.mesh);
-    tree->build();  // or the first query would
+    tree->build();  // otherwise the first query builds it
   }
 
   bool any(std::size_t a, std::size_t b) override {
@@ -104,7 +104,7 @@ class Tree_peer : public Peer {
   std::vector<Surface_mesh::Face_index> hits_;
 };
 
-/// Leaves `CGAL::box_intersection_d`, which has no other way to stop early.
+/// Thrown to stop `CGAL::box_intersection_d`, which has no other way to stop early.
 struct Found_one {};
 
 /// `CGAL::box_intersection_d` on boxes around the faces: all faces, or those inside the overlap of the objects' boxes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lodestone's exact mode, as a user of `Detector` meets it: broad phase and sorted results included.
+// Lodestone's mode exact, as a user of `Detector` gets it: with broad phase and sorted results.
 #include <fmt/format.h>
 
 #include <limits>
@@ -64,7 +64,7 @@ class Lodestone_entrant : public Entrant {
       }
   }
 
-  /// The first call builds.
+  /// The first call of `detect` builds the trees.
   void build(Detector<Surface_mesh>& detector) {
     for (const auto& mesh : meshes_) detector.add(*mesh.mesh);
     detector.detect();

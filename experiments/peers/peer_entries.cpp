@@ -10,7 +10,7 @@ namespace lodestone {
 
 namespace {
 
-/// A library asked the two questions in rounds of their own: in a frame of either it updates, then answers.
+/// Asks a library one question per round. In each frame of a round the library updates, then answers.
 class Peer_entrant : public Entrant {
  public:
   Peer_entrant(std::unique_ptr<Peer> peer, bool reports_pairs, std::span<const Moving_mesh> meshes)

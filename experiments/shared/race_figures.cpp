@@ -74,9 +74,9 @@ double median_of(const Entry_figures& figures, double Frame_seconds::*figure) {
 double percentile_95(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size())));
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-  std::ranges::nth_element(values, place);
-  return *place;
+  const auto percentile = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  std::ranges::nth_element(values, percentile);
+  return *percentile;
 }
 
 std::string milliseconds(double seconds) {

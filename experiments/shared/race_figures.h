@@ -25,7 +25,7 @@ std::string scene_heading(const Scene_figures& scene);
 /// The same figures, and the sampled frames, as the first keys of a scene's object.
 nlohmann::ordered_json scene_figures_json(const Scene_figures& scene);
 
-/// One figure of all frames that an entry played.
+/// One figure, in each frame that an entry played.
 std::vector<double> values(const Entry_figures& figures, double Frame_seconds::*figure);
 double median_of(const Entry_figures& figures, double Frame_seconds::*figure);
 /// The least value that 95 % of the values do not exceed.
