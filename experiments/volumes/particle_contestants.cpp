@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The method of the paper on the frames of a race: it reads a few vertices, and may miss.
+// The method of the paper on the frames of a race. It reads a few vertices and may miss collisions.
 #include <fmt/format.h>
 
 #include <utility>
@@ -19,11 +19,11 @@ class Particle_entrant : public Entrant {
       : detector_({.particles = particles, .contacts = Contact_query::yes_no, .growth = 1.25}),
         figures_(std::move(figures)) {
     for (const auto& mesh : meshes) detector_.add(*mesh.mesh);
-    detector_.detect();  // divides the surfaces
+    detector_.detect();  // the first frame partitions the surfaces
   }
 
-  /// Particles walk from where they were in the frame before, so they play all frames of the scene in their order. Only
-  /// from the end back to the start, where a pass begins, do they jump; that does not count.
+  /// Particles walk on from the frame before, so they play all frames of the scene in order. At the start of a pass
+  /// they jump from the last frame back to the first; that frame does not count.
   bool wants_approach() const override { return true; }
   void start_round(std::size_t /*round*/) override { jumps_ = true; }
   void approach() override {

@@ -49,22 +49,22 @@ std::string particles_table(std::span<const Volume_scene> scenes) {
     if (c.kind == Contestant_kind::particles) columns.push_back(c.model);
   constexpr auto figure = &Frame_seconds::update_and_any;
   return scenes_table(scenes, columns, [&](const Volume_scene& scene, const std::string& model) {
-    const auto place = static_cast<std::size_t>(scene.place_of(model, reference_strategy));
+    const auto index = static_cast<std::size_t>(scene.index_of(model, reference_strategy));
     const double boxes = scene.seconds(reference_model, reference_strategy, figure);
-    const auto& particles = *scene.contestants[place].particles;
+    const auto& particles = *scene.contestants[index].particles;
     return fmt::format("{} / {} / {:.0f} / {}", ratio_cell(scene.seconds(model, reference_strategy, figure) / boxes),
                        ratio_cell(particles.mean_seconds() / boxes),
                        100.0 * static_cast<double>(particles.repartitions) / static_cast<double>(particles.frames),
-                       seen_cell(scene, place));
+                       seen_cell(scene, index));
   });
 }
 
 /// Times of the volumes, as ratios to the mean frame of 32 particles.
 std::string mean_ratios_table(std::span<const Volume_scene> scenes) {
   return scenes_table(scenes, scenes[0].models(), [&](const Volume_scene& scene, const std::string& model) {
-    const auto place = static_cast<std::size_t>(scene.place_of(reference_particles, reference_strategy));
+    const auto index = static_cast<std::size_t>(scene.index_of(reference_particles, reference_strategy));
     return ratio_cell(scene.seconds(model, reference_strategy, &Frame_seconds::update_and_any) /
-                      scene.contestants[place].particles->mean_seconds());
+                      scene.contestants[index].particles->mean_seconds());
   });
 }
 

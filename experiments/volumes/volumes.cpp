@@ -9,7 +9,7 @@ namespace lodestone {
 
 namespace {
 
-/// Some thirty contestants take part, so each has less time than in the experiment `peers`.
+/// Some thirty contestants take part, so each gets less time than in the experiment `peers`.
 constexpr Race_options race_options{.triangles = 12'000'000, .passes = 4, .seconds = 1.5};
 
 }  // namespace
