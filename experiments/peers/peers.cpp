@@ -57,11 +57,11 @@ std::string notes(const Scene_figures& scene) {
   for (const auto& f : scene.entries) {
     const auto name = fmt::format("- {} ({})", f.entry.name(), f.entry.volume);
     if (f.gave_up)
-      text += fmt::format("{} gave up a query after {} s, in frame {}; its wrong answers are counted up to the frame before.\n", name,
-                          patience, scene.sampled[f.frames.size() - 1]);
+      text += fmt::format(
+          "{} gave up a query after {} s, in frame {}; its wrong answers are counted up to the frame before.\n", name,
+          patience, scene.sampled[f.frames.size() - 1]);
     else if (f.left_early)
-      text += fmt::format("{} ran out of time before it had answered all {} frames.\n", name,
-                          scene.sampled.size());
+      text += fmt::format("{} ran out of time before it had answered all {} frames.\n", name, scene.sampled.size());
   }
   return text;
 }
@@ -111,7 +111,8 @@ std::string ratios(const Scene_figures& scene) {
     if (library != nullptr)
       text += fmt::format("; Lodestone takes 1/{:.2f} of its time", median_of(*library, figure) / seconds);
     if (culled != nullptr)
-      text += fmt::format("; 1/{:.2f} of the time of `box_intersection_d, overlap only`", median_of(*culled, figure) / seconds);
+      text += fmt::format("; 1/{:.2f} of the time of `box_intersection_d, overlap only`",
+                          median_of(*culled, figure) / seconds);
     if (bound != nullptr)
       text += fmt::format("; {:.2f} times the bound", seconds / median_of(*bound, &Frame_seconds::update));
     text += ".\n";
