@@ -69,8 +69,7 @@ std::string run_modes(const Experiment_context& context) {
   }
   write_json(context.out, "modes", json);
   return "Each setting answers yes or no in every frame, on one core, with a growth limit of 1.25 A*. In large scenes "
-         "the "
-         "mode exact is the truth, and has no recall of its own.\n\n" +
+         "the mode exact is the truth, and has no recall of its own.\n\n" +
          table.text();
 }
 

@@ -145,8 +145,7 @@ std::string run_rebuild(const Experiment_context& context) {
   write_json(context.out, "rebuild", json);
   return fmt::format(
              "All face pairs of a moving object and a sphere of 20 480 triangles that stands still; {} frames, one "
-             "core. A "
-             "tree is rebuilt when its looseness exceeds `limit` times the looseness it was built with.\n\n",
+             "core. A tree is rebuilt when its looseness exceeds `limit` times the looseness it was built with.\n\n",
              frames) +
          table.text();
 }

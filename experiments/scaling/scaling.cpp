@@ -97,11 +97,10 @@ class Series {
       table.add(std::move(row));
     }
     const auto [plain, iteration, bounded] = exponents();
-    return table.text() +
-           fmt::format(
-               "\nExponent of {}: {:.2f} for a plain run, {:.2f} for one of its iterations, {:.2f} for a "
-               "bounded run.\n\n",
-               parameter_, plain, iteration, bounded);
+    return table.text() + fmt::format(
+                              "\nExponent of {}: {:.2f} for a plain run, {:.2f} for one of its iterations, {:.2f} for "
+                              "a bounded run.\n\n",
+                              parameter_, plain, iteration, bounded);
   }
 
   Json json() const {
@@ -154,8 +153,8 @@ std::string partition_against_iterations(Steps& steps, Json& json) {
   }
   json["k"] = series.json();
   return fmt::format(
-             "Against k, at M = {}, N = 64 and dimension 6; every round between two splits ends after at "
-             "most 2, 4, 8, 16 or 32 iterations:\n\n",
+             "Against k, at M = {}, N = 64 and dimension 6; every round between two splits ends after at most 2, 4, 8, "
+             "16 or 32 iterations:\n\n",
              vectors.rows()) +
          series.text();
 }

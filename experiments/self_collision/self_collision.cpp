@@ -110,8 +110,7 @@ std::string run_self_collision(const Experiment_context& context) {
   write_json(context.out, "self_collision", json);
   return fmt::format(
              "Each figure is the median over {} frames of the least of {} passes, on one core; `all` includes the "
-             "refit. "
-             "CGAL is `Polygon_mesh_processing::self_intersections`, which starts from the bare mesh in every "
+             "refit. CGAL is `Polygon_mesh_processing::self_intersections`, which starts from the bare mesh in every "
              "frame.\n\n",
              frames, passes) +
          table.text();

@@ -208,10 +208,8 @@ std::string run_soak(const Experiment_context& context) {
   write_json(context.out, "soak", json);
   return fmt::format(
              "Each round makes two meshes of 200 to 2000 triangles in {} poses. Their trees are built on the first "
-             "pose and "
-             "refitted to the others. The truth checks every pair of faces whose boxes overlap, one by one, between "
-             "the "
-             "two meshes and within one of them. Seed {}.\n\n",
+             "pose and refitted to the others. The truth checks every pair of faces whose boxes overlap, one by one, "
+             "between the two meshes and within one of them. Seed {}.\n\n",
              soak_poses, seed) +
          table.text();
 }

@@ -87,8 +87,7 @@ std::string run_teapot_sphere(const Experiment_context& context) {
   report += time_table(run).text();
   report +=
       "\nThe paper claims 29 frames per second, which is 34483 microseconds per frame, including display, on a machine "
-      "of "
-      "2006.\n";
+      "of 2006.\n";
 
   nlohmann::ordered_json json{{"oracle_median_microseconds", 1e6 * median(run.oracle_seconds)}, {"settings", {}}};
   for (const auto& m : run.measurements) json["settings"].push_back(to_json(m));

@@ -105,8 +105,7 @@ std::string tightness_table(std::span<const Volume_scene> scenes, double Tightne
 std::string volume_report(std::span<const Volume_scene> scenes) {
   std::string text = fmt::format(
       "One core. Every tree stands over a partition into {} regions, by `{}` where a table names no strategy. Times "
-      "are "
-      "medians over the frames.\n\n",
+      "are medians over the frames.\n\n",
       division_regions, reference_strategy);
   text += titled("Update, in times of aabb", ratios_table(scenes, &Frame_seconds::update, reference_model));
   text += titled("Update + yes/no, in times of aabb",
