@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time of a frame in `particles` mode: relaxation and confirmation, beside the oracle on the same frames.
+// Time of a frame in mode `particles`: relaxation and confirmation, and the oracle on the same frames.
 #include <benchmark/benchmark.h>
 
 #include <chrono>

@@ -7,7 +7,7 @@
 
 namespace lodestone {
 
-/// A scene that is read once and whose frames are played in a circle, there and back, so that motion stays smooth.
+/// A scene that is read once. Its frames are played forwards and backwards in turn, so that the motion stays smooth.
 class Frame_player {
  public:
   explicit Frame_player(const std::string& name)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time of a frame in mode `exact` with each instruction set that the inner loops are built for and this processor has.
+// Time of a frame in mode `exact` with each instruction set that this processor has and the kernels are built for.
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>
 
@@ -18,11 +18,10 @@ namespace lodestone {
 
 namespace {
 
-/// Frames of one scene, update and query, each with one of the instruction sets, which take turns. The sort of what is
-/// found changes with them, CGAL's predicates and the walk over the trees do not. Posing the meshes is not timed.
+/// Update and query in the frames of one scene. The instruction sets take turns frame by frame. They change the kernels
+/// and the sort of the contacts, but not CGAL's predicates and the walk over the trees. Posing is not timed.
 ///
-/// Reported time: the mean of all. Per instruction set: the median over the frames in which something is
-/// found, in microseconds.
+/// Reported time: the mean of all. Per instruction set: the median over the frames with contacts, in microseconds.
 void instruction_sets(benchmark::State& state, const std::string& scene_name, Contact_query query) {
   Frame_player player(scene_name);
   Detector<Surface_mesh> detector({.mode = Mode::exact, .contacts = query});
@@ -34,7 +33,7 @@ void instruction_sets(benchmark::State& state, const std::string& scene_name, Co
   std::map<std::int64_t, std::vector<double>> seconds;
   for (std::size_t frame = 0; auto _ : state) {
     player.next();
-    // Another one comes first each time, or frames there and frames back could go to different ones.
+    // The first set changes each time; otherwise one set could get all frames of the forward motion.
     const std::int64_t target = targets[(frame + frame / targets.size()) % targets.size()];
     ++frame;
     hwy::GetChosenTarget().Update(target);

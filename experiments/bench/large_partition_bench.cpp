@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Partition strategies on a large mesh, beside one pass that assigns each vector by brute force once.
+// Partition strategies on a large mesh, and one pass that assigns each vector by brute force once.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t regions = 256;
 
-/// Of some work: on the clock, and of processors, all threads together. The second says more while others use the
+/// Seconds of some work: by the clock, and of processors, summed over all threads. Processor time is steadier on a busy
 /// machine.
 struct Seconds {
   double wall = std::numeric_limits<double>::infinity();
@@ -66,14 +66,14 @@ const Subject& subject() {
   return the_subject;
 }
 
-// The widest vectors the machine has, as in the library's own loops; elsewhere those of the whole program.
+// The widest vectors of the machine, as in the library's own kernels; on other compilers those of the whole program.
 #if defined(__x86_64__) && !defined(__clang__)
 #define LODESTONE_WIDEST __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
 #else
 #define LODESTONE_WIDEST
 #endif
 
-/// Brute force eight code vectors at a time, k = 6: per lane the nearest of every eighth.
+/// Brute force over eight code vectors of 6 components at a time: each lane keeps the nearest of every eighth.
 /// @param codes  N / 8 blocks of 6 rows of eight
 LODESTONE_WIDEST void nearest_in_blocks(const double* vectors, std::size_t count, const double* codes,
                                         std::size_t blocks, std::uint32_t* labels) {
@@ -98,7 +98,7 @@ LODESTONE_WIDEST void nearest_in_blocks(const double* vectors, std::size_t count
   }
 }
 
-/// One pass by brute force, two ways: the library's plain loop, and eight at a time.
+/// One pass by brute force in two ways: the library's plain loop, and eight code vectors at a time.
 struct Brute_force {
   Assignment plain;
   std::vector<double> blocks;
@@ -119,8 +119,9 @@ struct Brute_force {
   }
 };
 
-/// `timed`, which returns its seconds, and both passes by brute force in turn. `passes` and `vector_passes` say how
-/// many passes it takes, `cpu_passes` and `cpu_vector_passes` the same by time of processors; all from the least times.
+/// Runs `timed`, which returns its seconds, and both passes by brute force in turn. `passes` and `vector_passes` are
+/// the ratios of their times, `cpu_passes` and `cpu_vector_passes` those of the processor times; all from the least
+/// times.
 template <class Timed>
 void beside_brute_force(benchmark::State& state, Timed timed) {
   Brute_force brute_force;
@@ -143,7 +144,7 @@ void beside_brute_force(benchmark::State& state, Timed timed) {
   state.counters["cpu_vector_passes"] = whole.processor / vector.processor;
 }
 
-/// LBG alone, from vectors to labels; with several threads also one thread, in turn, with the same labels.
+/// LBG alone, from vectors to labels. With several threads, one thread takes turns with them and gives the same labels.
 void lbg_on_threads(benchmark::State& state) {
   const auto threads = static_cast<std::size_t>(state.range(0));
   Quantisation alone, shared;
@@ -175,7 +176,7 @@ BENCHMARK(lbg_on_threads)
     ->Iterations(10)
     ->Unit(benchmark::kMillisecond);
 
-/// Those the library has: each by its own name.
+/// The strategies of the library, each by its own name.
 const bool registered = [] {
   for (const std::string name : {"lbg", "kmeans++", "metis", "vsa"}) {
     if (std::ranges::find(strategies(), name, &Strategy_entry::name) == strategies().end()) continue;

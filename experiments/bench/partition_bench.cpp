@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LBG with bounds against LBG with the plain nearest-code-vector loop, on the same vectors, with equal labels.
+// LBG with the bounded and with the plain nearest-code-vector search, on the same vectors, with equal labels.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Feature_vectors vectors_of(const Surface_mesh& mesh) {
   return feature_vectors(read_positions(numbering, mesh.points()), numbering.corners());
 }
 
-/// Both searches in turn in every iteration, so that a change of the machine's speed meets both.
+/// Both searches run in every iteration, so that a change of the machine's speed affects both.
 void lbg_search(benchmark::State& state, const Surface_mesh& mesh) {
   const auto vectors = vectors_of(mesh);
   const auto cells = static_cast<std::size_t>(state.range(0));

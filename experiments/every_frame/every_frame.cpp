@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mode exact on every frame of every scene, against exhaustive checking. Nothing is timed.
+// Compares the mode exact with exhaustive checking in every frame of every scene. Nothing is timed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,13 +33,13 @@ Box bounds(const Surface_mesh& mesh) {
   return read_every_vertex({reinterpret_cast<const double*>(points.data()), 3 * mesh.number_of_vertices()});
 }
 
-/// All face pairs of two meshes that intersect; none where their boxes are apart.
+/// All face pairs of two meshes that intersect; none if the bounding boxes of the meshes are apart.
 std::vector<Face_pair> true_pairs(const Surface_mesh& a, const Surface_mesh& b) {
   if (!bounds(a).intersects(bounds(b))) return {};
   return exhaustive_face_pairs(a, b);
 }
 
-/// One scene, asked for all face pairs by one thread and by two, and for yes or no.
+/// Detectors of one scene: all face pairs with one thread and with two, and yes or no.
 class Scene_check {
  public:
   explicit Scene_check(Scene& scene) : scene_(scene) {
@@ -87,31 +87,30 @@ class Scene_check {
 }  // namespace
 
 std::string run_every_frame(const Experiment_context& context) {
-  const auto names = race_scenes(context);
   Text_table table({"scene", "frames", "object pairs", "that intersect", "face pairs", "wrong answers", "wrong sets"});
   nlohmann::ordered_json json;
-  for (std::size_t s = 0; s < names.size(); ++s) {
-    auto scene = read_scene(context.scenes / (names[s] + ".json"));
+  for_each_scene(context, [&](Scene& scene, const Scene_progress& progress) {
     Scene_check check(scene);
     for (std::size_t frame = 0; frame < scene.frames; ++frame) {
       check.check(frame);
-      context.progress(s * 1000 + 1000 * (frame + 1) / scene.frames, names.size() * 1000);
+      progress(static_cast<double>(frame + 1) / static_cast<double>(scene.frames));
     }
     const Checked& checked = check.checked();
-    table.add({names[s], std::to_string(scene.frames), std::to_string(checked.pairs),
+    table.add({scene.name, std::to_string(scene.frames), std::to_string(checked.pairs),
                std::to_string(checked.intersecting), std::to_string(checked.face_pairs),
                std::to_string(checked.wrong_answers), std::to_string(checked.wrong_sets)});
-    json.push_back({{"scene", names[s]},
+    json.push_back({{"scene", scene.name},
                     {"frames", scene.frames},
                     {"object_pairs", checked.pairs},
                     {"intersecting", checked.intersecting},
                     {"face_pairs", checked.face_pairs},
                     {"wrong_answers", checked.wrong_answers},
                     {"wrong_sets", checked.wrong_sets}});
-  }
+  });
   write_json(context.out, "every_frame", json);
-  return "Asked in every frame: for all face pairs with one thread and with two, and for yes or no. The truth is "
-         "exhaustive checking of all object pairs whose bounding boxes overlap.\n\n" +
+  return "Every frame puts three questions to the mode exact: all face pairs with one thread, all face pairs with two "
+         "threads, and yes or no. The truth is exhaustive checking of all object pairs whose bounding boxes "
+         "overlap.\n\n" +
          table.text();
 }
 

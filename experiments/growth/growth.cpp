@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Repartitioning on a sphere that inflates to three times its size, with and without, and at several limits.
+// A sphere inflates to three times its size, without repartitioning and with several growth limits.
 #include <fmt/format.h>
 
 #include <limits>
@@ -34,7 +34,7 @@ std::string run_growth(const Experiment_context& context) {
     json.push_back(to_json(m));
   }
   write_json(context.out, "growth", json);
-  return "A sphere grows to three times its size within 150 frames and touches a second; 300 frames, three "
+  return "A sphere grows to three times its size within 150 frames and touches a second one; 300 frames, three "
          "objects.\n\n" +
          table.text();
 }

@@ -68,8 +68,8 @@ std::string run_modes(const Experiment_context& context) {
     context.progress(++played, std::size(chosen_scenes));
   }
   write_json(context.out, "modes", json);
-  return "Yes or no in every frame, one core; growth limit 1.25 A*. Where a scene is large the truth comes from the "
-         "mode exact.\n\n" +
+  return "Each setting answers yes or no in every frame, on one core, with a growth limit of 1.25 A*. In large scenes "
+         "the mode exact is the truth, and has no recall of its own.\n\n" +
          table.text();
 }
 

@@ -5,7 +5,7 @@
 
 namespace lodestone {
 
-/// A mean, and how far the true one may be from it.
+/// A mean with its confidence interval.
 struct Interval {
   double mean = 0;
   double half_width = 0;  ///< of the 95 % confidence interval, by Student's t; 0 for fewer than two values

@@ -12,7 +12,7 @@
 
 namespace lodestone {
 
-/// A strategy with its settings, under the name that tables give it.
+/// A strategy with its settings, and its name in the tables.
 struct Partition_variant {
   std::string name;
   std::string_view strategy;
@@ -24,7 +24,7 @@ struct Partition_variant {
 struct Partition_mesh {
   std::string_view name;        ///< with its resolution
   Surface_mesh (*make)();       ///< about one unit in radius
-  Surface_mesh (*make_ball)();  ///< what collides with it: a unit sphere of about the same edge length
+  Surface_mesh (*make_ball)();  ///< the sphere that collides with it: unit radius, about the same edge length
 };
 
 struct Partition_run {
@@ -46,8 +46,8 @@ std::span<const Partition_mesh> partition_meshes();
 inline constexpr std::size_t partition_counts[] = {8, 12, 32, 64, 128};
 inline constexpr std::uint64_t partition_seeds[] = {1, 2, 3, 4, 5};
 
-/// The full cross, less the meshes that are too large for a strategy.
-/// @param only  names of meshes and variants; a run is left out when others of its kind are named, and it is not
+/// All combinations, without the meshes that are too large for a strategy.
+/// @param only  names of meshes and variants; naming a mesh leaves out all other meshes, and the same for variants
 /// @throws Bad_argument  a name that is neither
 std::vector<Partition_run> partition_plan(const std::vector<std::string>& only = {});
 

@@ -28,7 +28,7 @@ struct Figure {
   std::string key;
   std::string over = {};  ///< empty: the figure itself
   double scale = 1;
-  bool is_time = false;  ///< the median stands for the meshes of a seed, for times have outliers
+  bool is_time = false;  ///< over the meshes of a seed the median is taken, because times have outliers
 
   double of(const Json& row) const {
     const auto value = scale * row.at(key).get<double>();
@@ -101,7 +101,7 @@ Interval summary(const By_seed& seeds, const Figure& figure) {
   return confidence_interval(of_seeds);
 }
 
-/// With its interval where that is not nothing.
+/// The mean, with its interval unless that rounds to zero.
 std::string text_of(const Interval& interval, int decimals) {
   const std::string mean = fmt::format("{:.{}f}", interval.mean, decimals);
   const std::string half = fmt::format("{:.{}f}", interval.half_width, decimals);
@@ -121,7 +121,7 @@ bool is_weight(const std::string& variant) { return variant.starts_with("lbg, no
 
 /// Number of regions that most tables are about.
 constexpr std::size_t shown_regions = 32;
-/// What figures over all meshes have in place of a mesh.
+/// The mesh name of figures over all meshes.
 constexpr const char* all_meshes = "all";
 
 std::string columns_table(const By_variant& sorted, const std::vector<std::string>& variants,
@@ -140,7 +140,7 @@ std::string columns_table(const By_variant& sorted, const std::vector<std::strin
 }
 
 /// A table of one figure against the number of regions.
-/// @param figure_of  from the number of regions and what the seeds of a variant gave to the interval
+/// @param figure_of  gives the interval for a number of regions and the rows of a variant by seed
 template <class Figure_of>
 std::string regions_table(const By_variant& sorted, const std::vector<std::string>& variants, int decimals,
                           Figure_of figure_of) {
@@ -174,7 +174,8 @@ Recall_by_scene recall_by_scene(const By_regions& by_regions) {
   return recall;
 }
 
-/// Recall less that of `lbg` in the same scenes, with the interval of the difference; empty where `lbg` was not asked.
+/// Recall minus that of `lbg` in the same scenes, with the interval of the difference; empty if `lbg` did not take
+/// part.
 std::string recall_difference_table(const By_variant& sorted, const std::vector<std::string>& variants) {
   if (!sorted.contains("lbg")) return {};
   const auto of_lbg = recall_by_scene(sorted.at("lbg"));
@@ -197,7 +198,7 @@ std::vector<std::string> present(const By_variant& sorted, const std::vector<std
   return names;
 }
 
-/// Six digits are enough to look at.
+/// To six digits, for plots.
 double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
 
 void add_figures(const By_variant& sorted, const std::string& mesh, Json& figures) {
@@ -237,7 +238,7 @@ std::string partition_report(const Rows& rows) {
   text += fmt::format("\n## In use, {} particles per object\n\n", shown_regions);
   text += columns_table(sorted, strategies, use_columns());
   text += "\n## Recall\n\n" + regions_table(sorted, strategies, use_columns()[0]);
-  text += "\nLess that of `lbg` in the same scenes:\n\n" + recall_difference_table(sorted, strategies);
+  text += "\nDifference from the recall of `lbg` in the same scenes:\n\n" + recall_difference_table(sorted, strategies);
   text += "\n## Repartitions\n\n" + regions_table(sorted, strategies, use_columns()[5]);
   text += "\n## Weight of the normals\n\n" + columns_table(sorted, weights, partition_columns());
   text += "\nRecall:\n\n" + regions_table(sorted, weights, use_columns()[0]);

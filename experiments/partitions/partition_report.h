@@ -7,9 +7,9 @@
 
 namespace lodestone {
 
-/// The rows of a sweep as tables in Markdown: partitions and what they find at 32 regions, recall against the number of
-/// regions, the weight of the normals, island repair. A figure is the mean over the meshes of one seed, of times the
-/// median, then the mean over the seeds with its 95 % confidence interval.
+/// The rows of a sweep as tables in Markdown: measures and use of partitions into 32 regions, recall against the number
+/// of regions, the weight of the normals, island repair. A figure is first the mean over the meshes of one seed (the
+/// median for times), then the mean over the seeds, with its 95 % confidence interval.
 std::string partition_report(const std::map<std::string, nlohmann::ordered_json>& rows);
 
 /// The same figures for plots: one entry per variant, number of regions and figure, with its interval, over all meshes;

@@ -9,10 +9,10 @@ namespace lodestone {
 
 /// Divides the mesh, measures the partition, and plays the scene with it.
 ///
-/// @return the parameters; the measures of the partition; `seconds` of it, the least of some repetitions, and
-///         `lbg_seconds` of `lbg` beside it; `peak_kib` that it took beyond what the process held; and what its
-///         particles found in the scene, held against the mode exact
-/// @throws Bad_argument  the strategy refuses
+/// @return the parameters; the measures of the partition; `seconds`, the least of some repetitions, and `lbg_seconds`,
+///         the same of `lbg`; `peak_kib`, the memory beyond what the process held before; and the figures of its
+///         particles in the scene, with the mode exact as truth
+/// @throws Bad_argument  the strategy rejects the mesh or the number of regions
 nlohmann::ordered_json execute(const Partition_run& run);
 
 }  // namespace lodestone

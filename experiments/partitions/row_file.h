@@ -11,8 +11,8 @@ namespace lodestone {
 
 /// The finished runs of a sweep in a file of JSON Lines: a line per run, keyed by its `id`.
 ///
-/// A line is on disk before `add` returns. What is cut off at the end of the file, because the machine or the program
-/// stopped within a line, is dropped when the file is opened. One program at a time can have it open.
+/// A line is on disk before `add` returns. If the machine or the program stopped within a line, the cut-off line is
+/// dropped when the file is next opened. Only one program at a time can have the file open.
 class Row_file {
  public:
   using Row = nlohmann::ordered_json;
@@ -26,7 +26,7 @@ class Row_file {
   ~Row_file();
 
   bool has(const std::string& id) const { return rows_.contains(id); }
-  /// Rows by id. A run that is there already is left as it is.
+  /// Adds a row, unless the file has one with that id.
   /// @throws Bad_output
   void add(const Row& row);
   const std::map<std::string, Row>& rows() const { return rows_; }
@@ -39,7 +39,7 @@ class Row_file {
   std::map<std::string, Row> rows_;
 };
 
-/// The rows of a file that nobody needs to have open. What is cut off at its end is left out.
+/// Reads the rows of a file, whether or not a program has it open. A cut-off line at its end is left out.
 /// @throws Bad_argument  no such file; as Row_file
 std::map<std::string, Row_file::Row> read_rows(const std::filesystem::path& file);
 

@@ -21,12 +21,12 @@ struct Sweep_options {
   Shard shard = {};
 };
 
-/// Executes the runs that have no row yet, each in a process of its own: its memory is measured apart from the others',
-/// and one that ends badly costs nothing but itself.
+/// Executes the runs that have no row yet. Each has a process of its own, so that its memory is measured separately,
+/// and a crash loses only that run.
 ///
 /// @param ids       of all runs, all shards together, in order
 /// @param execute   makes the row of a run, without its id; called in the child process
-/// @param progress  called with the number of finished runs of the shard and their number; may throw to stop, which
+/// @param progress  called with the number of finished runs and of all runs of the shard; may throw to stop, which
 ///                  ends the runs in progress
 /// @return `id: cause` for each run that failed; these have no row and are tried again next time
 std::vector<std::string> sweep(const std::vector<std::string>& ids, Row_file& rows, const Sweep_options& options,

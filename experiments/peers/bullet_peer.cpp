@@ -53,7 +53,7 @@ class Bullet_peer : public Peer {
   struct Object {
     Moving_mesh mesh;
     Eigen::Vector3d centre;
-    /// Against the centre: a quantised tree keeps the bounds it was built with, and must not leave them.
+    /// Relative to the centre, because a quantised tree keeps the bounds it was built with and misses what leaves them.
     std::vector<Local_position> positions;
     btTriangleIndexVertexArray triangles;
     std::unique_ptr<btGImpactMeshShapePart> shape;
@@ -67,8 +67,8 @@ class Bullet_peer : public Peer {
     }
   };
 
-  /// Shows the face pairs that Bullet finds to `visitor`, until it returns true.
-  /// @return whether it did
+  /// Calls `visitor` with the face pairs that Bullet finds, until it returns true.
+  /// @return whether it returned true
   template <class Visitor>
   bool visit(std::size_t a, std::size_t b, const Visitor& visitor) {
     const Object &object_a = *objects_[a], &object_b = *objects_[b];
@@ -107,9 +107,7 @@ class Bullet_peer : public Peer {
 }  // namespace
 
 std::vector<Peer_kind> bullet_peers() {
-  return {{.library = "Bullet",
-           .method = "GImpact, refit",
-           .volume = "AABB, quantised",
+  return {{.entry = {.library = "Bullet", .method = "GImpact, refit", .volume = "AABB, quantised"},
            .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Bullet_peer>(); }}};
 }
 

@@ -42,8 +42,8 @@ class Do_intersect_peer : public Peer {
   std::vector<Moving_mesh> meshes_;
 };
 
-/// `CGAL::AABB_tree`, built anew in every frame. The triangles of the smaller mesh that reach the other's box are asked
-/// for one by one.
+/// `CGAL::AABB_tree`, rebuilt in every frame. A query takes one triangle of the smaller mesh; only triangles that reach
+/// the other mesh's box are queried.
 class Tree_peer : public Peer {
  public:
   void add(const Moving_mesh& mesh) override {
@@ -54,7 +54,7 @@ class Tree_peer : public Peer {
   void update(std::size_t object) override {
     const auto& [mesh, tree] = objects_[object];
     tree->rebuild(faces(*mesh.mesh).begin(), faces(*mesh.mesh).end(), *mesh.mesh);
-    tree->build();  // or the first query would
+    tree->build();  // otherwise the first query builds it
   }
 
   bool any(std::size_t a, std::size_t b) override {
@@ -104,7 +104,7 @@ class Tree_peer : public Peer {
   std::vector<Surface_mesh::Face_index> hits_;
 };
 
-/// Leaves `CGAL::box_intersection_d`, which has no other way to stop early.
+/// Thrown to stop `CGAL::box_intersection_d`, which has no other way to stop early.
 struct Found_one {};
 
 /// `CGAL::box_intersection_d` on boxes around the faces: all faces, or those inside the overlap of the objects' boxes.
@@ -179,19 +179,13 @@ std::unique_ptr<Peer> make() {
 }  // namespace
 
 std::vector<Peer_kind> cgal_peers() {
-  return {{.library = "CGAL",
-           .method = "PMP::do_intersect",
-           .volume = "boxes, no tree",
-           .reports_pairs = false,
+  const std::string library = "CGAL", no_tree = "boxes, no tree";
+  return {{.entry = {.library = library, .method = "PMP::do_intersect", .volume = no_tree, .reports_pairs = false},
            .make = make<Do_intersect_peer>},
-          {.library = "CGAL", .method = "AABB_tree, rebuilt", .volume = "AABB", .make = make<Tree_peer>},
-          {.library = "CGAL",
-           .method = "box_intersection_d, all faces",
-           .volume = "boxes, no tree",
+          {.entry = {.library = library, .method = "AABB_tree, rebuilt", .volume = "AABB"}, .make = make<Tree_peer>},
+          {.entry = {.library = library, .method = "box_intersection_d, all faces", .volume = no_tree},
            .make = make<Boxes_peer<false>>},
-          {.library = "CGAL",
-           .method = "box_intersection_d, overlap only",
-           .volume = "boxes, no tree",
+          {.entry = {.library = library, .method = "box_intersection_d, overlap only", .volume = no_tree},
            .make = make<Boxes_peer<true>>}};
 }
 

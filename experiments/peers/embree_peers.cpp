@@ -17,10 +17,10 @@ namespace lodestone {
 
 namespace {
 
-/// As many as the rows of the tables ask for.
+/// The largest number of threads in the tables.
 constexpr std::size_t most_threads = 2;
 
-/// A float not above, or not below, a double: Embree's boxes must not lose anything.
+/// A float that is not above, or not below, a double, so that Embree's boxes enclose the exact ones.
 float rounded_down(double x) {
   const auto near = static_cast<float>(x);
   return near - std::abs(near) * std::numeric_limits<float>::epsilon() - std::numeric_limits<float>::min();
@@ -33,7 +33,7 @@ Triangle triangle(const Moving_mesh& mesh, std::uint32_t face) {
   return {points[p], points[q], points[r]};
 }
 
-/// Embree reports pairs of leaves; half of them are apart by their exact boxes already.
+/// Embree reports pairs of leaves. The exact boxes of half of them are apart.
 bool boxes_meet(const Triangle& a, const Triangle& b) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto [low_a, high_a] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});
@@ -59,7 +59,7 @@ void bound(const RTCBoundsFunctionArguments* arguments) {
   bounds.upper_z = rounded_up(std::max({a[2], b[2], c[2]}));
 }
 
-/// What the callback of one query works on. It is called by several threads at once.
+/// The state of one query. Several threads call its callback at once.
 struct Query {
   const Moving_mesh *a, *b;
   bool stop_at_one;
@@ -67,8 +67,8 @@ struct Query {
   std::array<std::vector<Face_pair>, most_threads> found = {};  ///< per thread
 };
 
-/// Decides the pairs of triangles that Embree reports. Embree cannot be told to stop: once one is enough, the rest is
-/// ignored.
+/// Decides the pairs of triangles that Embree reports. Embree cannot be stopped, so a yes-or-no query ignores what
+/// comes after the first hit.
 void decide(void* user, RTCCollision* pairs, unsigned count) {
   auto& query = *static_cast<Query*>(user);
   if (query.stop_at_one && query.found_one.load(std::memory_order_relaxed)) return;
@@ -98,7 +98,7 @@ class Embree_peer : public Peer {
     rtcReleaseDevice(device_);
   }
 
-  /// What Embree holds itself: it takes large blocks past the heap.
+  /// What Embree reports, because it allocates large blocks past the heap.
   std::optional<std::size_t> bytes() const override { return static_cast<std::size_t>(bytes_.load()); }
 
   void add(const Moving_mesh& mesh) override {
@@ -147,17 +147,17 @@ class Embree_peer : public Peer {
 
   std::atomic<ssize_t> bytes_ = 0;
   RTCDevice device_;
-  /// A device's number of threads is that of all devices; what is called within an arena keeps to the arena's.
+  /// Embree has one number of threads for all devices. A call within an arena uses only the arena's threads.
   tbb::task_arena arena_{static_cast<int>(threads)};
   std::vector<std::unique_ptr<Object>> objects_;
 };
 
 template <RTCBuildQuality quality, std::size_t threads>
 Peer_kind kind(const char* method) {
-  return {.library = "Embree",
-          .method = threads == 1 ? method : fmt::format("{}, {} threads", method, threads),
-          .volume = "AABB",
-          .threads = threads,
+  return {.entry = {.library = "Embree",
+                    .method = threads == 1 ? method : fmt::format("{}, {} threads", method, threads),
+                    .volume = "AABB",
+                    .threads = threads},
           .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Embree_peer<quality, threads>>(); }};
 }
 

@@ -21,8 +21,8 @@ namespace lodestone {
 
 namespace {
 
-/// The traversal that FCL has for a bounding volume: one for all that have no orientation, which may change the models,
-/// and one for each that has.
+/// FCL's traversal for a bounding volume. Volumes without an orientation share one, which may change the models;
+/// each oriented volume has its own.
 template <class Volume>
 struct Traversal {
   using Model = fcl::BVHModel<Volume>;
@@ -49,7 +49,7 @@ struct Traversal<fcl::kIOSd> : Oriented_traversal<fcl::kIOSd> {
   using Node = fcl::detail::MeshCollisionTraversalNodekIOSd;
 };
 
-/// A traversal that gives up after `patience`: FCL asks it between any two nodes whether it can stop.
+/// A traversal that gives up after `patience`. FCL calls `canStop` between any two nodes.
 template <class Volume>
 class Impatient_node : public Traversal<Volume>::Node {
  public:
@@ -79,8 +79,8 @@ class Fcl_peer : public Peer {
     object.model->endModel();
   }
 
-  void update(std::size_t object_number) override {
-    auto& object = objects_[object_number];
+  void update(std::size_t object_index) override {
+    auto& object = objects_[object_index];
     object.read_positions();
     object.model->beginReplaceModel();
     object.model->replaceSubModel(object.positions);
@@ -116,8 +116,8 @@ class Fcl_peer : public Peer {
     }
   };
 
-  /// What `fcl::collide` does once it has found the function for its arguments, but on the models themselves: for
-  /// volumes without an orientation it would copy both in every query.
+  /// Does what `fcl::collide` does after its dispatch, but directly on the models. For volumes without an orientation
+  /// `fcl::collide` copies both models in every query.
   void traverse(std::size_t a, std::size_t b, std::size_t most_contacts) {
     const fcl::CollisionRequestd request(most_contacts, false);
     fcl::Transform3d still_a = fcl::Transform3d::Identity(), still_b = still_a;
@@ -135,9 +135,8 @@ class Fcl_peer : public Peer {
 
 template <class Volume>
 Peer_kind kind(const char* volume) {
-  return {.library = "FCL", .method = "refit", .volume = volume, .make = []() -> std::unique_ptr<Peer> {
-            return std::make_unique<Fcl_peer<Volume>>();
-          }};
+  return {.entry = {.library = "FCL", .method = "refit", .volume = volume},
+          .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Fcl_peer<Volume>>(); }};
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lodestone's exact mode, as a user of `Detector` meets it: broad phase and sorted results included.
+// Lodestone's mode exact, as a user of `Detector` gets it: with broad phase and sorted results.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 
 #include "lodestone/detector.h"
@@ -43,8 +42,8 @@ class Lodestone_entrant : public Entrant {
     answer_.collides.assign(pairs.size(), false);
     answer_.elsewhere = 0;
     for (const auto& pair : frame.pairs)
-      if (const auto place = place_of(pair, pairs); place < pairs.size())
-        answer_.collides[place] = pair.collides;
+      if (const auto index = index_of({pair.a, pair.b}, pairs); index < pairs.size())
+        answer_.collides[index] = pair.collides;
       else
         answer_.elsewhere += pair.collides ? 1 : 0;
   }
@@ -57,22 +56,18 @@ class Lodestone_entrant : public Entrant {
     answer_.contacts.assign(pairs.size(), {});
     answer_.elsewhere = 0;
     for (const auto& pair : frame.pairs)
-      if (const auto place = place_of(pair, pairs); place < pairs.size()) {
+      if (const auto index = index_of({pair.a, pair.b}, pairs); index < pairs.size()) {
         const auto contacts = frame.contacts(pair);
-        answer_.contacts[place].assign(contacts.begin(), contacts.end());
+        answer_.contacts[index].assign(contacts.begin(), contacts.end());
       } else {
         answer_.elsewhere += pair.collides ? 1 : 0;
       }
   }
 
-  /// The first call builds.
+  /// The first call of `detect` builds the trees.
   void build(Detector<Surface_mesh>& detector) {
     for (const auto& mesh : meshes_) detector.add(*mesh.mesh);
     detector.detect();
-  }
-
-  static std::size_t place_of(const Pair_result& pair, std::span<const Object_pair> pairs) {
-    return static_cast<std::size_t>(std::ranges::find(pairs, Object_pair{pair.a, pair.b}) - pairs.begin());
   }
 
   std::vector<Moving_mesh> meshes_;

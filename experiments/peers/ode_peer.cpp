@@ -8,7 +8,7 @@ namespace lodestone {
 
 namespace {
 
-/// The library is set up as long as one of these lives.
+/// Initialises the library, and closes it again.
 class Library {
  public:
   Library() { dInitODE2(0); }
@@ -26,7 +26,7 @@ class Ode_peer : public Peer {
     }
   }
 
-  /// ODE reads positions where they are, in every call.
+  /// ODE keeps a pointer to the positions and reads them in every call.
   void add(const Moving_mesh& mesh) override {
     const auto data = dGeomTriMeshDataCreate();
     dGeomTriMeshDataBuildDouble(data, mesh.coordinates().data(), sizeof(Point), static_cast<int>(mesh.points().size()),
@@ -57,10 +57,7 @@ class Ode_peer : public Peer {
 }  // namespace
 
 std::vector<Peer_kind> ode_peers() {
-  return {{.library = "ODE",
-           .method = "OPCODE, refit",
-           .volume = "AABB",
-           .reports_pairs = false,
+  return {{.entry = {.library = "ODE", .method = "OPCODE, refit", .volume = "AABB", .reports_pairs = false},
            .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Ode_peer>(); }}};
 }
 

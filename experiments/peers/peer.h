@@ -3,21 +3,20 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "lodestone/particles/confirmation.h"
-#include "shared/moving_mesh.h"
+#include "shared/entrant.h"
 
-/// Other libraries that answer the same question, each behind the same small interface.
+/// Other libraries that answer the same question, each behind the same interface.
 namespace lodestone {
 
-/// Seconds after which a query may give up: some would take hours on a large scene.
+/// Seconds after which a query may give up; some queries would take hours on a large scene.
 constexpr double patience = 1;
 /// Thrown by a query that has given up.
 struct Gave_up {};
 
-/// One library, used in one way. Objects are numbered from 0 in the order of `add`. One thread calls at a time.
+/// One library, used in one way. Objects have indices from 0, in the order of `add`. One thread calls at a time.
 class Peer {
  public:
   Peer() = default;
@@ -25,9 +24,9 @@ class Peer {
   Peer& operator=(const Peer&) = delete;
   virtual ~Peer() = default;
 
-  /// Builds all that the library keeps of a mesh, from where its vertices are now.
+  /// Builds all that the library keeps of a mesh, from the current positions.
   virtual void add(const Moving_mesh& mesh) = 0;
-  /// Brings an object to where its vertices are now: whatever has to be done once per frame and object, including the
+  /// Updates an object to the current positions: all work that is due once per frame and object, including the
   /// conversion to the library's own layout.
   virtual void update(std::size_t object) = 0;
   /// Whether the surfaces of two objects intersect.
@@ -36,21 +35,17 @@ class Peer {
   /// Adds all face pairs that intersect to `found`, in any order. Never called for a peer that does not report them.
   /// @throws Gave_up
   virtual void all(std::size_t a, std::size_t b, std::vector<Face_pair>& found) = 0;
-  /// Bytes that the library holds, where it keeps count; they need not come from the heap.
+  /// Bytes that the library reports to hold, in the heap or elsewhere; none if it keeps no count.
   virtual std::optional<std::size_t> bytes() const { return std::nullopt; }
 };
 
-/// What stands in the row of a table, and how its peer is made.
+/// A peer and its row in the tables.
 struct Peer_kind {
-  std::string library;
-  std::string method;         ///< what is done in each frame
-  std::string volume;         ///< bounding volume of the nodes of its tree
-  std::size_t threads = 1;    ///< that it may use
-  bool reports_pairs = true;  ///< false: it can only say yes or no
+  Entry entry;  ///< without `build`, which `all_entries` adds
   std::unique_ptr<Peer> (*make)() = nullptr;
 };
 
-/// The kinds of each library, one function in one file each: no header of a library is seen outside of it.
+/// The kinds of each library. Each function has a file of its own, and only that file includes the library's headers.
 std::vector<Peer_kind> cgal_peers();
 std::vector<Peer_kind> fcl_peers();
 std::vector<Peer_kind> embree_peers();

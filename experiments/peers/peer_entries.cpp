@@ -10,7 +10,7 @@ namespace lodestone {
 
 namespace {
 
-/// A library asked the two questions in rounds of their own: in a frame of either it updates, then answers.
+/// Asks a library one question per round. In each frame of a round the library updates, then answers.
 class Peer_entrant : public Entrant {
  public:
   Peer_entrant(std::unique_ptr<Peer> peer, bool reports_pairs, std::span<const Moving_mesh> meshes)
@@ -57,15 +57,13 @@ class Peer_entrant : public Entrant {
   Answer answer_;
 };
 
-Entry entry(const Peer_kind& kind) {
-  return {.library = kind.library,
-          .method = kind.method,
-          .volume = kind.volume,
-          .threads = kind.threads,
-          .reports_pairs = kind.reports_pairs,
-          .build = [kind](std::span<const Moving_mesh> meshes) -> std::unique_ptr<Entrant> {
-            return std::make_unique<Peer_entrant>(kind.make(), kind.reports_pairs, meshes);
-          }};
+Entry entry_of(const Peer_kind& kind) {
+  Entry entry = kind.entry;
+  entry.build = [make = kind.make,
+                 reports_pairs = entry.reports_pairs](std::span<const Moving_mesh> meshes) -> std::unique_ptr<Entrant> {
+    return std::make_unique<Peer_entrant>(make(), reports_pairs, meshes);
+  };
+  return entry;
 }
 
 }  // namespace
@@ -73,7 +71,7 @@ Entry entry(const Peer_kind& kind) {
 std::vector<Entry> all_entries() {
   std::vector<Entry> all{read_bound_entry()};
   for (auto& own : lodestone_entries()) all.push_back(std::move(own));
-  for (const auto& kind : all_peers()) all.push_back(entry(kind));
+  for (const auto& kind : all_peers()) all.push_back(entry_of(kind));
   return all;
 }
 

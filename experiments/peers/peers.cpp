@@ -51,22 +51,22 @@ std::string table(const Scene_figures& scene) {
   return table.text();
 }
 
-/// Says which rows do not stand for all frames.
+/// Names the rows that do not cover all frames.
 std::string notes(const Scene_figures& scene) {
   std::string text;
   for (const auto& f : scene.entries) {
     const auto name = fmt::format("- {} ({})", f.entry.name(), f.entry.volume);
     if (f.gave_up)
-      text += fmt::format("{} gave up a query after {} s, in frame {}; wrong answers are counted before it.\n", name,
-                          patience, scene.sampled[f.frames.size() - 1]);
+      text += fmt::format(
+          "{} gave up a query after {} s, in frame {}; its wrong answers are counted up to the frame before.\n", name,
+          patience, scene.sampled[f.frames.size() - 1]);
     else if (f.left_early)
-      text += fmt::format("{} had not answered everything in all {} frames when its time was over.\n", name,
-                          scene.sampled.size());
+      text += fmt::format("{} ran out of time before it had answered all {} frames.\n", name, scene.sampled.size());
   }
   return text;
 }
 
-/// The fastest that is right, with one thread, among some of the entries.
+/// The fastest with one thread among the entries that meet a condition; null if there is none.
 template <class Condition>
 const Entry_figures* fastest(const Scene_figures& scene, double Frame_seconds::*figure, const Condition& condition) {
   const Entry_figures* best = nullptr;
@@ -80,7 +80,7 @@ bool is_library(const Entry_figures& f) {
   return f.entry.library != "Lodestone" && f.entry.library != "CGAL" && f.entry.answers;
 }
 
-/// One line per question that a table is read for; none about Lodestone while it has no row.
+/// One line per question: the fastest right library, and how Lodestone compares with it, if it has a right row.
 std::string ratios(const Scene_figures& scene) {
   using Figure = double Frame_seconds::*;
   const auto named = [](std::string_view library, std::string_view method) {
@@ -111,7 +111,8 @@ std::string ratios(const Scene_figures& scene) {
     if (library != nullptr)
       text += fmt::format("; Lodestone takes 1/{:.2f} of its time", median_of(*library, figure) / seconds);
     if (culled != nullptr)
-      text += fmt::format("; 1/{:.2f} of that of the boxes in the overlap", median_of(*culled, figure) / seconds);
+      text += fmt::format("; 1/{:.2f} of the time of `box_intersection_d, overlap only`",
+                          median_of(*culled, figure) / seconds);
     if (bound != nullptr)
       text += fmt::format("; {:.2f} times the bound", seconds / median_of(*bound, &Frame_seconds::update));
     text += ".\n";
@@ -120,11 +121,7 @@ std::string ratios(const Scene_figures& scene) {
 }
 
 std::string section(const Scene_figures& scene) {
-  return fmt::format(
-      "## {}\n\n{} objects, {} triangles and {} vertices together. {} of {} frames. The bounding boxes of {} "
-      "object pairs overlap, {} of these intersect, in {} face pairs.\n\n{}\n{}",
-      scene.name, scene.objects, scene.triangles, scene.vertices, scene.sampled.size(), scene.frames, scene.asked,
-      scene.colliding, scene.contacts, table(scene), notes(scene) + ratios(scene));
+  return scene_heading(scene) + table(scene) + "\n" + notes(scene) + ratios(scene);
 }
 
 nlohmann::ordered_json to_json(const Entry_figures& f) {
@@ -155,16 +152,12 @@ nlohmann::ordered_json to_json(const Entry_figures& f) {
 }
 
 nlohmann::ordered_json to_json(const Scene_figures& scene) {
-  nlohmann::ordered_json json{{"scene", scene.name},          {"objects", scene.objects},
-                              {"triangles", scene.triangles}, {"vertices", scene.vertices},
-                              {"frames", scene.frames},       {"sampled_frames", scene.sampled},
-                              {"asked", scene.asked},         {"colliding", scene.colliding},
-                              {"face_pairs", scene.contacts}, {"batches", scene.batches}};
+  auto json = scene_figures_json(scene);
   for (const auto& figures : scene.entries) json["entries"].push_back(to_json(figures));
   return json;
 }
 
-/// A pass over a small scene takes a millisecond, in which much may disturb it: there are more of them.
+/// A pass over a small scene takes a millisecond and is easily disturbed, so there are more of them.
 std::size_t passes(const Scene& scene) {
   std::size_t triangles = 0;
   for (const auto& object : scene.objects) triangles += object.mesh.number_of_faces();
@@ -174,20 +167,15 @@ std::size_t passes(const Scene& scene) {
 }  // namespace
 
 std::string run_peers(const Experiment_context& context) {
-  const auto names = race_scenes(context);
   const auto entries = all_entries();
   std::string report;
   nlohmann::ordered_json json;
-  constexpr std::size_t steps = 1000;  // per scene
-  for (std::size_t s = 0; s < names.size(); ++s) {
-    auto scene = read_scene(context.scenes / (names[s] + ".json"));
-    const auto figures = measure_race(scene, entries, {.passes = passes(scene)}, [&](double share) {
-      context.progress(s * steps + static_cast<std::size_t>(share * steps), names.size() * steps);
-    });
-    if (s > 0) report += "\n";
+  for_each_scene(context, [&](Scene& scene, const Scene_progress& progress) {
+    const auto figures = measure_race(scene, entries, {.passes = passes(scene)}, progress);
+    if (!report.empty()) report += "\n";
     report += section(figures);
     json.push_back(to_json(figures));
-  }
+  });
   write_json(context.out, "peers", json);
   return report;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The two situations in which the paper says that its predecessor fails, both methods on the same frames.
+// The two situations in which the paper says that its predecessor fails. Both methods play the same frames.
 #include <fmt/format.h>
 
 #include "lodestone/io/results/text_table.h"
@@ -63,7 +63,7 @@ std::string run_predecessor(const Experiment_context& context) {
     for (const auto& m : run.measurements) json[names[n]].push_back(to_json(m));
   }
   write_json(context.out, "predecessor", json);
-  return fmt::format("`scattered` is the predecessor, over {} seeds.\n\n", seeds) + table.text();
+  return fmt::format("`scattered` is the predecessor; its rows sum up {} seeds.\n\n", seeds) + table.text();
 }
 
 }  // namespace lodestone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rule by which mode exact builds a tree anew, on motions that pull leaves apart and on some that do not.
+// The rule by which the mode exact rebuilds a tree, on motions that make leaves loose and on some that do not.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ struct Case {
   Motion motion;
 };
 
-/// Tetrahedra that drift through a box on lines of their own and come back: neighbours part for ever.
+/// Tetrahedra that swing through a box, each on a line of its own: pieces that start as neighbours do not stay so.
 Case drifting_pieces() {
   constexpr std::size_t pieces = 5000;
   std::mt19937_64 random(1);
@@ -78,7 +78,7 @@ struct Row {
   std::size_t rebuilds = 0;
   std::vector<double> microseconds = {};
   std::vector<double> loosenesses = {};
-  std::size_t different = 0;  ///< frames in which the face pairs are not those without rebuilds
+  std::size_t different = 0;  ///< frames whose face pairs differ from those of the detector that never rebuilds
 };
 
 void play(Case& moving, std::span<Row> rows) {
@@ -106,7 +106,7 @@ void play(Case& moving, std::span<Row> rows) {
       rows[r].loosenesses.push_back(detectors[r].tree(0).looseness());
       if (frame > 0) rows[r].microseconds.push_back(1e6 * result.statistics.seconds.total());
     }
-    // The last row is the one without rebuilds.
+    // The last row never rebuilds.
     for (std::size_t r = 0; r < rows.size(); ++r) rows[r].different += found[r] != found.back() ? 1 : 0;
   }
 }
@@ -144,8 +144,8 @@ std::string run_rebuild(const Experiment_context& context) {
   }
   write_json(context.out, "rebuild", json);
   return fmt::format(
-             "All face pairs of a moving object and a sphere of 20 480 triangles that stands still, {} frames, "
-             "one core. A tree is built anew when its leaves are looser than when it was built, by the limit.\n\n",
+             "All face pairs of a moving object and a sphere of 20 480 triangles that stands still; {} frames, one "
+             "core. A tree is rebuilt when its looseness exceeds `limit` times the looseness it was built with.\n\n",
              frames) +
          table.text();
 }

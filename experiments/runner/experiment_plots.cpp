@@ -24,7 +24,7 @@ Json read(const std::filesystem::path& file) {
   return json;
 }
 
-/// The file that a specification's `data` refers to; empty if it is none.
+/// The file that a specification's `data` refers to; empty if it refers to none.
 std::string data_file(const Json& data) {
   if (data.contains("url") && data["url"].is_string()) return data["url"];
   if (data.contains("name") && data["name"].is_string()) return data["name"].get<std::string>() + ".json";
@@ -48,7 +48,7 @@ Json rows_of(const Json& data, const std::string& name, const std::filesystem::p
   return rows;
 }
 
-/// Puts rows in the place of each `data` that refers to a file.
+/// Replaces each `data` that refers to a file by its rows.
 void inline_data(Json& node, const std::filesystem::path& spec, const std::filesystem::path& out) {
   if (!node.is_structured()) return;
   if (node.is_object() && node.contains("data") && node["data"].is_object() && !node["data"].contains("values"))

@@ -31,10 +31,10 @@ std::span<const Experiment> experiments() {
       {"growth", "Does repartitioning keep an inflating object detectable, and what does it cost?", run_growth},
       {"modes", "What does a frame cost in each mode, and what does it miss?", run_modes},
       {"partitions", "Which partition strategy is best, by its measures and in use?", run_partitions},
-      {"rebuild", "When does a tree of the mode exact become too loose, and does building it anew pay?", run_rebuild},
+      {"rebuild", "When does a tree of the mode exact become too loose, and does a rebuild pay?", run_rebuild},
       {"self_collision", "How fast is self-collision of a deforming mesh, beside CGAL?", run_self_collision},
       {"soak", "Does the exact mode ever differ from exhaustive checking?", run_soak},
-      {"volumes", "What does recomputing bounding volumes cost per frame, and which are tightest?", run_volumes},
+      {"volumes", "What does refitting bounding volumes cost per frame, and which are tightest?", run_volumes},
 #ifdef LODESTONE_PEERS
       {"peers", "How do other collision libraries fare on the same frames?", run_peers},
 #endif

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How partition, detection and repartition check grow, beside the paper's O(kMN), O(N^2) and O(N).
+// How partition, detection and repartition check grow, beside the paper's O(kMN), O(N^2) and O(N). In O(kMN) k is the
+// number of Lloyd iterations, M that of vertices and N that of particles.
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cmath>
+#include <string_view>
 
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/io/shapes/shapes.h"
@@ -31,40 +33,44 @@ double seconds_of(Function function) {
   return median(std::move(seconds));
 }
 
-/// Vectors of a teapot with about M vertices: 32 n^2 - 4 n + 2 of them for n x n quads per patch.
+/// Feature vectors of a teapot with n x n quads per patch: M = 32 n^2 - 4 n + 2.
 Feature_vectors teapot_vectors(std::size_t n) {
   const Surface_mesh mesh = teapot({.u = n, .v = n});
   const Mesh_numbering<Surface_mesh> numbering(mesh);
   return feature_vectors(read_positions(numbering, mesh.points()), numbering.corners());
 }
 
-/// The first k columns of a 6-D vector and further smooth factors of the position.
-Feature_vectors with_components(const Feature_vectors& six, Eigen::Index k) {
-  Feature_vectors vectors(six.rows(), k);
-  for (Eigen::Index c = 0; c < k; ++c)
+/// The first columns of 6-D vectors; beyond the sixth, smooth functions of these.
+Feature_vectors with_dimension(const Feature_vectors& six, Eigen::Index dimension) {
+  Feature_vectors vectors(six.rows(), dimension);
+  for (Eigen::Index c = 0; c < dimension; ++c)
     vectors.col(c) =
         c < 6 ? six.col(c).eval() : (2.0 * six.col(c % 3) + six.col((c + 1) % 3)).array().sin().matrix().eval();
   return vectors;
 }
 
-/// Time of one Lloyd iteration at full N: the number of iterations depends on the data, the cost of one is what O(kMN)
-/// speaks of. Plain and bounded search give the same labels.
+/// Time of LBG from one code vector to N. Plain and bounded search give the same labels after as many iterations.
 struct Quantise_time {
   double plain = 0, bounded = 0;  ///< seconds for the whole quantisation
-  std::size_t iterations = 0;     ///< of both
+  std::size_t iterations = 0;     ///< k: Lloyd iterations between all splits together
   double per_iteration() const { return plain / static_cast<double>(iterations); }
 };
 
-Quantise_time time_quantise(const Feature_vectors& vectors, std::size_t cells) {
+Quantise_time time_quantise(const Feature_vectors& vectors, std::size_t cells, Lbg_options options = {}) {
   Quantise_time time;
+  options.search = Nearest_search::bounded;
   time.bounded = seconds_of([&] {
-    const auto result = quantise(vectors, cells);
+    const auto result = quantise(vectors, cells, options);
     time.iterations = 0;
     for (const auto& run : result.runs) time.iterations += run.distortion.size();
   });
-  time.plain = seconds_of([&] { quantise(vectors, cells, {.search = Nearest_search::plain}); });
+  options.search = Nearest_search::plain;
+  time.plain = seconds_of([&] { quantise(vectors, cells, options); });
   return time;
 }
+
+/// The parameter that is the number of iterations: it is measured, not chosen.
+constexpr std::string_view iterations_parameter = "k";
 
 /// A series of measurements against one parameter, with the exponents that fit.
 class Series {
@@ -77,19 +83,24 @@ class Series {
   }
 
   std::string text() const {
-    Text_table table(
-        {parameter_, "plain (ms)", "bounded (ms)", "plain / bounded", "iterations", "plain per iteration (ms)"});
-    for (std::size_t i = 0; i < x_.size(); ++i)
-      table.add({fmt::format("{}", x_[i]), fmt::format("{:.2f}", 1e3 * times_[i].plain),
-                 fmt::format("{:.2f}", 1e3 * times_[i].bounded),
-                 fmt::format("{:.1f}", times_[i].plain / times_[i].bounded), std::to_string(times_[i].iterations),
-                 fmt::format("{:.3f}", 1e3 * times_[i].per_iteration())});
+    const bool against_iterations = parameter_ == iterations_parameter;
+    std::vector<std::string> header{parameter_, "plain (ms)", "bounded (ms)", "plain / bounded",
+                                    "plain per iteration (ms)"};
+    if (!against_iterations) header.insert(header.end() - 1, std::string(iterations_parameter));
+    Text_table table(header);
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      std::vector<std::string> row{fmt::format("{}", x_[i]), fmt::format("{:.2f}", 1e3 * times_[i].plain),
+                                   fmt::format("{:.2f}", 1e3 * times_[i].bounded),
+                                   fmt::format("{:.1f}", times_[i].plain / times_[i].bounded),
+                                   fmt::format("{:.3f}", 1e3 * times_[i].per_iteration())};
+      if (!against_iterations) row.insert(row.end() - 1, std::to_string(times_[i].iterations));
+      table.add(std::move(row));
+    }
     const auto [plain, iteration, bounded] = exponents();
-    return table.text() +
-           fmt::format(
-               "\nExponent of {}: {:.2f} for a plain run, {:.2f} for one of its iterations, {:.2f} for a "
-               "bounded run.\n\n",
-               parameter_, plain, iteration, bounded);
+    return table.text() + fmt::format(
+                              "\nExponent of {}: {:.2f} for a plain run, {:.2f} for one of its iterations, {:.2f} for "
+                              "a bounded run.\n\n",
+                              parameter_, plain, iteration, bounded);
   }
 
   Json json() const {
@@ -119,7 +130,7 @@ class Series {
   std::vector<Quantise_time> times_;
 };
 
-/// A step of the progress bar after each measurement.
+/// Moves the progress bar by a step after each measurement.
 class Steps {
  public:
   Steps(const Experiment_context& context, std::size_t of) : context_(context), of_(of) {}
@@ -130,15 +141,36 @@ class Steps {
   std::size_t of_, done_ = 0;
 };
 
-std::string partition_against_components(Steps& steps, Json& json) {
-  Series series("k");
-  const auto six = teapot_vectors(28);
-  for (const Eigen::Index k : {3, 6, 12, 24}) {
-    series.add(static_cast<double>(k), time_quantise(with_components(six, k), 64));
+/// Rounds between two splits end after a number of iterations; the tolerance ends none before the distortion stands
+/// still.
+std::string partition_against_iterations(Steps& steps, Json& json) {
+  Series series{std::string(iterations_parameter)};
+  const auto vectors = teapot_vectors(28);
+  for (const std::size_t of_a_round : {2, 4, 8, 16, 32}) {
+    const auto time = time_quantise(vectors, 64, {.tolerance = 1e-300, .max_iterations = of_a_round});
+    series.add(static_cast<double>(time.iterations), time);
     steps.next();
   }
   json["k"] = series.json();
-  return fmt::format("Against k, at M = {} and N = 64:\n\n", six.rows()) + series.text();
+  return fmt::format(
+             "Against k, at M = {}, N = 64 and dimension 6; every round between two splits ends after at most 2, 4, 8, "
+             "16 or 32 iterations:\n\n",
+             vectors.rows()) +
+         series.text();
+}
+
+/// Not in the paper's formula.
+std::string partition_against_dimension(Steps& steps, Json& json) {
+  Series series("dimension");
+  const auto six = teapot_vectors(28);
+  for (const Eigen::Index dimension : {3, 6, 12, 24}) {
+    series.add(static_cast<double>(dimension), time_quantise(with_dimension(six, dimension), 64));
+    steps.next();
+  }
+  json["dimension"] = series.json();
+  return fmt::format("In addition, against the dimension of the feature vectors, at M = {} and N = 64:\n\n",
+                     six.rows()) +
+         series.text();
 }
 
 std::string partition_against_vertices(Steps& steps, Json& json) {
@@ -149,7 +181,7 @@ std::string partition_against_vertices(Steps& steps, Json& json) {
     steps.next();
   }
   json["M"] = series.json();
-  return "Against M, at k = 6 and N = 64:\n\n" + series.text();
+  return "Against M, at N = 64 and dimension 6:\n\n" + series.text();
 }
 
 std::string partition_against_regions(Steps& steps, Json& json) {
@@ -160,10 +192,10 @@ std::string partition_against_regions(Steps& steps, Json& json) {
     steps.next();
   }
   json["N"] = series.json();
-  return fmt::format("Against N, at k = 6 and M = {}:\n\n", vectors.rows()) + series.text();
+  return fmt::format("Against N, at M = {} and dimension 6:\n\n", vectors.rows()) + series.text();
 }
 
-/// Time of the growth check of one object, whether or not anything has grown.
+/// Seconds of one growth check of an object, whether or not a region has grown.
 double growth_check_seconds(const Surface_mesh& mesh, std::size_t particles) {
   Particle_object<Surface_mesh, Surface_mesh::Property_map<Surface_mesh::Vertex_index, Point>> object(mesh,
                                                                                                       mesh.points());
@@ -224,13 +256,16 @@ std::string detection_against_particles(const Experiment_context& context, Steps
 }  // namespace
 
 std::string run_scaling(const Experiment_context& context) {
-  Steps steps(context, 4 + 4 + 6 + 1 + 5);
+  Steps steps(context, 5 + 4 + 6 + 4 + 1 + 5);
   Json json;
   std::string report = fmt::format(
-      "Partition: LBG over a teapot, medians of {} runs. The paper: O(kMN) for each iteration.\n\n", passes);
-  report += partition_against_components(steps, json);
+      "Partition: LBG over a teapot, medians of {} runs. The paper: O(kMN), with k Lloyd iterations, M vertices and N "
+      "particles. `k` counts the iterations of all rounds, from one code vector to N.\n\n",
+      passes);
+  report += partition_against_iterations(steps, json);
   report += partition_against_vertices(steps, json);
   report += partition_against_regions(steps, json);
+  report += partition_against_dimension(steps, json);
   report += detection_against_particles(context, steps, json);
   write_json(context.out, "scaling", json);
   return report;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Self-collision of one deforming mesh, beside CGAL's self_intersections on the same frames.
+// Self-collision of one deforming mesh, and CGAL's self_intersections on the same frames.
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <fmt/format.h>
 
@@ -109,8 +109,9 @@ std::string run_self_collision(const Experiment_context& context) {
   }
   write_json(context.out, "self_collision", json);
   return fmt::format(
-             "Medians over {} frames of the least of {} passes, one core; `all` includes the refit. CGAL is "
-             "`Polygon_mesh_processing::self_intersections`, which sees the mesh anew in every frame.\n\n",
+             "Each figure is the median over {} frames of the least of {} passes, on one core; `all` includes the "
+             "refit. CGAL is `Polygon_mesh_processing::self_intersections`, which starts from the bare mesh in every "
+             "frame.\n\n",
              frames, passes) +
          table.text();
 }

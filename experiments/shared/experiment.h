@@ -13,15 +13,14 @@ struct Experiment_context {
   std::filesystem::path scenes;                                    ///< folder of the scene files
   std::filesystem::path out;                                       ///< folder that receives all figures as JSON
   std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
-  /// Names of the scenes to play, or of meshes and strategies; empty: those of the published figures. Heeded by
-  /// `peers`, `every_frame`, `volumes` and `partitions`; the other experiments are about their scenes, and play them
-  /// all.
+  /// Names of the scenes to play, or of meshes and strategies; empty: those of the published figures. Only `peers`,
+  /// `every_frame`, `volumes` and `partitions` read it. The other experiments always play all their scenes.
   std::vector<std::string> only = {};
 
-  // Of experiments that are sweeps of many runs: `partitions`.
+  // For experiments that are sweeps of many runs (`partitions`).
   std::size_t jobs = 1;                           ///< runs at a time
-  std::size_t shard = 1, shards = 1;              ///< which part of the runs, of how many
-  std::vector<std::filesystem::path> merge = {};  ///< folders whose rows are taken over before
+  std::size_t shard = 1, shards = 1;              ///< the part of the runs to make, and how many parts there are
+  std::vector<std::filesystem::path> merge = {};  ///< folders whose rows are taken over first
 };
 
 /// One question, and the run that answers it.

@@ -5,11 +5,11 @@
 
 namespace lodestone {
 
-/// Counts seconds from where it is made, or from the last lap.
+/// Measures seconds since its construction or the last lap.
 class Lap_timer {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  /// Seconds, and starts anew.
+  /// Returns the seconds and starts again from 0.
   double lap() {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();

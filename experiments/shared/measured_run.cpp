@@ -58,7 +58,7 @@ class Scene_run {
     for (auto& object : scene_.objects) pose(object, frame);
     const auto truth = find_truth(frame > 0 ? &run.oracle_seconds : nullptr);
     for (std::size_t turn = 0; turn < detectors_.size(); ++turn) {
-      // Another one first in every frame: who comes first finds the positions outside the caches.
+      // Each frame starts with another setting, because the first one finds the positions outside the caches.
       const std::size_t s = (frame + turn) % detectors_.size();
       const auto start = Clock::now();
       detectors_[s].update();

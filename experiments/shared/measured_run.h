@@ -11,23 +11,23 @@
 
 namespace lodestone {
 
-/// What answers are held against.
+/// What answers are compared with.
 enum class Truth_source {
   exhaustive,  ///< every face against every other
-  exact_mode   ///< the mode `exact`, which gives the same: the experiment `peers` checks it on sampled frames
+  exact_mode   ///< the mode `exact`, which gives the same answers: the experiment `every_frame` checks that
 };
 
-/// Times of the truth, and the measurements, on the same frames in the same process.
+/// Times of the truth and of all settings, on the same frames in the same process.
 struct Measured_run {
   std::vector<Measurement> measurements;
   std::vector<double> oracle_seconds;  ///< exhaustive exact checking, per frame, all pairs together
 };
 
-/// Plays the scenes one after the other. In every frame all settings and the oracle answer in turn.
+/// Plays the scenes one after the other. In every frame the oracle and all settings answer in turn.
 ///
-/// The first frame of a scene, in which surfaces are partitioned, is scored but not timed.
+/// The first frame of a scene is scored but not timed, because detectors partition surfaces and build trees in it.
 ///
-/// @param truth  of large scenes: exhaustive checking would take longer than all else together
+/// @param truth  `exact_mode` for large scenes, where exhaustive checking would take longer than all else together
 Measured_run measure(std::span<Scene> scenes, std::span<const Setting> settings,
                      const std::function<void(std::size_t, std::size_t)>& progress,
                      Truth_source truth = Truth_source::exhaustive);

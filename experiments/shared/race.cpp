@@ -21,7 +21,7 @@ std::size_t heap_bytes() {
   return info.uordblks + info.hblkhd;
 }
 
-/// What is true in one frame.
+/// The truth of one frame.
 struct Truth {
   std::vector<Object_pair> pairs;                ///< asked for
   std::vector<std::vector<Face_pair>> contacts;  ///< per pair, sorted
@@ -39,7 +39,8 @@ void compare_sets(const std::vector<Face_pair>& truth, std::vector<Face_pair> fo
   figures.wrong_sets += missing.empty() && invented.empty() ? 0 : 1;
 }
 
-/// Wrong answers are counted in the first pass; a later one that differs from it makes the entry wrong as well.
+/// Counts wrong answers in the first pass. In a later pass it counts frames that are wrong if the entry was right so
+/// far.
 void compare(const Truth& truth, const Answer& answer, std::size_t pass, Entry_figures& counted) {
   if (!counted.entry.answers) return;
   Entry_figures later = counted;
@@ -60,7 +61,7 @@ void compare(const Truth& truth, const Answer& answer, std::size_t pass, Entry_f
   if (pass > 0 && wrong && !wrong_before) ++counted.wrong_later;
 }
 
-/// Objects are near when their bounding boxes, each grown by so many of its diagonals to all sides, overlap.
+/// Objects are near if their bounding boxes overlap after each has grown to all sides by this share of its diagonal.
 constexpr double near_margin = 0.05;
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -71,7 +72,8 @@ struct Player {
   double seconds = 0;           ///< of all passes so far
   double approach_seconds = 0;  ///< between sampled frames
 
-  /// Plays the frame that is posed now, number `frame` of those sampled.
+  /// Plays the frame that is posed now.
+  /// @param frame  index among the sampled ones
   const Answer& play(std::size_t frame, const Truth& truth) {
     const Lap_timer timer;
     const Answer& answer = entrant->play(truth.pairs);
@@ -145,18 +147,18 @@ class Scene_run {
     for (auto& object : scene_.objects) pose(object, frame);
   }
 
-  /// Chooses frames in which something is near something.
+  /// Chooses frames in which objects are near.
   void sample(std::size_t count) {
     std::vector<std::size_t> near;
     for (const auto frame : spread(scene_.frames, 4 * count)) {
       pose_all(frame);
       if (!overlapping_pairs(near_margin).empty()) near.push_back(frame);
     }
-    for (const auto place : spread(near.size(), count)) figures_.sampled.push_back(near[place]);
+    for (const auto index : spread(near.size(), count)) figures_.sampled.push_back(near[index]);
     if (near.empty()) figures_.sampled = spread(scene_.frames, count);
   }
 
-  /// @param margin  by which boxes grow to all sides, in diagonals
+  /// @param margin  by which boxes grow to all sides, in multiples of their diagonals
   std::vector<Object_pair> overlapping_pairs(double margin) const {
     std::vector<Box> boxes;
     for (const auto& mesh : meshes_) {
@@ -171,7 +173,7 @@ class Scene_run {
     return pairs;
   }
 
-  /// Builds the entries that are next, until the memory for one batch is used up.
+  /// Builds the next entries, until they use up the memory of a batch.
   std::vector<Player> build(std::span<const Entry> entries) {
     pose_all(0);
     std::vector<Player> players;
@@ -197,7 +199,7 @@ class Scene_run {
     for (std::size_t round = 0; round < rounds; ++round) play_round(pass, round, player);
   }
 
-  /// Once over all sampled frames.
+  /// Goes over all sampled frames once.
   void play_round(std::size_t pass, std::size_t round, Player& player) {
     player.entrant->start_round(round);
     std::size_t next = 0;
@@ -221,7 +223,7 @@ class Scene_run {
     player.approach_seconds += timer.seconds();
   }
 
-  /// Shows the sampled frames once more to those who played all of them.
+  /// Shows the sampled frames once more to the entrants that finished all of them.
   void inspect(std::span<Player> players) {
     for (std::size_t f = 0; f < figures_.sampled.size(); ++f) {
       restore(f);
@@ -230,7 +232,7 @@ class Scene_run {
     }
   }
 
-  /// Writes the positions of a sampled frame into the meshes, as a simulation would have done just before it asks.
+  /// Writes the positions of a sampled frame into the meshes, as a simulation does just before it asks.
   void restore(std::size_t f) {
     for (std::size_t o = 0; o < scene_.objects.size(); ++o)
       std::ranges::copy(positions_[f][o], scene_.objects[o].mesh.points().begin());
@@ -257,14 +259,14 @@ class Scene_run {
 
 std::vector<std::size_t> spread(std::size_t range, std::size_t count) {
   count = std::min(range, count);
-  std::vector<std::size_t> places(count);
-  for (std::size_t i = 0; i < count; ++i) places[i] = (2 * i + 1) * range / (2 * count);
-  return places;
+  std::vector<std::size_t> indices(count);
+  for (std::size_t i = 0; i < count; ++i) indices[i] = (2 * i + 1) * range / (2 * count);
+  return indices;
 }
 
 Scene_figures measure_race(Scene& scene, std::span<const Entry> entries, const Race_options& options,
                            const std::function<void(double)>& progress) {
-  // What scenes before have left of the heap lies in pieces: no entry shall be slower for it than in a scene alone.
+  // Earlier scenes leave the heap fragmented. Without trimming, an entry would be slower than in a run of one scene.
   ::malloc_trim(0);
   return Scene_run(scene, options, progress).run(entries);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "lodestone/mesh/errors.h"
 #include "shared/measured_run.h"
@@ -18,15 +19,45 @@ constexpr std::array default_scenes{"teapot_sphere_1",  "spheres_5k",       "sph
                                     "spheres_500k",     "spheres_2m",       "torus_knots_20k",
                                     "torus_knots_200k", "cloth_sphere_80k", "bodies_20_5k"};
 
-}  // namespace
-
-std::vector<std::string> race_scenes(const Experiment_context& context) {
+/// @throws Bad_scene  a name that no scene has
+std::vector<std::string> scene_names(const Experiment_context& context) {
   std::vector<std::string> names = context.only;
   if (names.empty()) names.assign(default_scenes.begin(), default_scenes.end());
   for (const auto& name : names)
     if (!exists(context.scenes / (name + ".json")))
       throw Bad_scene(fmt::format("{}: there is no such scene", (context.scenes / (name + ".json")).string()));
   return names;
+}
+
+}  // namespace
+
+void for_each_scene(const Experiment_context& context,
+                    const std::function<void(Scene& scene, const Scene_progress& progress)>& visit) {
+  const auto names = scene_names(context);
+  constexpr std::size_t steps = 1000;  // per scene
+  for (std::size_t s = 0; s < names.size(); ++s) {
+    const Scene_progress progress = [&](double share) {
+      context.progress(s * steps + static_cast<std::size_t>(share * steps), names.size() * steps);
+    };
+    Scene scene = read_scene(context.scenes / (names[s] + ".json"));
+    progress(0);
+    visit(scene, progress);
+  }
+}
+
+std::string scene_heading(const Scene_figures& scene) {
+  return fmt::format(
+      "## {}\n\n{} objects, {} triangles and {} vertices together. {} of {} frames. The bounding boxes of {} "
+      "object pairs overlap, {} of these intersect, in {} face pairs.\n\n",
+      scene.name, scene.objects, scene.triangles, scene.vertices, scene.sampled.size(), scene.frames, scene.asked,
+      scene.colliding, scene.contacts);
+}
+
+nlohmann::ordered_json scene_figures_json(const Scene_figures& scene) {
+  return {{"scene", scene.name},        {"objects", scene.objects},     {"triangles", scene.triangles},
+          {"vertices", scene.vertices}, {"frames", scene.frames},       {"sampled_frames", scene.sampled},
+          {"asked", scene.asked},       {"colliding", scene.colliding}, {"face_pairs", scene.contacts},
+          {"batches", scene.batches}};
 }
 
 std::vector<double> values(const Entry_figures& figures, double Frame_seconds::*figure) {
@@ -43,9 +74,9 @@ double median_of(const Entry_figures& figures, double Frame_seconds::*figure) {
 double percentile_95(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size())));
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-  std::ranges::nth_element(values, place);
-  return *place;
+  const auto percentile = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  std::ranges::nth_element(values, percentile);
+  return *percentile;
 }
 
 std::string milliseconds(double seconds) {

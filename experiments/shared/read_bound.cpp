@@ -9,7 +9,7 @@ namespace lodestone {
 
 namespace {
 
-/// Coordinates per step: eight points, whose extremes run side by side, so that no minimum waits for the one before.
+/// Coordinates per step: those of eight points. Each lane has extremes of its own, so no minimum waits for the last.
 constexpr std::size_t lanes = 24;
 
 struct Extremes {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The exact mode against the plainest possible check, on meshes made to be hard.
+// Compares the mode exact with the plainest possible check, on meshes that are made to be hard.
 #include "soak/soak.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace lodestone {
 
 namespace {
 
-/// The boxes of faces, side by side: all those that overlap one are found in one pass.
+/// The boxes of faces, coordinate by coordinate: one branchless pass finds all those that overlap a given box.
 class Face_boxes {
  public:
   Face_boxes(const Positions& positions, std::span<const Corners> faces) {
@@ -30,7 +30,7 @@ class Face_boxes {
       }
     overlaps_.resize(faces.size());
   }
-  /// Calls `visit(face)` for those from number `first` on whose boxes overlap that of a face of `other`.
+  /// Calls `visit(face)` for each face from index `first` on whose box overlaps that of a face of `other`.
   template <class Visit_face>
   void overlapping(const Face_boxes& other, std::size_t other_face, std::size_t first, Visit_face visit) {
     std::array<double, 3> low{}, high{};
@@ -82,7 +82,7 @@ std::vector<Face_pair> checked_within(const Posed_mesh& mesh, std::size_t& pairs
     const Triangle triangle = mesh.triangle(f);
     boxes.overlapping(boxes, f, f + 1, [&](std::uint32_t g) {
       ++pairs;
-      // For faces without a common vertex the same as `triangles_intersect`.
+      // Equals `triangles_intersect` for faces without a common vertex.
       if (faces_intersect(mesh.faces[f], triangle, mesh.faces[g], mesh.triangle(g))) found.push_back({f, g});
     });
   }
@@ -95,7 +95,7 @@ std::size_t differences(const std::vector<Face_pair>& sorted_a, const std::vecto
   return different.size();
 }
 
-/// Two meshes through all their poses.
+/// Checks two meshes in all their poses.
 class Round {
  public:
   Round(const std::array<Soak_mesh, 2>& meshes, std::size_t regions, std::size_t leaf_faces, std::size_t threads)
@@ -123,7 +123,7 @@ class Round {
       std::vector<Face_pair> found;
       search_.between(objects_[0], objects_[1], {}, found);
       compare(checked_between(a, b, kind.pairs), found, kind);
-      // Within one of the two: pairs between them are what most of the time should go into.
+      // Only one of the two meshes, so that most of the time goes into pairs between them.
       const std::size_t m = pose % 2;
       found.clear();
       search_.within(objects_[m], {}, found);
@@ -132,7 +132,7 @@ class Round {
   }
 
  private:
-  /// Regions of consecutive vertices: neighbours in a surface, anything in a soup.
+  /// Regions of consecutive vertices: often neighbours in a surface, unrelated in a soup.
   static std::vector<Region_index> region_labels(Eigen::Index vertices, std::size_t regions) {
     std::vector<Region_index> labels(static_cast<std::size_t>(vertices));
     for (std::size_t v = 0; v < labels.size(); ++v) labels[v] = static_cast<Region_index>(v * regions / labels.size());
@@ -163,7 +163,7 @@ Soak_result soak(std::uint64_t seed, std::size_t pairs, const std::function<void
   for (const auto& recipe : recipes) {
     Soak_kind kind{.name = recipe.name};
     std::mt19937_64 random(seed * recipes.size() + result.kinds.size());
-    // Each kind in each frame of reference, however few pairs are asked for.
+    // Every kind meets every frame of reference, even if few pairs are asked for.
     while (kind.pairs < share || kind.rounds < soak_frames_of_reference) {
       auto meshes = recipe.make(random);
       for (auto& mesh : meshes) move_to_frame_of_reference(mesh, kind.rounds % soak_frames_of_reference);
@@ -207,9 +207,9 @@ std::string run_soak(const Experiment_context& context) {
              std::to_string(result.differences), std::to_string(result.invalid_trees)});
   write_json(context.out, "soak", json);
   return fmt::format(
-             "Two meshes of 200 to 2000 triangles a round, in {} poses: a tree built on the first, refitted to the "
-             "others. Between the two, and within one, every pair of faces whose boxes overlap is checked by itself. "
-             "Seed {}.\n\n",
+             "Each round makes two meshes of 200 to 2000 triangles in {} poses. Their trees are built on the first "
+             "pose and refitted to the others. The truth checks every pair of faces whose boxes overlap, one by one, "
+             "between the two meshes and within one of them. Seed {}.\n\n",
              soak_poses, seed) +
          table.text();
 }

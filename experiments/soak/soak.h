@@ -13,9 +13,9 @@ namespace lodestone {
 struct Soak_kind {
   std::string_view name;
   std::size_t rounds = 0;         ///< pairs of meshes; a tree is built on one pose and refitted to others
-  std::size_t pairs = 0;          ///< face pairs whose boxes overlap, each checked by itself
+  std::size_t pairs = 0;          ///< face pairs whose boxes overlap, checked one by one
   std::size_t intersecting = 0;   ///< of these
-  std::size_t differences = 0;    ///< face pairs that one answer holds and the other lacks, or holds twice
+  std::size_t differences = 0;    ///< face pairs that only one side lists, or lists twice
   std::size_t invalid_trees = 0;  ///< trees that contradict their definition after a refit
 };
 
@@ -24,11 +24,11 @@ struct Soak_result {
   std::vector<Soak_kind> kinds;
 };
 
-/// Holds `Contact_search`, between two objects and within one, against checking all face pairs whose boxes overlap.
+/// Compares `Contact_search`, between two objects and within one, with a check of all face pairs whose boxes overlap.
 ///
-/// Rounds are made from the seed: soups and surfaces of 200 to 2000 triangles, of every kind until it has its share of
-/// `pairs`; in one unit, in very small and very large ones, and far from the origin; with 1 to 16 regions, leaves of 2
-/// to 128 faces, one and several threads. The same seed gives the same rounds.
+/// The seed determines the rounds. Each kind of mesh plays rounds until it has checked its share of `pairs`. Meshes are
+/// soups and surfaces of 200 to 2000 triangles, with coordinates about 1, very small, very large, or far from the
+/// origin. Trees have 1 to 16 regions and leaves of 2 to 128 faces; one or several threads search them.
 ///
 /// @param pairs     at least so many face pairs with overlapping boxes
 /// @param progress  called with the pairs checked so far

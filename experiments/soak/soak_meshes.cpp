@@ -38,7 +38,7 @@ std::vector<Corners> loose_faces(std::uint32_t count) {
   return faces;
 }
 
-/// Loose faces whose corners are `corners(middle, size)` around random places.
+/// Faces without common vertices. Their corners are `corners(middle, size)` around random points.
 template <class Make_corners>
 Soak_mesh soup(Random& random, Make_corners corners) {
   Soak_mesh mesh;
@@ -62,7 +62,7 @@ Pair random_soups(Random& random) {
   return {soup(random, corners), soup(random, corners)};
 }
 
-/// Faces whose width is from a tenth of their length down to its last digit, or whose middle corner lies just beside
+/// Faces whose width is between a tenth of their length and its last digit, or whose middle corner lies just beside
 /// the opposite edge.
 Pair slivers(Random& random) {
   const auto corners = [&](const Eigen::RowVector3d& middle, double size) {
@@ -92,7 +92,7 @@ Pair zero_area(Random& random) {
   return {soup(random, corners), soup(random, corners)};
 }
 
-/// Faces between points of a small grid: many touch, are coplanar, share corners by place and by number.
+/// Faces between points of a small grid: many touch, are coplanar, or share corners by position or by index.
 Soak_mesh lattice_mesh(Random& random, std::uint32_t grid) {
   const std::uint32_t count = face_count(random);
   const std::uint32_t vertices = count / 2 + 8;
@@ -103,7 +103,7 @@ Soak_mesh lattice_mesh(Random& random, std::uint32_t grid) {
   }
   for (std::size_t pose = 0; pose < soak_poses; ++pose) {
     auto& positions = mesh.poses.emplace_back(vertices, 3);
-    // A walk through the grid: vertices with near numbers are near each other.
+    // A walk through the grid, so that vertices with near indices are near each other.
     Eigen::RowVector3d at(below(random, grid), below(random, grid), below(random, grid));
     for (std::uint32_t v = 0; v < vertices; ++v) {
       for (double& x : at) x = std::clamp(x + below(random, 3) - 1.0, 0.0, grid - 1.0);
@@ -118,7 +118,7 @@ Pair lattices(Random& random) {
   return {lattice_mesh(random, grid), lattice_mesh(random, grid)};
 }
 
-/// A sphere out of shape, its surface rough.
+/// A deformed sphere with a rough surface.
 Soak_mesh sphere_mesh(Random& random) {
   const Surface_mesh mesh = icosphere(4 + below(random, 7));
   const Mesh_numbering<Surface_mesh> numbering(mesh);
@@ -148,7 +148,7 @@ Pair touching(Random& random) {
     for (Eigen::Index v = 0; v < positions.rows(); v += 3) {
       const auto& [a, b, c] = faces[below(random, faces.size())];
       const auto place_on_face = [&]() -> Eigen::RowVector3d {
-        // Halves give corners, edges and their middles; other weights the inside.
+        // Weights that are halves give corners and middles of edges; other weights give points inside.
         const auto weight = [&] { return random() % 2 == 0 ? 0.5 * below(random, 3) : real(random, 0, 1); };
         const double s = weight(), t = (1 - s) * weight();
         return (1 - s - t) * poses[pose].row(a) + s * poses[pose].row(b) + t * poses[pose].row(c);
@@ -166,7 +166,7 @@ Pair touching(Random& random) {
   return pair;
 }
 
-/// The second mesh is a speck on a face of the first, down to the last digits of its coordinates.
+/// The second mesh is a speck on a face of the first, as small as the last digits of its coordinates.
 Pair unlike_sizes(Random& random) {
   Pair pair{sphere_mesh(random), sphere_mesh(random)};
   for (std::size_t pose = 0; pose < soak_poses; ++pose) {
@@ -215,7 +215,7 @@ void move_to_frame_of_reference(Soak_mesh& mesh, std::size_t number) {
     if (number == 1) positions *= 0x1p-300;
     if (number == 2) positions *= 0x1p300;
     if (number == 3) positions.array() += 0x1p20;
-    // Where filters just still, or just no longer, may rely on products of three lengths.
+    // On both sides of the limit up to which filters may rely on products of three lengths.
     if (number == 4) positions *= 0x1p-298;
     if (number == 5) positions *= 0x1p298;
   }

@@ -81,12 +81,13 @@ std::string run_teapot_sphere(const Experiment_context& context) {
   report += quality_table(run).text();
   report += "\nThe paper claims more than 90 % accuracy.\n\n";
   report += fmt::format(
-      "Medians over the frames, microseconds on one core; the oracle takes {:.0f}. The mean, unlike "
-      "the medians, shows the repartitions:\n\n",
+      "Medians over the frames in microseconds, one core; the oracle takes {:.0f}. The mean, unlike the medians, "
+      "includes the repartitions:\n\n",
       1e6 * median(run.oracle_seconds));
   report += time_table(run).text();
   report +=
-      "\nThe paper claims 29 frames per second, 34483 microseconds per frame, with display, on its machine of 2006.\n";
+      "\nThe paper claims 29 frames per second, which is 34483 microseconds per frame, including display, on a machine "
+      "of 2006.\n";
 
   nlohmann::ordered_json json{{"oracle_median_microseconds", 1e6 * median(run.oracle_seconds)}, {"settings", {}}};
   for (const auto& m : run.measurements) json["settings"].push_back(to_json(m));

@@ -9,14 +9,14 @@
 #include "volumes/scene_division.h"
 #include "volumes/tightness.h"
 
-/// Who takes part in the experiment `volumes`.
+/// The contestants of the experiment `volumes`.
 namespace lodestone {
 
-/// What is counted of a tree, beyond what the race measures.
+/// Figures of a tree that the race itself does not measure.
 struct Volume_figures {
   std::size_t node_bytes = 0;  ///< of a volume
   std::size_t nodes = 0;       ///< of all objects
-  std::size_t frames = 0;      ///< over which the counts below are added up
+  std::size_t frames = 0;      ///< the counts below are sums over these
   std::size_t volume_tests = 0;
   std::size_t leaf_pairs = 0;
   std::size_t exact_tests = 0;
@@ -27,7 +27,7 @@ struct Volume_figures {
   }
 };
 
-/// What particles did in all frames that they played, sampled or not.
+/// Figures of particles over all frames that they played, sampled or not.
 struct Particle_figures {
   std::size_t frames = 0;
   double seconds = 0;            ///< of updates and queries
@@ -44,15 +44,16 @@ struct Contestant {
   std::string model;     ///< the volume; `particles, 12`; `bound`
   std::string strategy;  ///< empty: none
   Entry entry;
-  std::shared_ptr<const Volume_figures> figures = nullptr;      ///< of volumes: filled by the race
-  std::shared_ptr<const Particle_figures> particles = nullptr;  ///< the same of particles
+  std::shared_ptr<const Volume_figures> figures = nullptr;      ///< of volumes; the race fills them
+  std::shared_ptr<const Particle_figures> particles = nullptr;  ///< of particles; the race fills them
 };
 
 /// A tree of each model of Bounding_volume over each division.
 std::vector<Contestant> volume_contestants(const std::vector<std::shared_ptr<Scene_division>>& divisions);
-/// The mode `particles` with so many per object.
+/// The mode `particles`.
+/// @param particles  per object
 Contestant particle_contestant(std::size_t particles);
-/// Reading every vertex once, all volumes, and the particles of the paper.
+/// The bound, all volumes, and the particles of the paper.
 std::vector<Contestant> all_contestants(const std::vector<std::shared_ptr<Scene_division>>& divisions);
 
 }  // namespace lodestone

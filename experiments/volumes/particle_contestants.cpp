@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The method of the paper on the frames of a race: it reads a few vertices, and may miss.
+// The method of the paper on the frames of a race. It reads a few vertices and may miss collisions.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "lodestone/detector.h"
@@ -20,11 +19,11 @@ class Particle_entrant : public Entrant {
       : detector_({.particles = particles, .contacts = Contact_query::yes_no, .growth = 1.25}),
         figures_(std::move(figures)) {
     for (const auto& mesh : meshes) detector_.add(*mesh.mesh);
-    detector_.detect();  // divides the surfaces
+    detector_.detect();  // the first frame partitions the surfaces
   }
 
-  /// Particles walk from where they were in the frame before, so they play all frames of the scene in their order. Only
-  /// from the end back to the start, where a pass begins, do they jump; that does not count.
+  /// Particles walk on from the frame before, so they play all frames of the scene in order. At the start of a pass
+  /// they jump from the last frame back to the first; that frame does not count.
   bool wants_approach() const override { return true; }
   void start_round(std::size_t /*round*/) override { jumps_ = true; }
   void approach() override {
@@ -42,10 +41,9 @@ class Particle_entrant : public Entrant {
     const Frame& frame = detector_.detect();
     answer_.any_seconds = timer.lap();
     count(answer_.update_seconds + answer_.any_seconds, frame);
-    for (const auto& found : frame.pairs) {
-      const auto place = std::ranges::find(pairs, Object_pair{found.a, found.b}) - pairs.begin();
-      if (place < std::ssize(pairs)) answer_.collides[static_cast<std::size_t>(place)] = found.collides;
-    }
+    for (const auto& found : frame.pairs)
+      if (const auto index = index_of({found.a, found.b}, pairs); index < pairs.size())
+        answer_.collides[index] = found.collides;
     return answer_;
   }
 

@@ -39,8 +39,8 @@ Scene_division::Scene_division(std::string_view strategy, std::span<const Moving
 
 const Scene_division::Measure& Scene_division::measure(std::size_t frame, std::span<const Tree_layout* const> layouts,
                                                        std::span<const Moving_mesh> meshes) {
-  const auto [place, is_new] = measures_.try_emplace(frame);
-  Measure& measure = place->second;
+  const auto [found, is_new] = measures_.try_emplace(frame);
+  Measure& measure = found->second;
   if (!is_new) return measure;
   for (std::size_t object = 0; object < meshes.size(); ++object) {
     const Coordinates coordinates = meshes[object].coordinates();

@@ -21,23 +21,23 @@ std::span<const std::string_view> dividing_strategies();
 /// Regions of each object at the top of its tree.
 constexpr std::size_t division_regions = 64;
 
-/// All objects of a scene divided by one strategy, as they are in the first frame: what the trees of all volumes share.
+/// All objects of a scene, divided by one strategy in the first frame. The trees of all volumes share it.
 class Scene_division {
  public:
   Scene_division(std::string_view strategy, std::span<const Moving_mesh> meshes);
 
   const std::string& strategy() const { return strategy_; }
-  /// Of all partitions together.
+  /// Time of all partitions together.
   double seconds() const { return seconds_; }
   std::span<const Region_index> labels(std::size_t object) const { return labels_[object]; }
   const Tree_pieces& pieces(std::size_t object) const { return pieces_[object]; }
 
-  /// What the volumes of one frame are measured with: the same for all volumes, so it is found once.
+  /// What tightness compares the volumes of a frame with. It is the same for all volumes, so it is computed once.
   struct Measure {
     std::vector<std::vector<Chosen_faces>> regions;  ///< per object and region
     Hull_sums hulls;
   };
-  /// @param frame    a number by which to remember it
+  /// @param frame    index under which the result is kept
   /// @param layouts  per object: of a tree with these labels
   const Measure& measure(std::size_t frame, std::span<const Tree_layout* const> layouts,
                          std::span<const Moving_mesh> meshes);

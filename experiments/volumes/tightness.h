@@ -10,13 +10,13 @@
 
 namespace lodestone {
 
-/// Volume of bounding volumes over that of the convex hulls of what they enclose: 1 is as tight as a convex body can
-/// be; one that is not convex may be tighter. Each figure is a ratio of sums: a flat piece, whose hull has no volume,
-/// adds what is put around it.
+/// Volume of bounding volumes over that of the convex hulls of what they enclose. 1 is as tight as a convex volume can
+/// be; a volume that is not convex may be tighter. Each figure is a ratio of sums, so a flat piece, whose hull has no
+/// volume, still adds its bounding volume.
 struct Tightness {
   double leaves = 0;            ///< fitted to their faces
-  double regions = 0;           ///< fitted to their faces, see `choose_faces`; not a number where only all would do
-  double regions_refitted = 0;  ///< as they stand in the tree: of the volumes below
+  double regions = 0;           ///< fitted to their faces, see `choose_faces`; not a number if that needs all faces
+  double regions_refitted = 0;  ///< as they stand in the tree, around the volumes below
   double objects = 0;           ///< as they stand in the tree
 };
 
@@ -28,7 +28,7 @@ struct Volume_sums {
   double objects = 0;
 };
 
-/// Adds the volumes of one tree, which has just been refitted.
+/// Adds the volumes of one refitted tree.
 /// @param regions  what volumes of regions are fitted to, see `choose_faces`
 template <Bounding_volume Volume>
 void add_volumes(const Basic_region_tree<Volume>& tree, const Tree_pieces& pieces, Coordinates coordinates,
@@ -37,7 +37,7 @@ void add_volumes(const Basic_region_tree<Volume>& tree, const Tree_pieces& piece
   for (const auto& region : regions) {
     Volume fitted;
     fitted.enclose(region.posed(coordinates));
-    // How thin a shell is is decided by faces within.
+    // Faces inside the region decide how thin a shell is.
     const bool stands_for_all = region.complete || !std::same_as<Volume, Spherical_shell>;
     sums.regions += stands_for_all ? fitted.volume() : std::numeric_limits<double>::quiet_NaN();
   }
@@ -45,7 +45,7 @@ void add_volumes(const Basic_region_tree<Volume>& tree, const Tree_pieces& piece
   sums.objects += tree.volume(0).volume();
 }
 
-/// 0 for what has no hull.
+/// A figure is 0 if its hulls have no volume.
 inline Tightness tightness_of(const Volume_sums& volumes, const Hull_sums& hulls) {
   const auto ratio = [](double volume, double hull) { return hull > 0 ? volume / hull : 0; };
   return {.leaves = ratio(volumes.leaves, hulls.leaves),

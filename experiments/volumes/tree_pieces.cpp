@@ -21,7 +21,7 @@ void sort_unique(std::vector<std::uint32_t>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// Finds the nodes at which a tree has come down to single regions.
+/// Finds the highest nodes whose leaves are all in one region.
 class Region_finder {
  public:
   Region_finder(const Tree_layout& layout, std::span<const Corners> corners, std::span<const Region_index> labels)
@@ -65,7 +65,7 @@ class Region_finder {
   std::vector<Region_piece> found_;
 };
 
-/// Those of the k-DOPs, both ways, and others spread evenly over all.
+/// The directions of the k-DOPs, both ways, and others spread evenly over the sphere.
 std::vector<Eigen::Vector3d> fitting_directions() {
   std::vector<Eigen::Vector3d> directions;
   for (int x = -1; x <= 1; ++x)
@@ -93,7 +93,7 @@ std::vector<std::uint32_t> farthest_vertices(const Region_piece& region, Coordin
   return farthest;
 }
 
-/// For each of some vertices a face that has it.
+/// For each of the given vertices a face that uses it.
 std::vector<std::uint32_t> faces_of(const std::vector<std::uint32_t>& vertices, const Region_piece& region,
                                     std::span<const Corners> corners) {
   std::vector<std::uint32_t> faces;
@@ -102,9 +102,9 @@ std::vector<std::uint32_t> faces_of(const std::vector<std::uint32_t>& vertices, 
     for (const auto corner : corners[face]) {
       const auto found = std::ranges::lower_bound(vertices, corner);
       if (found == vertices.end() || *found != corner) continue;
-      const auto place = static_cast<std::size_t>(found - vertices.begin());
-      if (!has_face[place]) faces.push_back(face);
-      has_face[place] = true;
+      const auto index = static_cast<std::size_t>(found - vertices.begin());
+      if (!has_face[index]) faces.push_back(face);
+      has_face[index] = true;
     }
   sort_unique(faces);
   return faces;
@@ -136,12 +136,12 @@ Chosen_faces choose_faces(const Region_piece& region, std::span<const Corners> c
   for (const auto face : faces)
     chosen.vertices.insert(chosen.vertices.end(), corners[face].begin(), corners[face].end());
   sort_unique(chosen.vertices);
-  const auto place_of = [&](std::uint32_t vertex) {
+  const auto index_of = [&](std::uint32_t vertex) {
     return static_cast<std::uint16_t>(std::ranges::lower_bound(chosen.vertices, vertex) - chosen.vertices.begin());
   };
   for (const auto face : faces) {
     const auto& [a, b, c] = corners[face];
-    chosen.corners.push_back({place_of(a), place_of(b), place_of(c)});
+    chosen.corners.push_back({index_of(a), index_of(b), index_of(c)});
   }
   return chosen;
 }

@@ -7,19 +7,19 @@
 
 #include "lodestone/tree/tree_layout.h"
 
-/// Which parts of a tree its tightness is measured on.
+/// The parts of a tree whose tightness is measured.
 namespace lodestone {
 
 /// One region of an object.
 struct Region_piece {
   std::uint32_t node = 0;               ///< the highest with faces of this region only
-  std::vector<std::uint32_t> faces;     ///< their numbers
-  std::vector<std::uint32_t> vertices;  ///< numbers of those that the faces have, ascending
+  std::vector<std::uint32_t> faces;     ///< indices
+  std::vector<std::uint32_t> vertices;  ///< indices of the vertices of the faces, ascending
 };
 
 /// Parts of one object.
 struct Tree_pieces {
-  std::vector<std::uint32_t> leaves;  ///< all, or so many of them, evenly spread over their numbers
+  std::vector<std::uint32_t> leaves;  ///< all, or `most_measured_leaves` evenly spread over the indices
   std::vector<Region_piece> regions;
 };
 
@@ -30,25 +30,27 @@ constexpr std::size_t most_measured_leaves = 1024;
 Tree_pieces pieces_of(const Tree_layout& layout, std::span<const Corners> corners,
                       std::span<const Region_index> labels);
 
-/// A few faces in the form in which a volume is fitted to them.
+/// A few faces, in the form that a volume is fitted to.
 struct Chosen_faces {
-  std::vector<std::uint32_t> vertices;  ///< numbers of those that the faces have, ascending
-  std::vector<Leaf_corners> corners;    ///< per face: places in `vertices`
+  std::vector<std::uint32_t> vertices;  ///< indices of the vertices of the faces, ascending
+  std::vector<Leaf_corners> corners;    ///< per face: indices into `vertices`
   bool complete = true;                 ///< these are all faces of the region
 
   Leaf_faces posed(Coordinates coordinates) const { return {coordinates, vertices, corners}; }
 };
 
-/// A volume is fitted to at most so many faces at a time.
+/// Most faces that a volume is fitted to at a time.
 constexpr std::size_t most_fitted_faces = 128;
 
-/// All faces of a region; if they are too many, for each of so many directions a face with a vertex that lies farthest
-/// that way. Among the directions are those of all k-DOPs, so boxes and k-DOPs around these faces are those around the
-/// region. Other convex volumes are fitted to fewer points than they would be: balls around them are a little too
-/// small, boxes that turn may turn another way.
+/// All faces of a region, or a choice if they are more than `most_fitted_faces`.
+///
+/// The choice takes a face at the vertex that lies farthest in each of `most_fitted_faces` directions. The directions
+/// of all k-DOPs are among them, so boxes and k-DOPs around the choice equal those around the region. Other convex
+/// volumes see fewer points than the region has: balls come out a little too small, and oriented boxes may turn
+/// another way.
 Chosen_faces choose_faces(const Region_piece& region, std::span<const Corners> corners, Coordinates coordinates);
 
-/// A hull of more points is that of every n-th of them, which makes that of a ball too small by a thousandth or so.
+/// Most points of a hull. Of more points every n-th is taken; the hull of a ball comes out about 0.1 % too small.
 constexpr std::size_t most_hull_points = 4096;
 
 /// Volume of the convex hull of vertices; 0 if they are flat.

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON knows no other numbers.
+/// JSON has no numbers that are not finite.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 const char* name_of(Contestant_kind kind) {
@@ -30,16 +30,16 @@ constexpr Named_figure named_figures[] = {{"update", &Frame_seconds::update},
                                           {"update_and_yes_no", &Frame_seconds::update_and_any},
                                           {"update_and_all_pairs", &Frame_seconds::update_and_all}};
 
-/// Whether a figure of an entry means something.
+/// Whether an entry has a figure.
 bool has(const Entry_figures& f, double Frame_seconds::*figure) {
   if (figure == &Frame_seconds::update) return true;
   const bool of_all = figure == &Frame_seconds::all || figure == &Frame_seconds::update_and_all;
   return of_all ? f.entry.reports_pairs : f.entry.answers;
 }
 
-Json row_of(const Volume_scene& scene, std::size_t place) {
-  const Contestant& c = scene.contestants[place];
-  const Entry_figures& f = scene.race.entries[place];
+Json row_of(const Volume_scene& scene, std::size_t index) {
+  const Contestant& c = scene.contestants[index];
+  const Entry_figures& f = scene.race.entries[index];
   Json row{{"scene", scene.race.name},
            {"triangles", scene.race.triangles},
            {"kind", name_of(c.kind)},
@@ -59,7 +59,7 @@ Json row_of(const Volume_scene& scene, std::size_t place) {
   if (f.entry.answers) {
     row["missed"] = f.missed;
     row["invented"] = f.invented;
-    row["recall"] = scene.race.colliding == 0 || f.left_early ? Json() : number(recall(scene, place));
+    row["recall"] = scene.race.colliding == 0 || f.left_early ? Json() : number(recall(scene, index));
   }
   if (c.particles) {
     row["mean_ms"] = number(1e3 * c.particles->mean_seconds());
@@ -88,9 +88,9 @@ void add_tightness(const Volume_scene& scene, const Contestant& c, Json& rows) {
                       {"tightness", number(tightness->*figure)}});
 }
 
-Json frames_of(const Volume_scene& scene, std::size_t place) {
-  const Contestant& c = scene.contestants[place];
-  const Entry_figures& f = scene.race.entries[place];
+Json frames_of(const Volume_scene& scene, std::size_t index) {
+  const Contestant& c = scene.contestants[index];
+  const Entry_figures& f = scene.race.entries[index];
   Json json{{"model", c.model}, {"strategy", c.strategy}};
   for (const auto& [name, figure] : named_figures)
     if (has(f, figure)) json[std::string(name) + "_s"] = values(f, figure);
@@ -98,15 +98,11 @@ Json frames_of(const Volume_scene& scene, std::size_t place) {
 }
 
 Json scene_json(const Volume_scene& scene) {
-  const auto& race = scene.race;
-  Json json{{"scene", race.name},        {"objects", race.objects},     {"triangles", race.triangles},
-            {"vertices", race.vertices}, {"frames", race.frames},       {"sampled_frames", race.sampled},
-            {"asked", race.asked},       {"colliding", race.colliding}, {"face_pairs", race.contacts},
-            {"batches", race.batches}};
+  Json json = scene_figures_json(scene.race);
   for (const auto& [strategy, seconds] : scene.divisions)
     json["partitions"].push_back({{"strategy", strategy}, {"seconds", seconds}});
-  for (std::size_t place = 0; place < scene.contestants.size(); ++place)
-    json["entries"].push_back(frames_of(scene, place));
+  for (std::size_t index = 0; index < scene.contestants.size(); ++index)
+    json["entries"].push_back(frames_of(scene, index));
   return json;
 }
 
@@ -115,9 +111,9 @@ Json scene_json(const Volume_scene& scene) {
 Json volume_json(std::span<const Volume_scene> scenes) {
   Json json{{"regions", division_regions}, {"rows", Json::array()}, {"tightness", Json::array()}};
   for (const auto& scene : scenes) {
-    for (std::size_t place = 0; place < scene.contestants.size(); ++place) {
-      json["rows"].push_back(row_of(scene, place));
-      if (scene.contestants[place].figures) add_tightness(scene, scene.contestants[place], json["tightness"]);
+    for (std::size_t index = 0; index < scene.contestants.size(); ++index) {
+      json["rows"].push_back(row_of(scene, index));
+      if (scene.contestants[index].figures) add_tightness(scene, scene.contestants[index], json["tightness"]);
     }
     json["scenes"].push_back(scene_json(scene));
   }

@@ -28,14 +28,14 @@ std::string scenes_table(std::span<const Volume_scene> scenes, const std::vector
   return table.text();
 }
 
-/// Volumes in times of something else.
+/// Times of the volumes, as ratios to those of the model `to`.
 std::string ratios_table(std::span<const Volume_scene> scenes, double Frame_seconds::*figure, std::string_view to) {
   return scenes_table(scenes, scenes[0].models(), [&](const Volume_scene& scene, const std::string& model) {
     return ratio_cell(scene.seconds(model, reference_strategy, figure) / scene.seconds(to, reference_strategy, figure));
   });
 }
 
-/// How much of update + all pairs is the update.
+/// Share of the update in update + all pairs.
 std::string update_share_table(std::span<const Volume_scene> scenes) {
   return scenes_table(scenes, scenes[0].models(), [&](const Volume_scene& scene, const std::string& model) {
     return ratio_cell(scene.seconds(model, reference_strategy, &Frame_seconds::update) /
@@ -49,22 +49,22 @@ std::string particles_table(std::span<const Volume_scene> scenes) {
     if (c.kind == Contestant_kind::particles) columns.push_back(c.model);
   constexpr auto figure = &Frame_seconds::update_and_any;
   return scenes_table(scenes, columns, [&](const Volume_scene& scene, const std::string& model) {
-    const auto place = static_cast<std::size_t>(scene.place_of(model, reference_strategy));
+    const auto index = static_cast<std::size_t>(scene.index_of(model, reference_strategy));
     const double boxes = scene.seconds(reference_model, reference_strategy, figure);
-    const auto& particles = *scene.contestants[place].particles;
+    const auto& particles = *scene.contestants[index].particles;
     return fmt::format("{} / {} / {:.0f} / {}", ratio_cell(scene.seconds(model, reference_strategy, figure) / boxes),
                        ratio_cell(particles.mean_seconds() / boxes),
                        100.0 * static_cast<double>(particles.repartitions) / static_cast<double>(particles.frames),
-                       seen_cell(scene, place));
+                       seen_cell(scene, index));
   });
 }
 
-/// Volumes in times of the mean frame of 32 particles.
+/// Times of the volumes, as ratios to the mean frame of 32 particles.
 std::string mean_ratios_table(std::span<const Volume_scene> scenes) {
   return scenes_table(scenes, scenes[0].models(), [&](const Volume_scene& scene, const std::string& model) {
-    const auto place = static_cast<std::size_t>(scene.place_of(reference_particles, reference_strategy));
+    const auto index = static_cast<std::size_t>(scene.index_of(reference_particles, reference_strategy));
     return ratio_cell(scene.seconds(model, reference_strategy, &Frame_seconds::update_and_any) /
-                      scene.contestants[place].particles->mean_seconds());
+                      scene.contestants[index].particles->mean_seconds());
   });
 }
 
@@ -87,7 +87,7 @@ std::string strategies_table(std::span<const Volume_scene> scenes, const Figure&
   return table.text();
 }
 
-/// Times by strategy, in times of the same volume over regions by the reference.
+/// Times by strategy, as ratios to the same volume over regions by the reference strategy.
 std::string strategy_times_table(std::span<const Volume_scene> scenes, double Frame_seconds::*figure) {
   return strategies_table(scenes, [&](const Volume_scene& scene, const std::string& model, std::string_view strategy) {
     return scene.seconds(model, strategy, figure) / scene.seconds(model, reference_strategy, figure);
@@ -104,9 +104,8 @@ std::string tightness_table(std::span<const Volume_scene> scenes, double Tightne
 
 std::string volume_report(std::span<const Volume_scene> scenes) {
   std::string text = fmt::format(
-      "One core. Volumes are those of trees over {} regions, by `{}` where a table names no strategy. Times are "
-      "medians "
-      "over the frames.\n\n",
+      "One core. Every tree stands over a partition into {} regions, by `{}` where a table names no strategy. Times "
+      "are medians over the frames.\n\n",
       division_regions, reference_strategy);
   text += titled("Update, in times of aabb", ratios_table(scenes, &Frame_seconds::update, reference_model));
   text += titled("Update + yes/no, in times of aabb",
@@ -121,7 +120,7 @@ std::string volume_report(std::span<const Volume_scene> scenes) {
       "Particles: median frame, mean frame (both in times of update + yes/no of aabb) / repartitions in 100 frames / "
       "collisions seen",
       particles_table(scenes));
-  text += "What follows are geometric means over the scenes.\n\n";
+  text += "The figures of the next tables are geometric means over the scenes.\n\n";
   for (const auto& [what, figure] :
        {std::pair("Update", &Frame_seconds::update), std::pair("Query for all pairs", &Frame_seconds::all),
         std::pair("Update + all pairs", &Frame_seconds::update_and_all)})

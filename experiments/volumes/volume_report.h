@@ -9,19 +9,19 @@
 
 namespace lodestone {
 
-/// The volume that others are held against, and the strategy of the tables about volumes.
+/// The volume that others are compared with, and the strategy of the tables about volumes.
 constexpr std::string_view reference_model = "aabb";
 constexpr std::string_view reference_strategy = "lbg";
-/// The particles that volumes are held against.
+/// The particles that volumes are compared with.
 constexpr std::string_view reference_particles = "particles, 32";
 
-/// All tables, in Markdown: ratios over all scenes first, then a section for each scene.
+/// All tables, in Markdown: first the ratios over all scenes, then a section for each scene.
 std::string volume_report(std::span<const Volume_scene> scenes);
 
-/// One section.
+/// The section of one scene.
 std::string volume_section(const Volume_scene& scene);
 
-/// All figures. The plots read the lists `rows` and `tightness`, the rest is for whoever wants to know more.
+/// All figures. The plots read only the lists `rows` and `tightness`.
 nlohmann::ordered_json volume_json(std::span<const Volume_scene> scenes);
 
 }  // namespace lodestone

@@ -23,17 +23,17 @@ std::vector<std::shared_ptr<Scene_division>> divide_first_frame(Scene& scene) {
 
 }  // namespace
 
-std::ptrdiff_t Volume_scene::place_of(std::string_view model, std::string_view strategy) const {
+std::ptrdiff_t Volume_scene::index_of(std::string_view model, std::string_view strategy) const {
   const auto found = std::ranges::find_if(
       contestants, [&](const auto& c) { return c.model == model && (c.strategy == strategy || c.strategy.empty()); });
   return found == contestants.end() ? -1 : found - contestants.begin();
 }
 
 double Volume_scene::seconds(std::string_view model, std::string_view strategy, double Frame_seconds::*figure) const {
-  const auto place = place_of(model, strategy);
-  if (place < 0 || race.entries[static_cast<std::size_t>(place)].left_early)
+  const auto index = index_of(model, strategy);
+  if (index < 0 || race.entries[static_cast<std::size_t>(index)].left_early)
     return std::numeric_limits<double>::quiet_NaN();
-  return median_of(race.entries[static_cast<std::size_t>(place)], figure);
+  return median_of(race.entries[static_cast<std::size_t>(index)], figure);
 }
 
 std::vector<std::string> Volume_scene::models() const {
@@ -54,7 +54,7 @@ Volume_scene measure_volumes(Scene& scene, const Race_options& options, const st
   for (const auto& contestant : result.contestants) entries.push_back(contestant.entry);
   result.race = measure_race(scene, entries, options, progress);
 
-  // What builds an entry holds the divisions, which nobody needs any more.
+  // The build functions hold the divisions, which are no longer needed.
   for (auto& contestant : result.contestants) contestant.entry.build = nullptr;
   for (auto& figures : result.race.entries) figures.entry.build = nullptr;
   return result;

@@ -13,18 +13,18 @@ namespace lodestone {
 
 namespace {
 
-/// Wrong answers; of particles, which may miss, the collisions seen.
-std::string answers_cell(const Volume_scene& scene, std::size_t place) {
-  const Entry_figures& f = scene.race.entries[place];
+/// Number of wrong answers; for particles, which may miss collisions, the collisions seen.
+std::string answers_cell(const Volume_scene& scene, std::size_t index) {
+  const Entry_figures& f = scene.race.entries[index];
   if (!f.entry.answers) return no_cell;
   if (f.left_early) return "left early";
-  if (scene.contestants[place].kind == Contestant_kind::particles) return seen_cell(scene, place);
+  if (scene.contestants[index].kind == Contestant_kind::particles) return seen_cell(scene, index);
   return std::to_string(f.missed + f.invented + f.wrong_sets + f.wrong_later);
 }
 
-void add_row(const Volume_scene& scene, std::size_t place, Text_table& table) {
-  const Contestant& c = scene.contestants[place];
-  const Entry_figures& f = scene.race.entries[place];
+void add_row(const Volume_scene& scene, std::size_t index, Text_table& table) {
+  const Contestant& c = scene.contestants[index];
+  const Entry_figures& f = scene.race.entries[index];
   const auto time = [&](bool shown, double Frame_seconds::*figure) {
     return shown ? milliseconds(median_of(f, figure)) : no_cell;
   };
@@ -42,7 +42,7 @@ void add_row(const Volume_scene& scene, std::size_t place, Text_table& table) {
              ratio(any, &Frame_seconds::update_and_any, reference_particles), time(all, &Frame_seconds::all),
              time(all, &Frame_seconds::update_and_all), ratio(all, &Frame_seconds::update_and_all, reference_model),
              count(&Volume_figures::volume_tests), count(&Volume_figures::leaf_pairs),
-             count(&Volume_figures::exact_tests), answers_cell(scene, place),
+             count(&Volume_figures::exact_tests), answers_cell(scene, index),
              c.figures ? std::to_string(c.figures->node_bytes) : no_cell,
              std::to_string(f.passes / scene.race.sampled.size())});
 }
@@ -51,7 +51,7 @@ std::string times_table(const Volume_scene& scene) {
   Text_table table({"volume", "regions by", "update (ms)", "/ aabb", "yes/no (ms)", "update + yes/no (ms)", "/ aabb",
                     "/ 32 particles", "all pairs (ms)", "update + all pairs (ms)", "/ aabb", "overlap tests",
                     "leaf pairs", "exact tests", "wrong, or seen", "bytes per volume", "passes"});
-  for (std::size_t place = 0; place < scene.contestants.size(); ++place) add_row(scene, place, table);
+  for (std::size_t index = 0; index < scene.contestants.size(); ++index) add_row(scene, index, table);
   return table.text();
 }
 
@@ -73,8 +73,8 @@ std::string tightness_table(const Volume_scene& scene) {
     for (const auto& [piece, figure] : tightness_pieces) {
       std::vector<std::string> row{std::string(strategy), piece};
       for (const auto& model : models) {
-        const auto place = static_cast<std::size_t>(scene.place_of(model, strategy));
-        const auto& figures = *scene.contestants[place].figures;
+        const auto index = static_cast<std::size_t>(scene.index_of(model, strategy));
+        const auto& figures = *scene.contestants[index].figures;
         row.push_back(fmt::format("{} / {}", ratio_cell(figures.first.*figure), ratio_cell(figures.last.*figure)));
       }
       table.add(std::move(row));
@@ -82,15 +82,16 @@ std::string tightness_table(const Volume_scene& scene) {
   return table.text();
 }
 
-/// Says what does not stand for all frames, and who did not take turns.
+/// Names the rows that do not cover all frames, and says whether all contestants took turns.
 std::string notes(const Volume_scene& scene) {
   std::string text;
   if (scene.race.batches > 1)
-    text += fmt::format("- Memory was enough for one of {} groups at a time: only those of a group took turns.\n",
-                        scene.race.batches);
+    text +=
+        fmt::format("- Memory held one of {} groups at a time, so contestants took turns only within their group.\n",
+                    scene.race.batches);
   for (const auto& f : scene.race.entries)
     if (f.left_early)
-      text += fmt::format("- {} ({}) played {} of the {} frames, then its time was over.\n", f.entry.method,
+      text += fmt::format("- {} ({}) played {} of the {} frames, then ran out of time.\n", f.entry.method,
                           f.entry.volume, f.frames.size(), scene.race.sampled.size());
   return text.empty() ? text : text + "\n";
 }
@@ -98,12 +99,7 @@ std::string notes(const Volume_scene& scene) {
 }  // namespace
 
 std::string volume_section(const Volume_scene& scene) {
-  const auto& race = scene.race;
-  std::string text = fmt::format(
-      "## {}\n\n{} objects, {} triangles and {} vertices together. {} of {} frames. The bounding boxes of {} object "
-      "pairs overlap, {} of these intersect, in {} face pairs.\n\n",
-      race.name, race.objects, race.triangles, race.vertices, race.sampled.size(), race.frames, race.asked,
-      race.colliding, race.contacts);
+  std::string text = scene_heading(scene.race);
   text += partitions_text(scene) + notes(scene);
   text += titled("Per frame", times_table(scene));
   text += titled("Tightness in the first / last sampled frame", tightness_table(scene));

@@ -8,14 +8,16 @@
 
 namespace lodestone {
 
-/// What a walk over two trees looks at.
+/// Counts of a walk over two trees.
 struct Walk_counts {
   std::size_t volume_tests = 0;  ///< pairs of volumes compared
-  std::size_t leaf_pairs = 0;    ///< pairs of leaves whose volumes do not prove them apart
+  std::size_t leaf_pairs = 0;    ///< candidate pairs of leaves: their volumes do not prove them apart
 };
 
-/// Counts what a walk down to leaves looks at when it looks for all contacts: a walk of its own, for a counter would
-/// slow the one that is timed, which over boxes compares leaves of small subtrees all with all instead.
+/// Counts what a walk down to the leaves compares when it looks for all contacts.
+///
+/// This walk is separate from the timed one, because a counter would slow that one. Over boxes the timed walk also
+/// differs: at small subtrees it compares all leaves with all leaves.
 template <Bounding_volume Volume>
 Walk_counts count_walk(const Basic_region_tree<Volume>& a, const Basic_region_tree<Volume>& b) {
   Walk_counts counts;

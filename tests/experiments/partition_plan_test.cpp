@@ -123,7 +123,7 @@ TEST(Partition_report, sets_recall_against_that_of_lbg_in_the_same_scene) {
       rows[std::string(variant) + std::to_string(seed)] = row;
     }
   const auto report = partition_report(rows);
-  const auto table = report.substr(report.find("Less that of `lbg`"));
+  const auto table = report.substr(report.find("Difference from the recall of `lbg`"));
   const auto line =
       table.substr(table.find("| metis"), table.find('\n', table.find("| metis")) - table.find("| metis"));
   EXPECT_NE(line.find(" 0.125 |"), std::string::npos) << line;

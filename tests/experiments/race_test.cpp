@@ -37,6 +37,13 @@ TEST(Spread, takes_the_middles_of_equal_parts) {
   EXPECT_TRUE(spread(0, 5).empty());
 }
 
+TEST(Index_of, finds_a_pair_and_gives_the_number_of_pairs_for_one_that_was_not_asked_for) {
+  const std::vector<Object_pair> pairs{{0, 1}, {0, 2}, {1, 2}};
+  EXPECT_EQ(index_of({0, 2}, pairs), 1U);
+  EXPECT_EQ(index_of({2, 1}, pairs), pairs.size());
+  EXPECT_EQ(index_of({0, 1}, {}), 0U);
+}
+
 /// Says what it was told to.
 class Liar : public Entrant {
  public:

@@ -43,7 +43,7 @@ class Two_shapes {
 };
 
 std::string test_name(const Peer_kind& kind) {
-  std::string name = kind.library + "_" + kind.method + "_" + kind.volume;
+  std::string name = kind.entry.library + "_" + kind.entry.method + "_" + kind.entry.volume;
   std::ranges::replace_if(
       name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
@@ -53,7 +53,7 @@ std::string test_name(const Peer_kind& kind) {
 
 /// What a test is called by where it is listed.
 void PrintTo(const Peer_kind& kind, std::ostream* out) {
-  *out << kind.library << " " << kind.method << " " << kind.volume;
+  *out << kind.entry.library << " " << kind.entry.method << " " << kind.entry.volume;
 }
 
 namespace {
@@ -67,10 +67,11 @@ class Peers : public testing::TestWithParam<Peer_kind> {
  protected:
   /// A refitted RSS loses collisions; merged OBBs, which OBBRSS and kIOS hold too, lose single pairs.
   static bool loses_some() {
-    return GetParam().library == "FCL" && GetParam().volume != "AABB" && !GetParam().volume.starts_with("KDOP");
+    return GetParam().entry.library == "FCL" && GetParam().entry.volume != "AABB" &&
+           !GetParam().entry.volume.starts_with("KDOP");
   }
   /// Bullet takes triangles that are only near for intersecting ones.
-  static bool adds_some() { return GetParam().library == "Bullet"; }
+  static bool adds_some() { return GetParam().entry.library == "Bullet"; }
 
   void SetUp() override {
     scene.pose(0);
@@ -100,7 +101,7 @@ TEST_P(Peers, say_yes_or_no_as_exhaustive_checking_does) {
 }
 
 TEST_P(Peers, report_the_face_pairs_that_exhaustive_checking_finds) {
-  if (!GetParam().reports_pairs) GTEST_SKIP() << "reports no face pairs";
+  if (!GetParam().entry.reports_pairs) GTEST_SKIP() << "reports no face pairs";
   for (std::size_t frame = 0; frame < scene.frames; ++frame) {
     scene.pose(frame);
     peer->update(0);
@@ -121,7 +122,7 @@ TEST_P(Peers, report_the_face_pairs_that_exhaustive_checking_finds) {
 }
 
 TEST_P(Peers, add_to_what_has_been_found_before) {
-  if (!GetParam().reports_pairs) GTEST_SKIP() << "reports no face pairs";
+  if (!GetParam().entry.reports_pairs) GTEST_SKIP() << "reports no face pairs";
   constexpr Face_pair before{7, 7};
   std::vector<Face_pair> found{before};
   peer->all(0, 1, found);
