@@ -33,9 +33,9 @@ std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_
 template <Triangle_mesh Mesh>
 std::size_t hop_diameter(const Mesh& mesh, std::span<const Vertex<Mesh>> targets) {
   const Mesh_numbering<Mesh> numbering(mesh);
-  std::vector<std::uint32_t> numbers;
-  for (const auto v : targets) numbers.push_back(numbering.number(v));
-  return hop_diameter(vertex_graph(numbering.vertex_count(), numbering.corners()), numbers);
+  std::vector<std::uint32_t> indices;
+  for (const auto v : targets) indices.push_back(numbering.index(v));
+  return hop_diameter(vertex_graph(numbering.vertex_count(), numbering.corners()), indices);
 }
 
 }  // namespace lodestone

@@ -45,7 +45,7 @@ Partition_measures measure_partition(const Mesh& mesh, const Partition<Mesh>& pa
       .labels = {}, .regions = partition.regions, .particles = {}, .statistics = partition.statistics};
   for (std::uint32_t v = 0; v < numbering.vertex_count(); ++v)
     numbered.labels.push_back(get(region_map, numbering.vertex(v)));
-  for (const auto v : partition.particles) numbered.particles.push_back(numbering.number(v));
+  for (const auto v : partition.particles) numbered.particles.push_back(numbering.index(v));
   return measure_partition({graph, positions, numbering.corners()}, numbered);
 }
 
