@@ -26,7 +26,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What a walk along a rim has seen.
+/// What one pass along a rim finds.
 struct Turns {
   double least = infinity, most = -infinity;  ///< of det(n, d_i, d_i+1)
   int changes = 0;                            ///< of side
@@ -37,6 +37,7 @@ struct Turns {
     changes += changes_side ? 1 : 0;
   }
 
+  /// Whether the projected faces are proven to lie side by side.
   /// @param closing  det(n, last arm, first arm) of an open rim
   /// @param error    of each determinant
   bool side_by_side(double error, bool closed, double closing) const {
@@ -59,7 +60,7 @@ int likely_axis(const double* positions, std::span<const std::uint32_t> rim) {
   return beyond_x ? (z > y ? 2 : 1) : 0;
 }
 
-/// Looks along an axis: det(n, d_i, d_i+1) is one component of a cross product, and sides are signs of a coordinate.
+/// Projects along an axis: det(n, d_i, d_i+1) is one component of a cross product, and sides are signs of a coordinate.
 bool spread_along_axis(const double* positions, std::uint32_t vertex, std::span<const std::uint32_t> rim) {
   const int axis = likely_axis(positions, rim);
   const double* xs = positions + (axis + 1) % 3;
@@ -82,8 +83,9 @@ bool spread_along_axis(const double* positions, std::uint32_t vertex, std::span<
          turns.side_by_side(cross_error * size, rim.front() == rim.back(), from_x * first_y - from_y * first_x);
 }
 
-/// Looks along the sum n of all normals, divided by its largest coordinate. Whatever n is after rounding, the line
-/// has the direction g = n_a e_b - n_b e_a, which is perpendicular to it; a is the largest coordinate, b the next one.
+/// Projects along the sum n of all normals, divided by its largest coordinate. However n was rounded, the line has the
+/// direction g = n_a e_b - n_b e_a, which is perpendicular to n; a is the axis of the largest coordinate, b the next
+/// axis.
 bool spread_along_normal(const double* positions, std::uint32_t vertex, std::span<const std::uint32_t> rim) {
   using Eigen::Vector3d;
   const auto point = [&](std::uint32_t v) { return Eigen::Map<const Vector3d>(positions + std::size_t{3} * v); };
@@ -106,7 +108,7 @@ bool spread_along_normal(const double* positions, std::uint32_t vertex, std::spa
   n /= largest;  // now |n_a| is 1 and no coordinate is larger
   const int b = (a + 1) % 3;
 
-  // Whether an arm's side is known. Its two products are off by less than 4 u of what they are.
+  // Whether the side of an arm is certain. Each of its two products has a relative error below 4 u.
   const auto has_side = [&](const Vector3d& d) {
     const double p = n[a] * d[b], q = n[b] * d[a], size_of_both = std::abs(p) + std::abs(q);
     if (d[b] == 0 && (d[a] == 0 || n[b] == 0)) return true;  // on the line
