@@ -11,14 +11,16 @@
 // det(n, d_i, d_i+1) have one sign, say above zero. Then the projected arms turn counter-clockwise, each step by an
 // angle within (0, pi), and no face is seen edge-on. If they turn by less than a whole turn from first to last, or by
 // exactly one around a closed rim, then the projected faces are wedges side by side: two of them meet in the projected
-// vertex, or if they are neighbours in the ray of their common arm. Over that ray each face has only the arm itself. So
-// the faces meet where it is allowed.
+// vertex only, or, if they are neighbours, in the ray of their common arm. Over that ray each face has only the arm
+// itself. So the faces meet only in the vertex and in common edges.
 //
 // To count turns, take a line through the projected vertex; arms on the line count as above it. A step below pi skips
-// neither the closed half-plane above nor the open one below, so the arms change sides once per half turn. At most one
-// change: from first to last they turn by less than a whole turn. Two changes around a closed rim: by exactly one. Two
-// changes along an open rim leave both possible, unless the step from the last arm to the first is within (0, pi) too:
-// then the rim might as well be closed, and closing it adds no change, since around a closed rim their number is even.
+// neither the closed half-plane above nor the open one below, so the arms change sides once per half turn.
+//  - At most one change: from first to last the arms turn by less than a whole turn.
+//  - Two changes around a closed rim: they turn by exactly a whole turn.
+//  - Two changes along an open rim: both more and less than a whole turn are possible, unless the step from the last
+//    arm to the first is within (0, pi) too. Then the rim can be treated as closed: closing it adds no change, since
+//    the number of changes around a closed rim is even.
 
 namespace lodestone {
 
