@@ -15,7 +15,7 @@ bool is_closed(std::uint32_t vertex_count, std::span<const Corners> corners) {
       for (int i = 0; i < 3; ++i)
         if (face[i] != face[(i + 1) % 3]) visit(std::minmax(face[i], face[(i + 1) % 3]));
   };
-  // The edges of each vertex to higher ones: place after place, by their other end.
+  // Per vertex, in compressed rows: the other ends of its edges to vertices of higher index.
   std::vector<std::size_t> first(std::size_t{vertex_count} + 1, 0);
   for_edges([&](const auto& edge) { ++first[edge.first]; });
   std::exclusive_scan(first.begin(), first.end(), first.begin(), std::size_t{0});

@@ -13,18 +13,18 @@ std::vector<Corners> join_vertices(std::span<const Corners> faces, std::uint32_t
                                    std::span<const std::uint32_t> file_vertex) {
   if (file_vertex.empty()) return {};
   if (file_vertex.size() != vertex_count)
-    throw Bad_argument("file_vertex has " + std::to_string(file_vertex.size()) + " numbers, but the mesh " +
+    throw Bad_argument("file_vertex has " + std::to_string(file_vertex.size()) + " entries, expected one for each of " +
                        std::to_string(vertex_count) + " vertices");
-  std::vector<std::uint32_t> by_number(vertex_count);
-  std::iota(by_number.begin(), by_number.end(), 0U);
-  std::ranges::stable_sort(by_number, {}, [&](std::uint32_t v) { return file_vertex[v]; });
+  std::vector<std::uint32_t> by_file_vertex(vertex_count);
+  std::iota(by_file_vertex.begin(), by_file_vertex.end(), 0U);
+  std::ranges::stable_sort(by_file_vertex, {}, [&](std::uint32_t v) { return file_vertex[v]; });
 
-  std::vector<std::uint32_t> first(vertex_count);  // of the vertices with the same number
+  std::vector<std::uint32_t> first(vertex_count);  // of the vertices with the same file vertex
   bool joins = false;
-  for (std::size_t i = 0; i < by_number.size(); ++i) {
-    const std::uint32_t v = by_number[i];
-    const bool again = i > 0 && file_vertex[by_number[i - 1]] == file_vertex[v];
-    first[v] = again ? first[by_number[i - 1]] : v;
+  for (std::size_t i = 0; i < by_file_vertex.size(); ++i) {
+    const std::uint32_t v = by_file_vertex[i];
+    const bool again = i > 0 && file_vertex[by_file_vertex[i - 1]] == file_vertex[v];
+    first[v] = again ? first[by_file_vertex[i - 1]] : v;
     joins |= again;
   }
   if (!joins) return {};

@@ -14,13 +14,13 @@ Patch make_patch(std::vector<std::uint32_t> faces, std::span<const Corners> mesh
   std::ranges::sort(patch.vertices);
   patch.vertices.erase(std::unique(patch.vertices.begin(), patch.vertices.end()), patch.vertices.end());
 
-  const auto place = [&](std::uint32_t vertex) {
+  const auto index = [&](std::uint32_t vertex) {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(patch.vertices, vertex) - patch.vertices.begin());
   };
   patch.corners.reserve(patch.faces.size());
   for (const auto face : patch.faces) {
     const auto& [a, b, c] = mesh_corners[face];
-    patch.corners.push_back({place(a), place(b), place(c)});
+    patch.corners.push_back({index(a), index(b), index(c)});
   }
   return patch;
 }

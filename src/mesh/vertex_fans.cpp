@@ -9,7 +9,7 @@ namespace lodestone {
 
 namespace {
 
-/// Calls `visit` for each vertex of a face once, also where the face uses it twice.
+/// Calls `visit` once for each vertex of a face, even if the face uses it twice.
 template <class Visit>
 void for_each_vertex(const Corners& corners, Visit visit) {
   const auto& [a, b, c] = corners;
@@ -20,13 +20,14 @@ void for_each_vertex(const Corners& corners, Visit visit) {
 
 }  // namespace
 
-/// Puts the faces of one vertex after another into a row. Its table over all vertices is made once.
+/// Sorts fans into rows, one vertex at a time. A class, so that its table over all vertices is allocated once.
 class Vertex_fans::Ordering {
  public:
   Ordering(std::uint32_t vertex_count, std::span<const Corners> mesh_faces)
       : mesh_faces_(mesh_faces), joints_(vertex_count, no_joint) {}
 
-  /// Reorders `faces`, those of `vertex`, and fills `rim`, one longer. Without success both are left as they are.
+  /// Reorders `faces`, the fan of `vertex`, and fills `rim`, which is one entry longer. Changes neither if the faces do
+  /// not form a single row.
   void put_in_a_row(std::uint32_t vertex, std::span<std::uint32_t> faces, std::span<std::uint32_t> rim) {
     sides_.clear();
     bool simple = !faces.empty();
@@ -46,12 +47,12 @@ class Vertex_fans::Ordering {
 
  private:
   using Side = std::array<std::uint32_t, 2>;
-  /// The places of the one or two sides that end in a neighbour.
+  /// The indices of the one or two sides that end in a neighbour.
   using Joint = std::array<std::uint32_t, 2>;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   static constexpr Joint no_joint{none, none};
 
-  /// The two other corners, in the face's order. Where the face uses the vertex twice, one of them is the vertex.
+  /// The two other corners, in the face's order. If the face uses the vertex twice, one of them is the vertex.
   static Side opposite_side(const Corners& corners, std::uint32_t vertex) {
     const auto& [a, b, c] = corners;
     if (a == vertex) return {b, c};
@@ -59,18 +60,18 @@ class Vertex_fans::Ordering {
     return {a, b};
   }
 
-  /// Finds the sides that meet in each neighbour; false if they are more than two.
+  /// Finds the sides that end in each neighbour; false if more than two end in one.
   bool join() {
-    for (std::uint32_t place = 0; place < sides_.size(); ++place)
-      for (const auto neighbour : sides_[place]) {
+    for (std::uint32_t side = 0; side < sides_.size(); ++side)
+      for (const auto neighbour : sides_[side]) {
         auto& [one, two] = joints_[neighbour];
         if (two != none) return false;
-        (one == none ? one : two) = place;
+        (one == none ? one : two) = side;
       }
     return true;
   }
 
-  /// Follows the sides from an open end, or from anywhere if there is none; false unless all lie on the way.
+  /// Follows the sides from an open end, or from anywhere if there is none; false if this does not reach all of them.
   bool walk() {
     std::uint32_t neighbour = sides_[0][0];
     for (const auto& side : sides_)
@@ -79,28 +80,28 @@ class Vertex_fans::Ordering {
 
     rim_.assign(1, neighbour);
     order_.clear();
-    std::uint32_t place = joints_[neighbour][0];
-    while (place != none && order_.size() < sides_.size()) {
-      if (!order_.empty() && neighbour == rim_.front()) return false;  // closed, and faces are left
-      order_.push_back(place);
-      neighbour = sides_[place][sides_[place][0] == neighbour ? 1 : 0];
+    std::uint32_t side = joints_[neighbour][0];
+    while (side != none && order_.size() < sides_.size()) {
+      if (!order_.empty() && neighbour == rim_.front()) return false;  // closed, but faces are left
+      order_.push_back(side);
+      neighbour = sides_[side][sides_[side][0] == neighbour ? 1 : 0];
       rim_.push_back(neighbour);
       const auto& [one, two] = joints_[neighbour];
-      place = one == place ? two : one;
+      side = one == side ? two : one;
     }
     return order_.size() == sides_.size();
   }
 
   std::span<const Corners> mesh_faces_;
   std::vector<Joint> joints_;  ///< per vertex of the mesh
-  std::vector<Side> sides_;    ///< per face of the vertex at hand
+  std::vector<Side> sides_;    ///< per face of the current fan
   std::vector<std::uint32_t> order_, rim_;
 };
 
 Vertex_fans::Vertex_fans(std::uint32_t vertex_count, std::span<const Corners> faces)
     : starts_(std::size_t{vertex_count} + 1, 0) {
   for (const auto& corners : faces) for_each_vertex(corners, [&](std::uint32_t v) { ++starts_[v]; });
-  // Each start is moved to the end of its list, and back again as the list fills from the end.
+  // Each entry of `starts_` is set to the end of its list first. Filling the list backwards moves it to the start.
   std::size_t end = 0;
   for (auto& start : starts_) start = end += start;
   faces_.resize(end);

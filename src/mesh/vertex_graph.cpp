@@ -10,7 +10,7 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Both directions of every side of every face, sorted, repeats kept; sides from a vertex to itself left out.
+/// Both directions of every side of every face, sorted. Keeps repeats; leaves out sides from a vertex to itself.
 std::vector<Edge> sorted_sides(std::span<const Corners> faces) {
   std::vector<Edge> sides;
   sides.reserve(6 * faces.size());

@@ -14,7 +14,7 @@ struct Workers::Threads {
 
 Workers::Workers(std::size_t threads)
     : count_(static_cast<std::size_t>(std::max(1, tbb::this_task_arena::max_concurrency()))) {
-  // Asked for more than there are, oneTBB prints a warning and makes none of them.
+  // oneTBB prints a warning and ignores the excess when it is asked for more threads than the machine has.
   if (threads > 0) count_ = std::min(count_, threads);
   if (count_ > 1) threads_ = std::make_unique<Threads>(Threads{tbb::task_arena(static_cast<int>(count_))});
 }

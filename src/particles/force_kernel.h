@@ -5,7 +5,7 @@
 
 namespace lodestone::kernel {
 
-/// Attractors as columns of coordinates, with how far each is felt, squared.
+/// Attractors as columns of coordinates, and the squared reach of each.
 struct Attractor_columns {
   const double* x;
   const double* y;

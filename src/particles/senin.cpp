@@ -16,16 +16,17 @@ std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Po
   Eigen::VectorXd along = Eigen::VectorXd::Zero(positions.rows());
   if (options.side) along = (positions.rowwise() - positions.colwise().mean()) * *options.side;
   const double least = options.side ? along.maxCoeff() / 2 : -1;
-  std::vector<std::uint32_t> places;
+  std::vector<std::uint32_t> drawn;
   for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
-    if (along[v] >= least && out_degree(v, graph) > 0) places.push_back(v);
+    if (along[v] >= least && out_degree(v, graph) > 0) drawn.push_back(v);
 
-  // The first steps of a shuffle. The remainder, unlike the library's distributions, is the same everywhere.
+  // The first steps of a shuffle. It uses remainders, because they are the same on every platform, unlike the
+  // distributions of the standard library.
   std::mt19937_64 random(options.seed);
-  const std::size_t count = std::min(particles, places.size());
-  for (std::size_t i = 0; i < count; ++i) std::swap(places[i], places[i + random() % (places.size() - i)]);
-  places.resize(count);
-  return places;
+  const std::size_t count = std::min(particles, drawn.size());
+  for (std::size_t i = 0; i < count; ++i) std::swap(drawn[i], drawn[i + random() % (drawn.size() - i)]);
+  drawn.resize(count);
+  return drawn;
 }
 
 std::size_t default_rings(std::size_t vertices, std::size_t particles) {

@@ -17,14 +17,14 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As std::sqrt, without its branch for errno.
+/// Same as std::sqrt, but without its branch for errno.
 HWY_INLINE double square_root(double x) {
   const hn::CappedTag<double, 1> d;
   return hn::GetLane(hn::Sqrt(hn::Set(d, x)));
 }
 
-/// Nearest and second nearest code vector of vector `v`, searched around the one it has. Without branches on distances:
-/// which of them is the least is as good as random, and a wrong guess costs more than the eight distances.
+/// Finds the nearest and second nearest code vector of vector `v`, around its present one. Branchless in the distances:
+/// which of them is the least is unpredictable, and a misprediction costs more than the eight distances.
 template <int K>
 HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
   const hn::CappedTag<double, block_size> d;
@@ -33,12 +33,12 @@ HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
   const Neighbourhood& around = pass.neighbourhoods[pass.labels[v]];
   const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
 
-  // The code vector we start from competes in the first lane.
+  // The present code vector competes in the first lane.
   auto nearest = hn::IfThenElse(hn::FirstN(d, 1), hn::Set(d, pass.squared_distances[v]), infinity);
   auto label = hn::Set(d, static_cast<double>(pass.labels[v]));
   auto second = infinity;
 
-  // Both the nearest and the second nearest code vector lie within 2 distance + gap of the one we start from.
+  // The nearest and the second nearest code vector both lie within 2 distance + gap of the present one.
   const double reach = (2 * square_root(pass.squared_distances[v]) + around.distances[0]) * (1 + 1e-9) + pass.margin;
   std::size_t first = 0;
   for (; first < around.count && around.distances[first] <= reach; first += block_size) {
@@ -58,7 +58,7 @@ HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
   }
   pass.distance_evaluations += std::min(first, around.count);
 
-  // Of the lanes' winners the nearest, of equal ones the lowest number; every other winner is a runner-up.
+  // The nearest of the lanes' winners is chosen; ties go to the lowest index. All other winners are runners-up.
   const auto least = hn::MinOfLanes(d, nearest);
   const auto chosen = hn::MinOfLanes(d, hn::IfThenElse(hn::Eq(nearest, least), label, infinity));
   const auto is_chosen = hn::And(hn::Eq(nearest, least), hn::Eq(label, chosen));
@@ -68,7 +68,7 @@ HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
   pass.second_bounds[v] = square_root(hn::GetLane(runner_up)) * (1 - 1e-9) + pass.drifts[pass.labels[v]];
 }
 
-/// Eight vectors that have one and the same code vector, a vector per lane: bounds, and the search where they fail.
+/// Eight vectors with the same code vector, one vector per lane: checks the bounds, and searches where they fail.
 template <int K>
 HWY_INLINE void pass_uniform_block(Bounded_pass& pass, std::size_t block) {
   const hn::CappedTag<double, block_size> d;
@@ -125,7 +125,7 @@ HWY_INLINE void pass_uniform_block(Bounded_pass& pass, std::size_t block) {
   }
 }
 
-/// The vectors of a block whose code vectors differ, or of an incomplete one, one by one.
+/// The vectors of a block with different code vectors, or of an incomplete block, one by one.
 template <int K>
 HWY_INLINE void pass_mixed_block(Bounded_pass& pass, std::size_t begin, std::size_t count) {
   const std::size_t k = K > 0 ? K : pass.components;
@@ -140,7 +140,7 @@ HWY_INLINE void pass_mixed_block(Bounded_pass& pass, std::size_t begin, std::siz
     }
   std::copy_n(nearest, count, pass.squared_distances + begin);
 
-  // Which of them the bounds leave open is as good as random: collected without a branch.
+  // Which vectors the bounds leave open is unpredictable, so they are collected branchless.
   std::size_t open[block_size], open_count = 0;
   for (std::size_t lane = 0; lane < count; ++lane) {
     const double second = pass.second_bounds[begin + lane] - pass.drifts[labels[lane]];
@@ -157,7 +157,7 @@ HWY_INLINE bool is_uniform(const std::uint32_t* labels) {
   return differences == 0;
 }
 
-/// Adds the vectors of a block to the sums of their cells, in order.
+/// Adds the vectors of a block, in order, to the sums of their cells.
 template <int K>
 HWY_INLINE void add_to_cells(Bounded_pass& pass, std::size_t begin, std::size_t count) {
   const std::size_t k = K > 0 ? K : pass.components;

@@ -32,7 +32,8 @@ double energy(const Geodesic_voronoi& cells, const Eigen::VectorXd& areas) {
   return sum;
 }
 
-/// Row per cell: its centroid. Relative to the seed of the cell, so that nothing is lost far from the origin.
+/// One row per cell: its centroid. Computed relative to the seed of the cell, so that no digits are lost far from the
+/// origin.
 Positions centroids(const Positions& positions, const Geodesic_voronoi& cells, const Eigen::VectorXd& areas) {
   const auto count = static_cast<Eigen::Index>(cells.seeds().size());
   Positions weighted = Positions::Zero(count, 3), plain = Positions::Zero(count, 3);
@@ -53,8 +54,7 @@ Positions centroids(const Positions& positions, const Geodesic_voronoi& cells, c
   return plain;
 }
 
-/// Per cell the vertex nearest to its centroid: the seed, or one that is nearer; of equally near ones the lowest
-/// number.
+/// Per cell the vertex nearest to its centroid. Ties go to the seed, then to the lowest index.
 std::vector<std::uint32_t> central_vertices(const Positions& positions, const Geodesic_voronoi& cells,
                                             const Eigen::VectorXd& areas) {
   const Positions centroid = centroids(positions, cells, areas);

@@ -16,10 +16,10 @@ namespace lodestone {
 
 namespace {
 
-// All is in doubles: no predicate decides anything here.
+// No predicate decides anything here, so doubles are enough.
 using Local_kernel = CGAL::Simple_cartesian<double>;
 
-/// Least squares of the smallest norm, as CGAL's singular values give them, at a tenth of the time.
+/// Least-squares solution of smallest norm: the one that CGAL gets from singular values, in a tenth of the time.
 struct Least_squares {
   using FT = double;
   using Vector = CGAL::Eigen_vector<double>;
@@ -28,14 +28,14 @@ struct Least_squares {
   static FT solve(const Matrix& matrix, Vector& right_side) {
     right_side.eigen_object() =
         matrix.eigen_object().completeOrthogonalDecomposition().solve(right_side.eigen_object()).eval();
-    return 1;  // in place of a condition number, which nobody asks for
+    return 1;  // in place of the condition number, which is not used
   }
 };
 
 using Jet_fitting = CGAL::Monge_via_jet_fitting<Local_kernel, Local_kernel, Least_squares>;
 
 constexpr std::size_t degree = 2;        // of the fitted polynomial
-constexpr std::size_t coefficients = 6;  // that it has
+constexpr std::size_t coefficients = 6;  // of the fitted polynomial
 constexpr std::size_t most_points = 1000;
 
 /// A vertex and its rings of neighbours, nearer rings first.
@@ -68,10 +68,10 @@ class Rings {
   std::vector<std::uint32_t> found_;
 };
 
-/// Some vertices relative to the first of them, scaled so that the farthest is at the distance 1.
+/// Vertices relative to the first of them, scaled such that the farthest is at distance 1.
 struct Patch {
-  std::vector<Local_kernel::Point_3> points;  ///< none when all are in one place
-  double radius = 0;                          ///< the distance of the farthest before
+  std::vector<Local_kernel::Point_3> points;  ///< empty if all vertices coincide
+  double radius = 0;                          ///< distance of the farthest before scaling
 };
 
 Patch patch_of(const Positions& positions, const std::vector<std::uint32_t>& vertices) {
@@ -86,14 +86,14 @@ Patch patch_of(const Positions& positions, const std::vector<std::uint32_t>& ver
   return patch;
 }
 
-/// Mean curvature at the first point of a patch, in units of 1 / radius; 0 where the patch is no surface.
+/// Mean curvature at the first point of a patch, in units of 1 / radius; 0 if the points do not span a surface.
 double fitted_mean_curvature(const Patch& patch, const Eigen::RowVector3d& normal) {
   Jet_fitting fitting;
   auto form = fitting(patch.points.begin(), patch.points.end(), degree, 2);
-  // Points on a line leave the second direction of the patch to rounding.
+  // If the points lie on a line, rounding alone decides the second direction of the patch.
   if (!(fitting.pca_basis(1).first > 1e-12 * fitting.pca_basis(0).first)) return 0;
   form.comply_wrt_given_normal({normal[0], normal[1], normal[2]});
-  // Seen along the outward normal a sphere falls away, which is a negative curvature for CGAL.
+  // A sphere curves away from its outward normal, which CGAL counts as negative.
   const double mean = -(form.principal_curvatures(0) + form.principal_curvatures(1)) / 2;
   return std::isfinite(mean) ? mean : 0;
 }

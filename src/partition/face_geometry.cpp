@@ -20,7 +20,7 @@ Face_geometry face_geometry(const Numbered_surface& surface) {
     const Eigen::RowVector3d second = (scaled.row(c) - scaled.row(a)) / extent;
     const Eigen::RowVector3d area_normal = first.cross(second);
     const double length = area_normal.norm();
-    // What is left of the product of two parallel sides is rounding, and points anywhere.
+    // The cross product of parallel sides is only rounding error, with an arbitrary direction.
     constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
     if (length <= rounding * first.norm() * second.norm()) continue;
     result.normals.row(f) = area_normal / length;

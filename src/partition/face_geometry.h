@@ -7,8 +7,8 @@
 
 namespace lodestone {
 
-/// Unit normal and area of each face, where the longest side of the surface's bounding box is 1. A face whose area is
-/// no more than rounding has the normal 0 and the area 0.
+/// Unit normal and area of each face, in units in which the longest side of the surface's bounding box is 1. Both are 0
+/// if the area is no more than rounding.
 struct Face_geometry {
   Positions normals;  ///< F x 3
   std::vector<double> areas;

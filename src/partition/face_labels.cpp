@@ -13,7 +13,7 @@ namespace lodestone {
 
 namespace {
 
-/// What a label has of the faces around a vertex.
+/// The share of a label in the faces around a vertex.
 struct Share {
   std::uint32_t vertex = 0;
   Region_index label = 0;
@@ -23,7 +23,7 @@ struct Share {
 
 bool is_more(const Share& a, const Share& b) { return std::tie(a.area, a.faces) > std::tie(b.area, b.faces); }
 
-/// One share per vertex and label, by vertex, then label.
+/// One share per vertex and label, in lexicographic order of vertex and label.
 std::vector<Share> shares(const Numbered_surface& surface, std::span<const Region_index> face_labels) {
   const Positions positions = scaled_positions(surface.positions);
   std::vector<Share> all;
@@ -50,7 +50,7 @@ std::vector<Share> shares(const Numbered_surface& surface, std::span<const Regio
   return merged;
 }
 
-/// The label each vertex has most of.
+/// The label with the largest share, per vertex.
 std::vector<Region_index> majorities(std::size_t vertices, const std::vector<Share>& all) {
   std::vector<Region_index> labels(vertices, no_region);
   const Share* best = nullptr;
@@ -62,7 +62,7 @@ std::vector<Region_index> majorities(std::size_t vertices, const std::vector<Sha
   return labels;
 }
 
-/// Every label that no vertex has takes a vertex from a label with several.
+/// Gives each label that no vertex has a vertex of a label with several.
 void revive_labels(std::vector<Share> all, std::vector<Region_index>& labels) {
   std::ranges::stable_sort(all, {}, &Share::label);
   if (all.empty()) return;
@@ -86,7 +86,7 @@ void revive_labels(std::vector<Share> all, std::vector<Region_index>& labels) {
   }
 }
 
-/// Vertices without a label take that of the nearest that has one; 0 where there is none.
+/// Gives vertices without a label that of the nearest vertex that has one; 0 if there is none.
 void spread_labels(const Vertex_graph& graph, std::vector<Region_index>& labels) {
   std::vector<std::uint32_t> front;
   for (std::uint32_t v = 0; v < labels.size(); ++v)

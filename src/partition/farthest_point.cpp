@@ -12,7 +12,7 @@ namespace lodestone {
 
 namespace {
 
-/// Of the vertices that are no seeds; there must be one.
+/// Among the vertices that are not seeds; there must be one.
 std::uint32_t farthest_vertex(const Vertex_graph& graph, const Geodesic_voronoi& cells) {
   std::uint32_t farthest = 0;
   std::pair<bool, double> best{false, -1};
@@ -42,7 +42,7 @@ std::vector<std::uint32_t> farthest_points(const Vertex_graph& graph, const Posi
 Labelling Farthest_point::label(const Numbered_surface& surface, std::size_t regions) const {
   const Positions positions = scaled_positions(surface.positions);
   Geodesic_voronoi cells(surface.graph, positions);
-  // All at once: where distances are equal, cells grown one after the other need not be connected.
+  // All at once, because cells that grow one after the other need not be connected if distances are equal.
   cells.add(farthest_points(surface.graph, positions, regions, options.seed));
   return {.labels = cells.labels()};
 }

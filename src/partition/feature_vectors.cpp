@@ -10,7 +10,7 @@ namespace lodestone {
 
 namespace {
 
-/// Positions relative to their mean, at most 1 from it.
+/// Positions relative to their mean, scaled such that the farthest is at distance 1.
 Positions scaled_to_unit_ball(const Positions& positions) {
   Positions scaled = scaled_positions(positions);
   scaled.rowwise() -= scaled.colwise().mean().eval();
@@ -39,7 +39,7 @@ Positions vertex_normals(const Positions& positions, std::span<const Corners> fa
     const Eigen::RowVector3d first = (scaled.row(b) - scaled.row(a)) / extent;
     const Eigen::RowVector3d second = (scaled.row(c) - scaled.row(a)) / extent;
     const Eigen::RowVector3d area_normal = first.cross(second);
-    // What is left of the product of two parallel sides is rounding, and points anywhere.
+    // The cross product of parallel sides is only rounding error, with an arbitrary direction.
     constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
     if (area_normal.norm() <= rounding * first.norm() * second.norm()) continue;
     for (const auto corner : {a, b, c}) normals.row(corner) += area_normal;

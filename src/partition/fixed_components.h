@@ -6,8 +6,8 @@
 
 namespace lodestone {
 
-/// Calls `function` with the number of components k as a compile-time constant where it is one of the usual ones, and
-/// with 0 elsewhere: inner loops over a known k unroll.
+/// Calls `function` with the number of components k as a compile-time constant if k is a usual one, otherwise with 0.
+/// Inner loops over a constant k are unrolled.
 template <class Function>
 auto with_fixed_components(std::ptrdiff_t k, Function function) {
   switch (k) {
@@ -22,8 +22,8 @@ auto with_fixed_components(std::ptrdiff_t k, Function function) {
   }
 }
 
-/// Squared distance, summed from the first component to the last: one order for every caller, so that equal inputs give
-/// equal bits. K is the number of components, or 0 for `k`.
+/// Squared distance, summed from the first component to the last. The order is the same for every caller, so equal
+/// inputs give equal bits. K is the number of components; 0: it is `k`.
 template <int K>
 double squared_distance(const double* a, const double* b, std::ptrdiff_t k) {
   double sum = 0;

@@ -40,7 +40,7 @@ void Geodesic_voronoi::add(std::span<const std::uint32_t> vertices) {
     seeds_.push_back(v);
   }
 
-  // An edge that shortens nothing does not exist: so the search ends where the cells of earlier seeds begin.
+  // The filtered graph has only edges that shorten a path, so the search ends where the cells of earlier seeds begin.
   const boost::filtered_graph shortening(graph_, Shortens{this});
   const auto index = get(boost::vertex_index, graph_);
   boost::dijkstra_shortest_paths_no_init(

@@ -10,7 +10,7 @@ namespace lodestone {
 
 namespace {
 
-/// The numbers of a cube along x, y and z, 21 bits each.
+/// The indices of a cube along x, y and z, 21 bits each.
 using Cube = std::uint64_t;
 
 /// The finest grid has this many cubes along the longest side.
@@ -26,15 +26,15 @@ std::vector<Cube> cubes(const Positions& offsets, double size) {
   return result;
 }
 
-/// The different ones, ascending.
+/// The different cubes, ascending.
 std::vector<Cube> occupied(std::vector<Cube> cubes) {
   std::ranges::sort(cubes);
   cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
   return cubes;
 }
 
-/// Looks for the size of a cube at which the number of occupied ones is at most `wanted`, and as large as can be; of
-/// equally good sizes for the smallest, at which the last cubes along each axis are cut off least.
+/// Searches for the cube size at which the number of occupied cubes is as large as possible, but at most `wanted`. Of
+/// equally good sizes it takes the smallest, because that cuts off the last cubes along each axis least.
 class Size_search {
  public:
   Size_search(const Positions& offsets, std::size_t wanted)
@@ -46,7 +46,7 @@ class Size_search {
       if (low <= extent_ / most_cubes) return;
       low /= 2;
     }
-    // Sizes closer together than this differ by little more than rounding.
+    // After so many, sizes differ by little more than rounding.
     constexpr int bisections = 30;
     double high = 2 * low;
     for (int i = 0; i < bisections; ++i) {

@@ -11,8 +11,8 @@ namespace lodestone {
 
 namespace {
 
-/// Vertex numbers as points. Not CGAL's adaptor of its kernels: there vertices with an equal coordinate are equal, and
-/// which side of a median they come to is left to the standard library.
+/// Vertex indices as points. CGAL's adaptor of its kernels is not used: it compares coordinates only, so the standard
+/// library would decide on which side of a median vertices with equal coordinates end.
 struct Numbered_points {
   using Point_3 = std::uint32_t;
 

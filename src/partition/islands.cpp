@@ -24,7 +24,7 @@ struct Within_label {
 struct Piece {
   Region_index label = 0;
   std::size_t size = 0;
-  bool settled = false;  ///< it is, or has joined, the connected body of its region
+  bool settled = false;  ///< it is the body of its region, or has joined it
 };
 
 /// Pieces in the order of their lowest vertex, and the piece of each vertex.
@@ -55,7 +55,7 @@ std::vector<bool> isolated_pieces(const Vertex_graph& graph, const Pieces& all) 
   return isolated;
 }
 
-/// The largest piece of each label is the body that its islands have left.
+/// Settles the largest piece of each label, the body of the region; the others are its islands.
 void settle_largest(std::vector<Piece>& pieces, const std::vector<bool>& isolated, std::size_t regions) {
   std::vector<Piece*> largest(regions, nullptr);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
@@ -67,8 +67,8 @@ void settle_largest(std::vector<Piece>& pieces, const std::vector<bool>& isolate
     if (piece != nullptr) piece->settled = true;
 }
 
-/// In each connected component of the mesh without a settled piece the largest one becomes a new region, the largest
-/// components first, until there are `limit` regions.
+/// Makes new regions of the largest pieces of the connected components that have no settled piece, the largest such
+/// pieces first, until there are `limit` regions.
 void settle_unreached(const Vertex_graph& graph, Pieces& all, const std::vector<bool>& isolated, std::size_t limit,
                       Island_repair& repair) {
   std::vector<std::uint32_t> component(num_vertices(graph));
@@ -97,7 +97,7 @@ void settle_unreached(const Vertex_graph& graph, Pieces& all, const std::vector<
   }
 }
 
-/// Per piece: with how many edges it borders on each other piece.
+/// Per piece: the number of edges to each other piece.
 std::vector<std::map<std::uint32_t, std::size_t>> piece_borders(const Vertex_graph& graph, const Pieces& pieces) {
   std::vector<std::map<std::uint32_t, std::size_t>> borders(pieces.pieces.size());
   for (std::uint32_t v = 0; v < num_vertices(graph); ++v)

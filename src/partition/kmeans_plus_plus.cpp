@@ -19,15 +19,15 @@ void check(const Kmeans_plus_plus_options& options) {
   if (options.max_iterations == 0) throw Bad_argument("k-means++: max_iterations must be at least 1");
 }
 
-/// Uniform in [0, 1): unlike the library's distributions, the same everywhere.
+/// Uniform in [0, 1). Unlike the distributions of the standard library it is the same on every platform.
 double unit_draw(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-/// Index drawn with probability proportional to its weight, of which at least one is above 0.
+/// Draws an index with a probability proportional to its weight. At least one weight is above 0.
 std::size_t weighted_draw(const std::vector<double>& weights, std::mt19937_64& random) {
   double left = unit_draw(random) * std::accumulate(weights.begin(), weights.end(), 0.0);
   std::size_t drawn = 0;
   for (std::size_t i = 0; i < weights.size() && left >= 0; ++i) {
-    if (weights[i] > 0) drawn = i;  // also the last one, should rounding leave something over
+    if (weights[i] > 0) drawn = i;  // the last one if rounding leaves a remainder
     left -= weights[i];
   }
   return drawn;
@@ -44,7 +44,7 @@ void lower_to_distances_from(std::size_t row, const Feature_vectors& vectors, st
   });
 }
 
-/// The vector farthest from its code vector, of those that do not have a cell for themselves.
+/// The vector farthest from its code vector, among those that share their cell with others.
 std::size_t farthest_in_company(const Assignment& assignment) {
   std::size_t farthest = 0;
   double largest = -1;
@@ -56,7 +56,8 @@ std::size_t farthest_in_company(const Assignment& assignment) {
   return farthest;
 }
 
-/// Every empty cell takes a vector from another. There is one, since there are no more cells than different vectors.
+/// Gives every empty cell a vector of another cell. There is one, because there are no more cells than different
+/// vectors.
 /// @return whether a label has changed
 bool fill_empty_cells(const Feature_vectors& vectors, Assignment& assignment) {
   bool changed = false;
@@ -84,7 +85,7 @@ void move_to_means(const Assignment& assignment, Feature_vectors& codes) {
 }
 
 /// Lloyd iterations.
-/// @return how many
+/// @return the number of iterations
 std::size_t iterate(const Feature_vectors& vectors, Feature_vectors codes, const Kmeans_plus_plus_options& options,
                     Assignment& assignment) {
   Bounded_assignment search(vectors);

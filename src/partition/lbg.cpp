@@ -16,7 +16,7 @@ namespace {
 
 void check(const Feature_vectors& vectors, std::size_t cells, const Lbg_options& options) {
   if (vectors.rows() == 0 || vectors.cols() == 0) throw Bad_argument("there is no vector to quantise");
-  // Squares and their sums over all vectors must stay within range; also refuses what is not a number.
+  // Squares and their sums over all vectors must not overflow. The comparison also refuses NaN.
   if (!(vectors.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= 1e100))
     throw Bad_argument("a component of a vector to quantise is not finite, or beyond 1e100");
   if (cells == 0) throw Bad_argument("the number of regions must be at least 1");
@@ -25,13 +25,14 @@ void check(const Feature_vectors& vectors, std::size_t cells, const Lbg_options&
   if (options.max_iterations == 0) throw Bad_argument("LBG: max_iterations must be at least 1");
 }
 
-/// What a split asks of a cell, around its code vector.
+/// The spread of a cell around its code vector, which a split needs.
 struct Spread {
   double distortion = 0;    ///< sum of squared distances
   Eigen::MatrixXd scatter;  ///< k x k: sum of the products of the offsets' components
 };
 
-/// The state of one quantisation: code vectors, the cell of each vector, and how far it is from its code vector.
+/// The state of one quantisation: the code vectors, the cell of each vector, and its distance from its code vector. The
+/// equations are those of \cite saenghaengtham2006. The constructor sets the first code vector, eq. (1).
 class Quantiser {
  public:
   Quantiser(const Feature_vectors& vectors, const Lbg_options& options)
@@ -80,14 +81,14 @@ class Quantiser {
   std::vector<std::uint32_t> origin_;  ///< per row of `vectors_`: its row in the caller's matrix
   std::vector<Lloyd_run> runs_;
 
-  // Where the vectors are grouped, before they change places with those above.
+  // Buffers for `group_by_cell`, swapped with the members above.
   Feature_vectors grouped_vectors_;
   std::vector<Region_index> grouped_labels_;
   std::vector<double> grouped_distances_;
   std::vector<std::uint32_t> grouped_origin_;
 };
 
-/// Calls `task(chunk, begin, end)` for runs of vectors that together are all.
+/// Calls `task(chunk, begin, end)` for each chunk of consecutive vectors.
 template <class Task>
 void Quantiser::for_chunks(Task task) {
   const std::size_t count = origin_.size(), length = chunk_length();
@@ -96,6 +97,7 @@ void Quantiser::for_chunks(Task task) {
   });
 }
 
+/// Eq. (5) and (6).
 void Quantiser::assign() {
   if (bounded_)
     bounded_->assign(codes_, assignment_);
@@ -103,6 +105,7 @@ void Quantiser::assign() {
     assign_plain(vectors_, codes_, assignment_, workers_);
 }
 
+/// Eq. (2) for one code vector, eq. (8) for any number.
 double Quantiser::distortion() {
   const Eigen::Map<const Eigen::VectorXd> distances(assignment_.squared_distances.data(), vectors_.rows());
   std::vector<double> sums(chunk_count());
@@ -119,6 +122,7 @@ std::vector<double> Quantiser::cell_distortions() const {
   return sums;
 }
 
+/// Iterates until the relative drop of the distortion, eq. (9), is at most the tolerance.
 void Quantiser::run_lloyd() {
   Lloyd_run run{.code_vectors = size(), .distortion = {}};
   for (std::size_t iteration = 0; iteration < options_.max_iterations; ++iteration) {
@@ -133,17 +137,17 @@ void Quantiser::run_lloyd() {
   runs_.push_back(std::move(run));
 }
 
-/// Puts the vectors of a cell side by side, in the order they had: the search takes eight at a time where they share a
-/// cell, and a split sums over each cell.
+/// Sorts the vectors by cell and keeps their order within a cell. The search takes eight vectors at a time if they
+/// share a cell, and a split sums over each cell.
 void Quantiser::group_by_cell() {
-  // Per chunk and cell first the number of vectors, then the place of the first of them.
-  std::vector<std::vector<std::size_t>> places(chunk_count(), std::vector<std::size_t>(size(), 0));
+  // Per chunk and cell: first the number of vectors, then the row of the next one.
+  std::vector<std::vector<std::size_t>> next_rows(chunk_count(), std::vector<std::size_t>(size(), 0));
   for_chunks([&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) ++places[chunk][assignment_.labels[v]];
+    for (std::size_t v = begin; v < end; ++v) ++next_rows[chunk][assignment_.labels[v]];
   });
-  std::size_t place = 0;
+  std::size_t row = 0;
   for (std::size_t cell = 0; cell < size(); ++cell)
-    for (auto& of_chunk : places) place += std::exchange(of_chunk[cell], place);
+    for (auto& of_chunk : next_rows) row += std::exchange(of_chunk[cell], row);
 
   const Eigen::Index k = vectors_.cols();
   grouped_vectors_.resize(vectors_.rows(), k);
@@ -152,7 +156,7 @@ void Quantiser::group_by_cell() {
   grouped_origin_.resize(origin_.size());
   for_chunks([&](std::size_t chunk, std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      const std::size_t to = places[chunk][assignment_.labels[v]]++;
+      const std::size_t to = next_rows[chunk][assignment_.labels[v]]++;
       std::copy_n(vectors_.data() + static_cast<Eigen::Index>(v) * k, k,
                   grouped_vectors_.data() + static_cast<Eigen::Index>(to) * k);
       grouped_labels_[to] = assignment_.labels[v];
@@ -196,13 +200,14 @@ bool Quantiser::reseed_empty_cells() {
   return true;
 }
 
+/// Eq. (7).
 void Quantiser::move_codes_to_means() {
   for (Eigen::Index c = 0; c < codes_.rows(); ++c)
     if (assignment_.cell_sizes[c] > 0)
       codes_.row(c) = assignment_.cell_sums.row(c) / static_cast<double>(assignment_.cell_sizes[c]);
 }
 
-/// Of the vectors from `begin` to `end`, which share a cell.
+/// The spread of the vectors from `begin` to `end`, which share a cell.
 Spread Quantiser::spread(std::size_t begin, std::size_t end) const {
   const Eigen::Index k = vectors_.cols();
   Spread result{.distortion = 0, .scatter = Eigen::MatrixXd::Zero(k, k)};
@@ -223,7 +228,8 @@ Spread Quantiser::spread(std::size_t begin, std::size_t end) const {
   return result;
 }
 
-/// Of every cell, the vectors being grouped. Each chunk adds up its part of a cell apart; parts are added in order.
+/// The spread of every cell. The vectors must be grouped by cell. Each chunk sums its part of a cell separately, and
+/// the parts are added in order.
 std::vector<Spread> Quantiser::cell_spreads() {
   std::vector<std::vector<std::pair<Region_index, Spread>>> parts(chunk_count());
   for_chunks([&](std::size_t chunk, std::size_t begin, std::size_t end) {
@@ -249,7 +255,7 @@ std::vector<Spread> Quantiser::cell_spreads() {
 Eigen::RowVectorXd Quantiser::principal_offset(const Eigen::MatrixXd& scatter, std::size_t cell_size) const {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scatter / static_cast<double>(cell_size));
   Eigen::VectorXd axis = solver.eigenvectors().rightCols<1>();
-  // An eigenvector has no sign of its own: the largest component is made positive, so that runs agree.
+  // The sign of an eigenvector is arbitrary. The largest component is made positive, so that runs agree.
   Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
   if (axis[largest] < 0) axis = -axis;
@@ -257,6 +263,9 @@ Eigen::RowVectorXd Quantiser::principal_offset(const Eigen::MatrixXd& scatter, s
   return (options_.split * std::sqrt(variance) * axis).transpose();
 }
 
+/// Splits every code vector, eq. (3) and (4), or only those of the largest distortion if there would be more than
+/// `target`.
+/// @return whether a code vector was split
 bool Quantiser::split(std::size_t target) {
   if (size() > 1) group_by_cell();
   const auto spreads = cell_spreads();
@@ -285,7 +294,7 @@ bool Quantiser::split(std::size_t target) {
 }
 
 Quantisation Quantiser::result() {
-  // Only vectors with fewer than N different values leave cells empty here; the numbers of the others close up.
+  // Cells are empty here only if the vectors hold fewer than N different values. The indices of the others close up.
   const auto& sizes = assignment_.cell_sizes;
   std::vector<Region_index> renumbered(size());
   Eigen::Index kept = 0;

@@ -9,7 +9,7 @@
 namespace lodestone {
 
 Feature_vectors curvature_factor(const Numbered_surface& surface, const Curvature_options& options) {
-  // Scaled, so that the product of curvature and radius is in range though either may not be.
+  // Scaled, because curvature or radius alone may overflow where their product does not.
   const Positions scaled = scaled_positions(surface.positions);
   const auto curvatures = mean_curvatures({surface.graph, scaled, surface.faces}, options);
   const Eigen::RowVector3d mean = scaled.colwise().mean();

@@ -18,7 +18,7 @@ struct Part {
   std::span<std::uint32_t> vertices;
   Region_index label = 0;
 
-  /// The part that is split later.
+  /// True if this part is split later than `other`.
   bool operator<(const Part& other) const {
     return vertices.size() < other.vertices.size() || (vertices.size() == other.vertices.size() && label > other.label);
   }
@@ -35,7 +35,7 @@ Eigen::Index longest_axis(const Positions& positions, std::span<const std::uint3
   return axis;
 }
 
-/// The lower half keeps the label; where the number is odd, it is the larger.
+/// The lower half keeps the label. It is the larger one if the number of vertices is odd.
 std::pair<Part, Part> halves(const Positions& positions, const Part& part, Region_index fresh_label) {
   const Eigen::Index axis = longest_axis(positions, part.vertices);
   const std::size_t half = (part.vertices.size() + 1) / 2;

@@ -23,8 +23,8 @@ void check(const Numbered_surface& surface, const Metis_options& options) {
   if (options.refinements < 1 || options.refinements > 1000)
     throw Bad_argument("METIS: the number of refinements must be between 1 and 1000");
   if (options.vertices_a_part < 2 || options.vertices_a_part > 1000)
-    throw Bad_argument("METIS: the number of vertices a part must be between 2 and 1000");
-  // Both directions of the three edges of every face are counted in a number of METIS.
+    throw Bad_argument("METIS: vertices_a_part must be between 2 and 1000");
+  // METIS counts both directions of the three edges of every face in one of its integers.
   if (surface.faces.size() > static_cast<std::size_t>(std::numeric_limits<idx_t>::max()) / 6)
     throw Bad_argument("METIS: the mesh has too many faces");
 }
@@ -42,7 +42,7 @@ struct Metis_array {
   }
 };
 
-/// The part of each vertex of a mesh, below `parts`, which is 2 or more.
+/// The part of each vertex of a mesh. There are at least two parts.
 std::vector<Region_index> parts_of(const Surface_mesh& mesh, std::size_t parts, const Metis_options& options) {
   std::vector<Region_index> labels(mesh.number_of_vertices(), 0);
   Metis_array array(options);
@@ -70,7 +70,7 @@ Labelling Metis::label(const Numbered_surface& surface, std::size_t regions) con
   const std::size_t parts = std::min(regions, vertices_with_edges(surface.graph) / options.vertices_a_part);
   if (parts > 1)
     labels = with_refusals_as_bad_mesh(name, [&] { return parts_of(oriented_mesh(surface).mesh, parts, options); });
-  labels.resize(num_vertices(surface.graph));  // without the copies of vertices of several fans
+  labels.resize(num_vertices(surface.graph));  // drops the copies that `oriented_mesh` makes of vertices
   adjust_region_count(surface.graph, surface.positions, labels, regions);
   return {.labels = std::move(labels)};
 }

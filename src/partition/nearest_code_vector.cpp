@@ -13,7 +13,8 @@ namespace lodestone {
 
 namespace {
 
-/// The order of the last Lloyd iteration is nearly right for this one: insertion, which gives up when it is not.
+/// Insertion sort, since the order of the last Lloyd iteration is nearly right for this one. Falls back to a full sort
+/// after too many swaps.
 void sort_nearly_sorted(std::vector<std::pair<double, Region_index>>& others) {
   std::size_t patience = 4 * others.size();
   for (std::size_t i = 1; i < others.size(); ++i)
@@ -44,7 +45,7 @@ void add_chunks(std::size_t chunks, Assignment& assignment) {
   }
 }
 
-/// Calls `assign(chunk)`, which returns how many distances it took, for every chunk, and adds up what comes of it.
+/// Calls `assign(chunk)` for every chunk, and adds up the sums and the numbers of distances that it returns.
 template <class Assign>
 void assign_chunks(std::size_t vectors, const Feature_vectors& codes, Assignment& assignment, Workers& workers,
                    Assign assign) {
@@ -126,7 +127,7 @@ void Bounded_assignment::reload() {
       for (std::size_t i = 0; i < k; ++i) components[i * block] = vector[i];
     }
   });
-  previous_.resize(0, 0);  // so that the next call starts anew
+  previous_.resize(0, 0);  // the next call of `assign` resets the bounds
 }
 
 void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assignment) {
@@ -190,7 +191,7 @@ void Bounded_assignment::sort_neighbours(const Feature_vectors& codes) {
   half_gaps_.resize(n);
   const bool same_codes = neighbour_order_.size() == n * (n - 1);
   neighbour_order_.resize(n * (n - 1));
-  constexpr std::size_t some = 16;  // code vectors: enough for a task
+  constexpr std::size_t some = 16;  // code vectors per task
   workers_.run((n + some - 1) / some, [&](std::size_t task, std::size_t) {
     for (std::size_t c = task * some; c < std::min((task + 1) * some, n); ++c) sort_neighbours_of(c, codes, same_codes);
   });

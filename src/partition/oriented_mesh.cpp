@@ -13,14 +13,14 @@ namespace lodestone {
 
 namespace {
 
-/// Keeps which vertex each further one is a copy of, and which polygons were turned.
+/// Records of which vertex each added one is a copy, and which polygons were turned.
 struct Changes : CGAL::Polygon_mesh_processing::Default_orientation_visitor {
-  std::vector<std::uint32_t>* numbers = nullptr;
+  std::vector<std::uint32_t>* indices = nullptr;
   std::vector<bool>* turned = nullptr;
 
   void duplicated_vertex(std::size_t original, std::size_t copy) const {
-    if (copy >= numbers->size()) numbers->resize(copy + 1);
-    (*numbers)[copy] = (*numbers)[original];
+    if (copy >= indices->size()) indices->resize(copy + 1);
+    (*indices)[copy] = (*indices)[original];
   }
   void polygon_orientation_reversed(std::size_t polygon) const { turned->at(polygon) = !turned->at(polygon); }
 };
@@ -40,7 +40,7 @@ std::vector<Point> rounded_points(const Positions& positions) {
 Oriented_mesh oriented_mesh(const Numbered_surface& surface) {
   Oriented_mesh result;
   auto points = rounded_points(surface.positions);
-  std::vector<std::uint32_t> faces;  // those with three corners
+  std::vector<std::uint32_t> faces;  // those with three different corners
   std::vector<std::array<std::size_t, 3>> polygons;
   for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
     const auto& [a, b, c] = surface.faces[f];
@@ -49,21 +49,21 @@ Oriented_mesh oriented_mesh(const Numbered_surface& surface) {
     faces.push_back(f);
   }
 
-  result.vertex_numbers.resize(points.size());
-  std::iota(result.vertex_numbers.begin(), result.vertex_numbers.end(), 0);
+  result.vertex_indices.resize(points.size());
+  std::iota(result.vertex_indices.begin(), result.vertex_indices.end(), 0);
   std::vector<bool> turned(polygons.size(), false);
   Changes changes;
-  changes.numbers = &result.vertex_numbers;
+  changes.indices = &result.vertex_indices;
   changes.turned = &turned;
   CGAL::Polygon_mesh_processing::orient_polygon_soup(points, polygons, CGAL::parameters::visitor(changes));
 
   using Index = Surface_mesh::Vertex_index;
-  const auto index = [](std::size_t number) { return Index(static_cast<Surface_mesh::size_type>(number)); };
+  const auto index = [](std::size_t i) { return Index(static_cast<Surface_mesh::size_type>(i)); };
   for (const auto& point : points) result.mesh.add_vertex(point);
   for (std::size_t p = 0; p < polygons.size(); ++p) {
     const auto face = result.mesh.add_face(index(polygons[p][0]), index(polygons[p][1]), index(polygons[p][2]));
     if (face == Surface_mesh::null_face()) continue;
-    result.face_numbers.push_back(faces[p]);
+    result.face_indices.push_back(faces[p]);
     result.turned.push_back(turned[p]);
   }
   return result;

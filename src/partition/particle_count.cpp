@@ -44,7 +44,7 @@ std::vector<std::vector<std::uint32_t>> smooth_parts(const Vertex_graph& graph, 
   return parts;
 }
 
-/// Leaves the parts that count: large enough, and not more than wanted, the largest first served.
+/// Keeps the parts that are large enough; if these are too many, the largest of them.
 void keep_large_parts(std::vector<std::vector<std::uint32_t>>& parts, std::size_t vertex_count,
                       const Particle_count_options& options) {
   const double least = options.smallest_part * static_cast<double>(vertex_count);
@@ -78,7 +78,7 @@ std::size_t shadow_particle_count(double radius, double smallest) {
   if (!(radius > 0 && smallest > 0) || !std::isfinite(radius) || !std::isfinite(smallest))
     throw Bad_argument("the radii of a shadow must be finite and > 0");
   const double sine = 1 / (radius / smallest + 1);
-  // 1 - cos(theta) without cancellation: small shadows are the ones that matter.
+  // 1 - cos(theta) without cancellation, because the count is large where the shadow is small.
   const double one_minus_cosine = sine * sine / (1 + std::sqrt(1 - sine * sine));
   const double count = std::floor(2 / one_minus_cosine);
   return count < 1e9 ? std::max<std::size_t>(1, static_cast<std::size_t>(count)) : 1'000'000'000;
@@ -88,7 +88,7 @@ Sphere bounding_sphere(const Positions& positions) {
   using Points_kernel = CGAL::Simple_cartesian<double>;
   using Min_sphere = CGAL::Min_sphere_of_spheres_d<CGAL::Min_sphere_of_points_d_traits_3<Points_kernel, double>>;
   if (positions.rows() == 0) return {};
-  // Relative to the extent, so that squares stay within range.
+  // Relative to the extent, so that squares neither overflow nor underflow.
   const Eigen::RowVector3d origin = positions.row(0);
   const double extent = (positions.rowwise() - origin).cwiseAbs().maxCoeff();
   if (!(extent > 0) || !std::isfinite(extent)) return {.centre = origin};
@@ -136,7 +136,7 @@ std::size_t particle_count(std::span<const Sphere> object, std::span<const doubl
   const auto [smallest, largest] = std::ranges::minmax(radii);
   const bool equal_sizes = largest <= smallest * (1 + options.equal_sizes);
   const bool is_sphere = object.size() == 1 && object[0].roundness >= options.least_roundness;
-  // Objects without extent cast no shadow to measure against.
+  // An object without extent casts no shadow to compare with.
   if (smallest <= 0 || (equal_sizes && is_sphere))
     return std::min(kissing_particle_count(radii.size()), options.most_particles);
   std::size_t count = 0;

@@ -26,13 +26,14 @@ using Labels = std::vector<Region_index>;
 void check(const Numbered_surface& surface, const Numbered_partition& partition) {
   const auto vertices = static_cast<std::size_t>(surface.positions.rows());
   if (partition.labels.size() != vertices)
-    throw Bad_argument("a partition of " + std::to_string(partition.labels.size()) + " vertices for a surface of " +
-                       std::to_string(vertices));
+    throw Bad_argument("the partition has " + std::to_string(partition.labels.size()) + " labels for " +
+                       std::to_string(vertices) + " vertices");
   if (partition.particles.size() != partition.regions)
-    throw Bad_argument("a partition with another number of particles than regions");
+    throw Bad_argument("the partition has " + std::to_string(partition.particles.size()) + " particles for " +
+                       std::to_string(partition.regions) + " regions");
   if (std::ranges::any_of(partition.labels, [&](auto label) { return label >= partition.regions; }) ||
       std::ranges::any_of(partition.particles, [&](auto vertex) { return vertex >= vertices; }))
-    throw Bad_argument("a partition with a label or a particle out of range");
+    throw Bad_argument("the partition has a label or a particle out of range");
 }
 
 double distortion(const Feature_vectors& vectors, const Labels& labels, std::size_t regions) {
@@ -62,7 +63,7 @@ struct Triangle {
 
   Triangle(const Positions& positions, const Corners& corners)
       : at{positions.row(corners[0]), positions.row(corners[1]), positions.row(corners[2])} {}
-  /// Half the cross product of two sides: along the normal, as long as the area.
+  /// Half the cross product of two sides: its direction is the normal, its length the area.
   Eigen::Vector3d area_vector() const { return 0.5 * (at[1] - at[0]).cross(at[2] - at[0]); }
 };
 
@@ -71,7 +72,7 @@ double border_in(const Triangle& face, const std::array<Region_index, 3>& labels
   const Eigen::Vector3d centroid = (face.at[0] + face.at[1] + face.at[2]) / 3;
   const bool three = labels[0] != labels[1] && labels[1] != labels[2] && labels[2] != labels[0];
   double length = 0;
-  Eigen::Vector3d cut = Eigen::Vector3d::Zero();  // the middles of the two sides that are cut, one minus the other
+  Eigen::Vector3d cut = Eigen::Vector3d::Zero();  // difference of the midpoints of the two sides that are cut
   double sign = 1;
   for (std::size_t side = 0; side < 3; ++side) {
     const std::size_t next = (side + 1) % 3;
@@ -94,7 +95,7 @@ double border_length(const Positions& positions, std::span<const Corners> faces,
   return area > 0 ? border / std::sqrt(area) : 0;
 }
 
-/// A face counts for the region of each of its corners by a third of its area.
+/// A face counts with a third of its area for the region of each of its corners.
 double normal_deviation(const Positions& positions, std::span<const Corners> faces, const Labels& labels,
                         std::size_t regions) {
   std::vector<Eigen::Vector3d> mean(regions, Eigen::Vector3d::Zero());
@@ -122,7 +123,7 @@ struct Within_region {
   }
 };
 
-/// Paths from all particles at once: none leaves its region, so none meets another.
+/// Searches from all particles at once. No path leaves its region, so the searches do not interfere.
 double mean_geodesic_radius(const Vertex_graph& graph, const Positions& positions,
                             const Numbered_partition& partition) {
   std::vector<double> distance(partition.labels.size(), std::numeric_limits<double>::infinity());
@@ -172,7 +173,7 @@ Partition_measures measure_partition(const Numbered_surface& surface, const Numb
   const auto& [graph, original, faces] = surface;
   const auto& labels = partition.labels;
   const Feature_vectors vectors = feature_vectors(original, faces);
-  const Positions positions = vectors.leftCols<3>();  // of radius 1, whatever the units were
+  const Positions positions = vectors.leftCols<3>();  // scaled to radius 1
 
   Partition_measures measures{.regions = partition.regions};
   measures.distortion = distortion(vectors, labels, partition.regions);

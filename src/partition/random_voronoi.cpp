@@ -16,7 +16,8 @@ std::vector<std::uint32_t> random_vertices(const Vertex_graph& graph, std::size_
   const auto isolated = std::ranges::stable_partition(order, [&](auto v) { return out_degree(v, graph) > 0; });
   const std::size_t with_edges = order.size() - isolated.size();
 
-  // The first steps of a shuffle. The remainder, unlike the library's distributions, is the same everywhere.
+  // The first steps of a shuffle. It uses remainders, because they are the same on every platform, unlike the
+  // distributions of the standard library.
   std::mt19937_64 random(seed);
   count = std::min(count, order.size());
   for (std::size_t i = 0; i < count; ++i) {

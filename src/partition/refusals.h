@@ -10,7 +10,7 @@
 
 namespace lodestone {
 
-/// What `work` gives back; Bad_mesh in the name of a strategy where CGAL refuses a case it has no answer for.
+/// Returns what `work` returns. Throws Bad_mesh in the name of a strategy if CGAL refuses the surface.
 template <class Work>
 auto with_refusals_as_bad_mesh(std::string_view strategy, const Work& work) {
   try {

@@ -28,8 +28,9 @@ void check(const Vertex_graph& graph, const Positions& positions, const std::vec
                        std::to_string(positions.rows()) + " positions for " + std::to_string(vertices) + " vertices");
 }
 
-/// Numbers the labels of vertices with edges from 0 without gaps, in the order they had; the other vertices get 0.
-/// @return how many there are
+/// Renumbers the labels of vertices with edges from 0 without gaps, in the order that they had. The other vertices get
+/// 0.
+/// @return the number of labels
 std::size_t close_up(const Vertex_graph& graph, std::vector<Region_index>& labels) {
   std::vector<Region_index> used;
   for (std::uint32_t v = 0; v < labels.size(); ++v)
@@ -50,13 +51,13 @@ std::vector<Vertices> members(const Vertex_graph& graph, const std::vector<Regio
   return result;
 }
 
-/// Regions and the borders between them, of which the smallest are taken out one after the other.
+/// Joins the smallest regions to neighbours, one after the other.
 class Joining {
  public:
   Joining(const Vertex_graph& graph, const std::vector<Region_index>& labels, std::size_t regions);
-  /// @return how many regions joined another
+  /// @return the number of regions that joined another
   std::size_t run(std::size_t wanted);
-  /// The region that each region has become part of in the end.
+  /// Per region: the region of which it is a part in the end.
   std::vector<Region_index> targets() const;
 
  private:
@@ -114,12 +115,12 @@ std::vector<Region_index> Joining::targets() const {
   return result;
 }
 
-/// The largest regions are cut in two, one after the other.
+/// Cuts the largest regions in two, one after the other.
 class Splitting {
  public:
   Splitting(const Vertex_graph& graph, const Positions& positions, std::vector<Region_index>& labels,
             std::size_t regions);
-  /// @return how many cuts were made
+  /// @return the number of cuts
   std::size_t run(std::size_t wanted);
 
  private:
@@ -132,7 +133,7 @@ class Splitting {
   const Positions positions_;
   std::vector<Region_index>& labels_;
   std::vector<Vertices> members_;
-  std::vector<std::uint32_t> marks_;  ///< per vertex: the search that is under way on its set of vertices
+  std::vector<std::uint32_t> marks_;  ///< per vertex: the search that has yet to reach it
   std::uint32_t searches_ = 0;
 };
 
@@ -177,7 +178,7 @@ Eigen::Vector3d Splitting::longest_axis(const Vertices& region) const {
     scatter += offset.transpose() * offset;
   }
   Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(2);
-  // An eigenvector has no sign of its own: the largest component is made positive, so that runs agree.
+  // The sign of an eigenvector is arbitrary. The largest component is made positive, so that runs agree.
   Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
   return axis[largest] < 0 ? Eigen::Vector3d(-axis) : axis;
@@ -214,11 +215,11 @@ Vertices without(const Vertices& all, const Vertices& some) {
   return rest;
 }
 
-/// The vertices that leave a region of two or more; never the lowest.
+/// The vertices that leave a region of two or more vertices. The lowest vertex always stays.
 Vertices Splitting::cut_off(const Vertices& region) {
   auto parts = pieces(region);
   if (parts.size() == 1) parts = pieces(without(region, grown_half(region)));
-  // Of all pieces the largest is one side; the others, or what they have joined, are the other side.
+  // One side is the largest piece. The other side is the rest of the region.
   const Vertices side = *std::ranges::max_element(parts, {}, &Vertices::size);
   return side.front() == region.front() ? without(region, side) : side;
 }

@@ -63,8 +63,8 @@ Tangent_frame tangent_frame(const Eigen::Vector3d& normal, const Eigen::Vector3d
   return {.x = x, .y = n.cross(x)};
 }
 
-/// The narrowest of four cones around a direction that an offset lies in: 0 within 5.6 degrees, 3 within 45; 4: none.
-/// A hair wider than that, so that an offset on the edge of a cone is not put in or out of it by rounding.
+/// The narrowest of four cones around a direction that contains an offset: 0 within 5.6 degrees, 3 within 45; 4: none.
+/// The cones are slightly wider than that, so that rounding does not decide about an offset on the edge of a cone.
 std::size_t cone(double along, double across) {
   constexpr std::array<double, 4> tangents{0.0985, 0.1989, 0.4142, 1.0};
   std::size_t narrowest = 0;
@@ -114,7 +114,7 @@ Region_extent region_extent(const Extent_input& input, std::uint32_t home, const
   const bool has_border =
       on_border(input, home) || std::ranges::any_of(reached, [&](auto v) { return on_border(input, v); });
 
-  // The nearest border vertex within the narrowest cone that holds one; without a border the farthest within 45
+  // The nearest border vertex within the narrowest cone that holds one. Without a border: the farthest vertex within 45
   // degrees.
   struct End {
     std::uint32_t vertex;
@@ -127,7 +127,7 @@ Region_extent region_extent(const Extent_input& input, std::uint32_t home, const
     if (has_border && !on_border(input, v)) continue;
     const Eigen::Vector3d offset = input.position(v) - origin;
     const double x = offset.dot(frame.x), y = offset.dot(frame.y);
-    // Straight above or below home there is no direction.
+    // A vertex straight above or below home has no direction in the tangent plane.
     if (std::hypot(x, y) <= 1e-9 * offset.norm()) continue;
     const std::array<double, 4> along{x, -x, y, -y};
     for (std::size_t direction = 0; direction < 4; ++direction) {

@@ -30,7 +30,7 @@ double longest_side(const Surface_mesh& mesh) {
   return std::max({box.x_span(), box.y_span(), box.z_span()});
 }
 
-/// Faces of each area, by their place in the mesh.
+/// The faces of each area, by their index in the mesh.
 std::vector<std::vector<std::size_t>> grow(const Surface_mesh& mesh, const Region_growing_options& options) {
   using Neighbours = CGAL::Shape_detection::Polygon_mesh::One_ring_neighbor_query<Surface_mesh>;
   using Plane = CGAL::Shape_detection::Polygon_mesh::Least_squares_plane_fit_region<Kernel, Surface_mesh>;
@@ -49,12 +49,12 @@ std::vector<Region_index> flat_areas(const Numbered_surface& surface, const Regi
   check(options);
   std::vector<Region_index> result(surface.faces.size(), no_region);
   const Oriented_mesh oriented = oriented_mesh(surface);
-  if (oriented.face_numbers.empty()) return result;
+  if (oriented.face_indices.empty()) return result;
   const auto areas = with_refusals_as_bad_mesh(Region_growing::name, [&] { return grow(oriented.mesh, options); });
   const auto geometry = face_geometry(surface);
   for (Region_index area = 0; area < areas.size(); ++area)
     for (const auto f : areas[area])
-      if (geometry.areas[oriented.face_numbers[f]] > 0) result[oriented.face_numbers[f]] = area;
+      if (geometry.areas[oriented.face_indices[f]] > 0) result[oriented.face_indices[f]] = area;
   return result;
 }
 

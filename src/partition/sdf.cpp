@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/partition/sdf.h"
 
-// The old one of the implementations of the maximum flow, the fastest, asks to be included before its user.
+// The fastest of the implementations of maximum flow must be included before its user.
 #include <CGAL/boost/graph/Alpha_expansion_MaxFlow_tag.h>
 #include <CGAL/boost/graph/alpha_expansion_graphcut.h>
 #include <CGAL/mesh_segmentation.h>
@@ -33,7 +33,7 @@ void check(const Sdf_options& options) {
     throw Bad_argument("SDF: smoothing must be between 0 and 100");
 }
 
-/// CGAL's tree of the faces that have an area must not be empty.
+/// Whether a face has an area. CGAL's tree of such faces must not be empty.
 bool has_area(const Surface_mesh& mesh) {
   return std::ranges::any_of(mesh.faces(), [&](auto f) {
     const auto h = mesh.halfedge(f);
@@ -42,7 +42,7 @@ bool has_area(const Surface_mesh& mesh) {
   });
 }
 
-/// Log-normalised diameters between 0 and 1; empty where they tell nothing apart.
+/// Log-normalised diameters between 0 and 1; empty if all are equal or none is known.
 Diameters diameters(const Surface_mesh& mesh, const Sdf_options& options) {
   if (!has_area(mesh)) return {};
   Diameters values(mesh.number_of_faces());
@@ -50,42 +50,43 @@ Diameters diameters(const Surface_mesh& mesh, const Sdf_options& options) {
   CGAL::sdf_values(mesh, map, options.cone_angle, options.rays, false);
   if (std::ranges::max(values) < 0) return {};  // no ray has hit anything
   const auto [least, largest] = CGAL::sdf_values_postprocessing(mesh, map);
-  // A relative difference of 1e-6 is far above rounding and far below what anyone would call another part.
+  // A relative difference of 1e-6 is far above rounding, and far below what distinguishes parts.
   if (!(largest - least > 1e-6 * largest)) return {};
   constexpr double alpha = 5;  // of the paper
   for (auto& value : values) value = std::log(alpha * value + 1) / std::log(alpha + 1);
   return values;
 }
 
-/// A mixture of normal distributions of one variable, fitted by expectation and maximisation.
+/// A mixture of normal distributions of one variable, fitted by expectation-maximisation.
 class Mixture {
  public:
   Mixture(const Diameters& values, std::size_t clusters);
   std::size_t size() const { return means_.size(); }
   void fit();
-  /// -log of the probability that each cluster has made a value; sums to 1 over the clusters.
+  /// Per cluster: -log of the probability that a value belongs to it. The probabilities sum to 1.
   std::vector<double> costs(double value) const;
 
  private:
   std::vector<double> probabilities(double value) const;
 
-  // No narrower than this, or a cluster of equal values would be a spike that nothing else can belong to.
+  // Lower limit of the deviations. Without it a cluster of equal values would be a spike to which no other value can
+  // belong.
   static constexpr double narrowest = 0.01;
 
   const Diameters& values_;
   std::vector<double> means_, deviations_, weights_;
 };
 
-/// Means of LBG cells of which the two nearest become one until all are apart, in the order of size.
+/// Means of LBG cells, ascending. The two nearest are joined until all are far enough apart.
 std::vector<double> distinct_means(const Diameters& values, std::size_t clusters) {
   const Eigen::Map<const Eigen::VectorXd> column(values.data(), static_cast<Eigen::Index>(values.size()));
   const auto cells = quantise(column, clusters);
-  std::vector<std::pair<double, double>> means;  // with how many values each has
+  std::vector<std::pair<double, double>> means;  // each with its number of values
   for (const double code : cells.code_vectors.reshaped()) means.emplace_back(code, 0);
   for (const auto label : cells.labels) means[label].second += 1;
   std::ranges::sort(means);
-  // Clusters that are nearer have one thickness between them; the cut, which changes one cluster at a time, would find
-  // no way from such a mixture to fewer clusters.
+  // Clusters that are nearer to each other are one thickness. The cut changes one cluster at a time, so it could not
+  // get from such a mixture to fewer clusters.
   constexpr double least_gap = 0.1;
   while (means.size() > 1) {
     std::size_t nearest = 0;
@@ -103,7 +104,7 @@ std::vector<double> distinct_means(const Diameters& values, std::size_t clusters
   return result;
 }
 
-/// Each value counts for the nearest mean to begin with.
+/// At the start each value counts for the nearest mean.
 Mixture::Mixture(const Diameters& values, std::size_t clusters)
     : values_(values),
       means_(distinct_means(values, clusters)),
@@ -120,7 +121,7 @@ Mixture::Mixture(const Diameters& values, std::size_t clusters)
   }
 }
 
-/// By logarithms, of which the largest is taken off: far from all clusters the nearest gets all.
+/// Computed from logarithms, less the largest of them, so that a value far from all clusters belongs to the nearest.
 std::vector<double> Mixture::probabilities(double value) const {
   std::vector<double> result(size());
   for (std::size_t c = 0; c < size(); ++c) {
@@ -135,7 +136,7 @@ std::vector<double> Mixture::probabilities(double value) const {
 }
 
 void Mixture::fit() {
-  constexpr int most_iterations = 15;  // as CGAL's; the values need no better
+  constexpr int most_iterations = 15;  // as in CGAL; more make no difference that matters
   for (int i = 0; i < most_iterations; ++i) {
     std::vector<double> sums(size(), 0), squares(size(), 0), totals(size(), 0);
     for (const double value : values_) {
@@ -147,7 +148,7 @@ void Mixture::fit() {
       }
     }
     for (std::size_t c = 0; c < size(); ++c) {
-      if (totals[c] < 1e-9) continue;  // its values have gone elsewhere
+      if (totals[c] < 1e-9) continue;  // all its values have left
       const double shift = sums[c] / totals[c];
       means_[c] += shift;
       deviations_[c] = std::max(narrowest, std::sqrt(std::max(0.0, squares[c] / totals[c] - shift * shift)));
@@ -157,27 +158,27 @@ void Mixture::fit() {
 }
 
 std::vector<double> Mixture::costs(double value) const {
-  constexpr double least_probability = 5e-6;  // so that every face can belong to any cluster, at a price
+  constexpr double least_probability = 5e-6;  // keeps the cost finite, so that any face can belong to any cluster
   auto result = probabilities(value);
-  // The maximum flow takes no costs of 0.
+  // The maximum flow does not accept costs of 0.
   for (auto& p : result)
     p = std::max(-std::log(std::max(p, least_probability)), std::numeric_limits<double>::epsilon());
   return result;
 }
 
-/// What it costs to have the border of two clusters along an edge: most on a plane, least along a sharp concave edge.
+/// The cost of a border between two clusters along an edge: largest on a plane, least along a sharp concave edge.
 double border_cost(const Oriented_mesh& oriented, const Face_geometry& geometry, Surface_mesh::Halfedge_index h) {
   const auto& mesh = oriented.mesh;
   const auto normal = [&](Surface_mesh::Halfedge_index side) -> Eigen::RowVector3d {
     const auto face = mesh.face(side);
-    return (oriented.turned[face] ? -1 : 1) * geometry.normals.row(oriented.face_numbers[face]);
+    return (oriented.turned[face] ? -1 : 1) * geometry.normals.row(oriented.face_indices[face]);
   };
   const Eigen::RowVector3d here = normal(h), there = normal(mesh.opposite(h));
   const auto& apex = mesh.point(mesh.target(mesh.next(mesh.opposite(h))));
   const auto rise = apex - mesh.point(mesh.target(h));
   const bool concave = here.dot(Eigen::RowVector3d(rise.x(), rise.y(), rise.z())) > 0;
   const double bend = std::atan2(here.cross(there).norm(), here.dot(there)) / std::numbers::pi;
-  constexpr double convex_factor = 0.08;  // of CGAL: parts meet where a surface is concave
+  constexpr double convex_factor = 0.08;  // as in CGAL; parts meet where a surface is concave
   return -std::log(std::max(concave ? bend : convex_factor * bend, 5e-6));
 }
 
@@ -190,7 +191,7 @@ std::vector<std::size_t> cut_clusters(const Oriented_mesh& oriented, const Face_
     const auto h = oriented.mesh.halfedge(e);
     if (oriented.mesh.is_border(e)) continue;
     edges.emplace_back(oriented.mesh.face(h), oriented.mesh.face(oriented.mesh.opposite(h)));
-    constexpr double scale = 100;  // of CGAL: brings sensible smoothings between 0 and 1
+    constexpr double scale = 100;  // as in CGAL; brings useful values of smoothing between 0 and 1
     edge_costs.push_back(scale * smoothing * border_cost(oriented, geometry, h));
   }
   std::vector<std::vector<double>> costs(mixture.size(), std::vector<double>(values.size()));
@@ -200,12 +201,12 @@ std::vector<std::size_t> cut_clusters(const Oriented_mesh& oriented, const Face_
     for (std::size_t c = 0; c < costs.size(); ++c) costs[c][f] = of_face[c];
     clusters.push_back(std::ranges::min_element(of_face) - of_face.begin());
   }
-  if (edges.empty()) return clusters;  // loose triangles, which CGAL does not expect
+  if (edges.empty()) return clusters;  // CGAL does not expect loose triangles
   CGAL::alpha_expansion_graphcut(edges, edge_costs, costs, clusters, CGAL::Alpha_expansion_MaxFlow_tag());
   return clusters;
 }
 
-/// Numbers the connected faces of each cluster.
+/// A segment for each connected set of faces of one cluster.
 std::vector<Region_index> connected_segments(const Surface_mesh& mesh, const std::vector<std::size_t>& clusters) {
   std::vector<Region_index> segments(clusters.size(), no_region);
   Region_index count = 0;
@@ -247,9 +248,9 @@ std::vector<Region_index> sdf_segments(const Numbered_surface& surface, const Sd
   check(options);
   std::vector<Region_index> result(surface.faces.size(), no_region);
   const Oriented_mesh oriented = oriented_mesh(surface);
-  if (oriented.face_numbers.empty()) return result;
+  if (oriented.face_indices.empty()) return result;
   const auto segments = with_refusals_as_bad_mesh(Sdf::name, [&] { return segments_of(surface, oriented, options); });
-  for (std::size_t f = 0; f < segments.size(); ++f) result[oriented.face_numbers[f]] = segments[f];
+  for (std::size_t f = 0; f < segments.size(); ++f) result[oriented.face_indices[f]] = segments[f];
   return result;
 }
 

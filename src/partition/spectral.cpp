@@ -27,7 +27,7 @@ void check(const Spectral_options& options) {
     throw Bad_argument("spectral: max_iterations must be between 1 and 1e6");
 }
 
-/// The eigenvalue problem L x = lambda M x of a part of the mesh, its vertices numbered from 0.
+/// The eigenvalue problem L x = lambda M x of a part of the mesh, with its vertices indexed from 0.
 struct Problem {
   Sparse_matrix laplacian;  // D - A
   Eigen::VectorXd masses;   // the diagonal of M: 1, or D for the normalised Laplacian
@@ -35,7 +35,7 @@ struct Problem {
 
 constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 
-/// @param local  V: the number within the part of each of its vertices; of the others no_vertex
+/// @param local  V: the index within the part of each of its vertices; no_vertex for the others
 Problem make_problem(const Vertex_graph& graph, const Vertices& part, const std::vector<std::uint32_t>& local,
                      Laplacian kind) {
   const auto size = static_cast<Eigen::Index>(part.size());
@@ -76,7 +76,7 @@ class Inverse_iteration {
   void rotate_to_eigenvectors();
   double residual() const;
 
-  // The error falls by the second over the eighth eigenvalue each time: about 1/6 on a surface.
+  // Each iteration multiplies the error by the second eigenvalue over the eighth: about 1/6 on a surface.
   static constexpr Eigen::Index block_size = 6;
 
   const Problem& problem_;
@@ -88,8 +88,8 @@ class Inverse_iteration {
 
 Inverse_iteration::Inverse_iteration(const Problem& problem, const Spectral_options& options)
     : problem_(problem), options_(options) {
-  // The Laplacian takes constants to 0. Without its last row and column it has an inverse, and what that gives differs
-  // from a solution of the whole by a constant only.
+  // The Laplacian maps constants to 0. Without its last row and column it has an inverse, whose result differs from a
+  // solution of the whole by a constant only.
   const Eigen::Index last = problem.laplacian.rows() - 1;
   factors_.compute(problem.laplacian.topLeftCorner(last, last));
 }
@@ -116,13 +116,13 @@ void Inverse_iteration::apply_inverse() {
   take_out_constants();
 }
 
-/// The best approximations of eigenvectors in the space of the block (Rayleigh and Ritz).
+/// The best approximations of eigenvectors in the space of the block (Rayleigh-Ritz).
 void Inverse_iteration::rotate_to_eigenvectors() {
   for (auto column : block_.colwise()) column.normalize();
   const Eigen::MatrixXd stiffness = block_.transpose() * (problem_.laplacian * block_);
   const Eigen::MatrixXd mass = block_.transpose() * problem_.masses.asDiagonal() * block_;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spread(mass);
-  // Vectors that have become dependent are left out, as directions in which the block has no extent.
+  // If vectors have become linearly dependent, the directions in which the block has no extent are left out.
   const Eigen::Index lost = (spread.eigenvalues().array() < 1e-12 * spread.eigenvalues().maxCoeff()).count();
   const Eigen::Index kept = block_.cols() - lost;
   const Eigen::MatrixXd basis =
@@ -150,13 +150,13 @@ Fiedler_vector Inverse_iteration::run() {
 
 /// The Fiedler vector of a connected part of two vertices or more.
 Fiedler_vector solve(const Problem& problem, const Spectral_options& options) {
-  constexpr Eigen::Index few = 48;  // from here on the sparse solver is the faster one
+  constexpr Eigen::Index few = 48;  // above this number the sparse solver is faster
   auto result = problem.laplacian.rows() <= few ? solve_dense(problem) : Inverse_iteration(problem, options).run();
-  if (result.values[0] > 0) result.values = -result.values;  // an eigenvector has no sign of its own
+  if (result.values[0] > 0) result.values = -result.values;  // the sign of an eigenvector is arbitrary
   return result;
 }
 
-/// Parts of the mesh, of which the largest is cut in two, again and again.
+/// Parts of the mesh. The largest is cut in two, again and again.
 class Dissection {
  public:
   Dissection(const Vertex_graph& graph, const Spectral_options& options);
@@ -172,7 +172,7 @@ class Dissection {
   const Vertex_graph& graph_;
   const Spectral_options& options_;
   std::vector<Vertices> parts_;
-  std::vector<std::uint32_t> local_;  ///< scratch: per vertex its number within the part at hand, or no_vertex
+  std::vector<std::uint32_t> local_;  ///< scratch: per vertex its index within the current part, or no_vertex
   std::size_t iterations_ = 0;
 };
 
@@ -201,7 +201,7 @@ std::vector<Vertices> Dissection::pieces(const Vertices& part) {
   return result;
 }
 
-/// Pieces, dealt to two sides of about equal size; the side without the lowest vertex.
+/// Divides pieces into two sides of about equal size. Returns the side without the lowest vertex.
 Vertices Dissection::cut_off_pieces(std::vector<Vertices> pieces) const {
   const std::uint32_t lowest = pieces.front().front();
   std::ranges::stable_sort(pieces, std::greater<>(), &Vertices::size);
@@ -224,7 +224,7 @@ Vertices Dissection::cut_along_fiedler_vector(const Vertices& part) {
   std::vector<std::uint32_t> order(part.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](auto i) { return fiedler.values[i]; });
-  std::size_t first = (part.size() + 1) / 2;  // of those that leave
+  std::size_t first = (part.size() + 1) / 2;  // of the vertices that leave
   if (options_.cut == Spectral_cut::zero) {
     const auto positive = std::ranges::find_if(order, [&](auto i) { return fiedler.values[i] > 0; });
     first = std::clamp<std::size_t>(positive - order.begin(), 1, part.size() - 1);
@@ -235,7 +235,7 @@ Vertices Dissection::cut_along_fiedler_vector(const Vertices& part) {
   return leaving;
 }
 
-/// The vertices that leave a part of two or more.
+/// The vertices that leave a part of two or more vertices.
 Vertices Dissection::cut_off(const Vertices& part) {
   auto all = pieces(part);
   return all.size() > 1 ? cut_off_pieces(std::move(all)) : cut_along_fiedler_vector(part);

@@ -48,7 +48,7 @@ Any_strategy lbg_curvature(const Strategy_settings& settings) {
 }
 
 Any_strategy kmeans_plus_plus(const Strategy_settings& settings) {
-  // It stops as `lbg` does, so that the two can be compared.
+  // Stops as `lbg` does, so that the two can be compared.
   return Any_strategy(Kmeans_plus_plus{.options = {.seed = settings.seed,
                                                    .tolerance = settings.lbg.tolerance,
                                                    .max_iterations = settings.lbg.max_iterations,
@@ -71,8 +71,8 @@ std::span<const Strategy_entry> strategies() {
        from_seed<Centroidal>, any_number},
       {Metis::name, "parts of equal size with few edges between them", from_seed<Metis>, any_number},
       {Spectral::name, "halves of halves along the Fiedler vector", from_seed<Spectral>, Spectral::most_vertices},
-      {Vsa::name, "areas that a plane each approximates, optimised", from_nothing<Vsa>, any_number},
-      {Region_growing::name, "nearly flat areas, grown from a face each", from_nothing<Region_growing>, any_number},
+      {Vsa::name, "areas that are each approximated by a plane, optimised", from_nothing<Vsa>, any_number},
+      {Region_growing::name, "nearly flat areas, each grown from one face", from_nothing<Region_growing>, any_number},
       {Sdf::name, "parts of a body, by how thick it is", from_nothing<Sdf>, any_number},
       {Grid::name, "vertices in one cube of a regular grid", from_nothing<Grid>, any_number},
       {Median_split::name, "equally many vertices, by splits along the longest axis", from_nothing<Median_split>,

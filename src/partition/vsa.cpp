@@ -31,10 +31,10 @@ class Normal_metric {
   using Face_index = Surface_mesh::Face_index;
 
   Normal_metric(const Oriented_mesh& oriented, const Face_geometry& geometry) {
-    for (std::size_t f = 0; f < oriented.face_numbers.size(); ++f) {
-      const auto number = oriented.face_numbers[f];
-      areas_.push_back(geometry.areas[number]);
-      normals_.emplace_back((oriented.turned[f] ? -1 : 1) * geometry.normals.row(number));
+    for (std::size_t f = 0; f < oriented.face_indices.size(); ++f) {
+      const auto index = oriented.face_indices[f];
+      areas_.push_back(geometry.areas[index]);
+      normals_.emplace_back((oriented.turned[f] ? -1 : 1) * geometry.normals.row(index));
     }
   }
 
@@ -99,7 +99,7 @@ Labelling Vsa::label(const Numbered_surface& surface, std::size_t regions) const
       approximation.output(CGAL::parameters::face_proxy_map(
           boost::make_iterator_property_map(proxies.begin(), get(boost::face_index, oriented.mesh))));
       for (std::size_t f = 0; f < faces; ++f)
-        face_labels[oriented.face_numbers[f]] = static_cast<Region_index>(proxies[f]);
+        face_labels[oriented.face_indices[f]] = static_cast<Region_index>(proxies[f]);
       return iterations;
     });
   }

@@ -11,8 +11,8 @@ namespace {
 
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 
-/// Normal of a triangle whose cross product double may have no correct digit of: rounded only once its greatest
-/// coordinate is 1.
+/// Unit normal of a triangle whose cross product may have no correct digit in double. It is rounded only after it has
+/// been scaled to a largest coordinate of 1.
 Eigen::Vector3d exact_normal(const Triangle& t) {
   const auto point = [](const Point& p) { return Exact::Point_3(p.x(), p.y(), p.z()); };
   const auto corner = point(t[0]);
@@ -24,10 +24,10 @@ Eigen::Vector3d exact_normal(const Triangle& t) {
   return Eigen::Vector3d(part(0), part(1), part(2)).normalized();
 }
 
-/// Unit normal of a triangle with these edges, scaled; zero if it has no area.
+/// Unit normal of a triangle, from its scaled edges; zero if it has no area.
 Eigen::Vector3d unit_normal(const std::array<Eigen::Vector3d, 3>& edges, const Triangle& t) {
   const Eigen::Vector3d n = edges[0].cross(edges[1]);
-  // Each coordinate of the product has an error below 2^-51 |e||f|. Where squares underflow exact numbers are asked.
+  // Each coordinate of the product has an error below 2^-51 |e||f|. If squares may underflow, exact numbers decide.
   const double bound = edges[0].squaredNorm() * edges[1].squaredNorm(), squared = n.squaredNorm();
   constexpr double thin = 0x1p-20;
   return squared > thin * thin * bound && squared > 1e-280 ? n / std::sqrt(squared) : exact_normal(t);

@@ -10,7 +10,7 @@
 
 namespace lodestone {
 
-/// What distance and depth of two triangles are computed from.
+/// The differences of corners from which distance and depth of two triangles are computed.
 template <class Number>
 struct Corner_differences {
   using Vector = Eigen::Matrix<Number, 3, 1>;
@@ -20,8 +20,8 @@ struct Corner_differences {
   std::array<Vector, 3> edges_b;
 };
 
-/// The differences of corners times `factor`. No common origin is chosen: each difference is rounded once.
-/// @param coordinate  turns a coordinate into the number
+/// The differences of corners. There is no common origin, so each difference is rounded only once.
+/// @param coordinate  converts a coordinate to `Number`, and may scale it
 template <class Number, class Coordinate>
 Corner_differences<Number> corner_differences(const Triangle& a, const Triangle& b, const Coordinate& coordinate) {
   const auto vectors = [&](const Triangle& t) {
@@ -39,9 +39,9 @@ Corner_differences<Number> corner_differences(const Triangle& a, const Triangle&
   return d;
 }
 
-/// Differences times 2^-exponent, so that the greatest coordinate of `between` is in [1, 2) and products of a few
-/// neither overflow nor lose digits that count. Each coordinate has a relative error of 2^-53 at most, or an absolute
-/// one below 2^-1070.
+/// Differences times 2^-exponent, such that the largest absolute coordinate of `between` is in [1, 2), or at least
+/// 2^-74 if it was below 2^-1000. So products of a few differences neither overflow nor lose digits that count. Each
+/// coordinate has a relative error of at most 2^-53, or an absolute error below 2^-1070.
 struct Scaled_differences {
   Corner_differences<double> vectors;
   int exponent = 0;
@@ -62,7 +62,8 @@ inline Scaled_differences scaled_differences(const Triangle& a, const Triangle& 
     size = greatest(scaled.vectors);
   }
   if (size == 0) return scaled;
-  // Beyond 2^-1000 the factor itself would overflow; at 2^-74 products are in no danger yet.
+  // Without the limit the factor could overflow. The smallest size that the limit leaves, 2^-74, is no danger to
+  // products.
   const int shift = std::max(std::ilogb(size), -1000);
   const double factor = std::ldexp(1.0, -shift);
   for (auto& row : scaled.vectors.between)

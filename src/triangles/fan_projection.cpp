@@ -11,14 +11,16 @@
 // det(n, d_i, d_i+1) have one sign, say above zero. Then the projected arms turn counter-clockwise, each step by an
 // angle within (0, pi), and no face is seen edge-on. If they turn by less than a whole turn from first to last, or by
 // exactly one around a closed rim, then the projected faces are wedges side by side: two of them meet in the projected
-// vertex, or if they are neighbours in the ray of their common arm. Over that ray each face has only the arm itself. So
-// the faces meet where it is allowed.
+// vertex only, or, if they are neighbours, in the ray of their common arm. Over that ray each face has only the arm
+// itself. So the faces meet only in the vertex and in common edges.
 //
 // To count turns, take a line through the projected vertex; arms on the line count as above it. A step below pi skips
-// neither the closed half-plane above nor the open one below, so the arms change sides once per half turn. At most one
-// change: from first to last they turn by less than a whole turn. Two changes around a closed rim: by exactly one. Two
-// changes along an open rim leave both possible, unless the step from the last arm to the first is within (0, pi) too:
-// then the rim might as well be closed, and closing it adds no change, since around a closed rim their number is even.
+// neither the closed half-plane above nor the open one below, so the arms change sides once per half turn.
+//  - At most one change: from first to last the arms turn by less than a whole turn.
+//  - Two changes around a closed rim: they turn by exactly a whole turn.
+//  - Two changes along an open rim: both more and less than a whole turn are possible, unless the step from the last
+//    arm to the first is within (0, pi) too. Then the rim can be treated as closed: closing it adds no change, since
+//    the number of changes around a closed rim is even.
 
 namespace lodestone {
 
@@ -26,7 +28,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What a walk along a rim has seen.
+/// What one pass along a rim finds.
 struct Turns {
   double least = infinity, most = -infinity;  ///< of det(n, d_i, d_i+1)
   int changes = 0;                            ///< of side
@@ -37,6 +39,7 @@ struct Turns {
     changes += changes_side ? 1 : 0;
   }
 
+  /// Whether the projected faces are proven to lie side by side.
   /// @param closing  det(n, last arm, first arm) of an open rim
   /// @param error    of each determinant
   bool side_by_side(double error, bool closed, double closing) const {
@@ -59,7 +62,7 @@ int likely_axis(const double* positions, std::span<const std::uint32_t> rim) {
   return beyond_x ? (z > y ? 2 : 1) : 0;
 }
 
-/// Looks along an axis: det(n, d_i, d_i+1) is one component of a cross product, and sides are signs of a coordinate.
+/// Projects along an axis: det(n, d_i, d_i+1) is one component of a cross product, and sides are signs of a coordinate.
 bool spread_along_axis(const double* positions, std::uint32_t vertex, std::span<const std::uint32_t> rim) {
   const int axis = likely_axis(positions, rim);
   const double* xs = positions + (axis + 1) % 3;
@@ -82,8 +85,9 @@ bool spread_along_axis(const double* positions, std::uint32_t vertex, std::span<
          turns.side_by_side(cross_error * size, rim.front() == rim.back(), from_x * first_y - from_y * first_x);
 }
 
-/// Looks along the sum n of all normals, divided by its largest coordinate. Whatever n is after rounding, the line
-/// has the direction g = n_a e_b - n_b e_a, which is perpendicular to it; a is the largest coordinate, b the next one.
+/// Projects along the sum n of all normals, divided by its largest coordinate. However n was rounded, the line has the
+/// direction g = n_a e_b - n_b e_a, which is perpendicular to n; a is the axis of the largest coordinate, b the next
+/// axis.
 bool spread_along_normal(const double* positions, std::uint32_t vertex, std::span<const std::uint32_t> rim) {
   using Eigen::Vector3d;
   const auto point = [&](std::uint32_t v) { return Eigen::Map<const Vector3d>(positions + std::size_t{3} * v); };
@@ -106,7 +110,7 @@ bool spread_along_normal(const double* positions, std::uint32_t vertex, std::spa
   n /= largest;  // now |n_a| is 1 and no coordinate is larger
   const int b = (a + 1) % 3;
 
-  // Whether an arm's side is known. Its two products are off by less than 4 u of what they are.
+  // Whether the side of an arm is certain. Each of its two products has a relative error below 4 u.
   const auto has_side = [&](const Vector3d& d) {
     const double p = n[a] * d[b], q = n[b] * d[a], size_of_both = std::abs(p) + std::abs(q);
     if (d[b] == 0 && (d[a] == 0 || n[b] == 0)) return true;  // on the line

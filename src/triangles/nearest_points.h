@@ -5,38 +5,39 @@
 
 namespace lodestone {
 
-/// A point of a triangle: corner c, plus s times the way to the next corner, plus r times the way to the one after;
-/// s, r >= 0 and s + r <= 1.
+/// A point of a triangle: a corner, plus s times the way to the next corner, plus r times the way to the one after; s,
+/// r >= 0 and s + r <= 1.
 template <class Number>
-struct Place {
+struct Triangle_point {
   int corner = 0;
   Number s = Number(0);
   Number r = Number(0);
 };
 
-/// Two places and what lies between them.
+/// Two points and the gap between them.
 template <class Number>
-struct Nearest_places {
-  Place<Number> a, b;
-  Corner_differences<Number>::Vector gap;     ///< from the place on b to the one on a
+struct Nearest_points {
+  Triangle_point<Number> a, b;
+  Corner_differences<Number>::Vector gap;     ///< from the point on b to the one on a
   Corner_differences<Number>::Vector across;  ///< along the gap, but computed from what is orthogonal to it
-  Number squared = Number(-1);                ///< length of `gap`; negative: none yet
+  Number squared = Number(-1);                ///< squared length of `gap`; negative: none yet
 };
 
-/// Nearest places of two triangles that do not intersect.
+/// Nearest points of two triangles that do not intersect.
 ///
-/// The least distance is found between two corners, a corner and an edge, two edges, or a corner and a face, each at an
-/// inner point; all of these are tried and the first of the least ones taken. An edge or face without length or area
-/// is left out, as its corners and edges hold all of it. With an exact `Number` the result is exact; with double it is
-/// a pair of places, which need not be the nearest where edges are nearly parallel or faces nearly segments.
+/// The least distance is that of two corners, of a corner and an inner point of an edge, of inner points of two edges,
+/// or of a corner and an inner point of a face. All of these are tried, and the first of the least ones is taken. Edges
+/// without length and faces without area are left out, because their corners and edges cover them. With an exact
+/// `Number` the result is exact. With double it is a pair of points that need not be the nearest if edges are nearly
+/// parallel or faces are nearly segments.
 template <class Number>
-class Nearest_places_search {
+class Nearest_points_search {
  public:
   using Vector = Corner_differences<Number>::Vector;
 
-  explicit Nearest_places_search(const Corner_differences<Number>& differences) : d_(differences) {}
+  explicit Nearest_points_search(const Corner_differences<Number>& differences) : d_(differences) {}
 
-  Nearest_places<Number> operator()() {
+  Nearest_points<Number> operator()() {
     for (int i = 0; i < 3; ++i) squared_a_[i] = d_.edges_a[i].squaredNorm();
     for (int j = 0; j < 3; ++j) squared_b_[j] = d_.edges_b[j].squaredNorm();
     for (int i = 0; i < 3; ++i)
@@ -48,7 +49,7 @@ class Nearest_places_search {
   }
 
  private:
-  /// Takes a gap that is shorter than the shortest so far.
+  /// Keeps a gap that is shorter than the shortest so far.
   bool offer(const Vector& gap) {
     const Number squared = gap.squaredNorm();
     if (nearest_.squared >= 0 && !(squared < nearest_.squared)) return false;
@@ -82,8 +83,8 @@ class Nearest_places_search {
     }
   }
 
-  /// Edges e and f at inner points: gap + s e - t f is a multiple of n = e x f; its product with f x n gives s, that
-  /// with e x n gives t.
+  /// Edges e and f at inner points: gap + s e - t f is a multiple of n = e x f. Its product with f x n gives s, its
+  /// product with e x n gives t.
   void edge_to_edge(int i, int j) {
     const Vector &e = d_.edges_a[i], &f = d_.edges_b[j], &gap = d_.between[i][j];
     const Vector n = e.cross(f);
@@ -110,7 +111,8 @@ class Nearest_places_search {
       }
   }
 
-  /// The face's corner 0 is at `corner - gap`. The foot of the corner is s f + r g away from there.
+  /// `gap` leads from corner 0 of the face to the corner. The foot of the corner on the face is corner 0 plus s f + r
+  /// g.
   bool corner_to_face(const Vector& gap, const std::array<Vector, 3>& edges) {
     const Vector &f = edges[0], g = -edges[2];
     const Vector n = f.cross(g);
@@ -127,7 +129,7 @@ class Nearest_places_search {
 
   const Corner_differences<Number>& d_;
   std::array<Number, 3> squared_a_, squared_b_;
-  Nearest_places<Number> nearest_;
+  Nearest_points<Number> nearest_;
   Number s_ = Number(0), r_ = Number(0);  ///< of the last foot within a face
 };
 

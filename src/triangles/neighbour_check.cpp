@@ -20,7 +20,7 @@ namespace {
 using Segment = Kernel::Segment_3;
 using Kernel_triangle = Kernel::Triangle_3;
 
-/// Whether p and q lie in the same direction from `origin`; false if one of them is there.
+/// Whether p and q lie in the same direction from `origin`; false if one of them equals it.
 bool same_direction(const Point& origin, const Point& p, const Point& q) {
   return p != origin && q != origin && CGAL::collinear(origin, p, q) &&
          !CGAL::collinear_are_strictly_ordered_along_line(p, origin, q);
@@ -35,7 +35,7 @@ bool arm_meets(const Point& origin, const Point& end, const Point& p, const Poin
 /// Whether the faces `origin` a b and `origin` c d meet in more than `origin`.
 bool meet_beyond_vertex(const Point& origin, const Point& a, const Point& b, const Point& c, const Point& d) {
   const bool flat = CGAL::collinear(origin, a, b), other_flat = CGAL::collinear(origin, c, d);
-  // What they share beyond the vertex reaches, away from it, the opposite edge of one of them.
+  // If they share more than the vertex, what they share reaches the edge opposite to it in one of them.
   if (!flat && !other_flat)
     return CGAL::do_intersect(Kernel_triangle(origin, a, b), Segment(c, d)) ||
            CGAL::do_intersect(Kernel_triangle(origin, c, d), Segment(a, b));
@@ -64,7 +64,7 @@ bool meet_beyond_edge(const Point& p, const Point& q, const Point& a, const Poin
 }  // namespace
 
 bool faces_intersect(const Corners& corners_a, const Triangle& a, const Corners& corners_b, const Triangle& b) {
-  /// Places of each common vertex in both faces.
+  /// Per common vertex: its corner of either face.
   boost::container::static_vector<std::pair<int, int>, 3> common;
   for (int i = 0; i < 3; ++i) {
     const auto seen = std::find(corners_a.begin(), corners_a.begin() + i, corners_a[i]);
@@ -85,11 +85,11 @@ bool faces_intersect(const Corners& corners_a, const Triangle& a, const Corners&
 Neighbour_check::Wing Neighbour_check::make_wing(const double* positions, const Corners& corners, std::uint32_t face,
                                                  std::uint32_t vertex) {
   const auto point = [&](std::uint32_t v) { return Eigen::Map<const Eigen::Vector3d>(positions + std::size_t{3} * v); };
-  const auto place = std::ranges::find(corners, vertex) - corners.begin();
+  const auto corner = std::ranges::find(corners, vertex) - corners.begin();
   Wing wing{};
   wing.face = face;
   for (int i = 0; i < 2; ++i) {
-    wing.ends[i] = corners[(place + 1 + i) % 3];
+    wing.ends[i] = corners[(corner + 1 + i) % 3];
     wing.arms[i] = point(wing.ends[i]) - point(vertex);
     wing.reach[i] = wing.arms[i].lpNorm<Eigen::Infinity>();
   }
@@ -99,12 +99,12 @@ Neighbour_check::Wing Neighbour_check::make_wing(const double* positions, const 
   return wing;
 }
 
-/// Proves, if it can, that two faces meet in their common vertex only.
+/// Tries to prove that two faces meet in their common vertex only.
 ///
-/// They do if one lies on one side of the other's plane. If instead each has its arms a, b or c, d on both sides of the
-/// other's plane, each meets the line of the planes in a ray; with the normals m and n these have the directions
-/// (n.a) b - (n.b) a = m x n, up to the sign of n.a, and (m.c) d - (m.d) c = -m x n, up to the sign of m.c. Equal
-/// signs: opposite rays.
+/// They do if one lies on one side of the other's plane. Otherwise each has its arms a, b or c, d on both sides of the
+/// other's plane, so each meets the line of the two planes in a ray. With the normals m and n these rays have the
+/// directions (n.a) b - (n.b) a = m x n, up to the sign of n.a, and (m.c) d - (m.d) c = -m x n, up to the sign of m.c.
+/// If the signs are equal, the rays are opposite.
 bool Neighbour_check::surely_beside(const Wing& a, const Wing& b) {
   const auto side = [](const Wing& wing, const Wing& other, int arm) {
     const double volume = wing.normal.dot(other.arms[arm]), bound = wing.area * other.reach[arm];
@@ -118,8 +118,8 @@ bool Neighbour_check::surely_beside(const Wing& a, const Wing& b) {
   return c != 0 && d != 0 && e != 0 && f != 0 && c == e;
 }
 
-/// Proves, if it can, that two faces with a common edge meet in it only: they are not coplanar, or on different sides
-/// of the edge as seen along some axis.
+/// Tries to prove that two faces with a common edge meet in it only: they are not coplanar, or they lie on different
+/// sides of the edge as seen along some axis.
 /// @param other_of_a, other_of_b  the arms that are not on the edge
 bool Neighbour_check::surely_hinged(const Wing& a, const Wing& b, int other_of_a, int other_of_b) {
   const double bound = a.area * b.reach[other_of_b];

@@ -19,7 +19,7 @@ CGAL::Sign side(const Point& a, const Point& b, const Point& p) {
   return CGAL::compare(b.x(), a.x());
 }
 
-/// Whether the ray from (p.x + e, p.y + e^2, p.z) could cross, by the bounds of the triangle alone.
+/// Whether the ray from (p.x + e, p.y + e^2, p.z) could cross the triangle, judged by its bounds alone.
 bool within_reach(const Triangle& t, const Point& p) {
   const auto [min_x, max_x] = std::minmax({t[0].x(), t[1].x(), t[2].x()});
   if (p.x() < min_x || p.x() >= max_x) return false;
@@ -33,8 +33,8 @@ bool crosses_upward_ray(const Triangle& t, const Point& p) {
   if (!within_reach(t, p)) return false;
   const auto turn = side(t[0], t[1], p);
   if (turn == CGAL::ZERO || side(t[1], t[2], p) != turn || side(t[2], t[0], p) != turn) return false;
-  // Seen from above the corners go round in this sense, so p is below if it is on the other side of their plane. In the
-  // plane it would be on the triangle.
+  // `turn` is the sense of the corners seen from above, so p is below their plane if it has the opposite orientation.
+  // If p is in the plane, it is on the triangle.
   return CGAL::orientation(t[0], t[1], t[2], p) == -turn;
 }
 

@@ -14,17 +14,17 @@ namespace {
 
 using Exact_number = CGAL::Exact_predicates_exact_constructions_kernel::FT;
 
-/// Eight roundings of double: more than any relative error that is bounded with it.
+/// Eight roundings of double: above every relative error that it bounds here.
 constexpr double roundings = 0x1p-50;
 
-/// More than what underflow takes from any sum of products that is bounded with it; for scaled numbers.
+/// Above what underflow takes from any sum of products of scaled numbers here.
 constexpr double underflow = 1e-300;
 
-/// A distance that no pair of points falls below, of triangles with these scaled differences: how far apart a plane
-/// orthogonal to `across` keeps them; 0 if it does not. In the unit of the differences.
+/// Lower bound on the distance of triangles with these scaled differences: how far apart they are across a plane
+/// orthogonal to `across`; 0 if no such plane separates them. In the unit of the differences.
 ///
-/// A product of a difference with `across` carries the roundings of the difference, of its three products and of
-/// their two sums: four in each term.
+/// The inner product of a difference with `across` carries the roundings of the difference, of three products and of
+/// two sums: four in each term.
 double separation(const Corner_differences<double>& d, const Eigen::Vector3d& across) {
   const double squared = across.squaredNorm();
   if (!(squared > 1e-280)) return 0;
@@ -38,31 +38,32 @@ double separation(const Corner_differences<double>& d, const Eigen::Vector3d& ac
   return least > 0 ? least / (std::sqrt(squared) * (1 + roundings)) : 0;
 }
 
-/// A pair of places, and how far apart the triangles are proven to be. All lengths times 2^exponent.
+/// A pair of near points, and the proven lower bound on the distance of the triangles. Lengths here are scaled: times
+/// 2^exponent they are those of the triangles.
 class Estimate {
  public:
   Estimate(const Triangle& a, const Triangle& b)
-      : scaled_(scaled_differences(a, b)), nearest_(Nearest_places_search(scaled_.vectors)()) {
+      : scaled_(scaled_differences(a, b)), nearest_(Nearest_points_search(scaled_.vectors)()) {
     distance_ = std::sqrt(nearest_.squared);
     at_least_ = separation(scaled_.vectors, nearest_.across);
     // Four roundings in each term of the gap, three in its length.
     const auto size = [](const Eigen::Vector3d& v) { return v.cwiseAbs().sum(); };
-    const auto way = [&](const std::array<Eigen::Vector3d, 3>& edges, const Place<double>& place) {
-      return place.s * size(edges[place.corner]) + place.r * size(edges[(place.corner + 2) % 3]);
+    const auto way = [&](const std::array<Eigen::Vector3d, 3>& edges, const Triangle_point<double>& p) {
+      return p.s * size(edges[p.corner]) + p.r * size(edges[(p.corner + 2) % 3]);
     };
     error_ = roundings * (size(scaled_.vectors.between[nearest_.a.corner][nearest_.b.corner]) +
                           way(scaled_.vectors.edges_a, nearest_.a) + way(scaled_.vectors.edges_b, nearest_.b)) +
              underflow;
   }
 
-  const Nearest_places<double>& places() const { return nearest_; }
+  const Nearest_points<double>& points() const { return nearest_; }
   double distance() const { return std::ldexp(distance_, scaled_.exponent); }
   Eigen::Vector3d direction() const { return nearest_.gap.stableNormalized(); }
 
   /// Whether the triangles are proven not to intersect.
   bool proves_apart() const { return at_least_ > 0; }
 
-  /// Whether `distance` is proven to be the triangles' own up to a part of 2^-31.
+  /// Whether the relative error of `distance` is proven to be at most 2^-31.
   bool proves_accuracy() {
     const auto accurate = [&] { return std::max(distance_ - at_least_, error_) <= 0x1p-31 * at_least_; };
     return accurate() || (try_more_planes(), accurate());
@@ -79,8 +80,8 @@ class Estimate {
   }
 
  private:
-  /// The gap has few correct digits if it is short. Planes along a face, or along an edge of each triangle, do not
-  /// depend on it.
+  /// A short gap has few correct digits. Planes along a face, or along an edge of each triangle, do not depend on the
+  /// gap.
   void try_more_planes() {
     const auto& [between, edges_a, edges_b] = scaled_.vectors;
     const auto try_plane = [&](const Eigen::Vector3d& normal) {
@@ -94,62 +95,63 @@ class Estimate {
   }
 
   Scaled_differences scaled_;
-  Nearest_places<double> nearest_;
-  double distance_ = 0;  ///< of the places, computed
+  Nearest_points<double> nearest_;
+  double distance_ = 0;  ///< between the points, as computed
   double error_ = 0;     ///< of that computation, at most
-  double at_least_ = 0;  ///< no points of the triangles are nearer
+  double at_least_ = 0;  ///< lower bound on the distance of the triangles
 };
 
-/// Coordinate of a place.
+/// Coordinate of a point of a triangle.
 template <class Number>
-Number coordinate(const Triangle& t, const Place<Number>& place, int axis) {
-  const auto corner = [&](int i) { return Number(t[(place.corner + i) % 3][axis]); };
-  return corner(0) + place.s * (corner(1) - corner(0)) + place.r * (corner(2) - corner(0));
+Number coordinate(const Triangle& t, const Triangle_point<Number>& p, int axis) {
+  const auto corner = [&](int i) { return Number(t[(p.corner + i) % 3][axis]); };
+  return corner(0) + p.s * (corner(1) - corner(0)) + p.r * (corner(2) - corner(0));
 }
 
 template <class Number>
-Place<Number> place_in(const Place<double>& place) {
-  return {place.corner, Number(place.s), Number(place.r)};
+Triangle_point<Number> converted(const Triangle_point<double>& p) {
+  return {p.corner, Number(p.s), Number(p.r)};
 }
 
-/// Proves a pair of places nearer than `limit`. Rounded or not, s and r name points of the triangles.
-bool surely_nearer(const Triangle& a, const Triangle& b, const Nearest_places<double>& places, double limit) {
+/// Whether a pair of points is proven to be nearer than `limit`. Even if s and r are rounded, they name points of the
+/// triangles.
+bool surely_nearer(const Triangle& a, const Triangle& b, const Nearest_points<double>& points, double limit) {
   using Interval = CGAL::Interval_nt<false>;
   const CGAL::Protect_FPU_rounding<true> upwards;
-  const auto on_a = place_in<Interval>(places.a), on_b = place_in<Interval>(places.b);
+  const auto on_a = converted<Interval>(points.a), on_b = converted<Interval>(points.b);
   Interval squared = 0;
   for (int axis = 0; axis < 3; ++axis) squared += CGAL::square(coordinate(a, on_a, axis) - coordinate(b, on_b, axis));
   return CGAL::certainly(squared < CGAL::square(Interval(limit)));
 }
 
-Nearest_places<Exact_number> exact_nearest_places(const Triangle& a, const Triangle& b) {
+Nearest_points<Exact_number> exact_nearest_points(const Triangle& a, const Triangle& b) {
   const auto differences = corner_differences<Exact_number>(a, b, [](double x) { return Exact_number(x); });
-  return Nearest_places_search(differences)();
+  return Nearest_points_search(differences)();
 }
 
 double rounded(const Exact_number& x) {
-  // exact() first: a lazy number gives its interval's midpoint otherwise, which may be off in the last digits.
+  // Without exact() a lazy number converts to the midpoint of its interval, which may be off in the last digits.
   x.exact();
   return CGAL::to_double(x);
 }
 
-/// Rounded only once its greatest coordinate is 1: however short a gap is, its direction has all digits.
-Eigen::Vector3d direction(const Nearest_places<Exact_number>& nearest) {
+/// Rounded only after scaling to a largest coordinate of 1, so the direction of even the shortest gap has all digits.
+Eigen::Vector3d direction(const Nearest_points<Exact_number>& nearest) {
   Exact_number greatest = 0;
   for (int axis = 0; axis < 3; ++axis) greatest = std::max(greatest, CGAL::abs(nearest.gap[axis]));
   const auto part = [&](int axis) { return rounded(nearest.gap[axis] / greatest); };
   return Eigen::Vector3d(part(0), part(1), part(2)).normalized();
 }
 
-Point point(const Triangle& t, const Place<Exact_number>& place) {
-  return {rounded(coordinate(t, place, 0)), rounded(coordinate(t, place, 1)), rounded(coordinate(t, place, 2))};
+Point point(const Triangle& t, const Triangle_point<Exact_number>& p) {
+  return {rounded(coordinate(t, p, 0)), rounded(coordinate(t, p, 1)), rounded(coordinate(t, p, 2))};
 }
 
-/// A mean of corners, which overflows nowhere.
-Point point(const Triangle& t, const Place<double>& place) {
+/// A weighted mean of the corners, which cannot overflow.
+Point point(const Triangle& t, const Triangle_point<double>& p) {
   const auto mean = [&](int axis) {
-    const auto corner = [&](int i) { return t[(place.corner + i) % 3][axis]; };
-    return (1 - place.s - place.r) * corner(0) + place.s * corner(1) + place.r * corner(2);
+    const auto corner = [&](int i) { return t[(p.corner + i) % 3][axis]; };
+    return (1 - p.s - p.r) * corner(0) + p.s * corner(1) + p.r * corner(2);
   };
   return {mean(0), mean(1), mean(2)};
 }
@@ -166,14 +168,14 @@ double positive(double distance) { return std::max(distance, std::numeric_limits
 
 Closest_points closest_points(const Triangle& a, const Triangle& b) {
   Estimate estimate(a, b);
-  const auto& places = estimate.places();
+  const auto& points = estimate.points();
   if (estimate.proves_accuracy())
-    return {point(a, places.a), point(b, places.b), positive(estimate.distance()), estimate.direction()};
+    return {point(a, points.a), point(b, points.b), positive(estimate.distance()), estimate.direction()};
   if (!estimate.proves_apart() && triangles_intersect(a, b)) {
     const Point common = triangle_intersection(a, b).front();
     return {.a = common, .b = common};
   }
-  const auto nearest = exact_nearest_places(a, b);
+  const auto nearest = exact_nearest_points(a, b);
   const auto& gap = nearest.gap;
   return {point(a, nearest.a), point(b, nearest.b),
           positive(std::hypot(rounded(gap[0]), rounded(gap[1]), rounded(gap[2]))), direction(nearest)};
@@ -185,16 +187,17 @@ bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance
   if (distance_lower_bound(box(a), box(b)) >= distance) return false;
   Estimate estimate(a, b);
   if (estimate.proves_apart(distance)) return false;
-  if (surely_nearer(a, b, estimate.places(), distance)) return true;
+  if (surely_nearer(a, b, estimate.points(), distance)) return true;
   if (!estimate.proves_apart() && triangles_intersect(a, b)) return true;
-  return exact_nearest_places(a, b).squared < CGAL::square(Exact_number(distance));
+  return exact_nearest_points(a, b).squared < CGAL::square(Exact_number(distance));
 }
 
 double distance_lower_bound(const Box& a, const Box& b) {
   constexpr double down = 1 - roundings;
   const Eigen::Array3d gaps = (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0);
   const double greatest = gaps.maxCoeff();
-  // Where a square would overflow or underflow one coordinate must do. A subnormal gap is exact, and stays as it is.
+  // If a square could overflow or underflow, the largest coordinate is the bound. A subnormal gap is exact and stays
+  // so.
   const double bound = greatest > 1e-150 && greatest < 1e150 ? std::sqrt(gaps.square().sum()) : greatest;
   return std::min(bound * down, std::numeric_limits<double>::max());
 }

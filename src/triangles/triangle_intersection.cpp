@@ -18,14 +18,14 @@ namespace lodestone {
 
 namespace {
 
-/// Proves in floating point that three points are not collinear. Each component of the cross product carries an error
-/// below 8 roundings of the sum of its two products; `false` proves nothing.
+/// Tries to prove in floating point that three points are not collinear; `false` proves nothing. The error of each
+/// component of the cross product is below 8 roundings of the sum of the magnitudes of its two products.
 bool surely_not_collinear(const Triangle& t) {
   constexpr double bound = 1e-14;
   const double ux = t[1].x() - t[0].x(), uy = t[1].y() - t[0].y(), uz = t[1].z() - t[0].z();
   const double vx = t[2].x() - t[0].x(), vy = t[2].y() - t[0].y(), vz = t[2].z() - t[0].z();
   const auto away_from_zero = [](double p, double q) {
-    // Where a product is subnormal its relative error is no longer small.
+    // The relative error of a subnormal product is not small.
     constexpr double normal = 1e-290;
     const double size = std::abs(p) + std::abs(q);
     return size > normal && std::abs(p - q) > bound * size;
@@ -47,7 +47,7 @@ Shape<K> shape(const typename K::Point_3& a, const typename K::Point_3& b, const
   return typename K::Segment_3(a, b);
 }
 
-/// CGAL's reader of a point against a point is an equality test; everything else is its `do_intersect`.
+/// CGAL's `do_intersect`, with an equality test for two points.
 struct Shapes_intersect {
   bool operator()(const Point& a, const Point& b) const { return a == b; }
   template <class A, class B>
@@ -61,7 +61,7 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 Exact::Point_3 exact(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 Point rounded(const Exact::Point_3& p) {
-  // exact() first: a lazy number gives its interval's midpoint otherwise, which may be off in the last digits.
+  // Without exact() a lazy number converts to the midpoint of its interval, which may be off in the last digits.
   p.exact();
   return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
 }
@@ -93,26 +93,26 @@ struct Shapes_intersection {
   }
 };
 
-/// The edge of a `Crossing`: which triangle has it, and its ends, that above the other triangle first.
+/// The edge of a `Crossing`: its triangle, and its ends, the one above the other triangle first.
 struct Crossing_edge {
   std::uint8_t owner;  ///< 0: a
   std::uint8_t above, below;
 };
-/// By number. No branch could foretell it.
+/// By code. A table, because branches on the code would be unpredictable.
 constexpr auto crossing_edges = [] {
   std::array<Crossing_edge, no_crossing> edges{};
-  for (std::uint8_t number = 0; number < no_crossing; ++number) {
-    const std::uint8_t owner = number % 6 / 3, corner = number % 3, next = (number + 1) % 3;
-    edges[number] = number < 6 ? Crossing_edge{owner, corner, next} : Crossing_edge{owner, next, corner};
+  for (std::uint8_t code = 0; code < no_crossing; ++code) {
+    const std::uint8_t owner = code % 6 / 3, corner = code % 3, next = (code + 1) % 3;
+    edges[code] = code < 6 ? Crossing_edge{owner, corner, next} : Crossing_edge{owner, next, corner};
   }
   return edges;
 }();
 
-/// Whether the segment from p to q passes through the inside of a triangle, from above to below; `false` proves
-/// nothing. All orientations are the same if it does, so a processor foresees what comes of each.
+/// Whether the segment from p to q is proven to pass through the interior of a triangle, from above to below; `false`
+/// proves nothing. If it does, all five orientations are positive, so the branches are predictable.
 ///
-/// CGAL's filter branches on whether its points are spread wider along z than along x and y, which no processor
-/// foresees. So z is stretched, by a power of two: that rounds nothing and changes no orientation.
+/// CGAL's filter branches on whether the points are spread wider along z than along x and y, which is unpredictable. So
+/// z is stretched by a power of two. That does not round, and it changes no orientation.
 bool passes_through(const double* p, const double* q, const Triangle_corners& t) {
   constexpr double stretch = 0x1p10;
   const auto stretched = [](const double* from) { return Point(from[0], from[1], stretch * from[2]); };

@@ -77,11 +77,11 @@ TYPED_TEST(Mode_contract, regions_and_particles_are_in_the_maps_of_the_mesh) {
     const auto& maps = detector.maps(0);
     const auto& surface = detector.object(0);
     for (const auto v : vertices(a)) {
-      const auto number = surface.numbering().number(v);
-      EXPECT_EQ(get(maps.region(), v), surface.labels()[number]);
+      const auto index = surface.numbering().index(v);
+      EXPECT_EQ(get(maps.region(), v), surface.labels()[index]);
       const auto& at = surface.particles().at;
-      const bool here = std::ranges::find(at, number) != at.end();
-      EXPECT_EQ(get(maps.particle(), v), here ? surface.labels()[number] : no_particle);
+      const bool here = std::ranges::find(at, index) != at.end();
+      EXPECT_EQ(get(maps.particle(), v), here ? surface.labels()[index] : no_particle);
     }
     deform_any(b, left);
     detector.update();

@@ -25,7 +25,7 @@ Divided<Mesh> divide(const Mesh& mesh, std::size_t regions, const Partition_opti
   const Mesh_numbering<Mesh> numbering(mesh);
   Divided<Mesh> divided{.labels = {}, .particles = {}, .regions = result.regions};
   for (const auto v : vertices(mesh)) divided.labels.push_back(get(map, v));
-  for (const auto v : result.particles) divided.particles.push_back(numbering.number(v));
+  for (const auto v : result.particles) divided.particles.push_back(numbering.index(v));
   return divided;
 }
 
@@ -45,7 +45,7 @@ TYPED_TEST(Partition_contract, vertices_and_faces_are_numbered_alike) {
     std::rotate(corners.begin(), std::ranges::find(corners, expected.corners()[face][0]), corners.end());
     EXPECT_EQ(corners, expected.corners()[face]);
   }
-  for (std::uint32_t v = 0; v < numbering.vertex_count(); ++v) EXPECT_EQ(numbering.number(numbering.vertex(v)), v);
+  for (std::uint32_t v = 0; v < numbering.vertex_count(); ++v) EXPECT_EQ(numbering.index(numbering.vertex(v)), v);
 }
 
 TYPED_TEST(Partition_contract, every_vertex_has_one_region_and_every_region_is_connected) {

@@ -28,7 +28,7 @@ Divided divide(const Mesh& mesh, std::size_t regions, const Any_strategy& strate
   const Mesh_numbering<Mesh> numbering(mesh);
   Divided divided{.labels = {}, .particles = {}, .regions = result.regions};
   for (const auto v : vertices(mesh)) divided.labels.push_back(get(map, v));
-  for (const auto v : result.particles) divided.particles.push_back(numbering.number(v));
+  for (const auto v : result.particles) divided.particles.push_back(numbering.index(v));
   return divided;
 }
 

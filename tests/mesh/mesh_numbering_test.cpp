@@ -11,13 +11,13 @@
 namespace lodestone {
 namespace {
 
-TEST(Mesh_numbering, numbers_follow_the_order_of_the_mesh_and_lead_back_to_its_vertices) {
+TEST(Mesh_numbering, indices_follow_the_order_of_the_mesh_and_lead_back_to_its_vertices) {
   const auto mesh = sphere(3);
   const Mesh_numbering<Surface_mesh> numbering(mesh);
   ASSERT_EQ(numbering.vertex_count(), num_vertices(mesh));
   std::uint32_t expected = 0;
   for (const auto v : vertices(mesh)) {
-    EXPECT_EQ(numbering.number(v), expected);
+    EXPECT_EQ(numbering.index(v), expected);
     EXPECT_EQ(numbering.vertex(expected), v);
     ++expected;
   }

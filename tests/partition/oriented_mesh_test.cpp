@@ -27,16 +27,16 @@ Soup soup_of(const Surface_mesh& mesh) {
 /// The corners of every face on the surface, sorted, as the mesh has them.
 void expect_same_faces(const Soup& soup, const Oriented_mesh& oriented, const std::vector<std::uint32_t>& kept) {
   ASSERT_TRUE(oriented.mesh.is_valid(false));
-  ASSERT_EQ(oriented.mesh.number_of_vertices(), oriented.vertex_numbers.size());
-  ASSERT_EQ(oriented.face_numbers, kept);
+  ASSERT_EQ(oriented.mesh.number_of_vertices(), oriented.vertex_indices.size());
+  ASSERT_EQ(oriented.face_indices, kept);
   for (const auto f : oriented.mesh.faces()) {
-    Corners expected = soup.faces[oriented.face_numbers[f]], corners{};
+    Corners expected = soup.faces[oriented.face_indices[f]], corners{};
     std::size_t i = 0;
     const auto follows = [](const Corners& face, std::uint32_t a, std::uint32_t b) {
       return (face[0] == a && face[1] == b) || (face[1] == a && face[2] == b) || (face[2] == a && face[0] == b);
     };
     for (const auto v : oriented.mesh.vertices_around_face(oriented.mesh.halfedge(f)))
-      corners.at(i++) = oriented.vertex_numbers[v];
+      corners.at(i++) = oriented.vertex_indices[v];
     EXPECT_EQ(follows(expected, corners[0], corners[1]), !oriented.turned[f]);
     std::ranges::sort(corners);
     std::ranges::sort(expected);
@@ -66,14 +66,14 @@ TEST(Oriented_mesh, an_edge_of_three_faces_is_cut_open) {
 TEST(Oriented_mesh, two_fans_at_a_vertex_get_a_vertex_each) {
   const Soup soup{Positions::Random(5, 3), {{0, 1, 2}, {0, 3, 4}}};
   const auto oriented = soup.oriented();
-  EXPECT_EQ(oriented.vertex_numbers.size(), 6U);
+  EXPECT_EQ(oriented.vertex_indices.size(), 6U);
   expect_same_faces(soup, oriented, {0, 1});
 }
 
 TEST(Oriented_mesh, faces_are_turned_where_neighbours_disagree) {
   const Soup soup{Positions::Random(4, 3), {{0, 1, 2}, {0, 1, 3}}};
   const auto oriented = soup.oriented();
-  EXPECT_EQ(oriented.vertex_numbers.size(), 4U);  // one sheet, nothing cut
+  EXPECT_EQ(oriented.vertex_indices.size(), 4U);  // one sheet, nothing cut
   expect_same_faces(soup, oriented, {0, 1});
   EXPECT_NE(oriented.turned[0], oriented.turned[1]);
 }

@@ -5,8 +5,8 @@
 
 namespace lodestone {
 
-/// Axis-aligned box. Minima and maxima of coordinates are exact, so two boxes that do not overlap prove their contents
-/// apart.
+/// Axis-aligned box. Minima and maxima of coordinates are exact, so two boxes that do not overlap prove that their
+/// contents are apart.
 using Box = Eigen::AlignedBox3d;
 
 }  // namespace lodestone

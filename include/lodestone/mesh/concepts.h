@@ -27,7 +27,7 @@ using Halfedge = typename boost::graph_traits<Mesh>::halfedge_descriptor;
 template <class Mesh>
 using Face = typename boost::graph_traits<Mesh>::face_descriptor;
 
-/// Number of a region of one object, counted from 0.
+/// Index of a region of one object, from 0.
 using Region_index = std::uint32_t;
 
 /// A coordinate triple whose values convert to double without loss: any CGAL point over float or double.
@@ -44,14 +44,15 @@ concept Vertex_point_map = requires(const Map& map, Vertex<Mesh> v) {
   { get(map, v) } -> Point_like;
 };
 
-/// A readable and writable property map from the vertices of `Mesh` to region numbers.
+/// A readable and writable property map from the vertices of `Mesh` to region indices.
 template <class Map, class Mesh>
 concept Region_map = requires(const Map& map, Vertex<Mesh> v, Region_index region) {
   put(map, v, region);
   { get(map, v) } -> std::convertible_to<Region_index>;
 };
 
-/// An Eigen matrix. It is no mesh, but boost::graph_traits, asked about one, ends the compilation instead of saying so.
+/// An Eigen matrix. `Triangle_mesh` excludes it first, because boost::graph_traits of a matrix is a hard error rather
+/// than a failed constraint.
 template <class M>
 concept Matrix = requires {
   M::RowsAtCompileTime;
@@ -60,8 +61,8 @@ concept Matrix = requires {
 /// A model of CGAL's FaceListGraph with a vertex point map, all of whose faces are triangles.
 ///
 /// Models: CGAL::Surface_mesh, CGAL::Polyhedron_3, OpenMesh through CGAL's wrapper, and
-/// CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper. The concept checks the syntax; that faces
-/// are triangles is checked where a mesh enters (see `Mesh_numbering`).
+/// CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper. The concept checks syntax only; `Mesh_numbering` checks
+/// that every face is a triangle.
 template <class Mesh>
 concept Triangle_mesh = !Matrix<Mesh> && requires(const Mesh& mesh, Vertex<Mesh> v, Face<Mesh> f, Halfedge<Mesh> h) {
   vertices(mesh);

@@ -9,20 +9,20 @@
 
 namespace lodestone {
 
-/// A property map whose points lie one after the other in memory, each three doubles.
+/// A property map that stores its points contiguously, each as three doubles.
 template <class Points>
 concept Contiguous_points = requires(const Points& points) {
   { points.data()->cartesian_begin() } -> std::same_as<const double*>;
   requires sizeof(*points.data()) == 3 * sizeof(double);
 };
 
-/// Hands out the coordinates of all vertices as they are now. A copy in general.
+/// Reads the current coordinates of all vertices. This general version copies them.
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 class Coordinate_reader {
  public:
   explicit Coordinate_reader(Points points) : points_(std::move(points)) {}
 
-  /// Valid until the next call. O(V).
+  /// @return valid until the next call. O(V)
   Coordinates read(const Mesh_numbering<Mesh>& numbering) {
     coordinates_.resize(3 * std::size_t{numbering.vertex_count()});
     for (std::uint32_t i = 0; i < numbering.vertex_count(); ++i)
@@ -36,7 +36,7 @@ class Coordinate_reader {
   std::vector<double> coordinates_;
 };
 
-/// The memory of the mesh itself for CGAL::Surface_mesh with points of three doubles: O(1).
+/// For CGAL::Surface_mesh with points of three doubles: refers to the memory of the mesh itself. O(1).
 template <class P, Contiguous_points Points>
 class Coordinate_reader<CGAL::Surface_mesh<P>, Points> {
  public:

@@ -6,7 +6,7 @@
 
 namespace lodestone {
 
-/// Root of every error Lodestone throws. `what()` is one line: what, where, and what was expected,
+/// Base of every error that Lodestone throws. `what()` is one line: what, where, and what was expected,
 /// such as `teapot.obj:812: face refers to vertex 9001 of 3241`.
 class Error : public std::runtime_error {
  public:
@@ -19,7 +19,7 @@ class Bad_mesh : public Error {
   using Error::Error;
 };
 
-/// A motion that does not fit its mesh or is broken: point cache, mesh sequence, deformation.
+/// A motion that is broken or does not fit its mesh: point cache, mesh sequence, deformation.
 class Bad_motion : public Error {
  public:
   using Error::Error;

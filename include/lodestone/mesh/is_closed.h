@@ -8,12 +8,13 @@
 
 namespace lodestone {
 
-/// Whether every edge, an unordered pair of vertices, is in an even number of faces. O(V + F) plus sorting the edges of
-/// each vertex.
+/// Whether every edge, an unordered pair of different vertices, belongs to an even number of faces.
 ///
-/// Of a face with a repeated vertex two edges are the same pair, and one is no edge: it changes nothing, as it should,
-/// for no ray crosses it. A mesh without faces is closed, with nothing inside.
-/// @param corners  numbers below `vertex_count`
+/// If a face uses a vertex twice, two of its sides are the same edge and the third is no edge. Such a face does not
+/// change the result. That is right, because no ray crosses it. A mesh without faces is closed and has nothing inside.
+///
+/// O(V + F) plus sorting the edges of each vertex.
+/// @param corners  vertex indices, each below `vertex_count`
 bool is_closed(std::uint32_t vertex_count, std::span<const Corners> corners);
 
 }  // namespace lodestone

@@ -9,15 +9,17 @@
 
 namespace lodestone {
 
-/// The faces with vertices of one file number taken as one, the first of them; empty if no number stands twice, so
-/// that they are those of the mesh. O(V log V + F).
+/// Merges the vertices that have the same file vertex: in the returned faces the lowest of them stands for all.
+///
+/// O(V log V + F).
 /// @param faces        of a mesh of `vertex_count` vertices
 /// @param file_vertex  see `Object_options::file_vertex`
-/// @throws Bad_argument  neither empty nor a number for each vertex
+/// @return empty if no vertices are merged; the faces are then those of the mesh
+/// @throws Bad_argument  `file_vertex` is not empty and does not have one entry per vertex
 std::vector<Corners> join_vertices(std::span<const Corners> faces, std::uint32_t vertex_count,
                                    std::span<const std::uint32_t> file_vertex);
 
-/// The vertices that no face has, ascending. O(V + F).
+/// The vertices that no face uses, ascending. O(V + F).
 std::vector<std::uint32_t> unused_vertices(std::span<const Corners> faces, std::uint32_t vertex_count);
 
 }  // namespace lodestone

@@ -15,24 +15,24 @@
 
 namespace lodestone {
 
-/// The three corners of a face as vertex numbers.
+/// The three corners of a face as vertex indices.
 using Corners = std::array<std::uint32_t, 3>;
 
 /// One row per vertex: its position.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// Descriptor of the vertex with a given number. A table in general; nothing at all for CGAL::Surface_mesh, whose
-/// descriptors are numbers.
+/// Maps a vertex index to the descriptor of the vertex. This general version stores a table.
 template <Triangle_mesh Mesh>
 class Vertex_table {
  public:
   explicit Vertex_table(const Mesh& mesh) : table_(vertices(mesh).begin(), vertices(mesh).end()) {}
-  Vertex<Mesh> operator[](std::uint32_t number) const { return table_[number]; }
+  Vertex<Mesh> operator[](std::uint32_t index) const { return table_[index]; }
 
  private:
   std::vector<Vertex<Mesh>> table_;
 };
 
+/// CGAL::Surface_mesh needs no table: its descriptors are indices.
 template <class P>
 class Vertex_table<CGAL::Surface_mesh<P>> {
  public:
@@ -41,24 +41,25 @@ class Vertex_table<CGAL::Surface_mesh<P>> {
   explicit Vertex_table(const Mesh& mesh) {
     if (mesh.has_garbage()) throw Bad_mesh("the mesh holds removed elements: call collect_garbage() on it first");
   }
-  Vertex<Mesh> operator[](std::uint32_t number) const { return Vertex<Mesh>(number); }
+  Vertex<Mesh> operator[](std::uint32_t index) const { return Vertex<Mesh>(index); }
 };
 
-/// Vertices and faces of a mesh by number, in the order in which the mesh enumerates them.
+/// Vertices and faces of a mesh by index, in the order in which the mesh enumerates them.
 ///
-/// Every stage after this one works on numbers, so that it is compiled once for all mesh types.
+/// Every later stage works on indices, so it is compiled once for all mesh types.
 template <Triangle_mesh Mesh>
 class Mesh_numbering {
  public:
   using Index_map = typename boost::property_map<Mesh, CGAL::dynamic_vertex_property_t<std::uint32_t>>::const_type;
 
   /// Cost O(V + F).
-  /// @throws Bad_mesh  no face, a face that is no triangle, more than 2^32 - 2 vertices or faces
+  /// @throws Bad_mesh  no face, a face that is not a triangle, more than 2^32 - 2 vertices or faces, or removed
+  /// elements in a CGAL::Surface_mesh
   explicit Mesh_numbering(const Mesh& mesh);
 
   std::uint32_t vertex_count() const { return vertex_count_; }
-  Vertex<Mesh> vertex(std::uint32_t number) const { return table_[number]; }
-  std::uint32_t number(Vertex<Mesh> v) const { return get(index_, v); }
+  Vertex<Mesh> vertex(std::uint32_t index) const { return table_[index]; }
+  std::uint32_t index(Vertex<Mesh> v) const { return get(index_, v); }
   /// Corners of every face, in the order of `faces(mesh)`.
   const std::vector<Corners>& corners() const { return corners_; }
 
@@ -85,7 +86,7 @@ Mesh_numbering<Mesh>::Mesh_numbering(const Mesh& mesh)
     const auto second = next(h, mesh);
     const auto third = next(second, mesh);
     if (next(third, mesh) != h) throw Bad_mesh("face " + std::to_string(corners_.size()) + " is not a triangle");
-    corners_.push_back({number(target(h, mesh)), number(target(second, mesh)), number(target(third, mesh))});
+    corners_.push_back({index(target(h, mesh)), index(target(second, mesh)), index(target(third, mesh))});
   }
 }
 
@@ -95,7 +96,7 @@ Eigen::Vector3d coordinates(const P& p) {
   return {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())};
 }
 
-/// Positions of all vertices, by number. Cost O(V).
+/// Positions of all vertices, by index. Cost O(V).
 /// @throws Bad_mesh  a coordinate is not finite
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 Positions read_positions(const Mesh_numbering<Mesh>& numbering, const Points& points) {

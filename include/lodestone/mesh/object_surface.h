@@ -11,12 +11,12 @@
 
 namespace lodestone {
 
-/// The surface of one object: its faces, where its vertices are now, and what single queries need to know of its
-/// connectivity, found when first asked for.
+/// The surface of one object: its faces, the current positions of its vertices, and properties of its connectivity.
+/// Only some queries need these properties, so each is computed on first use.
 class Object_surface {
  public:
   Object_surface() = default;
-  /// @param corners  F >= 1 faces; kept by the caller
+  /// @param corners  F >= 1 faces; must outlive this object
   explicit Object_surface(std::span<const Corners> corners) : corners_(corners) {}
 
   std::span<const Corners> corners() const { return corners_; }
@@ -27,7 +27,7 @@ class Object_surface {
   const Vertex_fans& fans() const;
   /// Whether each edge has an even number of faces, so that the surface has an inside. O(F log F) the first time.
   bool closed() const;
-  /// One vertex of each connected piece of the surface. O(V + F) the first time.
+  /// One vertex of each connected component of the surface. O(V + F) the first time.
   std::span<const std::uint32_t> piece_vertices() const;
 
  protected:

@@ -4,7 +4,7 @@
 #include <compare>
 #include <cstdint>
 
-/// The words that every stage uses for what it finds.
+/// Types in which every stage reports what it finds.
 namespace lodestone {
 
 /// Two faces by index: `a` of the first object, `b` of the second.
@@ -14,18 +14,18 @@ struct Face_pair {
   auto operator<=>(const Face_pair&) const = default;
 };
 
-/// Two objects of a scene by index, a < b; a = b: an object and itself.
+/// Two objects of a scene by index, a < b; or a = b for an object and itself.
 struct Object_pair {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   auto operator<=>(const Object_pair&) const = default;
 };
 
-/// How much a query wants to know.
+/// What a query asks for.
 enum class Contact_query {
-  yes_no,  ///< whether anything intersects
-  first,   ///< one intersecting face pair
-  all,     ///< every intersecting face pair
+  yes_no,  ///< whether there is a contact
+  first,   ///< one contact
+  all,     ///< every contact
 };
 
 }  // namespace lodestone

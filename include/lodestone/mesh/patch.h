@@ -11,11 +11,11 @@
 
 namespace lodestone {
 
-/// A set of faces with the vertices they use listed once.
+/// A set of faces, with the vertices that they use listed once.
 struct Patch {
-  std::vector<std::uint32_t> faces = {};     ///< face numbers, ascending
-  std::vector<std::uint32_t> vertices = {};  ///< vertex numbers, ascending
-  std::vector<Corners> corners = {};         ///< per face: its corners as places in `vertices`
+  std::vector<std::uint32_t> faces = {};     ///< face indices in the mesh, ascending
+  std::vector<std::uint32_t> vertices = {};  ///< vertex indices in the mesh, ascending
+  std::vector<Corners> corners = {};         ///< per face: its corners as indices into `vertices`
 };
 
 /// The patch of the given faces. Cost O(n log n).
@@ -23,7 +23,7 @@ struct Patch {
 Patch make_patch(std::vector<std::uint32_t> faces, std::span<const Corners> mesh_corners);
 
 /// The faces of each region: those with at least one corner in it. A face at a seam belongs to two or three regions, so
-/// that none is lost between them. Cost O(F log F).
+/// no face is lost between regions. Cost O(F log F).
 std::vector<Patch> region_patches(std::span<const Corners> mesh_corners, std::span<const Region_index> labels,
                                   std::size_t regions);
 
@@ -32,10 +32,10 @@ struct Posed_patch {
   const Patch* patch = nullptr;
   std::vector<Eigen::Vector3d> positions;  ///< parallel to `patch->vertices`
   Box box;
-  std::uint64_t frame = 0;  ///< number of the frame it holds; 0: none yet
+  std::uint64_t frame = 0;  ///< the frame of these positions; 0: none yet
 };
 
-/// Reads the positions of a patch, unless it holds those of `frame` already. O(vertices of the patch).
+/// Reads the positions of a patch, unless it already holds those of `frame`. O(vertices of the patch).
 /// @throws Bad_mesh  a coordinate is not finite
 template <class Reader>
 void pose_patch(Posed_patch& posed, const Reader& reader, std::uint64_t frame) {

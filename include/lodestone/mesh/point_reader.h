@@ -9,7 +9,7 @@
 
 namespace lodestone {
 
-/// Reads positions by vertex number through a vertex point map.
+/// Reads positions by vertex index through a vertex point map.
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 class Point_reader {
  public:

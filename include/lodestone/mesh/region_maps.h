@@ -12,7 +12,7 @@ namespace lodestone {
 /// Value of the particle map at a vertex without a particle.
 inline constexpr Region_index no_particle = std::numeric_limits<Region_index>::max();
 
-/// Type of the property maps in which a mesh carries its regions and particles.
+/// Type of the property maps that hold the regions and particles of a mesh.
 template <class Mesh>
 struct Region_property {
   using Map = typename boost::property_map<Mesh, CGAL::dynamic_vertex_property_t<Region_index>>::const_type;
@@ -21,7 +21,7 @@ struct Region_property {
   }
 };
 
-/// CGAL::Surface_mesh has properties with names, so that other code finds `v:region` and `v:particle` on the mesh.
+/// The properties of CGAL::Surface_mesh have names, so other code finds `v:region` and `v:particle` on the mesh.
 template <class P>
 struct Region_property<CGAL::Surface_mesh<P>> {
   using Mesh = CGAL::Surface_mesh<P>;
@@ -43,13 +43,13 @@ class Region_maps {
         region_(Region_property<Mesh>::add(mesh, "v:region")),
         particle_(Region_property<Mesh>::add(mesh, "v:particle")) {}
 
-  /// Finds the maps on the mesh again, or adds them: `Surface_mesh::clear` frees them.
+  /// Gets the maps from the mesh again, or adds them. Needed after `Surface_mesh::clear`, which frees them.
   void renew() { *this = Region_maps(*mesh_); }
 
   const Map& region() const { return region_; }
   const Map& particle() const { return particle_; }
 
-  /// Writes all labels, and particles where there were none. O(V).
+  /// Writes the label of every vertex, and all particles. O(V).
   void write(const Mesh_numbering<Mesh>& numbering, const std::vector<Region_index>& labels,
              const std::vector<std::uint32_t>& particles) {
     for (std::uint32_t v = 0; v < labels.size(); ++v) {
@@ -60,7 +60,7 @@ class Region_maps {
     move_particles(numbering, particles);
   }
 
-  /// Takes the particles from where they were to where they are. O(N).
+  /// Moves the particles from the vertices of the last write to the given ones. O(N).
   void move_particles(const Mesh_numbering<Mesh>& numbering, const std::vector<std::uint32_t>& particles) {
     for (const auto v : written_) put(particle_, numbering.vertex(v), no_particle);
     for (Region_index region = 0; region < particles.size(); ++region)
@@ -71,7 +71,7 @@ class Region_maps {
  private:
   Mesh* mesh_;
   Map region_, particle_;
-  std::vector<std::uint32_t> written_;  ///< where particles were written last
+  std::vector<std::uint32_t> written_;  ///< per region: the vertex of the last write
 };
 
 }  // namespace lodestone

@@ -7,8 +7,9 @@
 
 namespace lodestone {
 
-/// Positions times a power of two that brings the largest coordinate below 1. Exact, and keeps every later product and
-/// sum within range, whatever the coordinates.
+/// Positions times a power of two, such that the largest absolute coordinate is in [0.5, 1), or 0 if all are 0. Exact
+/// except for underflow. Keeps later products and sums within the range of double, whatever the size of the
+/// coordinates.
 inline Positions scaled_positions(const Positions& positions) {
   int exponent = 0;
   if (positions.rows() > 0) std::frexp(positions.cwiseAbs().maxCoeff(), &exponent);

@@ -5,7 +5,7 @@
 
 namespace lodestone {
 
-/// Adds the time that `stage` takes to `seconds`.
+/// Runs `stage` and adds the time that it takes to `seconds`.
 template <class Stage>
 void timed(double& seconds, Stage stage) {
   using Clock = std::chrono::steady_clock;

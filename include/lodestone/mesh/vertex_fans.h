@@ -10,26 +10,27 @@
 
 namespace lodestone {
 
-/// The faces around every vertex, in a row wherever they form one.
+/// The fan of every vertex: the faces around it, sorted into a row wherever they form one.
 ///
 /// Any faces are legal: non-manifold edges, open borders, inconsistent orientation, duplicate faces, faces that use a
-/// vertex twice. The mesh's topology does not change from frame to frame, and neither do its fans.
+/// vertex twice. Fans depend on topology only, so they stay valid from frame to frame.
 class Vertex_fans {
  public:
-  /// Time and memory O(V + F), also with a vertex that all faces share.
+  /// Time and memory O(V + F), even if all faces share a vertex.
   /// @param faces  corners of every face, each below `vertex_count`
   Vertex_fans(std::uint32_t vertex_count, std::span<const Corners> faces);
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(starts_.size() - 1); }
 
-  /// Numbers of the faces that use `vertex`, each once; in the order of the rim where there is one, else ascending.
+  /// Indices of the faces that use `vertex`, each once: in the order of the rim if there is one, otherwise ascending.
   std::span<const std::uint32_t> faces(std::uint32_t vertex) const {
     return {faces_.data() + starts_[vertex], starts_[vertex + 1] - starts_[vertex]};
   }
 
-  /// The neighbours of `vertex` such that its face i has the corners `vertex`, rim[i] and rim[i + 1], so there is one
-  /// neighbour more than faces. The first is repeated as the last where the faces close around the vertex; else all
-  /// differ. Empty where the faces do not follow one another in a single such row, and where there is none.
+  /// The rim of `vertex`: its neighbours, in an order such that face i of the fan has the corners `vertex`, rim[i] and
+  /// rim[i + 1]. So the rim has one entry more than the fan. If the faces close around the vertex, the last entry
+  /// repeats the first; otherwise all entries differ. Empty if the faces do not form a single row, and if there are no
+  /// faces.
   std::span<const std::uint32_t> rim(std::uint32_t vertex) const {
     const std::uint32_t* begin = rims_.data() + starts_[vertex] + vertex;
     if (*begin == vertex) return {};
@@ -39,9 +40,9 @@ class Vertex_fans {
  private:
   class Ordering;
 
-  std::vector<std::size_t> starts_;   ///< per vertex: where its list in `faces_` starts; V + 1
-  std::vector<std::uint32_t> faces_;  ///< all lists of faces
-  std::vector<std::uint32_t> rims_;   ///< all rims, one entry longer than the faces; it starts with the vertex: no rim
+  std::vector<std::size_t> starts_;   ///< V + 1: per vertex the start of its fan in `faces_`
+  std::vector<std::uint32_t> faces_;  ///< all fans
+  std::vector<std::uint32_t> rims_;   ///< all rims, each one entry longer than its fan; no rim: starts with its vertex
 };
 
 }  // namespace lodestone

@@ -19,12 +19,12 @@ using Vertex_graph = boost::compressed_sparse_row_graph<boost::directedS, boost:
 /// Graph of the edges of the given faces. Cost O(F log F).
 Vertex_graph vertex_graph(std::uint32_t vertex_count, std::span<const Corners> faces);
 
-/// Numbers of the neighbours of `vertex`, ascending.
+/// Indices of the neighbours of `vertex`, ascending.
 inline auto neighbours(const Vertex_graph& graph, std::uint32_t vertex) {
   return boost::make_iterator_range(adjacent_vertices(vertex, graph));
 }
 
-/// True per vertex when it lies on an open border: on an edge that only one face has. Cost O(F log F).
+/// Per vertex: whether it lies on an open border, that is, on an edge of only one face. Cost O(F log F).
 std::vector<bool> open_border(std::uint32_t vertex_count, std::span<const Corners> faces);
 
 }  // namespace lodestone

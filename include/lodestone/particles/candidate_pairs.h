@@ -9,10 +9,10 @@
 
 namespace lodestone {
 
-/// Which of the particle pairs that are near enough get their regions checked.
+/// Which of the particle pairs nearer than the collision distance become candidates.
 enum class Candidate_choice {
-  all,      ///< every pair nearer than the collision distance
-  closest,  ///< the nearest of them only
+  all,      ///< every such pair
+  closest,  ///< only the nearest such pair
 };
 
 /// Two regions whose particles are nearer than the collision distance.
@@ -22,9 +22,9 @@ struct Candidate_pair {
   Region_index b = 0;
 };
 
-/// Pairs of particles of two objects nearer than `distance`, nearest first, equally near ones by region numbers.
-/// O(N N') and the sorting of what is found.
-/// @param candidates  receives the pairs; its memory is used again
+/// Finds the pairs of particles of two objects that are nearer than `distance`, \cite saenghaengtham2006, eq. (14). The
+/// result is in lexicographic order of distance and region indices. O(N N') and the sorting of what is found.
+/// @param candidates  receives the pairs; its memory is reused
 void candidate_pairs(std::span<const Eigen::Vector3d> a, std::span<const Eigen::Vector3d> b, double distance,
                      Candidate_choice choice, std::vector<Candidate_pair>& candidates);
 

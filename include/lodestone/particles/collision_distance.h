@@ -5,19 +5,22 @@
 
 namespace lodestone {
 
-/// How the collision distance mu is read from a mesh.
+/// How the collision distance mu is computed from a mesh.
 enum class Distance_measure {
   adjacent_vertices,  ///< mean distance between vertices joined by an edge
   all_vertices,       ///< mean distance between any two vertices: about the size of the object, so it prunes nothing
 };
 
-/// The collision distance mu of \cite saenghaengtham2006: particles of two objects that are nearer than this make their
-/// regions a candidate pair. O(E) for adjacent vertices, O(V^2) for all.
+/// The collision distance mu of \cite saenghaengtham2006, eq. (13): two particles of different objects that are nearer
+/// than this make their regions a candidate. Distances are Euclidean, eq. (14). O(E) for adjacent vertices, O(V^2) for
+/// all.
+///
+/// Eq. (13) read literally is `all_vertices`.
 /// @return in the units of the positions
 double collision_distance(const Vertex_graph& graph, const Positions& positions,
                           Distance_measure measure = Distance_measure::adjacent_vertices);
 
-/// The same of a mesh.
+/// The same for a mesh.
 /// @param np  `vertex_point_map`
 /// @throws Bad_mesh  see Mesh_numbering and read_positions
 template <Triangle_mesh Mesh, class Named_parameters = CGAL::parameters::Default_named_parameters>

@@ -9,18 +9,20 @@
 
 namespace lodestone {
 
-/// Exact confirmation of candidate pairs. Holds the memory that it needs, so that a frame allocates nothing once it has
-/// met its largest patches.
+/// Exact confirmation of candidate pairs. Keeps its working memory, so a frame allocates nothing once the largest
+/// patches have been confirmed.
 class Confirmation {
  public:
-  /// Room for patches of so many faces and vertices.
+  /// Makes room for patches of so many faces and vertices.
   void reserve(std::size_t faces, std::size_t vertices);
 
-  /// Adds the intersecting face pairs of two posed patches to `found`; with a query other than `all`, stops at one.
+  /// Appends the intersecting face pairs of two posed patches to `found`. With a query other than `all`, stops at the
+  /// first.
   ///
-  /// Vertices outside the overlap of the two boxes rule out faces, a sweep along its longest axis rules out pairs, and
-  /// `triangles_intersect` decides the rest. O(n + m) for patches that do not come near each other,
-  /// O(n + m + s log s + pairs that overlap along the axis) for the s faces within the overlap; all n m pairs at worst.
+  /// First the overlap of the two boxes culls the faces outside of it. Then a sweep along the longest axis of the
+  /// overlap culls pairs, and `triangles_intersect` decides the rest. O(n + m) for patches that are not near each
+  /// other; O(n + m + s log s + pairs that overlap along the axis) for the s faces within the overlap; all n m pairs at
+  /// worst.
   ///
   /// @return whether a pair was found
   bool confirm(const Posed_patch& a, const Posed_patch& b, Contact_query query, std::vector<Face_pair>& found);
@@ -32,7 +34,7 @@ class Confirmation {
  private:
   struct Boxed_face {
     Box box;
-    std::uint32_t place;  ///< in the lists of the patch
+    std::uint32_t index;  ///< in the patch
   };
 
   void faces_within(const Posed_patch& posed, const Box& overlap, std::vector<Boxed_face>& faces);

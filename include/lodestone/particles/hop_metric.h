@@ -22,20 +22,22 @@ std::size_t hop_eccentricity(const Vertex_graph& graph, std::uint32_t source);
 
 /// Largest hop distance between two of the given vertices.
 ///
-/// This is R_max of \cite saenghaengtham2006, the most steps a particle can need to reach another.
+/// For the particles of an object this is R_max of \cite saenghaengtham2006, the most steps that a particle can need to
+/// reach another: there, approximately the number of vertices along the shortest route between two particles, at its
+/// greatest.
 /// One breadth-first search per vertex: O(n (V + E)).
 ///
 /// @param targets  n vertices of the graph
 /// @return hops (dimensionless); 0 for fewer than two vertices; pairs in different components do not count
 std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_t> targets);
 
-/// The same on a mesh.
+/// The same for a mesh.
 template <Triangle_mesh Mesh>
 std::size_t hop_diameter(const Mesh& mesh, std::span<const Vertex<Mesh>> targets) {
   const Mesh_numbering<Mesh> numbering(mesh);
-  std::vector<std::uint32_t> numbers;
-  for (const auto v : targets) numbers.push_back(numbering.number(v));
-  return hop_diameter(vertex_graph(numbering.vertex_count(), numbering.corners()), numbers);
+  std::vector<std::uint32_t> indices;
+  for (const auto v : targets) indices.push_back(numbering.index(v));
+  return hop_diameter(vertex_graph(numbering.vertex_count(), numbering.corners()), indices);
 }
 
 }  // namespace lodestone

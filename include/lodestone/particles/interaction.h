@@ -8,10 +8,10 @@
 
 namespace lodestone {
 
-/// R_eff of one object: the longest distance between two of its initial particles. O(N^2).
+/// R_eff of one object: the longest distance between two of its initial particles, in units of the positions. O(N^2).
 double effective_radius(std::span<const Eigen::Vector3d> particles);
 
-/// The particles of other objects as one object feels them: positions, and how far each one's force reaches.
+/// The particles whose force one object feels: their positions, and the reach of each one's force.
 class Attractors {
  public:
   void reserve(std::size_t count);
@@ -19,17 +19,19 @@ class Attractors {
   void add(const Eigen::Vector3d& position, double squared_reach);
   std::size_t size() const { return x_.size(); }
 
-  /// Number of points that `forces` takes at once.
+  /// Number of points per call of `forces`.
   static constexpr int lanes = 8;
 
-  /// Force on each of eight points: the sum of 1 / r^2 over the attractors at distance r below their reach. O(8 n).
+  /// Force on each of eight points, \cite saenghaengtham2006, eq. (10) to (12): the sum over the attractors (12) of 1 /
+  /// r^2 if the distance r is below the reach (11), and of 0 otherwise (10). An attractor at r = 0 gives infinity. O(8
+  /// n).
   ///
-  /// Sums run over the attractors in the order in which they were added, separately per point, so the result of a
-  /// point depends neither on its neighbours nor on the machine's vector width. An attractor at r = 0 gives infinity.
+  /// Each point has a sum of its own, over the attractors in the order in which they were added. So the result for a
+  /// point depends neither on the other points nor on the vector width of the machine.
   ///
   /// @param x, y, z  coordinates of the points
   /// @param force    receives the forces, in 1 / length^2
-  /// @param but      number of an attractor to leave out, or -1
+  /// @param but      index of an attractor to leave out, or -1
   void forces(const double* x, const double* y, const double* z, double* force, std::ptrdiff_t but = -1) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace lodestone {
 
 /// Where a particle can be after one step: its vertex and the neighbours in its own region. Made once per partition, so
-/// that a step touches nothing but a short list.
+/// that a step reads only a short list.
 class Region_steps {
  public:
   Region_steps() = default;

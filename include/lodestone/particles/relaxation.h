@@ -16,7 +16,7 @@
 
 namespace lodestone {
 
-/// Reads the current position of a vertex by its number.
+/// Reads the current position of a vertex by its index.
 template <class Reader>
 concept Position_reader = requires(const Reader& reader, std::uint32_t vertex) {
   { reader(vertex) } -> std::convertible_to<Eigen::Vector3d>;
@@ -24,8 +24,8 @@ concept Position_reader = requires(const Reader& reader, std::uint32_t vertex) {
 
 /// The particles of one object, kept from frame to frame.
 struct Particles {
-  std::vector<std::uint32_t> at;           ///< N: the vertex each particle is on
-  std::vector<Eigen::Vector3d> positions;  ///< N: where that vertex is in this frame
+  std::vector<std::uint32_t> at;           ///< N: the vertex on which each particle is
+  std::vector<Eigen::Vector3d> positions;  ///< N: the position of that vertex in this frame
   double effective_radius = 0;             ///< R_eff: how far a force is felt
   double collision_distance = 0;           ///< mu
   std::size_t hop_limit = 0;               ///< R_max: largest hop distance between two particles
@@ -37,30 +37,30 @@ struct Walking_object {
   Particles* particles = nullptr;
   const Region_steps* steps = nullptr;
   const Reader* reader = nullptr;
-  std::span<const std::uint32_t> near;  ///< the objects whose particles this one feels
+  std::span<const std::uint32_t> near;  ///< indices of the objects whose particles this one feels
   bool siblings_repel = false;          ///< particles of the object push each other away: only for the predecessor
 };
 
 struct Relaxation {
   std::size_t iterations = 0;
   std::size_t moves = 0;  ///< steps taken by all particles together
-  bool relaxed = true;    ///< false: stopped by R_max
+  bool relaxed = true;    ///< false: R_max stopped the iterations
 };
 
-/// Memory of the relaxation, kept so that a frame allocates nothing.
+/// Working memory of the relaxation, kept so that a frame allocates nothing.
 struct Relaxation_scratch {
   Attractors attractors;
   Attractors siblings;
   std::vector<std::vector<std::uint32_t>> next_at;
   std::vector<std::vector<Eigen::Vector3d>> next_positions;
 
-  /// Makes room for objects with these numbers of particles.
+  /// Makes room for objects with so many particles each.
   void reserve(std::span<const std::size_t> particles);
 };
 
 namespace internal {
 
-/// The best step of one particle: the vertex in reach with the largest force, the lowest number among equals.
+/// The best step of one particle: to the vertex in reach with the largest force; ties go to the lowest index.
 struct Step {
   std::uint32_t vertex = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -103,7 +103,7 @@ Step best_step(const Walking_object<Reader>& object, std::size_t particle, const
   }
   if (!zero.isZero(0))
     throw Bad_mesh("a vertex beside vertex " + std::to_string(here) + " has a coordinate that is not finite");
-  // Without any force there is nowhere to go; at r = 0 the particle has arrived.
+  // A particle that feels no force stays, and so does one that is at r = 0, because it has arrived.
   if (!pulled || held) return {.vertex = here, .position = object.particles->positions[particle]};
   return best;
 }
@@ -128,17 +128,18 @@ void gather_attractors(std::span<const Walking_object<Reader>> objects, const Wa
 
 /// Lets particles walk until they rest: the particle stage of \cite saenghaengtham2006.
 ///
-/// In every iteration each particle looks at its vertex and the neighbours in its own region and moves to the one where
-/// the force, the sum of 1 / r^2 over the particles of near objects at r < R_eff (the larger of the two objects'), is
-/// largest. All read the positions before the iteration; ties go to the lowest vertex number; without any force, and
-/// at r = 0, a particle stays. The particles are relaxed when in each object fewer than R_min = N / 10 moved; R_max,
-/// the largest of all objects, bounds the iterations.
+/// In every iteration each particle compares its vertex and the neighbours in its own region, and moves to the one
+/// where the force is largest. The force is the sum of 1 / r^2 over the particles of near objects at r < R_eff, eq.
+/// (10) to (12); R_eff is the larger of the two objects'. All particles read the positions from before the iteration.
+/// Ties go to the lowest vertex index. A particle stays if it feels no force, or if it is at r = 0. The particles are
+/// relaxed when fewer than R_min = N / 10 moved in each object; the paper has R_min "about ten times smaller than" N.
+/// R_max, the largest of all objects', limits the iterations; see `hop_diameter`.
 ///
-/// Cost per iteration O(d N N') for N particles with d vertices in reach that feel N' others. Positions are read only
+/// Cost per iteration O(d N N') for N particles that have d vertices in reach and feel N' others. Reads positions only
 /// of vertices in reach of a particle. Allocates nothing once the scratch has its size.
 ///
 /// @throws Bad_mesh  a coordinate that is read is not finite
-/// @param objects  `positions` of their particles must be those of this frame; `at` and `positions` are moved on
+/// @param objects  the `positions` of their particles must be those of this frame; `at` and `positions` are updated
 template <Position_reader Reader>
 Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scratch& scratch) {
   Relaxation result;

@@ -9,23 +9,23 @@
 #include "lodestone/mesh/patch.h"
 #include "lodestone/mesh/vertex_graph.h"
 
-/// The predecessor: particles scattered over the whole surface that repel their own kind and are drawn to those of
-/// other objects, after Senin et al. 2003 as \cite saenghaengtham2006 describes it. Nothing is partitioned.
+/// The predecessor, after Senin et al. 2003 as \cite saenghaengtham2006 describes it: particles are scattered over the
+/// whole surface, repel those of the same object and attract those of other objects. Nothing is partitioned.
 ///
 /// Forces and movement are those of `relax()` with `siblings_repel` and every vertex in one region. What the
-/// description leaves open is settled so that the two methods differ in nothing else: when two particles come nearer
-/// than the collision distance, the faces around both are checked, as many as a region would hold.
+/// description leaves open is settled such that the two methods differ in nothing else: if two particles are nearer
+/// than the collision distance, the faces around both are tested, as many as a region would hold.
 namespace lodestone {
 
 struct Senin_options {
   std::uint64_t seed = 1;                    ///< of the scattering
   std::optional<Eigen::Vector3d> side = {};  ///< scatter only where the surface lies farthest in this direction
-  std::size_t rings = 0;                     ///< hops around a particle that are checked; 0: as many as fill V / N
+  std::size_t rings = 0;                     ///< hops around a particle that are tested; 0: see `default_rings`
 };
 
-/// Vertices at which N particles start: different ones drawn at random, among those with edges.
-/// With `side`, only from those whose offset from the mean along `side` is above half of the largest.
-/// @return N vertices, or as many as there are to draw from
+/// Vertices at which N particles start: different vertices drawn at random, among those with edges. With `side`, only
+/// those are drawn whose offset from the mean along `side` is at least half of the largest.
+/// @return N vertices, or all if there are fewer to draw from
 /// @throws Bad_argument  `side` is zero or not finite
 std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Positions& positions,
                                              std::size_t particles, const Senin_options& options);
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Po
 /// Hops around a particle within which about V / N vertices lie: 3 r (r + 1) + 1 of them on a surface of degree 6.
 std::size_t default_rings(std::size_t vertices, std::size_t particles);
 
-/// The faces at each vertex, by number.
+/// The faces at each vertex, by index.
 class Vertex_faces {
  public:
   Vertex_faces() = default;
@@ -47,7 +47,7 @@ class Vertex_faces {
   std::vector<std::uint32_t> faces_;
 };
 
-/// The faces with a corner at most `rings` hops from `centre`. Cost in the number of faces found, not in V.
+/// The faces with a corner at most `rings` hops from `centre`. The cost depends on the number of faces found, not on V.
 Patch ring_patch(const Vertex_graph& graph, const Vertex_faces& vertex_faces, std::span<const Corners> corners,
                  std::uint32_t centre, std::size_t rings);
 

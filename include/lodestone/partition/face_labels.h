@@ -14,15 +14,16 @@ inline constexpr Region_index no_region = std::numeric_limits<Region_index>::max
 
 /// Labels of vertices, from labels of faces.
 ///
-/// A vertex gets the label that most of the area of its faces has; ties go to the label of more of its faces, then to
-/// the lowest. A label that no vertex gets this way takes one corner of its faces from a label that keeps another: the
-/// corner it has most of, the lowest number of several. It is lost only when every corner of its faces is the last
-/// vertex of its label. Vertices whose faces have no label take that of the nearest vertex that has one, along the
-/// fewest edges; 0 where none can be reached, and for vertices without edges. Cost O(V + F log F).
+/// A vertex gets the label with the largest area among its faces. Ties go to the label of more of its faces, then to
+/// the lowest label. A label that no vertex gets in this way takes one corner of its faces from a label that keeps
+/// another vertex: the corner around which it has the largest area; of several such corners the lowest vertex index. A
+/// label is lost only if every corner of its faces is the last vertex of another label. A vertex whose faces have no
+/// label takes the label of the nearest vertex that has one, counted in edges. The label is 0 if no such vertex can be
+/// reached, and for vertices without edges. Cost O(V + F log F).
 ///
 /// @param face_labels  F, `no_region` for none
-/// @return V labels, in general with gaps between the numbers
-/// @throws Bad_argument  a number of labels other than that of the faces
+/// @return V labels, in general with gaps between them
+/// @throws Bad_argument  the number of labels is not that of the faces
 std::vector<Region_index> vertex_labels(const Numbered_surface& surface, std::span<const Region_index> face_labels);
 
 }  // namespace lodestone

@@ -9,16 +9,17 @@
 
 namespace lodestone {
 
-/// Vertices far apart: the first drawn at random, each further one the farthest from all before it along the edges.
+/// Vertices far apart. The first is drawn at random; each further one is the vertex farthest along the edges from all
+/// chosen before.
 ///
-/// The largest distance from a vertex to the nearest of them is at most twice what any choice of so many vertices
-/// reaches \cite gonzalez1985; as sampling of surfaces \cite eldar1997. A component without a seed is infinitely far;
-/// of equally far vertices the lowest number is taken, vertices without edges after all others. Each seed visits the
-/// vertices that become nearer, O(V log V) for all seeds on a surface whose cells shrink evenly, and looks at all for
-/// the farthest: O(N V).
+/// The largest distance from a vertex to the nearest chosen one is at most twice the least that any choice of so many
+/// vertices reaches \cite gonzalez1985. Farthest points as a sampling of surfaces: \cite eldar1997. A component without
+/// a seed is infinitely far. Ties go to the lowest vertex index; vertices without edges come after all others. Each
+/// seed visits the vertices that become nearer, which is O(V log V) for all seeds if the cells of the surface shrink
+/// evenly. Each seed also scans all vertices for the farthest: O(N V).
 ///
-/// @param positions  V x 3, of a size at which squares and the length of the longest path do not overflow
-/// @param count      at most V; more are cut down to V
+/// @param positions  V x 3; their squares do not overflow, nor does the length of the longest path
+/// @param count      number of vertices; above V it is reduced to V
 std::vector<std::uint32_t> farthest_points(const Vertex_graph& graph, const Positions& positions, std::size_t count,
                                            std::uint64_t seed);
 

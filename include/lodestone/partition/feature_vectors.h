@@ -16,7 +16,8 @@ namespace lodestone {
 /// One row per vertex, one column per component: V x k.
 using Feature_vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Beyond this a weight leaves nothing of the other factors, and further on squares overflow.
+/// Largest weight of a factor. Beyond it the other factors no longer count, and much larger weights make squares
+/// overflow.
 inline constexpr double largest_weight = 1e6;
 
 struct Feature_options {
@@ -24,8 +25,8 @@ struct Feature_options {
   double normal_weight = 1;    ///< of unit vertex normals; [0, 1e6]; 0 leaves the normals out, so that k = 3
 };
 
-/// Unit normal of each vertex: the sum of the cross products of its faces, so weighted by area. Zero where that sum
-/// is (isolated vertices, zero-area faces). Cost O(V + F).
+/// Unit normal of each vertex: the sum of the cross products of its faces, which weights faces by area, divided by its
+/// length. Zero if that sum is zero (isolated vertices, zero-area faces). Cost O(V + F).
 Positions vertex_normals(const Positions& positions, std::span<const Corners> faces);
 
 /// The feature vectors of \cite saenghaengtham2006: position and normal of each vertex, each times its weight.
@@ -33,12 +34,12 @@ Positions vertex_normals(const Positions& positions, std::span<const Corners> fa
 /// Positions are taken relative to their mean and divided by the largest distance from it, so that neither a
 /// translation nor a uniform scale of the mesh changes the result. Cost O(V + F).
 ///
-/// @return V x 6, or V x 3 when one weight is 0
+/// @return V x k: k = 6 components, or k = 3 if one weight is 0
 /// @throws Bad_argument  a weight is out of range, or both are 0
 Feature_vectors feature_vectors(const Positions& positions, std::span<const Corners> faces,
                                 const Feature_options& options = {});
 
-/// The same of a mesh, in the order in which it enumerates its vertices.
+/// The same for a mesh, in the order in which it enumerates its vertices.
 /// @param np  `vertex_point_map`
 /// @throws Bad_mesh  see Mesh_numbering and read_positions
 template <Triangle_mesh Mesh, class Named_parameters = CGAL::parameters::Default_named_parameters>
@@ -50,9 +51,10 @@ Feature_vectors feature_vectors(const Mesh& mesh, const Feature_options& options
 
 /// Further factors of the feature vector from a property map of the mesh, such as curvature or colour.
 ///
-/// The values are used as they are, times the weight: scale them to the spread of the positions, which is 1.
+/// The values are multiplied by the weight and not otherwise scaled: bring them to the spread of the positions, which
+/// is 1.
 ///
-/// @param map     vertex property map whose values are numbers, or vectors of `Components` numbers indexed by []
+/// @param map     vertex property map; its values are numbers, or vectors of `Components` numbers indexed by []
 /// @param weight  >= 0
 /// @return V x Components, for `Lbg::extra_factors`
 /// @throws Bad_argument  negative weight, or a value that is not finite

@@ -12,22 +12,22 @@ namespace lodestone {
 
 /// Voronoi cells of seed vertices on a surface: every vertex belongs to the seed that is nearest along the edges.
 ///
-/// Distance is the length of the shortest path of edges. Of equally near seeds the first added wins, except that a seed
-/// always belongs to itself, also where another lies at the same place: no cell is empty. The cells of seeds that were
-/// added in one call are connected.
+/// Distance is the length of the shortest path of edges. Of equally near seeds the one added first wins. But a seed
+/// always belongs to itself, even if another seed has the same position, so no cell is empty. The cells of seeds that
+/// were added in one call are connected.
 ///
-/// Seeds may be added one by one: each call visits only the vertices that become nearer (Dijkstra's algorithm on the
-/// graph of the edges that shorten a path), which is O(U log U) for U such vertices and their edges, and O(V) for the
+/// Seeds may be added one by one. Each call visits only the vertices that become nearer: Dijkstra's algorithm on the
+/// graph of the edges that shorten a path. That is O(U log U) for U such vertices and their edges, and O(V) for the
 /// marks of the search.
 class Geodesic_voronoi {
  public:
   static constexpr Region_index no_seed = std::numeric_limits<Region_index>::max();
 
   /// Both arguments must outlive the object. Cost O(V + E).
-  /// @param positions  V x 3, of a size at which squares and the length of the longest path do not overflow
+  /// @param positions  V x 3; their squares do not overflow, nor does the length of the longest path
   Geodesic_voronoi(const Vertex_graph& graph, const Positions& positions);
 
-  /// Makes seeds of vertices, numbered on from the seeds there are.
+  /// Makes vertices seeds. Their indices continue those of the earlier seeds.
   /// @throws Bad_argument  there is no such vertex, or it is a seed already
   void add(std::span<const std::uint32_t> vertices);
 
@@ -37,18 +37,18 @@ class Geodesic_voronoi {
   const std::vector<std::uint32_t>& seeds() const { return seeds_; }
   bool is_seed(std::uint32_t vertex) const { return is_seed_[vertex]; }
 
-  /// Distance from the nearest seed along the edges, in units of the positions; infinity where no seed reaches.
+  /// Distance from the nearest seed along the edges, in units of the positions; infinity if no seed reaches the vertex.
   double distance(std::uint32_t vertex) const { return reaches_[vertex].distance; }
 
-  /// Number of the nearest seed along the edges; `no_seed` where none reaches.
+  /// Index of the nearest seed along the edges; `no_seed` if none reaches the vertex.
   Region_index nearest_seed(std::uint32_t vertex) const { return reaches_[vertex].seed; }
 
-  /// The same for all vertices; where no seed reaches along the edges, the nearest in a straight line. O(V + U N) for U
-  /// vertices that none of N seeds reaches.
+  /// The same for all vertices. A vertex that no seed reaches along the edges gets the seed that is nearest in a
+  /// straight line. O(V + U N) for U such vertices and N seeds.
   std::vector<Region_index> labels() const;
 
  private:
-  /// How near which seed is: ordered by distance, equal distances by seed.
+  /// A seed and its distance, in lexicographic order of distance and seed.
   struct Reach {
     double distance = std::numeric_limits<double>::infinity();
     Region_index seed = no_seed;
@@ -60,7 +60,7 @@ class Geodesic_voronoi {
   };
   using Edge = Vertex_graph::edge_descriptor;
 
-  /// True of the edges over which a path to their far end becomes shorter.
+  /// Selects the edges over which the path to their far end becomes shorter.
   struct Shortens {
     const Geodesic_voronoi* cells = nullptr;
     bool operator()(const Edge& edge) const { return cells->shortens(edge); }

@@ -7,15 +7,15 @@
 
 namespace lodestone {
 
-/// Partition strategy: the cubes of a regular grid that hold a vertex. What a mesh is divided into without looking at
-/// its surface, to hold the others against.
+/// Partition strategy: the cubes of a regular grid that hold a vertex. It ignores the surface, and serves as a baseline
+/// for the other strategies.
 ///
-/// The grid starts at the lower corner of the bounding box. Its cubes have the size, found by bisection, at which the
-/// number of occupied ones comes nearest to the wanted number from below; that number itself is met unless several
-/// vertices enter new cubes at one and the same size, as on regular or symmetric meshes, or are less than 2^-20 of the
-/// longest side of the bounding box apart. Of several such sizes the smallest found is taken. Regions are numbered by
-/// x, then y, then z of their cubes. Neither a translation nor a uniform scale of the mesh changes more than rounding
-/// does. O(V log V) per size tried, of which there are at most 51.
+/// The grid starts at the lower corner of the bounding box. The size of its cubes is found by bisection: the number of
+/// occupied cubes comes as near as possible to the wanted number, without exceeding it. The wanted number is met unless
+/// several vertices enter new cubes at the same size, as on regular or symmetric meshes, or lie less than 2^-20 of the
+/// longest side of the bounding box apart. Of several equally good sizes the smallest found is taken. Regions are
+/// sorted by the x, then y, then z of their cubes. A translation or uniform scale of the mesh changes no more than
+/// rounding does. O(V log V) per size tried; at most 51 sizes are tried.
 struct Grid {
   static constexpr std::string_view name = "grid";
 

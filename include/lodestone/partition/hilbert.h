@@ -9,10 +9,10 @@ namespace lodestone {
 
 /// Partition strategy: equal runs of the vertices in the order of a Hilbert curve \cite hilbert1891.
 ///
-/// The order is that of `CGAL::hilbert_sort`, whose curve turns at medians, so that it is fine where vertices are dense
-/// \cite cgal_spatial_sorting; equal coordinates are told apart by vertex number. The curve fills space, not the
-/// surface: a run is near in space, but may lie on two sides of something thin. The sizes of runs differ by at most one
-/// vertex. O(V log V).
+/// The order is that of `CGAL::hilbert_sort` \cite cgal_spatial_sorting, whose curve turns at medians, so it is fine
+/// where vertices are dense. Ties between equal coordinates go to the lower vertex index. The curve fills space, not
+/// the surface: the vertices of a run are near in space, but may lie on two sides of a thin part. The sizes of runs
+/// differ by at most one vertex. O(V log V).
 struct Hilbert {
   static constexpr std::string_view name = "hilbert";
 

@@ -11,25 +11,26 @@
 namespace lodestone {
 
 /// The start of k-means++ \cite arthur2007: the first vector is drawn at random, each further one with a probability
-/// proportional to its squared distance from the nearest drawn before. The same draw on every machine. O(k M N).
+/// proportional to its squared distance from the nearest vector drawn before. The draw is the same on every machine.
+/// O(M N) distances, each of O(k) for k components.
 ///
 /// @param vectors  M x k, components below 1e100
-/// @param count    N; fewer come back only when the vectors hold fewer than N different values
-/// @return rows of different vectors, in the order of the draw
+/// @param count    N; fewer are returned only if the vectors hold fewer than N different values
+/// @return row indices of different vectors, in the order of the draw
 std::vector<std::size_t> kmeans_plus_plus_start(const Feature_vectors& vectors, std::size_t count, std::uint64_t seed);
 
 struct Kmeans_plus_plus_options {
   std::uint64_t seed = 1;  ///< of the draw of the first code vectors
-  double tolerance = 0;    ///< relative drop of the distortion at which iterations stop, >= 0; 0: no label changes
+  double tolerance = 0;    ///< iterations stop at this relative drop of the distortion, >= 0; 0: when no label changes
   std::size_t max_iterations = 1000;  ///< >= 1
   Feature_options features = {};
 };
 
 /// Partition strategy: the cells of Lloyd iterations from a k-means++ start, over the feature vectors of `Lbg`.
 ///
-/// With the default tolerance every vector is nearest to the mean of its own cell, and no other. A cell that becomes
-/// empty starts anew at the vector farthest from its code vector. O(k M N) per iteration at worst; most distances are
-/// spared by `Bounded_assignment`.
+/// With the default tolerance no mean is nearer to a vector than that of its own cell. A cell that becomes empty is
+/// re-seeded with the vector that is farthest from its code vector. Each iteration computes M N distances at worst,
+/// each of O(k) for k components; `Bounded_assignment` avoids most of them.
 struct Kmeans_plus_plus {
   static constexpr std::string_view name = "kmeans++";
 

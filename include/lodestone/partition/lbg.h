@@ -13,26 +13,27 @@ namespace lodestone {
 /// How one code vector becomes two.
 enum class Split {
   principal_axis,  ///< C +- e s u: u the main eigenvector of the cell's covariance, s the spread along it
-  multiplicative,  ///< (1 + e) C and (1 - e) C, as published; changes under translation
+  multiplicative,  ///< (1 + e) C and (1 - e) C: \cite saenghaengtham2006, eq. (3) and (4); changes under translation
 };
 
-/// How the nearest code vector is found. The labels are the same.
+/// How the nearest code vector is found. Both give the same labels.
 enum class Nearest_search { bounded, plain };
 
+/// Options of LBG. The equations are those of \cite saenghaengtham2006.
 struct Lbg_options {
-  double split = 0.005;      ///< e of the split; dimensionless, > 0
-  double tolerance = 0.005;  ///< relative drop of the distortion at which Lloyd iterations stop; > 0
+  double split = 0.005;      ///< e of the split, eq. (3) and (4); dimensionless, > 0
+  double tolerance = 0.005;  ///< relative drop of the distortion, eq. (9), at which Lloyd iterations stop; > 0
   Split split_rule = Split::principal_axis;
   Nearest_search search = Nearest_search::bounded;
   Feature_options features = {};
-  std::size_t max_iterations = 1000;  ///< per Lloyd run; a bound that no mesh we know of meets
+  std::size_t max_iterations = 1000;  ///< per Lloyd run; no mesh we know of reaches this limit
   std::size_t threads = 1;            ///< at most; 0: as many as the machine has. The result does not depend on it
 };
 
 /// Lloyd iterations between two splits.
 struct Lloyd_run {
   std::size_t code_vectors = 0;
-  std::vector<double> distortion;  ///< after each iteration: sum |X - Q(X)|^2 / (k M)
+  std::vector<double> distortion;  ///< per iteration: sum |X - Q(X)|^2 / (k M), \cite saenghaengtham2006, eq. (8)
 };
 
 /// Result of quantising M vectors of k components.
@@ -45,14 +46,24 @@ struct Quantisation {
 
 /// LBG vector quantisation: split, then Lloyd iterations, until there are N code vectors.
 ///
-/// Linde, Buzo and Gray, "An algorithm for vector quantizer design", 1980, as used in \cite saenghaengtham2006.
-/// Where N is no power of two, the last split takes only the cells with the largest distortion. A cell that becomes
-/// empty starts anew at the vector farthest from its code vector within the cell of largest distortion. Fewer than N
-/// cells come back only when the vectors hold fewer than N different values. O(k M N) per iteration with the plain
-/// search, shared by `threads`; neither their number nor the search changes a bit of labels, code vectors and runs.
-/// Memory: about three copies of the vectors.
+/// Linde, Buzo and Gray, "An algorithm for vector quantizer design", 1980, as used in \cite saenghaengtham2006, eq. (1)
+/// to (9):
+///  - The first code vector is the mean of all vectors, eq. (1); its distortion is eq. (2).
+///  - A split makes two code vectors of one, eq. (3) and (4); see `Split`.
+///  - An iteration assigns each vector to the nearest code vector, eq. (5) and (6), and moves each code vector to the
+///    mean of its cell, eq. (7).
+///  - Iterations stop when the relative drop of the distortion, eq. (8), is at most `tolerance`, eq. (9).
 ///
-/// @param vectors  M x k
+/// If N is not a power of two, the last split takes only the cells with the largest distortion. A cell that becomes
+/// empty is re-seeded from the cell of largest distortion, with the vector that is farthest from its code vector. Fewer
+/// than N cells are returned only if the vectors hold fewer than N different values.
+///
+/// Cost: an iteration with the plain search computes M N distances. In the paper's O(kMN), k is the number of
+/// iterations, not of components. In addition, the time of a distance grows linearly with the number of components. The
+/// threads share this work. Labels, code vectors and runs are the same to the last bit for any number of threads and
+/// either search. Memory: about three copies of the vectors.
+///
+/// @param vectors  M x k: one row of k components per vertex
 /// @param cells    N, >= 1
 /// @throws Bad_argument  no vector, no cell, an option out of range, or a component that is not finite or beyond 1e100
 Quantisation quantise(const Feature_vectors& vectors, std::size_t cells, const Lbg_options& options = {});
@@ -62,7 +73,7 @@ struct Lbg {
   static constexpr std::string_view name = "lbg";
 
   Lbg_options options = {};
-  Feature_vectors extra_factors = {};  ///< V x anything, from `factors()`; empty for none
+  Feature_vectors extra_factors = {};  ///< V rows with any number of columns, from `factors()`; empty for none
 
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
@@ -71,7 +82,7 @@ struct Lbg {
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 
-/// `partition()` by LBG. See there.
+/// `partition()` with the strategy `Lbg`.
 template <Triangle_mesh Mesh, Region_map<Mesh> Regions,
           class Named_parameters = CGAL::parameters::Default_named_parameters>
 Partition<Mesh> lbg(const Mesh& mesh, std::size_t regions, Regions region_map, const Lbg_options& options = {},

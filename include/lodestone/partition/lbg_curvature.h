@@ -9,14 +9,15 @@ namespace lodestone {
 struct Lbg_curvature_options {
   Lbg_options lbg = {};
   Curvature_options curvature = {};
-  double curvature_weight = 1;  ///< of the factor, which lies between -1 and 1; [0, 1e6]
+  double curvature_weight = 1;  ///< of the curvature factor, which lies between -1 and 1; [0, 1e6]
 };
 
 /// Partition strategy: the cells of LBG quantisation over position, normal and mean curvature of each vertex. See
 /// `Lbg`.
 ///
-/// The factor is 2 / pi atan(H R): H the mean curvature, see `mean_curvatures`, R the largest distance of a vertex from
-/// the mean of all. So it has no unit, is 1/2 on a sphere, and a spike counts no more than any sharp corner.
+/// The factor is 2 / pi atan(H R), where H is the mean curvature (see `mean_curvatures`) and R the largest distance of
+/// a vertex from the mean of all vertices. It has no unit, and is 1/2 on a sphere. It is bounded, so a spike counts no
+/// more than any sharp corner.
 struct Lbg_curvature {
   static constexpr std::string_view name = "lbg_curvature";
 

@@ -9,7 +9,7 @@ namespace lodestone {
 struct Lbg_position {
   static constexpr std::string_view name = "lbg_position";
 
-  Lbg_options options = {};  ///< the weight of the normals does not count
+  Lbg_options options = {};  ///< the weight of the normals is ignored
 
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {

@@ -7,11 +7,11 @@
 
 namespace lodestone {
 
-/// Partition strategy: parts of equally many vertices, by splits at the median as in a k-d tree \cite bentley1975.
+/// Partition strategy: parts with equally many vertices, by splits at the median as in a k-d tree \cite bentley1975.
 ///
-/// The part with the most vertices is split along the longest axis of its bounding box until there are N; equal
-/// coordinates are told apart by vertex number, so the halves differ by at most one vertex, and all parts do when N is
-/// a power of two. Ties go to the lowest part and axis. O(V log N).
+/// The part with the most vertices is split along the longest axis of its bounding box, until there are N parts. Ties
+/// between equal coordinates go to the lower vertex index. So two halves differ by at most one vertex, and if N is a
+/// power of two, all parts do. Ties between parts and between axes go to the lowest. O(V log N).
 struct Median_split {
   static constexpr std::string_view name = "median_split";
 

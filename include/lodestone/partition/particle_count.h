@@ -15,27 +15,27 @@ namespace lodestone {
 struct Sphere {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;
-  double roundness = 1;  ///< distance of the nearest vertex from the centre, in radii: 1 for a surface that is a sphere
+  double roundness = 1;  ///< distance of the nearest vertex from the centre, in radii; 1: all are on the sphere
 };
 
 struct Particle_count_options {
   double crease_degrees = 40;        ///< a vertex whose normal differs by more from a neighbour's is critical; (0, 180]
-  double smallest_part = 0.02;       ///< parts with a smaller share of the vertices are no part of their own; [0, 1]
+  double smallest_part = 0.02;       ///< parts with a smaller share of the vertices are ignored; [0, 1]
   std::size_t most_parts = 8;        ///< spheres per object at most; >= 1
   double equal_sizes = 0.05;         ///< radii that differ by no more than this share count as equal; >= 0
-  double least_roundness = 0.7;      ///< of an object that counts as a sphere; [0, 1]
-  std::size_t most_particles = 256;  ///< per object, whatever the sizes ask for; >= 1
+  double least_roundness = 0.7;      ///< least roundness at which an object counts as a sphere; [0, 1]
+  std::size_t most_particles = 256;  ///< upper limit per object; >= 1
 };
 
 /// Particles for objects of equal size: the kissing number of spheres, 12, or the number of objects if that is lower.
 std::size_t kissing_particle_count(std::size_t objects);
 
-/// Particles for a sphere of radius R beside objects no smaller than a sphere of radius r: how often the shadow of the
-/// small one, seen from the centre of the large one, fits on the large one without regard to overlap.
+/// Particles for a sphere of radius R beside objects no smaller than a sphere of radius r: how often the area of the
+/// small sphere's shadow, seen from the centre of the large one, fits into the area of the large one.
 ///
-/// The shadow is a cap of half-angle theta = asin(r / (R + r)) and area B = 2 pi (1 - cos theta) on a sphere of area
-/// A = 4 pi; the count is floor(A / B), at least 1. \cite saenghaengtham2006. Equal spheres give 14, an upper bound
-/// on 12.
+/// The shadow is a spherical cap of half-angle theta = asin(r / (R + r)). On a sphere of area A = 4 pi it has the area
+/// B = 2 pi (1 - cos theta). The count is floor(A / B), at least 1 \cite saenghaengtham2006. Equal spheres give 14, an
+/// upper bound on the kissing number 12.
 ///
 /// @param radius    R, > 0
 /// @param smallest  r, > 0, in the same unit
@@ -47,15 +47,16 @@ Sphere bounding_sphere(const Positions& positions);
 
 /// Approximates a surface by a few spheres, one per part.
 ///
-/// Critical vertices, whose normal differs by more than `crease_degrees` from a neighbour's, split the surface into
-/// parts; each part that is large enough gets the bounding sphere of its vertices. A surface without critical vertices,
-/// or made of nothing else, is one part per connected component. Cost O(V + E) expected.
+/// A vertex is critical if its normal differs by more than `crease_degrees` from that of a neighbour. Critical vertices
+/// split the surface into parts. Each part that is large enough gets the bounding sphere of its vertices. If no vertex
+/// is critical, or no part is large enough, each connected component is a part. If none of these is large enough, the
+/// whole surface gets one sphere. Cost O(V + E) expected.
 ///
-/// @return at least one sphere, in the order of the parts' lowest vertex
+/// @return at least one sphere, in the order of the lowest vertices of the parts
 std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions& positions,
                                       std::span<const Corners> faces, const Particle_count_options& options = {});
 
-/// The same of a mesh.
+/// The same for a mesh.
 /// @param np  `vertex_point_map`
 /// @throws Bad_mesh  see Mesh_numbering and read_positions
 template <Triangle_mesh Mesh, class Named_parameters = CGAL::parameters::Default_named_parameters>

@@ -16,7 +16,7 @@
 
 namespace lodestone {
 
-/// A surface by number, whatever mesh it comes from. Strategies that need no more than this are compiled once, and give
+/// A surface by index, independent of the mesh type. Strategies that need no more than this are compiled once, and give
 /// the same labels on every mesh type.
 struct Numbered_surface {
   const Vertex_graph& graph;
@@ -24,7 +24,7 @@ struct Numbered_surface {
   std::span<const Corners> faces;
 };
 
-/// What a partition strategy is given: the mesh, its vertices and faces by number, and where they are now.
+/// Input of a partition strategy: the mesh, its vertices and faces by index, and the current positions.
 template <Triangle_mesh Mesh>
 struct Partition_input {
   const Mesh& mesh;
@@ -35,16 +35,16 @@ struct Partition_input {
   Numbered_surface surface() const { return {graph, positions, numbering.corners()}; }
 };
 
-/// What a partition strategy gives back.
+/// Output of a partition strategy.
 struct Labelling {
   std::vector<Region_index> labels;        ///< V: the region of each vertex, below V
   Feature_vectors vectors = {};            ///< V x k: the space in which particles are seeded; empty: position + normal
   std::size_t iterations = 0;              ///< of the strategy's main loop
-  std::uint64_t distance_evaluations = 0;  ///< between a vector and a code vector, where the strategy has them
+  std::uint64_t distance_evaluations = 0;  ///< between a vector and a code vector; 0 without code vectors
 };
 
-/// A partition strategy: a name and one call, from a mesh to a label per vertex. Everything else (checks, island
-/// repair, numbering, particles) is done once for all strategies by `partition()`.
+/// A partition strategy: a name, and one call operator that takes a mesh and returns a label per vertex. `partition()`
+/// does everything else for all strategies: checks, island repair, numbering of the regions, particles.
 template <class Strategy, class Mesh>
 concept Partition_strategy = requires(const Strategy& strategy, const Partition_input<Mesh>& input,
                                       std::size_t regions) {
@@ -53,7 +53,7 @@ concept Partition_strategy = requires(const Strategy& strategy, const Partition_
 };
 
 struct Partition_options {
-  bool keep_islands = false;  ///< leave regions in several pieces as the strategy made them
+  bool keep_islands = false;  ///< leave regions in several pieces, as the strategy made them
 };
 
 struct Partition_statistics {
@@ -63,7 +63,7 @@ struct Partition_statistics {
   Island_repair repair = {};
 };
 
-/// A mesh divided into regions, by number. Each region holds one particle.
+/// A mesh divided into regions, by index. Each region holds one particle.
 struct Numbered_partition {
   std::vector<Region_index> labels;      ///< V: region of each vertex
   std::size_t regions = 0;               ///< number of regions, each with at least one face
@@ -79,14 +79,14 @@ struct Partition {
   Partition_statistics statistics = {};
 };
 
-/// Vertex of each region nearest to the region's mean vector; the lowest number of equally near ones. Vertices without
-/// edges are passed over. O(k V).
+/// The vertex of each region that is nearest to the region's mean vector. Ties go to the lowest index. Vertices without
+/// edges are skipped. V distances, each of O(k) for k components.
 /// @param vectors  V x k
 std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
                                           const std::vector<Region_index>& labels, std::size_t regions);
 
-/// The part that every strategy shares: checks, repair, numbering, particles.
-/// @throws Bad_argument  a number of labels or vectors other than V, or a label not below V
+/// The steps that all strategies share: checks, repair, numbering of the regions, particles.
+/// @throws Bad_argument  the number of labels or vectors is not V, or a label is not below V
 Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
                                     std::span<const Corners> faces, Labelling labelling,
                                     const Partition_options& options);
@@ -102,15 +102,15 @@ Numbered_partition partition_numbered(const Partition_input<Mesh>& input, std::s
 
 /// Divides a surface into regions and places one particle in each.
 ///
-/// Every vertex gets one region, every region is non-empty and, unless `keep_islands` is set, connected in the mesh
-/// graph. The particle starts at the vertex nearest to the region's mean vector in the strategy's own space. More
-/// regions than vertices are cut down to the number of vertices; a mesh with more connected components than regions
-/// gets a region more for each component that none reaches.
+/// Every vertex gets one region. Every region is non-empty and, unless `keep_islands` is set, connected in the mesh
+/// graph. Its particle starts at the vertex nearest to the region's mean vector, in the strategy's own space. If the
+/// mesh has more connected components than regions, each component that no region reaches becomes an additional region,
+/// up to the limit of `repair_islands`.
 ///
-/// @param regions     wanted number of regions, >= 1
+/// @param regions     wanted number of regions, >= 1; above V it is reduced to V
 /// @param region_map  vertex property map that receives the region of each vertex
 /// @param np          `vertex_point_map`
-/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
+/// @throws Bad_mesh      no face, a face that is not a triangle, a coordinate that is not finite
 /// @throws Bad_argument  no region wanted, or an option of the strategy out of range
 template <Triangle_mesh Mesh, Region_map<Mesh> Regions, Partition_strategy<Mesh> Strategy,
           class Named_parameters = CGAL::parameters::Default_named_parameters>

@@ -8,16 +8,16 @@
 
 namespace lodestone {
 
-/// How good a partition is, whatever strategy made it. No figure depends on the units of the mesh.
+/// Quality of a partition, for comparing strategies. No figure depends on the units of the mesh.
 struct Partition_measures {
   std::size_t regions = 0;
   double distortion = 0;    ///< sum |X - Q(X)|^2 / (k M) over position + normal of equal weight, k = 6, where Q(X) is
                             ///< the mean vector of the region of X
-  double size_balance = 1;  ///< vertices of the largest region over those of the mean one; 1: all equal
+  double size_balance = 1;  ///< vertices of the largest region over the mean number of vertices; 1: all equal
   double pieces_per_region = 1;  ///< connected pieces before islands were repaired, over the regions left afterwards
   double border_length = 0;      ///< length of all borders over the square root of the surface's area
-  double normal_deviation = 0;   ///< degrees between the normal of a face and the mean one of its region: root mean
-                                 ///< square over the surface
+  double normal_deviation = 0;   ///< angle in degrees between the normal of a face and the mean normal of its region:
+                                 ///< root mean square over the surface
   double geodesic_radius = 0;    ///< longest of the shortest paths along edges from a particle to a vertex of its
                                  ///< region; mean over the regions, in radii of the object
   double box_volume = 0;   ///< of the boxes around the faces of each region, over that of the box around all; 0 for
@@ -25,13 +25,15 @@ struct Partition_measures {
   double ball_volume = 0;  ///< the same of smallest enclosing balls
 };
 
-/// Measures a partition. The radius of the object is the largest distance of a vertex from the mean of all; faces
-/// belong to a region as in `region_patches`; in a face with corners in two or three regions the border runs between
-/// the middles of its sides, or from these to its centroid. O(V log V + F log F).
-/// @throws Bad_argument  labels or particles that do not fit the surface
+/// Measures a partition.
+///
+/// The radius of the object is the largest distance of a vertex from the mean of all vertices. A face belongs to
+/// regions as in `region_patches`. If the corners of a face are in two regions, the border runs between the midpoints
+/// of two sides; if they are in three, it runs from the midpoints of all sides to the centroid. O(V log V + F log F).
+/// @throws Bad_argument  the labels or particles do not fit the surface
 Partition_measures measure_partition(const Numbered_surface& surface, const Numbered_partition& partition);
 
-/// The same of a mesh with its region map.
+/// The same for a mesh with its region map.
 /// @param np  `vertex_point_map`
 /// @throws Bad_mesh  see Mesh_numbering and read_positions
 template <Triangle_mesh Mesh, Region_map<Mesh> Regions,
@@ -45,7 +47,7 @@ Partition_measures measure_partition(const Mesh& mesh, const Partition<Mesh>& pa
       .labels = {}, .regions = partition.regions, .particles = {}, .statistics = partition.statistics};
   for (std::uint32_t v = 0; v < numbering.vertex_count(); ++v)
     numbered.labels.push_back(get(region_map, numbering.vertex(v)));
-  for (const auto v : partition.particles) numbered.particles.push_back(numbering.number(v));
+  for (const auto v : partition.particles) numbered.particles.push_back(numbering.index(v));
   return measure_partition({graph, positions, numbering.corners()}, numbered);
 }
 

@@ -9,9 +9,9 @@
 
 namespace lodestone {
 
-/// Different vertices drawn at random, each set of them as likely as any other; vertices without edges only when no
-/// others are left. The same on every machine. Cost O(V).
-/// @param count  at most V; more are cut down to V
+/// Different vertices drawn at random; every set of them is equally likely. Vertices without edges are drawn only if no
+/// others are left. The draw is the same on every machine. Cost O(V).
+/// @param count  number of vertices; above V it is reduced to V
 std::vector<std::uint32_t> random_vertices(const Vertex_graph& graph, std::size_t count, std::uint64_t seed);
 
 struct Random_voronoi_options {
@@ -21,7 +21,7 @@ struct Random_voronoi_options {
 /// Partition strategy: the vertices nearest along the edges to each of N vertices drawn at random. See
 /// `Geodesic_voronoi`.
 ///
-/// A component in which no vertex was drawn falls to the seeds nearest in a straight line. O((V + E) log V).
+/// Vertices of a component in which none was drawn go to the seeds nearest in a straight line. O((V + E) log V).
 struct Random_voronoi {
   static constexpr std::string_view name = "random_voronoi";
 

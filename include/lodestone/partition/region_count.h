@@ -15,25 +15,27 @@ struct Region_adjustment {
   std::size_t split = 0;    ///< times that a region was cut in two
 };
 
-/// Brings the regions of a strategy that chooses their number itself to the number wanted.
+/// Joins or cuts regions until there are as many as wanted. For strategies that choose the number of regions
+/// themselves.
 ///
-/// Too many: the region of fewest vertices joins the neighbour it shares the longest border with, counted in mesh
-/// edges, until enough are gone; ties go to the lowest number. A region that is a connected component of the mesh has
-/// no neighbour and stays, so that more regions than wanted remain when there are more components.
+/// Too many: the region with the fewest vertices joins the neighbour with which it shares the longest border, counted
+/// in mesh edges, until enough are gone. Ties go to the lowest index. A region that is a connected component of the
+/// mesh has no neighbour and stays. So more regions than wanted remain if there are more components.
 ///
-/// Too few: the region of most vertices is cut in two, until there are enough. A region in several pieces gives up all
-/// but the largest. A connected one is cut at the median along the longest axis of its vertices (the main eigenvector
-/// of their covariance): one half grows from the vertex at one end, the next along the axis first, until it has half
-/// the vertices; what this cuts off from the rest joins it. So both halves of a connected region are connected. Single
-/// vertices are left when the mesh has fewer vertices with edges than regions are wanted.
+/// Too few: the region with the most vertices is cut in two, until there are enough. A region in several pieces gives
+/// up all but the largest. A connected region is cut at the median along the longest axis of its vertices, the main
+/// eigenvector of their covariance. One half grows from the vertex at one end until it has half the vertices; of the
+/// vertices next to it, it takes the first along the axis. Whatever this cuts off from the rest joins that half. So
+/// both halves of a connected region are connected. If the mesh has fewer vertices with edges than regions are wanted,
+/// the cuts end with regions of a single vertex.
 ///
-/// Vertices without edges are no part of any region; they get label 0. Numbers close up in the order they had.
-/// Cost O(E log V) to join; O(V log V log N) to split into N regions.
+/// Vertices without edges are not part of any region and get label 0. The indices of the regions close up in the order
+/// that they had. Cost O(E log V) to join; O(V log V log N) to split into N regions.
 ///
 /// @param positions  V x 3
 /// @param labels     V; changed in place
 /// @param wanted     number of regions, >= 1
-/// @throws Bad_argument  no region wanted, or a number of labels or positions other than V
+/// @throws Bad_argument  no region wanted, or the number of labels or positions is not V
 Region_adjustment adjust_region_count(const Vertex_graph& graph, const Positions& positions,
                                       std::vector<Region_index>& labels, std::size_t wanted);
 

@@ -9,17 +9,17 @@
 #include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/mesh/vertex_graph.h"
 
-/// How large the regions of a surface have become: the measure behind repartitioning.
+/// How large the regions of a surface have become: what triggers repartitioning.
 namespace lodestone {
 
-/// Position of a vertex in the current frame, by its number.
+/// Position of a vertex in the current frame, by its index.
 using Position_function = std::function<Eigen::Vector3d(std::uint32_t)>;
 
 /// Path along mesh edges from a region's home vertex to its border in one direction of the tangent plane.
 struct Border_path {
   double length = 0;  ///< in the units of the positions; 0: the home vertex lies on the border on that side
-  /// The home vertex, at most three vertices between, and the border vertex; empty for length 0. Enough to follow how
-  /// the path stretches without walking it.
+  /// The home vertex, at most three vertices in between, and the border vertex; empty for length 0. They tell how the
+  /// path stretches, without a pass over all its vertices.
   std::vector<std::uint32_t> samples = {};
   double sampled_length = 0;  ///< of the polyline through the samples when the path was found
 };
@@ -41,26 +41,28 @@ struct Extent_input {
   const Position_function& position;
 };
 
-/// Measures one region: shortest paths from `home` along the edges within the region (Dijkstra, Boost.Graph, on the
-/// region's subgraph), then in each direction the nearest border vertex within the narrowest of four cones, of 5.6, 11,
-/// 22 and 45 degrees to either side, that holds one.
+/// Measures one region. First finds the shortest paths from `home` along the edges within the region (Dijkstra,
+/// Boost.Graph, on the region's subgraph). Then takes, in each direction, the nearest border vertex within a cone.
+/// There are four cones, of 5.6, 11, 22 and 45 degrees to either side; the narrowest that holds a border vertex counts.
 ///
-/// The border is made of the vertices with a neighbour in another region and those on an open border of the mesh. A
-/// region without border, a whole closed component, is measured to the farthest vertex within 45 degrees instead.
-/// O(V + n log n) for a region of n vertices, the V for its working memory; reads only positions of the region.
+/// The border consists of the vertices with a neighbour in another region and of those on an open border of the mesh. A
+/// region without a border is a whole closed component. It is measured to the farthest vertex within 45 degrees
+/// instead. O(V + n log n) for a region of n vertices, where V is for the working memory. Reads positions of the region
+/// only.
 ///
-/// @param normal  of the tangent plane, need not be a unit vector; zero: the plane z = 0
-/// @param x_axis  becomes X when projected into the plane; zero: the coordinate axis that lies flattest in the plane
+/// @param normal  of the tangent plane, of any length; zero: the plane z = 0
+/// @param x_axis  its projection into the plane becomes X; zero: the coordinate axis nearest to the plane
 Region_extent region_extent(const Extent_input& input, std::uint32_t home, const Eigen::Vector3d& normal,
                             const Eigen::Vector3d& x_axis = Eigen::Vector3d::Zero());
 
-/// Angle by which a vector is turned around the normal to point along X as `region_extent` chooses it by itself.
+/// Angle by which a vector must turn around the normal to point along the X that `region_extent` chooses for a zero
+/// `x_axis`.
 /// @param needle  any vector that is not parallel to the normal
-/// @return radians; 0 where an angle has no meaning
+/// @return radians; 0 if the angle is undefined
 double angle_to_axis(const Eigen::Vector3d& normal, const Eigen::Vector3d& needle);
 
-/// Area of the region now, as far as the samples tell: each path stretched as its polyline has. At most 20
-/// reads, whatever the size of the region.
+/// Estimated current area of the region: each path is assumed to have stretched as much as the polyline through its
+/// samples. At most 20 reads, whatever the size of the region.
 template <class Reader>
 double stretched_area(const Region_extent& extent, const Reader& reader) {
   std::array<double, 4> lengths{};

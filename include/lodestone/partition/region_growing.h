@@ -8,20 +8,21 @@
 namespace lodestone {
 
 struct Region_growing_options {
-  double angle = 25;       ///< most degrees between the normal of a face and that of its region's plane; [0, 90]
-  double distance = 0.02;  ///< of a corner from the plane, relative to the longest side of the bounding box; [0, 1]
+  double angle = 25;  ///< largest angle between the normals of a face and of its region's plane, degrees; [0, 90]
+  double distance =
+      0.02;  ///< largest distance of a corner from that plane, in longest sides of the bounding box; [0, 1]
 };
 
 /// Partition strategy: nearly flat areas, each grown from one face.
 ///
 /// Region growing of Lafarge and Mallet, "Creating large-scale city models from 3D-point clouds: a robust approach with
-/// hybrid representation", 2012, by CGAL's Shape_detection: from the first face that has no region a region spreads
-/// over neighbours that fit the plane of what it has, which is fitted anew after each ring. Unlike `vsa` nothing is
-/// optimised, and the shape decides how many regions there are; `adjust_region_count` then brings them to the number
-/// wanted. Vertices take the label of most of the area around them, see `vertex_labels`.
+/// hybrid representation", 2012, by CGAL's Shape_detection. A region starts at the first face that has none. It spreads
+/// over neighbours that fit the plane of its faces, which is fitted again after each ring. Unlike `vsa` nothing is
+/// optimised, and the shape decides how many regions there are. Then `adjust_region_count` brings them to the wanted
+/// number. Vertices take the label with the largest area around them, see `vertex_labels`.
 ///
-/// A face without area is a region of its own, which falls to its neighbours. Nothing is drawn at random. O(F r) for
-/// regions r rings across.
+/// A face without area is a region of its own at first, and then goes to its neighbours. Nothing is random. O(F r) for
+/// regions that are r rings across.
 struct Region_growing {
   static constexpr std::string_view name = "region_growing";
 
@@ -36,7 +37,7 @@ struct Region_growing {
 };
 
 /// The areas of `Region_growing` before their number is adjusted, per face; `no_region` for faces without area, and for
-/// those that are no part of a mesh.
+/// those that `oriented_mesh` leaves out.
 std::vector<Region_index> flat_areas(const Numbered_surface& surface, const Region_growing_options& options = {});
 
 }  // namespace lodestone

@@ -13,7 +13,7 @@ enum class Spectral_cut {
   zero,    ///< between negative and positive values, as Fiedler: where the part is narrowest, however unequal
 };
 
-/// Whose second eigenvector a Fiedler vector is.
+/// The matrix whose second eigenvector is the Fiedler vector.
 enum class Laplacian {
   combinatorial,  ///< D - A
   normalised,     ///< D^-1 (D - A): weighs a vertex by its number of neighbours
@@ -24,7 +24,7 @@ struct Spectral_options {
   Spectral_cut cut = Spectral_cut::median;
   Laplacian laplacian = Laplacian::combinatorial;
   double tolerance = 1e-6;           ///< of the residual, relative to the eigenvalue; (0, 1)
-  std::size_t max_iterations = 300;  ///< for one vector; then the one reached is good enough; [1, 1e6]
+  std::size_t max_iterations = 300;  ///< per Fiedler vector; the vector reached by then is used; [1, 1e6]
 };
 
 /// Partition strategy: the largest part is cut in two along its Fiedler vector, until there are N.
@@ -32,13 +32,14 @@ struct Spectral_options {
 /// The Fiedler vector is the eigenvector of the second smallest eigenvalue of the Laplacian of the part's mesh graph:
 /// Fiedler, "Algebraic connectivity of graphs", 1973; Pothen, Simon and Liou, "Partitioning sparse matrices with
 /// eigenvectors of graphs", 1990. It comes from inverse iteration on a block of vectors with a sparse Cholesky
-/// factorisation, for few vertices from a dense solver. A part in several pieces is divided by whole pieces first, the
-/// largest one dealt first to the emptier side. Positions do not count. Of vertices with equal values the one of lower
-/// number goes to the side of the part's lowest vertex, which has the smaller values by choice of the sign.
+/// factorisation; for few vertices, from a dense solver. A part in several pieces is first divided into whole pieces:
+/// they go to the emptier side one after the other, the largest first. Only the graph counts, not the positions. The
+/// sign is chosen such that the lowest vertex of the part is on the side of the smaller values. Of vertices with equal
+/// values, those of lower index go to that side.
 ///
-/// A factorisation of V vertices of a surface takes O(V^1.5) time and O(V log V) memory, more for a graph that is far
-/// from that of a surface: 100 000 vertices and 64 regions take about 10 s. Beyond `most_vertices` this strategy
-/// refuses.
+/// A factorisation of V vertices of a surface takes O(V^1.5) time and O(V log V) memory, and more for a graph unlike
+/// that of a surface. 100 000 vertices and 64 regions take about 10 s. The strategy refuses meshes with more than
+/// `most_vertices` vertices.
 struct Spectral {
   static constexpr std::string_view name = "spectral";
   static constexpr std::size_t most_vertices = 200000;
@@ -56,7 +57,7 @@ struct Spectral {
 /// Fiedler vector of a connected graph and its eigenvalue, the algebraic connectivity of the graph.
 struct Fiedler_vector {
   double eigenvalue = 0;
-  Eigen::VectorXd values;  ///< per vertex; the lowest vertex has none above 0
+  Eigen::VectorXd values;  ///< per vertex; that of the lowest vertex is not above 0
   std::size_t iterations = 0;
 };
 

@@ -9,10 +9,10 @@
 
 #include "lodestone/partition/lbg.h"
 
-/// Every strategy of the library by name, for programs that choose one while they run.
+/// Every strategy of the library by name, for programs that choose one at run time.
 namespace lodestone {
 
-/// What a caller can say to any strategy; each takes what concerns it.
+/// Settings for any strategy; each uses those that concern it.
 struct Strategy_settings {
   std::uint64_t seed = 1;  ///< of strategies that draw at random
   Lbg_options lbg = {};    ///< of `lbg` and its kin; `lbg.features` also of the others that quantise feature vectors
@@ -24,7 +24,7 @@ class Any_strategy {
   using Label = std::function<Labelling(const Numbered_surface&, std::size_t regions)>;
 
   Any_strategy() : Any_strategy(Lbg{}) {}
-  /// @param strategy  one that needs no more than the surface by number
+  /// @param strategy  one that needs no more than the surface by index
   template <class Strategy>
   requires requires(const Strategy& strategy, const Numbered_surface& surface) {
     { strategy.label(surface, std::size_t{1}) } -> std::same_as<Labelling>;
@@ -45,12 +45,12 @@ class Any_strategy {
   Label label_;
 };
 
-/// A line of the registry.
+/// An entry of the registry.
 struct Strategy_entry {
   std::string_view name;
   std::string_view summary;  ///< what a region is, in a few words
   Any_strategy (*make)(const Strategy_settings& settings);
-  std::size_t most_vertices;  ///< beyond so many the strategy refuses with Bad_argument
+  std::size_t most_vertices;  ///< with more vertices the strategy throws Bad_argument
 };
 
 /// All strategies, `lbg` first.

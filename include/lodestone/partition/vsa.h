@@ -8,23 +8,23 @@
 namespace lodestone {
 
 struct Vsa_options {
-  std::size_t relaxations = 2;         ///< after each proxy or doubling of them; [1, 100]
-  std::size_t single_insertions = 64;  ///< so many proxies come one by one, the rest by doubling; <= 1e6
+  std::size_t relaxations = 2;         ///< after each inserted proxy, and after each doubling; [1, 100]
+  std::size_t single_insertions = 64;  ///< proxies inserted one by one, before their number doubles; <= 1e6
   double tolerance = 0.01;             ///< relative change of the error at which relaxation ends; (0, 1)
-  std::size_t max_iterations = 30;     ///< of the relaxation at the end; <= 1e6
+  std::size_t max_iterations = 30;     ///< of the final relaxation; <= 1e6
 };
 
-/// Partition strategy: areas that a plane each approximates well.
+/// Partition strategy: areas that are each well approximated by a plane.
 ///
-/// Variational shape approximation of Cohen-Steiner, Alliez and Desbrun, "Variational shape approximation", 2004, by
-/// CGAL: the faces around N proxies (normals), each face with the one whose normal is nearest (metric L2,1), areas
-/// connected. A new proxy starts at the worst face of the worst area; beyond `single_insertions` their number doubles,
-/// where the error is. Vertices take the label of most of the area around them, see `vertex_labels`.
+/// Cohen-Steiner, Alliez and Desbrun, "Variational shape approximation", 2004, by CGAL. There are N proxies, which are
+/// normals, and each gathers a connected area: every face goes to the proxy with the nearest normal (metric L2,1). A
+/// new proxy starts at the worst face of the worst area. Beyond `single_insertions` the number of proxies doubles
+/// instead, where the error is. Vertices take the label with the largest area around them, see `vertex_labels`.
 ///
-/// Normals and areas of faces are Lodestone's own: a face whose area is no more than rounding has neither. As areas of
-/// fewer than four faces describe no shape, there are no more than F / 4 proxies; `adjust_region_count` makes up for
-/// the rest, and for labels that no vertex could keep. Nothing is drawn at random.
-/// O(N (F log F)) up to `single_insertions`: 200 000 faces and 64 regions take about 20 s.
+/// Normals and areas of faces are Lodestone's own: a face whose area is no more than rounding has neither. Areas of
+/// fewer than four faces describe no shape, so no more than about F / 4 proxies. `adjust_region_count` makes
+/// the missing regions, also for labels that no vertex could keep. Nothing is random. O(N (F log F)) up to
+/// `single_insertions`: 200 000 faces and 64 regions take about 20 s.
 struct Vsa {
   static constexpr std::string_view name = "vsa";
 

@@ -14,27 +14,28 @@
 
 namespace lodestone {
 
-/// Whether two faces of one mesh intersect: whether they have a point in common that lies on no vertex and no edge
-/// that both have, by vertex number. Exact for any finite coordinates.
+/// Whether two faces of one mesh intersect: whether they have a point in common that lies on no vertex and no edge that
+/// both have, by vertex index. Exact for any finite coordinates.
 ///
-/// Faces with an area intersect exactly when CGAL's `self_intersections` says so (Polygon mesh processing 5.5); so two
-/// with the same three vertices do. Faces without an area are the segments or points that they are: they intersect
-/// where they pass through another face or overlap it outside of what both share, and not where they only close a gap
-/// along an edge. CGAL lists each of them once, as a pair with itself, and looks at no other pair that it is in.
+/// Faces with an area intersect exactly when CGAL's `self_intersections` reports them (Polygon mesh processing 5.5). So
+/// two faces with the same three vertices intersect. A face without an area counts as the segment or point that it is.
+/// It intersects another face if it passes through it, or overlaps it outside of what both share. It does not intersect
+/// if it only closes a gap along an edge. CGAL reports each face without an area once, as a pair with itself, and tests
+/// no other pair with it.
 ///
-/// @param corners_a, corners_b  vertex numbers of the faces
-/// @param a, b                  where these vertices are
+/// @param corners_a, corners_b  vertex indices of the faces
+/// @param a, b                  positions of these vertices
 bool faces_intersect(const Corners& corners_a, const Triangle& a, const Corners& corners_b, const Triangle& b);
 
-/// Finds the intersecting pairs among the faces that share a vertex. Holds the memory that it needs; one for each
-/// thread.
+/// Finds the intersecting pairs among the faces that share a vertex. Holds its working memory, so each thread needs one
+/// of its own.
 class Neighbour_check {
  public:
-  /// Adds to `found`, in no particular order, the intersecting pairs, a < b, of which the least vertex that both faces
-  /// have is in [first, last). Ranges that split all vertices find each pair once.
+  /// Appends to `found`, in no particular order, the intersecting pairs, a < b, whose lowest common vertex is in
+  /// [first, last). Disjoint ranges that cover all vertices find each pair once.
   ///
-  /// A vertex whose faces, seen from some direction, lie side by side costs O(its faces), which is nearly every vertex
-  /// of a smooth surface. Around the others all pairs are looked at, most of them in floating point only.
+  /// A vertex whose faces lie side by side, seen from some direction, costs O(its faces). That is nearly every vertex
+  /// of a smooth surface. Around the others all pairs are tested, most of them in floating point only.
   ///
   /// @param fans, faces  of the mesh
   /// @param positions    three coordinates per vertex, all finite
@@ -46,14 +47,14 @@ class Neighbour_check {
   void reset_count() { exact_tests_ = 0; }
 
  private:
-  /// A face seen from the vertex at hand.
+  /// A face as seen from the current vertex.
   struct Wing {
     std::uint32_t face;
     std::array<std::uint32_t, 2> ends;    ///< the other corners
     std::array<Eigen::Vector3d, 2> arms;  ///< to them
-    std::array<double, 2> reach;          ///< largest coordinate of each arm
-    Eigen::Vector3d normal;               ///< of the arms: their cross product
-    double area;                          ///< product of the reaches; infinite where it is no measure for errors
+    std::array<double, 2> reach;          ///< largest absolute coordinate of each arm
+    Eigen::Vector3d normal;               ///< cross product of the arms
+    double area;                          ///< product of the reaches; infinite if it cannot bound errors
   };
 
   static Wing make_wing(const double* positions, const Corners& corners, std::uint32_t face, std::uint32_t vertex);

@@ -6,41 +6,43 @@
 #include "lodestone/mesh/box.h"
 #include "lodestone/triangles/triangle_intersection.h"
 
-/// How far apart two triangles are. Triangles without area count as the segments or points they are; coordinates may
+/// How far apart two triangles are. A triangle without area counts as the segment or point that it is. Coordinates may
 /// have any finite size. Distances are in the unit of the coordinates.
 namespace lodestone {
 
-/// Two points, and how far and in which direction the triangles they lie on are apart.
+/// The closest points of two triangles, and the distance and direction between the triangles.
 struct Closest_points {
   Point a;                                              ///< on the first triangle, up to rounding of its coordinates
   Point b;                                              ///< on the second
-  double distance = 0;                                  ///< infinity where it exceeds the largest double
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit vector from b to a; zero where the distance is
+  double distance = 0;                                  ///< infinity if it exceeds the largest double
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit vector from b to a; zero if the distance is zero
 };
 
-/// Where two triangles come nearest to each other; of several such places always the same.
+/// The closest points of two triangles. If several pairs of points are equally close, the choice is deterministic.
 ///
-/// `distance` has a relative error below 2^-30 where it is a normal number, however thin or nearly parallel the
-/// triangles are. It is zero if and only if `triangles_intersect`; then a and b are one point of the intersection.
-/// `direction` mostly has an error near 10^-15 times the triangles' size over their distance, and near 10^-15 where
-/// that is so large that exact arithmetic takes over; never above 10^-4. Both come from the triangles, not from a and
-/// b, which are rounded to double: far from the origin these may lie a few last digits of their coordinates off.
+/// `distance` has a relative error below 2^-30 if it is a normal number, however thin or nearly parallel the triangles
+/// are. It is zero if and only if `triangles_intersect`; a and b are then the same point of the intersection. The error
+/// of `direction` is mostly near 10^-15 times the triangles' size over their distance. Where that is so large that
+/// exact arithmetic takes over, the error is near 10^-15. It is never above 10^-4. Distance and direction are computed
+/// from the triangles, not from a and b. These two are rounded to double, so far from the origin they may be off by a
+/// few last digits of their coordinates.
 ///
-/// A pair of places computed in double is the answer if a plane between the triangles proves that no nearer pair
-/// exists. Otherwise, mostly at distances below 10^-6 of the triangles' size, exact arithmetic takes over, which is
-/// hundreds of times slower.
+/// A pair of points computed in double is accepted if a plane between the triangles proves that no nearer pair exists.
+/// Otherwise exact arithmetic takes over, which is hundreds of times slower. This happens mostly at distances below
+/// 10^-6 of the triangles' size.
 Closest_points closest_points(const Triangle& a, const Triangle& b);
 
-/// Whether two triangles intersect or have points nearer to each other than `distance`: exact, and strict, so that
-/// triangles exactly `distance` apart are not. For a `distance` of zero or less: whether they intersect.
+/// Whether two triangles intersect or have points nearer to each other than `distance`. Exact, and strict: triangles
+/// exactly `distance` apart are not nearer. For a `distance` of zero or less: whether they intersect.
 ///
-/// Floating point decides only what it can prove: 'no' by a plane between the triangles with their distance from it
-/// rounded down, 'yes' by one pair of their points in interval arithmetic. Exact arithmetic decides the rest.
+/// Floating point decides only what it can prove: 'no' by a plane between the triangles, with the distance across it
+/// rounded down; 'yes' by one pair of their points, in interval arithmetic. Exact arithmetic decides the rest.
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance);
 
-/// A lower bound of the distance of two boxes, not empty: 0 if they overlap, otherwise rounded down. Some ten flops.
+/// Lower bound on the distance of two non-empty boxes: 0 if they overlap, otherwise the distance rounded down.
 ///
-/// Falls short by a few roundings; by a factor of at most sqrt(3) for distances outside 10^-150 to 10^150.
+/// The bound falls short by a few roundings. For distances outside 10^-150 to 10^150 it falls short by a factor of at
+/// most sqrt(3). Some ten floating-point operations.
 double distance_lower_bound(const Box& a, const Box& b);
 
 }  // namespace lodestone

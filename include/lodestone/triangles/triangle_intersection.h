@@ -12,8 +12,8 @@ namespace lodestone {
 using Triangle = std::array<Point, 3>;
 
 /// The triangle of a face.
-/// @param corners   three numbers
-/// @param position  coordinates of a corner by its number, indexed by []
+/// @param corners   its three corners, such as vertex indices
+/// @param position  maps a corner to coordinates that are indexed by []
 template <class Face_corners, class Position>
 Triangle face_triangle(const Face_corners& corners, const Position& position) {
   const auto point = [&](auto corner) {
@@ -23,7 +23,7 @@ Triangle face_triangle(const Face_corners& corners, const Position& position) {
   return {point(corners[0]), point(corners[1]), point(corners[2])};
 }
 
-/// Where x, y and z of each corner of a triangle are.
+/// Pointers to x, y and z of each corner of a triangle.
 using Triangle_corners = std::array<const double*, 3>;
 
 inline Triangle triangle_of(const Triangle_corners& corners) {
@@ -32,10 +32,10 @@ inline Triangle triangle_of(const Triangle_corners& corners) {
 
 /// Whether two triangles have a point in common; touching counts. Exact for any finite coordinates.
 ///
-/// CGAL's `do_intersect` under an exact-predicates kernel asks for triangles with an area. One whose corners are
-/// collinear is taken as what it is, a segment or a point.
+/// CGAL's `do_intersect` under an exact-predicates kernel requires triangles with an area. A triangle with collinear
+/// corners is therefore tested as the segment or point that it is.
 bool triangles_intersect(const Triangle& a, const Triangle& b);
-/// The same with a guess, which may be wrong: where it is right, five orientations are enough, and one corner is not
+/// The same, given a guess that may be wrong. If it is right, five orientation tests are enough and one corner is not
 /// read.
 bool triangles_intersect_given(const Triangle_corners& a, const Triangle_corners& b, Crossing likely);
 
@@ -43,8 +43,8 @@ bool triangles_intersect_given(const Triangle_corners& a, const Triangle_corners
 /// which two coplanar triangles overlap (at most 6).
 using Intersection_points = boost::container::static_vector<Point, 6>;
 
-/// Where two triangles meet. Computed with exact constructions and rounded to double once, at the end; empty if they
-/// have no point in common.
+/// The intersection of two triangles. Computed with exact constructions and rounded to double once, at the end. Empty
+/// if they have no point in common.
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b);
 
 }  // namespace lodestone
