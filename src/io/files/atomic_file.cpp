@@ -26,7 +26,7 @@ Atomic_file::Atomic_file(std::filesystem::path target) : target_(std::move(targe
     std::filesystem::create_directories(target_.parent_path(), error);
     if (error) throw Bad_output(target_.parent_path().string() + ": cannot make the folder: " + error.message());
   }
-  // O_EXCL: never a file, or a link to one, that somebody else has put there.
+  // O_EXCL: never opens an existing file or link, which another user may have put there.
   for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
     temporary_ = target_;
     temporary_.replace_filename("." + target_.filename().string() + "." + std::to_string(::getpid()) + "." +

@@ -22,7 +22,7 @@ constexpr std::string_view digits = "0123456789";
 
 struct Pattern {
   std::string before, after;  ///< of the file's name, around the number
-  std::size_t width = 0;      ///< least number of digits; 0: any
+  std::size_t width = 0;      ///< minimum number of digits; 0: any
 };
 
 Pattern parse(const fs::path& pattern) {
@@ -37,7 +37,7 @@ Pattern parse(const fs::path& pattern) {
           .width = name[first] == '*' ? 0 : last + 1 - first};
 }
 
-/// The digits that stand in the number's place; nothing if the name does not fit the pattern.
+/// The digits of the number in a file name; nothing if the name does not match the pattern.
 std::optional<std::string> digits_of(const std::string& name, const Pattern& pattern) {
   if (name.size() <= pattern.before.size() + pattern.after.size()) return std::nullopt;
   if (!name.starts_with(pattern.before) || !name.ends_with(pattern.after)) return std::nullopt;
@@ -49,7 +49,7 @@ std::optional<std::string> digits_of(const std::string& name, const Pattern& pat
 }
 
 std::size_t value_of(const std::string& number, const fs::path& file) {
-  constexpr std::size_t most_digits = 18;  // that fit into 64 bits, whatever they are
+  constexpr std::size_t most_digits = 18;  // any number of 18 digits fits into 64 bits
   const auto significant = std::min(number.find_first_not_of('0'), number.size() - 1);
   if (number.size() - significant > most_digits)
     throw Bad_motion(fmt::format("{}: the number in the file's name is too large", file.string()));

@@ -14,10 +14,10 @@ namespace lodestone {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
-/// Far beyond any line of a mesh: a huge binary file is refused here, before all of it is searched for a line's end.
+/// Far longer than any line of a mesh: refuses a huge binary file before all of it is searched for a line end.
 constexpr std::size_t longest_line = std::size_t{1} << 26U;
 
-/// std::from_chars knows no leading plus, which is legal in every text format.
+/// std::from_chars does not accept a leading plus, which is legal in every text format.
 std::string_view without_plus(std::string_view word) {
   const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   return plus ? word.substr(1) : word;

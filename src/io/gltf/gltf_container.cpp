@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using detail::Json_value;
 
-// A binary glTF file: magic number, version, length of the file; then chunks, each with length and type in front.
+// A binary glTF file: magic number, version, length of the file; then chunks, each preceded by its length and type.
 constexpr std::string_view magic = "glTF";
 constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
@@ -33,7 +33,7 @@ struct Chunk {
   std::string_view bytes;
 };
 
-/// The chunk at `offset`, which is moved behind it; nothing at the file's end.
+/// Reads the chunk at `offset` and advances `offset` past it; nothing at the end of the file.
 std::optional<Chunk> next_chunk(const File_bytes& file, std::string_view bytes, std::size_t& offset) {
   if (offset == bytes.size()) return std::nullopt;
   if (bytes.size() - offset < chunk_header_bytes) file.fail_at(offset, "the file ends within the header of a chunk");
@@ -64,10 +64,10 @@ void read_binary_gltf(const File_bytes& file, Gltf_document& document) {
     document.has_binary = true;
     document.binary.assign(second->bytes.begin(), second->bytes.end());
   }
-  while (next_chunk(file, bytes, offset)) continue;  // later chunks must be whole, and mean nothing
+  while (next_chunk(file, bytes, offset)) continue;  // further chunks must be complete, and are ignored
 }
 
-/// `uri` with %20 and the like replaced by what they stand for.
+/// `uri` with percent-encoded characters decoded.
 std::string decoded(const std::string& uri) {
   std::string result;
   for (std::size_t i = 0; i < uri.size(); ++i) {

@@ -17,7 +17,7 @@ using detail::Json;
 using detail::Json_value;
 
 constexpr std::size_t most_elements = 10'000'000;
-// tinygltf keeps some offsets and counts in 32 bits with sign.
+// tinygltf stores some offsets and counts as signed 32-bit integers.
 constexpr std::size_t most_bytes = std::numeric_limits<std::int32_t>::max();
 
 struct Component {
@@ -31,7 +31,8 @@ struct Element {
   std::string_view name;
   std::size_t numbers;
 };
-// Matrices of bytes and shorts have gaps in them and stand in no attribute that is read.
+// MAT2 and MAT3 are missing, and MAT4 is read as floats only: no attribute that is read uses the others, and matrices
+// of bytes and shorts have padding.
 constexpr std::array<Element, 5> elements{{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}}};
 
 struct Accessor {
@@ -39,14 +40,14 @@ struct Accessor {
   std::size_t component = 0;
   std::size_t count = 0;
   bool normalized = false;
-  bool readable = true;  ///< of a type that is read
+  bool readable = true;  ///< false for the matrix types that are not read
 };
 
 struct View {
   std::size_t length = 0, stride = 0;
 };
 
-/// Goes through the sections in the order in which they refer to each other, and copies what is used.
+/// Checks the sections in the order in which they refer to each other, and copies what is used.
 class Guard {
  public:
   Guard(const Gltf_document& document, const std::vector<Bytes>& buffers)
@@ -78,7 +79,7 @@ class Guard {
     }
   }
 
-  /// A number of something that there are `count` of.
+  /// `value` as an index into a list of `count` elements.
   static std::size_t index(const Json_value& value, std::string_view things, std::size_t count) {
     if (count == 0) value.fail(fmt::format("refers to one of the {}, of which there are none", things));
     return value.count(0, count - 1);
@@ -111,7 +112,7 @@ class Guard {
   Json plain_;
   std::vector<View> views_;
   std::vector<Accessor> accessors_;
-  std::size_t most_stored_ = 0;            ///< elements of the longest accessor whose elements the file holds
+  std::size_t most_stored_ = 0;            ///< length of the longest accessor whose elements are stored in the file
   std::vector<std::size_t> mesh_targets_;  ///< morph targets per mesh
   std::vector<bool> mesh_has_joints_;
   std::size_t nodes_ = 0;
@@ -123,7 +124,7 @@ void Guard::check_asset() const {
   const auto version = asset.at("version").text();
   if (!version.starts_with("2."))
     asset.at("version").fail(fmt::format("expected 2.0, found {}", detail::in_quotes(version)));
-  // An extension that changes where vertices are must be known; one that changes how they look need not be.
+  // An extension that affects positions must be supported; one that affects only appearance may be ignored.
   for (const auto& extension : root_.list("extensionsRequired", most_elements)) {
     const auto name = extension.text();
     const bool harmless = name == "KHR_mesh_quantization" || name.starts_with("KHR_materials_") ||
@@ -150,7 +151,7 @@ Json Guard::copy_view(const Json_value& view) {
   return plain;
 }
 
-/// @param stride  from one element to the next
+/// @param stride  bytes from one element to the next
 void Guard::expect_room(const Json_value& place, std::size_t view, std::size_t offset, std::size_t count,
                         std::size_t bytes, std::size_t stride) const {
   const auto length = views_[view].length;
@@ -165,7 +166,7 @@ void Guard::copy_accessors() {
     accessor.expect_object();
     plain_["accessors"].push_back(copy_accessor(accessor));
   }
-  // Elements that are all zero take no bytes: there may be as many as of something that takes some.
+  // An accessor of zeros is not stored, so the file's size does not limit it: the longest stored accessor does.
   for (std::size_t i = 0; i < all.size(); ++i)
     if (accessors_[i].count > most_stored_)
       all[i].fail(fmt::format("has {} elements, more than the file holds of anything", accessors_[i].count));
@@ -224,7 +225,7 @@ Json Guard::copy_sparse(const Json_value& sparse, std::size_t count, std::size_t
 }
 
 /// The accessor that `place` names, which must have this type.
-/// @param whole  whole numbers are wanted, otherwise real ones, which may be stored as normalized integers
+/// @param whole  true: unsigned integers; false: real numbers, which may be stored as normalized integers
 const Accessor& Guard::expect(const Json_value& place, std::string_view type, bool whole) const {
   const auto& accessor = accessors_[accessor_index(place)];
   if (accessor.type != type || !accessor.readable)
@@ -266,7 +267,7 @@ Json Guard::copy_primitive(const Json_value& primitive, std::size_t& targets) co
              {"mode", primitive.count("mode", 0, 6, 4)}};
   if (const auto indices = primitive.find("indices")) {
     expect(*indices, "SCALAR", true);
-    // tinygltf refuses indices that are all zero.
+    // tinygltf refuses an accessor of indices that has no buffer view.
     const auto number = accessor_index(*indices);
     if (!plain_["accessors"][number].contains("bufferView")) indices->fail("expected indices with a buffer view");
     plain["indices"] = number;
@@ -286,7 +287,7 @@ Json Guard::copy_primitive(const Json_value& primitive, std::size_t& targets) co
   return plain;
 }
 
-/// POSITION, and JOINTS_n with WEIGHTS_n.
+/// Copies POSITION, and the pairs JOINTS_n and WEIGHTS_n.
 Json Guard::copy_attributes(const Json_value& attributes, std::size_t& vertices) const {
   const auto position = attributes.at("POSITION");
   vertices = expect(position, "VEC3", false).count;
@@ -355,7 +356,7 @@ void Guard::copy_place(const Json_value& node, Json& plain) const {
   }
 }
 
-/// A node has one parent at most, and is not below itself.
+/// Checks that every node has at most one parent and is not its own ancestor.
 void Guard::check_tree() const {
   std::vector<std::size_t> parent(nodes_, nodes_);
   const auto all = root_.list("nodes", most_elements);
@@ -402,7 +403,7 @@ Json Guard::copy_animation(const Json_value& animation) const {
   for (const auto& channel : animation.at("channels").elements(most_elements)) {
     const auto sampler = index(channel.at("sampler"), "samplers", plain["samplers"].size());
     const auto target = channel.at("target");
-    // A channel of an extension, or of a node that is left open, moves nothing that is read.
+    // Skipped: a channel of an extension, or without a node, moves nothing that is read.
     const auto path = target.at("path").text();
     if (!target.has("node") || path == "pointer") continue;
     const auto node = index(target.at("node"), "nodes", nodes_);
@@ -421,7 +422,7 @@ Json Guard::copy_sampler(const Json_value& sampler) const {
           {"interpolation", interpolation ? interpolation->word({"LINEAR", "STEP", "CUBICSPLINE"}) : "LINEAR"}};
 }
 
-/// The keys of a sampler must be as many as its times, and of the kind that the target takes.
+/// Checks that a sampler has as many keys as times, and of the type that the target takes.
 void Guard::check_channel(const Json_value& target, const Json& sampler) const {
   const auto path = target.at("path").word({"translation", "rotation", "scale", "weights"});
   const auto& keys = accessors_[sampler["output"].get<std::size_t>()];

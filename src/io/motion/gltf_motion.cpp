@@ -29,7 +29,7 @@ std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, s
 }
 
 std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate) {
-  // The end may be rounded down by what a float can lose.
+  // The tolerance allows for an end that was rounded down to a float.
   const double frames = std::floor(animation.seconds * rate * (1 + 1e-6)) + 1;
   if (!(frames <= double{most_frames}))
     throw Bad_motion(fmt::format("{}: {} seconds at {} frames per second are more than {} frames", scene.name,
@@ -51,7 +51,7 @@ Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_opti
     if (positions.size() != scene->vertices)
       throw Bad_motion(fmt::format("{}: positions of {} vertices are asked for, the file has {}", scene->name,
                                    positions.size(), scene->vertices));
-    // Times of keys are floats: rounded alike, a frame at a key finds its value.
+    // Key times are floats. With the same rounding, a frame at a key gets the key's exact value.
     const auto time = static_cast<float>(static_cast<double>(frame) / rate);
     pose_gltf(*scene, &scene->animations[number], time, positions);
   };

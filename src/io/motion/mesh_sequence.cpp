@@ -25,7 +25,7 @@ Mesh_soup read_frame(const std::filesystem::path& file) {
   }
 }
 
-/// What all frames must have in common with the first.
+/// The properties of the first frame that all others must share.
 struct First_frame {
   std::filesystem::path file;
   Faces corners;

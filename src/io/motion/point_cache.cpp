@@ -28,7 +28,7 @@ template <class... Values>
   throw Bad_motion(fmt::format("{}: {}", file.string(), fmt::format(cause, std::forward<Values>(values)...)));
 }
 
-/// Where the positions of a cache begin, and in which order of bytes they stand.
+/// Where the positions of a cache begin, and their endianness.
 struct Cache {
   fs::path file;
   Point_cache header = {};
@@ -51,13 +51,13 @@ std::array<char, Bytes> read_header(std::ifstream& in, const fs::path& file) {
   return header;
 }
 
-/// @param at  of the number in the file, for the message
+/// @param at  offset of the number in the file, for the message
 std::size_t positive(std::int32_t number, std::size_t at, std::string_view things, const fs::path& file) {
   if (number < 1) fail(file, "byte {}: the cache has {} {}, expected 1 or more", at, number, things);
   return static_cast<std::size_t>(number);
 }
 
-/// The file must be long enough for all that its header announces.
+/// Refuses a file that is shorter than its header announces.
 void check_length(const Cache& cache) {
   std::error_code ignored;
   const auto& [format, vertices, frames, rate] = cache.header;
@@ -86,7 +86,7 @@ Cache open_pc2(const fs::path& file) {
 
 // ---- MDD ----
 
-/// Frames per second by the first and last time; the times between them are not looked at.
+/// Frames per second from the first and last time; the times between them are ignored.
 double mdd_rate(std::ifstream& in, const fs::path& file, std::size_t frames) {
   std::array<char, sizeof(float)> raw{};
   std::array<double, 2> ends{};
@@ -99,7 +99,7 @@ double mdd_rate(std::ifstream& in, const fs::path& file, std::size_t frames) {
   return std::isfinite(rate) && rate > 0 ? rate : 0;
 }
 
-/// Without a signature the length is all that tells a cache from something else.
+/// The format has no signature: only the length tells an MDD cache from another file.
 void check_mdd_length(const Cache& cache) {
   std::error_code ignored;
   const auto wanted = cache.first_frame + cache.header.frames * cache.header.vertices * point_bytes;
@@ -131,7 +131,7 @@ Cache open_mdd(const fs::path& file) {
 
 // ---- Frames ----
 
-/// The file is opened for each frame: a motion then has no state, and threads may share it.
+/// Opens the file for each frame: a motion then has no state, and threads may share it.
 std::vector<char> read_frame(const Cache& cache, std::size_t frame) {
   std::vector<char> bytes(cache.header.vertices * point_bytes);
   std::ifstream in(cache.file, std::ios::binary);
@@ -150,8 +150,8 @@ bool is_finite(const Point& point) {
   return std::isfinite(point.x()) && std::isfinite(point.y()) && std::isfinite(point.z());
 }
 
-/// @param vertices  number that is asked for
-/// @param counted_at  place of the number of vertices in the file
+/// @param vertices  required number of vertices
+/// @param counted_at  offset of the number of vertices in the file
 Motion motion_of(const Cache& cache, std::size_t vertices, std::size_t counted_at) {
   const auto& header = cache.header;
   if (header.vertices != vertices)

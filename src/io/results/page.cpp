@@ -31,7 +31,7 @@ Json box_json(const Box& box) {
   return {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()};
 }
 
-/// The sections of a container, and the names by which its header finds them.
+/// The sections of a container, with the names that its header uses for them.
 class Section_list {
  public:
   std::string add(std::string name, const Section& section) {
@@ -64,7 +64,7 @@ std::string container(const std::string& header, const std::string& sections) {
   return bytes + header + sections;
 }
 
-/// @throws Bad_argument  the frames do not have the same parts
+/// @throws Bad_argument  the two frames have different parts
 void check_parts(const Page_frame& first, const Page_frame& frame) {
   if (frame.particles.size() != first.particles.size() || frame.numbers.empty() != first.numbers.empty() ||
       frame.stages.empty() != first.stages.empty() || frame.candidates.has_value() != first.candidates.has_value() ||
