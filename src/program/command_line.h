@@ -5,16 +5,16 @@
 #include <filesystem>
 #include <optional>
 
-/// What the command lines of the program and of the experiments share.
+/// Command-line parsing for the program and the experiments.
 namespace lodestone {
 
-/// A script whose variable is empty must not lose its results without a word.
+/// Refuses an empty name: a script with an empty variable must not silently lose its results.
 CLI::Validator not_empty();
 
 CLI::Option* add_html(CLI::App& app, std::filesystem::path& html, const char* what);
 
-/// Parses the command line. Prints help or version if asked for, else one line about what is wrong.
-/// @return the exit code, if there is nothing left to do
+/// Parses the command line. Prints help or version on request, and one line if an argument is wrong.
+/// @return the exit code, if the program is to end
 std::optional<int> parse(CLI::App& program, int argc, char** argv);
 
 }  // namespace lodestone

@@ -9,14 +9,14 @@
 #include "program/command_line.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
-#include "program/run_reported.h"
 #include "program/printable.h"
+#include "program/run_reported.h"
 
 namespace lodestone {
 
 namespace {
 
-/// Takes a name to its value, which CLI11 wants as a number.
+/// Converts a name to its value, which CLI11 expects as a number.
 template <class Value>
 CLI::Validator one_of(const std::map<std::string, Value>& names) {
   return {[names](std::string& text) -> std::string {
@@ -33,10 +33,10 @@ CLI::Validator one_of(const std::map<std::string, Value>& names) {
           ""};
 }
 
-/// Squares of larger weights leave the range of a double.
+/// Limits the weight so that squared weighted vectors cannot overflow.
 constexpr double largest_normal_weight = 1e6;
 
-/// The strategies and what a region of each is.
+/// The strategies, with a summary of each.
 std::string strategy_list() {
   std::string list = "Strategies:";
   for (const auto& strategy : strategies()) list += fmt::format("\n  {:<16} {}", strategy.name, strategy.summary);
@@ -202,14 +202,14 @@ int run_commands(int argc, char** argv) {
   add_partition(program, partition);
   add_info(program, info);
   add_convert(program, convert);
-  // Listed here for its help; the program of the experiments reads its arguments.
+  // Registered for the help only: the program of the experiments parses its arguments.
   program.add_subcommand("experiment", "Run one of the experiments")->prefix_command()->set_help_flag();
 
   if (const auto done = parse(program, argc, argv)) return *done;
   int code = exit_code::success;
   detect.options.senin.seed = detect.partition.settings.seed;
   detect.partition.settings.lbg.threads = detect.options.exact.threads;
-  // What is to be looked at should be there.
+  // A page shows contacts, so it asks for all of them by default.
   if (!detect.html.empty() && program.get_subcommand("detect")->count("--contacts") == 0)
     detect.options.contacts = Contact_query::all;
   if (program.got_subcommand("detect"))

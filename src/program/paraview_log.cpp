@@ -41,7 +41,7 @@ std::vector<Marks> touched_faces(const Scene& scene, const Frame& result) {
   return touched;
 }
 
-/// All objects as one surface, and what is known of each vertex and face.
+/// All objects as one surface, with the data of each vertex and face.
 Vtp_data meshes_of(const Scene& scene, const Frame& result) {
   Vtp_data data;
   Numbers region, object_of_vertex, vertex, object_of_face, face;
@@ -93,7 +93,7 @@ Vtp_data particles_of(const Scene& scene) {
   return data;
 }
 
-/// Where two faces meet, or, if they are only near, their nearest points.
+/// Where two faces intersect or, if they are only near, their nearest points.
 Intersection_points meeting_points(const Triangle& a, const Triangle& b) {
   auto points = triangle_intersection(a, b);
   if (!points.empty()) return points;
