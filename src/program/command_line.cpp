@@ -11,7 +11,7 @@
 namespace lodestone {
 
 CLI::Validator not_empty() {
-  return {[](const std::string& text) { return std::string(text.empty() ? "a name is wanted, found none" : ""); }, ""};
+  return {[](const std::string& text) { return std::string(text.empty() ? "expected a name, found none" : ""); }, ""};
 }
 
 CLI::Option* add_html(CLI::App& app, std::filesystem::path& html, const char* what) {

@@ -89,7 +89,7 @@ int run(const Convert_command& command) {
   const double own_rate = animation.frames_per_second > 0 ? animation.frames_per_second : usual_rate;
   options.frames_per_second = (command.rate > 0 ? command.rate : own_rate) / static_cast<double>(choice.step);
   if (command.regions > 0) {
-    if (animation.faces.empty()) throw Bad_argument("--regions: needs faces, give the mesh of the point cache");
+    if (animation.faces.empty()) throw Bad_argument("--regions needs faces: give the mesh of the point cache");
     options.regions = regions_of(animation, choice.first, command.regions);
   }
   {

@@ -226,7 +226,7 @@ void Run::print() const {
     table.add(std::move(row));
   }
   fmt::print("{}: {} objects, {} frames\n\n{}", scene_.name, names_.size(), scene_.frames, table.text());
-  if (names_.size() > 4) fmt::print("Pairs that never collide are left out.\n");
+  if (names_.size() > 4) fmt::print("Pairs that never collide are omitted.\n");
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
   const bool exact = command_.options.mode == Mode::exact;
   fmt::print("\n{:.1f} microseconds per frame (median), {:.1f} {}, {:.1f} exact tests (mean)\n",
@@ -256,7 +256,7 @@ void write_results(Run& scene_run, std::optional<Atomic_file>& frames, const Det
 
 int run(const Detect_command& command) {
   if (command.truth && command.options.exact.tolerance > 0)
-    throw Bad_argument("--truth tells which faces intersect: it cannot judge those that are --within a distance");
+    throw Bad_argument("--truth compares intersecting faces only: it cannot be combined with --within");
   Run scene_run(command);
   std::optional<Atomic_file> frames;
   if (!command.out.empty()) frames.emplace(command.out / "frames.jsonl");

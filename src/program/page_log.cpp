@@ -159,8 +159,8 @@ std::optional<double> Page_log::nearest() {
 
 std::string Page_log::summary() const {
   if (frame_step_ == 1) return file_.summary() + "\n";
-  return fmt::format("{}, {} of {} frames: the first of every {} (see --html-frames)\n", file_.summary(),
-                     page_.frames(), scene_.frames, frame_step_);
+  return fmt::format("{}, {} of {} frames: one of every {} (see --html-frames)\n", file_.summary(), page_.frames(),
+                     scene_.frames, frame_step_);
 }
 
 }  // namespace lodestone

@@ -116,7 +116,7 @@ int run(const Partition_command& command) {
   if (!command.out.empty() && command.out.extension() != ".ply")
     throw Bad_argument(command.out.string() + ": the coloured mesh is written as .ply");
   if (!command.out.empty() && command.out == command.json)
-    throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics need a file each");
+    throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics cannot be the same file");
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, command.json);
   Mesh_file file = read_mesh(command.mesh);

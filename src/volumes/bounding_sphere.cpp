@@ -85,8 +85,7 @@ bool encloses(const Bounding_sphere& a, const Bounding_sphere& b, double distanc
 void Bounding_sphere::enclose(const Leaf_faces& faces) {
   kernel::Leaf_points points;
   if (faces.vertices.size() > points.capacity)
-    throw Bad_argument("a ball is fitted to at most 384 vertices, those of a leaf, but there are " +
-                       std::to_string(faces.vertices.size()));
+    throw Bad_argument("a leaf has at most 384 vertices, found " + std::to_string(faces.vertices.size()));
   kernel::gather(faces.coordinates.data(), faces.vertices.data(), faces.vertices.size(), points);
   const Fit ball = fit(points);
   if (is_ordinary(ball.squared_radius)) {

@@ -58,7 +58,7 @@ class Syntax_check final : public nlohmann::json_sax<Json> {
   bool key(string_t& key) override {
     Level& level = levels_.back();
     if (!level.keys.insert(key).second)
-      throw Bad_scene(fmt::format("{}: {}: key {} stands twice", name_, place(), in_quotes(key)));
+      throw Bad_scene(fmt::format("{}: {}: duplicate key {}", name_, place(), in_quotes(key)));
     level.key = key;
     return true;
   }

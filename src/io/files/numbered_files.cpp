@@ -31,7 +31,7 @@ Pattern parse(const fs::path& pattern) {
   const auto last = name.find_last_of(marks);
   const bool one_run = first != name.npos && name.find_first_not_of(name[first], first) > last;
   if (!one_run || (name[first] == '*' && first != last))
-    throw Bad_argument(fmt::format("{}: expected one * or one run of # in the number's place", pattern.string()));
+    throw Bad_argument(fmt::format("{}: expected one * or one run of # for the number", pattern.string()));
   return {.before = name.substr(0, first),
           .after = name.substr(last + 1),
           .width = name[first] == '*' ? 0 : last + 1 - first};
@@ -63,7 +63,7 @@ void check_no_gap(const Numbered& files, const Pattern& pattern) {
     if (next->first == file->first + 1) continue;
     const auto width = digits_of(file->second.filename().string(), pattern)->size();
     const auto missing = fmt::format("{}{:0{}}{}", pattern.before, file->first + 1, width, pattern.after);
-    throw Bad_motion(fmt::format("{}: there is no such file, but {} and {} are there",
+    throw Bad_motion(fmt::format("{}: there is no such file, but {} and {} exist",
                                  (file->second.parent_path() / missing).string(), file->second.filename().string(),
                                  next->second.filename().string()));
   }

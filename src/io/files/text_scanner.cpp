@@ -39,7 +39,7 @@ bool Text_scanner::next_line() {
     ++line_number_;
     line_ = text.substr(next_, longest_line);
     line_ = line_.substr(0, line_.find('\n'));
-    if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is no text");
+    if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is not text");
     next_ = std::min(next_ + line_.size() + 1, text.size());
     if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
     if (line_.find_first_not_of(blanks) != std::string_view::npos) return true;

@@ -46,7 +46,7 @@ class Model_reader {
     const auto size = file_.view().size();
     if (offset > size || count > (size - offset) / bytes)
       file_.fail_at(
-          at, fmt::format("{} {} from byte {} on cannot stand in a file of {} bytes", count, things, offset, size));
+          at, fmt::format("{} {} from byte {} on do not fit into a file of {} bytes", count, things, offset, size));
   }
 
   const File_bytes& file_;
@@ -177,7 +177,7 @@ Game_model Model_reader::read() {
   else if (file_.view().starts_with("IDP3"))
     read_md3();
   else
-    file_.fail_at(0, "expected IDP2 or IDP3, this is no MD2 or MD3 model");
+    file_.fail_at(0, "expected IDP2 or IDP3, this is not an MD2 or MD3 model");
   model_.bytes = file_.view();
   if (!model_.is_md2) weld(model_);
   return std::move(model_);

@@ -20,7 +20,7 @@ void read_header(Text_scanner& text, std::size_t max_faces, Guarded_mesh& mesh) 
   if (!is_off_keyword(keyword))
     text.fail(fmt::format("expected OFF, COFF, NOFF or alike, found {}", in_quotes(keyword)));
   auto word = text.next_word_of_file();
-  if (word == "BINARY") text.fail("binary OFF is not read, only text");
+  if (word == "BINARY") text.fail("binary OFF is not supported, only text");
   mesh.vertices = text.count(word);
   mesh.faces = text.count(text.next_word());
   if (mesh.faces == 0 || mesh.vertices == 0) text.fail("the file holds no face");

@@ -68,7 +68,7 @@ void add_property(Text_scanner& text, Ply_header& header) {
   auto& properties = header.elements.back().properties;
   auto property = read_property(text);
   if (std::ranges::count(properties, property.name, &Ply_property::name) != 0)
-    text.fail(fmt::format("property {} stands twice in one element", in_quotes(property.name)));
+    text.fail(fmt::format("duplicate property {} in one element", in_quotes(property.name)));
   properties.push_back(std::move(property));
 }
 

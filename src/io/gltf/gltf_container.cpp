@@ -42,7 +42,7 @@ std::optional<Chunk> next_chunk(const File_bytes& file, std::string_view bytes, 
   const auto body = offset + chunk_header_bytes;
   if (length > bytes.size() - body)
     file.fail_at(offset,
-                 fmt::format("a chunk of {} bytes cannot stand in the {} that follow", length, bytes.size() - body));
+                 fmt::format("a chunk of {} bytes does not fit into the {} that follow", length, bytes.size() - body));
   offset = body + length;
   return Chunk{type, bytes.substr(body, length)};
 }
@@ -98,12 +98,13 @@ Bytes read_start(const fs::path& file, std::size_t length, const Json_value& uri
 Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder) {
   const auto text = uri.text();
   if (tinygltf::IsDataURI(text)) {
-    if (text.size() < length) uri.fail(fmt::format("{} bytes are announced, the text is too short for them", length));
+    if (text.size() < length)
+      uri.fail(fmt::format("{} bytes are announced, the data URI is too short for them", length));
     Bytes bytes;
     std::string mime_type;
     const bool is_decoded = tinygltf::DecodeDataURI(&bytes, mime_type, text, 0, false);
     if (!is_decoded || bytes.size() < length)
-      uri.fail(fmt::format("{} bytes are announced, {} stand there", length, bytes.size()));
+      uri.fail(fmt::format("{} bytes are announced, the data URI has {}", length, bytes.size()));
     bytes.resize(length);
     return bytes;
   }

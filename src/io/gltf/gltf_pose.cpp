@@ -155,8 +155,8 @@ void pose_part(const Gltf_scene& scene, const Gltf_part& part, const Posed_nodes
       if (weight != 0) moved += weight * (joints[shape.joints[influence]] * at);
     }
     if (!moved.allFinite())
-      throw Bad_motion(fmt::format("{}: vertex {} (counted from 0) is moved to a place that is not finite", scene.name,
-                                   part.first_vertex + vertex));
+      throw Bad_motion(fmt::format("{}: vertex {} (counted from 0) is moved to a position that is not finite",
+                                   scene.name, part.first_vertex + vertex));
     positions[part.first_vertex + vertex] = Point(moved.x(), moved.y(), moved.z());
   }
 }

@@ -250,7 +250,8 @@ Motion deform(std::vector<Point> rest, std::vector<Deformation> deformations) {
   auto pose = [shape = measure(std::move(rest)), steps = std::move(deformations)](std::size_t frame,
                                                                                   std::span<Point> positions) {
     if (positions.size() != shape.points.size())
-      throw Bad_motion(fmt::format("deformation of {} vertices asked for {}", shape.points.size(), positions.size()));
+      throw Bad_motion(fmt::format("positions of {} vertices are requested, the shape has {}", positions.size(),
+                                   shape.points.size()));
     std::ranges::copy(shape.points, positions.begin());
     for (const Deformation& step : steps)
       std::visit([&](const auto& d) { apply(d, shape, double(frame), positions); }, step);

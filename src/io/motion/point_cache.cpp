@@ -75,7 +75,7 @@ Cache open_pc2(const fs::path& file) {
   const auto header = read_header<pc2::header_bytes>(in, file);
   const auto number_at = [&](std::size_t offset) { return load<std::int32_t>(header.data() + offset); };
   if (std::string_view(header.data(), pc2::signature.size()) != pc2::signature)
-    fail(file, "byte 0: expected 'POINTCACHE2', this is no PC2 point cache");
+    fail(file, "byte 0: expected 'POINTCACHE2', this is not a PC2 point cache");
   const auto version = number_at(pc2::version_at);
   if (version != 1) fail(file, "byte {}: expected version 1, found {}", pc2::version_at, version);
   Cache cache{.file = file, .first_frame = pc2::header_bytes};
@@ -105,7 +105,7 @@ void check_mdd_length(const Cache& cache) {
   const auto wanted = cache.first_frame + cache.header.frames * cache.header.vertices * point_bytes;
   const auto found = file_size(cache.file, ignored);
   if (found != wanted)
-    fail(cache.file, "{} frames of {} vertices take {} bytes, the file has {}: this is no MDD point cache",
+    fail(cache.file, "{} frames of {} vertices take {} bytes, the file has {}: this is not an MDD point cache",
          cache.header.frames, cache.header.vertices, wanted, found);
 }
 
@@ -159,9 +159,9 @@ Motion motion_of(const Cache& cache, std::size_t vertices, std::size_t counted_a
   check_length(cache);
   const auto pose = [cache](std::size_t frame, std::span<Point> positions) {
     const auto& [format, points, frames, rate] = cache.header;
-    if (frame >= frames) fail(cache.file, "frame {} (counted from 0) is asked for, the cache has {}", frame, frames);
+    if (frame >= frames) fail(cache.file, "frame {} (counted from 0) is requested, the cache has {}", frame, frames);
     if (positions.size() != points)
-      fail(cache.file, "positions of {} vertices are asked for, the cache has {}", positions.size(), points);
+      fail(cache.file, "positions of {} vertices are requested, the cache has {}", positions.size(), points);
     const auto bytes = read_frame(cache, frame);
     for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
       positions[vertex] = point_at(bytes.data() + vertex * point_bytes, cache.order);

@@ -87,7 +87,7 @@ class Gltf_writer {
 
 void Gltf_writer::measure() {
   if (frames_.size() > most_frames)
-    throw Bad_argument(fmt::format("glTF is written with {} frames at most, found {}", most_frames, frames_.size()));
+    throw Bad_argument(fmt::format("glTF output has at most {} frames, found {}", most_frames, frames_.size()));
   ranges_.resize(frames_.size());
   for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
     const auto found = frames_.floats(frame);
@@ -95,7 +95,7 @@ void Gltf_writer::measure() {
     const auto stored = frame == 0 ? first_ : difference(found, first_);
     for (std::size_t i = 0; i < stored.size(); ++i) {
       if (!std::isfinite(stored[i]))
-        throw Bad_motion(fmt::format("vertex {} (counted from 0) moves farther than a float can say", i / 3));
+        throw Bad_motion(fmt::format("vertex {} (counted from 0) moves farther than a float can express", i / 3));
       extend(ranges_[frame], i, stored[i]);
     }
   }

@@ -81,7 +81,7 @@ std::size_t write_page(Atomic_file& file, std::string_view page_template, std::s
                        std::string_view data) {
   const auto at = page_template.find(data_place);
   if (at == std::string_view::npos || page_template.find(data_place, at + 1) != std::string_view::npos)
-    throw Bad_argument("the template of a page must have one place for its data");
+    throw Bad_argument("the template of a page must have @LODESTONE_DATA@ exactly once");
   const std::string shown = escaped(title);
   Counted_file counted{file};
   write_titled(counted, page_template.substr(0, at), shown);

@@ -63,7 +63,7 @@ std::vector<std::filesystem::path> read_numbered_files(const Json_value& value, 
   const std::string name = pattern.text();
   const auto run = name.find('#');
   if (run == name.npos || name.find('#', name.find_first_not_of('#', run)) != name.npos)
-    pattern.fail(fmt::format("{} must have one run of # in the number's place", in_quotes(name)));
+    pattern.fail(fmt::format("{} must have one run of # for the number", in_quotes(name)));
   const std::size_t first = value.at("first").count(0, most_frames);
   const std::size_t last = value.at("last").count(first, most_frames);
 
@@ -127,7 +127,7 @@ std::vector<Point> rest_positions(const Scene_object& object) {
 void place_mesh(Surface_mesh& mesh, const Json_value& value, const Placement& placement) {
   for (const auto v : mesh.vertices()) {
     mesh.point(v) = mesh.point(v).transform(*placement);
-    if (!is_finite(mesh.point(v))) value.fail("moves a vertex to a non-finite place");
+    if (!is_finite(mesh.point(v))) value.fail("moves a vertex to a non-finite position");
   }
 }
 

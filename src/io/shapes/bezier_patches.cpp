@@ -78,7 +78,8 @@ std::vector<Point> read_points(Number_reader& reader, std::size_t count) {
     std::array<double, 3> p{};
     for (double& coordinate : p) {
       coordinate = reader.next<double>("a coordinate");
-      if (!(std::abs(coordinate) <= largest)) reader.fail(fmt::format("coordinate {} is not within 1e100", coordinate));
+      if (!(std::abs(coordinate) <= largest))
+        reader.fail(fmt::format("coordinate {} is not between -1e100 and 1e100", coordinate));
     }
     points.emplace_back(p[0], p[1], p[2]);
   }

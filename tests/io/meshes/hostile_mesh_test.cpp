@@ -109,8 +109,8 @@ TEST_F(Hostile_mesh, more_faces_than_the_limit) {
 
 TEST_F(Hostile_mesh, off_with_counts_that_its_size_denies) {
   expect_error("a.off", changed(square_off, "4 2 0", "4 40000000 0"),
-               ":2: 40000000 faces cannot stand in the 42 bytes");
-  expect_error("a.off", changed(square_off, "4 2 0", "4000000000 2 0"), ":2: 4000000000 vertices cannot stand in");
+               ":2: 40000000 faces do not fit into the 42 bytes");
+  expect_error("a.off", changed(square_off, "4 2 0", "4000000000 2 0"), ":2: 4000000000 vertices do not fit into");
   expect_error("a.off", changed(square_off, "4 2 0", "4 4000000000 0"), ":2: 4000000000 faces or more, where at most");
   expect_error("a.off", changed(square_off, "4 2 0", "18446744073709551615 2 0"), ":2: 18446744073709551615 vertices");
   expect_error("a.off", changed(square_off, "4 2 0", "18446744073709551616 2 0"),
@@ -133,7 +133,7 @@ TEST_F(Hostile_mesh, off_with_another_keyword) {
   expect_error("a.off", changed(square_off, "OFF", "OOF"), ":1: expected OFF, COFF, NOFF or alike, found 'OOF'");
   expect_error("a.off", changed(square_off, "OFF", "4OFF"), ":1: expected OFF");
   expect_error("a.off", changed(square_off, "OFF\n", ""), ":1: expected OFF, COFF, NOFF or alike, found '4'");
-  expect_error("a.off", changed(square_off, "OFF", "OFF BINARY"), ":1: binary OFF is not read");
+  expect_error("a.off", changed(square_off, "OFF", "OFF BINARY"), ":1: binary OFF is not supported");
 }
 
 TEST_F(Hostile_mesh, off_whose_face_refers_to_no_vertex) {
@@ -203,7 +203,7 @@ TEST_F(Hostile_mesh, obj_without_faces_or_with_what_is_no_polygon) {
 
 TEST_F(Hostile_mesh, ply_with_counts_that_its_size_denies) {
   expect_error("a.ply", changed_ply("face 2", "face 4000000000"), ":9: 4000000000 faces or more, where at most");
-  expect_error("a.ply", changed_ply("face 2", "face 40000000"), ":9: 40000000 items of element 'face' cannot stand in");
+  expect_error("a.ply", changed_ply("face 2", "face 40000000"), ":9: 40000000 items of element 'face' do not fit into");
   expect_error("a.ply", changed_ply("vertex 4", "vertex 4000000000"), ":9: 4000000000 items of element 'vertex'");
   expect_error("a.ply", changed_ply("vertex 4", "vertex 18446744073709551615"), ":9: 18446744073709551615 items");
   expect_error("a.ply", changed_ply("vertex 4", "vertex 18446744073709551616"), ":3: expected a count");
@@ -226,7 +226,7 @@ TEST_F(Hostile_mesh, ply_with_a_broken_header) {
   expect_error("a.ply", changed_ply("float x", "real x"), ":4: expected a number type such as float or uint8");
   expect_error("a.ply", changed_ply("float x", "float"), ":4: the line ends before the name");
   expect_error("a.ply", changed_ply("float x", "float w"), ":9: the vertices have no property 'x'");
-  expect_error("a.ply", changed_ply("float x", "float y"), ":5: property 'y' stands twice in one element");
+  expect_error("a.ply", changed_ply("float x", "float y"), ":5: duplicate property 'y' in one element");
   expect_error("a.ply", changed_ply("float x", "list uchar float x"), ":9: property 'x' of the vertices is a list");
   expect_error("a.ply", changed_ply("element vertex 4\n", ""), ":3: a property stands before the first element");
   expect_error("a.ply", changed_ply("element face", "elephant face"), ":7: expected element, property or end_header");

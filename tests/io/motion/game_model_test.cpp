@@ -130,7 +130,7 @@ TEST_F(Game_models, that_lie_are_told) {
   expect_error("a.md2", changed(md2, 16, 55), ": byte 16: frames of 55 bytes cannot hold 4 vertices");
   expect_error("a.md2", changed(md2, 24, 2e9), ": byte 16: frames of 56 bytes cannot hold 2000000000 vertices");
   expect_error("a.md2", changed(md2, 32, 2e9), ": byte 32: 2000000000 triangles from byte 68 on cannot stand");
-  expect_error("a.md2", changed(md2, 40, 3), ": byte 40: 3 frames from byte 92 on cannot stand in a file of 204");
+  expect_error("a.md2", changed(md2, 40, 3), ": byte 40: 3 frames from byte 92 on do not fit into a file of 204");
   expect_error("a.md2", changed(md2, 40, -1), ": byte 40: expected a number of 0 or more, found -1");
   expect_error("a.md2", changed(md2, 68, 7), ": byte 68: face refers to vertex 7 of 4 (counted from 0)");
   auto endless = md2;

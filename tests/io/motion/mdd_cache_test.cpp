@@ -88,7 +88,7 @@ TEST_F(Mdd_cache, refuses_a_file_of_another_length_than_its_header_says) {
   for (std::size_t length = 0; length < whole.size(); ++length) expect_error(whole.substr(0, length), 2, ":");
   expect_error(whole.substr(0, 8), 2, ": 3 frames are announced, but the file ends within their times");
   expect_error(whole.substr(0, whole.size() - 1), 2, ": 3 frames of 2 vertices are announced, but the file ends");
-  expect_error(whole + 'x', 2, ": 3 frames of 2 vertices take 92 bytes, the file has 93: this is no MDD");
+  expect_error(whole + 'x', 2, ": 3 frames of 2 vertices take 92 bytes, the file has 93: this is not an MDD");
 }
 
 TEST_F(Mdd_cache, refuses_counts_whose_product_overflows) {

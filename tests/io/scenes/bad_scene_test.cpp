@@ -172,7 +172,7 @@ TEST(Bad_scene_file, scales_that_turn_the_shape_inside_out_and_directions_withou
 
 TEST(Bad_scene_file, placement_out_of_the_range_of_numbers) {
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "place": {"scale": 1e308, "translate": [1.5e308, 0, 0]})")),
-            "scene.json: /objects/0/place: moves a vertex to a non-finite place");
+            "scene.json: /objects/0/place: moves a vertex to a non-finite position");
 }
 
 TEST(Bad_scene_file, names_that_are_empty_taken_or_unprintable) {
@@ -208,12 +208,10 @@ TEST(Bad_scene_file, patterns_that_name_no_sequence) {
     return with_object(R"("mesh": "a.off", "motion": {"sequence": {"pattern": ")" + pattern +
                        R"(", "first": 2, "last": )" + last + "}}");
   };
-  EXPECT_EQ(
-      error_of(with_pattern("frame.off", "3")),
-      R"(scene.json: /objects/0/motion/sequence/pattern: "frame.off" must have one run of # in the number's place)");
-  EXPECT_EQ(
-      error_of(with_pattern("#_#.off", "3")),
-      R"(scene.json: /objects/0/motion/sequence/pattern: "#_#.off" must have one run of # in the number's place)");
+  EXPECT_EQ(error_of(with_pattern("frame.off", "3")),
+            R"(scene.json: /objects/0/motion/sequence/pattern: "frame.off" must have one run of # for the number)");
+  EXPECT_EQ(error_of(with_pattern("#_#.off", "3")),
+            R"(scene.json: /objects/0/motion/sequence/pattern: "#_#.off" must have one run of # for the number)");
   EXPECT_EQ(error_of(with_pattern("frame_#.off", "1")),
             "scene.json: /objects/0/motion/sequence/last: 1 is not a whole number from 2 to 1000000");
 }
@@ -298,10 +296,10 @@ TEST(Bad_scene_file, what_json_has_not) {
 }
 
 TEST(Bad_scene_file, keys_that_stand_twice) {
-  EXPECT_EQ(error_of(R"({"objects": [], "objects": []})"), R"(scene.json: /: key "objects" stands twice)");
+  EXPECT_EQ(error_of(R"({"objects": [], "objects": []})"), R"(scene.json: /: duplicate key "objects")");
   EXPECT_EQ(error_of(R"({"objects": [{"name": "a"}, {"name": "b", "mesh": "a.off", "name": "c"}]})"),
-            R"(scene.json: /objects/1: key "name" stands twice)");
-  EXPECT_EQ(error_of(R"({"x": [[1, {}], 2, {"y": {"z": 1, "z": 1}}]})"), R"(scene.json: /x/2/y: key "z" stands twice)");
+            R"(scene.json: /objects/1: duplicate key "name")");
+  EXPECT_EQ(error_of(R"({"x": [[1, {}], 2, {"y": {"z": 1, "z": 1}}]})"), R"(scene.json: /x/2/y: duplicate key "z")");
 }
 
 TEST(Bad_scene_file, bottomless_nesting) {

@@ -195,7 +195,7 @@ TEST(Bezier_patches, refuse_non_finite_and_enormous_coordinates) {
     std::string text = flat_patch;
     text.replace(text.find("3 3 0"), 1, bad);
     EXPECT_EQ(message_of(text),
-              "test.bpt:18: coordinate " + (bad == "1e200" ? "1e+200" : bad) + " is not within 1e100");
+              "test.bpt:18: coordinate " + (bad == "1e200" ? "1e+200" : bad) + " is not between -1e100 and 1e100");
   }
 }
 
