@@ -104,7 +104,7 @@ TYPED_TEST(Bounding_volume_tree, every_volume_encloses_all_below_it_in_every_fra
     }
 }
 
-TYPED_TEST(Bounding_volume_tree, looseness_is_a_finite_number) {
+TYPED_TEST(Bounding_volume_tree, looseness_is_finite) {
   for (auto& [name, soup] : tree_cases()) {
     Basic_region_tree<TypeParam> tree(soup.faces, octants(soup), soup.coordinates, {.leaf_faces = 4});
     for (const auto& [frame, coordinates] : frames_of(soup, this->random_)) {
@@ -114,7 +114,7 @@ TYPED_TEST(Bounding_volume_tree, looseness_is_a_finite_number) {
   }
 }
 
-TYPED_TEST(Bounding_volume_tree, parts_in_any_order_give_what_a_whole_refit_gives) {
+TYPED_TEST(Bounding_volume_tree, a_refit_in_parts_in_any_order_equals_a_whole_refit) {
   const Face_soup soup(icosphere(71));
   Basic_region_tree<TypeParam> whole(soup.faces, octants(soup), soup.coordinates), parts = whole;
   ASSERT_GT(parts.part_count(), 1U);
@@ -136,7 +136,7 @@ TYPED_TEST(Bounding_volume_tree, parts_in_any_order_give_what_a_whole_refit_give
   }
 }
 
-TYPED_TEST(Bounding_volume_tree, a_refit_tells_a_coordinate_that_is_not_finite_and_the_next_recovers) {
+TYPED_TEST(Bounding_volume_tree, a_refit_reports_a_non_finite_coordinate_and_the_next_recovers) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (auto& [name, soup] : tree_cases()) {
     Basic_region_tree<TypeParam> tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 4});

@@ -84,7 +84,7 @@ template <class Volume>
 class Detector_volume_contract : public ::testing::Test {};
 TYPED_TEST_SUITE_P(Detector_volume_contract);
 
-TYPED_TEST_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_with_any_number_of_threads) {
+TYPED_TEST_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_are_found_with_any_number_of_threads) {
   auto meshes = several_surfaces();
   for (const std::size_t leaf_faces : {4, 64}) {
     Volume_detector<TypeParam> alone({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = leaf_faces}}});
@@ -107,7 +107,7 @@ TYPED_TEST_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_with_any_
   }
 }
 
-TYPED_TEST_P(Detector_volume_contract, in_any_unit_and_far_from_the_origin) {
+TYPED_TEST_P(Detector_volume_contract, all_pairs_are_found_in_any_unit_and_far_from_the_origin) {
   std::vector<std::size_t> found;
   for (const auto& [unit, offset] :
        {std::pair{1.0, 0.0}, {0x1p-300, 0.0}, {0x1p300, 0.0}, {1.0, 0x1p20}, {0x1p1015, 0.0}}) {
@@ -135,7 +135,7 @@ TYPED_TEST_P(Detector_volume_contract, in_any_unit_and_far_from_the_origin) {
   EXPECT_EQ(found[2], found[0]);
 }
 
-TYPED_TEST_P(Detector_volume_contract, yes_or_no_and_first_contacts) {
+TYPED_TEST_P(Detector_volume_contract, yes_or_no_and_first_contacts_agree_with_exhaustive_checking) {
   auto meshes = several_surfaces();
   for (const auto query : {Contact_query::yes_no, Contact_query::first}) {
     Volume_detector<TypeParam> detector({.mode = Mode::exact, .contacts = query, .exact = {.tree = {.leaf_faces = 8}}});
@@ -159,7 +159,7 @@ TYPED_TEST_P(Detector_volume_contract, yes_or_no_and_first_contacts) {
   }
 }
 
-TYPED_TEST_P(Detector_volume_contract, pairs_within_a_tolerance) {
+TYPED_TEST_P(Detector_volume_contract, pairs_within_a_tolerance_are_found) {
   std::deque<Surface_mesh> meshes{potato(3), sphere(3, 0.5, {2.1, 0.2, 0}), cloth(5, 5)};
   for (const double tolerance : {0.01, 0.3}) {
     Volume_detector<TypeParam> detector(
@@ -178,7 +178,7 @@ TYPED_TEST_P(Detector_volume_contract, pairs_within_a_tolerance) {
   }
 }
 
-TYPED_TEST_P(Detector_volume_contract, collisions_of_an_object_with_itself) {
+TYPED_TEST_P(Detector_volume_contract, self_collisions_are_found) {
   std::size_t found = 0;
   for (const std::size_t threads : {1, 2}) {
     std::deque<Surface_mesh> meshes{cloth(12, 12), torus_knot({.tube = 0.4, .segments = 40, .sides = 6})};
@@ -199,7 +199,7 @@ TYPED_TEST_P(Detector_volume_contract, collisions_of_an_object_with_itself) {
   EXPECT_GT(found, 500U);
 }
 
-TYPED_TEST_P(Detector_volume_contract, the_closest_faces) {
+TYPED_TEST_P(Detector_volume_contract, the_closest_faces_are_found) {
   std::deque<Surface_mesh> meshes{potato(4), sphere(3, 0.5, {2.5, 0.2, 0}), cloth(6, 6)};
   Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = 4}}});
   add_all(detector, all_of(meshes));
@@ -219,7 +219,7 @@ TYPED_TEST_P(Detector_volume_contract, the_closest_faces) {
   EXPECT_GT(apart, 5U);
 }
 
-TYPED_TEST_P(Detector_volume_contract, objects_inside_others) {
+TYPED_TEST_P(Detector_volume_contract, objects_inside_others_are_found) {
   auto outer = sphere(6), inner = sphere(3, 0.3), other = sphere(3, 0.2, {0, 5, 0});
   Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.containment = true, .tree = {.leaf_faces = 4}}});
   add_all(detector, {&outer, &inner, &other});

@@ -113,14 +113,14 @@ std::size_t expect_equal_frames(Two_surfaces surfaces, Detector_options options)
   return contacts;
 }
 
-TYPED_TEST(Exact_contract, frames_are_those_of_a_surface_mesh_and_of_exhaustive_checking) {
+TYPED_TEST(Exact_contract, frames_equal_those_on_a_surface_mesh_and_exhaustive_checking) {
   for (const auto& tested : surfaces()) {
     SCOPED_TRACE(tested.name);
     EXPECT_GT(expect_equal_frames<TypeParam>(tested, {}), 0U);
   }
 }
 
-TYPED_TEST(Exact_contract, frames_with_everything_asked_for_are_those_of_a_surface_mesh) {
+TYPED_TEST(Exact_contract, frames_with_all_options_equal_those_on_a_surface_mesh) {
   for (const auto& tested : surfaces()) {
     SCOPED_TRACE(tested.name);
     EXPECT_GT(expect_equal_frames<TypeParam>(tested, {.contact_points = true,
@@ -134,7 +134,7 @@ TYPED_TEST(Exact_contract, frames_with_everything_asked_for_are_those_of_a_surfa
   }
 }
 
-TYPED_TEST(Exact_contract, frames_are_exhaustive_in_any_unit_and_far_from_the_origin) {
+TYPED_TEST(Exact_contract, frames_equal_exhaustive_checking_in_any_unit_and_far_from_the_origin) {
   for (auto tested : surfaces()) {
     SCOPED_TRACE(tested.name);
     const auto poses = tested.poses;
@@ -154,13 +154,13 @@ TYPED_TEST(Exact_contract, frames_are_exhaustive_in_any_unit_and_far_from_the_or
   }
 }
 
-TYPED_TEST(Exact_contract, frames_are_exhaustive_up_to_the_largest_numbers) {
+TYPED_TEST(Exact_contract, frames_equal_exhaustive_checking_up_to_the_largest_numbers) {
   auto a = potato(3), b = potato(3, 2);
   scale(a, 0.9e308), scale(b, 0.9e308);  // from -1.7e308 to 1.7e308: extents are beyond all doubles
   EXPECT_GT(expect_equal_frames<TypeParam>(moving("huge", a, b, {0, 0.3e308, 0.3e308}, 3), {}), 0U);
 }
 
-TYPED_TEST(Exact_contract, faces_of_one_object_collide_as_on_a_surface_mesh) {
+TYPED_TEST(Exact_contract, self_collisions_equal_those_on_a_surface_mesh) {
   auto source = cloth(10, 10);
   crumple(source, 0.05, 1);
   auto mesh = converted<TypeParam>(source);
@@ -173,7 +173,7 @@ TYPED_TEST(Exact_contract, faces_of_one_object_collide_as_on_a_surface_mesh) {
   expect_same_frame(frame, expected.detect());
 }
 
-TYPED_TEST(Exact_contract, given_positions_are_by_vertex_in_the_order_of_the_mesh) {
+TYPED_TEST(Exact_contract, given_positions_are_in_the_order_of_the_mesh_s_vertices) {
   const auto source = potato(5);
   auto other = potato(5, 2);
   const auto a = converted<TypeParam>(source), b = converted<TypeParam>(other);
@@ -210,7 +210,7 @@ TYPED_TEST(Exact_contract, regions_are_in_the_maps_of_the_mesh_and_do_not_depend
   }
 }
 
-TYPED_TEST(Exact_contract, a_coordinate_that_is_not_finite_is_refused_in_its_frame_alone) {
+TYPED_TEST(Exact_contract, a_non_finite_coordinate_is_refused_only_in_its_frame) {
   auto source = sphere(4);
   const auto other = sphere(4, 1, {1.5, 0, 0});
   auto a = converted<TypeParam>(source);

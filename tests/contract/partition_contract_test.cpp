@@ -33,7 +33,7 @@ template <class Mesh>
 struct Partition_contract : ::testing::Test {};
 TYPED_TEST_SUITE(Partition_contract, Mesh_types);
 
-TYPED_TEST(Partition_contract, vertices_and_faces_are_numbered_alike) {
+TYPED_TEST(Partition_contract, vertices_and_faces_have_the_same_indices_on_every_mesh_type) {
   const auto source = as_float(potato(4));
   const auto mesh = converted<TypeParam>(source);
   const Mesh_numbering<TypeParam> numbering(mesh);

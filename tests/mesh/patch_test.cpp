@@ -39,7 +39,7 @@ TEST(Make_patch, lists_each_vertex_of_its_faces_once) {
   expect_corners_of(patch, faces);
 }
 
-TEST(Region_patches, hold_every_face_in_each_region_that_one_of_its_corners_has) {
+TEST(Region_patches, contain_every_face_in_each_region_of_its_corners) {
   std::mt19937_64 random(1);
   const Numbered_mesh mesh(potato(6));
   for (const std::size_t regions : {1, 2, 7, 50}) {

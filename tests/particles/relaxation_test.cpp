@@ -136,7 +136,7 @@ TEST(Relax, forces_of_several_particles_add_up) {
   EXPECT_EQ(walker.particles.at, At{2});
 }
 
-TEST(Relax, ties_go_to_the_lowest_vertex_number) {
+TEST(Relax, ties_go_to_the_lowest_vertex_index) {
   for (const std::uint32_t start : {0U, 2U}) {
     Walker walker({{0, 0, 0}, {1, 1, 0}, {1, -1, 0}}, {{0, 1, 2}}, {0, 0, 0}, {start});
     Post post({3, 0, 0});
@@ -234,7 +234,7 @@ TEST(Relax, a_particle_never_leaves_its_region) {
   }
 }
 
-TEST(Relax, an_object_without_near_objects_is_left_alone) {
+TEST(Relax, an_object_without_near_objects_is_not_relaxed) {
   Grid_walker walker(5, 3, 5), alone(5, 3, 5);
   Post post({10, 1, 0});
   const std::vector<std::uint32_t> feels_post{2}, feels_walker{0};
@@ -250,7 +250,7 @@ TEST(Relax, an_object_without_near_objects_is_left_alone) {
   EXPECT_EQ(alone.particles.at, At{5});
 }
 
-TEST(Relax, siblings_push_each_other_away_if_told_to) {
+TEST(Relax, siblings_repel_each_other_if_requested) {
   // Two particles in the middle of a row, and a post so far off that they feel each other alone.
   for (const bool repel : {false, true}) {
     Walker walker(grid_points(7, 2), grid_faces(7, 2), std::vector<Region_index>(14, 0), {2, 3}, 1);

@@ -83,7 +83,7 @@ TEST(Repair_islands, regions_stay_bounded_however_many_components_there_are) {
   }
 }
 
-TEST(Repair_islands, components_within_the_bound_all_get_a_region_of_their_own) {
+TEST(Repair_islands, components_within_the_bound_each_get_a_separate_region) {
   // One region takes the first triangle, 64 more are added.
   const Numbered_mesh mesh(copies(single_triangle(), 65));
   Labels labels(mesh.numbering.vertex_count(), 0);
@@ -155,7 +155,7 @@ class Partition_by_ones_own_strategy : public testing::Test {
       mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:label").first;
 };
 
-TEST_F(Partition_by_ones_own_strategy, a_label_for_each_vertex_is_taken) {
+TEST_F(Partition_by_ones_own_strategy, a_label_for_each_vertex_is_accepted) {
   EXPECT_EQ(divide({.labels = Labels(vertices, 0)}).regions, 1U);
   Labels own(vertices);
   for (std::size_t v = 0; v < vertices; ++v) own[v] = static_cast<Region_index>(v);

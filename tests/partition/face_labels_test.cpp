@@ -94,7 +94,7 @@ TEST(Face_labels, vertices_that_no_label_reaches_get_0) {
   EXPECT_EQ(labels_of(mesh, Labels(6, no_region)), Labels(11, 0));
 }
 
-TEST(Face_labels, labels_of_other_faces_are_refused) {
+TEST(Face_labels, a_wrong_number_of_labels_is_refused) {
   EXPECT_THROW(labels_of(tetrahedron(), {0, 1, 2}), Bad_argument);
 }
 

@@ -33,7 +33,7 @@ TEST(Grid, divides_a_flat_grid_into_squares) {
   }
 }
 
-TEST(Grid, meets_the_wanted_number_on_a_mesh_without_symmetry) {
+TEST(Grid, makes_the_requested_number_of_regions_on_a_mesh_without_symmetry) {
   const auto mesh = potato(8);
   for (const std::size_t wanted : {1, 2, 3, 12, 32, 77, 128}) {
     const auto labels = labels_of(Grid{}, mesh, wanted);
@@ -69,7 +69,7 @@ TEST(Grid, regions_are_numbered_by_x_then_y_then_z) {
   }
 }
 
-TEST(Grid, tells_apart_what_can_be_told_apart) {
+TEST(Grid, with_enough_regions_separates_all_vertices) {
   // A vertex each: as many cubes as vertices, once cubes are smaller than the distance of two.
   const auto mesh = grid(9, 4);
   EXPECT_EQ(different(labels_of(Grid{}, mesh, 36)), 36U);
@@ -77,7 +77,7 @@ TEST(Grid, tells_apart_what_can_be_told_apart) {
 
 TEST(Grid, is_in_the_registry) { expect_in_registry(Grid{}, {}); }
 
-TEST(Grid, stands_awkward_meshes) {
+TEST(Grid, divides_awkward_meshes) {
   expect_sound_on_awkward_meshes(Grid{}, [](auto...) { return std::size_t{1}; });
   expect_invariant_under_translation_and_scale(Grid{});
 }

@@ -113,7 +113,7 @@ TEST(Quantise, both_searches_agree_far_from_the_origin_and_at_any_scale) {
     });
 }
 
-TEST(Quantise, components_that_are_not_finite_or_too_large_are_refused) {
+TEST(Quantise, non_finite_and_too_large_components_are_refused) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Random random(1);
   const auto vectors = random_vectors(20, 3, random);

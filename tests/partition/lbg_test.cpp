@@ -164,7 +164,7 @@ TEST(Quantise, more_cells_than_different_vectors_give_one_for_each) {
     }
 }
 
-TEST(Quantise, a_cell_that_becomes_empty_starts_anew) {
+TEST(Quantise, a_cell_that_becomes_empty_is_re_seeded) {
   // Centred at the origin the published split makes two equal code vectors, one of which gets nothing.
   const Feature_vectors vectors = (Feature_vectors(4, 1) << -3, -2, 2, 3).finished();
   for (const std::size_t cells : {2, 3, 4}) {

@@ -72,7 +72,7 @@ TEST(Partition, regions_are_connected_and_not_empty) {
   }
 }
 
-TEST(Partition, islands_are_kept_if_wanted) {
+TEST(Partition, islands_are_kept_if_requested) {
   const auto mesh = grid(13, 4);
   const auto kept = divide(mesh, 2, Stripes{}, {.keep_islands = true});
   EXPECT_EQ(kept.partition.regions, 2U);
@@ -86,7 +86,7 @@ TEST(Partition, islands_are_kept_if_wanted) {
   expect_sound(mesh, repaired);
 }
 
-TEST(Partition, a_strategy_of_ones_own_decides_the_regions) {
+TEST(Partition, a_custom_strategy_determines_the_regions) {
   const auto mesh = grid(12, 5);
   const auto divided = divide(mesh, 4, Stripes{.columns = 4});
   EXPECT_EQ(divided.partition.regions, 4U);
@@ -116,7 +116,7 @@ TEST(Partition, a_particle_starts_at_the_vertex_nearest_to_the_mean_of_its_regio
   check(divide(mesh, 6, Stripes{.columns = 6}));  // a strategy without a space of its own: position and normal
 }
 
-TEST(Partition, more_regions_than_vertices_are_cut_down) {
+TEST(Partition, more_regions_than_vertices_are_reduced) {
   for (const std::size_t regions : {4, 5, 1000}) {
     const auto mesh = tetrahedron();
     const auto divided = divide(mesh, regions);
@@ -144,7 +144,7 @@ TEST(Partition, every_component_gets_a_region) {
   }
 }
 
-TEST(Partition, isolated_vertices_hold_no_region) {
+TEST(Partition, isolated_vertices_do_not_form_regions) {
   auto mesh = sphere(4);
   for (int i = 0; i < 10; ++i) mesh.add_vertex({100.0 + 10 * i, 0, 0});
   for (const std::size_t regions : {1, 4, 12, 1000}) expect_sound(mesh, divide(mesh, regions));

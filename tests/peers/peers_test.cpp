@@ -83,7 +83,7 @@ class Peers : public testing::TestWithParam<Peer_kind> {
   std::unique_ptr<Peer> peer;
 };
 
-TEST_P(Peers, say_yes_or_no_as_exhaustive_checking_does) {
+TEST_P(Peers, answer_yes_or_no_like_exhaustive_checking) {
   if (loses_some()) GTEST_SKIP() << "known to miss collisions after a refit";
   std::size_t colliding = 0;
   for (std::size_t frame = 0; frame < scene.frames; ++frame) {
@@ -120,7 +120,7 @@ TEST_P(Peers, report_the_face_pairs_that_exhaustive_checking_finds) {
   }
 }
 
-TEST_P(Peers, add_to_what_has_been_found_before) {
+TEST_P(Peers, append_to_earlier_results) {
   if (!GetParam().reports_pairs) GTEST_SKIP() << "reports no face pairs";
   constexpr Face_pair before{7, 7};
   std::vector<Face_pair> found{before};

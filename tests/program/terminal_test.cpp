@@ -85,7 +85,7 @@ class Terminal : public testing::Test {
   std::string scene;
 };
 
-TEST_F(Terminal, shows_a_progress_bar_that_is_gone_at_the_end) {
+TEST_F(Terminal, shows_a_progress_bar_and_erases_it_at_the_end) {
   const auto session = run_on_terminal({"detect", scene});
   EXPECT_EQ(session.exit_code, 0);
   EXPECT_NE(session.bytes.find("detect ["), std::string::npos) << session.bytes;
@@ -112,7 +112,7 @@ TEST_F(Terminal, shows_an_error_without_the_bar) {
 
 TEST_F(Terminal, shows_nothing_when_quiet) { EXPECT_EQ(run_on_terminal({"detect", scene, "--quiet"}).bytes, ""); }
 
-TEST_F(Terminal, elsewhere_there_is_no_bar_and_no_control_sequence) {
+TEST_F(Terminal, without_a_terminal_there_is_no_bar_and_no_control_sequence) {
   const auto result = run_program({"detect", scene});
   expect_success(result);
   EXPECT_EQ(result.out.find('\x1b'), std::string::npos);
@@ -148,13 +148,13 @@ TEST(Help, lists_the_options_of_each_command) {
                                     "--scenes", "--out", "--quiet", "Exit codes:"});
 }
 
-TEST(Help, is_given_for_all_commands_at_once) {
+TEST(Help, can_be_shown_for_all_commands_at_once) {
   const auto result = run_program({"--help-all"});
   expect_success(result);
   expect_parts(result.out, {"--truth", "--keep-islands", "--scenes"});
 }
 
-TEST(Help, tells_the_version) {
+TEST(Help, shows_the_version) {
   const auto result = run_program({"--version"});
   expect_success(result);
   EXPECT_TRUE(result.out.starts_with("lodestone ") && result.out.ends_with('\n')) << result.out;

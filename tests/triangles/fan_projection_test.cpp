@@ -23,7 +23,7 @@ Surface_mesh fan(std::uint32_t count, bool closed, Place place) {
 
 Point on_circle(double angle, double height) { return {std::cos(angle), std::sin(angle), height}; }
 
-TEST(Fan_projection, takes_a_fan_of_2000_faces) {
+TEST(Fan_projection, accepts_a_fan_of_2000_faces) {
   for (const std::uint32_t count : {100, 2000}) {
     const double step = 2 * std::numbers::pi / count;
     const auto cone = fan(count, true, [&](std::uint32_t i) { return on_circle(step * i, 0.5); });
@@ -40,7 +40,7 @@ TEST(Fan_projection, takes_a_fan_of_2000_faces) {
   }
 }
 
-TEST(Fan_projection, sees_fans_that_turn_more_than_once) {
+TEST(Fan_projection, detects_fans_that_turn_more_than_once) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> height(-1, 1);
   std::size_t met = 0, apart = 0;
@@ -65,7 +65,7 @@ TEST(Fan_projection, sees_fans_that_turn_more_than_once) {
   EXPECT_GT(apart, 30U);
 }
 
-TEST(Fan_projection, sees_an_arm_that_turns_back_by_a_last_digit) {
+TEST(Fan_projection, detects_an_arm_that_turns_back_by_the_last_digit) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> place(-1, 1);
   std::size_t met = 0, apart = 0;

@@ -97,7 +97,7 @@ TEST(Neighbour_check, equals_cgal_where_one_last_digit_decides) {
   EXPECT_LT(found, 30U * 200U);
 }
 
-TEST(Neighbour_check, equals_cgal_where_products_of_coordinates_are_a_few_units_of_the_least_number) {
+TEST(Neighbour_check, equals_cgal_where_products_of_coordinates_are_a_few_units_of_the_smallest_double) {
   std::size_t found = 0;
   for (int trial = 0; trial < 120; ++trial) {
     auto mesh = icosphere(2);
@@ -157,7 +157,7 @@ TEST(Neighbour_check, equals_the_definition_on_any_faces) {
   EXPECT_GT(found, 1000U);
 }
 
-TEST(Neighbour_check, takes_faces_without_area_as_segments_and_points) {
+TEST(Neighbour_check, treats_zero_area_faces_as_segments_and_points) {
   std::mt19937_64 random(3);
   std::size_t found = 0, without_area = 0;
   for (int trial = 0; trial < 12; ++trial) {
@@ -213,7 +213,7 @@ TEST(Neighbour_check, finds_each_pair_once_however_vertices_are_split) {
   }
 }
 
-TEST(Neighbour_check, counts_exact_tests_until_told_to_start_anew) {
+TEST(Neighbour_check, counts_exact_tests_until_reset) {
   auto mesh = cloth(8, 8);
   crumple(mesh, 0.1, 1);
   const Numbered_mesh numbered(mesh);
