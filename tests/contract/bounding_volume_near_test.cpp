@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every model of Bounding_volume denies only what is apart: against exact predicates.
+// No model of Bounding_volume separates faces that meet: compared with exact predicates.
 #include <limits>
 
 #include "contract/volume_pairs.h"
@@ -8,11 +8,11 @@
 namespace lodestone {
 namespace {
 
-/// Of the pairs that are not denied, one in so many is looked at. It has no factor in common with the number of
-/// questions that a test asks of each pair, so that all of them have their turn.
+/// One in so many of the pairs that are near is checked. This number is coprime to the number of queries per pair in
+/// each test, so that all queries get checked.
 constexpr std::size_t sampled_every = 7;
 
-/// How many pairs each test of triangles asks for at least; only those beyond the range of double are passed over.
+/// Minimum number of pairs in each test of triangles. Only pairs outside the range of double are skipped.
 constexpr std::size_t hard_pairs_asked = 390'000, distance_pairs_asked = 170'000, images_asked = 290'000,
                       random_pairs_asked = 250'000;
 static_assert(hard_pairs_asked + distance_pairs_asked + images_asked + random_pairs_asked >= 1'000'000);
@@ -28,7 +28,7 @@ class Bounding_volume_near : public ::testing::Test {
     return result;
   }
 
-  /// Asks for two triangles or soups; `meet` is called, and must say no, if they are denied.
+  /// Tests two triangles or soups. If they are not near, calls `meet`, which must return false.
   template <class Leaf, class Meet>
   void check(const Leaf& a, const Leaf& b, double margin, const char* kind, Meet meet) {
     const Volume volume_a = volume_of<Volume>(a), volume_b = volume_of<Volume>(b);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The models of Bounding_volume as the sets of points that they are: what is around them, and what is near them.
+// The models of Bounding_volume as sets of points: volumes around them, and `near`.
 #include "contract/volume_pairs.h"
 
 namespace lodestone {
 namespace {
 
-/// A point with coordinates in double that lies in a volume, but hardly: the last one on the way from a point inside
-/// to one outside.
+/// A point with double coordinates that is just inside a volume: the last one on the segment from a point inside to one
+/// outside.
 template <class Volume>
 Point last_inside(const Volume& volume, const Point& from, const Point& to) {
   const auto at = [&](double t) {
@@ -29,12 +29,12 @@ class Bounding_volume_set : public ::testing::Test {
     for (auto& leaf : flat_leaves()) leaves_.push_back(std::move(leaf));
   }
 
-  /// A leaf about (0, 0, 0), turned, moved a little, and put somewhere.
+  /// A leaf about (0, 0, 0), rotated, moved slightly, scaled and translated.
   Face_soup any_leaf(const Placement& place) {
     const auto& soup = leaves_[random_() % leaves_.size()].soup;
     return place(posed_at_random(placed(soup, 0.5), 0.5, random_));
   }
-  /// A point of a face of a soup, up to rounding of one of its corners.
+  /// A point of a face of a soup, often one of its corners, up to rounding.
   Point any_vertex(const Face_soup& soup) {
     const auto& face = soup.faces[random_() % soup.faces.size()];
     return soup.point(face[random_() % 3]);

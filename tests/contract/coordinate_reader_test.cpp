@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coordinates of every mesh type, as the trees read them.
+// Coordinates of every mesh type, as trees read them.
 #include "lodestone/mesh/coordinate_reader.h"
 
 #include "contract/mesh_types.h"
@@ -14,7 +14,7 @@ auto reader_of(const Mesh& mesh) {
   return Coordinate_reader<Mesh, std::remove_const_t<decltype(points)>>(points);
 }
 
-/// The coordinates of a mesh by number, from its points.
+/// The coordinates of a mesh by vertex index, from its points.
 template <class Mesh>
 std::vector<double> expected(const Mesh& mesh, const Mesh_numbering<Mesh>& numbering) {
   const auto points = get(CGAL::vertex_point, mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every mesh type gets from the particle and contact stages, in every mode.
+// The particle and contact stages on every mesh type, in every mode.
 #include <algorithm>
 
 #include "contract/mesh_types.h"

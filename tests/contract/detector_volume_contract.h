@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mode exact answers with trees of any volumes: what exhaustive checking finds. Instantiated for every model,
-// over several files, since each takes a while to compile.
+// Mode exact with any volumes in its trees gives the answers of exhaustive checking. Instantiated for every model, in
+// several files, since each takes long to compile.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@
 
 namespace lodestone {
 
-/// Every `step`-th of the models, from the one at place `first` on.
+/// Every `step`-th of the models, from index `first` on.
 template <std::size_t first, std::size_t step>
 struct Some_volumes {
   template <class Places>
@@ -37,7 +37,7 @@ inline std::deque<Surface_mesh> several_surfaces() {
   meshes.push_back(torus_knot({.radius = 0.7, .tube = 0.1, .segments = 40, .sides = 5}));
   meshes.push_back(cloth(9, 8));
   meshes.push_back(sphere(4, 0.5, {1.2, 0.3, 0}));
-  auto folded = grid(6, 6);  // two rows on one line, two vertices in one place
+  auto folded = grid(6, 6);  // two rows on one line, two coinciding vertices
   deform(folded, [](const Point& p) { return Point(p.x() - 2.5, (p.y() == 2 ? 3 : p.y()) - 3, 0.25 * p.x()); });
   folded.point(Surface_mesh::Vertex_index(8)) = folded.point(Surface_mesh::Vertex_index(7));
   meshes.push_back(folded);
@@ -45,7 +45,7 @@ inline std::deque<Surface_mesh> several_surfaces() {
   return meshes;
 }
 
-/// Moves the surfaces on to another frame.
+/// Moves the surfaces to another frame.
 inline void next_frame(std::deque<Surface_mesh>& meshes, int frame) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const double phase = static_cast<double>(i) + 0.7 * frame;

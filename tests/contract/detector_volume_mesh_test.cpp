@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Trees of any volumes over a mesh that is no Surface_mesh.
+// Trees of custom volumes over a mesh type other than Surface_mesh.
 #include "contract/mesh_types.h"
 #include "contract/volume_models.h"
 #include "lodestone/io/shapes/shapes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every mesh type gets from the partition stage.
+// The partition stage on every mesh type.
 #include <algorithm>
 
 #include "contract/mesh_types.h"
@@ -10,7 +10,7 @@
 namespace lodestone {
 namespace {
 
-/// Labels by vertex number.
+/// Labels by vertex index.
 template <class Mesh>
 struct Divided {
   std::vector<Region_index> labels;

@@ -37,7 +37,7 @@ TEST(Spread, samples_the_middles_of_equal_parts) {
   EXPECT_TRUE(spread(0, 5).empty());
 }
 
-/// Says what it was told to.
+/// Gives prescribed answers.
 class Liar : public Entrant {
  public:
   explicit Liar(Answer answer) : answer_(std::move(answer)) {}
@@ -99,7 +99,7 @@ TEST_F(Race, counts_missed_and_invented_collisions) {
   EXPECT_FALSE(no.any_is_right());
 }
 
-/// Answers whether there is a collision in one round and lists contacts, none, in the next.
+/// Answers yes or no in one round, and lists contacts (none) in the next.
 class One_by_one : public Entrant {
  public:
   explicit One_by_one(std::vector<std::size_t>& rounds) : rounds_(rounds) {}
@@ -121,7 +121,7 @@ class One_by_one : public Entrant {
   Answer answer_;
 };
 
-/// The entry of an entrant that notes the rounds it starts.
+/// The entry of a contestant that records the rounds it starts.
 template <class Kind>
 Entry entry_of(std::vector<std::size_t>& rounds) {
   return {.library = "test", .method = "rounds", .volume = "none", .build = [&rounds](std::span<const Moving_mesh>) {
@@ -149,7 +149,7 @@ TEST_F(Race, collisions_of_pairs_whose_boxes_are_apart_count_as_invented) {
   EXPECT_FALSE(entry.any_is_right());
 }
 
-/// Keeps count of its memory.
+/// Reports its memory.
 class Counts_bytes : public One_by_one {
  public:
   using One_by_one::One_by_one;
@@ -190,7 +190,7 @@ TEST_F(Race, a_contestant_out_of_time_stops_early) {
   EXPECT_FALSE(entry.any_is_right());
 }
 
-/// Remembers how high the first vertex of the second object was whenever it was called.
+/// Records the height of the first vertex of the second object in every call.
 class Witness : public Entrant {
  public:
   struct Seen {

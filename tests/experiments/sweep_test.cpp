@@ -23,7 +23,7 @@ struct Sweep : ::testing::Test {
 
   std::filesystem::path file(const std::string& name = "rows.jsonl") const { return folder.path() / name; }
   static void no_progress(std::size_t /*done*/, std::size_t /*of*/) {}
-  /// Each run leaves a mark, whichever process it ran in.
+  /// Each run leaves a mark, in whatever process it runs.
   auto marking() const {
     return [this](std::size_t run) {
       std::ofstream(folder.path() / "marks", std::ios::app) << ids[run];
@@ -116,7 +116,7 @@ TEST_F(Sweep, a_row_longer_than_a_pipe_holds_arrives_whole) {
 }
 
 TEST_F(Sweep, several_jobs_run_at_a_time) {
-  // Each run waits until both have begun: with one at a time none would end.
+  // Each run waits until both have started: with one at a time none would end.
   Row_file rows(file());
   const auto execute = [&](std::size_t run) -> Row {
     std::ofstream(folder.path() / ("begun" + std::to_string(run))) << "x";

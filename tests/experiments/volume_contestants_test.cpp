@@ -73,7 +73,7 @@ TEST(Count_walk, stops_at_two_roots_that_are_apart) {
 
 class Volume_race : public testing::Test {
  protected:
-  /// Two balls that wobble and go into each other.
+  /// Two balls that wobble and sink into each other.
   static void SetUpTestSuite() {
     const test::Temporary_folder folder;
     auto scene = read_scene(folder.write("two.json", R"({"frames": 12, "objects": [

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tables of the experiment `volumes`, computed from figures that are easy to compute with.
+// The tables of the experiment `volumes`, from figures that make the expected values simple.
 #include "volumes/volume_report.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ std::string report_of(const Volume_scene& scene) {
   return std::regex_replace(volume_report(std::span(&scene, 1)), std::regex(" +"), " ");
 }
 
-/// The line of a table after its title and two lines of header.
+/// The first row of a table, after its title and two header lines.
 std::string line_after(const std::string& report, const std::string& title, int line) {
   auto place = report.find(title);
   if (place == std::string::npos) return "there is no " + title;

@@ -90,7 +90,7 @@ TEST(Pose_patch, reads_each_vertex_once_per_frame_and_bounds_them) {
   EXPECT_TRUE(posed.box.max().isApprox(mesh.positions.colwise().maxCoeff().transpose(), 0));
 
   shift = 5;
-  pose_patch(posed, reader, 1);  // the same frame: nothing is read
+  pose_patch(posed, reader, 1);  // same frame: nothing is read again
   EXPECT_EQ(reads, patch.vertices.size());
   pose_patch(posed, reader, 2);
   EXPECT_EQ(reads, 2 * patch.vertices.size());

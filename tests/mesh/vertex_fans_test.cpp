@@ -15,8 +15,8 @@ namespace {
 
 bool uses(const Corners& corners, std::uint32_t vertex) { return std::ranges::count(corners, vertex) > 0; }
 
-/// Whether the faces of a vertex can be put in a row, by counting: no neighbour is in more than two of them, and all
-/// neighbours hang together.
+/// Whether the faces of a vertex form a row, by counting: no neighbour is in more than two of them, and all neighbours
+/// are connected.
 bool form_a_row(std::uint32_t vertex, std::span<const Corners> faces) {
   std::map<std::uint32_t, std::set<std::uint32_t>> linked;
   std::map<std::uint32_t, int> times;
@@ -37,7 +37,7 @@ bool form_a_row(std::uint32_t vertex, std::span<const Corners> faces) {
   return reached.size() == linked.size();
 }
 
-/// Checks every promise of the header; gives the number of vertices with a rim.
+/// Checks everything that the header guarantees; returns the number of vertices with a rim.
 std::size_t expect_valid(const Vertex_fans& fans, std::uint32_t vertex_count, std::span<const Corners> faces) {
   std::size_t rims = 0;
   EXPECT_EQ(fans.vertex_count(), vertex_count);

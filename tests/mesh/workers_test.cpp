@@ -60,7 +60,7 @@ TEST(Workers, a_single_worker_runs_tasks_in_order_in_the_calling_thread) {
   for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], i);
 }
 
-/// Processors that this process may use.
+/// Number of processors that this process may use.
 std::size_t processors() {
   cpu_set_t allowed;
   EXPECT_EQ(sched_getaffinity(0, sizeof(allowed), &allowed), 0);

@@ -15,7 +15,7 @@ using Points = std::vector<Eigen::Vector3d>;
 using Regions = std::vector<std::pair<Region_index, Region_index>>;
 
 Regions candidates(const Points& a, const Points& b, double distance, Candidate_choice choice = Candidate_choice::all) {
-  std::vector<Candidate_pair> pairs{{7, 7, 7}};  // from a call before
+  std::vector<Candidate_pair> pairs{{7, 7, 7}};  // from an earlier call
   candidate_pairs(a, b, distance, choice, pairs);
   Regions regions;
   for (const auto& pair : pairs) {

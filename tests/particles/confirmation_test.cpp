@@ -12,7 +12,7 @@
 namespace lodestone {
 namespace {
 
-/// Some of the faces of a mesh as a patch in its place. It refers to itself, so it stays where it is.
+/// Some faces of a mesh as a patch at their positions. Not movable, since it refers to itself.
 struct Placed_patch {
   Patch patch;
   Posed_patch posed;
@@ -44,7 +44,7 @@ std::vector<Face_pair> double_loop(const Placed_patch& a, const Placed_patch& b)
   return pairs;
 }
 
-/// Checks all three queries on one pair of patches; gives the number of intersecting face pairs.
+/// Checks all three queries on one pair of patches; returns the number of intersecting face pairs.
 std::size_t expect_equal_to_double_loop(Confirmation& confirmation, const Placed_patch& a, const Placed_patch& b) {
   const auto expected = double_loop(a, b);
   const Face_pair earlier{1000000, 1000000};

@@ -14,7 +14,7 @@ namespace {
 constexpr int lanes = Attractors::lanes;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The force on one point, asked for in `lane`; the other lanes hold `other`.
+/// The force on one point, computed in `lane`; the other lanes hold `other`.
 double force_at(const Attractors& attractors, const Eigen::Vector3d& point, int lane = 0,
                 const Eigen::Vector3d& other = {50, 60, 70}, std::ptrdiff_t but = -1) {
   std::array<double, lanes> x, y, z, force;

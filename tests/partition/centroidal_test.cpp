@@ -64,7 +64,7 @@ TEST(Centroidal_seeds, after_convergence_are_the_vertices_nearest_to_the_centroi
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Centroidal_options options{.seed = seed, .start = Centroidal_start::random_vertices};
     const auto seeds = centroidal_seeds(surface_of(mesh), 8, options);
-    // Those returned are those that settled only where the energy never rose.
+    // The returned seeds are those at convergence only if the energy never rose.
     if (!seeds.settled || !std::ranges::is_sorted(seeds.energies, std::greater())) continue;
     ++settled;
     const auto labels = labels_of(Centroidal{.options = options}, surface, 8);
@@ -130,7 +130,7 @@ TEST(Centroidal, depends_on_the_seed) {
     std::set<std::vector<Region_index>> different_labels;
     for (std::uint64_t seed = 0; seed < 10; ++seed)
       different_labels.insert(labels_of(Centroidal{.options = {.seed = seed, .start = start}}, mesh, 8));
-    EXPECT_GE(different_labels.size(), 5U);  // from different starts they may settle alike
+    EXPECT_GE(different_labels.size(), 5U);  // different starts may converge to the same seeds
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes in very many connected components, and strategies that do not keep to their concept.
+// Meshes with very many connected components, and strategies that violate their concept.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using Labels = std::vector<Region_index>;
 
-/// The same triangles, each with three vertices of its own.
+/// The same triangles, each with three separate vertices.
 Surface_mesh unwelded(const Surface_mesh& mesh) {
   std::vector<Point> points;
   std::vector<Corners> faces;
@@ -133,7 +133,7 @@ TEST(Partition, islands_that_are_kept_add_no_region) {
   EXPECT_EQ(partitioned(copies(tetrahedron(), 10), 3, {.keep_islands = true}).regions, 3U);
 }
 
-/// A strategy that gives back whatever it holds.
+/// A strategy that returns a stored labelling.
 struct Fixed_labelling {
   static constexpr std::string_view name = "fixed";
   Labelling labelling = {};

@@ -46,7 +46,7 @@ TEST(Face_labels, between_equal_areas_the_number_of_faces_decides_then_the_lowes
   faces[0] = faces[1] = 4;
   faces[6] = faces[7] = 3;
   EXPECT_EQ(labels_of(mesh, faces)[4], 3U);
-  // Without area only the number counts: three faces of 9.
+  // Without area only the number of faces decides: three of 9.
   deform(mesh, [](const Point&) { return Point(0, 0, 0); });
   EXPECT_EQ(labels_of(mesh, {4, 9, 9, 9, 9, 9, 3, 3})[4], 9U);
 }

@@ -10,8 +10,9 @@
 namespace lodestone {
 namespace {
 
-/// Some size and the lower corner of the bounding box make these regions: of two vertices of one region no coordinates
-/// lie a cube's size apart, and along some axis a whole number of cubes lies between those of different regions.
+/// Checks that the regions are cubes of one size from the lower corner of the bounding box: coordinates of two vertices
+/// of one region differ by less than a cube's size, and vertices of different regions are in different cubes along some
+/// axis.
 bool are_cubes_of_size(const Positions& positions, const std::vector<Region_index>& labels, double size) {
   const Positions offsets = positions.rowwise() - positions.colwise().minCoeff();
   const auto cube = [&](std::size_t v) {
@@ -45,8 +46,8 @@ TEST(Grid, regions_are_cubes_of_one_size) {
   const auto mesh = potato(5);
   const Numbered_mesh numbered(mesh);
   const auto labels = labels_of(Grid{}, mesh, 20);
-  // A size at which vertices enter or leave a cube is a coordinate divided by a whole number: of the sizes halfway
-  // between two neighbouring such sizes, one must give these regions.
+  // Vertices enter or leave a cube at sizes that are a coordinate divided by an integer. So one of the sizes halfway
+  // between two consecutive such sizes must give these regions.
   const Positions offsets = numbered.positions.rowwise() - numbered.positions.colwise().minCoeff();
   std::vector<double> sizes;
   for (Eigen::Index v = 0; v < offsets.rows(); ++v)
@@ -70,7 +71,7 @@ TEST(Grid, regions_are_numbered_by_x_then_y_then_z) {
 }
 
 TEST(Grid, with_enough_regions_separates_all_vertices) {
-  // A vertex each: as many cubes as vertices, once cubes are smaller than the distance of two.
+  // One vertex per region, once cubes are smaller than the distance of two vertices.
   const auto mesh = grid(9, 4);
   EXPECT_EQ(different(labels_of(Grid{}, mesh, 36)), 36U);
 }

@@ -79,7 +79,7 @@ TEST(Repair_islands, equally_long_borders_are_decided_by_the_lowest_index) {
 }
 
 TEST(Repair_islands, an_island_behind_an_island_joins_too) {
-  // The last column knows no region but through the island before it.
+  // The last column reaches a region only through the island before it.
   Labels labels = strip_labels({2, 2, 2, 0, 0, 0, 1, 1, 1, 1, 0, 2});
   const auto repair = repair_islands(grid_graph(12, 2), labels, 3);
   EXPECT_EQ(labels, strip_labels({2, 2, 2, 0, 0, 0, 1, 1, 1, 1, 1, 1}));

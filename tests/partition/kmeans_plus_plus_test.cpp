@@ -37,7 +37,7 @@ double distortion(const Labelling& labelling) {
 }
 
 TEST(Kmeans_plus_plus_start, takes_vectors_in_proportion_to_their_squared_distance) {
-  // Four values on a line, at 0, 1, 3 and 3: the frequencies of the second draw follow from the first.
+  // Four values on a line, at 0, 1, 3 and 3: the first draw determines the probabilities of the second.
   const Feature_vectors vectors = (Feature_vectors(4, 1) << 0, 1, 3, 3).finished();
   std::array<std::array<double, 4>, 4> drawn{};
   std::array<double, 4> first{};
@@ -139,7 +139,8 @@ TEST(Kmeans_plus_plus, bad_options_are_refused) {
 }
 
 TEST(Kmeans_plus_plus, re_seeds_a_cell_that_becomes_empty) {
-  // Found by search: from what seed 2 draws of these eight places, the second iteration leaves a cell empty.
+  // Found by search: with the start that seed 2 draws from these eight positions, the second iteration leaves a cell
+  // empty.
   const auto mesh = mesh_of(
       {{7, 17, 0}, {12, 19, 0}, {4, 20, 0}, {2, 3, 0}, {14, 8, 0}, {8, 5, 0}, {11, 5, 0}, {19, 18, 0}}, {{0, 1, 2}});
   for (std::uint64_t seed = 0; seed < 20; ++seed)

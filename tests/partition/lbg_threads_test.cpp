@@ -36,7 +36,7 @@ void expect_same(const Quantisation& a, const Quantisation& b) {
   }
 }
 
-/// As a Lloyd iteration would: labels, distances and sums of one call.
+/// Labels, distances and sums of one call, as in a Lloyd iteration.
 void expect_same(const Assignment& a, const Assignment& b) {
   EXPECT_EQ(a.labels, b.labels);
   EXPECT_EQ(a.squared_distances, b.squared_distances);

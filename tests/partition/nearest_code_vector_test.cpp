@@ -133,7 +133,7 @@ TEST(Bounded_assignment, follows_labels_that_its_caller_has_changed) {
     search.assign(codes, bounded);
     assign_plain(vectors, codes, plain);
     expect_equal(bounded, plain);
-    // What the repair of an empty cell does: a vector becomes a code vector, whatever that was.
+    // As in the repair of an empty cell, a vector replaces a code vector.
     const auto vector = static_cast<Eigen::Index>(random() % 300);
     const auto code = static_cast<Region_index>(random() % 25);
     codes.row(code) = vectors.row(vector);

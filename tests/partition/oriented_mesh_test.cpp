@@ -24,7 +24,7 @@ Soup soup_of(const Surface_mesh& mesh) {
   return {numbered.positions, {numbered.faces.begin(), numbered.faces.end()}};
 }
 
-/// The corners of every face on the surface, sorted, as the mesh has them.
+/// The sorted corners of every face, as the mesh has them.
 void expect_same_faces(const Soup& soup, const Oriented_mesh& oriented, const std::vector<std::uint32_t>& kept) {
   ASSERT_TRUE(oriented.mesh.is_valid(false));
   ASSERT_EQ(oriented.mesh.number_of_vertices(), oriented.vertex_numbers.size());

@@ -13,7 +13,7 @@ namespace {
 
 const Eigen::Vector3d up(0, 0, 1);
 
-/// A numbered mesh with what `region_extent` wants to know of it.
+/// A mesh with the inputs of `region_extent`.
 struct Measured : Numbered_mesh {
   std::vector<Region_index> labels;
   std::vector<bool> border;

@@ -23,7 +23,7 @@ std::vector<Region_index> segments_of(const Surface_mesh& mesh, const Sdf_option
 
 std::size_t number_of(const std::vector<Region_index>& segments) { return 1 + std::ranges::max(segments); }
 
-/// The label that most vertices between two values of x have, and the share that has it.
+/// The most frequent label of the vertices between two values of x, and its share.
 std::pair<Region_index, double> most_common(const Surface_mesh& mesh, const std::vector<Region_index>& labels,
                                             double low, double high) {
   std::map<Region_index, std::size_t> counts;

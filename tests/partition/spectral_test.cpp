@@ -89,7 +89,7 @@ TEST(Spectral, between_unequal_balls_the_zero_cut_finds_the_bridge_and_the_media
   for (std::size_t v = 0; v < points.size(); ++v) positions.row(v) << points[v].x(), points[v].y(), points[v].z();
   const Face_soup soup{positions, faces};
   const auto labels = Spectral{.options = {.cut = Spectral_cut::zero}}.label(soup.surface(), 2).labels;
-  // Zero lies a little inside the larger ball, around the place of the bridge.
+  // Zero is slightly inside the larger ball, near the bridge.
   std::uint32_t strays = 0;
   for (std::uint32_t v = 0; v < labels.size(); ++v) strays += (labels[v] == labels[count]) == (v < count) ? 1 : 0;
   EXPECT_LT(strays, count / 50);

@@ -13,8 +13,8 @@
 namespace lodestone {
 namespace {
 
-/// Two deforming shapes of different size that meet, part and meet again: a knot is no convex body, and has contacts
-/// in several places.
+/// Two deforming shapes of different size that meet, separate and meet again. A knot is not convex and has contacts in
+/// several spots.
 class Two_shapes {
  public:
   Two_shapes() : meshes_{torus_knot({.segments = 60, .sides = 8}), icosphere(7)} {
@@ -51,7 +51,7 @@ std::string test_name(const Peer_kind& kind) {
 
 }  // namespace
 
-/// What a test is called by where it is listed.
+/// The name of a test in the list.
 void PrintTo(const Peer_kind& kind, std::ostream* out) {
   *out << kind.library << " " << kind.method << " " << kind.volume;
 }
@@ -65,11 +65,11 @@ std::vector<Face_pair> sorted(std::vector<Face_pair> pairs) {
 
 class Peers : public testing::TestWithParam<Peer_kind> {
  protected:
-  /// A refitted RSS loses collisions; merged OBBs, which OBBRSS and kIOS hold too, lose single pairs.
+  /// A refitted RSS misses collisions; merged OBBs, which OBBRSS and kIOS also use, miss single pairs.
   static bool loses_some() {
     return GetParam().library == "FCL" && GetParam().volume != "AABB" && !GetParam().volume.starts_with("KDOP");
   }
-  /// Bullet takes triangles that are only near for intersecting ones.
+  /// Bullet reports near triangles as intersecting.
   static bool adds_some() { return GetParam().library == "Bullet"; }
 
   void SetUp() override {

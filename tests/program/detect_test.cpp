@@ -342,7 +342,7 @@ TEST_F(Detect, growth_may_be_infinite) {
 }
 
 TEST_F(Detect, degenerate_meshes_are_legal_and_answered_exactly) {
-  // A needle of no area, one face that is a point, three faces on one edge, a vertex that stands twice, two components.
+  // A needle of zero area, a face that is a point, three faces on one edge, a duplicate vertex, two components.
   const std::vector<Sample> odd{
       {"line.off", "OFF\n3 1 0\n0.7 0.2 -1\n0.7 0.2 1\n0.7 0.2 0.5\n3 0 1 2\n"},
       {"point.off", "OFF\n1 1 0\n0.7 0.2 0\n3 0 0 0\n"},

@@ -69,7 +69,7 @@ TEST_F(Exact, writes_the_same_bytes_for_any_number_of_threads) {
 }
 
 TEST_F(Exact, writes_the_same_bytes_where_threads_share_a_walk) {
-  // Trees of some 800 leaves, of which far more pairs are near each other than one thread looks at alone.
+  // Trees of some 800 leaves, with far more candidate pairs than one thread processes alone.
   const auto scene = write("large.json", R"({"frames": 3, "objects": [
       {"name": "left", "shape": {"icosphere": {"frequency": 62}}},
       {"name": "right", "shape": {"icosphere": {"frequency": 60}}, "motion": {"deform": [
@@ -163,7 +163,7 @@ TEST_F(Exact, finds_self_collisions_of_a_single_mesh) {
   const auto bow = write("bow.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n");
   expect_success(detect(cross, {"--self", "--contacts", "all"}));
   EXPECT_EQ(frames().at(0)["pairs"][0]["faces"], Json::array({{0, 1}}));
-  // Two faces that share a vertex, which the mesh holds twice.
+  // Two faces that share a vertex, of which the mesh has two copies.
   expect_success(detect(bow, {"--self", "--contacts", "all"}));
   EXPECT_EQ(frames().at(0)["pairs"][0]["collides"], false);
   const auto alone = detect(cross, {});

@@ -138,7 +138,7 @@ TEST(Fitted_exponent, balances_errors_to_both_sides) {
 
 class Experiment_program : public testing::Test {
  protected:
-  /// Three frames in place of the three hundred that the experiment plays.
+  /// Three frames instead of the experiment's three hundred.
   void SetUp() override {
     folder.write("teapot_sphere_1.json", R"({"frames": 3, "objects": [
       {"name": "still", "shape": {"icosphere": {"frequency": 5}}},

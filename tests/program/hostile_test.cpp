@@ -20,7 +20,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// `text` with the first `from` replaced; it must be there.
+/// `text` with the first `from` replaced; `from` must occur.
 std::string changed(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -43,7 +43,7 @@ std::string square_cache(int frames, double last, double points = 4) {
   return bytes;
 }
 
-/// Where things stand in the binary samples.
+/// Offsets in the binary samples.
 const std::size_t ply_body = square_ply_header("binary_little_endian").size();
 const std::size_t ply_faces = ply_body + std::size_t{4} * 12;
 constexpr std::size_t stl_count = 80, stl_first_corner = 84 + 12;
@@ -52,7 +52,7 @@ class Hostile_input : public testing::Test {
  protected:
   void SetUp() override { folder.write("good.off", square_off); }
 
-  /// The program must refuse its inputs: code 3, one line that holds `part`, no result.
+  /// The program must refuse its inputs: exit code 3, one line that contains `part`, no result.
   void expect_refused(const std::vector<std::string>& inputs, const std::string& part) const {
     std::vector<std::string> arguments{"detect", "--out", out.string()};
     arguments.insert(arguments.end(), inputs.begin(), inputs.end());
@@ -96,7 +96,7 @@ TEST_F(Hostile_input, a_mesh_with_counts_too_large_for_the_file_is_refused) {
 
 TEST_F(Hostile_input, a_truncated_mesh_is_refused) {
   for (const auto& [name, bytes] : all_squares()) {
-    if (name.ends_with(".obj")) continue;  // has no counts: every beginning of one is complete
+    if (name.ends_with(".obj")) continue;  // has no counts: every prefix of such a file is complete
     const auto extension = std::filesystem::path(name).extension().string();
     expect_refused({{"half" + name, bytes.substr(0, bytes.size() / 2)},
                     {"almost" + name, bytes.substr(0, bytes.size() - (extension == ".off" ? 4 : 12))}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pages that the program writes, taken apart again.
+// The pages that the program writes, decoded.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The square with a triangle through it, a vertex too many, a vertex twice, and a face without area.
+/// The square with a triangle through it, an unused vertex, a duplicate vertex, and a zero-area face.
 const std::string trouble =
     "OFF\n9 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.7 0.2 -1\n0.7 0.2 1\n0.8 0.2 1\n5 5 5\n0 0 0\n"
     "3 0 1 2\n3 0 2 3\n3 4 5 6\n3 0 8 1\n";

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A tetrahedron that comes from x = 3 to x = 0.25, where it meets another that stands.
+/// A tetrahedron that moves from x = 3 to x = 0.25, where it meets another that rests.
 class Paraview : public testing::Test {
  protected:
   Paraview() {

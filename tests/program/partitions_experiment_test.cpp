@@ -25,7 +25,7 @@ struct Partitions_experiment : ::testing::Test {
   }
   std::filesystem::path rows(const std::string& out) const { return folder.path() / out / "rows.jsonl"; }
 
-  /// By id, without what differs between two runs of the same.
+  /// By id, without the fields that differ between two equal runs.
   std::map<std::string, nlohmann::json> results(const std::string& out) const {
     std::map<std::string, nlohmann::json> by_id;
     for (auto row : read_json_lines(rows(out))) {

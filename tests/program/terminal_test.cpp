@@ -16,7 +16,7 @@ namespace {
 
 struct Terminal_session {
   int exit_code = -1;
-  std::string bytes;  ///< everything that was sent to the terminal
+  std::string bytes;  ///< all output sent to the terminal
 };
 
 /// Runs the program with a terminal of 200 columns for all three streams.
@@ -38,7 +38,7 @@ Terminal_session run_on_terminal(const std::vector<std::string>& arguments) {
   while (true) {
     const auto count = ::read(terminal, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;  // an error tells that the other side is closed
+    if (count <= 0) break;  // an error means that the other side is closed
     session.bytes.append(bytes.data(), static_cast<std::size_t>(count));
   }
   ::close(terminal);
@@ -48,7 +48,7 @@ Terminal_session run_on_terminal(const std::vector<std::string>& arguments) {
   return session;
 }
 
-/// What is left to see on the terminal: it knows line feed, carriage return and the erasure to the end of the line.
+/// What remains visible on the terminal. Interprets line feed, carriage return and erasure to the end of the line.
 std::string screen_of(const std::string& bytes) {
   std::vector<std::string> lines(1);
   std::size_t column = 0;

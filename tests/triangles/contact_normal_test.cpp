@@ -47,7 +47,7 @@ TEST(Contact_normal, of_a_wall_through_a_floor_points_halfway_between_them) {
   const auto contact = contact_normal(wall, floor_tile);
   const double half = std::sqrt(0.5);
   EXPECT_LT((contact.normal - Eigen::Vector3d(-half, 0, half)).norm(), 1e-15);
-  // The floor reaches up to 0 along the normal, at its corner in the origin; the wall down to -2 / sqrt(2).
+  // Along the normal the floor reaches up to 0, at its corner in the origin, and the wall down to -2 / sqrt(2).
   EXPECT_NEAR(contact.depth, std::sqrt(2.0), 1e-15);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The exact test of one pair of faces; how pairs are found in a mesh is tested in face_neighbours_test.cpp.
+// The exact test of one pair of faces; pairs of a mesh are tested in neighbour_check_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>

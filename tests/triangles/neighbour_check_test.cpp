@@ -46,7 +46,7 @@ TEST(Neighbour_check, equals_cgal_on_tiny_huge_and_far_away_surfaces) {
     shift(mesh, 0x1p20, -0x1p20, 0x1p20);
     found += expect_equal_to_cgal(mesh);
     scale(mesh, 0x1p-20);
-    shift(mesh, 0, 0x1p20, 0);  // few digits are left: many vertices fall on a lattice
+    shift(mesh, 0, 0x1p20, 0);  // few digits are left: many vertices round to a lattice
     const Numbered_mesh numbered(mesh);
     if (reported_by_cgal(mesh, numbered.faces).faces_without_area == 0) found += expect_equal_to_cgal(mesh);
   }
@@ -85,7 +85,7 @@ TEST(Neighbour_check, equals_cgal_where_one_last_digit_decides) {
   std::size_t found = 0;
   for (int trial = 0; trial < 30; ++trial) {
     auto mesh = cloth(8, 8);
-    // Whole rows of vertices fall on a few lines, give or take a last digit.
+    // Whole rows of vertices are on a few lines, up to a last digit.
     deform(mesh, [&](const Point& p) {
       const auto digit = [&] { return 0x1p-52 * (static_cast<double>(random() % 3) - 1); };
       const double z = trial % 2 == 0 ? 0 : 0.3 * p.x() + 0.7 * p.y();
@@ -170,7 +170,7 @@ TEST(Neighbour_check, treats_zero_area_faces_as_segments_and_points) {
     const auto pairs = answer(numbered.positions, numbered.faces).pairs;
     ASSERT_EQ(pairs, by_definition::adjacent_pairs(numbered.positions, numbered.faces)) << trial;
 
-    // CGAL leaves out all pairs of a face without area.
+    // CGAL omits all pairs of a zero-area face.
     const auto reported = reported_by_cgal(mesh, numbered.faces);
     const auto has_area = [&](std::uint32_t face) {
       const auto& [a, b, c] = numbered.faces[face];

@@ -15,7 +15,7 @@
 namespace lodestone {
 namespace {
 
-/// Faces and coordinates, which need not form a mesh that CGAL could hold.
+/// Faces and coordinates, which need not form a half-edge mesh.
 struct Soup {
   std::vector<Corners> faces;
   std::vector<double> positions;
@@ -41,7 +41,7 @@ Point placed(const Point& p, double scale, double offset) {
   return {scale * p.x() + offset, scale * p.y() + offset, scale * p.z() + offset};
 }
 
-/// Scales at which nothing is rounded, and an offset at which coordinates of few digits are not.
+/// Scales that never round, and an offset that does not round coordinates of few digits.
 const std::vector<std::pair<double, double>> places{{1, 0},        {0x1p-300, 0}, {0x1p300, 0}, {0x1p-1060, 0},
                                                     {0x1p1010, 0}, {1, 0x1p20},   {1, -0x1p20}};
 
@@ -149,8 +149,8 @@ TEST(Point_inside, is_right_for_points_on_the_lattice_of_an_octahedron) {
   }
 }
 
-/// A cube with faces that have no area: some closed in themselves, and one that fills the slit between an edge and its
-/// two halves.
+/// A cube with zero-area faces: some closed in themselves, and one that fills the slit between an edge and its two
+/// halves.
 Soup cube_with_degenerate_faces() {
   Soup soup(cube(2));
   const auto first = soup.faces.front();

@@ -254,7 +254,7 @@ TEST(Closest_points, give_the_direction_of_a_gap_of_any_size) {
                           as_point(tip + normal - 0.2 * (r - p))};
       const Exact_vector up = CGAL::cross_product(exact_point(floor[1]) - exact_point(floor[0]),
                                                   exact_point(floor[2]) - exact_point(floor[0]));
-      // Rounded, a short gap may be none.
+      // A short gap may be rounded to zero.
       if (!((exact_point(wall[0]) - exact_point(floor[0])) * up > 0)) continue;
       ++apart;
       EXPECT_LT((closest_points(wall, floor).direction - unit(up)).norm(), 1e-9) << gap;

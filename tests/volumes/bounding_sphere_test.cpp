@@ -38,7 +38,7 @@ TEST(Bounding_sphere, contains_the_corners_of_random_triangles_exactly) {
     const Leaf leaf = strip({a + offset, b + offset, c + offset});
     const auto ball = volume_of<Bounding_sphere>(leaf);
     for (std::size_t place = 0; place < 3; ++place) ASSERT_TRUE(inside(ball, exact_point(leaf.point(place))));
-    // The border is in reach: a widening that is left out must be seen.
+    // Points are close to the border, so that a missing widening is detected.
     ASSERT_LE(ball.radius, 1.01 * (a - b).norm() + 1.01 * (a - c).norm());
   }
 }
@@ -134,14 +134,14 @@ TEST(Bounding_sphere, is_near_another_unless_they_are_apart) {
       const Eigen::Vector3d p = (i % 2) * (unit < 0x1p1000 ? 0x1p10 : 1) * random_vector(random),
                             step = random_vector(random);
       const double a_radius = step.norm() * 0.3, margin = i % 3 == 0 ? 0 : a_radius / 2;
-      // They touch, up to rounding and a little more.
+      // They touch, up to a little more than rounding.
       const double b_radius = (step.norm() - a_radius - margin) * (1 + (i % 7 - 3.0) * 0x1p-52);
       const auto a = ball_at(unit * p, unit * a_radius), b = ball_at(unit * (p + step), unit * b_radius);
       const Rational reach = Rational(a.radius) + Rational(b.radius) + Rational(unit * margin);
       const bool meet = squared_distance(exact_point(a.centre), exact_point(b.centre)) <= reach * reach;
       ASSERT_TRUE(near(a, b, unit * margin) || !meet);
       apart += !meet;
-      // A clear distance is seen at any scale.
+      // A clear distance is detected at any scale.
       ASSERT_FALSE(near(a, ball_at(unit * (p + 1.001 * step), b.radius), unit * margin) && unit > 0x1p-1000);
     }
   EXPECT_GT(apart, 1000);

@@ -130,7 +130,7 @@ TEST(Oriented_box, is_near_another_that_shares_a_corner) {
     }
 }
 
-// An edge of the one beam and one of the other, at right angles, are the nearest: only their cross product tells.
+// The nearest parts are two perpendicular edges, one of each beam: only their cross product separates them.
 TEST(Oriented_box, measures_the_margin_from_edge_to_edge) {
   const Eigen::Matrix3d about_y = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitY()).matrix();
   const Eigen::Matrix3d about_x = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitX()).matrix();

@@ -12,7 +12,7 @@
 namespace lodestone {
 namespace {
 
-/// In the columns of a matrix.
+/// As the columns of a matrix.
 Eigen::Matrix3d unit_directions(const Quantised_turn& turn) {
   Eigen::Matrix3d axes;
   const auto directions = turn.directions();

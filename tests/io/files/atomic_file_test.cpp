@@ -26,7 +26,7 @@ std::ptrdiff_t files_in(const std::filesystem::path& folder) {
   return std::distance(Iterator(folder), Iterator());
 }
 
-/// Making the file must fail with a message of one line that begins with `path`.
+/// Creating the file must fail with a one-line message that begins with `path`.
 void expect_refused(const std::filesystem::path& target, const std::filesystem::path& path) {
   try {
     const Atomic_file file(target);
@@ -131,7 +131,7 @@ TEST(Atomic_file, refuses_a_folder_as_target_and_a_file_as_folder) {
   EXPECT_EQ(bytes_of(file), "mine");
 }
 
-/// In a process of its own, whose files may have 1000 bytes.
+/// In a separate process with a file-size limit of 1000 bytes.
 void write_on_full_disk(const std::filesystem::path& target, std::size_t size) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{1000, 1000};

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Every value of a document but itself, objects and arrays included.
+/// Every value inside a document, including objects and arrays.
 std::vector<Json::json_pointer> all_places(const Json& document) {
   std::set<std::string> places;
   const auto leaves = document.flatten();
@@ -117,7 +117,7 @@ TEST_F(Gltf_damage, any_replaced_value_gives_a_mesh_or_an_error) {
       parent.erase(static_cast<Json::size_type>(std::stoul(place.back())));
     read(folder.write("a.gltf", without.gltf()));
   }
-  EXPECT_GT(good, places.size());  // whole ones, and some that can do without a value or with another
+  EXPECT_GT(good, places.size());  // complete files, and some for which a value is optional or arbitrary
   EXPECT_GT(bad, 1000U);
 }
 

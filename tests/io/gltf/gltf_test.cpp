@@ -36,7 +36,7 @@ std::vector<Point> moved(const Move& move) {
 class Gltf : public testing::Test {
  protected:
   std::filesystem::path write(const Gltf_sample& sample) const { return folder.write("a.glb", sample.glb()); }
-  /// All vertices in the frame at this time, at ten frames per second.
+  /// All vertices at this time, at ten frames per second.
   std::vector<Point> at(const Gltf_sample& sample, double seconds) const {
     const auto animation = read_animation(write(sample), {.frames_per_second = 10});
     std::vector<Point> positions(animation.vertices);
@@ -179,7 +179,7 @@ TEST_F(Gltf, step_curves_are_constant_until_the_next_key) {
 }
 
 TEST_F(Gltf, cubic_curves_are_hermite_splines) {
-  // z(t) = t^3 with its own slopes at 0 and 2 must come back everywhere.
+  // z(t) = t^3 with its slopes at 0 and 2 must be reproduced everywhere.
   auto sample = square_gltf();
   sample.animate(0, "translation", sample.add_numbers({0, 2}),
                  sample.add_points({9, 9, 9, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 9, 9, 9}), "CUBICSPLINE");
@@ -230,7 +230,7 @@ TEST_F(Gltf, skins_move_vertices_with_their_joints_and_not_with_the_node) {
   sample.json["nodes"][0].erase("children");
   sample.json["scenes"] = {{{"nodes", {0, 1}}}};
   expect_near(at_rest(sample), square_points);
-  // Joint 1 stands at (1, 0, 0) at rest, and is lifted by 2 here.
+  // Joint 1 is at (1, 0, 0) at rest, and is lifted by 2 here.
   sample.json["nodes"][2]["translation"] = {1, 0, 2};
   expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 2 * 127 / 255.0}, {1, 1, 2}, {0, 1, 2}});
 }

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// `text` with the first `from` replaced; it must be there.
+/// `text` with the first `from` replaced; `from` must occur.
 std::string changed(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -33,8 +33,8 @@ std::string changed_ply(const std::string& from, const std::string& to) { return
 
 class Hostile_mesh : public testing::Test {
  protected:
-  /// Reading must fail with Bad_mesh: file, place and cause in one line.
-  /// @param rest  what follows the file's name in the message, or its beginning
+  /// Reading must fail with Bad_mesh: file, line or byte, and cause, on one line.
+  /// @param rest  the message after the file's name, or its beginning
   void expect_error(const std::string& name, std::string_view bytes, const std::string& rest) const {
     expect_error(folder.write(name, bytes), rest);
   }
@@ -325,14 +325,14 @@ TEST_F(Hostile_mesh, text_stl_that_is_truncated_or_broken_is_refused) {
 
 // The world around
 
-/// Puts a dot between thousands and a comma before decimals, as is the custom in half of Europe.
+/// A dot between thousands and a decimal comma, as in much of Europe.
 struct Comma_punctuation : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   char do_thousands_sep() const override { return '.'; }
   std::string do_grouping() const override { return "\3"; }
 };
 
-/// Gives back the global locale at the end of a test.
+/// Restores the global locale at the end of a test.
 struct Locale_guard {
   std::locale before;
   ~Locale_guard() { std::locale::global(before); }

@@ -23,7 +23,7 @@ namespace {
 
 using Corners = std::multiset<std::size_t>;
 
-/// Per face of the mesh, in order, the file's numbers of its corners.
+/// Per face of the mesh, in order: its corners as file vertices.
 std::vector<Corners> file_corners(const Mesh_file& read) {
   std::vector<Corners> result;
   for (const auto face : faces(read.mesh)) {
@@ -41,7 +41,7 @@ void expect_square(const Mesh_file& read) {
   for (const auto v : vertices(read.mesh)) EXPECT_EQ(read.mesh.point(v), corners.at(read.file_vertex.at(v)));
 }
 
-/// What holds for every mesh that was read.
+/// Checks what must hold for every mesh that was read.
 void expect_sound(const Mesh_file& read) {
   EXPECT_TRUE(read.mesh.is_valid(false));
   EXPECT_EQ(read.file_vertex.size(), num_vertices(read.mesh));

@@ -92,7 +92,7 @@ TEST(Deform, gives_the_same_bytes_for_the_same_frame_in_any_order_of_calls) {
 TEST(Deform, applies_deformations_in_their_order) {
   const Deformation spin = Spin{.axis = {0, 0, 1}, .degrees_per_frame = 90};
   const Deformation travel = Travel{{{0, {5, 0, 0}}}, Path::linear};
-  // Turned by a quarter about (10, 0, 0): the way to +x becomes one to +y if it was walked before.
+  // A quarter turn about (10, 0, 0): a translation along +x becomes one along +y if it came before the turn.
   EXPECT_LT(distance(posed({spin, travel}, 1)[0], Point(15, 0, 0)), 1e-12);
   EXPECT_LT(distance(posed({travel, spin}, 1)[0], Point(10, 5, 0)), 1e-12);
 }
@@ -239,7 +239,7 @@ TEST(Travel, on_a_closed_path_repeats_for_ever_without_a_kink_at_its_seam) {
     expect_near(posed(motion, frame + 1000), posed(motion, frame));
     expect_near(posed(motion, frame + 7000), posed(motion, frame));
   }
-  // Before the first way point too: frame 50 is the path's frame 1050.
+  // Also before the first way point: frame 50 is the path's frame 1050.
   expect_near(posed(motion, 50), posed(motion, 1050));
   const Vector into = posed(motion, 1100)[0] - posed(motion, 1099)[0];
   const Vector out_of = posed(motion, 1101)[0] - posed(motion, 1100)[0];

@@ -24,7 +24,7 @@ std::string padded(std::string text, std::size_t length) {
   return text;
 }
 
-/// The square, two frames: in frame t it stands at x = t, and its third corner at z = 1.5 t.
+/// The square in two frames: in frame t it is at x = t, and its third corner at z = 1.5 t.
 std::string square_md2() {
   auto bytes = "IDP2" + numbers({8, 64, 64, 56, 0, 4, 0, 2, 0, 2, 68, 68, 68, 92, 204, 204});
   bytes += packed<std::uint16_t>({0, 1, 2, 0, 0, 0, 0, 2, 3, 0, 0, 0});
@@ -35,7 +35,7 @@ std::string square_md2() {
   return bytes;
 }
 
-/// The same with five vertices, the last in the place of the first, in two surfaces of one triangle each.
+/// The same with five vertices, the last coinciding with the first, in two surfaces of one triangle each.
 std::string square_md3() {
   const auto surface = [](std::initializer_list<double> corners) {
     auto bytes = "IDP3" + padded("body", 64) + numbers({0, 2, 0, 5, 1, 108, 120, 120, 120, 200});

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a vertex of the square is in a frame: nothing that a float holds exactly.
+/// The position of a vertex of the square in a frame; not exactly representable as float.
 Point place(std::size_t vertex, std::size_t frame) {
   const auto v = static_cast<double>(vertex), t = static_cast<double>(frame);
   return {v / 3 + t, std::sin(v + t), t * t / 7 - v};
@@ -46,7 +46,7 @@ std::set<std::string> names_in(const fs::path& folder) {
 
 class Animation_output : public testing::Test {
  protected:
-  /// The output must hold these frames of the square.
+  /// The output must contain these frames of the square.
   void expect_frames(const Animation& found, const std::vector<std::size_t>& frames, double tolerance) const {
     ASSERT_EQ(found.motion.frames, frames.size());
     ASSERT_EQ(found.vertices, 5U);

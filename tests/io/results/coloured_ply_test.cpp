@@ -20,7 +20,7 @@
 namespace lodestone::test {
 namespace {
 
-/// A vertex as it stands in the file.
+/// A vertex as stored in the file.
 struct Written_vertex {
   std::array<double, 3> position;
   std::array<std::uint8_t, 3> colour;

@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 
 const std::vector<Corners> tetrahedron_faces{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
-/// Points that move on curves, each its own.
+/// Points that move, each on its own curve.
 std::vector<Positions> moving_points(Eigen::Index vertices, std::size_t frames) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> anywhere(-1, 1);
@@ -43,7 +43,7 @@ Page page_of(const std::vector<Positions>& frames) {
   return page;
 }
 
-/// Every coordinate must come back within half a step of its object's box, up to a few roundings.
+/// Every coordinate must be decoded within half a step of its object's box, up to a few roundings.
 void expect_positions(const std::vector<Positions>& frames) {
   const Decoded_page page(page_of(frames).data());
   const auto decoded = page.positions(0);
@@ -102,7 +102,7 @@ TEST(Page, flat_and_still_objects_come_back_exactly_along_flat_axes) {
   expect_positions({Positions::Constant(3, 3, 7), Positions::Constant(3, 3, 7)});
 }
 
-/// Corners, in numbers of one and of two bytes: differences 0, 1, 1, 198, -200, 1; stored 0, 2, 2, 396, 399, 2.
+/// Corners, as varints of one and of two bytes: differences 0, 1, 1, 198, -200, 1; stored 0, 2, 2, 396, 399, 2.
 TEST(Page, the_bytes_of_a_topology_follow_the_format) {
   Page page({.title = ""});
   page.add_object("object", 300, {{0, 1, 2}, {200, 0, 1}});
@@ -112,7 +112,7 @@ TEST(Page, the_bytes_of_a_topology_follow_the_format) {
   EXPECT_EQ(decoded.topology(0), (std::vector<std::uint32_t>{0, 1, 2, 200, 0, 1}));
 }
 
-/// One coordinate goes through the steps 0, 65535 in three frames, the others stay at 0.
+/// One coordinate alternates between the steps 0 and 65535 in three frames; the others stay at 0.
 TEST(Page, the_bytes_of_positions_follow_the_format) {
   Positions here = Positions::Zero(2, 3), there = here;
   there(1, 0) = 2;
@@ -291,7 +291,7 @@ TEST(Page_frame_step, is_the_smallest_that_keeps_the_page_small) {
     for (const std::size_t vertices : {60'000, 500'000, 50'000'000}) {
       const auto held = [&](std::size_t step) { return (frames + step - 1) / step * vertices; };
       const std::size_t step = page_frame_step(frames, vertices);
-      EXPECT_LE(held(step), std::max<std::size_t>(5'000'000, vertices));  // one frame there is always
+      EXPECT_LE(held(step), std::max<std::size_t>(5'000'000, vertices));  // always at least one frame
       if (step > 1) {
         EXPECT_GT(held(step - 1), 5'000'000U);
       }

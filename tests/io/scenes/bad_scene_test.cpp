@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is no scene: one error each, on one line, with file, place and cause.
+// Invalid scenes: one error each, on one line, with file, JSON pointer and cause.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -83,7 +83,7 @@ TEST_P(Teapot_grids, give_64uv_minus_8v_triangles_in_four_components_without_cra
   EXPECT_EQ(mesh.number_of_faces(), 64 * u * v - 8 * v);
   const auto component = mesh.add_property_map<Surface_mesh::Face_index, std::size_t>("component").first;
   EXPECT_EQ(PMP::connected_components(mesh, component), 4U);
-  // Body and lid have one border each, handle and spout two. A crack would be one more.
+  // Body and lid have one border each, handle and spout two. A crack would add a border.
   EXPECT_EQ(number_of_borders(mesh), 6U);
   // Two discs and two open tubes.
   EXPECT_EQ(euler_characteristic(mesh), 2);
@@ -137,7 +137,7 @@ TEST(Bezier_patches, with_evenly_spaced_control_points_give_a_flat_square) {
   const Surface_mesh mesh = bezier_patches(flat_patch, "flat", {4, 5});
   EXPECT_EQ(mesh.number_of_faces(), 40U);
   EXPECT_NEAR(area(mesh), 9, 1e-12);
-  // Along a row is y, from row to row is x: outside is y cross x, below.
+  // Along a row is y, from row to row is x: y cross x points down, which is outside.
   EXPECT_NEAR(volume(mesh, Point(0, 0, 1), [](auto) { return true; }), 3, 1e-12);
 }
 
