@@ -13,14 +13,14 @@ export class Varint_reader {
     this.at = 0;
   }
 
-  /** @returns {number} a whole number from 0 to 2^53 - 1 */
+  /** @returns {number} an integer from 0 to 2^53 - 1 */
   next() {
     const byte = this.bytes[this.at++];
     if (byte < 128) return byte;
     return this.#rest(byte);
   }
 
-  /** @returns {number} a whole number of either sign */
+  /** @returns {number} an integer of either sign */
   next_signed() {
     const n = this.next();
     if (n < 2147483648) return (n >>> 1) ^ -(n & 1);
