@@ -256,9 +256,11 @@ TYPED_TEST_P(Detector_volume_contract, points_and_normals_of_contacts_are_those_
   }
 }
 
-REGISTER_TYPED_TEST_SUITE_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_with_any_number_of_threads,
-                            in_any_unit_and_far_from_the_origin, yes_or_no_and_first_contacts, pairs_within_a_tolerance,
-                            collisions_of_an_object_with_itself, the_closest_faces, objects_inside_others,
-                            points_and_normals_of_contacts_are_those_of_boxes);
+REGISTER_TYPED_TEST_SUITE_P(Detector_volume_contract,
+                            all_pairs_of_deforming_surfaces_are_found_with_any_number_of_threads,
+                            all_pairs_are_found_in_any_unit_and_far_from_the_origin,
+                            yes_or_no_and_first_contacts_agree_with_exhaustive_checking,
+                            pairs_within_a_tolerance_are_found, self_collisions_are_found, the_closest_faces_are_found,
+                            objects_inside_others_are_found, points_and_normals_of_contacts_are_those_of_boxes);
 
 }  // namespace lodestone

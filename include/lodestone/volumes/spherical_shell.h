@@ -81,8 +81,9 @@ bool shells_near(const Spherical_shell& a, const Spherical_shell& b, double marg
 ///
 /// - From the ball: |p - c| differs from |k - c| by at most m.
 /// - From the spheres of B, with radii r' and R' about c': |p - c|^2 = |p - c'|^2 + 2 (p - c') . (c' - c) + |c' - c|^2,
-///   and the same holds for k. Subtracting gives |p - c|^2 - |k - c|^2 = |p - c'|^2 - |k - c'|^2 + 2 (p - k) . (c' -
-///   c). The last term is at most 2 m |c' - c|, and |p - c'| is from r' to R'. For c = c' the bound is again r' to R'.
+///   and the same holds for k. Subtracting gives
+///   |p - c|^2 - |k - c|^2 = |p - c'|^2 - |k - c'|^2 + 2 (p - k) . (c' - c).
+///   The last term is at most 2 m |c' - c|, and |p - c'| is from r' to R'. For c = c' the bound is again r' to R'.
 inline bool near(const Spherical_shell& a, const Spherical_shell& b, double margin) {
   if (!near(a.ball, b.ball, margin)) return false;
   if (!a.has_shell() && !b.has_shell()) return true;
