@@ -38,8 +38,8 @@ Vertices add_circle_of_latitude(Surface_mesh& mesh, double polar, std::size_t sl
   return circle;
 }
 
-/// Joins two rings of vertices by a band of squares. Seen from outside, `upper` is above `lower`, and both run from left
-/// to right.
+/// Joins two rings of vertices by a band of squares. Seen from outside, `upper` is above `lower`, and both run from
+/// left to right.
 void add_band(Surface_mesh& mesh, const Vertices& upper, const Vertices& lower) {
   for (std::size_t i = 0; i < upper.size(); ++i) {
     const std::size_t j = (i + 1) % upper.size();
