@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Headers, library, program, and the package that find_package(lodestone) finds.
+# Installs headers, library and program, and the package for find_package(lodestone).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

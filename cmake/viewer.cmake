@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The template of the program's pages: `viewer`, or the reason for which there is none: `no_viewer`.
+# Sets `viewer` to the template of the program's pages, or `no_viewer` to the reason why there is none.
 set(LODESTONE_VIEWER "" CACHE FILEPATH "Template of pages that was built before; empty: built here from web/")
 option(LODESTONE_BUILD_VIEWER "Build the template of pages; without one the program writes no pages" ON)
 find_program(LODESTONE_NODE NAMES node nodejs)
@@ -26,7 +26,7 @@ elseif(NOT EXISTS ${PROJECT_SOURCE_DIR}/scripts/build_viewer)
   set(no_viewer "the source has no scripts/build_viewer")
 else()
   set(viewer ${PROJECT_BINARY_DIR}/viewer.html)
-  # Whatever the script may read; node_modules, which changes with the lock file only, would take long to look through.
+  # All files that the script may read, except node_modules: it is slow to scan, and changes only with the lock file.
   set(web ${PROJECT_SOURCE_DIR}/web)
   file(GLOB viewer_sources CONFIGURE_DEPENDS ${web}/*.mjs ${web}/*.json)
   file(GLOB folders CONFIGURE_DEPENDS LIST_DIRECTORIES true ${web}/*)
@@ -41,7 +41,7 @@ else()
             (${CMAKE_COMMAND} -E echo "The viewer cannot be built: see above. -D LODESTONE_BUILD_VIEWER=OFF leaves it out." && false)
     DEPENDS ${viewer_sources} ${PROJECT_SOURCE_DIR}/scripts/build_viewer ${PROJECT_SOURCE_DIR}/scripts/install_web
     COMMENT "Building the template of pages")
-  # A target of its own: otherwise the command would wait for the library.
+  # A separate target, so that the command need not wait for the library.
   add_custom_target(lodestone_viewer DEPENDS ${viewer})
 endif()
 if(no_viewer)

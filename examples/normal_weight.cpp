@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How much should normals weigh against positions? A sweep over the weight, with what the partitions are like.
+// How much should normals weigh against positions? A sweep over the weight, with the measures of each partition.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

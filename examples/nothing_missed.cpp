@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mode exact on two spheres of which one sinks into the other: all contacts of a frame, the distance before they touch,
-// and a walk over the two trees with a visitor of one's own.
+// Mode exact on two spheres, one of which sinks into the other: all contacts of a frame, the distance before they
+// touch, and a walk over the two trees with a custom visitor.
 #include <cstdio>
 #include <exception>
 
@@ -28,7 +28,7 @@ int main() try {
 
   for (const double height : {2.5, 1.9, 1.0}) {
     for (const auto v : above.vertices()) above.point(v) = below.point(v) + Kernel::Vector_3(0, 0, height);
-    const Frame& frame = detector.detect();  // reads the positions as they are now
+    const Frame& frame = detector.detect();  // reads the current positions
     if (frame.collides())
       std::printf("height %.1f: %zu contacts, the first along z = %.2f\n", height, frame.face_pairs.size(),
                   frame.contact_normals[0].normal.z());

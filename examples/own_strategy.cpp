@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A partition strategy of one's own: slices of equal size along an axis. Measured beside the library's, and used by a
-// detector, which takes it as a template argument.
+// A custom partition strategy: slices of equal size along an axis. It is measured beside LBG and used by a detector,
+// which takes it as a template argument.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -16,14 +16,14 @@ struct Slices {
   static constexpr std::string_view name = "slices";
   int axis = 2;
 
-  /// Vertices in the order of one coordinate, in `regions` runs of equal length.
+  /// Sorts the vertices by one coordinate and cuts the order into `regions` runs of equal length.
   Labelling operator()(const Partition_input<Surface_mesh>& input, std::size_t regions) const {
     std::vector<std::uint32_t> order(input.positions.rows());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, {}, [&](auto v) { return input.positions(v, axis); });
     Labelling labelling{.labels = std::vector<Region_index>(order.size())};
-    for (std::size_t place = 0; place < order.size(); ++place)
-      labelling.labels[order[place]] = static_cast<Region_index>(place * regions / order.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank)
+      labelling.labels[order[rank]] = static_cast<Region_index>(rank * regions / order.size());
     return labelling;
   }
 };

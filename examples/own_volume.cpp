@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A bounding volume of one's own in the trees of mode exact: boxes of floats, less than half as large as those of the
-// library. It finds the same contacts, as any volume does that encloses what it should.
+// A custom bounding volume in the trees of mode exact: boxes of floats, which take less than half the memory of the
+// library's boxes. It finds the same contacts, as every correct bounding volume does.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -19,7 +19,7 @@ struct Float_box {
     Aabb box;
     box.enclose(faces);
     for (int k = 0; k < 3; ++k) {
-      low[k] = std::nextafter(static_cast<float>(box.low[k]), -HUGE_VALF);  // outwards, whichever way it was rounded
+      low[k] = std::nextafter(static_cast<float>(box.low[k]), -HUGE_VALF);  // outwards, to undo any rounding inwards
       high[k] = std::nextafter(static_cast<float>(box.high[k]), HUGE_VALF);
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same detector on another mesh type: nothing but the template argument changes. Regions and particles lie in
+// The same detector on another mesh type: only the template argument changes. Regions and particles are stored in
 // property maps of the mesh.
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/boost/graph/copy_face_graph.h>

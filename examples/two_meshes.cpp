@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One call for two meshes, then the same two followed while one of them moves through the other.
+// One call for two meshes; then a detector that follows them while one moves through the other.
 #include <cstdio>
 #include <exception>
 

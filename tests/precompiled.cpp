@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Only there for the header to be compiled.
+// Exists only to compile the header.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of coloured meshes: OUT_DIR/STEM.png each, and all of them on one labelled sheet if asked for.
+// Pictures of coloured meshes: OUT_DIR/STEM.png for each, and on request a labelled sheet of all.
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { start_browser } from './src/browser.mjs';
@@ -13,7 +13,7 @@ const stem = (file) => path.basename(file, path.extname(file));
 
 async function main(words) {
   const { out, files, sheet, columns, width, up } = read_arguments(words);
-  // A broken file is found before the browser starts; meshes are not kept, for they can be large.
+  // Finds broken files before the browser starts. Meshes are not kept, since they can be large.
   files.forEach((file) => read_coloured_ply(file, up));
   const browser = await start_browser();
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws the Vega-Lite specifications of a folder: OUT/plots/NAME.svg each, and OUT/plots.html with all of them.
+// Draws the Vega-Lite specifications of a folder: OUT/plots/NAME.svg for each, and OUT/plots.html with all.
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { parse, resetSVGClipId, View } from 'vega';
@@ -15,7 +15,7 @@ const svg_width = 640;
 async function main(words) {
   const { spec_folder, out, title } = read_arguments(words);
   const plots = read_plots(spec_folder, out);
-  // All of them before the first is written: an error leaves what was there.
+  // All are drawn before the first is written, so that an error leaves existing files untouched.
   const pictures = [];
   for (const plot of plots) pictures.push(await plot_svg(plot, spec_folder));
   const page = await plots_page(title, plots);
@@ -34,7 +34,7 @@ function read_arguments(words) {
   }
 }
 
-/** A specification as text of an SVG. */
+/** Renders a specification as SVG text. */
 async function plot_svg({ name, spec }, spec_folder) {
   const file = path.join(spec_folder, `${name}.vl.json`);
   const width = !spec.width || spec.width === 'container' ? svg_width : spec.width;
@@ -51,7 +51,7 @@ async function plot_svg({ name, spec }, spec_folder) {
   }
 }
 
-/** Vega goes on after an error, with an empty plot; here it ends. */
+/** Throws on errors, after which Vega would continue with an empty plot. */
 function logger_for(file) {
   const ignore = () => logger;
   const logger = {

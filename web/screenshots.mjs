@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of a viewer page as its reader sees it: PAGE.html OUT.png [--frame N] [--width W] [--height H] [--dark]
+// Screenshots of a viewer page: PAGE.html OUT.png [--frame N] [--width W] [--height H] [--dark]
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { pathToFileURL } from 'node:url';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The commands of the program, apart from how their options are written.
+// The commands of the program, independent of the syntax of their options.
 #pragma once
 
 #include <filesystem>
@@ -19,12 +19,12 @@ struct Strategy_choice {
 };
 
 struct Detect_command {
-  std::vector<std::filesystem::path> inputs;  ///< one scene (.json), or meshes that stand still
+  std::vector<std::filesystem::path> inputs;  ///< one scene (.json), or meshes, which do not move
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
   bool truth = false;
   std::filesystem::path out, html, paraview;  ///< empty: not written
-  std::size_t html_frames = 0;                ///< frames on the page, at most; 0: see page_frame_step
+  std::size_t html_frames = 0;                ///< maximum number of frames on the page; 0: see page_frame_step
   bool quiet = false;
 };
 
@@ -52,14 +52,14 @@ struct Convert_command {
   bool quiet = false;
 };
 
-/// Each prints its table to the standard output and returns the program's exit code.
+/// Runs a command: prints its table to the standard output and returns the program's exit code.
 int run(const Detect_command& command);
 int run(const Partition_command& command);
 int run(const Info_command& command);
 int run(const Convert_command& command);
 
-/// Becomes the program of the experiments, which lies beside this one; returns only by an exception.
-/// @throws Bad_argument  it has not been built
+/// Replaces this process by the program of the experiments, which is in the same folder. Returns only by an exception.
+/// @throws Bad_argument  that program has not been built
 [[noreturn]] void run_experiments(std::vector<char*> arguments);
 
 }  // namespace lodestone

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double usual_rate = 30;
 
-/// Frames of `first:last:step`, the last one included; each part may be left out.
+/// The frames of `first:last:step`, including the last; each part may be omitted.
 struct Frame_choice {
   std::size_t first = 0;
   std::size_t last = 0;
@@ -67,7 +67,7 @@ std::vector<std::size_t> list_of(const Frame_choice& choice) {
   return frames;
 }
 
-/// The region of each vertex of the file as it is in one frame; of vertices that no face uses the first one.
+/// The region of each file vertex, for the positions of one frame; region 0 for vertices that no face uses.
 std::vector<Region_index> regions_of(const Animation& animation, std::size_t frame, std::size_t count) {
   std::vector<Point> points(animation.vertices);
   animation.motion.pose(frame, points);
@@ -89,7 +89,7 @@ int run(const Convert_command& command) {
   const double own_rate = animation.frames_per_second > 0 ? animation.frames_per_second : usual_rate;
   options.frames_per_second = (command.rate > 0 ? command.rate : own_rate) / static_cast<double>(choice.step);
   if (command.regions > 0) {
-    if (animation.faces.empty()) throw Bad_argument("--regions: needs faces, give the mesh of the point cache");
+    if (animation.faces.empty()) throw Bad_argument("--regions needs faces: give the mesh of the point cache");
     options.regions = regions_of(animation, choice.first, command.regions);
   }
   {

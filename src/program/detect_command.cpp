@@ -14,11 +14,11 @@
 #include "program/commands.h"
 #include "program/exit_codes.h"
 #include "program/frame_log.h"
+#include "program/measurement.h"
 #include "program/page_log.h"
 #include "program/paraview_log.h"
 #include "program/printable.h"
 #include "program/progress.h"
-#include "program/measurement.h"
 
 namespace lodestone {
 
@@ -44,23 +44,23 @@ Scene load(const std::vector<std::filesystem::path>& inputs, bool self_collision
   return scene;
 }
 
-/// What the run says about one object pair.
+/// The results of the run for one object pair.
 struct Pair_summary {
   std::size_t colliding_frames = 0;
   std::size_t face_pairs = 0;        ///< over all frames
-  std::size_t capped_frames = 0;     ///< in which face pairs were cut off
-  std::size_t contained_frames = 0;  ///< in which one lies inside the other
+  std::size_t capped_frames = 0;     ///< in which face pairs were dropped at the limit
+  std::size_t contained_frames = 0;  ///< in which one object is inside the other
   Score score = {};
 };
 
-/// The page shows the candidates too; they are listed apart from what is timed.
+/// The page also shows the candidates, which are listed outside the timed stages.
 Detector_options detector_options(const Detect_command& command) {
   Detector_options options = command.options;
   options.list_candidates = !command.html.empty();
   return options;
 }
 
-/// A scene being played: the detector, the truth beside it, and what has been seen so far.
+/// A run through a scene: the detector, the truth beside it, and the results so far.
 class Run {
  public:
   explicit Run(const Detect_command& command)
@@ -84,12 +84,12 @@ class Run {
   std::string play(std::size_t frame);
   nlohmann::ordered_json summary() const;
   void print() const;
-  /// Null if none was asked for.
+  /// Null if no page was requested.
   Page_log* page() { return page_ ? &*page_ : nullptr; }
   Paraview_log* paraview() { return paraview_ ? &*paraview_ : nullptr; }
-  /// Whether the truth about a pair is known; not within one object.
+  /// Whether the truth about a pair is known. It is not known for self-collisions.
   bool has_truth(Object_pair pair) const { return command_.truth && pair.a != pair.b; }
-  /// Something was reported that is not true, or missed by the mode that misses nothing.
+  /// Whether a false contact was reported, or mode exact missed one.
   bool contradicts_truth() const { return contradicted_ || (missed_ && command_.options.mode == Mode::exact); }
 
  private:
@@ -128,7 +128,7 @@ std::string Run::play(std::size_t frame) {
   return line;
 }
 
-/// Whether any surfaces intersect, as far as exhaustive checking has told: it does not look at an object by itself.
+/// Whether any surfaces intersect, if exhaustive checking decides it: it does not check for self-collisions.
 std::optional<bool> Run::any_truth(const std::optional<std::vector<Pair_truth>>& truth) const {
   if (!truth || command_.options.exact.self_collision) return std::nullopt;
   return std::ranges::any_of(*truth, [](const auto& pair) { return !pair.faces.empty(); });
@@ -226,7 +226,7 @@ void Run::print() const {
     table.add(std::move(row));
   }
   fmt::print("{}: {} objects, {} frames\n\n{}", scene_.name, names_.size(), scene_.frames, table.text());
-  if (names_.size() > 4) fmt::print("Pairs that never collide are left out.\n");
+  if (names_.size() > 4) fmt::print("Pairs that never collide are omitted.\n");
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
   const bool exact = command_.options.mode == Mode::exact;
   fmt::print("\n{:.1f} microseconds per frame (median), {:.1f} {}, {:.1f} exact tests (mean)\n",
@@ -235,7 +235,7 @@ void Run::print() const {
              exact ? "pairs of leaves" : "iterations", mean_count(measurement_, &Frame_statistics::exact_tests));
 }
 
-/// All of them on disk before the first appears.
+/// Writes all files to disk before the first appears.
 void write_results(Run& scene_run, std::optional<Atomic_file>& frames, const Detect_command& command) {
   std::optional<Atomic_file> summary;
   if (frames) {
@@ -256,7 +256,7 @@ void write_results(Run& scene_run, std::optional<Atomic_file>& frames, const Det
 
 int run(const Detect_command& command) {
   if (command.truth && command.options.exact.tolerance > 0)
-    throw Bad_argument("--truth tells which faces intersect: it cannot judge those that are --within a distance");
+    throw Bad_argument("--truth compares intersecting faces only: it cannot be combined with --within");
   Run scene_run(command);
   std::optional<Atomic_file> frames;
   if (!command.out.empty()) frames.emplace(command.out / "frames.jsonl");

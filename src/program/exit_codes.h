@@ -17,7 +17,7 @@ inline constexpr const char* help = R"(Exit codes:
   2    the command line is wrong
   3    a mesh, motion or scene cannot be used
   4    a result cannot be written
-  5    --truth: a collision was reported that exact checking denies, or missed by the mode that misses none
+  5    --truth: a reported collision is not true, or mode exact missed one
   130  interrupted)";
 
 }  // namespace lodestone::exit_code

@@ -16,7 +16,7 @@ Json points_json(const Intersection_points& points) {
   return json;
 }
 
-/// The name of the object that lies inside the other, or null.
+/// The name of the object that is inside the other, or null.
 Json inside_json(const std::vector<std::string>& names, const Pair_result& pair) {
   if (pair.containment == Containment::none) return nullptr;
   return names[pair.containment == Containment::a_in_b ? pair.a : pair.b];
@@ -47,7 +47,7 @@ Json pair_json(const std::vector<std::string>& names, const Frame& frame, const 
   return json;
 }
 
-/// Counts alone: times differ from run to run.
+/// Only counts, since times differ from run to run.
 Json statistics_json(const Frame_statistics& statistics, Mode mode) {
   if (mode == Mode::exact)
     return {{"leaf_tests", statistics.candidates},

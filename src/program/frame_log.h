@@ -18,16 +18,16 @@ struct Pair_truth {
   std::vector<Face_pair> faces;  ///< all intersecting face pairs, sorted
 };
 
-/// JSON and a line break. What is not UTF-8 (the name of a file may be anything) becomes U+FFFD.
-/// @param indent  columns per level; negative: all in one line
+/// JSON and a line break. Invalid UTF-8, which file names may contain, becomes U+FFFD.
+/// @param indent  columns per level; negative: on one line
 std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
 
 /// One line of `frames.jsonl`, line break included.
 ///
 /// @param frame  frame of the scene, from 0
 /// @param names  of the objects
-/// @param options  of the detector that gave the result: they decide what is written
-/// @param truth  of all pairs; adds the key `truth` to each pair, and the pairs that collide but were dropped
+/// @param options  of the detector that gave the result; they determine which keys are written
+/// @param truth  of all pairs; adds the key `truth` to each pair, and adds pairs that collide but were not reported
 std::string frame_line(std::size_t frame, const std::vector<std::string>& names, const Frame& result,
                        const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth);
 

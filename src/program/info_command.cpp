@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Far more than anybody looks at; a surface folded onto itself can have billions.
+/// More pairs than anyone reads. A surface folded onto itself can have billions.
 constexpr std::size_t most_intersections = 1'000'000;
 
 /// One object in its first frame.
@@ -30,8 +30,8 @@ struct Object_report {
   std::string name;
   std::size_t frames = 0;                      ///< 0: any number
   std::size_t vertices = 0;                    ///< of the file
-  std::optional<Surface_report> surface = {};  ///< nothing of a point cache without its mesh
-  Box box = {};                                ///< of all vertices, used or not, of a point cache without its mesh
+  std::optional<Surface_report> surface = {};  ///< missing for a point cache without its mesh
+  Box box = {};                                ///< for a point cache without its mesh: of all vertices, used or not
   std::size_t self_intersections = 0;
   bool capped = false;
 };
@@ -43,8 +43,8 @@ struct Info {
   std::vector<Object_report> objects = {};
 };
 
-/// Face pairs that intersect beside what they share, by exact tests. On the vertices of the file: where a mesh has
-/// copies of one, because its faces are no surface there, they would touch.
+/// Number of face pairs that intersect outside what they share, by exact tests. Uses file vertices: where the mesh has
+/// copies of a non-manifold vertex, faces that share the vertex would count as touching.
 void count_self_intersections(std::span<const Point> points, std::span<const Corners> faces, Object_report& report) {
   if (faces.empty()) return;
   std::vector<double> coordinates;
@@ -71,7 +71,7 @@ Object_report report_of(const std::string& name, const Animation& animation) {
   return report;
 }
 
-/// The faces of a scene's object by vertex numbers of its file, so that copies of a vertex count as one.
+/// The faces of a scene's object as file vertices, so that copies of a vertex count as one.
 Object_report report_of(Scene_object& object) {
   Object_report report{.name = object.name, .frames = object.motion.frames, .vertices = object.file_vertices};
   pose(object, 0);

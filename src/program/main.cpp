@@ -9,14 +9,14 @@
 #include "program/command_line.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
-#include "program/run_reported.h"
 #include "program/printable.h"
+#include "program/run_reported.h"
 
 namespace lodestone {
 
 namespace {
 
-/// Takes a name to its value, which CLI11 wants as a number.
+/// Converts a name to its value, which CLI11 expects as a number.
 template <class Value>
 CLI::Validator one_of(const std::map<std::string, Value>& names) {
   return {[names](std::string& text) -> std::string {
@@ -33,10 +33,10 @@ CLI::Validator one_of(const std::map<std::string, Value>& names) {
           ""};
 }
 
-/// Squares of larger weights leave the range of a double.
+/// Limits the weight so that squared weighted vectors cannot overflow.
 constexpr double largest_normal_weight = 1e6;
 
-/// The strategies and what a region of each is.
+/// The strategies, with a summary of each.
 std::string strategy_list() {
   std::string list = "Strategies:";
   for (const auto& strategy : strategies()) list += fmt::format("\n  {:<16} {}", strategy.name, strategy.summary);
@@ -46,7 +46,7 @@ std::string strategy_list() {
 void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* seed_of) {
   std::vector<std::string> names;
   for (const auto& strategy : strategies()) names.emplace_back(strategy.name);
-  app.add_option("--strategy", choice.name, "How surfaces are divided, see below")
+  app.add_option("--strategy", choice.name, "Partition strategy, see below")
       ->type_name("NAME")
       ->check(CLI::IsMember(names).description(""))
       ->capture_default_str();
@@ -54,10 +54,11 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"))
       ->capture_default_str();
   auto& options = choice.settings.lbg;
-  app.add_option("--normal-weight", options.features.normal_weight, "Weight of normals against positions; 0: none")
+  app.add_option("--normal-weight", options.features.normal_weight,
+                 "Weight of normals relative to positions; 0: positions only")
       ->check(CLI::Range(0.0, largest_normal_weight).description("0 to 1e6"))
       ->capture_default_str();
-  app.add_option("--split", options.split_rule, "How a code vector becomes two: principal_axis, multiplicative")
+  app.add_option("--split", options.split_rule, "How a code vector is split: principal_axis, multiplicative")
       ->transform(one_of<Split>({{"principal_axis", Split::principal_axis}, {"multiplicative", Split::multiplicative}}))
       ->type_name("RULE")
       ->default_str("principal_axis");
@@ -67,7 +68,8 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
 }
 
 void add_exact_options(CLI::App& app, Exact_options& options) {
-  app.add_option("--within", options.tolerance, "Mode exact: report face pairs nearer than this; 0: that intersect")
+  app.add_option("--within", options.tolerance,
+                 "Mode exact: report face pairs nearer than this; 0: those that intersect")
       ->capture_default_str();
   app.add_flag("--self", options.self_collision, "Mode exact: also report an object's faces that intersect each other");
   app.add_flag("--containment", options.containment, "Mode exact: also report objects that lie inside others");
@@ -90,7 +92,7 @@ void add_detect(CLI::App& program, Detect_command& command) {
       ->type_name("MODE")
       ->default_str("particles");
   app.add_option("--particles", options.particles,
-                 "Particles per object; 0: as many as others can touch it at once, at least 12")
+                 "Particles per object; 0: the number of objects that can touch it at once, at least 12")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
   app.add_option("--contacts", options.contacts, "What to report of a colliding pair: yes_no, first, all")
@@ -99,34 +101,33 @@ void add_detect(CLI::App& program, Detect_command& command) {
       ->type_name("WHAT")
       ->default_str("first");
   app.add_option("--most-contacts", options.most_contacts,
-                 "Face pairs reported of an object pair, at most; with --contacts all")
+                 "Maximum number of face pairs per object pair, with --contacts all")
       ->check(CLI::Range(std::size_t{1}, std::numeric_limits<std::size_t>::max()).description("1 or more"))
       ->default_str("all");
   app.add_flag("--points", options.contact_points, "Also report the points where two faces meet");
   app.add_flag("--normals", options.contact_normals,
-               "Also report in which direction two faces are to be parted, and how far");
+               "Also report the direction that separates two faces, and how far to move");
   app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
   app.add_option("--collision-distance", options.collision_distance,
-                 "Distance below which particles call for a check, in mean edge lengths")
+                 "Particles nearer than this make their regions a candidate; in mean edge lengths")
       ->capture_default_str();
-  app.add_option("--candidates", options.candidates, "Which particle pairs below that distance: all, closest")
+  app.add_option("--candidates", options.candidates, "Which of these candidates to check: all, closest")
       ->transform(one_of<Candidate_choice>({{"all", Candidate_choice::all}, {"closest", Candidate_choice::closest}}))
       ->type_name("WHICH")
       ->default_str("all");
   app.add_option("--growth", options.growth,
-                 "Repartition when a region exceeds so many times the largest area; inf: never")
+                 "Repartition when a region exceeds this multiple of the largest initial area; inf: never")
       ->capture_default_str();
   add_exact_options(app, options.exact);
   add_threads(app, options.exact.threads,
-              "Of mode exact, and of partitions by lbg, at most; 0: as many as the machine has");
-  add_strategy_options(app, command.partition, "Of strategies that draw at random, and of --mode senin");
+              "Maximum number of threads, for mode exact and lbg partitions; 0: all of the machine");
+  add_strategy_options(app, command.partition, "Seed, for random strategies and --mode senin");
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")
       ->check(not_empty());
-  auto* const html =
-      add_html(app, command.html, "One page (.html) to watch the run on; --contacts is then all if not given");
+  auto* const html = add_html(app, command.html, "Page (.html) that shows the run; --contacts then defaults to all");
   app.add_option("--html-frames", command.html_frames,
-                 "Frames on the page, at most: the first of every so many; 0: so many that it stays small")
+                 "Maximum number of frames on the page: one of every few; 0: few enough to keep it small")
       ->needs(html)
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
@@ -145,19 +146,18 @@ void add_partition(CLI::App& program, Partition_command& command) {
   app.add_option("--regions", command.regions, "Number of regions")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->capture_default_str();
-  add_strategy_options(app, command.strategy, "Of strategies that draw at random");
-  add_threads(app, command.strategy.settings.lbg.threads, "Of lbg, at most; 0: as many as the machine has");
-  app.add_flag("--keep-islands", command.options.keep_islands,
-               "Leave regions in several pieces as the strategy made them");
+  add_strategy_options(app, command.strategy, "Seed, for random strategies");
+  add_threads(app, command.strategy.settings.lbg.threads, "Maximum number of threads, for lbg; 0: all of the machine");
+  app.add_flag("--keep-islands", command.options.keep_islands, "Do not repair regions that consist of several islands");
   app.add_option("--out", command.out, "Coloured mesh (.ply)")->type_name("FILE")->check(not_empty());
   app.add_option("--json", command.json, "Statistics")->type_name("FILE")->check(not_empty());
-  add_html(app, command.html, "One page (.html) to look at the regions");
+  add_html(app, command.html, "Page (.html) that shows the regions");
   app.add_flag("--quiet", command.quiet, "No table");
   app.footer(strategy_list() + "\n\n" + exit_code::help);
 }
 
 void add_info(CLI::App& program, Info_command& command) {
-  auto& app = *program.add_subcommand("info", "Tell what a file holds, and what may be wrong with it");
+  auto& app = *program.add_subcommand("info", "Report the contents of a file, and possible problems");
   app.add_option("FILE", command.file, "Mesh, pattern of meshes such as 'cloth_*.obj', point cache, glTF or scene")
       ->required()
       ->type_name("FILE");
@@ -166,7 +166,7 @@ void add_info(CLI::App& program, Info_command& command) {
 }
 
 void add_convert(CLI::App& program, Convert_command& command) {
-  auto& app = *program.add_subcommand("convert", "Turn one kind of animation file into another");
+  auto& app = *program.add_subcommand("convert", "Convert between formats of animations");
   app.add_option("IN", command.input, "Mesh, pattern such as 'cloth_*.obj', point cache (.pc2 .mdd), glTF")
       ->required()
       ->type_name("FILE");
@@ -175,13 +175,13 @@ void add_convert(CLI::App& program, Convert_command& command) {
       ->type_name("FILE")
       ->check(not_empty());
   app.add_option("--mesh", command.mesh, "The mesh that a point cache moves")->type_name("FILE")->check(not_empty());
-  app.add_option("--frames", command.frames, "FIRST:LAST:STEP, counted from 0, LAST included; each may be left out")
+  app.add_option("--frames", command.frames, "FIRST:LAST:STEP, counted from 0, LAST included; each may be omitted")
       ->type_name("FRAMES")
       ->check(not_empty());
-  app.add_option("--fps", command.rate, "Frames per second, to read glTF and to write it and MDD")
+  app.add_option("--fps", command.rate, "Frames per second, for reading glTF and writing glTF and MDD")
       ->check(CLI::Range(1e-3, 1e6).description("0.001 to 1e6"))
       ->default_str("what IN says, else 30");
-  app.add_option("--regions", command.regions, "glTF: divide the surface into so many regions and colour them")
+  app.add_option("--regions", command.regions, "glTF: divide the surface into this many regions and colour them")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
   app.add_flag("--quiet", command.quiet, "No progress bar, no report");
 }
@@ -202,14 +202,14 @@ int run_commands(int argc, char** argv) {
   add_partition(program, partition);
   add_info(program, info);
   add_convert(program, convert);
-  // Listed here for its help; the program of the experiments reads its arguments.
+  // Registered for the help only: the program of the experiments parses its arguments.
   program.add_subcommand("experiment", "Run one of the experiments")->prefix_command()->set_help_flag();
 
   if (const auto done = parse(program, argc, argv)) return *done;
   int code = exit_code::success;
   detect.options.senin.seed = detect.partition.settings.seed;
   detect.partition.settings.lbg.threads = detect.options.exact.threads;
-  // What is to be looked at should be there.
+  // A page shows contacts, so it asks for all of them by default.
   if (!detect.html.empty() && program.get_subcommand("detect")->count("--contacts") == 0)
     detect.options.contacts = Contact_query::all;
   if (program.got_subcommand("detect"))

@@ -7,7 +7,7 @@
 
 namespace lodestone {
 
-/// The measures by their names, but for the number of regions.
+/// All measures except the number of regions, by name.
 inline nlohmann::ordered_json to_json(const Partition_measures& measures) {
   return {{"distortion", measures.distortion},
           {"size_balance", measures.size_balance},

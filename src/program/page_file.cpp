@@ -15,7 +15,7 @@ const std::filesystem::path& checked(const std::filesystem::path& target, const 
   if (target.extension() != ".html") throw Bad_argument(target.string() + ": a page is written as .html");
   std::error_code unknown;
   if (!other.empty() && weakly_canonical(target, unknown) == weakly_canonical(other, unknown))
-    throw Bad_argument(target.string() + ": the page and the other results need a file each");
+    throw Bad_argument(target.string() + ": the page and another result cannot be the same file");
   return target;
 }
 

@@ -10,18 +10,18 @@
 
 namespace lodestone {
 
-/// A page on its way to its file, which appears with `commit` or not at all.
+/// A page that is being written to a file, which appears with `commit` or not at all.
 class Page_file {
  public:
-  /// @param other  another result, which must not be the same file; empty: there is none
-  /// @throws Bad_argument  the name does not end in .html, or is that of the other
+  /// @param other  path of another result, which must not be the same file; empty: none
+  /// @throws Bad_argument  the name does not end in .html, or equals `other`
   /// @throws Bad_output    as viewer_template and Atomic_file
   Page_file(const std::filesystem::path& target, const std::filesystem::path& other);
 
   /// Writes, and waits until the page is on disk.
   void finish(const Page& page);
   void commit() { file_.commit(); }
-  /// Name and size, for the user.
+  /// Name and size, as a message for the user.
   std::string summary() const;
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The same question as the run's, to the mode that misses nothing.
+/// The options of the run with mode exact, which misses nothing.
 Detector_options exact_question(const Detector_options& options) {
   Detector_options asked{.mode = Mode::exact, .contacts = Contact_query::yes_no, .exact = options.exact};
   asked.exact.containment = false;
@@ -48,7 +48,7 @@ Triangle triangle_of(const Surface_mesh& mesh, const Corners& corners) {
   return {point(corners[0]), point(corners[1]), point(corners[2])};
 }
 
-/// A contact per side of a polygon, one for a segment or a point.
+/// One contact per side of a polygon, or one for a segment or a point.
 void add_contacts(std::vector<Page_contact>& contacts, const Page_contact& faces, const Intersection_points& points) {
   const std::size_t sides = points.size() > 2 ? points.size() : 1;
   for (std::size_t i = 0; i < sides; ++i) {
@@ -131,7 +131,7 @@ std::string Page_log::stages(const Frame& result, std::optional<bool> truth) {
   return json.dump();
 }
 
-/// Distance of the two nearest objects. Pairs whose boxes are farther from each other are not looked at.
+/// Distance of the two nearest objects. Skips pairs whose boxes are farther apart than the best distance so far.
 std::optional<double> Page_log::nearest() {
   std::vector<Box> boxes(scene_.objects.size());
   for (Object_id o = 0; o < boxes.size(); ++o)
@@ -152,8 +152,8 @@ std::optional<double> Page_log::nearest() {
 
 std::string Page_log::summary() const {
   if (frame_step_ == 1) return file_.summary() + "\n";
-  return fmt::format("{}, {} of {} frames: the first of every {} (see --html-frames)\n", file_.summary(),
-                     page_.frames(), scene_.frames, frame_step_);
+  return fmt::format("{}, {} of {} frames: one of every {} (see --html-frames)\n", file_.summary(), page_.frames(),
+                     scene_.frames, frame_step_);
 }
 
 }  // namespace lodestone

@@ -16,22 +16,22 @@ using Scene_detector = Detector<Surface_mesh, Any_strategy>;
 
 /// Makes the page of a run of `detect`.
 ///
-/// Answers come from the run; beside it a detector of its own tells the truth about the same frames, with the distance
-/// of the two nearest objects. What the run answers does not depend on whether there is a page; its times do a little,
-/// since the next frame finds the caches full of other things.
+/// Answers come from the run. A second detector computes the truth about the same frames, and the distance of the two
+/// nearest objects. The page does not change the run's answers. It affects the run's times slightly, since the second
+/// detector evicts the run's data from the caches between frames.
 class Page_log {
  public:
   /// @param scene, detector  of the run; they must outlive this
   Page_log(const Detect_command& command, const Scene& scene, const Scene_detector& detector);
 
-  /// Takes in the frame that the run has just answered.
+  /// Adds the frame that the run has just answered.
   /// @param line  of frames.jsonl
-  /// @param truth  whether any surfaces intersect, where that has been found out already
+  /// @param truth  whether any surfaces intersect, if that is already known
   void add(std::size_t frame, const Frame& result, const std::string& line, std::optional<bool> truth);
 
   void finish() { file_.finish(page_); }
   void commit() { file_.commit(); }
-  /// What was written, for the user: a line.
+  /// One line that tells the user what was written.
   std::string summary() const;
 
  private:

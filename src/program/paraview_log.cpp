@@ -41,7 +41,7 @@ std::vector<Marks> touched_faces(const Scene& scene, const Frame& result) {
   return touched;
 }
 
-/// All objects as one surface, and what is known of each vertex and face.
+/// All objects as one surface, with the data of each vertex and face.
 Vtp_data meshes_of(const Scene& scene, const Frame& result) {
   Vtp_data data;
   Numbers region, object_of_vertex, vertex, object_of_face, face;

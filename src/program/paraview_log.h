@@ -13,17 +13,17 @@
 
 namespace lodestone {
 
-/// A run as files for ParaView: meshes, particles and contacts of each frame in `frames/*.vtp`, and over time in
-/// `meshes.pvd`, `particles.pvd` and `contacts.pvd`. Nothing is there before `commit`.
+/// Writes a run as files for ParaView: meshes, particles and contacts of each frame in `frames/*.vtp`, and their
+/// sequences in `meshes.pvd`, `particles.pvd` and `contacts.pvd`. No file appears before `commit`.
 class Paraview_log {
  public:
-  /// @param frames  number of frames to come
+  /// @param frames  number of frames that will be added
   Paraview_log(const std::filesystem::path& folder, std::size_t frames);
 
-  /// @param scene   posed at `frame`; its meshes carry what the detector has left on them
-  /// @param result  what was found there
+  /// @param scene   posed at `frame`; its meshes have the detector's property maps
+  /// @param result  the detector's result for that frame
   void add(std::size_t frame, const Scene& scene, const Frame& result);
-  /// Writes the lists of frames. After it only a rename can fail.
+  /// Writes the lists of frames. After this only a rename can fail.
   void finish();
   void commit() { files_.commit(); }
 

@@ -14,10 +14,10 @@
 #include "program/commands.h"
 #include "program/exit_codes.h"
 #include "program/frame_log.h"
+#include "program/measures_json.h"
 #include "program/page_file.h"
 #include "program/printable.h"
 #include "program/progress.h"
-#include "program/measures_json.h"
 
 namespace lodestone {
 
@@ -71,11 +71,11 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
           {"seconds", divided.seconds}};
 }
 
-/// The mesh as a page that stands still, each particle where its region begins.
+/// The mesh as a page of one frame, with each particle at its start vertex.
 Page page_of(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
   const Mesh_numbering numbering(file.mesh);
   Json numbers = statistics(file, divided, command);
-  numbers.erase("seconds");  // the same page for the same partition
+  numbers.erase("seconds");  // so that equal partitions give equal pages
   Page page(
       {.kind = Page_kind::partition, .title = command.mesh.filename().string(), .strategy = command.strategy.name});
   page.set_regions(page.add_object(command.mesh.stem().string(), numbering.vertex_count(), numbering.corners()),
@@ -116,13 +116,13 @@ int run(const Partition_command& command) {
   if (!command.out.empty() && command.out.extension() != ".ply")
     throw Bad_argument(command.out.string() + ": the coloured mesh is written as .ply");
   if (!command.out.empty() && command.out == command.json)
-    throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics need a file each");
+    throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics cannot be the same file");
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, command.json);
   Mesh_file file = read_mesh(command.mesh);
   const Divided divided = divide(file.mesh, command);
   check_interrupt();
-  // On disk first: if one of them cannot be written, no mesh is either.
+  // Both on disk before the first appears: if one cannot be written, neither appears.
   std::optional<Atomic_file> json;
   if (!command.json.empty()) {
     json.emplace(command.json);

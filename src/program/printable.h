@@ -6,8 +6,8 @@
 
 namespace lodestone {
 
-/// `text` in one line that leaves a terminal alone: control characters become question marks. Names of files may hold
-/// line breaks and worse.
+/// `text` on one line that is safe for a terminal: control characters, which file names may contain, become question
+/// marks.
 inline std::string printable(std::string text) {
   std::ranges::replace_if(
       text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');

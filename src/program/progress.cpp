@@ -14,7 +14,7 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-/// A second signal ends the program at once: a frame can be long.
+/// A second signal ends the program at once, since a frame can take long.
 void note_interrupt(int signal) {
   interrupted = 1;
   std::signal(signal, SIG_DFL);
@@ -25,7 +25,7 @@ void note_interrupt(int signal) {
 void handle_interrupts() {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
-  // A file-size limit is an error of the write, which is reported, not a reason to die on the spot.
+  // Ignored, so that a write past the file-size limit fails with an error that is reported.
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

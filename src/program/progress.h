@@ -7,16 +7,16 @@
 
 namespace lodestone {
 
-/// Thrown where a run is given up because the user asked for it.
+/// Thrown to end a run at the user's request.
 struct Interrupted {};
 
-/// From here on an interrupt or termination signal ends the run at the next frame, with nothing half-written left.
-/// A second one ends it at once; a hidden temporary file may then stay behind.
+/// From now on, an interrupt or termination signal ends the run at the next frame and leaves no partial file. A second
+/// signal ends it at once, and may leave a hidden temporary file behind.
 void handle_interrupts();
 /// @throws Interrupted  the user has asked to stop
 void check_interrupt();
 
-/// A progress bar on the terminal. Silent when the output is no terminal or `quiet`.
+/// A progress bar on the terminal. Silent if the output is not a terminal, or if `quiet`.
 class Progress_bar {
  public:
   Progress_bar(std::string label, bool quiet);
@@ -24,7 +24,7 @@ class Progress_bar {
   Progress_bar(const Progress_bar&) = delete;
   Progress_bar& operator=(const Progress_bar&) = delete;
 
-  /// Shows that `done` of `of` steps are done. Draws at most ten times a second.
+  /// Shows that `done` of `of` steps are done. Redraws at most ten times a second.
   /// @throws Interrupted
   void operator()(std::size_t done, std::size_t of);
 

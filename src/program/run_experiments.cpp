@@ -12,7 +12,7 @@
 namespace lodestone {
 
 void run_experiments(std::vector<char*> arguments) {
-  // The experiments take longer to compile than all the rest, so they are a program of their own beside this one.
+  // The experiments are a separate program, since they take longer to compile than everything else.
   const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("lodestone-experiments");
   std::string name = program.string();
   arguments.insert(arguments.begin(), name.data());

@@ -16,7 +16,7 @@ namespace lodestone {
 
 namespace {
 
-/// One line, whatever the names of files hold.
+/// Always one line, even if file names contain line breaks.
 int report(const char* what, int code) {
   fmt::print(stderr, "lodestone: {}\n", printable(what));
   return code;
@@ -41,7 +41,7 @@ int run_reported(const std::function<int()>& program) {
   } catch (const std::bad_alloc&) {
     return report("not enough memory for this input", exit_code::bad_input);
   } catch (const std::system_error& error) {
-    // Everything that is read has errors of its own: this is a folder or the standard output.
+    // Readers throw their own error types: this one comes from a folder or the standard output.
     return report(error.what(), exit_code::bad_output);
   } catch (const std::exception& error) {
     return report(error.what(), exit_code::unexpected);

@@ -5,7 +5,7 @@
 
 namespace lodestone {
 
-/// Runs a program, flushes its standard output, and tells on one line what went wrong, if anything did.
+/// Runs a program, flushes its standard output, and reports an error on one line.
 /// @return the exit code
 int run_reported(const std::function<int()>& program);
 

@@ -12,13 +12,13 @@
 
 namespace lodestone {
 
-/// How the answers of a method compare with the truth, over the frames and object pairs it was asked about. A frame and
-/// pair is positive when the exact surfaces intersect. A collision is an unbroken run of positive frames of one pair.
+/// Compares the answers of a method with the truth, over all frames and object pairs it answered. A frame of a pair is
+/// positive if the exact surfaces intersect. A collision is an unbroken run of positive frames of one pair.
 class Score {
  public:
-  /// One frame of one pair; frames of a pair come in order.
+  /// Adds one frame of one pair. The frames of a pair must be added in order.
   void add(Object_pair pair, bool truth, bool answer);
-  /// Ends all collisions that are still going on: call after the last frame.
+  /// Ends all open collisions: call after the last frame.
   void finish();
   /// Adds the counts of another finished score.
   void add(const Score& other);
@@ -26,7 +26,8 @@ class Score {
   double recall() const { return ratio(true_positives_, true_positives_ + false_negatives_); }
   double precision() const { return ratio(true_positives_, true_positives_ + false_positives_); }
   double accuracy() const { return ratio(true_positives_ + true_negatives_, frames()); }
-  /// Frames from the start of a collision to its first detection, mean over the collisions that were seen at all.
+  /// Mean number of frames from the start of a collision to its first detection, over the collisions that were
+  /// detected.
   double mean_delay() const;
   std::size_t collisions() const { return delays_.size() + never_seen_; }
   std::size_t never_seen() const { return never_seen_; }
@@ -41,7 +42,7 @@ class Score {
     std::optional<std::size_t> seen_after;
   };
 
-  /// 1 where there is nothing to be wrong about.
+  /// 1 if the denominator is zero.
   static double ratio(std::size_t part, std::size_t whole) {
     return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);
   }

@@ -3,7 +3,7 @@
 
 #include "lodestone/mesh/errors.h"
 
-// The assembler takes the file in: a compiler is slow at a string of megabytes.
+// The assembler includes the file, since compilers are slow on string literals of megabytes.
 #ifdef LODESTONE_VIEWER
 asm(".pushsection .rodata\n"
     ".global lodestone_viewer_begin, lodestone_viewer_end\n"

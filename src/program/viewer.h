@@ -7,7 +7,7 @@
 namespace lodestone {
 
 /// The template of pages.
-/// @param page  for which it is wanted
+/// @param page  path of the page that needs it, for the message
 /// @throws Bad_output    the program was built without the viewer
 std::string_view viewer_template(const std::filesystem::path& page);
 

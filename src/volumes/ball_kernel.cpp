@@ -13,84 +13,84 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE void copy_vertex(const double* vertex, std::size_t place, Leaf_points& points) {
-  points.x[place] = vertex[0];
-  points.y[place] = vertex[1];
-  points.z[place] = vertex[2];
+HWY_INLINE void copy_vertex(const double* vertex, std::size_t index, Leaf_points& points) {
+  points.x[index] = vertex[0];
+  points.y[index] = vertex[1];
+  points.z[index] = vertex[2];
 }
 
 #if HWY_MAX_BYTES >= 32
 constexpr std::size_t vertices_at_once = 4;
 
-/// Four vertices, none of which may be the last of the mesh: a number past z is read.
-HWY_INLINE void copy_vertices(const double* coordinates, const std::uint32_t* vertices, std::size_t place,
+/// Copies and transposes four vertices. None may be the last of the mesh, since the load reads one number past z.
+HWY_INLINE void copy_vertices(const double* coordinates, const std::uint32_t* vertices, std::size_t index,
                               Leaf_points& points) {
   const D d;
   const auto load = [&](std::size_t k)
-                        HWY_ATTR { return hn::LoadU(d, coordinates + 3 * std::size_t{vertices[place + k]}); };
+                        HWY_ATTR { return hn::LoadU(d, coordinates + 3 * std::size_t{vertices[index + k]}); };
   const auto p = load(0), q = load(1), r = load(2), s = load(3);
   const auto pq_even = hn::InterleaveLower(d, p, q), rs_even = hn::InterleaveLower(d, r, s);
   const auto pq_odd = hn::InterleaveUpper(d, p, q), rs_odd = hn::InterleaveUpper(d, r, s);
-  hn::Store(hn::ConcatLowerLower(d, rs_even, pq_even), d, points.x + place);
-  hn::Store(hn::ConcatLowerLower(d, rs_odd, pq_odd), d, points.y + place);
-  hn::Store(hn::ConcatUpperUpper(d, rs_even, pq_even), d, points.z + place);
+  hn::Store(hn::ConcatLowerLower(d, rs_even, pq_even), d, points.x + index);
+  hn::Store(hn::ConcatLowerLower(d, rs_odd, pq_odd), d, points.y + index);
+  hn::Store(hn::ConcatUpperUpper(d, rs_even, pq_even), d, points.z + index);
 }
 #else
 constexpr std::size_t vertices_at_once = 1;
 
-HWY_INLINE void copy_vertices(const double* coordinates, const std::uint32_t* vertices, std::size_t place,
+HWY_INLINE void copy_vertices(const double* coordinates, const std::uint32_t* vertices, std::size_t index,
                               Leaf_points& points) {
-  copy_vertex(coordinates + 3 * std::size_t{vertices[place]}, place, points);
+  copy_vertex(coordinates + 3 * std::size_t{vertices[index]}, index, points);
 }
 #endif
 
 void gather_kernel(const double* coordinates, const std::uint32_t* vertices, std::size_t count, Leaf_points& points) {
   const std::size_t last = count - 1;
-  std::size_t place = 0;
-  for (; place + vertices_at_once <= last; place += vertices_at_once)
-    copy_vertices(coordinates, vertices, place, points);
-  for (; place < last; ++place) copy_vertex(coordinates + 3 * std::size_t{vertices[place]}, place, points);
+  std::size_t index = 0;
+  for (; index + vertices_at_once <= last; index += vertices_at_once)
+    copy_vertices(coordinates, vertices, index, points);
+  for (; index < last; ++index) copy_vertex(coordinates + 3 * std::size_t{vertices[index]}, index, points);
   points.count = count;
   points.size = (count + Leaf_points::step - 1) / Leaf_points::step * Leaf_points::step;
-  for (; place < points.size; ++place) copy_vertex(coordinates + 3 * std::size_t{vertices[last]}, place, points);
+  for (; index < points.size; ++index) copy_vertex(coordinates + 3 * std::size_t{vertices[last]}, index, points);
 }
 
 using Wide = hn::CappedTag<double, Leaf_points::step>;
 constexpr std::size_t wide_lanes = hn::MaxLanes(Wide());
 
-/// A squared distance and the place of its vertex in one number: its last bits give way to the place. So one maximum
-/// finds both, and no two are equal.
+/// Packs a squared distance and the index of its vertex into one number: the index replaces the last nine bits. One
+/// maximum then finds both, and no two numbers are equal.
 template <class V>
-HWY_INLINE V with_place(V squared_distance, hn::Vec<hn::RebindToUnsigned<Wide>> place) {
+HWY_INLINE V with_index(V squared_distance, hn::Vec<hn::RebindToUnsigned<Wide>> index) {
   const hn::RebindToUnsigned<Wide> bits;
   static_assert(Leaf_points::capacity <= 512);
   return hn::BitCast(Wide(),
-                     hn::Or(hn::And(hn::BitCast(bits, squared_distance), hn::Set(bits, ~std::uint64_t{511})), place));
+                     hn::Or(hn::And(hn::BitCast(bits, squared_distance), hn::Set(bits, ~std::uint64_t{511})), index));
 }
 
 Farthest farthest_kernel(const Leaf_points& points, const double* centre) {
   const Wide d;
   const hn::RebindToUnsigned<Wide> bits;
   const auto cx = hn::Set(d, centre[0]), cy = hn::Set(d, centre[1]), cz = hn::Set(d, centre[2]);
-  auto most = hn::Zero(d), most_with_place = hn::Zero(d);
-  auto place = hn::Iota(bits, 0);
+  auto most = hn::Zero(d), most_with_index = hn::Zero(d);
+  auto index = hn::Iota(bits, 0);
   for (std::size_t i = 0; i < points.size; i += wide_lanes) {
     const auto x = hn::Sub(hn::Load(d, points.x + i), cx);
     const auto y = hn::Sub(hn::Load(d, points.y + i), cy);
     const auto z = hn::Sub(hn::Load(d, points.z + i), cz);
     const auto squared = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
     most = hn::Max(most, squared);
-    most_with_place = hn::Max(most_with_place, with_place(squared, place));
-    place = hn::Add(place, hn::Set(bits, wide_lanes));
+    most_with_index = hn::Max(most_with_index, with_index(squared, index));
+    index = hn::Add(index, hn::Set(bits, wide_lanes));
   }
-  const double winner = hn::GetLane(hn::MaxOfLanes(d, most_with_place));
+  const double winner = hn::GetLane(hn::MaxOfLanes(d, most_with_index));
   std::uint64_t winner_bits;
   hwy::CopySameSize(&winner, &winner_bits);
-  return {.place = winner_bits & 511, .squared_distance = hn::GetLane(hn::MaxOfLanes(d, most))};
+  return {.index = winner_bits & 511, .squared_distance = hn::GetLane(hn::MaxOfLanes(d, most))};
 }
 
-/// Sums over the vertices seen from a point times a factor, of terms that `terms(x, y, z, out)` gives. Always eight
-/// sums of every eighth vertex, which are added at last: so that instruction sets do not differ.
+/// Sums the terms of `terms(x, y, z, out)` over all vertices; (x, y, z) is the vertex minus `origin`, times `factor`.
+/// Always keeps eight partial sums, each of every eighth vertex, so that all instruction sets give the same bits.
 template <std::size_t count, class Terms>
 HWY_INLINE void add_up(const Leaf_points& points, const double* origin, double factor, const Terms& terms,
                        double* results) {

@@ -21,24 +21,24 @@ constexpr double most = std::numeric_limits<double>::max();
 
 struct Fit {
   Eigen::Vector3d centre;
-  double squared_radius;  ///< as far as the farthest vertex, up to rounding
+  double squared_radius;  ///< squared distance of the farthest vertex, up to rounding
 };
 
-/// A ball of at most 1.01 times the smallest radius.
+/// A ball with at most 1.01 times the smallest radius.
 Fit fit(const kernel::Leaf_points& points) {
   constexpr double enough = 1.02;  // < 1.01^2
-  constexpr int most_passes = 32;  // seldom more than six are needed
-  const auto at = [&](std::size_t place) { return Eigen::Vector3d(points.x[place], points.y[place], points.z[place]); };
-  Support support(at(kernel::farthest(points, at(0).data()).place));
+  constexpr int most_passes = 32;  // more than six are rarely needed
+  const auto at = [&](std::size_t index) { return Eigen::Vector3d(points.x[index], points.y[index], points.z[index]); };
+  Support support(at(kernel::farthest(points, at(0).data()).index));
   auto farthest = kernel::farthest(points, support.centre().data());
   for (int pass = 0; pass < most_passes && farthest.squared_distance > enough * support.squared_radius(); ++pass) {
-    if (!support.add(at(farthest.place))) break;
+    if (!support.add(at(farthest.index))) break;
     farthest = kernel::farthest(points, support.centre().data());
   }
   return {support.centre(), farthest.squared_distance};
 }
 
-/// A ball where squares of differences overflow or underflow.
+/// The ball in scaled units, for coordinates whose squared differences overflow or underflow.
 void enclose_scaled(kernel::Leaf_points& points, Bounding_sphere& ball) {
   double* const coordinates[]{points.x, points.y, points.z};
   double low[3], high[3], largest_difference = 0;
@@ -76,7 +76,7 @@ bool all_finite(const kernel::Leaf_points& points) {
   return finite;
 }
 
-/// @param distance  of the centres, or a little more
+/// @param distance  of the centres, or an upper bound of it
 bool encloses(const Bounding_sphere& a, const Bounding_sphere& b, double distance) {
   return (distance == 0 ? b.radius : above(distance + b.radius)) <= a.radius;
 }
@@ -86,12 +86,11 @@ bool encloses(const Bounding_sphere& a, const Bounding_sphere& b, double distanc
 void Bounding_sphere::enclose(const Leaf_faces& faces) {
   kernel::Leaf_points points;
   if (faces.vertices.size() > points.capacity)
-    throw Bad_argument("a ball is fitted to at most 384 vertices, those of a leaf, but there are " +
-                       std::to_string(faces.vertices.size()));
+    throw Bad_argument("a leaf has at most 384 vertices, found " + std::to_string(faces.vertices.size()));
   kernel::gather(faces.coordinates.data(), faces.vertices.data(), faces.vertices.size(), points);
   const Fit ball = fit(points);
   if (is_ordinary(ball.squared_radius)) {
-    // Five roundings, and that of the root.
+    // `above` covers six roundings: five of the squared radius and one of the root.
     *this = {.centre = {ball.centre.x(), ball.centre.y(), ball.centre.z()},
              .radius = above(std::sqrt(ball.squared_radius))};
   } else if (all_finite(points)) {
@@ -106,7 +105,7 @@ void Bounding_sphere::enclose(const Bounding_sphere& a, const Bounding_sphere& b
   if (encloses(a, b, distance)) return void(*this = a);
   if (encloses(b, a, distance)) return void(*this = b);
 
-  // Any centre will do for what follows.
+  // Any centre gives a valid ball: the radius is computed from it.
   const double part = distance <= most ? ((b.radius - a.radius) / distance + 1) / 2 : 0.5;
   Bounding_sphere both;
   for (int axis = 0; axis < 3; ++axis) both.centre[axis] = (1 - part) * a.centre[axis] + part * b.centre[axis];
@@ -139,7 +138,7 @@ bool near_scaled(const Bounding_sphere& a, const Bounding_sphere& b, double marg
   const double squared_distance =
       difference[0] * difference[0] + difference[1] * difference[1] + difference[2] * difference[2];
   const double reach = scale.length(a.radius) + scale.length(b.radius) + scale.length(margin);
-  // The roundings of `near`, and what is lost below 2^-1000 of the largest.
+  // The factor covers the roundings, as in `near`, and the loss of differences below 2^-1000 of the largest.
   return !(squared_distance > reach * reach * (1 + 0x1p-48));
 }
 

@@ -14,12 +14,13 @@ static_assert(Bounding_volume<K_dop<14>> && Bounding_volume<K_dop<18>> && Boundi
 
 namespace {
 
-/// Moves limits outwards so far that what rounded to numbers between them lies between them.
+/// Widens the limits of rounded sums so that the exact sums are between them.
 ///
-/// Let R be the sum of the largest |x|, |y| and |z|, and u = 2^-53. A sum of two numbers is off by at most u of its
-/// size, so one of three, whose parts are at most R (1 + u), by at most 2 u (1 + u) R; the subtraction of the slack
-/// rounds once more, by at most u (1 + 8 u) R. R itself is computed to 2 u, and a slack of 8 u R is far more than these
-/// 3.1 u R. Sums below 2^-1021 do not round, and above that the slack is at least 2^-1072, off by an eighth at most.
+/// Let R be the sum of the largest |x|, |y| and |z|, and u = 2^-53. The error of a sum of two numbers is at most u of
+/// its size. So the error of a sum of three, whose parts are at most R (1 + u), is at most 2 u (1 + u) R. The
+/// subtraction of the slack adds at most u (1 + 8 u) R. R itself is computed to 2 u. A slack of 8 u R is far more than
+/// these 3.1 u R. Sums below 2^-1021 do not round. For larger ones the slack is at least 2^-1072, with a relative error
+/// of at most 1/8.
 void widen(double* low, double* high, int slabs) {
   double reach = 0;
   for (int i = 0; i < 3; ++i) reach += std::max(-low[i], high[i]);

@@ -17,12 +17,13 @@ static_assert(Bounding_volume<Oriented_box>);
 
 namespace {
 
-// What is true of axes that are orthonormal up to 3e-15, and is used below; all of it in exact arithmetic. Let A have
-// the axes as its rows, u = 2^-53, and H be the sum of a box's half widths.
+// Properties of axes that are orthonormal up to 3e-15, in exact arithmetic, for use below. Let A be the matrix with the
+// axes as its rows, u = 2^-53, and H the sum of a box's half-widths.
 //
 // 1. The singular values of A are within 5e-15 of 1, so a point v of a box about the origin has |v| <= H (1 + 5e-15).
-// 2. Let d be a vector of length 1 (1 + 3e-15), and lambda_i its dot products with the axes, each off by at most 5 u.
-//    Then |d - sum lambda_i axes[i]| < 1e-14, for A^T A differs from 1 by at most 9e-15.
+// 2. Let d be a vector of length at most 1 + 3e-15, and lambda_i its dot products with the axes, each with an error of
+// at
+//    most 5 u. Then |d - sum lambda_i axes[i]| < 1e-14, since A^T A differs from 1 by at most 9e-15.
 // 3. So d . v is at most sum |lambda_i| half[i] + 1.1e-14 H.
 
 using Vector = Eigen::Vector3d;
@@ -35,12 +36,12 @@ Vector half_of(const Oriented_box& box) { return Vector(box.half); }
 Axes axes_of(const Oriented_box& box) { return Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(&box.axes[0][0]); }
 double sum(const Vector& v) { return v.x() + v.y() + v.z(); }
 
-/// What lies between limits along three axes, seen from an origin.
+/// The points between limits along three axes, relative to an origin.
 struct Box_limits {
   Axes axes;
   Vector low, high;
 
-  /// Half of it, where the reach is 1.
+  /// Half the surface area, in units of the reach.
   double surface(double reach) const {
     const Vector width = (high - low) / reach;
     return width.x() * width.y() + width.y() * width.z() + width.z() * width.x();
@@ -49,12 +50,14 @@ struct Box_limits {
 
 Oriented_box everything() { return {{0, 0, 0}, {infinity, infinity, infinity}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
 
-/// The box that has some limits, about its middle, and is `error` times `reach` wider on every side.
+/// The box with the given limits, expressed about its centre and widened by `error` times `reach` on every side.
 ///
 /// @param reach  at least the size of the limits; 0 only if they are 0 and exact
-/// @param error  at least 10 u more than by how much of the reach the limits are off. The way from the origin to the
-///               centre is off by u of its size, its dot products with the axes by 4 u, and the last difference and sum
-///               by u of the reach and the way each. What is lost below the normal doubles is less than their least.
+/// @param error  at least 10 u more than the error of the limits, as a share of the reach. The 10 u cover the offset
+/// from
+///               the origin to the centre (u of its size), its dot products with the axes (4 u), and the last
+///               difference and sum (u of the reach and the offset each). The loss to subnormal numbers is less than
+///               the smallest normal double.
 Oriented_box box_about_middle(const Vector& origin, const Box_limits& limits, double reach, double error) {
   const Vector middle = limits.low / 2 + limits.high / 2;
   const Vector centre = origin + limits.axes.transpose() * middle;
@@ -72,12 +75,12 @@ Oriented_box box_about_middle(const Vector& origin, const Box_limits& limits, do
   return bounded && std::isfinite(slack) ? box : everything();
 }
 
-/// Two boxes, seen from the centre of a.
+/// Two boxes, relative to the centre of a.
 struct Two_boxes {
   Axes axes_a, axes_b;
   Vector half_a, half_b;
   Vector way;    ///< to the centre of b
-  double reach;  ///< of all points of both, but for a factor of 1 + 1e-14
+  double reach;  ///< bounds all coordinates of both, up to a factor of 1 + 1e-14
 
   Two_boxes(const Oriented_box& a, const Oriented_box& b)
       : axes_a(axes_of(a)),
@@ -88,7 +91,7 @@ struct Two_boxes {
     reach = sum(half_a) + sum(half_b) + way.lpNorm<1>();
   }
 
-  /// Off by less than 1.3e-14 of the reach: see 3. above.
+  /// Limits of both, with an error of less than 1.3e-14 of the reach: see 3. above.
   Box_limits limits(const Axes& along) const {
     const Vector a = (along * axes_a.transpose()).cwiseAbs() * half_a;
     const Vector b = (along * axes_b.transpose()).cwiseAbs() * half_b;
@@ -116,7 +119,8 @@ void Oriented_box::enclose(const Leaf_faces& faces) {
   const auto found = kernel::frame_limits(faces, frame);
   const Box_limits upright{Axes::Identity(), Vector(found.low), Vector(found.high)};
   const Box_limits turned{principal, Vector(found.low + 3), Vector(found.high + 3)};
-  // The difference of a vertex from the origin is off by u of its size, its dot products by 3 u: 5 u of 16.
+  // The difference of a vertex and the origin has an error of u of its size, its dot products 3 u: 5 u of the
+  // allowed 16.
   const double reach = sum(upright.high.cwiseMax(-upright.low));
   const auto& best = turned.surface(reach) < upright.surface(reach) ? turned : upright;
   *this = box_about_middle(Vector(origin), best, reach, 0x1p-49);
@@ -132,8 +136,8 @@ void Oriented_box::enclose(const Oriented_box& a, const Oriented_box& b) {
   *this = box_about_middle(centre_of(a), best, two.reach, 2e-14);
 }
 
-/// The box reaches as far as 3. has it. What is added covers that, the rounding of its sums, and that of the last one,
-/// which is at most u of the centre and the reach.
+/// The extent along each axis follows from 3. The added slack covers the error in 3., the rounding of the sums, and the
+/// rounding of the last sum, which is at most u of the centre and the reach.
 Aabb Oriented_box::bounds() const {
   const Vector reach = axes_of(*this).cwiseAbs().transpose() * half_of(*this);
   const double size = sum(half_of(*this));
@@ -146,17 +150,24 @@ Aabb Oriented_box::bounds() const {
   return box;
 }
 
-/// The gap along an axis is how far the centres are apart less how far both boxes reach from theirs.
+/// The gap along an axis is the distance of the centres along it minus the reach of both boxes from their centres.
 ///
-/// The axis of a box is known exactly. How far the other box reaches along it is off by less than 1.3e-14 H, by 3. and
-/// the rounding of its sums, and the way of the centres by 6 u of its size.
+/// Axes of the boxes are known exactly. The reach of the other box along such an axis has an error of less than
+/// 1.3e-14 H, by 3. and the rounding of its sums. The distance of the centres has an error of 6 u of its size.
 ///
-/// Let r_ij = a_i . b_j and t_k = a_k . way. The cross product of a_i and b_j, whose length is at most 1 + 1e-14, is
-/// that of a_i and sum_k r_kj a_k but for 1.1e-14, by 2., and a cross product of two axes is the third or its opposite
-/// but for 2e-14, as the matrix of the cofactors of A is det A times the inverse of its transpose. So what is computed
-/// of a's reach along it is off by less than 6e-14 H, likewise b's, and that of the way, a determinant of three
-/// vectors, two of which are expressed in a's axes, by less than 5e-14 of its size. 1e-13 of all three is allowed for,
-/// and 1e-300 for products below the normal doubles. A limit or distance that is not finite makes that infinite or NaN.
+/// For cross products, let r_ij = a_i . b_j and t_k = a_k . way, where `way` goes from the centre of a to that of b.
+///
+/// - The cross product of a_i and b_j has length at most 1 + 1e-14. By 2., it differs from that of a_i and
+///   sum_k r_kj a_k by at most 1.1e-14.
+/// - A cross product of two axes differs from the third, or its opposite, by at most 2e-14, since the cofactor matrix
+/// of
+///   A is det A times the inverse of its transpose.
+/// - So the computed reach of a along the cross product has an error of less than 6e-14 H, and so does that of b. The
+///   distance of the centres is a determinant of three vectors, two of them expressed in a's axes; its error is less
+///   than 5e-14 of its size.
+///
+/// `doubt` allows for 1e-13 of all three, and for 1e-300 because of subnormal products. If a limit or distance is not
+/// finite, `doubt` is infinite or NaN, and nothing is separated.
 bool near(const Oriented_box& a, const Oriented_box& b, double margin) {
   const auto dot = [](const double* p, const double* q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; };
   const double way[3]{b.centre[0] - a.centre[0], b.centre[1] - a.centre[1], b.centre[2] - a.centre[2]};
@@ -182,7 +193,7 @@ bool near(const Oriented_box& a, const Oriented_box& b, double margin) {
       const double reach_a = a.half[i1] * size[i2][j] + a.half[i2] * size[i1][j];
       const double reach_b = b.half[j1] * size[i][j2] + b.half[j2] * size[i][j1];
       const double gap = distance - (reach_a + reach_b);
-      // Of the axis: its square is 1 - r^2 up to rounding.
+      // The root is the length of the cross product, whose square is 1 - r^2 up to rounding.
       if (gap > doubt && gap > doubt + 1.00000000000001 * margin * std::sqrt(std::abs(1 - r[i][j] * r[i][j]) + 2e-14))
         return false;
     }

@@ -11,13 +11,13 @@
 namespace lodestone {
 namespace {
 
-/// Whether products of two differences have been far enough from both ends of the doubles.
+/// Whether products of two differences were safe from overflow and underflow.
 bool measured(const kernel::Moments& sums) {
   const double size = sums.second[0] + sums.second[1] + sums.second[2];
   return size > 1e-250 && size < 1e250;
 }
 
-/// A power of 2 that brings the longest side of the box around a leaf to about 1, as far as there is one.
+/// A power of 2 that scales the longest side of the box around a leaf to about 1, or as near to 1 as a double allows.
 double scale_to_one(const Leaf_faces& faces) {
   Aabb box;
   box.enclose(faces);
@@ -36,7 +36,7 @@ Eigen::Matrix3d second_moments(const Leaf_faces& faces) {
   return second - first * (first.transpose() / static_cast<double>(faces.vertices.size()));
 }
 
-/// The dot products are off by less than 4 x 2^-53 of what is at most 1.1 here.
+/// The computed dot products, each at most 1.1 here, have a relative error of less than 4 x 2^-53.
 bool orthonormal(const Eigen::Matrix3d& axes) {
   return ((axes * axes.transpose() - Eigen::Matrix3d::Identity()).array().abs() < 2e-15).all();
 }
@@ -47,7 +47,7 @@ Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& moments) {
   if (!moments.allFinite()) return Eigen::Matrix3d::Identity();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(moments);
-  // What the solver returns is orthonormal up to rounding, how much is not said.
+  // The solver's eigenvectors are orthonormal up to a rounding error that is not documented.
   const Eigen::Vector3d longest = solver.eigenvectors().col(2).normalized();
   const Eigen::Vector3d shortest = solver.eigenvectors().col(0);
   const Eigen::Vector3d across = (shortest - shortest.dot(longest) * longest).normalized();

@@ -20,8 +20,8 @@ namespace {
 
 using Directions = std::array<std::array<double, 3>, 3>;
 
-/// The turn from the axes of space to three lines at right angles: of the 24 there are, the smallest.
-/// @param axes  as rows, right-handed
+/// The smallest of the 24 rotations from the coordinate axes to three perpendicular lines.
+/// @param axes  directions of the lines as rows, right-handed
 Eigen::Matrix3d smallest_turn(const Eigen::Matrix3d& axes) {
   constexpr int orders[6][3]{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
   Eigen::Matrix3d best = axes;
@@ -29,7 +29,8 @@ Eigen::Matrix3d smallest_turn(const Eigen::Matrix3d& axes) {
   for (int order = 0; order < 6; ++order) {
     Eigen::Matrix3d turn;
     for (int i = 0; i < 3; ++i) turn.row(i) = axes.row(orders[order][i]);
-    // Of a line's two directions the one along the axis, but for the least decided one if that makes a mirror image.
+    // Each line gets the direction nearer to its axis. If the result is a mirror image, the line whose choice was
+    // closest is reversed.
     bool mirrored = order >= 3;
     for (int i = 0; i < 3; ++i)
       if (turn(i, i) < 0) turn.row(i) = -turn.row(i), mirrored = !mirrored;
@@ -41,7 +42,8 @@ Eigen::Matrix3d smallest_turn(const Eigen::Matrix3d& axes) {
   return best;
 }
 
-/// The one nearest to some axes: their smallest turn, as a quaternion with the real part w, rounded to whole numbers.
+/// The rotation nearest to some axes: the smallest rotation to them, as a quaternion with real part w, rounded to
+/// integers.
 Quantised_turn nearest_turn(const Eigen::Matrix3d& axes) {
   const Eigen::Matrix3d turn = smallest_turn(axes);
   Quantised_turn result;
@@ -58,18 +60,24 @@ struct Interval {
   double low, high;
 };
 
-/// What bounds a volume along any direction.
+/// Bounds of a volume along any direction.
 ///
-/// Let N be the length of a direction of the volume, X its largest coordinate without sign, and d a direction of whole
-/// numbers of length L. The box bounds d . p by sum d_k p_k. As the directions e_j of the volume's frame are at right
-/// angles, d = sum kappa_j e_j / N^2 with the whole numbers kappa_j = d . e_j, so the frame bounds d . p by
-/// sum kappa_j (e_j . p) / N^2. Each sum is that of the middles of three slabs, and the half widths on either side.
+/// Let N be the length of a direction of the volume, X its largest absolute coordinate, and d a direction of length L
+/// with integer components. The box bounds d . p through sum d_k p_k. The directions e_j of the volume's frame are
+/// perpendicular, so d = sum kappa_j e_j / N^2 with the integers kappa_j = d . e_j, and the frame bounds d . p through
+/// sum kappa_j (e_j . p) / N^2. Each bound is the sum of three slab middles, plus or minus the sum of the half-widths.
 ///
-/// With u = 2^-53: Limits along e_j are at most 2 N X, the sum of |kappa_j| is at most 2 L N, that of |d_k| at most 2
-/// L. So a sum of middles or half widths is at most 4 L X; a middle or half width is off by u of 2 N X, a product, two
-/// sums, and the product with a rounded 1 / N^2 by less than 5 u in all: each of the two sums by 24 u L X, and their
-/// sum and the last difference round by 17 u L X more. 128 u L X is allowed for, and the least normal double for what
-/// is lost below those. Where L X might overflow there are no limits; what is not a number bounds nothing.
+/// Rounding, with u = 2^-53:
+///
+/// - Limits along e_j are at most 2 N X; the sum of |kappa_j| is at most 2 L N, that of |d_k| at most 2 L. So a sum of
+///   middles or half-widths is at most 4 L X.
+/// - A middle or half-width has an error of u of 2 N X. A product, two sums and the product with the rounded 1 / N^2
+/// add
+///   less than 5 u in all. So each of the two sums has an error of 24 u L X.
+/// - Their sum and the last difference add 17 u L X.
+///
+/// The slack is 128 u L X, plus the smallest normal double for the loss to subnormal numbers. Where L X might overflow
+/// there are no limits. NaN bounds nothing.
 struct Frame_bounds {
   const Quospo& volume;
   Directions directions;
@@ -107,7 +115,7 @@ struct Frame_bounds {
   }
 };
 
-/// Whether b comes within the margin of a along the directions of a's frame.
+/// Whether a and b come within the margin of each other along the directions of a's frame.
 bool near_along(const Quospo& a, const Directions& directions, const Frame_bounds& b, double margin) {
   const double length = a.turn.length();
   const double gap = margin > 0 ? 1.000000000000001 * length * margin + std::numeric_limits<double>::min() : 0;
@@ -136,7 +144,7 @@ struct Turned_limits {
       high[i] = std::max(of_a.high, of_b.high);
     }
   }
-  /// Half of it, in units of a size.
+  /// Half the surface area, in units of `size`.
   double surface(double size) const {
     double width[3];
     for (int i = 0; i < 3; ++i) width[i] = (high[i] - low[i]) / turn.length() / size;
@@ -144,7 +152,7 @@ struct Turned_limits {
   }
 };
 
-/// Principal axes of two solid boxes of equal mass, those of the two frames, that are in the middles of both.
+/// Principal axes of two solid boxes of equal mass: those of the two frames, centred on the middles of the volumes.
 Eigen::Matrix3d joint_axes(const Frame_bounds& a, const Frame_bounds& b, double size) {
   const auto scaled_axes = [&](const Frame_bounds& v) {
     const double unit = size * v.volume.turn.length();
@@ -160,8 +168,8 @@ Eigen::Matrix3d joint_axes(const Frame_bounds& a, const Frame_bounds& b, double 
 
 }  // namespace
 
-/// The products and sums of a projection are off by 3 u of the sum of their sizes, the last difference by u of it; 8 u
-/// of it is allowed for. Whole multiples of doubles do not round below the normal ones: see `widen` for K_dop.
+/// The products and sums of a projection have an error of 3 u of the sum of their sizes, the last difference u of it.
+/// The slack is 8 u of it. Integer multiples of subnormal numbers do not round: see `widen` for K_dop.
 void Quospo::enclose(const Leaf_faces& faces) {
   turn = nearest_turn(principal_axes(faces));
   const auto directions = turn.directions();

@@ -6,11 +6,11 @@
 
 namespace lodestone {
 
-/// Differences of coordinates times a power of two, so that their squares neither overflow nor underflow. A difference
-/// is rounded once; besides, only what is below 2^-1000 of the largest one is lost.
+/// Scales differences of coordinates by a power of two, so that their squares neither overflow nor underflow. A
+/// difference is rounded once; apart from that, only differences below 2^-1000 of the largest lose digits.
 class Scale {
  public:
-  /// @param largest  difference or length, rounded, > 0, perhaps infinite: becomes one between 2^-24 and 4
+  /// @param largest  largest difference or length, rounded, > 0, may be infinite; it is scaled to between 2^-24 and 4
   explicit Scale(double largest)
       : before_(largest > 0x1p1000 ? -8 : 0), after_(before_ == 0 ? -std::ilogb(largest) : -1024 - before_) {}
 
@@ -22,14 +22,14 @@ class Scale {
   double moved(double x, double difference) const {
     return std::scalbn(std::scalbn(x, before_) + std::scalbn(difference, -after_), -before_);
   }
-  /// At least a length that has been scaled.
+  /// Upper bound of a length, from its scaled value.
   double length_above(double scaled) const {
     return std::nextafter(std::scalbn(scaled, -before_ - after_), std::numeric_limits<double>::infinity());
   }
 
  private:
-  int before_;  ///< powers of two: before a subtraction, so that it does not overflow, and after it
-  int after_;
+  int before_;  ///< exponent applied before a subtraction, so that it does not overflow
+  int after_;   ///< exponent applied after it
 };
 
 }  // namespace lodestone

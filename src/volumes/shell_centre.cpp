@@ -8,14 +8,15 @@
 namespace lodestone {
 namespace {
 
-/// A sphere or a plane, in units of a leaf about the mean of its vertices: size |p|^2 + normal . p + constant = 0.
+/// A sphere or a plane: size |p|^2 + normal . p + constant = 0, in units of the leaf and relative to the mean of its
+/// vertices.
 struct Fitted_sphere {
   double size;
   Eigen::Vector3d normal;
 };
 
-/// Eigenvector of the least eigenvalue, up to what is of no account for a fit. High powers of the inverse have almost
-/// only that one; the shift keeps the inverse from overflow.
+/// Eigenvector of the smallest eigenvalue, accurate enough for a fit. It dominates high powers of the inverse; the
+/// shift keeps the inverse from overflowing.
 Eigen::Vector4d least_eigenvector(Eigen::Matrix4d matrix) {
   matrix.diagonal().array() += 1e-13 * matrix.trace();
   Eigen::Matrix4d power = matrix.inverse();
@@ -28,9 +29,9 @@ Eigen::Vector4d least_eigenvector(Eigen::Matrix4d matrix) {
   return power.col(largest);
 }
 
-/// The sphere of \cite taubin1991: the mean of (size |p|^2 + normal . p + constant)^2 is least where that of the
-/// squared gradient is 1. The mean of p is 0, so the constant is -size q with the mean q of |p|^2; and the squared
-/// gradient is 4 size^2 q + normal^2. So 2 sqrt(q) size and the normal are an eigenvector.
+/// The sphere of \cite taubin1991. It minimises the mean of (size |p|^2 + normal . p + constant)^2 where the mean
+/// squared gradient is 1. The mean of p is 0, so the constant is -size q, with q the mean of |p|^2, and the mean
+/// squared gradient is 4 size^2 q + normal^2. So (2 sqrt(q) size, normal) is an eigenvector.
 Fitted_sphere fitted_sphere(const kernel::Sphere_moments& moments) {
   const double mean_square = moments.xx + moments.yy + moments.zz, unit = 2 * std::sqrt(mean_square);
   const double square = (moments.rr - mean_square * mean_square) / (unit * unit);
@@ -44,11 +45,11 @@ Fitted_sphere fitted_sphere(const kernel::Sphere_moments& moments) {
   return {vector[0] / unit, vector.tail<3>()};
 }
 
-/// Sum of the faces' normals.
+/// Sum of the faces' normals, weighted by area.
 Eigen::Vector3d mean_normal(const Leaf_faces& faces) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [a, b, c] : faces.corners) {
-    const auto p = [&](std::size_t place) { return Eigen::Map<const Eigen::Vector3d>(faces.position(place)); };
+    const auto p = [&](std::size_t index) { return Eigen::Map<const Eigen::Vector3d>(faces.position(index)); };
     sum += (p(b) - p(a)).cross(p(c) - p(a));
   }
   return sum;

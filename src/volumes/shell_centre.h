@@ -9,10 +9,11 @@
 
 namespace lodestone {
 
-/// Centre of the sphere that fits best to the vertices of a leaf, or a point 2^10 radii of the ball around them away if
-/// it is farther: then on the back of the faces, so that neighbours in a flat surface have theirs on the same side.
+/// Centre of the sphere that fits the vertices of a leaf best. If it would be farther than 2^10 radii of the ball
+/// around them, it is a point at that distance behind the faces, so that neighbours in a flat surface have theirs on
+/// the same side.
 /// @param points  the vertices of `faces`
-/// @param ball    around them; its radius is ordinary and not 0
+/// @param ball    around them; its radius is not 0, and `has_room_for_shell`
 Eigen::Vector3d shell_centre(const Leaf_faces& faces, const kernel::Leaf_points& points, const Bounding_sphere& ball);
 
 }  // namespace lodestone

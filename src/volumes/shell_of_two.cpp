@@ -12,36 +12,37 @@ namespace {
 
 using Vector = Eigen::Map<const Eigen::Vector3d>;
 
-/// An upper bound of an angle of at most 90 degrees. Sine and cosine fit to each other up to a few u = 2^-53.
+/// Upper bound of an angle of at most 90 degrees. Sine and cosine are consistent up to a few u = 2^-53.
 struct Angle {
   double sine = 1;
   double cosine = 0;
 };
 
-/// @param sine  not too small
+/// @param sine  not below the exact one
 Angle with_sine(double sine) { return sine < 1 ? Angle{sine, std::sqrt((1 - sine) * (1 + sine))} : Angle{}; }
 
-/// @param cosine  not too large
+/// @param cosine  not above the exact one
 Angle with_cosine(double cosine) {
   return cosine > 0 ? Angle{std::sqrt((1 - cosine) * (1 + cosine)), cosine} : Angle{};
 }
 
-/// 90 degrees if it may be more. The products and the difference are rounded, and what they are made of: in all less
-/// than 16 u.
+/// Sum of two angles; 90 degrees if it may be more. The roundings of products, difference and operands are less than 16
+/// u in all.
 Angle operator+(const Angle& a, const Angle& b) { return with_cosine(a.cosine * b.cosine - a.sine * b.sine - 0x1p-49); }
 
-/// Between an axis of length 1, up to a few u, and a vector; 90 degrees if it is more. Products and their sums are
-/// rounded, all in all less than 32 u.
+/// Angle between a vector and an axis of length 1, up to a few u; 90 degrees if it is more. The roundings of products
+/// and sums are less than 32 u in all.
 Angle between(const Eigen::Vector3d& axis, const Eigen::Vector3d& vector) {
   if (!(axis.dot(vector) > 0)) return {};
   return with_sine(axis.cross(vector).norm() / vector.norm() + 0x1p-48);
 }
 
-/// How far the points of a shell are from an axis, seen from a centre. Either its ball bounds it, or its own cone: that
-/// has its apex c' elsewhere, and a point p is seen from there in a direction that differs by the angle at p of the
-/// triangle of p and the two apexes. Its sine is at most their distance over that of p from either, and where one of
-/// these is longer, it is acute.
-/// @param least_distance  of a point of the shell from the centre
+/// The largest angle at a centre between an axis and the points of a shell. It is bounded by the shell's ball or by its
+/// cone, whichever is tighter. The cone has its apex c' elsewhere: the directions from the two apexes to a point p
+/// differ by the angle at p in the triangle of p and the apexes. The sine of this angle is at most the distance of the
+/// apexes divided by the distance of p from either apex. The angle is acute if one of these distances exceeds that of
+/// the apexes.
+/// @param least_distance  smallest distance of a point of the shell from the centre
 Angle angle_of(const Spherical_shell& shell, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis,
                double least_distance) {
   const Eigen::Vector3d to_ball = Vector(shell.ball.centre) - centre;
@@ -53,7 +54,7 @@ Angle angle_of(const Spherical_shell& shell, const Eigen::Vector3d& centre, cons
   return by_cone.cosine > by_ball.cosine ? by_cone : by_ball;
 }
 
-/// Spheres about a centre with two shells between them, and no cone yet.
+/// Two spheres about a centre with two shells between them; without a cone.
 struct Spheres {
   Eigen::Vector3d centre;
   Squared_range a, b;
@@ -69,7 +70,7 @@ Spheres spheres_about(const Eigen::Vector3d& centre, const Spherical_shell& a, c
           .outer = above(std::sqrt(std::max(of_a.high, of_b.high)))};
 }
 
-/// The thinnest ones about the centre of either, or between these.
+/// The thinnest spheres about the centre of a, the centre of b or a point between these.
 Spheres thinnest_spheres(const Spherical_shell& a, const Spherical_shell& b) {
   if (!a.has_shell()) return spheres_about(Vector(b.centre), a, b);
   if (!b.has_shell()) return spheres_about(Vector(a.centre), a, b);
@@ -84,7 +85,7 @@ void enclose_with_cone(Spherical_shell& shell, const Spheres& spheres, const Sph
   const Eigen::Vector3d axis = (Vector(shell.ball.centre) - spheres.centre).normalized();
   const Angle of_a = angle_of(a, spheres.centre, axis, std::sqrt(spheres.a.low));
   const Angle of_b = angle_of(b, spheres.centre, axis, std::sqrt(spheres.b.low));
-  // The axis is too long by a few u.
+  // The slack covers the length of the axis, which can exceed 1 by a few u.
   set_cone(shell, axis.data(), std::min(of_a.cosine, of_b.cosine) - 0x1p-49);
 }
 

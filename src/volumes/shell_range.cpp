@@ -22,11 +22,11 @@ Squared_range squared_distances(const Spherical_shell& shell, const double* from
   const double distance = std::sqrt(to_ball);
   const double nearest = distance - radius, farthest = distance + radius;
 
-  // With u = 2^-53: each term is rounded at most six times, each sum three times, and no intermediate result is more
-  // than twice the sum of all terms; in all less than 32 u of it. What underflows is far below 2^-1000.
+  // With u = 2^-53: each term is rounded at most six times, each sum three times, and no intermediate result exceeds
+  // twice the sum of all terms. The total error is less than 32 u of that sum. Underflow is far below 2^-1000.
   const double error = 0x1p-48 * (outer * outer + to_ball + in_shell + change + radius * radius) + 0x1p-1000;
 
-  // Comparisons with what is not a number are false, and leave the bounds that hold anyway.
+  // Comparisons with NaN are false, and keep the trivial bounds.
   Squared_range range{0, std::numeric_limits<double>::infinity()};
   const double low_by_spheres = inner * inner + (to_ball - in_shell) - change - error;
   const double low_by_ball = nearest > 0 ? nearest * nearest - error : 0;

@@ -5,14 +5,14 @@
 
 namespace lodestone {
 
-/// Squared distances of the points of a shell from some point are in this range, whatever the rounding.
+/// A range that contains the exact squared distances of the points of a shell from some point.
 struct Squared_range {
   double low;
   double high;
 };
 
-/// The two bounds that the documentation of `near` derives.
-/// @param shell, from  one of them is a shell that is one, or its centre
+/// The tighter of the two bounds that the documentation of `near` derives.
+/// @param shell, from  `shell` has a shell, or `from` is the centre of one
 Squared_range squared_distances(const Spherical_shell& shell, const double* from);
 
 }  // namespace lodestone

@@ -15,7 +15,7 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Eight vertices at a time, in as many parts as it takes vectors to hold eight numbers.
+/// Vertices are processed in blocks of eight. A block takes as many vector registers ("parts") as hold eight numbers.
 constexpr std::size_t together = 8;
 using Eight = hn::CappedTag<double, together>;
 using Numbers = hn::Vec<Eight>;
@@ -26,24 +26,24 @@ struct Positions {
   Numbers x[parts], y[parts], z[parts];
 };
 
-/// Some vertices of a leaf that lie at one place of its list after the other.
-struct Places {
+/// The vertices of a leaf, in blocks of eight.
+struct Vertex_blocks {
   const Leaf_faces& faces;
-  std::size_t last;  ///< place of the last vertex: only that one may be the last of the mesh
+  std::size_t last;  ///< index of the last vertex: only that one may be the last of the mesh
 
-  explicit Places(const Leaf_faces& leaf) : faces(leaf), last(leaf.vertices.size() - 1) {}
-  /// The places before this are taken in full blocks without the last one; from this on, 1 to 8 are left.
+  explicit Vertex_blocks(const Leaf_faces& leaf) : faces(leaf), last(leaf.vertices.size() - 1) {}
+  /// Blocks before this index are full and without the last vertex; from this index on, 1 to 8 vertices are left.
   std::size_t rest() const { return last / together * together; }
 };
 
 #if HWY_MAX_BYTES >= 32
-/// A vertex in four lanes, the fourth of which means nothing.
+/// A vertex in four lanes; the fourth is unspecified.
 template <bool with_last>
-HWY_INLINE hn::Vec<D> load(const Places& places, std::size_t place) {
+HWY_INLINE hn::Vec<D> load(const Vertex_blocks& blocks, std::size_t index) {
   if constexpr (with_last)
-    return load_last(places.faces.position(std::min(place, places.last)), 0);
+    return load_last(blocks.faces.position(std::min(index, blocks.last)), 0);
   else
-    return hn::LoadU(D(), places.faces.position(place));
+    return hn::LoadU(D(), blocks.faces.position(index));
 }
 
 struct Four_positions {
@@ -51,20 +51,20 @@ struct Four_positions {
 };
 
 template <bool with_last>
-HWY_INLINE Four_positions load_four(const Places& places, std::size_t first) {
+HWY_INLINE Four_positions load_four(const Vertex_blocks& blocks, std::size_t first) {
   const D d;
-  const auto p = load<with_last>(places, first), q = load<with_last>(places, first + 1);
-  const auto r = load<with_last>(places, first + 2), s = load<with_last>(places, first + 3);
+  const auto p = load<with_last>(blocks, first), q = load<with_last>(blocks, first + 1);
+  const auto r = load<with_last>(blocks, first + 2), s = load<with_last>(blocks, first + 3);
   const auto xz_pq = hn::InterleaveLower(d, p, q), xz_rs = hn::InterleaveLower(d, r, s);
   const auto y_pq = hn::InterleaveUpper(d, p, q), y_rs = hn::InterleaveUpper(d, r, s);
   return {hn::ConcatLowerLower(d, xz_rs, xz_pq), hn::ConcatLowerLower(d, y_rs, y_pq),
           hn::ConcatUpperUpper(d, xz_rs, xz_pq)};
 }
 
-/// The vertices at eight places from `first` on; with the last one, that one also for places past it.
+/// Eight vertices from index `first` on. With the last vertex, copies of it pad the block.
 template <bool with_last>
-HWY_INLINE Positions load_positions(const Places& places, std::size_t first) {
-  const auto lower = load_four<with_last>(places, first), upper = load_four<with_last>(places, first + 4);
+HWY_INLINE Positions load_positions(const Vertex_blocks& blocks, std::size_t first) {
+  const auto lower = load_four<with_last>(blocks, first), upper = load_four<with_last>(blocks, first + 4);
 #if HWY_MAX_BYTES >= 64
   const Eight d;
   return {{hn::Combine(d, upper.x, lower.x)}, {hn::Combine(d, upper.y, lower.y)}, {hn::Combine(d, upper.z, lower.z)}};
@@ -74,10 +74,10 @@ HWY_INLINE Positions load_positions(const Places& places, std::size_t first) {
 }
 #else
 template <bool with_last>
-HWY_INLINE Positions load_positions(const Places& places, std::size_t first) {
+HWY_INLINE Positions load_positions(const Vertex_blocks& blocks, std::size_t first) {
   alignas(64) double x[together], y[together], z[together];
   for (std::size_t k = 0; k < together; ++k) {
-    const double* position = places.faces.position(with_last ? std::min(first + k, places.last) : first + k);
+    const double* position = blocks.faces.position(with_last ? std::min(first + k, blocks.last) : first + k);
     x[k] = position[0], y[k] = position[1], z[k] = position[2];
   }
   const Eight d;
@@ -91,7 +91,7 @@ HWY_INLINE Positions load_positions(const Places& places, std::size_t first) {
 }
 #endif
 
-/// Least and greatest of the numbers that a projection makes of each vertex.
+/// Minima and maxima of the numbers that a projection computes for each vertex.
 template <class Projection>
 struct Projection_limits {
   static constexpr std::size_t count = Projection::count;
@@ -113,7 +113,7 @@ struct Projection_limits {
       high[i] = hn::Max(high[i], values[i]);
     }
   }
-  /// Zero is added, so that which of two zeros comes first does not tell.
+  /// Adding zero turns -0 into +0, so that the order of two zeros does not affect the result.
   HWY_INLINE void store(double* least, double* greatest) const {
     const Eight d;
     for (std::size_t i = 0; i < count; ++i) {
@@ -125,11 +125,11 @@ struct Projection_limits {
 
 template <class Projection>
 HWY_INLINE void limits(const Leaf_faces& faces, const Projection& projection, double* low, double* high) {
-  const Places places(faces);
+  const Vertex_blocks blocks(faces);
   Projection_limits<Projection> found;
-  found.start(projection, load_positions<true>(places, places.rest()));
-  for (std::size_t first = 0; first < places.rest(); first += together)
-    found.extend(projection, load_positions<false>(places, first));
+  found.start(projection, load_positions<true>(blocks, blocks.rest()));
+  for (std::size_t first = 0; first < blocks.rest(); first += together)
+    found.extend(projection, load_positions<false>(blocks, first));
   found.store(low, high);
 }
 
@@ -171,7 +171,7 @@ struct Frame_projection {
   }
 };
 
-/// Nine sums per lane: the terms of vertex k of every eight are added up in lane k, whatever the width of a vector.
+/// Nine sums per lane. The terms of vertex k of every block are added in lane k, for any vector width.
 struct Moment_sums {
   Numbers sums[9][parts];
   Numbers origin[3], scale;
@@ -214,12 +214,12 @@ Frame_limits frame_limits_kernel(const Leaf_faces& faces, const Frame& frame) {
   return result;
 }
 
-/// The last vertex stands for places past the list, where it adds nothing: it is the origin.
+/// The last vertex is the origin, so the copies of it that pad the last block add zero.
 Moments moments_kernel(const Leaf_faces& faces, double scale) {
-  const Places places(faces);
-  Moment_sums sums(faces.position(places.last), scale);
-  for (std::size_t first = 0; first < places.rest(); first += together) sums.add(load_positions<false>(places, first));
-  sums.add(load_positions<true>(places, places.rest()));
+  const Vertex_blocks blocks(faces);
+  Moment_sums sums(faces.position(blocks.last), scale);
+  for (std::size_t first = 0; first < blocks.rest(); first += together) sums.add(load_positions<false>(blocks, first));
+  sums.add(load_positions<true>(blocks, blocks.rest()));
   Moments result;
   for (std::size_t i = 0; i < 3; ++i) result.first[i] = sums.total(i);
   for (std::size_t i = 0; i < 6; ++i) result.second[i] = sums.total(3 + i);

@@ -13,7 +13,7 @@ namespace {
 using Vector = Eigen::Vector3d;
 using Polygon = std::vector<Vector>;
 
-/// The points p with normal . p <= height, the normal being of length 1.
+/// The points p with normal . p <= height; the normal is a unit vector.
 struct Half_space {
   Vector normal;
   double height;
@@ -21,7 +21,7 @@ struct Half_space {
   double beyond(const Vector& p) const { return normal.dot(p) - height; }
 };
 
-/// Those on either side of every slab that has limits, in units of `size` about `centre`.
+/// The half-spaces of both sides of every bounded slab, in units of `size` relative to `centre`.
 std::vector<Half_space> half_spaces(std::span<const Slab> slabs, const Vector& centre, double size) {
   std::vector<Half_space> result;
   for (const auto& slab : slabs) {
@@ -34,7 +34,7 @@ std::vector<Half_space> half_spaces(std::span<const Slab> slabs, const Vector& c
   return result;
 }
 
-/// The part of the plane around a half-space that is less than 2 from the foot of the perpendicular from the centre.
+/// The part of a half-space's boundary plane within 2 of the foot of the perpendicular from the centre.
 Polygon square(const Half_space& half_space) {
   const Vector u = half_space.normal.unitOrthogonal(), v = half_space.normal.cross(u);
   const Vector foot = half_space.height * half_space.normal;
@@ -68,7 +68,7 @@ double polytope_volume(std::span<const Slab> slabs, const Aabb& box) {
   if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
   if (size == 0) return 0;
   const auto sides = half_spaces(slabs, low / 2 + high / 2, size);
-  double volume = 0;  // of a pyramid from the centre to every face
+  double volume = 0;  // of the pyramids from the centre to the faces
   for (const auto& side : sides) {
     Polygon face = square(side);
     for (const auto& other : sides)

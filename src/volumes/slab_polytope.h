@@ -14,9 +14,9 @@ struct Slab {
   double high;
 };
 
-/// Volume of the points that are in all slabs, up to rounding; infinite if a side of the box is. O(n^3) for n slabs.
-/// @param slabs  of which no two have one direction; among them those of the box
-/// @param box    around them
+/// Volume of the intersection of slabs, up to rounding; infinite if a side of the box is. O(n^3) for n slabs.
+/// @param slabs  with distinct directions; those of the box are among them
+/// @param box    around the intersection
 double polytope_volume(std::span<const Slab> slabs, const Aabb& box);
 
 }  // namespace lodestone

@@ -8,8 +8,9 @@ namespace {
 
 using Weights = Eigen::Vector4d;
 
-/// A ball with the new point p and some of the old ones q_i on its boundary and its centre, p + sum w_i (q_i - p),
-/// among them: the smallest ball around these. So of all such balls the largest is the one around all points.
+/// A ball with the new point p and some of the old points q_i on its boundary, and its centre p + sum w_i (q_i - p) in
+/// their convex hull. It is the smallest ball around these points, so the largest of all such balls is the smallest
+/// ball around all points.
 struct Ball {
   double squared_radius = 0;
   Weights weights = Weights::Zero();
@@ -21,8 +22,8 @@ struct Ball {
   }
 };
 
-/// Products of the differences q_i - p. As the distances of the centre from p and q_i are equal, sum_j gram(i, j) w_j =
-/// gram(i, i) / 2; and the squared radius is half the sum of w_i gram(i, i).
+/// Dot products of the differences q_i - p. The centre is equidistant from p and the q_i, so
+/// sum_j gram(i, j) w_j = gram(i, i) / 2, and the squared radius is half the sum of w_i gram(i, i).
 using Gram = Eigen::Matrix4d;
 
 void try_one(const Gram& gram, int i, Ball& best) {
@@ -76,7 +77,7 @@ Ball largest_of_the_smallest(const Gram& gram, int size) {
 bool Support::add(const Eigen::Vector3d& point) {
   Eigen::Vector3d differences[4];
   for (int i = 0; i < size_; ++i) differences[i] = points_[i] - point;
-  // In units of their own, so that no product of six of them leaves the range of doubles.
+  // In units of the longest difference, so that no product of six entries overflows or underflows.
   double unit = 0;
   for (int i = 0; i < size_; ++i) unit = std::max(unit, differences[i].squaredNorm());
   Gram gram;

@@ -5,7 +5,7 @@
 
 namespace lodestone {
 
-/// Smallest ball around a few points: at most four, each of which it needs.
+/// Smallest ball around a set of points, kept as the at most four points that determine it.
 class Support {
  public:
   explicit Support(const Eigen::Vector3d& point) : points_{point}, centre_(point) {}
@@ -13,8 +13,9 @@ class Support {
   const Eigen::Vector3d& centre() const { return centre_; }
   double squared_radius() const { return squared_radius_; }
 
-  /// Makes it the smallest ball around its points and one outside of it, and forgets those that it no longer needs.
-  /// @return whether it has grown, as it does but for rounding; else nothing has changed
+  /// Grows the ball to the smallest one around its points and a point outside, and drops points that it no longer
+  /// needs.
+  /// @return whether it has grown; false, and no change, only because of rounding
   bool add(const Eigen::Vector3d& point);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every model of Bounding_volume promises of a leaf, in exact arithmetic.
+// What every model of Bounding_volume guarantees for a leaf, in exact arithmetic.
 #include <limits>
 
 #include "contract/volume_leaves.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Whether a box has all corners of faces.
+/// Whether a box contains all corners of the faces.
 bool surrounds(const Aabb& box, const Face_soup& soup) {
   for (const auto& face : soup.faces)
     for (const std::size_t v : face)
@@ -25,7 +25,7 @@ bool surrounds(const Aabb& box, const Face_soup& soup) {
 template <class Volume>
 class Bounding_volume_contract : public ::testing::Test {
  protected:
-  /// Fits the volume of a leaf and looks for its faces in it.
+  /// Fits a volume to a leaf and checks that it contains the faces.
   Volume expect_enclosed(const std::string& name, const Face_soup& soup) {
     const auto volume = volume_of<Volume>(soup);
     EXPECT_TRUE(encloses(volume, soup, likely_centres(soup), random_)) << name;
@@ -58,7 +58,7 @@ TYPED_TEST(Bounding_volume_contract, every_point_of_every_face_lies_in_the_volum
   }
 }
 
-TYPED_TEST(Bounding_volume_contract, so_it_is_far_from_the_origin) {
+TYPED_TEST(Bounding_volume_contract, volumes_enclose_their_faces_far_from_the_origin) {
   for (const auto& [name, soup] : all_leaves())
     for (const auto& place : far_places()) {
       const auto moved = place(posed_at_random(soup, 0, this->random_));
@@ -66,7 +66,7 @@ TYPED_TEST(Bounding_volume_contract, so_it_is_far_from_the_origin) {
     }
 }
 
-TYPED_TEST(Bounding_volume_contract, so_it_is_for_the_largest_and_the_smallest_numbers) {
+TYPED_TEST(Bounding_volume_contract, volumes_enclose_their_faces_for_the_largest_and_the_smallest_numbers) {
   for (const auto& [name, soup] : all_leaves())
     for (const auto& place : extreme_scales()) {
       const auto scaled = place(soup);
@@ -77,7 +77,7 @@ TYPED_TEST(Bounding_volume_contract, so_it_is_for_the_largest_and_the_smallest_n
     }
 }
 
-TYPED_TEST(Bounding_volume_contract, so_it_is_for_random_triangles) {
+TYPED_TEST(Bounding_volume_contract, volumes_enclose_random_triangles) {
   Hard_pairs pairs(1);
   for (const auto& kind : Hard_pairs::kinds())
     for (int i = 0; i < 300; ++i) {
@@ -87,7 +87,7 @@ TYPED_TEST(Bounding_volume_contract, so_it_is_for_random_triangles) {
     }
 }
 
-TYPED_TEST(Bounding_volume_contract, the_volume_around_two_has_what_both_enclose) {
+TYPED_TEST(Bounding_volume_contract, the_volume_around_two_encloses_the_faces_of_both) {
   const auto leaves = all_leaves();
   std::vector<Placement> places{{1, {}}, {1, {2, -1, 0.5}}, {0x1p-10, {1, 1, 1}}};
   for (const auto& place : far_places()) places.push_back(place);
@@ -111,7 +111,7 @@ TYPED_TEST(Bounding_volume_contract, the_volume_around_two_has_what_both_enclose
   }
 }
 
-TYPED_TEST(Bounding_volume_contract, only_the_vertices_of_its_faces_count) {
+TYPED_TEST(Bounding_volume_contract, a_volume_depends_only_on_the_vertices_of_its_faces) {
   for (const auto& [name, soup] : all_leaves()) {
     Face_soup spread;
     for (std::size_t i = 0; i < soup.coordinates.size(); i += 3) {
@@ -125,7 +125,7 @@ TYPED_TEST(Bounding_volume_contract, only_the_vertices_of_its_faces_count) {
   }
 }
 
-TYPED_TEST(Bounding_volume_contract, every_instruction_set_fits_the_same) {
+TYPED_TEST(Bounding_volume_contract, every_instruction_set_fits_the_same_volume) {
   for (const auto& [name, soup] : all_leaves())
     for (const double scale : {1.0, 0x1p-300, 0x1p-1060}) {
       const auto leaf = placed(posed_at_random(soup, 1, this->random_), scale);
@@ -138,7 +138,7 @@ TYPED_TEST(Bounding_volume_contract, extents_are_0_for_points_and_grow_with_the_
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 100; ++i) {
     const Point p(std::ldexp(unit(this->random_), i - 50), unit(this->random_), unit(this->random_));
-    // As far as rounding allows.
+    // Up to rounding.
     const double most = 1e-12 * (std::abs(p.x()) + 1);
     EXPECT_LE(volume_of<TypeParam>(Triangle{p, p, p}).extent(), most) << p;
     EXPECT_LE(volume_of<TypeParam>(soup_of({{p, p, p}, {p, p, p}, {p, p, p}})).extent(), most) << p;
@@ -152,18 +152,18 @@ TYPED_TEST(Bounding_volume_contract, extents_are_0_for_points_and_grow_with_the_
   }
 }
 
-/// The share of its volume by which a model may say that it is larger than it is.
+/// The relative error by which a model may overestimate its volume.
 template <class Volume>
 constexpr double counted_too_much = 0;
 template <>
-constexpr double counted_too_much<Spherical_shell> = 0.1;  // what of its cone is outside its ball
+constexpr double counted_too_much<Spherical_shell> = 0.1;  // the part of its cone outside its ball
 
-TYPED_TEST(Bounding_volume_contract, a_volume_is_as_large_as_it_says) {
+TYPED_TEST(Bounding_volume_contract, the_reported_volume_is_that_of_the_set) {
   constexpr int samples = 60'000;
   std::uniform_real_distribution<double> unit(0, 1);
   for (const auto& [name, soup] : solid_leaves()) {
     const auto volume = volume_of<TypeParam>(soup);
-    // Around the bounds there is room, for a volume may reach beyond what it encloses.
+    // Samples extend beyond the bounds, since a volume may reach beyond the faces that it encloses.
     const Aabb bounds = volume.bounds();
     double low[3], width[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -185,7 +185,7 @@ TYPED_TEST(Bounding_volume_contract, a_volume_is_as_large_as_it_says) {
 
 TYPED_TEST(Bounding_volume_contract, a_leaf_moved_without_rounding_keeps_its_volume) {
   for (const auto& [name, source] : solid_leaves()) {
-    // Multiples of 2^-30, so that adding up to 2^20 does not round.
+    // Multiples of 2^-30, so that adding numbers up to 2^20 does not round.
     auto soup = source;
     for (double& x : soup.coordinates) x = std::ldexp(std::round(std::ldexp(x, 30)), -30);
     const auto here = volume_of<TypeParam>(soup);
@@ -197,7 +197,7 @@ TYPED_TEST(Bounding_volume_contract, a_leaf_moved_without_rounding_keeps_its_vol
   }
 }
 
-TYPED_TEST(Bounding_volume_contract, coordinates_that_are_not_finite_do_no_harm) {
+TYPED_TEST(Bounding_volume_contract, non_finite_coordinates_do_not_crash) {
   const auto good = volume_of<TypeParam>(solid_leaves()[0].soup);
   for (const auto& [name, soup] : all_leaves())
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every model of Bounding_volume denies only what is apart: against exact predicates.
+// No model of Bounding_volume separates faces that meet: compared with exact predicates.
 #include <limits>
 
 #include "contract/volume_pairs.h"
@@ -8,11 +8,11 @@
 namespace lodestone {
 namespace {
 
-/// Of the pairs that are not denied, one in so many is looked at. It has no factor in common with the number of
-/// questions that a test asks of each pair, so that all of them have their turn.
+/// One in so many of the pairs that are near is checked. This number is coprime to the number of queries per pair in
+/// each test, so that all queries get checked.
 constexpr std::size_t sampled_every = 7;
 
-/// How many pairs each test of triangles asks for at least; only those beyond the range of double are passed over.
+/// Minimum number of pairs in each test of triangles. Only pairs outside the range of double are skipped.
 constexpr std::size_t hard_pairs_asked = 390'000, distance_pairs_asked = 170'000, images_asked = 290'000,
                       random_pairs_asked = 250'000;
 static_assert(hard_pairs_asked + distance_pairs_asked + images_asked + random_pairs_asked >= 1'000'000);
@@ -28,7 +28,7 @@ class Bounding_volume_near : public ::testing::Test {
     return result;
   }
 
-  /// Asks for two triangles or soups; `meet` is called, and must say no, if they are denied.
+  /// Tests two triangles or soups. If they are not near, calls `meet`, which must return false.
   template <class Leaf, class Meet>
   void check(const Leaf& a, const Leaf& b, double margin, const char* kind, Meet meet) {
     const Volume volume_a = volume_of<Volume>(a), volume_b = volume_of<Volume>(b);
@@ -60,7 +60,7 @@ class Bounding_volume_near : public ::testing::Test {
 };
 TYPED_TEST_SUITE(Bounding_volume_near, Volume_types, Volume_names);
 
-TYPED_TEST(Bounding_volume_near, no_hard_pair_that_meets_is_denied) {
+TYPED_TEST(Bounding_volume_near, hard_pairs_that_meet_are_near) {
   constexpr int pairs_of_a_kind = 40'000;
   Hard_pairs pairs(1);
   for (const auto& kind : Hard_pairs::kinds())
@@ -74,7 +74,7 @@ TYPED_TEST(Bounding_volume_near, no_hard_pair_that_meets_is_denied) {
   EXPECT_GT(this->met_, this->sampled_ / 5);
 }
 
-TYPED_TEST(Bounding_volume_near, no_pair_that_meets_is_denied_among_those_whose_distance_is_hard_to_tell) {
+TYPED_TEST(Bounding_volume_near, pairs_that_meet_are_near_even_if_their_distance_is_hard_to_decide) {
   constexpr int pairs_of_a_kind = 15'000;
   Triangle_pairs pairs(2);
   for (const auto& kind : Triangle_pairs::kinds)
@@ -88,7 +88,7 @@ TYPED_TEST(Bounding_volume_near, no_pair_that_meets_is_denied_among_those_whose_
   EXPECT_GT(this->met_, this->sampled_ / 20);
 }
 
-TYPED_TEST(Bounding_volume_near, no_triangle_is_denied_its_image_in_a_corner) {
+TYPED_TEST(Bounding_volume_near, a_triangle_is_near_its_image_in_a_corner) {
   for (int i = 0; i < 300'000; ++i) {
     const auto t = placed(any_triangle(this->random_), any_placement(this->random_));
     const auto soup = soup_of({t});
@@ -99,7 +99,7 @@ TYPED_TEST(Bounding_volume_near, no_triangle_is_denied_its_image_in_a_corner) {
   EXPECT_EQ(this->denied_, 0U);
 }
 
-TYPED_TEST(Bounding_volume_near, no_random_pair_that_meets_is_denied) {
+TYPED_TEST(Bounding_volume_near, random_pairs_that_meet_are_near) {
   for (int i = 0; i < 250'000; ++i) {
     const Placement place = any_placement(this->random_);
     const auto a = any_triangle(this->random_), b = any_triangle(this->random_);
@@ -110,7 +110,7 @@ TYPED_TEST(Bounding_volume_near, no_random_pair_that_meets_is_denied) {
   EXPECT_GT(this->met_, this->sampled_ / 50);
 }
 
-TYPED_TEST(Bounding_volume_near, no_groups_of_faces_that_meet_are_denied) {
+TYPED_TEST(Bounding_volume_near, groups_of_faces_that_meet_are_near) {
   const Face_groups group;
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 12'000; ++i) {
@@ -124,7 +124,7 @@ TYPED_TEST(Bounding_volume_near, no_groups_of_faces_that_meet_are_denied) {
   EXPECT_GT(this->met_, this->sampled_ / 20);
 }
 
-TYPED_TEST(Bounding_volume_near, no_group_is_denied_its_image_in_a_corner) {
+TYPED_TEST(Bounding_volume_near, a_group_of_faces_is_near_its_image_in_a_corner) {
   const Face_groups group;
   for (int i = 0; i < 20'000; ++i) {
     const auto soup = any_placement(this->random_)(group(this->random_));
@@ -135,7 +135,7 @@ TYPED_TEST(Bounding_volume_near, no_group_is_denied_its_image_in_a_corner) {
   EXPECT_EQ(this->denied_, 0U);
 }
 
-TYPED_TEST(Bounding_volume_near, what_is_far_apart_is_denied) {
+TYPED_TEST(Bounding_volume_near, volumes_far_apart_are_not_near) {
   const Face_groups group;
   for (const auto& place : {Placement{}, Placement{0x1p-300, {}}, Placement{0x1p300, {}}, Placement{1, {0x1p20, 0, 7}}})
     for (int i = 0; i < 1000; ++i) {
@@ -149,7 +149,7 @@ TYPED_TEST(Bounding_volume_near, what_is_far_apart_is_denied) {
   EXPECT_EQ(this->asked_, 8000U);
 }
 
-TYPED_TEST(Bounding_volume_near, a_margin_denies_only_what_is_farther_apart) {
+TYPED_TEST(Bounding_volume_near, with_a_margin_only_faces_farther_apart_are_not_near) {
   constexpr int pairs_of_a_kind = 2'000;
   Triangle_pairs pairs(3);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -171,7 +171,7 @@ TYPED_TEST(Bounding_volume_near, a_margin_denies_only_what_is_farther_apart) {
   EXPECT_GT(this->met_, this->sampled_ / 5);
 }
 
-TYPED_TEST(Bounding_volume_near, images_moved_away_from_a_corner_are_within_the_length_of_the_move) {
+TYPED_TEST(Bounding_volume_near, images_moved_away_from_a_corner_are_near_within_the_length_of_the_move) {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 60'000; ++i) {
     const auto t = any_triangle(this->random_);
@@ -199,7 +199,7 @@ TYPED_TEST(Bounding_volume_near, images_moved_away_from_a_corner_are_within_the_
   EXPECT_GT(this->denied_, this->asked_ / 50);
 }
 
-TYPED_TEST(Bounding_volume_near, a_margin_denies_only_groups_that_are_farther_apart) {
+TYPED_TEST(Bounding_volume_near, with_a_margin_only_groups_farther_apart_are_not_near) {
   const Face_groups group;
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 2'000; ++i) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The models of Bounding_volume as the sets of points that they are: what is around them, and what is near them.
+// The models of Bounding_volume as sets of points: volumes around them, and `near`.
 #include "contract/volume_pairs.h"
 
 namespace lodestone {
 namespace {
 
-/// A point with coordinates in double that lies in a volume, but hardly: the last one on the way from a point inside
-/// to one outside.
+/// A point with double coordinates that is just inside a volume: the last one on the segment from a point inside to one
+/// outside.
 template <class Volume>
 Point last_inside(const Volume& volume, const Point& from, const Point& to) {
   const auto at = [&](double t) {
@@ -29,12 +29,12 @@ class Bounding_volume_set : public ::testing::Test {
     for (auto& leaf : flat_leaves()) leaves_.push_back(std::move(leaf));
   }
 
-  /// A leaf about (0, 0, 0), turned, moved a little, and put somewhere.
+  /// A leaf about (0, 0, 0), rotated, moved slightly, scaled and translated.
   Face_soup any_leaf(const Placement& place) {
     const auto& soup = leaves_[random_() % leaves_.size()].soup;
     return place(posed_at_random(placed(soup, 0.5), 0.5, random_));
   }
-  /// A point of a face of a soup, up to rounding of one of its corners.
+  /// A point of a face of a soup, often one of its corners, up to rounding.
   Point any_vertex(const Face_soup& soup) {
     const auto& face = soup.faces[random_() % soup.faces.size()];
     return soup.point(face[random_() % 3]);
@@ -69,7 +69,7 @@ const std::vector<Placement> places{
     {},         {}, {1, {0x1p20, 0x1p20, 0x1p20}}, {1, {1e6, -1e6, 0}}, {0x1p-300, {}}, {0x1p300, {}}, {0x1p-537, {}},
     {1e154, {}}};
 
-TYPED_TEST(Bounding_volume_set, the_volume_around_two_has_every_point_of_both) {
+TYPED_TEST(Bounding_volume_set, the_volume_around_two_contains_every_point_of_both) {
   for (int i = 0; i < 1500; ++i) {
     const auto& place = places[this->random_() % places.size()];
     const Face_soup soups[]{this->any_leaf(place), this->any_leaf(place)};
@@ -83,7 +83,7 @@ TYPED_TEST(Bounding_volume_set, the_volume_around_two_has_every_point_of_both) {
   }
 }
 
-TYPED_TEST(Bounding_volume_set, the_volume_around_one_and_another_that_hardly_sticks_out_has_both) {
+TYPED_TEST(Bounding_volume_set, the_volume_around_one_and_another_that_barely_protrudes_contains_both) {
   std::uniform_real_distribution<double> exponent(-16, -6);
   for (int i = 0; i < 3000; ++i) {
     const auto& place = places[this->random_() % places.size()];
@@ -129,7 +129,7 @@ TYPED_TEST(Bounding_volume_set, volumes_with_points_within_the_margin_are_near) 
   }
 }
 
-TYPED_TEST(Bounding_volume_set, volumes_around_some_that_share_a_point_are_near) {
+TYPED_TEST(Bounding_volume_set, volumes_around_volumes_that_share_a_point_are_near) {
   for (int i = 0; i < 2000; ++i) {
     const auto& place = places[this->random_() % places.size()];
     const auto soup = this->any_leaf(place);
@@ -145,7 +145,7 @@ TYPED_TEST(Bounding_volume_set, volumes_around_some_that_share_a_point_are_near)
   }
 }
 
-TYPED_TEST(Bounding_volume_set, what_is_no_number_denies_nothing) {
+TYPED_TEST(Bounding_volume_set, nan_never_proves_volumes_apart) {
   const auto a = volume_of<TypeParam>(solid_leaves()[0].soup);
   const auto b = volume_of<TypeParam>(Placement{1, {100, 100, 100}}(solid_leaves()[0].soup));
   ASSERT_FALSE(near(a, b, 1));

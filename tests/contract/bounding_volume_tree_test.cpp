@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Region trees of every model of Bounding_volume, through deformations of every kind.
+// Region trees with every model of Bounding_volume, under deformations of every kind.
 #include <limits>
 
 #include "contract/volume_leaves.h"
@@ -39,7 +39,7 @@ std::vector<std::pair<std::string, std::vector<double>>> frames_of(const Face_so
   return coordinates;
 }
 
-/// Above each node, the root's being its own.
+/// The parent of each node; that of the root is the root.
 std::vector<std::uint32_t> parents_of(const Tree_layout& tree) {
   std::vector<std::uint32_t> parents(tree.node_count(), 0);
   for (std::uint32_t n = 0; n < tree.node_count(); ++n)
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> parents_of(const Tree_layout& tree) {
   return parents;
 }
 
-/// Calls `visit` for a node and all above it.
+/// Calls `visit` for a node and all its ancestors.
 template <class Visit_node>
 void visit_upwards(const std::vector<std::uint32_t>& parents, std::uint32_t n, Visit_node visit) {
   visit(n);
@@ -59,7 +59,7 @@ class Bounding_volume_tree : public ::testing::Test {
  protected:
   using Tree = Basic_region_tree<Volume>;
 
-  /// Looks for points of faces of some leaves in the leaves' volumes and in all above.
+  /// Checks that points of faces of some leaves are in the leaves' volumes and in those of all ancestors.
   void expect_enclosed(const Tree& tree, const Face_soup& soup, const std::string& name) {
     constexpr std::size_t leaves_seen = 6, faces_seen = 3, vertices_seen = 12;
     const auto parents = parents_of(tree);
@@ -104,7 +104,7 @@ TYPED_TEST(Bounding_volume_tree, every_volume_encloses_all_below_it_in_every_fra
     }
 }
 
-TYPED_TEST(Bounding_volume_tree, looseness_is_a_finite_number) {
+TYPED_TEST(Bounding_volume_tree, looseness_is_finite) {
   for (auto& [name, soup] : tree_cases()) {
     Basic_region_tree<TypeParam> tree(soup.faces, octants(soup), soup.coordinates, {.leaf_faces = 4});
     for (const auto& [frame, coordinates] : frames_of(soup, this->random_)) {
@@ -114,7 +114,7 @@ TYPED_TEST(Bounding_volume_tree, looseness_is_a_finite_number) {
   }
 }
 
-TYPED_TEST(Bounding_volume_tree, parts_in_any_order_give_what_a_whole_refit_gives) {
+TYPED_TEST(Bounding_volume_tree, a_refit_in_parts_in_any_order_equals_a_whole_refit) {
   const Face_soup soup(icosphere(71));
   Basic_region_tree<TypeParam> whole(soup.faces, octants(soup), soup.coordinates), parts = whole;
   ASSERT_GT(parts.part_count(), 1U);
@@ -136,7 +136,7 @@ TYPED_TEST(Bounding_volume_tree, parts_in_any_order_give_what_a_whole_refit_give
   }
 }
 
-TYPED_TEST(Bounding_volume_tree, a_refit_tells_a_coordinate_that_is_not_finite_and_the_next_recovers) {
+TYPED_TEST(Bounding_volume_tree, a_refit_reports_a_non_finite_coordinate_and_the_next_recovers) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (auto& [name, soup] : tree_cases()) {
     Basic_region_tree<TypeParam> tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 4});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coordinates of every mesh type, as the trees read them.
+// Coordinates of every mesh type, as trees read them.
 #include "lodestone/mesh/coordinate_reader.h"
 
 #include "contract/mesh_types.h"
@@ -14,7 +14,7 @@ auto reader_of(const Mesh& mesh) {
   return Coordinate_reader<Mesh, std::remove_const_t<decltype(points)>>(points);
 }
 
-/// The coordinates of a mesh by number, from its points.
+/// The coordinates of a mesh by vertex index, from its points.
 template <class Mesh>
 std::vector<double> expected(const Mesh& mesh, const Mesh_numbering<Mesh>& numbering) {
   const auto points = get(CGAL::vertex_point, mesh);
@@ -30,7 +30,7 @@ template <class Mesh>
 struct Coordinate_reader_contract : ::testing::Test {};
 TYPED_TEST_SUITE(Coordinate_reader_contract, Mesh_types);
 
-TYPED_TEST(Coordinate_reader_contract, hands_out_where_the_vertices_are_now) {
+TYPED_TEST(Coordinate_reader_contract, gives_the_current_positions_of_the_vertices) {
   auto mesh = converted<TypeParam>(as_float(potato(4)));
   const Mesh_numbering<TypeParam> numbering(mesh);
   auto reader = reader_of(mesh);
@@ -49,7 +49,7 @@ TYPED_TEST(Coordinate_reader_contract, hands_out_where_the_vertices_are_now) {
   }
 }
 
-TEST(Coordinate_reader, of_a_surface_mesh_hands_out_its_own_memory) {
+TEST(Coordinate_reader, of_a_surface_mesh_refers_to_the_mesh_s_own_memory) {
   Surface_mesh mesh = potato(4);
   const Mesh_numbering<Surface_mesh> numbering(mesh);
   auto reader = reader_of(mesh);
@@ -61,7 +61,7 @@ TEST(Coordinate_reader, of_a_surface_mesh_hands_out_its_own_memory) {
   EXPECT_EQ(reader.read(numbering).data(), read.data());
 }
 
-TEST(Coordinate_reader, copies_points_of_floats_and_points_that_come_from_elsewhere) {
+TEST(Coordinate_reader, copies_points_of_floats_and_points_from_other_maps) {
   using Float_mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<float>::Point_3>;
   Float_mesh floats;
   std::vector<Float_mesh::Vertex_index> made;

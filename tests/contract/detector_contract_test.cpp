@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every mesh type gets from the particle and contact stages, in every mode.
+// The particle and contact stages on every mesh type, in every mode.
 #include <algorithm>
 
 #include "contract/mesh_types.h"
@@ -31,7 +31,7 @@ template <class Mesh>
 struct Mode_contract : ::testing::Test {};
 TYPED_TEST_SUITE(Mode_contract, Mesh_types);
 
-TYPED_TEST(Mode_contract, exhaustive_checking_gives_the_same_face_pairs) {
+TYPED_TEST(Mode_contract, reports_the_same_face_pairs_as_exhaustive_checking) {
   const auto a = as_float(potato(5));
   auto b = potato(4, 2);
   shift(b, 1.5, 0.25);
@@ -42,7 +42,7 @@ TYPED_TEST(Mode_contract, exhaustive_checking_gives_the_same_face_pairs) {
   EXPECT_EQ(exhaustive_face_pairs(a, converted<TypeParam>(b)), expected);
 }
 
-TYPED_TEST(Mode_contract, frames_equal_those_on_a_surface_mesh_and_say_only_what_is_true) {
+TYPED_TEST(Mode_contract, frames_equal_those_on_a_surface_mesh_and_report_only_true_contacts) {
   for (const auto mode : modes) {
     auto source_a = as_float(sphere(8)), source_b = shifted_sphere();
     auto a = converted<TypeParam>(source_a), b = converted<TypeParam>(source_b);

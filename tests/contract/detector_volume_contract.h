@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mode exact answers with trees of any volumes: what exhaustive checking finds. Instantiated for every model,
-// over several files, since each takes a while to compile.
+// Mode exact with any volumes in its trees gives the answers of exhaustive checking. Instantiated for every model, in
+// several files, since each takes long to compile.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@
 
 namespace lodestone {
 
-/// Every `step`-th of the models, from the one at place `first` on.
+/// Every `step`-th of the models, from index `first` on.
 template <std::size_t first, std::size_t step>
 struct Some_volumes {
   template <class Places>
@@ -37,7 +37,7 @@ inline std::deque<Surface_mesh> several_surfaces() {
   meshes.push_back(torus_knot({.radius = 0.7, .tube = 0.1, .segments = 40, .sides = 5}));
   meshes.push_back(cloth(9, 8));
   meshes.push_back(sphere(4, 0.5, {1.2, 0.3, 0}));
-  auto folded = grid(6, 6);  // two rows on one line, two vertices in one place
+  auto folded = grid(6, 6);  // two rows on one line, two coinciding vertices
   deform(folded, [](const Point& p) { return Point(p.x() - 2.5, (p.y() == 2 ? 3 : p.y()) - 3, 0.25 * p.x()); });
   folded.point(Surface_mesh::Vertex_index(8)) = folded.point(Surface_mesh::Vertex_index(7));
   meshes.push_back(folded);
@@ -45,7 +45,7 @@ inline std::deque<Surface_mesh> several_surfaces() {
   return meshes;
 }
 
-/// Moves the surfaces on to another frame.
+/// Moves the surfaces to another frame.
 inline void next_frame(std::deque<Surface_mesh>& meshes, int frame) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const double phase = static_cast<double>(i) + 0.7 * frame;
@@ -84,7 +84,7 @@ template <class Volume>
 class Detector_volume_contract : public ::testing::Test {};
 TYPED_TEST_SUITE_P(Detector_volume_contract);
 
-TYPED_TEST_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_with_any_number_of_threads) {
+TYPED_TEST_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_are_found_with_any_number_of_threads) {
   auto meshes = several_surfaces();
   for (const std::size_t leaf_faces : {4, 64}) {
     Volume_detector<TypeParam> alone({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = leaf_faces}}});
@@ -107,7 +107,7 @@ TYPED_TEST_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_with_any_
   }
 }
 
-TYPED_TEST_P(Detector_volume_contract, in_any_unit_and_far_from_the_origin) {
+TYPED_TEST_P(Detector_volume_contract, all_pairs_are_found_in_any_unit_and_far_from_the_origin) {
   std::vector<std::size_t> found;
   for (const auto& [unit, offset] :
        {std::pair{1.0, 0.0}, {0x1p-300, 0.0}, {0x1p300, 0.0}, {1.0, 0x1p20}, {0x1p1015, 0.0}}) {
@@ -135,7 +135,7 @@ TYPED_TEST_P(Detector_volume_contract, in_any_unit_and_far_from_the_origin) {
   EXPECT_EQ(found[2], found[0]);
 }
 
-TYPED_TEST_P(Detector_volume_contract, yes_or_no_and_first_contacts) {
+TYPED_TEST_P(Detector_volume_contract, yes_or_no_and_first_contacts_agree_with_exhaustive_checking) {
   auto meshes = several_surfaces();
   for (const auto query : {Contact_query::yes_no, Contact_query::first}) {
     Volume_detector<TypeParam> detector({.mode = Mode::exact, .contacts = query, .exact = {.tree = {.leaf_faces = 8}}});
@@ -159,7 +159,7 @@ TYPED_TEST_P(Detector_volume_contract, yes_or_no_and_first_contacts) {
   }
 }
 
-TYPED_TEST_P(Detector_volume_contract, pairs_within_a_tolerance) {
+TYPED_TEST_P(Detector_volume_contract, pairs_within_a_tolerance_are_found) {
   std::deque<Surface_mesh> meshes{potato(3), sphere(3, 0.5, {2.1, 0.2, 0}), cloth(5, 5)};
   for (const double tolerance : {0.01, 0.3}) {
     Volume_detector<TypeParam> detector(
@@ -178,7 +178,7 @@ TYPED_TEST_P(Detector_volume_contract, pairs_within_a_tolerance) {
   }
 }
 
-TYPED_TEST_P(Detector_volume_contract, collisions_of_an_object_with_itself) {
+TYPED_TEST_P(Detector_volume_contract, self_collisions_are_found) {
   std::size_t found = 0;
   for (const std::size_t threads : {1, 2}) {
     std::deque<Surface_mesh> meshes{cloth(12, 12), torus_knot({.tube = 0.4, .segments = 40, .sides = 6})};
@@ -199,7 +199,7 @@ TYPED_TEST_P(Detector_volume_contract, collisions_of_an_object_with_itself) {
   EXPECT_GT(found, 500U);
 }
 
-TYPED_TEST_P(Detector_volume_contract, the_closest_faces) {
+TYPED_TEST_P(Detector_volume_contract, the_closest_faces_are_found) {
   std::deque<Surface_mesh> meshes{potato(4), sphere(3, 0.5, {2.5, 0.2, 0}), cloth(6, 6)};
   Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = 4}}});
   add_all(detector, all_of(meshes));
@@ -219,7 +219,7 @@ TYPED_TEST_P(Detector_volume_contract, the_closest_faces) {
   EXPECT_GT(apart, 5U);
 }
 
-TYPED_TEST_P(Detector_volume_contract, objects_inside_others) {
+TYPED_TEST_P(Detector_volume_contract, objects_inside_others_are_found) {
   auto outer = sphere(6), inner = sphere(3, 0.3), other = sphere(3, 0.2, {0, 5, 0});
   Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.containment = true, .tree = {.leaf_faces = 4}}});
   add_all(detector, {&outer, &inner, &other});
@@ -256,9 +256,11 @@ TYPED_TEST_P(Detector_volume_contract, points_and_normals_of_contacts_are_those_
   }
 }
 
-REGISTER_TYPED_TEST_SUITE_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_with_any_number_of_threads,
-                            in_any_unit_and_far_from_the_origin, yes_or_no_and_first_contacts, pairs_within_a_tolerance,
-                            collisions_of_an_object_with_itself, the_closest_faces, objects_inside_others,
-                            points_and_normals_of_contacts_are_those_of_boxes);
+REGISTER_TYPED_TEST_SUITE_P(Detector_volume_contract,
+                            all_pairs_of_deforming_surfaces_are_found_with_any_number_of_threads,
+                            all_pairs_are_found_in_any_unit_and_far_from_the_origin,
+                            yes_or_no_and_first_contacts_agree_with_exhaustive_checking,
+                            pairs_within_a_tolerance_are_found, self_collisions_are_found, the_closest_faces_are_found,
+                            objects_inside_others_are_found, points_and_normals_of_contacts_are_those_of_boxes);
 
 }  // namespace lodestone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Trees of any volumes over a mesh that is no Surface_mesh.
+// Trees of custom volumes over a mesh type other than Surface_mesh.
 #include "contract/mesh_types.h"
 #include "contract/volume_models.h"
 #include "lodestone/io/shapes/shapes.h"
@@ -12,7 +12,7 @@ template <class Volume>
 struct Detector_volume_mesh : ::testing::Test {};
 TYPED_TEST_SUITE(Detector_volume_mesh, Volume_types, Volume_names);
 
-TYPED_TEST(Detector_volume_mesh, a_polyhedron_collides_as_exhaustive_checking_says) {
+TYPED_TEST(Detector_volume_mesh, a_polyhedron_gives_the_pairs_of_exhaustive_checking) {
   const auto source = potato(5);
   auto moving = torus_knot({.radius = 0.7, .tube = 0.1, .segments = 40, .sides = 5});
   const auto a = converted<Polyhedron>(source);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every mesh type gets from the mode exact: the frames of a Surface_mesh, which are those of exhaustive checking.
+// Mode exact gives the same frames on every mesh type as on Surface_mesh, and these equal exhaustive checking.
 #include <cmath>
 
 #include "contract/mesh_types.h"
@@ -23,7 +23,7 @@ void place(Mesh& mesh, const Positions& positions) {
   }
 }
 
-/// Two surfaces that meet, the second one in several poses.
+/// Two surfaces that meet; the second has several poses.
 struct Two_surfaces {
   std::string name;
   Surface_mesh a, b;
@@ -37,7 +37,7 @@ Two_surfaces moving(std::string name, Surface_mesh a, Surface_mesh b, const Eige
   return surfaces;
 }
 
-/// Three triangles on one edge, each with corners of its own, and one of them twice.
+/// Three triangles on one edge, each with separate corners, and one of them twice.
 Surface_mesh pages() {
   return mesh_of({{0, 0, 0},
                   {0, 0, 1},
@@ -54,7 +54,7 @@ Surface_mesh pages() {
                  {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}});
 }
 
-/// A grid of which two rows of vertices lie on one line, and two vertices in one place.
+/// A grid with two rows of vertices on one line and two coinciding vertices.
 Surface_mesh grid_without_area_in_places() {
   auto mesh = grid(6, 6);
   deform(mesh, [](const Point& p) { return Point(p.x() - 2.5, (p.y() == 2 ? 3 : p.y()) - 3, 0.25 * p.x()); });
@@ -88,7 +88,7 @@ template <class Mesh>
 struct Exact_contract : ::testing::Test {};
 TYPED_TEST_SUITE(Exact_contract, Mesh_types);
 
-/// Plays all poses on a mesh type and on Surface_mesh; gives the face pairs found.
+/// Plays all poses on a mesh type and on Surface_mesh; returns the number of face pairs found.
 template <class Mesh>
 std::size_t expect_equal_frames(Two_surfaces surfaces, Detector_options options) {
   options.mode = Mode::exact;
@@ -113,14 +113,14 @@ std::size_t expect_equal_frames(Two_surfaces surfaces, Detector_options options)
   return contacts;
 }
 
-TYPED_TEST(Exact_contract, frames_are_those_of_a_surface_mesh_and_of_exhaustive_checking) {
+TYPED_TEST(Exact_contract, frames_equal_those_on_a_surface_mesh_and_exhaustive_checking) {
   for (const auto& tested : surfaces()) {
     SCOPED_TRACE(tested.name);
     EXPECT_GT(expect_equal_frames<TypeParam>(tested, {}), 0U);
   }
 }
 
-TYPED_TEST(Exact_contract, frames_with_everything_asked_for_are_those_of_a_surface_mesh) {
+TYPED_TEST(Exact_contract, frames_with_all_options_equal_those_on_a_surface_mesh) {
   for (const auto& tested : surfaces()) {
     SCOPED_TRACE(tested.name);
     EXPECT_GT(expect_equal_frames<TypeParam>(tested, {.contact_points = true,
@@ -134,7 +134,7 @@ TYPED_TEST(Exact_contract, frames_with_everything_asked_for_are_those_of_a_surfa
   }
 }
 
-TYPED_TEST(Exact_contract, frames_are_exhaustive_in_any_unit_and_far_from_the_origin) {
+TYPED_TEST(Exact_contract, frames_equal_exhaustive_checking_in_any_unit_and_far_from_the_origin) {
   for (auto tested : surfaces()) {
     SCOPED_TRACE(tested.name);
     const auto poses = tested.poses;
@@ -154,13 +154,13 @@ TYPED_TEST(Exact_contract, frames_are_exhaustive_in_any_unit_and_far_from_the_or
   }
 }
 
-TYPED_TEST(Exact_contract, frames_are_exhaustive_up_to_the_largest_numbers) {
+TYPED_TEST(Exact_contract, frames_equal_exhaustive_checking_up_to_the_largest_numbers) {
   auto a = potato(3), b = potato(3, 2);
-  scale(a, 0.9e308), scale(b, 0.9e308);  // from -1.7e308 to 1.7e308: extents are beyond all doubles
+  scale(a, 0.9e308), scale(b, 0.9e308);  // from -1.7e308 to 1.7e308: extents overflow
   EXPECT_GT(expect_equal_frames<TypeParam>(moving("huge", a, b, {0, 0.3e308, 0.3e308}, 3), {}), 0U);
 }
 
-TYPED_TEST(Exact_contract, faces_of_one_object_collide_as_on_a_surface_mesh) {
+TYPED_TEST(Exact_contract, self_collisions_equal_those_on_a_surface_mesh) {
   auto source = cloth(10, 10);
   crumple(source, 0.05, 1);
   auto mesh = converted<TypeParam>(source);
@@ -173,7 +173,7 @@ TYPED_TEST(Exact_contract, faces_of_one_object_collide_as_on_a_surface_mesh) {
   expect_same_frame(frame, expected.detect());
 }
 
-TYPED_TEST(Exact_contract, given_positions_are_by_vertex_in_the_order_of_the_mesh) {
+TYPED_TEST(Exact_contract, given_positions_are_in_the_order_of_the_mesh_s_vertices) {
   const auto source = potato(5);
   auto other = potato(5, 2);
   const auto a = converted<TypeParam>(source), b = converted<TypeParam>(other);
@@ -210,7 +210,7 @@ TYPED_TEST(Exact_contract, regions_are_in_the_maps_of_the_mesh_and_do_not_depend
   }
 }
 
-TYPED_TEST(Exact_contract, a_coordinate_that_is_not_finite_is_refused_in_its_frame_alone) {
+TYPED_TEST(Exact_contract, a_non_finite_coordinate_is_refused_only_in_its_frame) {
   auto source = sphere(4);
   const auto other = sphere(4, 1, {1.5, 0, 0});
   auto a = converted<TypeParam>(source);

@@ -28,7 +28,7 @@ using Cell_complex =
 
 using Mesh_types = ::testing::Types<Surface_mesh, Polyhedron, Open_mesh, Cell_complex>;
 
-/// A mesh of type `Mesh` with the vertices and faces of `source`, numbered alike.
+/// A mesh of type `Mesh` with the vertices and faces of `source`, with the same indices.
 template <class Mesh>
 Mesh converted(const Surface_mesh& source) {
   Mesh mesh;
@@ -37,7 +37,7 @@ Mesh converted(const Surface_mesh& source) {
   for (const auto v : source.vertices()) {
     made.push_back(add_vertex(mesh));
     const auto& p = source.point(v);
-    // CGAL's point map of OpenMesh writes floats, whatever the mesh holds.
+    // CGAL's point map of OpenMesh writes floats, whatever type the mesh stores.
     if constexpr (std::is_same_v<Mesh, Open_mesh>)
       mesh.set_point(made.back(), Double_traits::Point(p.x(), p.y(), p.z()));
     else

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every mesh type gets from the partition stage.
+// The partition stage on every mesh type.
 #include <algorithm>
 
 #include "contract/mesh_types.h"
@@ -10,7 +10,7 @@
 namespace lodestone {
 namespace {
 
-/// Labels by vertex number.
+/// Labels by vertex index.
 template <class Mesh>
 struct Divided {
   std::vector<Region_index> labels;
@@ -33,7 +33,7 @@ template <class Mesh>
 struct Partition_contract : ::testing::Test {};
 TYPED_TEST_SUITE(Partition_contract, Mesh_types);
 
-TYPED_TEST(Partition_contract, vertices_and_faces_are_numbered_alike) {
+TYPED_TEST(Partition_contract, vertices_and_faces_have_the_same_indices_on_every_mesh_type) {
   const auto source = as_float(potato(4));
   const auto mesh = converted<TypeParam>(source);
   const Mesh_numbering<TypeParam> numbering(mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every strategy of the registry gives, on every mesh type. A new line in the registry is found here by itself.
+// Every strategy of the registry, on every mesh type. A new strategy in the registry is tested automatically.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,7 +12,7 @@
 namespace lodestone {
 namespace {
 
-/// Labels and particles by vertex number.
+/// Labels and particles by vertex index.
 struct Divided {
   std::vector<Region_index> labels;
   std::vector<std::uint32_t> particles;
@@ -36,7 +36,7 @@ class Strategy_contract : public ::testing::TestWithParam<Strategy_entry> {
  protected:
   static Any_strategy strategy(std::uint64_t seed = 1) { return GetParam().make({.seed = seed}); }
 
-  /// Every region has a connected set of vertices and a particle of its own, and every vertex has a region.
+  /// Every vertex has a region; every region is a connected set of vertices and has one particle.
   static void expect_sound(const Surface_mesh& mesh, const Divided& divided) {
     const auto vertices = mesh.number_of_vertices();
     ASSERT_EQ(divided.labels.size(), vertices);
@@ -50,7 +50,7 @@ class Strategy_contract : public ::testing::TestWithParam<Strategy_entry> {
       EXPECT_EQ(pieces.size(), 1U);
   }
 
-  /// The same on every mesh type, and in another run.
+  /// Checks that the result is the same on every mesh type and in a second run.
   static Divided divided_alike(const Surface_mesh& mesh, std::size_t regions) {
     const auto divided = divide(mesh, regions, strategy());
     EXPECT_EQ(divide(mesh, regions, strategy()), divided);
@@ -62,7 +62,7 @@ class Strategy_contract : public ::testing::TestWithParam<Strategy_entry> {
   }
 };
 
-TEST_P(Strategy_contract, a_closed_surface_gets_about_as_many_regions_as_wanted_the_same_on_every_mesh_type) {
+TEST_P(Strategy_contract, a_closed_surface_gets_about_the_requested_number_of_regions_the_same_on_every_mesh_type) {
   const auto mesh = as_float(potato(9));
   for (const std::size_t regions : {1, 2, 7, 24}) {
     SCOPED_TRACE(regions);
@@ -85,7 +85,7 @@ TEST_P(Strategy_contract, several_components_are_divided) {
   mesh = as_float(mesh);
   const auto divided = divided_alike(mesh, 12);
   EXPECT_GE(divided.regions, 8U);
-  // No region reaches from one component to another, and each has at least one.
+  // No region spans two components, and each component has at least one region.
   const auto component = [&](std::size_t v) {
     return mesh.point(Surface_mesh::Vertex_index(v)).x() > 15   ? 1
            : mesh.point(Surface_mesh::Vertex_index(v)).y() > 15 ? 2
@@ -103,14 +103,14 @@ TEST_P(Strategy_contract, a_single_triangle_is_divided) {
   }
 }
 
-TEST_P(Strategy_contract, more_regions_than_vertices_are_cut_down) {
+TEST_P(Strategy_contract, more_regions_than_vertices_are_reduced) {
   const auto divided = divided_alike(tetrahedron(), 50);
   EXPECT_LE(divided.regions, 4U);
   EXPECT_GE(divided_alike(as_float(sphere(2)), 1000).regions, 9U);  // of 18 vertices
 }
 
-TEST_P(Strategy_contract, faces_without_area_are_divided) {
-  // A grid of which one half is folded into a line, and one column of vertices into a point.
+TEST_P(Strategy_contract, zero_area_faces_are_divided) {
+  // A grid with one half folded into a line and one column of vertices into a point.
   auto mesh = grid(12, 8);
   for (const auto v : mesh.vertices()) {
     const auto& p = mesh.point(v);
@@ -119,7 +119,7 @@ TEST_P(Strategy_contract, faces_without_area_are_divided) {
   }
   const auto divided = divided_alike(mesh, 8);
   EXPECT_GE(divided.regions, 5U);
-  // All vertices in one place: no direction, no length.
+  // All vertices coincide: no direction, no length.
   for (const auto v : mesh.vertices()) mesh.point(v) = Point(1, 2, 3);
   divided_alike(mesh, 8);
 }
@@ -137,7 +137,7 @@ TEST_P(Strategy_contract, coordinates_of_any_magnitude_give_the_same_regions) {
   }
 }
 
-TEST_P(Strategy_contract, another_seed_gives_a_sound_partition_too) {
+TEST_P(Strategy_contract, every_seed_gives_a_valid_partition) {
   const auto mesh = as_float(potato(8));
   for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{2}, ~std::uint64_t{0} >> 1})
     expect_sound(mesh, divide(mesh, 16, strategy(seed)));
@@ -155,7 +155,7 @@ TEST_P(Strategy_contract, a_hundred_thousand_vertices_are_divided_or_refused) {
   expect_sound(mesh, divided);
 }
 
-TEST_P(Strategy_contract, is_found_under_its_name) {
+TEST_P(Strategy_contract, every_strategy_is_found_by_its_name) {
   EXPECT_EQ(make_strategy(GetParam().name).name, GetParam().name);
   EXPECT_FALSE(GetParam().summary.empty());
 }
@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(All, Strategy_contract, ::testing::ValuesIn(strategies(
                            return name;
                          });
 
-TEST(Strategies, lbg_comes_first_and_no_name_stands_twice) {
+TEST(Strategies, lbg_comes_first_and_names_are_unique) {
   ASSERT_FALSE(strategies().empty());
   EXPECT_EQ(strategies().front().name, "lbg");
   std::set<std::string_view> names;

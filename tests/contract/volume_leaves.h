@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Leaves of every shape, size and place to fit volumes to, and points of their faces to look for in these.
+// Leaves of every shape, size and position to fit volumes to, and points of their faces that the volumes must contain.
 #pragma once
 
 #include <Eigen/Dense>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-// A model that is new needs an `inside` of its own.
+// A new model needs its own `inside`.
 #include "contract/volume_models.h"
 #include "support/ball_membership.h"
 #include "support/slab_membership.h"
@@ -100,7 +100,7 @@ inline std::vector<Volume_leaf> flat_leaves() {
           {"one face many times", many}};
 }
 
-/// Where a leaf is put: p becomes scale * (p + offset).
+/// The position of a leaf: p becomes scale * (p + offset).
 struct Placement {
   double scale = 1;
   std::array<double, 3> offset = {};
@@ -127,7 +127,7 @@ inline std::vector<Placement> far_places() {
           {1e-7, {1e9, 1, 1}},           {1e3, {7, -8, 9}},   {0x1p300, {1e6, 0, 5}}, {0x1p-300, {-0x1p20, 0x1p20, 0}}};
 }
 
-/// Squares, cubes or sums of coordinates overflow, underflow or have few digits.
+/// Positions at which squares, cubes or sums of coordinates overflow, underflow or lose digits.
 inline std::vector<Placement> extreme_scales() {
   std::vector<Placement> all;
   for (const double scale : {0x1p-300, 0x1p300, 0x1p-500, 0x1p-537, 1e-160, 0x1p-1020, 0x1p-1050, 0x1p-1070, 0x1p-1074,
@@ -139,7 +139,7 @@ inline std::vector<Placement> extreme_scales() {
 
 inline Exact_point between(const Exact_point& p, const Exact_point& q, const Rational& t) { return p + t * (q - p); }
 
-/// Middles of edges, places on edges and anywhere in a face, and those nearest to the given centres.
+/// Midpoints of edges, points on edges and inside faces, and the points nearest to the given centres.
 inline std::vector<Exact_point> points_of(const Triangle& face, const std::vector<Exact_point>& centres,
                                           std::mt19937_64& random) {
   const Exact_triangle t{exact_point(face[0]), exact_point(face[1]), exact_point(face[2])};
@@ -154,8 +154,8 @@ inline std::vector<Exact_point> points_of(const Triangle& face, const std::vecto
   return points;
 }
 
-/// Points that a volume with a hole may have its hole about: the middle of the bounds and of the vertices, and that of
-/// the sphere that passes the vertices best.
+/// Possible centres of a hole in a volume: the centre of the bounds, the mean of the vertices, and the centre of the
+/// best-fitting sphere.
 inline std::vector<Exact_point> likely_centres(const Face_soup& soup) {
   const Positions positions = soup.positions();
   const double size = positions.cwiseAbs().maxCoeff();
@@ -177,7 +177,7 @@ inline std::vector<Exact_point> likely_centres(const Face_soup& soup) {
   return centres;
 }
 
-/// The centre of a volume that has one. A hole, if there is any, is about it.
+/// The centre of a volume that has one. A hole, if any, is around it.
 template <class Volume>
 std::vector<Exact_point> own_centres(const Volume& volume) {
   if constexpr (requires { volume.centre; })
@@ -186,8 +186,8 @@ std::vector<Exact_point> own_centres(const Volume& volume) {
   return {};
 }
 
-/// Whether the corners of all faces lie in a volume, and other points of some of the faces: also those that are nearest
-/// to the volume's own centre and to others.
+/// Whether a volume contains the corners of all faces, and other points of some faces, such as those nearest to the
+/// volume's centre and to other points.
 template <class Volume>
 ::testing::AssertionResult encloses(const Volume& volume, const Face_soup& soup, std::vector<Exact_point> centres,
                                     std::mt19937_64& random) {

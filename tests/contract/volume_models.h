@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The models of Bounding_volume as types of a test suite: one in the list of the library is tested everywhere.
+// The models of Bounding_volume as types of a test suite. Every model in the library's list is tested everywhere.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ struct Types_of<std::tuple<Volumes...>> {
 };
 using Volume_types = Types_of<Bounding_volumes>::type;
 
-/// A suite says which model it runs over.
+/// The name of a suite states its model.
 struct Volume_names {
   template <class Volume>
   static std::string GetName(int) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pairs of leaves whose volumes meet where the leaves do, or hardly come near each other.
+// Pairs of leaves that just meet or are just apart.
 #pragma once
 
 #include <cmath>
@@ -38,7 +38,7 @@ inline bool finite(const Triangle& t) {
       t, [](const Point& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); });
 }
 
-/// Mostly as it is, else far off, or in units where squares leave the range of double.
+/// Mostly unchanged; sometimes far from the origin, or in units where squares overflow or underflow.
 inline Placement any_placement(std::mt19937_64& random) {
   static const std::vector<Placement> others = [] {
     std::vector<Placement> all = far_places();
@@ -48,8 +48,8 @@ inline Placement any_placement(std::mt19937_64& random) {
   return random() % 2 == 0 ? Placement{} : others[random() % others.size()];
 }
 
-/// The image of a soup in one of its vertices, which both have: at a corner of the convex hull whatever is around one
-/// of them ends there, or soon after.
+/// The image of a soup under point reflection in one of its vertices, which both share. At a corner of the convex hull,
+/// a tight volume around one of them ends there or just beyond.
 inline Face_soup mirrored(Face_soup soup, std::uint32_t vertex) {
   const Point centre = soup.point(vertex);
   for (std::size_t i = 0; i < soup.coordinates.size(); ++i)
@@ -76,7 +76,8 @@ inline Triangle any_triangle(std::mt19937_64& random) {
   return t;
 }
 
-/// 2 to 30 neighbouring faces of surfaces of several kinds, anyhow turned, within about [-1, 1]^3; no other vertices.
+/// 2 to 30 neighbouring faces of several kinds of surfaces, randomly rotated, within about [-1, 1]^3; no other
+/// vertices.
 class Face_groups {
  public:
   Face_soup operator()(std::mt19937_64& random) const {
@@ -118,7 +119,7 @@ inline bool within_margin(const Face_soup& a, const Face_soup& b, double margin)
   return false;
 }
 
-/// A double that is no less than the distance of two points, and at most a few units in the last place more.
+/// An upper bound of the distance of two points, at most a few units in the last place above it.
 inline double distance_rounded_up(const Point& p, const Point& q) {
   Rational squared = 0;
   double rounded[3];

@@ -10,7 +10,7 @@
 namespace lodestone {
 namespace {
 
-TEST(Confidence_interval, is_that_of_the_table_of_student) {
+TEST(Confidence_interval, equals_the_table_of_student_s_t) {
   // Standard deviation 1, n = 3: t with two degrees of freedom is 4.303 at 97.5 %.
   const std::vector<double> three{1, 2, 3};
   EXPECT_DOUBLE_EQ(confidence_interval(three).mean, 2);
@@ -20,13 +20,13 @@ TEST(Confidence_interval, is_that_of_the_table_of_student) {
   EXPECT_NEAR(confidence_interval(five).half_width, 2.776 * std::sqrt(2.5 / 5), 1e-3);
 }
 
-TEST(Confidence_interval, has_no_width_for_equal_values_or_a_single_one) {
+TEST(Confidence_interval, has_width_0_for_equal_values_or_a_single_value) {
   EXPECT_EQ(confidence_interval(std::vector<double>{4, 4, 4}).half_width, 0);
   EXPECT_EQ(confidence_interval(std::vector<double>{4}).half_width, 0);
   EXPECT_EQ(confidence_interval(std::vector<double>{4}).mean, 4);
 }
 
-TEST(Confidence_interval, of_nothing_is_refused) { EXPECT_THROW(confidence_interval({}), Bad_argument); }
+TEST(Confidence_interval, without_values_is_refused) { EXPECT_THROW(confidence_interval({}), Bad_argument); }
 
 }  // namespace
 }  // namespace lodestone

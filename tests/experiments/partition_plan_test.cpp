@@ -13,7 +13,7 @@
 namespace lodestone {
 namespace {
 
-TEST(Partition_plan, is_the_full_cross_with_an_id_for_each_run) {
+TEST(Partition_plan, is_the_full_cross_product_with_an_id_for_each_run) {
   const auto plan = partition_plan();
   std::set<std::string> ids, variants, meshes;
   for (const auto& run : plan) {
@@ -30,21 +30,21 @@ TEST(Partition_plan, is_the_full_cross_with_an_id_for_each_run) {
   EXPECT_GE(plan.size(), large_enough * meshes.size() * 5 * 5);
 }
 
-TEST(Partition_plan, keeps_what_is_named) {
+TEST(Partition_plan, keeps_only_the_named_runs) {
   const auto plan = partition_plan({"cloth_coarse", "lbg", "lbg_position"});
   EXPECT_EQ(plan.size(), 2U * 5 * 5);
   for (const auto& run : plan) EXPECT_EQ(run.mesh.name, "cloth_coarse");
   EXPECT_THROW(partition_plan({"cloth"}), Bad_argument);
 }
 
-TEST(Partition_plan, meshes_have_about_two_and_ten_thousand_triangles) {
+TEST(Partition_plan, meshes_have_about_2000_and_10000_triangles) {
   for (const auto& mesh : partition_meshes()) {
     const double wanted = mesh.name.ends_with("coarse") ? 2000 : 10000;
     EXPECT_NEAR(static_cast<double>(mesh.make().number_of_faces()), wanted, 0.13 * wanted) << mesh.name;
   }
 }
 
-TEST(Partition_scene, surfaces_meet_in_some_frames_and_part_in_others_whatever_the_seed) {
+TEST(Partition_scene, surfaces_meet_in_some_frames_and_not_in_others_for_any_seed) {
   for (const auto& mesh : partition_meshes()) {
     if (!mesh.name.ends_with("coarse")) continue;
     for (const auto seed : partition_seeds) {
@@ -62,7 +62,7 @@ TEST(Partition_scene, surfaces_meet_in_some_frames_and_part_in_others_whatever_t
   }
 }
 
-TEST(Partition_run, gives_the_same_row_again_but_for_times_and_memory) {
+TEST(Partition_run, repeats_the_same_row_except_for_times_and_memory) {
   const auto plan = partition_plan({"cloth_coarse", "lbg"});
   auto row = execute(plan[7]), again = execute(plan[7]);
   for (const char* key :
@@ -110,7 +110,7 @@ TEST(Partition_report, averages_over_meshes_first_and_then_over_seeds) {
   EXPECT_NE(partition_report(rows).find("| lbg      |      2 | 0.550"), std::string::npos) << partition_report(rows);
 }
 
-TEST(Partition_report, sets_recall_against_that_of_lbg_in_the_same_scene) {
+TEST(Partition_report, compares_recall_with_that_of_lbg_in_the_same_scene) {
   std::map<std::string, nlohmann::ordered_json> rows;
   auto row = execute(partition_plan({"cloth_coarse", "lbg"})[0]);
   row["regions_wanted"] = 32;

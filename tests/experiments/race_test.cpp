@@ -30,7 +30,7 @@ TEST(Read_every_vertex, gives_the_bounding_box_for_any_number_of_points) {
   EXPECT_TRUE(read_every_vertex({}).isEmpty());
 }
 
-TEST(Spread, takes_the_middles_of_equal_parts) {
+TEST(Spread, samples_the_middles_of_equal_parts) {
   EXPECT_EQ(spread(100, 2), (std::vector<std::size_t>{25, 75}));
   EXPECT_EQ(spread(10, 1), std::vector<std::size_t>{5});
   EXPECT_EQ(spread(3, 8), (std::vector<std::size_t>{0, 1, 2}));
@@ -44,7 +44,7 @@ TEST(Index_of, finds_a_pair_and_gives_the_number_of_pairs_for_one_that_was_not_a
   EXPECT_EQ(index_of({0, 1}, {}), 0U);
 }
 
-/// Says what it was told to.
+/// Gives prescribed answers.
 class Liar : public Entrant {
  public:
   explicit Liar(Answer answer) : answer_(std::move(answer)) {}
@@ -90,7 +90,7 @@ TEST_F(Race, plays_the_frames_in_which_the_boxes_overlap) {
   EXPECT_EQ(figures.colliding, 2U);
 }
 
-TEST_F(Race, counts_wrong_answers_to_both_sides) {
+TEST_F(Race, counts_missed_and_invented_collisions) {
   const auto yes = measured(liar({.collides = {true}, .contacts = {{}}})).entries.at(0);
   EXPECT_EQ(yes.missed, 0U);
   EXPECT_EQ(yes.invented, 1U);
@@ -106,7 +106,7 @@ TEST_F(Race, counts_wrong_answers_to_both_sides) {
   EXPECT_FALSE(no.any_is_right());
 }
 
-/// Answers whether there is a collision in one round and lists contacts, none, in the next.
+/// Answers yes or no in one round, and lists contacts (none) in the next.
 class One_by_one : public Entrant {
  public:
   explicit One_by_one(std::vector<std::size_t>& rounds) : rounds_(rounds) {}
@@ -128,7 +128,7 @@ class One_by_one : public Entrant {
   Answer answer_;
 };
 
-/// The entry of an entrant that notes the rounds it starts.
+/// The entry of a contestant that records the rounds it starts.
 template <class Kind>
 Entry entry_of(std::vector<std::size_t>& rounds) {
   return {.library = "test", .method = "rounds", .volume = "none", .build = [&rounds](std::span<const Moving_mesh>) {
@@ -136,7 +136,7 @@ Entry entry_of(std::vector<std::size_t>& rounds) {
           }};
 }
 
-TEST_F(Race, who_answers_in_rounds_is_held_to_what_each_is_about) {
+TEST_F(Race, a_contestant_that_answers_in_rounds_is_checked_for_the_question_of_each_round) {
   std::vector<std::size_t> rounds;
   const auto entry = measured(entry_of<One_by_one>(rounds), {.passes = 2}).entries.at(0);
   EXPECT_EQ(rounds, (std::vector<std::size_t>{0, 1, 0, 1}));
@@ -156,20 +156,20 @@ TEST_F(Race, collisions_of_pairs_whose_boxes_are_apart_count_as_invented) {
   EXPECT_FALSE(entry.any_is_right());
 }
 
-/// Keeps count of its memory.
+/// Reports its memory.
 class Counts_bytes : public One_by_one {
  public:
   using One_by_one::One_by_one;
   std::optional<std::size_t> bytes() const override { return 12345; }
 };
 
-TEST_F(Race, who_knows_what_it_holds_is_believed) {
+TEST_F(Race, a_contestant_that_reports_its_memory_is_believed) {
   std::vector<std::size_t> rounds;
   const auto entry = measured(entry_of<Counts_bytes>(rounds)).entries.at(0);
   EXPECT_EQ(entry.bytes, 12345U);
 }
 
-TEST_F(Race, figures_are_the_least_over_the_passes) {
+TEST_F(Race, figures_are_the_minimum_over_the_passes) {
   const auto figures = measured(
       liar({.update_seconds = 0.5, .any_seconds = 0.25, .all_seconds = 2, .collides = {true}, .contacts = {{}}}),
       {.passes = 4});
@@ -180,7 +180,7 @@ TEST_F(Race, figures_are_the_least_over_the_passes) {
   EXPECT_EQ(entry.frames[0].update_and_all, 2.5);
 }
 
-TEST_F(Race, who_gives_up_is_never_right_and_plays_no_further_frame) {
+TEST_F(Race, a_contestant_that_gives_up_is_never_right_and_plays_no_further_frame) {
   const auto entry = measured(liar({.gave_up = true, .collides = {true}, .contacts = {{}}})).entries.at(0);
   EXPECT_TRUE(entry.gave_up);
   EXPECT_EQ(entry.frames.size(), 1U);
@@ -189,7 +189,7 @@ TEST_F(Race, who_gives_up_is_never_right_and_plays_no_further_frame) {
   EXPECT_FALSE(entry.any_is_right());
 }
 
-TEST_F(Race, whose_time_is_over_leaves_early) {
+TEST_F(Race, a_contestant_out_of_time_stops_early) {
   const auto entry =
       measured(liar({.collides = {true}, .contacts = {{}}}), {.passes = 1, .most_seconds = 0}).entries[0];
   EXPECT_TRUE(entry.left_early);
@@ -197,7 +197,7 @@ TEST_F(Race, whose_time_is_over_leaves_early) {
   EXPECT_FALSE(entry.any_is_right());
 }
 
-/// Remembers how high the first vertex of the second object was whenever it was called.
+/// Records the height of the first vertex of the second object in every call.
 class Witness : public Entrant {
  public:
   struct Seen {
@@ -226,7 +226,7 @@ class Witness : public Entrant {
   Answer answer_;
 };
 
-TEST_F(Race, all_frames_before_the_last_sampled_one_are_played_in_order_and_the_sampled_ones_inspected_at_the_end) {
+TEST_F(Race, frames_up_to_the_last_sampled_one_are_played_in_order_and_sampled_ones_inspected_at_the_end) {
   Witness::Seen seen;
   measured({.library = "test",
             .method = "see",
@@ -246,7 +246,7 @@ TEST_F(Race, all_frames_before_the_last_sampled_one_are_played_in_order_and_the_
   EXPECT_EQ(seen.pairs, (std::vector<std::size_t>{1, 1}));
 }
 
-TEST_F(Race, who_takes_long_between_sampled_frames_plays_no_second_pass) {
+TEST_F(Race, a_contestant_slow_between_sampled_frames_plays_no_second_pass) {
   Witness::Seen seen;
   measured({.library = "test",
             .method = "see",

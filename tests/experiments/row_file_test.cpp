@@ -33,7 +33,7 @@ TEST_F(Rows, a_row_is_in_the_file_when_add_returns) {
   EXPECT_FALSE(rows.has("b"));
 }
 
-TEST_F(Rows, what_was_written_is_there_when_the_file_is_opened_again) {
+TEST_F(Rows, rows_are_kept_when_the_file_is_opened_again) {
   { Row_file(file).add(Row{{"id", "a"}, {"x", 0.1}}); }
   { Row_file(file).add(Row{{"id", "b"}}); }
   const Row_file rows(file);
@@ -42,7 +42,7 @@ TEST_F(Rows, what_was_written_is_there_when_the_file_is_opened_again) {
   EXPECT_EQ(read_rows(file), rows.rows());
 }
 
-TEST_F(Rows, a_run_that_is_there_is_left_as_it_is) {
+TEST_F(Rows, a_run_that_is_already_there_is_not_overwritten) {
   Row_file rows(file);
   rows.add(Row{{"id", "a"}, {"x", 1}});
   rows.add(Row{{"id", "a"}, {"x", 2}});
@@ -50,7 +50,7 @@ TEST_F(Rows, a_run_that_is_there_is_left_as_it_is) {
   EXPECT_EQ(text(), "{\"id\":\"a\",\"x\":1}\n");
 }
 
-TEST_F(Rows, a_line_cut_off_at_any_byte_is_dropped_and_nothing_else) {
+TEST_F(Rows, only_a_line_truncated_at_any_byte_is_dropped) {
   { Row_file(file).add(Row{{"id", "a"}, {"x", 1}}); }
   const std::string first = text(), second = "{\"id\":\"b\",\"x\":2}\n";
   for (std::size_t length = 1; length < second.size(); ++length) {
@@ -62,7 +62,7 @@ TEST_F(Rows, a_line_cut_off_at_any_byte_is_dropped_and_nothing_else) {
   }
 }
 
-TEST_F(Rows, a_broken_line_is_refused_with_its_place_and_the_file_stays_as_it_is) {
+TEST_F(Rows, a_broken_line_is_refused_with_its_line_number_and_the_file_is_unchanged) {
   { Row_file(file).add(Row{{"id", "a"}}); }
   for (const std::string line : {"nonsense\n", "[1]\n", "{\"x\":1}\n", "{\"id\":3}\n", "\n"}) {
     std::filesystem::remove(file);
@@ -78,7 +78,7 @@ TEST_F(Rows, a_broken_line_is_refused_with_its_place_and_the_file_stays_as_it_is
   }
 }
 
-TEST_F(Rows, one_program_at_a_time_has_the_file_open) {
+TEST_F(Rows, only_one_program_at_a_time_opens_the_file) {
   {
     const Row_file rows(file);
     EXPECT_THROW(Row_file{file}, Bad_output);
@@ -86,7 +86,7 @@ TEST_F(Rows, one_program_at_a_time_has_the_file_open) {
   EXPECT_NO_THROW(Row_file{file});
 }
 
-TEST_F(Rows, a_file_that_cannot_be_made_or_read_is_an_error) {
+TEST_F(Rows, a_file_that_cannot_be_created_or_read_is_an_error) {
   std::ofstream(folder.path() / "plain") << "x";
   EXPECT_THROW(Row_file(folder.path() / "plain" / "rows.jsonl"), Bad_output);
   EXPECT_THROW(read_rows(folder.path() / "missing.jsonl"), Bad_argument);

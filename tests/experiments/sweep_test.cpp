@@ -23,7 +23,7 @@ struct Sweep : ::testing::Test {
 
   std::filesystem::path file(const std::string& name = "rows.jsonl") const { return folder.path() / name; }
   static void no_progress(std::size_t /*done*/, std::size_t /*of*/) {}
-  /// Each run leaves a mark, whichever process it ran in.
+  /// Each run leaves a mark, in whatever process it runs.
   auto marking() const {
     return [this](std::size_t run) {
       std::ofstream(folder.path() / "marks", std::ios::app) << ids[run];
@@ -38,7 +38,7 @@ struct Sweep : ::testing::Test {
   }
 };
 
-TEST_F(Sweep, every_run_gets_its_row_from_a_process_of_its_own) {
+TEST_F(Sweep, every_run_gets_its_row_from_a_separate_process) {
   for (const std::size_t jobs : {1, 3, 20}) {
     std::filesystem::remove(file());
     Row_file rows(file());
@@ -51,7 +51,7 @@ TEST_F(Sweep, every_run_gets_its_row_from_a_process_of_its_own) {
   }
 }
 
-TEST_F(Sweep, a_finished_one_does_nothing_and_an_interrupted_one_does_the_rest) {
+TEST_F(Sweep, a_finished_sweep_does_nothing_and_an_interrupted_one_does_the_rest) {
   {
     Row_file rows(file());
     rows.add(Row{{"id", "b"}});
@@ -64,7 +64,7 @@ TEST_F(Sweep, a_finished_one_does_nothing_and_an_interrupted_one_does_the_rest) 
   EXPECT_EQ(marks(), "acdeg");
 }
 
-TEST_F(Sweep, stopping_it_loses_no_more_than_the_runs_in_progress) {
+TEST_F(Sweep, stopping_a_sweep_loses_only_the_runs_in_progress) {
   {
     Row_file rows(file());
     const auto stop = [](std::size_t done, std::size_t /*of*/) {
@@ -116,7 +116,7 @@ TEST_F(Sweep, a_row_longer_than_a_pipe_holds_arrives_whole) {
 }
 
 TEST_F(Sweep, several_jobs_run_at_a_time) {
-  // Each run waits until both have begun: with one at a time none would end.
+  // Each run waits until both have started: with one at a time none would end.
   Row_file rows(file());
   const auto execute = [&](std::size_t run) -> Row {
     std::ofstream(folder.path() / ("begun" + std::to_string(run))) << "x";
@@ -131,7 +131,7 @@ TEST_F(Sweep, several_jobs_run_at_a_time) {
   EXPECT_EQ(rows.rows().at("b")["met"], true);
 }
 
-TEST_F(Sweep, tells_how_far_it_is) {
+TEST_F(Sweep, reports_its_progress) {
   Row_file rows(file());
   rows.add(Row{{"id", "c"}});
   std::vector<std::size_t> seen;

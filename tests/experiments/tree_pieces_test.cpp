@@ -24,21 +24,21 @@ const Numbers cube_points{-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1, -1, -1, 1,
 const std::vector<Corners> cube_faces{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
 
-TEST(Hull_volume, is_that_of_the_convex_hull) {
+TEST(Hull_volume, equals_the_volume_of_the_convex_hull) {
   EXPECT_DOUBLE_EQ(hull_volume(cube_points), 8);
   EXPECT_DOUBLE_EQ(hull_volume(Numbers{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.1, 0.1, 0.1}), 1.0 / 6);
   const std::vector<std::uint32_t> below{0, 1, 2, 4};
   EXPECT_DOUBLE_EQ(hull_volume(cube_points, below), 8.0 / 6);
 }
 
-TEST(Hull_volume, is_0_for_what_is_flat) {
+TEST(Hull_volume, is_0_for_flat_point_sets) {
   EXPECT_EQ(hull_volume(Numbers{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}), 0);
   EXPECT_EQ(hull_volume(Numbers{0, 0, 0, 1, 0, 0, 1, 1, 0}), 0);
   EXPECT_EQ(hull_volume(Numbers{0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3}), 0);
   EXPECT_EQ(hull_volume(Numbers{1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3}), 0);
 }
 
-TEST(Hull_volume, of_many_points_is_hardly_too_small) {
+TEST(Hull_volume, of_many_points_is_slightly_too_small_at_most) {
   const auto ball = icosphere(40);  // 16 002 vertices
   const Moving_mesh moving{&ball, {}};
   EXPECT_NEAR(hull_volume(moving.coordinates()) / (4.0 / 3 * std::numbers::pi), 1, 3e-3);
@@ -55,7 +55,7 @@ struct Divided_knot {
   Region_tree tree{numbering.corners(), division.labels(0), moving.coordinates(), {}};
 };
 
-TEST(Tree_pieces, are_the_faces_of_each_region) {
+TEST(Tree_pieces, consist_of_the_faces_of_each_region) {
   const Divided_knot knot;
   const auto corners = knot.numbering.corners();
   const auto labels = knot.division.labels(0);
@@ -84,7 +84,7 @@ TEST(Tree_pieces, boxes_around_the_chosen_faces_are_those_of_the_region) {
   }
 }
 
-TEST(Tree_pieces, all_faces_are_chosen_where_they_are_few) {
+TEST(Tree_pieces, all_faces_are_chosen_if_they_are_few) {
   const Divided_knot knot;
   for (const auto& region : knot.division.pieces(0).regions) {
     const auto chosen = choose_faces(region, knot.numbering.corners(), knot.moving.coordinates());
@@ -96,7 +96,7 @@ TEST(Tree_pieces, all_faces_are_chosen_where_they_are_few) {
   }
 }
 
-TEST(Tree_pieces, measured_leaves_are_spread_over_all) {
+TEST(Tree_pieces, measured_leaves_are_spread_over_the_tree) {
   const auto ball = icosphere(100);  // 200 000 faces
   const Mesh_numbering<Surface_mesh> numbering(ball);
   const Moving_mesh moving{&ball, numbering.corners()};
@@ -129,7 +129,7 @@ std::map<std::string_view, Tightness> cube_tightnesses(std::tuple<Volumes...>*) 
   return {{Volumes::name, cube_tightness<Volumes>()}...};
 }
 
-TEST(Tightness, of_a_cube_is_known) {
+TEST(Tightness, of_a_cube_has_its_closed_form) {
   const auto found = cube_tightnesses(static_cast<Bounding_volumes*>(nullptr));
   const double ball = std::numbers::pi * std::numbers::sqrt3 / 2;
   for (const auto& [name, tightness] : found) {

@@ -51,7 +51,7 @@ struct Ball {
   std::unique_ptr<Basic_tree_surface<Volume>> object;
 };
 
-TEST(Count_walk, counts_what_the_search_for_all_contacts_does) {
+TEST(Count_walk, counts_the_steps_of_the_search_for_all_contacts) {
   const Ball<Counted_box> a(20, 0), b(25, 1.7);
   const Walk_counts counts = count_walk(a.tree(), b.tree());
   Contact_search search(Workers::alone());
@@ -73,7 +73,7 @@ TEST(Count_walk, stops_at_two_roots_that_are_apart) {
 
 class Volume_race : public testing::Test {
  protected:
-  /// Two balls that wobble and go into each other.
+  /// Two balls that wobble and sink into each other.
   static void SetUpTestSuite() {
     const test::Temporary_folder folder;
     auto scene = read_scene(folder.write("two.json", R"({"frames": 12, "objects": [

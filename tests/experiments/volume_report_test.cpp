@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tables of the experiment `volumes`, computed from figures that are easy to compute with.
+// The tables of the experiment `volumes`, from figures that make the expected values simple.
 #include "volumes/volume_report.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ std::string report_of(const Volume_scene& scene) {
   return std::regex_replace(volume_report(std::span(&scene, 1)), std::regex(" +"), " ");
 }
 
-/// The line of a table after its title and two lines of header.
+/// The first row of a table, after its title and two header lines.
 std::string line_after(const std::string& report, const std::string& title, int line) {
   auto place = report.find(title);
   if (place == std::string::npos) return "there is no " + title;
@@ -80,7 +80,7 @@ std::string line_after(const std::string& report, const std::string& title, int 
   return report.substr(place, report.find('\n', place) - place);
 }
 
-TEST(Volume_report, sets_volumes_against_boxes_and_particles) {
+TEST(Volume_report, compares_volumes_with_boxes_and_particles) {
   const auto report = report_of(simple_scene());
   EXPECT_EQ(line_after(report, "Update, in times of aabb:", 0), "| tiny | 10 | 1.00 | 4.00 |");
   EXPECT_EQ(line_after(report, "Update + yes/no, in times of aabb:", 0), "| tiny | 10 | 1.00 | 3.00 |");
@@ -91,7 +91,7 @@ TEST(Volume_report, sets_volumes_against_boxes_and_particles) {
   EXPECT_EQ(line_after(report, "Particles: median frame", 0), "| tiny | 10 | 0.50 / 0.67 / 25 / 2 of 3 |");
 }
 
-TEST(Volume_report, sets_strategies_against_lbg) {
+TEST(Volume_report, compares_strategies_with_lbg) {
   const auto report = report_of(simple_scene());
   EXPECT_EQ(line_after(report, "Update by strategy", 0), "| lbg | 1.00 | 1.00 |");
   EXPECT_EQ(line_after(report, "Update by strategy", 3), "| vsa | 2.00 | 2.00 |");
@@ -116,7 +116,7 @@ TEST(Volume_report, has_every_figure_of_every_contestant) {
             "| lbg | regions | 1.00 / 3.00 | 1.00 / 7.00 |");
 }
 
-TEST(Volume_report, gives_no_ratio_of_who_left_early_and_says_so) {
+TEST(Volume_report, gives_no_ratio_for_contestants_that_stopped_early_and_says_so) {
   auto scene = simple_scene();
   auto& ball = scene.race.entries[1];
   ball.left_early = true;

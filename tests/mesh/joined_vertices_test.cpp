@@ -13,17 +13,17 @@ using Numbers = std::vector<std::uint32_t>;
 
 const Faces two_faces{{0, 1, 2}, {3, 4, 5}};
 
-TEST(Join_vertices, takes_vertices_of_one_number_as_the_first_of_them) {
+TEST(Join_vertices, replaces_vertices_with_one_number_by_the_first_of_them) {
   EXPECT_EQ(join_vertices(two_faces, 6, Numbers{9, 7, 8, 8, 1, 9}), (Faces{{0, 1, 2}, {2, 4, 0}}));
   EXPECT_EQ(join_vertices(two_faces, 6, Numbers{5, 5, 5, 5, 5, 5}), (Faces{{0, 0, 0}, {0, 0, 0}}));
 }
 
-TEST(Join_vertices, has_nothing_to_do_where_no_number_stands_twice) {
+TEST(Join_vertices, changes_nothing_if_all_numbers_differ) {
   EXPECT_EQ(join_vertices(two_faces, 6, Numbers{}), Faces{});
   EXPECT_EQ(join_vertices(two_faces, 6, Numbers{5, 4, 3, 2, 1, 0xFFFFFFFF}), Faces{});
 }
 
-TEST(Join_vertices, refuses_another_number_of_entries) {
+TEST(Join_vertices, refuses_a_wrong_number_of_entries) {
   EXPECT_THROW(join_vertices(two_faces, 6, Numbers{0, 1, 2, 3, 4}), Bad_argument);
   EXPECT_THROW(join_vertices(two_faces, 6, Numbers{0, 1, 2, 3, 4, 5, 6}), Bad_argument);
 }

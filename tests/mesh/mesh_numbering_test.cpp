@@ -11,7 +11,7 @@
 namespace lodestone {
 namespace {
 
-TEST(Mesh_numbering, indices_follow_the_order_of_the_mesh_and_lead_back_to_its_vertices) {
+TEST(Mesh_numbering, indices_follow_the_order_of_the_mesh_and_map_back_to_its_vertices) {
   const auto mesh = sphere(3);
   const Mesh_numbering<Surface_mesh> numbering(mesh);
   ASSERT_EQ(numbering.vertex_count(), num_vertices(mesh));
@@ -42,7 +42,7 @@ TEST(Mesh_numbering, a_mesh_without_faces_is_refused) {
   EXPECT_THROW(Mesh_numbering<Surface_mesh>{mesh}, Bad_mesh);
 }
 
-TEST(Mesh_numbering, a_face_that_is_no_triangle_is_refused_by_number) {
+TEST(Mesh_numbering, a_face_that_is_not_a_triangle_is_refused_with_its_index) {
   auto mesh = single_triangle();
   std::vector<Surface_mesh::Vertex_index> corners;
   for (const auto& p : {Point(5, 0, 0), Point(6, 0, 0), Point(6, 1, 0), Point(5, 1, 0)})
@@ -56,7 +56,7 @@ TEST(Mesh_numbering, a_face_that_is_no_triangle_is_refused_by_number) {
   }
 }
 
-TEST(Mesh_numbering, a_mesh_that_holds_removed_elements_is_refused_until_they_are_collected) {
+TEST(Mesh_numbering, a_mesh_with_removed_elements_is_refused_until_garbage_is_collected) {
   auto mesh = sphere(2);
   CGAL::Euler::remove_face(mesh.halfedge(*mesh.faces().begin()), mesh);
   EXPECT_THROW(Mesh_numbering<Surface_mesh>{mesh}, Bad_mesh);
@@ -73,7 +73,7 @@ TEST(Mesh_numbering, positions_come_from_the_given_map) {
   for (int v = 0; v < 4; ++v) EXPECT_EQ(positions.row(v), Eigen::RowVector3d(v, 2 * v, -1.5));
 }
 
-TEST(Mesh_numbering, a_coordinate_that_is_not_finite_is_refused_by_vertex_number) {
+TEST(Mesh_numbering, a_non_finite_coordinate_is_refused_with_its_vertex_index) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()})
     for (int axis = 0; axis < 3; ++axis) {

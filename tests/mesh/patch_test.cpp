@@ -39,7 +39,7 @@ TEST(Make_patch, lists_each_vertex_of_its_faces_once) {
   expect_corners_of(patch, faces);
 }
 
-TEST(Region_patches, hold_every_face_in_each_region_that_one_of_its_corners_has) {
+TEST(Region_patches, contain_every_face_in_each_region_of_its_corners) {
   std::mt19937_64 random(1);
   const Numbered_mesh mesh(potato(6));
   for (const std::size_t regions : {1, 2, 7, 50}) {
@@ -90,7 +90,7 @@ TEST(Pose_patch, reads_each_vertex_once_per_frame_and_bounds_them) {
   EXPECT_TRUE(posed.box.max().isApprox(mesh.positions.colwise().maxCoeff().transpose(), 0));
 
   shift = 5;
-  pose_patch(posed, reader, 1);  // the same frame: nothing is read
+  pose_patch(posed, reader, 1);  // same frame: nothing is read again
   EXPECT_EQ(reads, patch.vertices.size());
   pose_patch(posed, reader, 2);
   EXPECT_EQ(reads, 2 * patch.vertices.size());

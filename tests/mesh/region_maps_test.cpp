@@ -47,7 +47,7 @@ TYPED_TEST(Region_maps_of, give_the_region_of_each_vertex_and_the_region_whose_p
   EXPECT_EQ(values_of(mesh, maps.particle()), (Values{none, none, none, 0, 1, none, none, none}));
 }
 
-TYPED_TEST(Region_maps_of, particles_that_move_leave_nothing_behind_and_the_regions_alone) {
+TYPED_TEST(Region_maps_of, moving_particles_clear_their_old_vertex_and_keep_the_regions) {
   auto mesh = strip<TypeParam>();
   const Mesh_numbering<TypeParam> numbering(mesh);
   Region_maps<TypeParam> maps(mesh);
@@ -60,7 +60,7 @@ TYPED_TEST(Region_maps_of, particles_that_move_leave_nothing_behind_and_the_regi
   EXPECT_EQ(values_of(mesh, maps.region()), labels);
 }
 
-TYPED_TEST(Region_maps_of, a_particle_may_step_where_another_has_just_been) {
+TYPED_TEST(Region_maps_of, a_particle_may_step_to_a_vertex_that_another_has_just_left) {
   auto mesh = strip<TypeParam>();
   const Mesh_numbering<TypeParam> numbering(mesh);
   Region_maps<TypeParam> maps(mesh);

@@ -15,8 +15,8 @@ namespace {
 
 bool uses(const Corners& corners, std::uint32_t vertex) { return std::ranges::count(corners, vertex) > 0; }
 
-/// Whether the faces of a vertex can be put in a row, by counting: no neighbour is in more than two of them, and all
-/// neighbours hang together.
+/// Whether the faces of a vertex form a row, by counting: no neighbour is in more than two of them, and all neighbours
+/// are connected.
 bool form_a_row(std::uint32_t vertex, std::span<const Corners> faces) {
   std::map<std::uint32_t, std::set<std::uint32_t>> linked;
   std::map<std::uint32_t, int> times;
@@ -37,7 +37,7 @@ bool form_a_row(std::uint32_t vertex, std::span<const Corners> faces) {
   return reached.size() == linked.size();
 }
 
-/// Checks every promise of the header; gives the number of vertices with a rim.
+/// Checks everything that the header guarantees; returns the number of vertices with a rim.
 std::size_t expect_valid(const Vertex_fans& fans, std::uint32_t vertex_count, std::span<const Corners> faces) {
   std::size_t rims = 0;
   EXPECT_EQ(fans.vertex_count(), vertex_count);
@@ -85,14 +85,14 @@ TEST(Vertex_fans, have_open_rims_exactly_at_the_border) {
   for (std::uint32_t v = 0; v < 35; ++v) EXPECT_EQ(fans.rim(v).front() != fans.rim(v).back(), border[v]);
 }
 
-TEST(Vertex_fans, do_not_mind_the_orientation_of_faces) {
+TEST(Vertex_fans, do_not_depend_on_the_orientation_of_faces) {
   std::mt19937_64 random(1);
   auto faces = grid_faces(7, 5);
   for (auto& corners : faces) std::ranges::shuffle(corners, random);
   EXPECT_EQ(expect_valid(35, faces), 35U);
 }
 
-TEST(Vertex_fans, have_no_rim_where_faces_form_no_single_row) {
+TEST(Vertex_fans, have_no_rim_where_faces_do_not_form_a_single_row) {
   EXPECT_EQ(expect_valid(4, {{0, 1, 2}}), 3U) << "vertex 3 has no face";
   EXPECT_EQ(expect_valid(5, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}), 3U) << "three faces at an edge";
   EXPECT_EQ(expect_valid(5, {{0, 1, 2}, {0, 3, 4}}), 4U) << "two rows at vertex 0";
@@ -105,7 +105,7 @@ TEST(Vertex_fans, have_no_rim_where_faces_form_no_single_row) {
   EXPECT_EQ(expect_valid(0, {}), 0U);
 }
 
-TEST(Vertex_fans, keep_their_promises_on_any_faces) {
+TEST(Vertex_fans, satisfy_their_definition_on_any_faces) {
   std::mt19937_64 random(2);
   std::size_t rims = 0, vertices = 0;
   for (int trial = 0; trial < 3000; ++trial) {
@@ -120,7 +120,7 @@ TEST(Vertex_fans, keep_their_promises_on_any_faces) {
   EXPECT_LT(rims, vertices / 2);
 }
 
-TEST(Vertex_fans, take_a_vertex_that_all_faces_share) {
+TEST(Vertex_fans, accept_a_vertex_that_all_faces_share) {
   constexpr std::uint32_t faces_at_apex = 100000;
   std::vector<Corners> faces;
   for (std::uint32_t i = 0; i < faces_at_apex; ++i) faces.push_back({0, i + 1, (i + 1) % faces_at_apex + 1});

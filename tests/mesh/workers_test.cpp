@@ -15,7 +15,7 @@
 namespace lodestone {
 namespace {
 
-TEST(Workers, do_each_task_once) {
+TEST(Workers, run_each_task_once) {
   for (const std::size_t threads : {1, 2, 3, 4, 7})
     for (const std::size_t tasks : {0, 1, 2, 5, 1000, 20000}) {
       Workers workers(threads);
@@ -25,7 +25,7 @@ TEST(Workers, do_each_task_once) {
     }
 }
 
-TEST(Workers, have_numbers_below_their_count_that_no_two_tasks_hold_at_once) {
+TEST(Workers, have_indices_below_their_count_that_no_two_tasks_have_at_once) {
   using namespace std::chrono_literals;
   for (const std::size_t threads : {1, 2, 4, 7}) {
     Workers workers(threads);
@@ -46,7 +46,7 @@ TEST(Workers, have_numbers_below_their_count_that_no_two_tasks_hold_at_once) {
   }
 }
 
-TEST(Workers, of_one_work_in_order_in_the_calling_thread) {
+TEST(Workers, a_single_worker_runs_tasks_in_order_in_the_calling_thread) {
   Workers workers(1);
   EXPECT_EQ(workers.count(), 1U);
   const auto caller = std::this_thread::get_id();
@@ -60,14 +60,14 @@ TEST(Workers, of_one_work_in_order_in_the_calling_thread) {
   for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], i);
 }
 
-/// Processors that this process may use.
+/// Number of processors that this process may use.
 std::size_t processors() {
   cpu_set_t allowed;
   EXPECT_EQ(sched_getaffinity(0, sizeof(allowed), &allowed), 0);
   return static_cast<std::size_t>(CPU_COUNT(&allowed));
 }
 
-TEST(Workers, of_zero_threads_are_as_many_as_the_machine_has) { EXPECT_EQ(Workers(0).count(), processors()); }
+TEST(Workers, zero_threads_means_as_many_as_the_machine_has) { EXPECT_EQ(Workers(0).count(), processors()); }
 
 TEST(Workers, are_never_more_than_the_machine_has_and_do_not_print) {
   testing::internal::CaptureStderr();
@@ -79,7 +79,7 @@ TEST(Workers, are_never_more_than_the_machine_has_and_do_not_print) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Workers, rethrow_what_a_task_throws_and_work_on) {
+TEST(Workers, rethrow_an_exception_of_a_task_and_can_be_used_again) {
   for (const std::size_t threads : {1, 2, 4}) {
     Workers workers(threads);
     for (const std::size_t culprit : {0, 17, 99}) {
@@ -99,7 +99,7 @@ TEST(Workers, rethrow_what_a_task_throws_and_work_on) {
   }
 }
 
-TEST(Workers, of_two_kinds_can_work_inside_each_other) {
+TEST(Workers, can_be_nested) {
   Workers outer(2);
   std::atomic<int> done = 0;
   outer.run(10, [&](std::size_t, std::size_t) {

@@ -15,7 +15,7 @@ using Points = std::vector<Eigen::Vector3d>;
 using Regions = std::vector<std::pair<Region_index, Region_index>>;
 
 Regions candidates(const Points& a, const Points& b, double distance, Candidate_choice choice = Candidate_choice::all) {
-  std::vector<Candidate_pair> pairs{{7, 7, 7}};  // from a call before
+  std::vector<Candidate_pair> pairs{{7, 7, 7}};  // from an earlier call
   candidate_pairs(a, b, distance, choice, pairs);
   Regions regions;
   for (const auto& pair : pairs) {
@@ -36,7 +36,7 @@ TEST(Candidate_pairs, are_strictly_nearer_than_the_distance) {
   EXPECT_EQ(candidates(a, b, std::nextafter(5.0, 6.0)).size(), 1U);
 }
 
-TEST(Candidate_pairs, equally_near_ones_come_by_region_numbers) {
+TEST(Candidate_pairs, equally_near_ones_come_by_region_index) {
   const Points a{{0, 0, 0}, {2, 0, 0}}, b{{1, 0, 0}, {1, 0, 0}};
   EXPECT_EQ(candidates(a, b, 2), (Regions{{0, 0}, {0, 1}, {1, 0}, {1, 1}}));
 }
@@ -59,7 +59,7 @@ TEST(Candidate_pairs, the_closest_one_is_the_first_of_all) {
   }
 }
 
-TEST(Candidate_pairs, are_those_of_a_double_loop) {
+TEST(Candidate_pairs, equal_those_of_a_double_loop) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> coordinate;
   Points a, b;
@@ -78,7 +78,7 @@ TEST(Candidate_pairs, are_those_of_a_double_loop) {
   EXPECT_EQ(candidates(a, b, 0.2), regions);
 }
 
-TEST(Candidate_pairs, of_no_particles_are_none) {
+TEST(Candidate_pairs, without_particles_are_none) {
   EXPECT_TRUE(candidates({}, {{0, 0, 0}}, 1).empty());
   EXPECT_TRUE(candidates({}, {}, 1, Candidate_choice::closest).empty());
 }

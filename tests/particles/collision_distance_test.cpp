@@ -28,7 +28,7 @@ TEST(Collision_distance, of_all_vertices_is_the_mean_over_all_pairs) {
   EXPECT_DOUBLE_EQ(distance_on(pair, Distance_measure::all_vertices), (3 + 4 + 5) / 3.0);
 }
 
-TEST(Collision_distance, of_adjacent_vertices_passes_over_isolated_ones) {
+TEST(Collision_distance, of_adjacent_vertices_skips_isolated_ones) {
   auto mesh = grid(2, 2);
   const double before = distance_on(mesh);
   mesh.add_vertex({1000, 0, 0});

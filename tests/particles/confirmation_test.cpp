@@ -12,7 +12,7 @@
 namespace lodestone {
 namespace {
 
-/// Some of the faces of a mesh as a patch in its place. It refers to itself, so it stays where it is.
+/// Some faces of a mesh as a patch at their positions. Not movable, since it refers to itself.
 struct Placed_patch {
   Patch patch;
   Posed_patch posed;
@@ -44,7 +44,7 @@ std::vector<Face_pair> double_loop(const Placed_patch& a, const Placed_patch& b)
   return pairs;
 }
 
-/// Checks all three queries on one pair of patches; gives the number of intersecting face pairs.
+/// Checks all three queries on one pair of patches; returns the number of intersecting face pairs.
 std::size_t expect_equal_to_double_loop(Confirmation& confirmation, const Placed_patch& a, const Placed_patch& b) {
   const auto expected = double_loop(a, b);
   const Face_pair earlier{1000000, 1000000};
@@ -120,7 +120,7 @@ TEST(Confirmation, finds_patches_that_touch_in_one_point) {
   EXPECT_EQ(expect_equal_to_double_loop(confirmation, {left, faces, {0}}, {right, faces, {0}}), 1U);
 }
 
-TEST(Confirmation, of_patches_far_apart_tests_nothing) {
+TEST(Confirmation, of_patches_far_apart_needs_no_exact_test) {
   const Numbered_mesh mesh(potato(5));
   Positions moved = mesh.positions;
   moved.col(1).array() += 100;
@@ -132,7 +132,7 @@ TEST(Confirmation, of_patches_far_apart_tests_nothing) {
   EXPECT_EQ(confirmation.exact_tests(), 0U);
 }
 
-TEST(Confirmation, counts_exact_tests_until_told_to_start_anew) {
+TEST(Confirmation, counts_exact_tests_until_reset) {
   const Numbered_mesh mesh(potato(4));
   std::vector<std::uint32_t> all(mesh.faces.size());
   for (std::uint32_t face = 0; face < all.size(); ++face) all[face] = face;

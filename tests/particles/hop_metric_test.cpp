@@ -48,7 +48,7 @@ TEST(Hop_diameter, of_fewer_than_two_targets_is_0) {
   EXPECT_EQ(hop_diameter(graph, one), 0U);
 }
 
-TEST(Hop_diameter, leaves_out_pairs_in_different_components) {
+TEST(Hop_diameter, ignores_pairs_in_different_components) {
   const std::vector<Corners> faces{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}};
   const auto graph = vertex_graph(7, faces);
   const std::vector<std::uint32_t> apart{0, 4}, both{0, 3, 4};

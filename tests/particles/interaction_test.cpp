@@ -14,7 +14,7 @@ namespace {
 constexpr int lanes = Attractors::lanes;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The force on one point, asked for in `lane`; the other lanes hold `other`.
+/// The force on one point, computed in `lane`; the other lanes hold `other`.
 double force_at(const Attractors& attractors, const Eigen::Vector3d& point, int lane = 0,
                 const Eigen::Vector3d& other = {50, 60, 70}, std::ptrdiff_t but = -1) {
   std::array<double, lanes> x, y, z, force;
@@ -52,7 +52,7 @@ TEST(Force, of_six_attractors_at_the_faces_of_a_cube_is_six_inverse_squares) {
   EXPECT_EQ(force_at(attractors, {0, 0, 0}), 6 / 64.0);
 }
 
-TEST(Force, is_felt_strictly_below_the_reach_only) {
+TEST(Force, is_zero_at_the_reach_and_beyond) {
   for (const double distance : {std::nextafter(5.0, 0.0), 5.0, std::nextafter(5.0, 6.0)}) {
     Attractors attractors;
     attractors.add({distance, 0, 0}, 25);
@@ -87,7 +87,7 @@ TEST(Force, of_a_point_does_not_depend_on_its_lane_or_the_others) {
   }
 }
 
-TEST(Force, may_leave_one_attractor_out) {
+TEST(Force, can_exclude_one_attractor) {
   Attractors attractors;
   for (const double x : {1.0, 2.0, 4.0}) attractors.add({x, 0, 0}, 100);
   EXPECT_EQ(force_at(attractors, {0, 0, 0}, 3, {9, 9, 9}, 0), 0.25 + 0.0625);

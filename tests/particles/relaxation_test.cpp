@@ -14,7 +14,7 @@ struct Reader {
   Eigen::Vector3d operator()(std::uint32_t vertex) const { return (*points)[vertex]; }
 };
 
-/// One object with everything that a walk needs; it refers to itself, so it stays where it is.
+/// One object with everything that a walk needs. Not movable, since it refers to itself.
 struct Walker {
   std::vector<Eigen::Vector3d> points;
   Region_steps steps;
@@ -52,14 +52,14 @@ std::vector<Eigen::Vector3d> grid_points(std::uint32_t columns, std::uint32_t ro
   return points;
 }
 
-/// A particle at vertex `at` of a grid that is all one region.
+/// A particle at vertex `at` of a grid that is a single region.
 struct Grid_walker : Walker {
   Grid_walker(std::uint32_t columns, std::uint32_t rows, std::uint32_t at, std::size_t hop_limit = 100)
       : Walker(grid_points(columns, rows), grid_faces(columns, rows),
                std::vector<Region_index>(std::size_t{columns} * rows, 0), {at}, hop_limit) {}
 };
 
-/// Relaxes objects each of which feels all others.
+/// Relaxes objects that all feel each other.
 Relaxation relax_all(const std::vector<Walker*>& walkers, bool siblings_repel = false) {
   std::vector<std::vector<std::uint32_t>> near(walkers.size());
   std::vector<Walking_object<Reader>> objects;
@@ -97,7 +97,7 @@ TEST(Relax, walks_until_it_rests) {
   const auto result = relax_all({&walker, &post});
   EXPECT_EQ(walker.particles.at, At{9});
   EXPECT_EQ(result.moves, 4U);
-  EXPECT_EQ(result.iterations, 5U);  // the last one finds that nothing moves
+  EXPECT_EQ(result.iterations, 5U);  // the last one, in which nothing moves
   EXPECT_TRUE(result.relaxed);
 }
 
@@ -121,7 +121,8 @@ TEST(Relax, r_max_is_the_largest_of_the_objects) {
 }
 
 TEST(Relax, stops_at_a_local_maximum_of_the_force) {
-  // Of two posts over a row of vertices the near one holds a particle, though the other is reached by a longer walk.
+  // Of two posts over a row of vertices, the near one keeps a particle, though the other could be reached by a longer
+  // walk.
   Grid_walker walker(9, 2, 2);
   Post left({1, 0, 0.5}), right({8, 0, 0.1});
   relax_all({&walker, &left, &right});
@@ -136,7 +137,7 @@ TEST(Relax, forces_of_several_particles_add_up) {
   EXPECT_EQ(walker.particles.at, At{2});
 }
 
-TEST(Relax, ties_go_to_the_lowest_vertex_number) {
+TEST(Relax, ties_go_to_the_lowest_vertex_index) {
   for (const std::uint32_t start : {0U, 2U}) {
     Walker walker({{0, 0, 0}, {1, 1, 0}, {1, -1, 0}}, {{0, 1, 2}}, {0, 0, 0}, {start});
     Post post({3, 0, 0});
@@ -164,7 +165,7 @@ TEST(Relax, a_force_is_felt_up_to_the_larger_effective_radius_of_the_two_objects
 }
 
 TEST(Relax, at_distance_0_a_particle_stays) {
-  // Vertex 1 coincides with 2: a tie, if the particle were to look around.
+  // Vertex 1 coincides with 2: a tie, if the particle compared its neighbours.
   Walker walker({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {{0, 1, 2}}, {0, 0, 0}, {2});
   Post post({1, 0, 0});
   EXPECT_EQ(relax_all({&walker, &post}).moves, 0U);
@@ -234,7 +235,7 @@ TEST(Relax, a_particle_never_leaves_its_region) {
   }
 }
 
-TEST(Relax, an_object_without_near_objects_is_left_alone) {
+TEST(Relax, an_object_without_near_objects_is_not_relaxed) {
   Grid_walker walker(5, 3, 5), alone(5, 3, 5);
   Post post({10, 1, 0});
   const std::vector<std::uint32_t> feels_post{2}, feels_walker{0};
@@ -250,8 +251,8 @@ TEST(Relax, an_object_without_near_objects_is_left_alone) {
   EXPECT_EQ(alone.particles.at, At{5});
 }
 
-TEST(Relax, siblings_push_each_other_away_if_told_to) {
-  // Two particles in the middle of a row, and a post so far off that they feel each other alone.
+TEST(Relax, siblings_repel_each_other_if_requested) {
+  // Two particles in the middle of a row, and a post so far away that they feel only each other.
   for (const bool repel : {false, true}) {
     Walker walker(grid_points(7, 2), grid_faces(7, 2), std::vector<Region_index>(14, 0), {2, 3}, 1);
     Post post({2.5, 1e4, 0}, 1e5);

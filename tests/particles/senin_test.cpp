@@ -53,7 +53,7 @@ TEST(Scatter_particles, covers_the_surface) {
   for (const int count : octants) EXPECT_GT(count, 8);
 }
 
-TEST(Scatter_particles, with_a_side_keeps_to_it) {
+TEST(Scatter_particles, with_a_side_stays_on_it) {
   const auto mesh = sphere(8, 2, {10, 20, 30});
   const Eigen::Vector3d side(0, -3, 0);
   std::size_t on_side = 0;
@@ -63,7 +63,7 @@ TEST(Scatter_particles, with_a_side_keeps_to_it) {
   for (const auto v : at) EXPECT_LE(mesh.point(Surface_mesh::Vertex_index(v)).y() - 20, -1 + 1e-9);
 }
 
-TEST(Default_rings, hold_as_many_vertices_as_a_region) {
+TEST(Default_rings, contain_as_many_vertices_as_a_region) {
   // 7, 19, 37 and 61 vertices lie within 1, 2, 3 and 4 hops on a surface of degree 6.
   EXPECT_EQ(default_rings(700, 100), 1U);
   EXPECT_EQ(default_rings(1900, 100), 2U);
@@ -83,7 +83,7 @@ TEST(Vertex_faces, are_the_faces_with_that_corner) {
   }
 }
 
-TEST(Ring_patch, holds_the_faces_within_so_many_hops) {
+TEST(Ring_patch, contains_the_faces_within_the_given_hops) {
   const Numbered_mesh mesh(potato(6));
   const Vertex_faces vertex_faces(mesh.numbering.vertex_count(), mesh.faces);
   for (const std::uint32_t centre : {0U, 33U, 100U}) {

@@ -38,7 +38,7 @@ double energy_of(const Numbered_mesh& mesh, const std::vector<std::uint32_t>& se
   return sum;
 }
 
-TEST(Centroidal_seeds, energy_is_what_it_is_by_definition_and_not_above_its_start) {
+TEST(Centroidal_seeds, energy_follows_its_definition_and_does_not_exceed_its_start) {
   const Numbered_mesh mesh(potato(7));
   for (const auto start : starts)
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -56,7 +56,7 @@ TEST(Centroidal_seeds, energy_starts_at_that_of_the_farthest_points) {
   EXPECT_NEAR(energy_of(mesh, start), seeds.energies.front(), 1e-9 * seeds.energies.front());
 }
 
-TEST(Centroidal_seeds, that_have_settled_are_the_vertices_nearest_to_the_centroids_of_their_cells) {
+TEST(Centroidal_seeds, after_convergence_are_the_vertices_nearest_to_the_centroids_of_their_cells) {
   const auto surface = potato(7);
   const Numbered_mesh mesh(surface);
   const auto areas = areas_of(mesh);
@@ -64,7 +64,7 @@ TEST(Centroidal_seeds, that_have_settled_are_the_vertices_nearest_to_the_centroi
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Centroidal_options options{.seed = seed, .start = Centroidal_start::random_vertices};
     const auto seeds = centroidal_seeds(surface_of(mesh), 8, options);
-    // Those returned are those that settled only where the energy never rose.
+    // The returned seeds are those at convergence only if the energy never rose.
     if (!seeds.settled || !std::ranges::is_sorted(seeds.energies, std::greater())) continue;
     ++settled;
     const auto labels = labels_of(Centroidal{.options = options}, surface, 8);
@@ -108,7 +108,7 @@ TEST(Centroidal_seeds, weigh_vertices_by_area) {
   EXPECT_NEAR(mesh.positions(seeds.vertices[0], 0), 20, 0.1);
 }
 
-TEST(Centroidal_seeds, the_plain_mean_counts_where_there_is_no_area) {
+TEST(Centroidal_seeds, use_the_plain_mean_where_there_is_no_area) {
   auto surface = grid(21, 2);
   deform(surface, [](const Point& p) { return Point(p.x(), 0, 0); });
   const Numbered_mesh mesh(surface);
@@ -124,19 +124,19 @@ TEST(Centroidal_seeds, iterations_are_limited) {
   EXPECT_THROW(centroidal_seeds(surface_of(mesh), 10, {.max_iterations = 0}), Bad_argument);
 }
 
-TEST(Centroidal, the_seed_decides) {
+TEST(Centroidal, depends_on_the_seed) {
   const auto mesh = potato(6);
   for (const auto start : starts) {
     std::set<std::vector<Region_index>> different_labels;
     for (std::uint64_t seed = 0; seed < 10; ++seed)
       different_labels.insert(labels_of(Centroidal{.options = {.seed = seed, .start = start}}, mesh, 8));
-    EXPECT_GE(different_labels.size(), 5U);  // from different starts they may settle alike
+    EXPECT_GE(different_labels.size(), 5U);  // different starts may converge to the same seeds
   }
 }
 
 TEST(Centroidal, is_in_the_registry) { expect_in_registry(Centroidal{.options = {.seed = 3}}, {.seed = 3}); }
 
-TEST(Centroidal, stands_awkward_meshes) {
+TEST(Centroidal, divides_awkward_meshes) {
   for (const auto start : starts) {
     expect_sound_on_awkward_meshes(Centroidal{.options = {.start = start}}, always_as_wanted);
     expect_invariant_under_translation_and_scale(Centroidal{.options = {.start = start}});

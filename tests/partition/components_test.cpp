@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes in very many connected components, and strategies that do not keep to their concept.
+// Meshes with very many connected components, and strategies that violate their concept.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using Labels = std::vector<Region_index>;
 
-/// The same triangles, each with three vertices of its own.
+/// The same triangles, each with three separate vertices.
 Surface_mesh unwelded(const Surface_mesh& mesh) {
   std::vector<Point> points;
   std::vector<Corners> faces;
@@ -83,7 +83,7 @@ TEST(Repair_islands, regions_stay_bounded_however_many_components_there_are) {
   }
 }
 
-TEST(Repair_islands, components_within_the_bound_all_get_a_region_of_their_own) {
+TEST(Repair_islands, components_within_the_bound_each_get_a_separate_region) {
   // One region takes the first triangle, 64 more are added.
   const Numbered_mesh mesh(copies(single_triangle(), 65));
   Labels labels(mesh.numbering.vertex_count(), 0);
@@ -133,7 +133,7 @@ TEST(Partition, islands_that_are_kept_add_no_region) {
   EXPECT_EQ(partitioned(copies(tetrahedron(), 10), 3, {.keep_islands = true}).regions, 3U);
 }
 
-/// A strategy that gives back whatever it holds.
+/// A strategy that returns a stored labelling.
 struct Fixed_labelling {
   static constexpr std::string_view name = "fixed";
   Labelling labelling = {};
@@ -155,7 +155,7 @@ class Partition_by_ones_own_strategy : public testing::Test {
       mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:label").first;
 };
 
-TEST_F(Partition_by_ones_own_strategy, a_label_for_each_vertex_is_taken) {
+TEST_F(Partition_by_ones_own_strategy, a_label_for_each_vertex_is_accepted) {
   EXPECT_EQ(divide({.labels = Labels(vertices, 0)}).regions, 1U);
   Labels own(vertices);
   for (std::size_t v = 0; v < vertices; ++v) own[v] = static_cast<Region_index>(v);

@@ -30,7 +30,7 @@ TEST(Curvature, of_a_hollow_sphere_is_negative) {
   for (const auto curvature : curvatures_of(mesh)) EXPECT_NEAR(curvature, -1, 0.02);
 }
 
-TEST(Curvature, comes_nearer_with_finer_meshes) {
+TEST(Curvature, converges_with_finer_meshes) {
   const auto worst = [](int parts) {
     double error = 0;
     for (const auto curvature : curvatures_of(sphere(parts))) error = std::max(error, std::abs(curvature - 1));

@@ -46,7 +46,7 @@ TEST(Face_labels, between_equal_areas_the_number_of_faces_decides_then_the_lowes
   faces[0] = faces[1] = 4;
   faces[6] = faces[7] = 3;
   EXPECT_EQ(labels_of(mesh, faces)[4], 3U);
-  // Without area only the number counts: three faces of 9.
+  // Without area only the number of faces decides: three of 9.
   deform(mesh, [](const Point&) { return Point(0, 0, 0); });
   EXPECT_EQ(labels_of(mesh, {4, 9, 9, 9, 9, 9, 3, 3})[4], 9U);
 }
@@ -94,7 +94,7 @@ TEST(Face_labels, vertices_that_no_label_reaches_get_0) {
   EXPECT_EQ(labels_of(mesh, Labels(6, no_region)), Labels(11, 0));
 }
 
-TEST(Face_labels, labels_of_other_faces_are_refused) {
+TEST(Face_labels, a_wrong_number_of_labels_is_refused) {
   EXPECT_THROW(labels_of(tetrahedron(), {0, 1, 2}), Bad_argument);
 }
 

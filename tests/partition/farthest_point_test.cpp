@@ -109,7 +109,7 @@ TEST(Farthest_point, regions_are_the_vertices_nearest_to_the_seeds) {
 
 TEST(Farthest_point, is_in_the_registry) { expect_in_registry(Farthest_point{.options = {.seed = 3}}, {.seed = 3}); }
 
-TEST(Farthest_point, stands_awkward_meshes) {
+TEST(Farthest_point, divides_awkward_meshes) {
   expect_sound_on_awkward_meshes(Farthest_point{}, always_as_wanted);
   expect_invariant_under_translation_and_scale(Farthest_point{});
 }

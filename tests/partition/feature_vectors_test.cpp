@@ -72,7 +72,7 @@ TEST(Feature_vectors, take_each_factor_times_its_weight) {
   EXPECT_EQ(weighted.rightCols<3>(), 0.25 * plain.rightCols<3>());
 }
 
-TEST(Feature_vectors, leave_out_a_factor_of_weight_0) {
+TEST(Feature_vectors, omit_a_factor_of_weight_0) {
   const Numbered_mesh mesh(potato(2));
   const auto both = feature_vectors(mesh.positions, mesh.faces);
   EXPECT_EQ(feature_vectors(mesh.positions, mesh.faces, {.normal_weight = 0}), both.leftCols<3>());
@@ -113,7 +113,7 @@ TEST(Factors, are_the_values_of_the_map_times_the_weight) {
   EXPECT_EQ(factors<3>(mesh, colour, 2), (Feature_vectors(4, 3) << 2, 0, 1, 2, 2, 1, 2, 4, 1, 2, 6, 1).finished());
 }
 
-TEST(Factors, bad_weights_and_values_that_are_not_finite_are_refused) {
+TEST(Factors, bad_weights_and_non_finite_values_are_refused) {
   auto mesh = tetrahedron();
   auto value = mesh.add_property_map<Surface_mesh::Vertex_index, double>("v:value", 1.0).first;
   EXPECT_THROW(factors(mesh, value, -1), Bad_argument);

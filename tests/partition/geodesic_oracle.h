@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distances along the edges of a mesh by the plainest method there is.
+// Distances along the edges of a mesh by the simplest method.
 #pragma once
 
 #include <algorithm>

@@ -39,7 +39,7 @@ void expect_cells(const Geodesic_voronoi& cells, const Numbered_mesh& mesh, cons
   }
 }
 
-TEST(Geodesic_voronoi, agrees_with_relaxing_all_edges_from_every_seed) {
+TEST(Geodesic_voronoi, equals_relaxing_all_edges_from_every_seed) {
   const Numbered_mesh mesh(potato(6));
   const std::vector<std::uint32_t> seeds{3, 77, 20, 100, 145};
   Geodesic_voronoi cells(mesh.graph, mesh.positions);
@@ -124,7 +124,7 @@ TEST(Geodesic_voronoi, forgets_its_seeds) {
   expect_cells(cells, mesh, {40, 3});
 }
 
-TEST(Geodesic_voronoi, refuses_seeds_that_are_no_vertices_or_seeds_already) {
+TEST(Geodesic_voronoi, refuses_seeds_that_are_not_vertices_or_already_seeds) {
   const Numbered_mesh mesh(tetrahedron());
   Geodesic_voronoi cells(mesh.graph, mesh.positions);
   EXPECT_THROW(cells.add(std::vector<std::uint32_t>{4}), Bad_argument);

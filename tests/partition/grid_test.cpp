@@ -10,8 +10,9 @@
 namespace lodestone {
 namespace {
 
-/// Some size and the lower corner of the bounding box make these regions: of two vertices of one region no coordinates
-/// lie a cube's size apart, and along some axis a whole number of cubes lies between those of different regions.
+/// Checks that the regions are cubes of one size from the lower corner of the bounding box: coordinates of two vertices
+/// of one region differ by less than a cube's size, and vertices of different regions are in different cubes along some
+/// axis.
 bool are_cubes_of_size(const Positions& positions, const std::vector<Region_index>& labels, double size) {
   const Positions offsets = positions.rowwise() - positions.colwise().minCoeff();
   const auto cube = [&](std::size_t v) {
@@ -33,7 +34,7 @@ TEST(Grid, divides_a_flat_grid_into_squares) {
   }
 }
 
-TEST(Grid, meets_the_wanted_number_on_a_mesh_without_symmetry) {
+TEST(Grid, makes_the_requested_number_of_regions_on_a_mesh_without_symmetry) {
   const auto mesh = potato(8);
   for (const std::size_t wanted : {1, 2, 3, 12, 32, 77, 128}) {
     const auto labels = labels_of(Grid{}, mesh, wanted);
@@ -45,8 +46,8 @@ TEST(Grid, regions_are_cubes_of_one_size) {
   const auto mesh = potato(5);
   const Numbered_mesh numbered(mesh);
   const auto labels = labels_of(Grid{}, mesh, 20);
-  // A size at which vertices enter or leave a cube is a coordinate divided by a whole number: of the sizes halfway
-  // between two neighbouring such sizes, one must give these regions.
+  // Vertices enter or leave a cube at sizes that are a coordinate divided by an integer. So one of the sizes halfway
+  // between two consecutive such sizes must give these regions.
   const Positions offsets = numbered.positions.rowwise() - numbered.positions.colwise().minCoeff();
   std::vector<double> sizes;
   for (Eigen::Index v = 0; v < offsets.rows(); ++v)
@@ -69,15 +70,15 @@ TEST(Grid, regions_are_numbered_by_x_then_y_then_z) {
   }
 }
 
-TEST(Grid, tells_apart_what_can_be_told_apart) {
-  // A vertex each: as many cubes as vertices, once cubes are smaller than the distance of two.
+TEST(Grid, with_enough_regions_separates_all_vertices) {
+  // One vertex per region, once cubes are smaller than the distance of two vertices.
   const auto mesh = grid(9, 4);
   EXPECT_EQ(different(labels_of(Grid{}, mesh, 36)), 36U);
 }
 
 TEST(Grid, is_in_the_registry) { expect_in_registry(Grid{}, {}); }
 
-TEST(Grid, stands_awkward_meshes) {
+TEST(Grid, divides_awkward_meshes) {
   expect_sound_on_awkward_meshes(Grid{}, [](auto...) { return std::size_t{1}; });
   expect_invariant_under_translation_and_scale(Grid{});
 }

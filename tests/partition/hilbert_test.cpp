@@ -43,13 +43,13 @@ TEST(Hilbert, eight_runs_are_octants_and_consecutive_ones_share_a_face) {
   }
 }
 
-TEST(Hilbert, as_many_runs_as_vertices_are_a_vertex_each) {
+TEST(Hilbert, with_as_many_runs_as_vertices_each_has_one_vertex) {
   EXPECT_EQ(different(labels_of(Hilbert{}, potato(4), 66)), 66U);
 }
 
 TEST(Hilbert, is_in_the_registry) { expect_in_registry(Hilbert{}, {}); }
 
-TEST(Hilbert, stands_awkward_meshes) {
+TEST(Hilbert, divides_awkward_meshes) {
   expect_sound_on_awkward_meshes(Hilbert{}, always_as_wanted);
   expect_invariant_under_translation_and_scale(Hilbert{});
 }

@@ -30,12 +30,12 @@ TEST(Count_pieces, counts_connected_sets_of_one_label) {
   EXPECT_EQ(count_pieces(graph, strip_labels({0, 1, 0, 0, 1, 2})), 5U);
 }
 
-TEST(Count_pieces, passes_over_isolated_vertices) {
+TEST(Count_pieces, skips_isolated_vertices) {
   const std::vector<Corners> faces{{1, 2, 4}};
   EXPECT_EQ(count_pieces(vertex_graph(6, faces), {0, 0, 1, 2, 1, 1}), 2U);
 }
 
-TEST(Repair_islands, connected_regions_stay_as_they_are) {
+TEST(Repair_islands, connected_regions_are_unchanged) {
   const Labels before = strip_labels({2, 2, 0, 0, 1, 1});
   Labels labels = before;
   const auto repair = repair_islands(grid_graph(6, 2), labels, 3);
@@ -68,7 +68,7 @@ TEST(Repair_islands, an_island_joins_the_region_with_the_longest_border) {
   EXPECT_EQ(labels[7], 0U);  // two edges against four
 }
 
-TEST(Repair_islands, of_equally_long_borders_the_lowest_number_wins) {
+TEST(Repair_islands, equally_long_borders_are_decided_by_the_lowest_index) {
   const auto graph = grid_graph(5, 3);
   Labels labels{1, 1, 0, 0, 2,  //
                 1, 1, 2, 0, 2,  //
@@ -79,7 +79,7 @@ TEST(Repair_islands, of_equally_long_borders_the_lowest_number_wins) {
 }
 
 TEST(Repair_islands, an_island_behind_an_island_joins_too) {
-  // The last column knows no region but through the island before it.
+  // The last column reaches a region only through the island before it.
   Labels labels = strip_labels({2, 2, 2, 0, 0, 0, 1, 1, 1, 1, 0, 2});
   const auto repair = repair_islands(grid_graph(12, 2), labels, 3);
   EXPECT_EQ(labels, strip_labels({2, 2, 2, 0, 0, 0, 1, 1, 1, 1, 1, 1}));
@@ -139,7 +139,7 @@ TEST(Repair_islands, isolated_vertices_keep_their_label) {
   EXPECT_EQ(repair.regions, 2U);
 }
 
-TEST(Drop_regions_without_edges, closes_up_the_numbers_of_the_others) {
+TEST(Drop_regions_without_edges, renumbers_the_others_without_gaps) {
   const std::vector<Corners> faces{{0, 1, 2}, {2, 1, 3}};
   Labels labels{3, 3, 1, 1, 0, 2, 3};
   EXPECT_EQ(drop_regions_without_edges(vertex_graph(7, faces), labels, 4), 2U);

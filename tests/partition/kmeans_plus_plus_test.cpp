@@ -37,7 +37,7 @@ double distortion(const Labelling& labelling) {
 }
 
 TEST(Kmeans_plus_plus_start, takes_vectors_in_proportion_to_their_squared_distance) {
-  // Four values on a line, at 0, 1, 3 and 3: the frequencies of the second draw follow from the first.
+  // Four values on a line, at 0, 1, 3 and 3: the first draw determines the probabilities of the second.
   const Feature_vectors vectors = (Feature_vectors(4, 1) << 0, 1, 3, 3).finished();
   std::array<std::array<double, 4>, 4> drawn{};
   std::array<double, 4> first{};
@@ -83,7 +83,7 @@ TEST(Kmeans_plus_plus_start, reaches_every_cluster_of_clusters_far_apart) {
   }
 }
 
-TEST(Kmeans_plus_plus, ends_where_every_vector_is_nearest_to_the_mean_of_its_own_cell) {
+TEST(Kmeans_plus_plus, ends_with_every_vector_nearest_to_the_mean_of_its_own_cell) {
   for (const auto& mesh : {potato(8), grid(20, 15)})
     for (const std::size_t regions : {1, 2, 7, 40, 100}) {
       const auto result = labelling_of(mesh, regions);
@@ -123,7 +123,7 @@ TEST(Kmeans_plus_plus, iterations_lower_the_distortion_and_stop_at_the_limit_or_
   EXPECT_LT(stopped.iterations, last.iterations);
 }
 
-TEST(Kmeans_plus_plus, the_seed_decides) {
+TEST(Kmeans_plus_plus, depends_on_the_seed) {
   const auto mesh = potato(6);
   std::set<std::vector<Region_index>> different_labels;
   for (std::uint64_t seed = 0; seed < 10; ++seed) different_labels.insert(labelling_of(mesh, 8, {.seed = seed}).labels);
@@ -138,20 +138,21 @@ TEST(Kmeans_plus_plus, bad_options_are_refused) {
   EXPECT_THROW(labelling_of(mesh, 2, {.features = {.normal_weight = -1}}), Bad_argument);
 }
 
-TEST(Kmeans_plus_plus, a_cell_that_becomes_empty_starts_anew) {
-  // Found by search: from what seed 2 draws of these eight places, the second iteration leaves a cell empty.
+TEST(Kmeans_plus_plus, re_seeds_a_cell_that_becomes_empty) {
+  // Found by search: with the start that seed 2 draws from these eight positions, the second iteration leaves a cell
+  // empty.
   const auto mesh = mesh_of(
       {{7, 17, 0}, {12, 19, 0}, {4, 20, 0}, {2, 3, 0}, {14, 8, 0}, {8, 5, 0}, {11, 5, 0}, {19, 18, 0}}, {{0, 1, 2}});
   for (std::uint64_t seed = 0; seed < 20; ++seed)
     EXPECT_EQ(different(labelling_of(mesh, 4, {.seed = seed, .features = {.normal_weight = 0}}).labels), 4U) << seed;
 }
 
-TEST(Kmeans_plus_plus, is_in_the_registry_and_stops_there_as_lbg_does) {
+TEST(Kmeans_plus_plus, is_in_the_registry_with_the_options_of_lbg) {
   expect_in_registry(Kmeans_plus_plus{.options = {.seed = 3, .tolerance = 0.02, .features = {.normal_weight = 0.3}}},
                      {.seed = 3, .lbg = {.tolerance = 0.02, .features = {.normal_weight = 0.3}}});
 }
 
-TEST(Kmeans_plus_plus, stands_awkward_meshes) {
+TEST(Kmeans_plus_plus, divides_awkward_meshes) {
   expect_sound_on_awkward_meshes(Kmeans_plus_plus{}, as_wanted_by_position);
 }
 

@@ -19,7 +19,7 @@ Feature_vectors factor_of(const Surface_mesh& mesh) {
   return curvature_factor({numbered.graph, numbered.positions, numbered.faces});
 }
 
-TEST(Lbg_curvature, every_surface_gets_exactly_the_regions_wanted) { expect_exact_counts(Lbg_curvature{}); }
+TEST(Lbg_curvature, every_surface_gets_exactly_the_requested_regions) { expect_exact_counts(Lbg_curvature{}); }
 
 TEST(Lbg_curvature, odd_surfaces_are_labelled) { expect_odd_surfaces_labelled(Lbg_curvature{}); }
 
@@ -31,7 +31,7 @@ TEST(Lbg_curvature, the_factor_of_a_sphere_is_one_half_whatever_its_size) {
   }
 }
 
-TEST(Lbg_curvature, a_spike_counts_no_more_than_1) {
+TEST(Lbg_curvature, the_factor_of_a_spike_is_at_most_1) {
   auto mesh = sphere(10);
   mesh.point(Surface_mesh::Vertex_index(3)) = Point(40, 3, 2);
   const auto factor = factor_of(mesh);

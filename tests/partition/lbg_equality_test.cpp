@@ -28,7 +28,7 @@ Feature_vectors random_vectors(Eigen::Index count, Eigen::Index components, Rand
   return vectors;
 }
 
-/// Whole numbers below `values`: many vectors are equal, many equally far from two code vectors.
+/// Integers below `values`: many vectors are equal, many equally far from two code vectors.
 Feature_vectors lattice(Eigen::Index count, Eigen::Index components, Eigen::Index values, Random& random) {
   Feature_vectors vectors(count, components);
   for (double& value : vectors.reshaped()) value = static_cast<double>(between(0, values - 1, random));
@@ -67,7 +67,8 @@ bool equal_results(const Feature_vectors& vectors, std::size_t cells) {
   return true;
 }
 
-/// Runs `problems` problems that `make` draws from a number of vectors and of components; a failure tells its seed.
+/// Runs `problems` random problems that `make` creates for a number of vectors and of components; a failure reports its
+/// seed.
 template <class Make>
 void compare_searches(std::uint64_t problems, Eigen::Index most_vectors, Eigen::Index most_cells, Make make) {
   for (std::uint64_t seed = 1; seed <= problems; ++seed) {
@@ -113,7 +114,7 @@ TEST(Quantise, both_searches_agree_far_from_the_origin_and_at_any_scale) {
     });
 }
 
-TEST(Quantise, components_that_are_not_finite_or_too_large_are_refused) {
+TEST(Quantise, non_finite_and_too_large_components_are_refused) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Random random(1);
   const auto vectors = random_vectors(20, 3, random);

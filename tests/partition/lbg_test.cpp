@@ -119,7 +119,7 @@ TEST(Quantise, code_vectors_double_until_the_last_split) {
 }
 
 TEST(Quantise, the_last_split_takes_the_cell_with_the_largest_distortion) {
-  // One cluster has two halves 2 apart, the other is tight: a third code vector belongs to the first.
+  // One cluster has two halves 2 apart, the other is tight: the third code vector must go to the first.
   const Feature_vectors centres = (Feature_vectors(4, 2) << 21, 5, 23, 5, -20, 5, -20, 5).finished();
   const auto vectors = clusters(centres, 20);
   for (const auto split : splits) {
@@ -164,8 +164,8 @@ TEST(Quantise, more_cells_than_different_vectors_give_one_for_each) {
     }
 }
 
-TEST(Quantise, a_cell_that_becomes_empty_starts_anew) {
-  // Centred at the origin the published split makes two equal code vectors, one of which gets nothing.
+TEST(Quantise, a_cell_that_becomes_empty_is_re_seeded) {
+  // At the origin the published split gives two equal code vectors, one of which gets no vectors.
   const Feature_vectors vectors = (Feature_vectors(4, 1) << -3, -2, 2, 3).finished();
   for (const std::size_t cells : {2, 3, 4}) {
     const auto result = quantise(vectors, cells, {.split_rule = Split::multiplicative});

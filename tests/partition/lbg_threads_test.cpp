@@ -36,7 +36,7 @@ void expect_same(const Quantisation& a, const Quantisation& b) {
   }
 }
 
-/// As a Lloyd iteration would: labels, distances and sums of one call.
+/// Labels, distances and sums of one call, as in a Lloyd iteration.
 void expect_same(const Assignment& a, const Assignment& b) {
   EXPECT_EQ(a.labels, b.labels);
   EXPECT_EQ(a.squared_distances, b.squared_distances);
@@ -72,7 +72,7 @@ TEST(Quantise, gives_the_same_bits_with_either_search_where_chunks_are_many) {
     }
 }
 
-TEST(Quantise, starts_empty_cells_anew_alike_on_any_number_of_threads) {
+TEST(Quantise, re_seeds_empty_cells_in_the_same_way_on_any_number_of_threads) {
   // Symmetric around the origin: the published split leaves one of each pair of code vectors empty.
   Feature_vectors vectors = random_vectors(20000, 3, 1);
   vectors.bottomRows(10000) = -vectors.topRows(10000);
@@ -103,7 +103,7 @@ TEST(Assignment, has_the_same_sums_from_either_search_and_any_number_of_workers)
   }
 }
 
-TEST(Assignment, adds_up_every_vector_once) {
+TEST(Assignment, adds_every_vector_exactly_once) {
   for (const std::size_t count : {1, 4095, 4096, 4097, 12289}) {
     const auto vectors = random_vectors(count, 3, count);
     const Feature_vectors codes = random_vectors(9, 3, 3);
@@ -128,7 +128,7 @@ TEST(Quantise, gives_the_same_bits_on_every_instruction_set) {
   }
 }
 
-TEST(Bounded_assignment, follows_vectors_that_change_places) {
+TEST(Bounded_assignment, follows_vectors_that_are_reordered) {
   auto vectors = random_vectors(9001, 6, 4);
   const Feature_vectors codes = vectors.topRows(30);
   Bounded_assignment search(vectors);
@@ -141,7 +141,7 @@ TEST(Bounded_assignment, follows_vectors_that_change_places) {
   expect_same(bounded, plain);
 }
 
-TEST(Chunk_size, is_whole_blocks_at_most_64_of_them_and_no_more_room_than_the_vectors) {
+TEST(Chunk_size, is_at_most_64_whole_blocks_and_no_more_than_the_vectors) {
   for (const std::size_t vectors : {1U, 4096U, 4097U, 262144U, 262145U, 10000000U})
     for (const std::size_t cells : {1U, 256U, 5000U, 100000U}) {
       const auto size = chunk_size(vectors, cells);
@@ -152,7 +152,7 @@ TEST(Chunk_size, is_whole_blocks_at_most_64_of_them_and_no_more_room_than_the_ve
     }
 }
 
-TEST(Lbg, labels_a_mesh_alike_on_any_number_of_threads) {
+TEST(Lbg, gives_the_same_labels_on_any_number_of_threads) {
   const auto mesh = potato(40);
   const Mesh_numbering<Surface_mesh> numbering(mesh);
   const auto vectors = feature_vectors(read_positions(numbering, mesh.points()), numbering.corners());

@@ -36,7 +36,7 @@ TEST(Median_split, splits_the_longest_axis_first) {
   }
 }
 
-TEST(Median_split, vertices_at_the_same_place_are_split_by_number) {
+TEST(Median_split, coinciding_vertices_are_split_by_index) {
   auto mesh = grid(4, 4);
   deform(mesh, [](const Point&) { return Point(1, 1, 1); });
   const auto labels = labels_of(Median_split{}, mesh, 4);
@@ -49,7 +49,7 @@ TEST(Median_split, an_odd_vertex_stays_below) {
 
 TEST(Median_split, is_in_the_registry) { expect_in_registry(Median_split{}, {}); }
 
-TEST(Median_split, stands_awkward_meshes) {
+TEST(Median_split, divides_awkward_meshes) {
   expect_sound_on_awkward_meshes(Median_split{}, always_as_wanted);
   expect_invariant_under_translation_and_scale(Median_split{});
 }

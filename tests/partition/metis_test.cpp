@@ -12,7 +12,7 @@
 namespace lodestone {
 namespace {
 
-TEST(Metis, every_surface_gets_exactly_the_regions_wanted) { expect_exact_counts(Metis{}); }
+TEST(Metis, every_surface_gets_exactly_the_requested_regions) { expect_exact_counts(Metis{}); }
 
 TEST(Metis, odd_surfaces_are_labelled) { expect_odd_surfaces_labelled(Metis{}); }
 
@@ -39,7 +39,7 @@ TEST(Metis, a_strip_is_cut_across) {
   EXPECT_EQ(cut, 5U);
 }
 
-TEST(Metis, the_seed_alone_decides) {
+TEST(Metis, depends_only_on_the_seed) {
   const auto mesh = potato(20);
   const auto with_seed = [&](std::uint64_t seed) { return labels_of(Metis{.options = {.seed = seed}}, mesh, 24); };
   EXPECT_EQ(with_seed(5), with_seed(5));

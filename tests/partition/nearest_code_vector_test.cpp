@@ -55,7 +55,7 @@ void compare_over_iterations(const Feature_vectors& vectors, Eigen::Index codes_
   }
 }
 
-TEST(Assign_plain, takes_the_nearest_code_vector_and_the_lowest_number_of_equally_near_ones) {
+TEST(Assign_plain, takes_the_nearest_code_vector_and_the_lowest_index_of_equally_near_ones) {
   const Feature_vectors vectors = (Feature_vectors(4, 2) << 0, 0, 1, 0, 2, 0, 5, 3).finished();
   const Feature_vectors codes = (Feature_vectors(3, 2) << 2, 0, 0, 0, 2, 0).finished();
   Assignment assignment;
@@ -133,7 +133,7 @@ TEST(Bounded_assignment, follows_labels_that_its_caller_has_changed) {
     search.assign(codes, bounded);
     assign_plain(vectors, codes, plain);
     expect_equal(bounded, plain);
-    // What the repair of an empty cell does: a vector becomes a code vector, whatever that was.
+    // As in the repair of an empty cell, a vector replaces a code vector.
     const auto vector = static_cast<Eigen::Index>(random() % 300);
     const auto code = static_cast<Region_index>(random() % 25);
     codes.row(code) = vectors.row(vector);
@@ -149,7 +149,7 @@ TEST(Bounded_assignment, equals_the_plain_loop_beyond_its_limit_of_code_vectors)
     compare_over_iterations(vectors, codes, random);
 }
 
-TEST(Bounded_assignment, spares_most_distances_of_a_run_that_has_settled) {
+TEST(Bounded_assignment, skips_most_distances_after_convergence) {
   std::mt19937_64 random(8);
   const auto vectors = random_vectors(3000, 3, random);
   const auto codes = drawn(vectors, 64, random);

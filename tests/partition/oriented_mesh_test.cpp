@@ -24,7 +24,7 @@ Soup soup_of(const Surface_mesh& mesh) {
   return {numbered.positions, {numbered.faces.begin(), numbered.faces.end()}};
 }
 
-/// The corners of every face on the surface, sorted, as the mesh has them.
+/// The sorted corners of every face, as the mesh has them.
 void expect_same_faces(const Soup& soup, const Oriented_mesh& oriented, const std::vector<std::uint32_t>& kept) {
   ASSERT_TRUE(oriented.mesh.is_valid(false));
   ASSERT_EQ(oriented.mesh.number_of_vertices(), oriented.vertex_indices.size());
@@ -44,7 +44,7 @@ void expect_same_faces(const Soup& soup, const Oriented_mesh& oriented, const st
   }
 }
 
-TEST(Oriented_mesh, a_mesh_stays_as_it_is) {
+TEST(Oriented_mesh, a_manifold_oriented_mesh_is_unchanged) {
   for (const auto& mesh : {potato(4), grid(4, 3), single_triangle(), cube(2)}) {
     const auto soup = soup_of(mesh);
     const auto oriented = soup.oriented();
@@ -70,7 +70,7 @@ TEST(Oriented_mesh, two_fans_at_a_vertex_get_a_vertex_each) {
   expect_same_faces(soup, oriented, {0, 1});
 }
 
-TEST(Oriented_mesh, faces_are_turned_where_neighbours_disagree) {
+TEST(Oriented_mesh, faces_are_reversed_where_neighbours_disagree) {
   const Soup soup{Positions::Random(4, 3), {{0, 1, 2}, {0, 1, 3}}};
   const auto oriented = soup.oriented();
   EXPECT_EQ(oriented.vertex_indices.size(), 4U);  // one sheet, nothing cut
@@ -78,7 +78,7 @@ TEST(Oriented_mesh, faces_are_turned_where_neighbours_disagree) {
   EXPECT_NE(oriented.turned[0], oriented.turned[1]);
 }
 
-TEST(Oriented_mesh, a_face_with_a_corner_twice_is_left_out) {
+TEST(Oriented_mesh, a_face_with_a_repeated_corner_is_dropped) {
   const Soup soup{Positions::Random(5, 3), {{0, 0, 1}, {1, 2, 3}, {4, 4, 4}}};
   expect_same_faces(soup, soup.oriented(), {1});
   const Soup nothing{Positions::Random(2, 3), {{0, 0, 1}}};
@@ -90,7 +90,7 @@ TEST(Oriented_mesh, one_face_three_times_is_three_faces) {
   expect_same_faces(soup, soup.oriented(), {0, 1, 2});
 }
 
-TEST(Oriented_mesh, coordinates_lie_between_minus_1_and_1_whatever_their_size) {
+TEST(Oriented_mesh, coordinates_of_any_magnitude_are_scaled_to_minus_1_to_1) {
   for (const double size : {1e-300, 1.0, 1e300}) {
     auto mesh = potato(3);
     scale(mesh, size);

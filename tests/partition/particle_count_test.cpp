@@ -79,7 +79,7 @@ TEST(Sphere_collection, a_smooth_surface_is_one_sphere) {
   EXPECT_NEAR(spheres[0].radius, 2, 1e-9);
 }
 
-TEST(Sphere_collection, two_far_spheres_in_one_mesh_are_two_parts) {
+TEST(Sphere_collection, two_distant_spheres_in_one_mesh_are_two_parts) {
   auto mesh = sphere(8, 1, {0, 0, 0});
   append(mesh, sphere(8, 3, {20, 0, 0}));
   const auto spheres = spheres_of(mesh);
@@ -101,7 +101,7 @@ TEST(Sphere_collection, creases_split_a_box_into_its_six_sides) {
   }
 }
 
-TEST(Sphere_collection, keeps_no_more_parts_than_wanted_and_none_below_the_smallest) {
+TEST(Sphere_collection, keeps_at_most_the_requested_parts_and_none_below_the_smallest) {
   EXPECT_EQ(spheres_of(cube(10), {.most_parts = 4}).size(), 4U);
   auto mesh = sphere(10);
   append(mesh, sphere(1, 0.1, {5, 0, 0}));  // 6 of 408 vertices
@@ -114,7 +114,7 @@ TEST(Sphere_collection, a_surface_of_nothing_but_creases_is_one_sphere) {
   EXPECT_NEAR(spheres[0].radius, std::sqrt(3) / 2, 1e-9);
 }
 
-TEST(Sphere_collection, a_surface_without_extent_gives_a_sphere_too) {
+TEST(Sphere_collection, a_surface_without_extent_gives_a_sphere) {
   auto mesh = sphere(2);
   deform(mesh, [](const Point&) { return Point(1, 1, 1); });
   EXPECT_EQ(spheres_of(mesh).size(), 1U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every partition strategy must do with any surface.
+// Checks that every partition strategy must pass on any surface.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::vector<std::size_t> label_sizes(const Strategy& strategy, const Surface_mes
   return sizes;
 }
 
-/// Every connected surface gets exactly as many regions as are wanted, up to one per vertex.
+/// Every connected surface gets exactly the requested number of regions, up to one per vertex.
 template <class Strategy>
 void expect_exact_counts(const Strategy& strategy) {
   for (const auto& mesh : {single_triangle(), tetrahedron(), grid(9, 2), cube(3), sphere(4), potato(6)})
@@ -43,7 +43,7 @@ void expect_exact_counts(const Strategy& strategy) {
     }
 }
 
-/// A surface by its faces, which need not be a mesh.
+/// A surface as a list of faces, which need not form a mesh.
 struct Face_soup {
   Positions positions;
   std::vector<Corners> faces;
@@ -52,7 +52,7 @@ struct Face_soup {
   Numbered_surface surface() const { return {graph, positions, faces}; }
 };
 
-/// Surfaces that break what is not prepared for them.
+/// Surfaces that break careless strategies.
 inline std::vector<Face_soup> odd_surfaces() {
   std::vector<Face_soup> all;
   const auto add = [&](const Surface_mesh& mesh) {
@@ -82,10 +82,10 @@ inline std::vector<Face_soup> odd_surfaces() {
   }
   mesh = potato(4);
   mesh.point(Surface_mesh::Vertex_index(7)) = Point(1e200, 0, 0);
-  add(mesh);  // a spike beside which all else vanishes
+  add(mesh);  // a spike that dwarfs everything else
   mesh = potato(4);
   deform(mesh, [](const Point& p) { return Point(1e9 + p.x() * 1e-9, p.y() * 1e-9, p.z() * 1e-9); });
-  add(mesh);  // smaller than the spacing of numbers where it is
+  add(mesh);  // smaller than the spacing of doubles at its position
   mesh = potato(4);
   deform(mesh, [](const Point& p) { return Point(p.x(), p.y() * 1e-170, p.z() * 1e-200); });
   add(mesh);                                                                    // nearly, but not quite, a line
@@ -101,7 +101,7 @@ inline std::vector<Face_soup> odd_surfaces() {
   return all;
 }
 
-/// No surface is too odd: every vertex gets a label below V, the same each time, and `partition()` makes sound regions.
+/// On any surface, every vertex gets a label below V, the same in each run, and `partition()` makes valid regions.
 template <class Strategy>
 void expect_odd_surfaces_labelled(const Strategy& strategy) {
   std::size_t number = 0;

@@ -72,7 +72,7 @@ TEST(Partition_measures, normals_of_a_whole_sphere_deviate_as_they_do_from_any_a
   EXPECT_NEAR(m.ball_volume, 2, 0.1);
 }
 
-TEST(Partition_measures, a_larger_region_shows_in_the_balance_and_pieces_are_those_before_repair) {
+TEST(Partition_measures, the_balance_reflects_a_larger_region_and_pieces_are_counted_before_repair) {
   auto labels = halves();
   for (int v = 0; v < 24; ++v) labels[v] = v < 18 ? 0 : 1;
   auto partition = given(labels, 2);
@@ -82,7 +82,7 @@ TEST(Partition_measures, a_larger_region_shows_in_the_balance_and_pieces_are_tho
   EXPECT_DOUBLE_EQ(m.pieces_per_region, 2.5);
 }
 
-TEST(Partition_measures, do_not_depend_on_units_or_place) {
+TEST(Partition_measures, do_not_depend_on_units_or_position) {
   auto mesh = potato(6);
   const Numbered_mesh numbered(mesh);
   const Partition_input<Surface_mesh> input{mesh, numbered.numbering, numbered.graph, numbered.positions};
@@ -104,7 +104,7 @@ TEST(Partition_measures, do_not_depend_on_units_or_place) {
   }
 }
 
-TEST(Partition_measures, of_a_mesh_are_those_of_its_numbers) {
+TEST(Partition_measures, of_a_mesh_equal_those_of_its_positions_and_faces) {
   auto mesh = potato(6);
   const auto regions = mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:region").first;
   const auto result = partition(mesh, 9, regions, Lbg{});
@@ -117,7 +117,7 @@ TEST(Partition_measures, of_a_mesh_are_those_of_its_numbers) {
   EXPECT_EQ(m.pieces_per_region, expected.pieces_per_region);
 }
 
-TEST(Partition_measures, surfaces_without_extent_have_figures) {
+TEST(Partition_measures, surfaces_without_extent_have_finite_measures) {
   const auto m = measured(mesh_of({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}}), given({0, 0, 0}, 1));
   for (const double figure :
        {m.distortion, m.border_length, m.normal_deviation, m.geodesic_radius, m.box_volume, m.ball_volume})

@@ -13,7 +13,7 @@
 namespace lodestone {
 namespace {
 
-/// What a partition gives, with its labels by vertex number.
+/// The result of a partition, with its labels by vertex index.
 struct Divided {
   std::vector<Region_index> labels;
   Partition<Surface_mesh> partition;
@@ -29,7 +29,7 @@ Divided divide(const Surface_mesh& mesh, std::size_t regions, const Strategy& st
   return result;
 }
 
-/// Every vertex with edges has one region, every region has one piece and its particle.
+/// Every vertex with edges has one region; every region is connected and has its particle.
 void expect_sound(const Surface_mesh& mesh, const Divided& divided) {
   const Numbered_mesh numbered(mesh);
   const std::size_t regions = divided.partition.regions;
@@ -44,7 +44,8 @@ void expect_sound(const Surface_mesh& mesh, const Divided& divided) {
   }
 }
 
-/// Columns of equal width along x, dealt out in turn: many islands unless there are as many columns as regions.
+/// Columns of equal width along x, assigned to regions in turn: many islands unless there are as many columns as
+/// regions.
 struct Stripes {
   static constexpr std::string_view name = "stripes";
   std::size_t columns = 4;
@@ -72,7 +73,7 @@ TEST(Partition, regions_are_connected_and_not_empty) {
   }
 }
 
-TEST(Partition, islands_are_kept_if_wanted) {
+TEST(Partition, islands_are_kept_if_requested) {
   const auto mesh = grid(13, 4);
   const auto kept = divide(mesh, 2, Stripes{}, {.keep_islands = true});
   EXPECT_EQ(kept.partition.regions, 2U);
@@ -86,7 +87,7 @@ TEST(Partition, islands_are_kept_if_wanted) {
   expect_sound(mesh, repaired);
 }
 
-TEST(Partition, a_strategy_of_ones_own_decides_the_regions) {
+TEST(Partition, a_custom_strategy_determines_the_regions) {
   const auto mesh = grid(12, 5);
   const auto divided = divide(mesh, 4, Stripes{.columns = 4});
   EXPECT_EQ(divided.partition.regions, 4U);
@@ -113,10 +114,10 @@ TEST(Partition, a_particle_starts_at_the_vertex_nearest_to_the_mean_of_its_regio
     }
   };
   check(divide(mesh, 15));
-  check(divide(mesh, 6, Stripes{.columns = 6}));  // a strategy without a space of its own: position and normal
+  check(divide(mesh, 6, Stripes{.columns = 6}));  // a strategy without its own feature space: position and normal
 }
 
-TEST(Partition, more_regions_than_vertices_are_cut_down) {
+TEST(Partition, more_regions_than_vertices_are_reduced) {
   for (const std::size_t regions : {4, 5, 1000}) {
     const auto mesh = tetrahedron();
     const auto divided = divide(mesh, regions);
@@ -144,7 +145,7 @@ TEST(Partition, every_component_gets_a_region) {
   }
 }
 
-TEST(Partition, isolated_vertices_hold_no_region) {
+TEST(Partition, isolated_vertices_do_not_form_regions) {
   auto mesh = sphere(4);
   for (int i = 0; i < 10; ++i) mesh.add_vertex({100.0 + 10 * i, 0, 0});
   for (const std::size_t regions : {1, 4, 12, 1000}) expect_sound(mesh, divide(mesh, regions));
@@ -174,7 +175,7 @@ TEST(Partition, a_further_factor_changes_the_regions) {
   for (const auto v : mesh.vertices()) height[v] = mesh.point(v).y() < 2.5 ? 0 : 100;
   const Lbg with_factor{.extra_factors = factors(mesh, height)};
   const auto divided = divide(mesh, 2, with_factor);
-  // The factor outweighs all else, so that it alone decides.
+  // The factor dominates, so that it alone decides.
   for (std::uint32_t v = 0; v < 81; ++v) EXPECT_EQ(divided.labels[v] == divided.labels[0], v / 9 < 3) << v;
   EXPECT_NE(divide(mesh, 2).labels, divided.labels);
 }

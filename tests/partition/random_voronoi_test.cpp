@@ -12,7 +12,7 @@
 namespace lodestone {
 namespace {
 
-TEST(Random_vertices, are_different_and_as_many_as_wanted) {
+TEST(Random_vertices, are_distinct_and_as_many_as_requested) {
   const Numbered_mesh mesh(sphere(3));
   for (const std::size_t count : {0, 1, 5, 37, 38, 50}) {
     const auto drawn = random_vertices(mesh.graph, count, 1);
@@ -22,7 +22,7 @@ TEST(Random_vertices, are_different_and_as_many_as_wanted) {
   }
 }
 
-TEST(Random_vertices, have_edges_as_long_as_such_are_left) {
+TEST(Random_vertices, have_edges_as_long_as_any_such_vertices_are_left) {
   auto surface = sphere(1);
   for (int i = 0; i < 20; ++i) surface.add_vertex({1.0 * i, 0, 0});
   const Numbered_mesh mesh(surface);
@@ -57,7 +57,7 @@ TEST(Random_voronoi, regions_are_the_vertices_nearest_to_the_seeds) {
   }
 }
 
-TEST(Random_voronoi, the_seed_decides) {
+TEST(Random_voronoi, depends_on_the_seed) {
   const auto mesh = potato(6);
   std::set<std::vector<Region_index>> different_labels;
   for (std::uint64_t seed = 0; seed < 10; ++seed)
@@ -67,7 +67,7 @@ TEST(Random_voronoi, the_seed_decides) {
 
 TEST(Random_voronoi, is_in_the_registry) { expect_in_registry(Random_voronoi{.options = {.seed = 3}}, {.seed = 3}); }
 
-TEST(Random_voronoi, stands_awkward_meshes) {
+TEST(Random_voronoi, divides_awkward_meshes) {
   expect_sound_on_awkward_meshes(Random_voronoi{}, always_as_wanted);
   expect_invariant_under_translation_and_scale(Random_voronoi{});
 }

@@ -30,7 +30,7 @@ std::vector<std::size_t> connected_sizes(const Surface_mesh& mesh, const Labels&
   return sizes;
 }
 
-TEST(Region_count, one_region_is_split_into_any_number_of_connected_ones) {
+TEST(Region_count, one_region_is_split_into_any_number_of_connected_regions) {
   for (const auto& mesh : {sphere(6), potato(7), grid(20, 3), cube(4)})
     for (const std::size_t wanted : {1, 2, 3, 7, 12, 50}) {
       Labels labels(mesh.number_of_vertices(), 0);
@@ -51,7 +51,7 @@ TEST(Region_count, a_strip_is_cut_in_the_middle_of_its_length) {
   EXPECT_EQ(std::set<Region_index>(labels.begin(), labels.end()).size(), 4U);
 }
 
-TEST(Region_count, where_a_strip_is_does_not_change_its_cuts) {
+TEST(Region_count, the_cuts_of_a_strip_do_not_depend_on_its_position) {
   auto mesh = grid(16, 3);
   Labels at_origin(48, 0), elsewhere(48, 0);
   adjust(mesh, at_origin, 7);
@@ -115,7 +115,7 @@ TEST(Region_count, a_region_between_two_joins_the_one_it_touches_more) {
   EXPECT_EQ(labels[7], 1U);
 }
 
-TEST(Region_count, many_regions_come_down_to_any_number) {
+TEST(Region_count, many_regions_are_reduced_to_any_number) {
   const auto mesh = potato(10);
   std::mt19937 random(3);
   for (const std::size_t wanted : {1, 2, 5, 40, 200}) {
@@ -129,7 +129,7 @@ TEST(Region_count, many_regions_come_down_to_any_number) {
   }
 }
 
-TEST(Region_count, components_cannot_join) {
+TEST(Region_count, different_components_never_join) {
   Surface_mesh mesh;
   for (int i = 0; i < 4; ++i) append(mesh, sphere(2 + i, 0.3, {1.0 * i, 0, 0}));
   Labels labels(mesh.number_of_vertices());
@@ -138,7 +138,7 @@ TEST(Region_count, components_cannot_join) {
   EXPECT_EQ(connected_sizes(mesh, labels, 4).size(), 4U);
 }
 
-TEST(Region_count, a_region_in_pieces_gives_up_all_but_the_largest) {
+TEST(Region_count, a_region_in_several_pieces_keeps_only_the_largest) {
   Surface_mesh mesh = sphere(3, 1, {0, 0, 0});  // 38 vertices
   append(mesh, sphere(5, 1, {5, 0, 0}));        // 102 vertices
   Labels labels(mesh.number_of_vertices(), 0);
@@ -146,7 +146,7 @@ TEST(Region_count, a_region_in_pieces_gives_up_all_but_the_largest) {
   for (std::uint32_t v = 0; v < labels.size(); ++v) EXPECT_EQ(labels[v], v < 38 ? 0U : 1U);
 }
 
-TEST(Region_count, no_more_regions_than_vertices_with_edges) {
+TEST(Region_count, there_are_no_more_regions_than_vertices_with_edges) {
   auto mesh = tetrahedron();
   mesh.add_vertex({9, 9, 9});
   Labels labels{0, 0, 0, 0, 7};
@@ -155,7 +155,7 @@ TEST(Region_count, no_more_regions_than_vertices_with_edges) {
   EXPECT_EQ(labels[4], 0U);
 }
 
-TEST(Region_count, the_right_number_changes_only_the_gaps) {
+TEST(Region_count, with_the_right_number_only_gaps_in_the_labels_are_closed) {
   const auto mesh = grid(4, 2);
   Labels labels{3, 3, 8, 8, 3, 3, 8, 8};
   const auto result = adjust(mesh, labels, 2);
@@ -163,7 +163,7 @@ TEST(Region_count, the_right_number_changes_only_the_gaps) {
   EXPECT_EQ(result.joined + result.split, 0U);
 }
 
-TEST(Region_count, a_surface_without_extent_is_split_too) {
+TEST(Region_count, a_surface_without_extent_is_split) {
   auto mesh = potato(5);
   deform(mesh, [](const Point&) { return Point(2, 2, 2); });
   Labels labels(mesh.number_of_vertices(), 0);

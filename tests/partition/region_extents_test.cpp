@@ -13,7 +13,7 @@ namespace {
 
 const Eigen::Vector3d up(0, 0, 1);
 
-/// A numbered mesh with what `region_extent` wants to know of it.
+/// A mesh with the inputs of `region_extent`.
 struct Measured : Numbered_mesh {
   std::vector<Region_index> labels;
   std::vector<bool> border;
@@ -55,7 +55,7 @@ TEST(Region_extent, ends_where_another_region_begins) {
   EXPECT_EQ(mesh.extent(4 * 9 + 3).area(), 5 * 8);
 }
 
-TEST(Region_extent, takes_the_nearest_border_in_a_direction) {
+TEST(Region_extent, reaches_to_the_nearest_border_in_a_direction) {
   // A vertex of another region two steps to the left, to the right, above or below the home: the border is beside it.
   for (const std::uint32_t hole : {4 * 9 + 2, 4 * 9 + 6, 2 * 9 + 4, 6 * 9 + 4}) {
     Measured mesh(grid(9, 9));
@@ -77,7 +77,7 @@ TEST(Region_extent, is_zero_towards_a_border_on_which_the_home_lies) {
   for (const auto& path : extent.paths) EXPECT_EQ(path.samples.empty(), path.length == 0);
 }
 
-TEST(Region_extent, walks_along_edges) {
+TEST(Region_extent, measures_along_edges) {
   // From the centre of a 3 x 3 grid whose middle row is folded up, the border above and below is a hop of sqrt 2 away.
   auto folded = grid(3, 3);
   deform(folded, [](const Point& p) { return Point(p.x(), p.y(), p.y() == 1 ? 1 : 0); });

@@ -19,7 +19,7 @@ std::vector<Region_index> areas_of(const Surface_mesh& mesh, const Region_growin
   return flat_areas({numbered.graph, numbered.positions, numbered.faces}, options);
 }
 
-TEST(Region_growing, every_surface_gets_exactly_the_regions_wanted) { expect_exact_counts(Region_growing{}); }
+TEST(Region_growing, every_surface_gets_exactly_the_requested_regions) { expect_exact_counts(Region_growing{}); }
 
 TEST(Region_growing, odd_surfaces_are_labelled) { expect_odd_surfaces_labelled(Region_growing{}); }
 
@@ -31,7 +31,7 @@ TEST(Region_growing, the_areas_of_a_box_are_its_sides) {
   for (std::size_t f = 0; f < areas.size(); ++f) EXPECT_EQ(areas[f], f / 50);
 }
 
-TEST(Region_growing, a_bend_of_more_than_the_angle_parts_two_areas) {
+TEST(Region_growing, a_bend_above_the_angle_separates_two_areas) {
   auto mesh = grid(21, 5);
   deform(mesh, [](const Point& p) { return Point(p.x(), p.y(), 0.5 * std::max(0.0, p.x() - 10)); });  // 26.6 degrees
   const auto number_of = [&](const Region_growing_options& options) {
@@ -41,7 +41,7 @@ TEST(Region_growing, a_bend_of_more_than_the_angle_parts_two_areas) {
   EXPECT_EQ(number_of({.angle = 40, .distance = 1}), 1U);
 }
 
-TEST(Region_growing, a_distance_from_the_plane_parts_two_areas) {
+TEST(Region_growing, a_distance_from_the_plane_separates_two_areas) {
   // The step between two levels is steep but small; with a generous angle the distance alone counts.
   auto mesh = grid(21, 5);
   deform(mesh, [](const Point& p) { return Point(p.x(), p.y(), p.x() > 10.5 ? 1 : 0); });

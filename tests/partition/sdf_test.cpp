@@ -23,7 +23,7 @@ std::vector<Region_index> segments_of(const Surface_mesh& mesh, const Sdf_option
 
 std::size_t number_of(const std::vector<Region_index>& segments) { return 1 + std::ranges::max(segments); }
 
-/// The label that most vertices between two values of x have, and the share that has it.
+/// The most frequent label of the vertices between two values of x, and its share.
 std::pair<Region_index, double> most_common(const Surface_mesh& mesh, const std::vector<Region_index>& labels,
                                             double low, double high) {
   std::map<Region_index, std::size_t> counts;
@@ -37,7 +37,7 @@ std::pair<Region_index, double> most_common(const Surface_mesh& mesh, const std:
   return {best->first, static_cast<double>(best->second) / static_cast<double>(all)};
 }
 
-TEST(Sdf, every_surface_gets_exactly_the_regions_wanted) { expect_exact_counts(Sdf{}); }
+TEST(Sdf, every_surface_gets_exactly_the_requested_regions) { expect_exact_counts(Sdf{}); }
 
 TEST(Sdf, odd_surfaces_are_labelled) { expect_odd_surfaces_labelled(Sdf{}); }
 
@@ -53,7 +53,7 @@ TEST(Sdf, two_balls_and_the_bridge_between_them_are_three_regions) {
   EXPECT_GT(std::min({left_share, bridge_share, right_share}), 0.95);
 }
 
-TEST(Sdf, balls_of_unequal_size_are_apart_as_well) {
+TEST(Sdf, balls_of_unequal_size_are_separated) {
   const auto mesh = dumbbell(1, 0.6, 0.1);
   const auto labels = labels_of(Sdf{}, mesh, 3);
   const auto left = most_common(mesh, labels, -4, -1.02), right = most_common(mesh, labels, 1.02, 4);
@@ -67,7 +67,7 @@ TEST(Sdf, smoothing_decides_whether_a_border_is_worth_its_cost) {
   EXPECT_EQ(number_of(segments_of(mesh, {.smoothing = 100})), 1U);
 }
 
-TEST(Sdf, what_is_equally_thick_everywhere_is_one_segment_per_component) {
+TEST(Sdf, a_surface_of_uniform_thickness_is_one_segment_per_component) {
   EXPECT_EQ(number_of(segments_of(grid(12, 12))), 1U);  // a sheet: no ray hits anything
   EXPECT_EQ(number_of(segments_of(single_triangle())), 1U);
   auto mesh = grid(5, 5);
@@ -87,7 +87,7 @@ TEST(Sdf, the_segments_do_not_depend_on_the_unit) {
   }
 }
 
-TEST(Sdf, an_open_surface_is_taken_apart_too) {
+TEST(Sdf, an_open_surface_is_segmented) {
   // A dumbbell with the end of one ball cut off: rays leave through the hole.
   auto mesh = dumbbell(1, 1, 0.15);
   std::vector<Corners> faces;

@@ -25,7 +25,7 @@ Vertex_graph path(std::uint32_t size) {
   return {boost::edges_are_sorted, edges.begin(), edges.end(), size};
 }
 
-TEST(Spectral, every_surface_gets_exactly_the_regions_wanted) { expect_exact_counts(Spectral{}); }
+TEST(Spectral, every_surface_gets_exactly_the_requested_regions) { expect_exact_counts(Spectral{}); }
 
 TEST(Spectral, odd_surfaces_are_labelled) { expect_odd_surfaces_labelled(Spectral{}); }
 
@@ -41,7 +41,7 @@ TEST(Spectral, the_fiedler_vector_of_a_path_is_a_cosine) {
   }
 }
 
-TEST(Spectral, the_normalised_laplacian_of_a_path_has_its_own_cosine) {
+TEST(Spectral, the_normalised_laplacian_of_a_path_gives_its_known_cosine) {
   // The random walk on a path: eigenvalue 1 - cos(pi / (n - 1)), vector -cos(pi i / (n - 1)).
   for (const std::uint32_t n : {3, 30, 300}) {
     const auto fiedler = fiedler_vector(path(n), {.laplacian = Laplacian::normalised, .tolerance = 1e-9});
@@ -89,7 +89,7 @@ TEST(Spectral, between_unequal_balls_the_zero_cut_finds_the_bridge_and_the_media
   for (std::size_t v = 0; v < points.size(); ++v) positions.row(v) << points[v].x(), points[v].y(), points[v].z();
   const Face_soup soup{positions, faces};
   const auto labels = Spectral{.options = {.cut = Spectral_cut::zero}}.label(soup.surface(), 2).labels;
-  // Zero lies a little inside the larger ball, around the place of the bridge.
+  // Zero is slightly inside the larger ball, near the bridge.
   std::uint32_t strays = 0;
   for (std::uint32_t v = 0; v < labels.size(); ++v) strays += (labels[v] == labels[count]) == (v < count) ? 1 : 0;
   EXPECT_LT(strays, count / 50);
@@ -103,7 +103,7 @@ TEST(Spectral, halves_of_halves_are_of_equal_size) {
   EXPECT_LE(most - least, 1U);
 }
 
-TEST(Spectral, components_are_told_apart_before_any_is_cut) {
+TEST(Spectral, components_are_separated_before_any_is_cut) {
   Surface_mesh mesh;
   for (int i = 0; i < 4; ++i) append(mesh, sphere(3 + i, 0.3, {1.0 * i, 0, 0}));
   const auto labels = labels_of(Spectral{}, mesh, 4);

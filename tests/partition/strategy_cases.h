@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every partition strategy must stand: surfaces that are legal, and awkward.
+// Awkward but legal surfaces, which every partition strategy must handle.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ inline Surface_mesh scattered_mesh() {
   return mesh;
 }
 
-/// Legal meshes, and how many different positions their vertices have.
+/// Legal meshes, with the number of distinct positions of their vertices.
 inline std::vector<std::pair<Surface_mesh, std::size_t>> awkward_meshes() {
   auto flat = grid(7, 6);
   auto line = grid(5, 5);
@@ -63,7 +63,7 @@ inline std::vector<std::pair<Surface_mesh, std::size_t>> awkward_meshes() {
           {scattered_mesh(), 68}};
 }
 
-/// Labels are below V, numbered without gaps, at most as many as wanted, and make a partition without empty regions.
+/// Labels are below V, without gaps, at most as many as requested, and give a partition without empty regions.
 template <class Strategy>
 void expect_sound_labels(const Strategy& strategy, const Surface_mesh& mesh, std::size_t wanted) {
   const auto labels = labels_of(strategy, mesh, wanted);
@@ -98,15 +98,15 @@ void expect_sound_on_awkward_meshes(const Strategy& strategy, Expected regions_e
   }
 }
 
-/// As many regions as wanted, whatever coincides.
+/// As many regions as requested, even if vertices coincide.
 inline constexpr auto always_as_wanted = [](std::size_t wanted, std::size_t, std::size_t) { return wanted; };
 
-/// Vertices at one and the same place cannot be told apart.
+/// Coinciding vertices cannot be separated.
 inline constexpr auto as_wanted_by_position = [](std::size_t wanted, std::size_t, std::size_t positions) {
   return std::min(wanted, positions);
 };
 
-/// Under its name the registry gives the strategy that these settings describe.
+/// The registry, asked for its name, gives the strategy that these settings describe.
 template <class Strategy>
 void expect_in_registry(const Strategy& strategy, const Strategy_settings& settings) {
   const auto mesh = potato(6);

@@ -13,7 +13,7 @@
 namespace lodestone {
 namespace {
 
-TEST(Vsa, every_surface_gets_exactly_the_regions_wanted) { expect_exact_counts(Vsa{}); }
+TEST(Vsa, every_surface_gets_exactly_the_requested_regions) { expect_exact_counts(Vsa{}); }
 
 TEST(Vsa, odd_surfaces_are_labelled) { expect_odd_surfaces_labelled(Vsa{}); }
 
@@ -45,7 +45,7 @@ TEST(Vsa, a_roof_is_cut_along_its_ridge) {
   }
 }
 
-TEST(Vsa, the_way_of_seeding_does_not_change_how_many_regions_there_are) {
+TEST(Vsa, the_seeding_does_not_change_the_number_of_regions) {
   const auto mesh = potato(16);
   for (const std::size_t singles : {0, 5, 100}) {
     const auto sizes = label_sizes(Vsa{.options = {.single_insertions = singles}}, mesh, 40);

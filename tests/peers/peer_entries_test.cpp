@@ -10,7 +10,7 @@
 namespace lodestone {
 namespace {
 
-TEST(Peer_entries, entries_that_do_not_fit_into_memory_together_play_the_same_frames) {
+TEST(Peer_entries, that_do_not_fit_into_memory_together_play_the_same_frames) {
   const test::Temporary_folder folder;
   auto scene = read_scene(folder.write("two.json", R"({"frames": 6, "objects": [
       {"name": "still", "shape": {"icosphere": {"frequency": 5}}},

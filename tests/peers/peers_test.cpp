@@ -13,8 +13,8 @@
 namespace lodestone {
 namespace {
 
-/// Two deforming shapes of different size that meet, part and meet again: a knot is no convex body, and has contacts
-/// in several places.
+/// Two deforming shapes of different size that meet, separate and meet again. A knot is not convex and has contacts in
+/// several spots.
 class Two_shapes {
  public:
   Two_shapes() : meshes_{torus_knot({.segments = 60, .sides = 8}), icosphere(7)} {
@@ -51,7 +51,7 @@ std::string test_name(const Peer_kind& kind) {
 
 }  // namespace
 
-/// What a test is called by where it is listed.
+/// The name of a test in the list.
 void PrintTo(const Peer_kind& kind, std::ostream* out) {
   *out << kind.entry.library << " " << kind.entry.method << " " << kind.entry.volume;
 }
@@ -65,12 +65,12 @@ std::vector<Face_pair> sorted(std::vector<Face_pair> pairs) {
 
 class Peers : public testing::TestWithParam<Peer_kind> {
  protected:
-  /// A refitted RSS loses collisions; merged OBBs, which OBBRSS and kIOS hold too, lose single pairs.
+  /// A refitted RSS misses collisions; merged OBBs, which OBBRSS and kIOS also use, miss single pairs.
   static bool loses_some() {
     return GetParam().entry.library == "FCL" && GetParam().entry.volume != "AABB" &&
            !GetParam().entry.volume.starts_with("KDOP");
   }
-  /// Bullet takes triangles that are only near for intersecting ones.
+  /// Bullet reports near triangles as intersecting.
   static bool adds_some() { return GetParam().entry.library == "Bullet"; }
 
   void SetUp() override {
@@ -84,7 +84,7 @@ class Peers : public testing::TestWithParam<Peer_kind> {
   std::unique_ptr<Peer> peer;
 };
 
-TEST_P(Peers, say_yes_or_no_as_exhaustive_checking_does) {
+TEST_P(Peers, answer_yes_or_no_like_exhaustive_checking) {
   if (loses_some()) GTEST_SKIP() << "known to miss collisions after a refit";
   std::size_t colliding = 0;
   for (std::size_t frame = 0; frame < scene.frames; ++frame) {
@@ -121,7 +121,7 @@ TEST_P(Peers, report_the_face_pairs_that_exhaustive_checking_finds) {
   }
 }
 
-TEST_P(Peers, add_to_what_has_been_found_before) {
+TEST_P(Peers, append_to_earlier_results) {
   if (!GetParam().entry.reports_pairs) GTEST_SKIP() << "reports no face pairs";
   constexpr Face_pair before{7, 7};
   std::vector<Face_pair> found{before};

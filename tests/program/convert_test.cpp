@@ -48,7 +48,7 @@ class Convert : public testing::Test {
   const std::vector<double> all{0.25, 1.25, 2.25, 3.25, 4.25, 5.25, 6.25, 7.25, 8.25, 9.25, 10.25, 11.25};
 };
 
-TEST_F(Convert, goes_round_through_every_format) {
+TEST_F(Convert, round_trips_through_every_format) {
   convert("f*.off", "a.pc2");
   convert("a.pc2", "a.mdd");
   convert("a.mdd", "a.glb", {"--mesh", path("square.off")});
@@ -59,7 +59,7 @@ TEST_F(Convert, goes_round_through_every_format) {
     EXPECT_EQ(heights(name), all) << name;
 }
 
-TEST_F(Convert, takes_the_frames_it_is_told) {
+TEST_F(Convert, writes_only_the_requested_frames) {
   const auto expect_frames = [&](const std::string& choice, const std::vector<double>& expected) {
     convert("f*.off", "a.pc2", {"--frames", choice});
     EXPECT_EQ(heights("a.pc2"), expected) << choice;
@@ -75,7 +75,7 @@ TEST_F(Convert, takes_the_frames_it_is_told) {
   EXPECT_FALSE(exists(folder.path() / "b.pc2"));
 }
 
-TEST_F(Convert, keeps_the_time_that_passes) {
+TEST_F(Convert, keeps_the_duration) {
   convert("f*.off", "a.mdd", {"--fps", "60", "--frames", "::2"});
   EXPECT_NEAR(read_point_cache_header(path("a.mdd")).frames_per_second, 30, 1e-3);
   convert("a.mdd", "b.mdd");
@@ -97,9 +97,9 @@ TEST_F(Convert, colours_regions) {
   EXPECT_EQ(heights("a.gltf"), all);
 }
 
-TEST_F(Convert, refuses_what_makes_no_sense) {
+TEST_F(Convert, refuses_contradictory_arguments) {
   convert("f*.off", "a.pc2");
-  expect_error(run_program({"convert", path("a.pc2"), path("a.glb")}), 2, "name its mesh");
+  expect_error(run_program({"convert", path("a.pc2"), path("a.glb")}), 2, "give its mesh");
   expect_error(run_program({"convert", path("a.pc2"), path("a.mdd"), "--regions", "2"}), 2, "--regions");
   expect_error(run_program({"convert", path("f*.off"), path("a.off")}), 2, "12 frames need a pattern");
   expect_error(run_program({"convert", path("f*.off"), path("a.xyz")}), 2, "a.xyz");

@@ -96,7 +96,7 @@ class Detect : public testing::Test {
   std::filesystem::path out = folder.path() / "results" / "of" / "the" / "run";
 };
 
-TEST_F(Detect, two_meshes_that_cross_collide_and_the_output_folder_is_made) {
+TEST_F(Detect, two_meshes_that_intersect_collide_and_the_output_folder_is_created) {
   const auto result = detect({write("square.off", square_off), write("needle.off", needle(0.7, 0.2))});
   expect_success(result);
   const auto lines = frames();
@@ -132,7 +132,7 @@ TEST_F(Detect, every_mesh_format_gives_the_same_faces) {
   }
 }
 
-TEST_F(Detect, faces_are_numbered_as_in_the_file) {
+TEST_F(Detect, faces_have_their_indices_in_the_file) {
   constexpr int squares = 40;
   const auto strip = write("strip.off", backward_strip(squares));
   for (const int square : {0, 17, 39}) {
@@ -144,7 +144,7 @@ TEST_F(Detect, faces_are_numbered_as_in_the_file) {
   }
 }
 
-TEST_F(Detect, with_candidates_everywhere_all_contacts_are_those_of_exhaustive_checking) {
+TEST_F(Detect, with_candidates_everywhere_all_contacts_equal_exhaustive_checking) {
   const auto file = write_shapes();
   expect_success(detect({file, "--contacts", "all", "--collision-distance", "1000"}));
   Scene scene = read_scene(file);
@@ -227,7 +227,7 @@ TEST_F(Detect, a_point_cache_moves_its_mesh) {
   EXPECT_EQ(result["pairs"].at(0)["colliding_frames"], 4);
 }
 
-TEST_F(Detect, the_truth_stands_beside_the_answer) {
+TEST_F(Detect, the_truth_is_listed_beside_the_answer) {
   const auto scene = write_meeting_tetrahedra({2, 1, 0.5, 2, 0.25});
   const auto result = detect({scene, "--truth", "--collision-distance", "99"});
   expect_success(result);
@@ -284,7 +284,7 @@ TEST_F(Detect, points_are_where_two_faces_meet) {
     for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(points[i].at(axis), expected[i][axis], 1e-14);
 }
 
-TEST_F(Detect, the_number_of_particles_is_what_was_asked_for) {
+TEST_F(Detect, the_number_of_particles_is_the_requested_one) {
   const auto scene = write("scene.json", R"({"objects": [
     {"name": "fixed", "shape": {"icosphere": {"frequency": 6}}, "particles": 7},
     {"name": "free", "shape": {"icosphere": {"frequency": 6}}}]})");
@@ -342,7 +342,7 @@ TEST_F(Detect, growth_may_be_infinite) {
 }
 
 TEST_F(Detect, degenerate_meshes_are_legal_and_answered_exactly) {
-  // A needle of no area, one face that is a point, three faces on one edge, a vertex that stands twice, two components.
+  // A needle of zero area, a face that is a point, three faces on one edge, a duplicate vertex, two components.
   const std::vector<Sample> odd{
       {"line.off", "OFF\n3 1 0\n0.7 0.2 -1\n0.7 0.2 1\n0.7 0.2 0.5\n3 0 1 2\n"},
       {"point.off", "OFF\n1 1 0\n0.7 0.2 0\n3 0 0 0\n"},

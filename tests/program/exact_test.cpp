@@ -69,7 +69,7 @@ TEST_F(Exact, writes_the_same_bytes_for_any_number_of_threads) {
 }
 
 TEST_F(Exact, writes_the_same_bytes_where_threads_share_a_walk) {
-  // Trees of some 800 leaves, of which far more pairs are near each other than one thread looks at alone.
+  // Trees of some 800 leaves, with far more candidate pairs than one thread processes alone.
   const auto scene = write("large.json", R"({"frames": 3, "objects": [
       {"name": "left", "shape": {"icosphere": {"frequency": 62}}},
       {"name": "right", "shape": {"icosphere": {"frequency": 60}}, "motion": {"deform": [
@@ -88,7 +88,7 @@ TEST_F(Exact, writes_the_same_bytes_where_threads_share_a_walk) {
   }
 }
 
-TEST_F(Exact, says_which_object_lies_inside_which) {
+TEST_F(Exact, reports_which_object_is_inside_which) {
   expect_success(detect(write_bodies(), {"--containment"}));
   const auto first = frames().at(0);
   bool seen = false;
@@ -101,7 +101,7 @@ TEST_F(Exact, says_which_object_lies_inside_which) {
   EXPECT_TRUE(seen);
 }
 
-TEST_F(Exact, reports_faces_of_one_object_that_pass_through_each_other) {
+TEST_F(Exact, reports_faces_of_one_object_that_intersect_each_other) {
   write("folded.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0.2 0.2 -1\n0.2 0.2 1\n0.3 0.3 1\n3 0 1 2\n3 3 4 5\n");
   write("other.off", tetrahedron(9));
   expect_success(detect(write_folded(), {"--self", "--contacts", "all"}));
@@ -129,7 +129,7 @@ TEST_F(Exact, reports_faces_within_a_distance_with_their_nearest_points_and_dire
   EXPECT_EQ(pair["normals"].size(), 1U);
 }
 
-TEST_F(Exact, says_where_a_cap_cut_contacts_off) {
+TEST_F(Exact, reports_where_the_limit_dropped_contacts) {
   const auto scene = write_bodies();
   expect_success(detect(scene, {"--contacts", "all", "--most-contacts", "3"}));
   std::size_t capped = 0;
@@ -143,7 +143,7 @@ TEST_F(Exact, says_where_a_cap_cut_contacts_off) {
   EXPECT_GT(capped, 0U);
 }
 
-TEST_F(Exact, options_of_another_mode_are_refused_with_a_line) {
+TEST_F(Exact, options_of_another_mode_are_refused_in_one_line) {
   const auto scene = write_bodies();
   for (const auto& wrong : std::vector<std::vector<std::string>>{{"--within", "1"}, {"--self"}, {"--containment"}}) {
     auto arguments = wrong;
@@ -157,13 +157,13 @@ TEST_F(Exact, options_of_another_mode_are_refused_with_a_line) {
   EXPECT_NE(result.err.find("--truth"), std::string::npos) << result.err;
 }
 
-TEST_F(Exact, looks_at_a_single_mesh_by_itself) {
+TEST_F(Exact, finds_self_collisions_of_a_single_mesh) {
   const auto cross =
       write("cross.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0.2 0.2 -1\n0.2 0.2 1\n0.3 0.3 1\n3 0 1 2\n3 3 4 5\n");
   const auto bow = write("bow.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n");
   expect_success(detect(cross, {"--self", "--contacts", "all"}));
   EXPECT_EQ(frames().at(0)["pairs"][0]["faces"], Json::array({{0, 1}}));
-  // Two faces that share a vertex, which the mesh holds twice.
+  // Two faces that share a vertex, of which the mesh has two copies.
   expect_success(detect(bow, {"--self", "--contacts", "all"}));
   EXPECT_EQ(frames().at(0)["pairs"][0]["collides"], false);
   const auto alone = detect(cross, {});
@@ -171,7 +171,7 @@ TEST_F(Exact, looks_at_a_single_mesh_by_itself) {
   EXPECT_NE(alone.err.find("--self"), std::string::npos) << alone.err;
 }
 
-TEST_F(Exact, leaves_out_what_the_scene_ignores) {
+TEST_F(Exact, skips_pairs_that_the_scene_ignores) {
   write("a.off", tetrahedron(0));
   const auto objects = R"("objects": [{"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "a.off"},
                                       {"name": "c", "mesh": "a.off"}])";

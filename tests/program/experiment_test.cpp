@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "program/run_program.h"
+#include "program/score.h"
 #include "runner/experiments.h"
 #include "shared/fit.h"
-#include "program/score.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
@@ -43,7 +43,7 @@ TEST(Score, counts_frames_by_truth_and_answer) {
   EXPECT_DOUBLE_EQ(score.accuracy(), 5.0 / 7);
 }
 
-TEST(Score, is_perfect_where_there_is_nothing_to_be_wrong_about) {
+TEST(Score, is_perfect_where_nothing_collides_and_nothing_is_reported) {
   for (const auto& score : {Score(), score_of("...", "...")}) {
     EXPECT_EQ(score.recall(), 1);
     EXPECT_EQ(score.precision(), 1);
@@ -67,14 +67,14 @@ TEST(Score, a_collision_that_is_never_seen_has_no_delay) {
   EXPECT_DOUBLE_EQ(score.mean_delay(), (1.0 + 0) / 2);
 }
 
-TEST(Score, an_answer_without_a_collision_starts_none) {
+TEST(Score, a_false_positive_does_not_start_a_collision) {
   const auto score = score_of("...++", "+++.+");
   EXPECT_EQ(score.collisions(), 1U);
   EXPECT_DOUBLE_EQ(score.mean_delay(), 1);
   EXPECT_DOUBLE_EQ(score.precision(), 1.0 / 4);
 }
 
-TEST(Score, a_collision_at_the_end_counts_once_the_score_is_finished) {
+TEST(Score, a_collision_at_the_end_counts_after_finish) {
   Score score;
   add(score, first_pair, ".++", "..+");
   EXPECT_EQ(score.collisions(), 0U);
@@ -84,7 +84,7 @@ TEST(Score, a_collision_at_the_end_counts_once_the_score_is_finished) {
   EXPECT_DOUBLE_EQ(score.mean_delay(), 1);
 }
 
-TEST(Score, pairs_have_collisions_of_their_own) {
+TEST(Score, collisions_of_different_pairs_are_separate) {
   Score score;
   const std::string_view truth_1 = "+++.", answer_1 = "..+.", truth_2 = ".+++", answer_2 = "....";
   for (std::size_t i = 0; i < truth_1.size(); ++i) {
@@ -112,7 +112,7 @@ TEST(Score, finished_scores_add_up) {
   EXPECT_DOUBLE_EQ(sum.mean_delay(), (1.0 + 0) / 2);
 }
 
-TEST(Fitted_exponent, is_that_of_a_power_law) {
+TEST(Fitted_exponent, equals_that_of_a_power_law) {
   const std::vector<double> x{1, 2, 5, 17, 1000, 1e6};
   for (const double exponent : {-2.0, -0.5, 0.0, 1.0, 1.5, 3.0})
     for (const double factor : {1e-6, 1.0, 42.0}) {
@@ -138,7 +138,7 @@ TEST(Fitted_exponent, balances_errors_to_both_sides) {
 
 class Experiment_program : public testing::Test {
  protected:
-  /// Three frames in place of the three hundred that the experiment plays.
+  /// Three frames instead of the experiment's three hundred.
   void SetUp() override {
     folder.write("teapot_sphere_1.json", R"({"frames": 3, "objects": [
       {"name": "still", "shape": {"icosphere": {"frequency": 5}}},

@@ -20,7 +20,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// `text` with the first `from` replaced; it must be there.
+/// `text` with the first `from` replaced; `from` must occur.
 std::string changed(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -43,7 +43,7 @@ std::string square_cache(int frames, double last, double points = 4) {
   return bytes;
 }
 
-/// Where things stand in the binary samples.
+/// Offsets in the binary samples.
 const std::size_t ply_body = square_ply_header("binary_little_endian").size();
 const std::size_t ply_faces = ply_body + std::size_t{4} * 12;
 constexpr std::size_t stl_count = 80, stl_first_corner = 84 + 12;
@@ -52,7 +52,7 @@ class Hostile_input : public testing::Test {
  protected:
   void SetUp() override { folder.write("good.off", square_off); }
 
-  /// The program must refuse its inputs: code 3, one line that holds `part`, no result.
+  /// The program must refuse its inputs: exit code 3, one line that contains `part`, no result.
   void expect_refused(const std::vector<std::string>& inputs, const std::string& part) const {
     std::vector<std::string> arguments{"detect", "--out", out.string()};
     arguments.insert(arguments.end(), inputs.begin(), inputs.end());
@@ -83,7 +83,7 @@ class Hostile_input : public testing::Test {
 
 // Meshes
 
-TEST_F(Hostile_input, a_mesh_whose_counts_its_size_denies) {
+TEST_F(Hostile_input, a_mesh_with_counts_too_large_for_the_file_is_refused) {
   expect_refused({{"many_vertices.off", changed(square_off, "4 2 0", "4000000000 2 0")},
                   {"many_faces.off", changed(square_off, "4 2 0", "4 40000000 0")},
                   {"overflow.off", changed(square_off, "4 2 0", "18446744073709551616 2 0")},
@@ -94,16 +94,16 @@ TEST_F(Hostile_input, a_mesh_whose_counts_its_size_denies) {
                   {"huge.stl", patched<std::uint32_t>(square_binary_stl(), stl_count, {4294967295.0})}});
 }
 
-TEST_F(Hostile_input, a_mesh_that_ends_too_early) {
+TEST_F(Hostile_input, a_truncated_mesh_is_refused) {
   for (const auto& [name, bytes] : all_squares()) {
-    if (name.ends_with(".obj")) continue;  // has no counts: every beginning of one is complete
+    if (name.ends_with(".obj")) continue;  // has no counts: every prefix of such a file is complete
     const auto extension = std::filesystem::path(name).extension().string();
     expect_refused({{"half" + name, bytes.substr(0, bytes.size() / 2)},
                     {"almost" + name, bytes.substr(0, bytes.size() - (extension == ".off" ? 4 : 12))}});
   }
 }
 
-TEST_F(Hostile_input, a_face_that_refers_to_no_vertex) {
+TEST_F(Hostile_input, a_vertex_index_out_of_range_is_refused) {
   expect_refused({{"a.off", changed(square_off, "3 0 2 3", "3 0 2 4")},
                   {"negative.off", changed(square_off, "3 0 2 3", "3 0 2 -1")},
                   {"a.obj", changed(square_obj, "f 1 3 4", "f 1 3 5")},
@@ -114,7 +114,7 @@ TEST_F(Hostile_input, a_face_that_refers_to_no_vertex) {
                   {"minus.ply", patched<std::int32_t>(square_ply(std::endian::little), ply_faces + 1, {-1})}});
 }
 
-TEST_F(Hostile_input, a_coordinate_that_is_not_finite) {
+TEST_F(Hostile_input, a_non_finite_coordinate_is_refused) {
   expect_refused({{"nan.off", changed(square_off, "1 1 0", "1 nan 0")},
                   {"inf.off", changed(square_off, "1 1 0", "1 inf 0")},
                   {"large.off", changed(square_off, "1 1 0", "1 1e999 0")},
@@ -126,7 +126,7 @@ TEST_F(Hostile_input, a_coordinate_that_is_not_finite) {
                   {"binary.stl", patched<float>(square_binary_stl(), stl_first_corner, {not_a_number})}});
 }
 
-TEST_F(Hostile_input, a_face_that_is_no_triangle) {
+TEST_F(Hostile_input, a_face_that_is_not_a_triangle_is_refused) {
   expect_refused({{"a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
                   {"two.off", changed(square_off, "3 0 2 3", "2 0 2 3")},
                   {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"},
@@ -134,7 +134,7 @@ TEST_F(Hostile_input, a_face_that_is_no_triangle) {
                   {"binary.ply", patched<std::uint8_t>(square_ply(std::endian::little), ply_faces, {255})}});
 }
 
-TEST_F(Hostile_input, a_mesh_without_anything) {
+TEST_F(Hostile_input, a_mesh_without_faces_is_refused) {
   expect_refused({{"no.off", ""},
                   {"no.obj", ""},
                   {"no.ply", ""},
@@ -147,7 +147,7 @@ TEST_F(Hostile_input, a_mesh_without_anything) {
                   {"b.stl", std::string(84, '\0')}});
 }
 
-TEST_F(Hostile_input, a_file_that_is_something_else) {
+TEST_F(Hostile_input, a_file_of_another_kind_is_refused) {
   expect_refused({{"a.off", square_obj},
                   {"a.obj", square_binary_stl()},
                   {"a.ply", square_off},
@@ -159,7 +159,7 @@ TEST_F(Hostile_input, a_file_that_is_something_else) {
                   {"zeros.ply", std::string(10000, '\0')}});
 }
 
-TEST_F(Hostile_input, whole_numbers_as_coordinates_are_read_right) {
+TEST_F(Hostile_input, integer_coordinates_are_read_correctly) {
   const auto file = folder.write(
       "whole.ply",
       changed(changed(changed(square_ply(), "float x", "int x"), "float y", "short y"), "float z", "uchar z"));
@@ -169,7 +169,7 @@ TEST_F(Hostile_input, whole_numbers_as_coordinates_are_read_right) {
   EXPECT_EQ(read_json_lines(out / "frames.jsonl").at(0)["pairs"].at(0)["faces"], nlohmann::json({{0, 0}}));
 }
 
-TEST_F(Hostile_input, a_missing_file_and_a_folder_in_place_of_one) {
+TEST_F(Hostile_input, a_missing_file_and_a_folder_are_refused) {
   const auto good = (folder.path() / "good.off").string();
   create_directory(folder.path() / "folder.off");
   create_directory(folder.path() / "folder.json");
@@ -180,7 +180,7 @@ TEST_F(Hostile_input, a_missing_file_and_a_folder_in_place_of_one) {
   for (const auto* name : {"none.json", "folder.json"}) expect_refused({(folder.path() / name).string()}, name);
 }
 
-TEST_F(Hostile_input, pipes_devices_and_circles_of_links) {
+TEST_F(Hostile_input, pipes_devices_and_cyclic_links_are_refused) {
   const auto good = (folder.path() / "good.off").string();
   for (const std::string extension : {".off", ".json"}) {
     const auto pipe = folder.path() / ("pipe" + extension), zero = folder.path() / ("zero" + extension),
@@ -197,12 +197,12 @@ TEST_F(Hostile_input, pipes_devices_and_circles_of_links) {
   }
 }
 
-TEST_F(Hostile_input, a_name_of_several_lines_is_told_in_one) {
+TEST_F(Hostile_input, a_file_name_of_several_lines_is_reported_on_one) {
   const auto file = folder.write("two\nlines.off", "rubbish");
   expect_refused({file.string(), file.string()}, "two?lines.off:1: ");
 }
 
-TEST_F(Hostile_input, a_name_longer_than_the_system_allows) {
+TEST_F(Hostile_input, a_file_name_longer_than_the_system_allows_is_refused) {
   const std::string name(300, 'x');
   expect_refused({name + ".off", (folder.path() / "good.off").string()}, name);
   expect_refused({name + ".json"}, name);
@@ -210,14 +210,14 @@ TEST_F(Hostile_input, a_name_longer_than_the_system_allows) {
 
 // Motions
 
-TEST_F(Hostile_input, not_a_number_in_a_later_frame_leaves_no_result) {
+TEST_F(Hostile_input, nan_in_a_later_frame_leaves_no_result) {
   for (const double bad : {not_a_number, infinite}) {
     folder.write("bad.pc2", square_cache(50, bad));
     expect_scene_refused(scene_with(R"("mesh": "good.off", "motion": {"pc2": "bad.pc2"})"), "bad.pc2: frame 49, ");
   }
 }
 
-TEST_F(Hostile_input, the_frames_before_a_bad_one_are_fine) {
+TEST_F(Hostile_input, the_frames_before_a_bad_one_can_be_used) {
   folder.write("bad.pc2", square_cache(50, not_a_number));
   const auto file = folder.write("scene.json", R"({"frames": 49, "objects": [{"name": "good", "mesh": "good.off"},
     {"name": "bad", "mesh": "good.off", "motion": {"pc2": "bad.pc2"}}]})");
@@ -225,7 +225,7 @@ TEST_F(Hostile_input, the_frames_before_a_bad_one_are_fine) {
   EXPECT_EQ(read_json_lines(out / "frames.jsonl").size(), 49U);
 }
 
-TEST_F(Hostile_input, a_point_cache_that_does_not_fit) {
+TEST_F(Hostile_input, a_point_cache_that_does_not_match_its_mesh_is_refused) {
   const auto whole = square_cache(3, 0);
   for (const auto& bytes :
        {std::string(), std::string("POINTCACHE2"), "X" + whole.substr(1), whole.substr(0, 20),
@@ -239,7 +239,7 @@ TEST_F(Hostile_input, a_point_cache_that_does_not_fit) {
   expect_scene_refused(scene_with(R"("mesh": "good.off", "motion": {"pc2": "bad.pc2"})"), "bad.pc2");
 }
 
-TEST_F(Hostile_input, a_mesh_sequence_that_changes_or_breaks_off) {
+TEST_F(Hostile_input, a_mesh_sequence_that_changes_or_is_incomplete_is_refused) {
   const std::string scene =
       scene_with(R"("mesh": "good.off", "motion": {"sequence": {"pattern": "f#.off", "first": 0, "last": 3}})");
   for (int i = 0; i < 4; ++i) folder.write("f" + std::to_string(i) + ".off", square_off);
@@ -255,13 +255,13 @@ TEST_F(Hostile_input, a_mesh_sequence_that_changes_or_breaks_off) {
 
 // Scenes
 
-TEST_F(Hostile_input, a_key_that_no_scene_has) {
+TEST_F(Hostile_input, an_unknown_key_in_a_scene_is_refused) {
   expect_scene_refused(R"({"objcts": []})", R"(unknown key "objcts")");
   expect_scene_refused(scene_with(R"("mesh": "good.off", "colour": 3)"), R"(/objects/1: unknown key "colour")");
   expect_scene_refused(scene_with(R"("mesh": "good.off", "motion": {"pc": "a.pc2"})"), R"(unknown key "pc")");
 }
 
-TEST_F(Hostile_input, a_path_that_leaves_the_folder_of_the_scene) {
+TEST_F(Hostile_input, a_path_that_leaves_the_folder_of_the_scene_is_refused) {
   const Temporary_folder other;
   const auto outside = other.write("outside.off", square_off).string();
   create_symlink(outside, folder.path() / "link.off");
@@ -272,7 +272,7 @@ TEST_F(Hostile_input, a_path_that_leaves_the_folder_of_the_scene) {
     expect_scene_refused(scene_with(R"("mesh": ")" + path + "\""), "is not inside the scene's folder");
 }
 
-TEST_F(Hostile_input, a_scene_that_is_no_json) {
+TEST_F(Hostile_input, a_scene_that_is_not_json_is_refused) {
   for (const std::string text : {"", "{", "nonsense", "[]", "null", "3", R"({"objects": [}])", "{\"name\": \"\xff\"}",
                                  R"({"objects": 1e999})", "\xef\xbb\xbf", R"({"objects": [], "objects": []})"})
     expect_scene_refused(text, "scene.json");
@@ -283,7 +283,7 @@ TEST_F(Hostile_input, a_scene_that_is_no_json) {
   expect_scene_refused(keys, "deeper");
 }
 
-TEST_F(Hostile_input, a_number_out_of_range) {
+TEST_F(Hostile_input, a_number_out_of_range_is_refused) {
   for (const auto* frames : {"0", "-1", "1.5", "1e9", "1000000000", "99999999999999999999", "\"3\"", "null"})
     expect_scene_refused(
         std::string(R"({"frames": )") + frames + R"(, "objects": [{"name": "a", "mesh": "good.off"}]})", "/frames");
@@ -295,7 +295,7 @@ TEST_F(Hostile_input, a_number_out_of_range) {
                        "");
 }
 
-TEST_F(Hostile_input, a_name_that_is_taken_or_no_name) {
+TEST_F(Hostile_input, a_duplicate_empty_or_unprintable_name_is_refused) {
   expect_scene_refused(R"({"objects": [{"name": "a", "mesh": "good.off"}, {"name": "a", "mesh": "good.off"}]})",
                        "taken");
   expect_scene_refused(R"({"objects": [{"name": "", "mesh": "good.off"}]})", "name");
@@ -311,7 +311,7 @@ TEST_F(Hostile_input, a_broken_mesh_in_a_scene_is_named) {
 
 // Command lines
 
-TEST_F(Hostile_input, a_command_line_that_makes_no_sense) {
+TEST_F(Hostile_input, an_invalid_command_line_is_refused) {
   const auto good = (folder.path() / "good.off").string();
   const std::vector<std::vector<std::string>> wrong{{},
                                                     {"frobnicate"},
@@ -342,7 +342,7 @@ TEST_F(Hostile_input, a_command_line_that_makes_no_sense) {
   }
 }
 
-TEST_F(Hostile_input, a_distance_that_is_none) {
+TEST_F(Hostile_input, an_invalid_distance_is_refused) {
   const auto good = (folder.path() / "good.off").string();
   for (const auto* option : {"--collision-distance", "--growth"})
     for (const auto* value : {"nan", "-nan", "0", "-1", "-inf", "far"}) {
@@ -355,7 +355,7 @@ TEST_F(Hostile_input, a_distance_that_is_none) {
   expect_error(run_program({"detect", good, good, "--collision-distance", "inf"}), 2, "finite");
 }
 
-TEST_F(Hostile_input, the_words_of_an_option_are_told) {
+TEST_F(Hostile_input, an_invalid_option_value_is_refused_with_the_valid_ones) {
   const auto good = (folder.path() / "good.off").string();
   expect_error(run_program({"detect", good, good, "--mode", "guess"}), 2, "particles or senin, found 'guess'");
   expect_error(run_program({"detect", good, good, "--particles", "1000001"}), 2, "1000001 not in range 0 to 1000000");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pages that the program writes, taken apart again.
+// The pages that the program writes, decoded.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,7 +72,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-TEST_F(Html, numbers_are_those_of_the_results_byte_by_byte) {
+TEST_F(Html, numbers_equal_those_of_the_results_byte_for_byte) {
   const std::vector<std::vector<std::string>> runs{
       {}, {"--truth"}, {"--mode", "senin"}, {"--contacts", "first", "--points"}, {"--mode", "exact", "--normals"}};
   for (const auto& options : runs) {
@@ -85,14 +85,14 @@ TEST_F(Html, numbers_are_those_of_the_results_byte_by_byte) {
   }
 }
 
-TEST_F(Html, the_results_are_those_of_a_run_without_a_page_that_asks_for_all_contacts) {
+TEST_F(Html, the_results_equal_those_of_a_run_without_a_page_for_all_contacts) {
   detect({"--out", out.string()});
   const auto with = read_bytes(out / "frames.jsonl");
   expect_success(run_program({"detect", bodies_file(), "--contacts", "all", "--out", out.string()}));
   EXPECT_EQ(read_bytes(out / "frames.jsonl"), with);
 }
 
-TEST_F(Html, the_same_run_gives_the_same_page_but_for_times) {
+TEST_F(Html, the_same_run_gives_the_same_page_except_for_times) {
   for (const auto* mode : {"particles", "exact", "senin"}) {
     const auto first = detect({"--mode", mode}), second = detect({"--mode", mode});
     auto head = first.header, other_head = second.header;
@@ -102,7 +102,7 @@ TEST_F(Html, the_same_run_gives_the_same_page_but_for_times) {
   }
 }
 
-TEST_F(Html, objects_are_where_the_scene_has_them) {
+TEST_F(Html, objects_have_the_positions_of_the_scene) {
   const auto file = bodies_file();
   const auto shown = detect();
   EXPECT_EQ(shown.header["kind"], "detect");
@@ -130,7 +130,7 @@ TEST_F(Html, objects_are_where_the_scene_has_them) {
   }
 }
 
-TEST_F(Html, no_name_breaks_out_of_its_place) {
+TEST_F(Html, names_cannot_inject_markup) {
   detect();
   const auto html = read_bytes(page);
   EXPECT_NE(html.find("<title>bodies &lt;&amp;&gt; &quot;more&quot;"), std::string::npos);
@@ -194,7 +194,7 @@ std::set<std::array<std::size_t, 4>> faces_of(const Json& contacts) {
   return faces;
 }
 
-TEST_F(Html, contacts_of_mode_exact_are_those_of_exhaustive_checking_and_lie_on_both_faces) {
+TEST_F(Html, contacts_of_mode_exact_equal_exhaustive_checking_and_lie_on_both_faces) {
   const auto file = bodies_file();
   const auto shown = detect({"--mode", "exact"});
   EXPECT_EQ(shown.header["candidates"], nullptr);
@@ -228,7 +228,7 @@ TEST_F(Html, contacts_of_mode_exact_are_those_of_exhaustive_checking_and_lie_on_
   EXPECT_GT(found, 10U);
 }
 
-TEST_F(Html, contacts_are_those_that_were_asked_for) {
+TEST_F(Html, contacts_are_those_that_were_requested) {
   EXPECT_EQ(detect({"--contacts", "yes_no"}).header["contacts"], nullptr);
   const auto first = detect({"--contacts", "first"}).json_section("contacts");
   std::size_t most = 0;
@@ -236,7 +236,7 @@ TEST_F(Html, contacts_are_those_that_were_asked_for) {
   EXPECT_EQ(most, 1U);
 }
 
-TEST_F(Html, faces_that_overlap_in_a_plane_meet_in_the_sides_of_a_polygon) {
+TEST_F(Html, coplanar_faces_are_marked_by_the_sides_of_their_common_polygon) {
   const auto a = write("a.off", "OFF\n3 1 0\n0 0 0\n4 0 0\n0 4 0\n3 0 1 2\n");
   const auto b = write("b.off", "OFF\n3 1 0\n1 1 0\n-3 1 0\n1 -3 0\n3 0 1 2\n");
   const auto contacts = page_of({"detect", a, b, "--mode", "exact"}).json_section("contacts");
@@ -251,7 +251,7 @@ TEST_F(Html, faces_that_overlap_in_a_plane_meet_in_the_sides_of_a_polygon) {
   EXPECT_EQ(corners, (std::set<std::pair<double, double>>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
 }
 
-TEST_F(Html, the_truth_is_that_of_exhaustive_checking_in_every_mode) {
+TEST_F(Html, the_truth_equals_exhaustive_checking_in_every_mode) {
   const auto file = bodies_file();
   std::vector<bool> truth;
   Scene scene = read_scene(file);
@@ -283,7 +283,7 @@ TEST_F(Html, the_truth_is_that_of_exhaustive_checking_in_every_mode) {
   }
 }
 
-TEST_F(Html, nearest_is_the_distance_of_the_two_objects_that_are_nearest) {
+TEST_F(Html, nearest_is_the_distance_of_the_two_nearest_objects) {
   // Each reaches from a face in the plane x = 0 to a tip at x = 1, and is moved along the x-axis.
   const std::vector<std::string> arguments{"detect", write("a.off", tetrahedron()), write("b.off", tetrahedron(7)),
                                            write("c.off", tetrahedron(3)), write("d.off", tetrahedron(9))};
@@ -291,14 +291,14 @@ TEST_F(Html, nearest_is_the_distance_of_the_two_objects_that_are_nearest) {
   EXPECT_DOUBLE_EQ(stages.at(0)["nearest"].get<double>(), 1);  // from the tip of b to d
 }
 
-TEST_F(Html, a_single_object_is_near_to_nothing) {
+TEST_F(Html, a_single_object_has_no_nearest_distance) {
   const auto file = write("one.json", R"({"objects": [{"name": "a", "shape": {"icosphere": {"frequency": 3}}}]})");
   const auto stages = page_of({"detect", file, "--mode", "exact", "--self"}).json_section("stages");
   EXPECT_EQ(stages.at(0)["nearest"], nullptr);
   EXPECT_EQ(stages.at(0)["positive"], false);
 }
 
-TEST_F(Html, objects_that_the_scene_ignores_are_not_near_each_other) {
+TEST_F(Html, pairs_that_the_scene_ignores_do_not_count_as_nearest) {
   write("a.off", tetrahedron());
   const std::string objects = R"({"objects": [{"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "a.off"}])";
   const auto positive = [&](const std::string& ignored) {
@@ -311,7 +311,7 @@ TEST_F(Html, objects_that_the_scene_ignores_are_not_near_each_other) {
   EXPECT_FALSE(positive(R"(, "ignore": [["b", "a"]])"));
 }
 
-TEST_F(Html, holds_no_more_frames_than_wanted) {
+TEST_F(Html, has_no_more_frames_than_requested) {
   const auto shown = detect({"--html-frames", "4", "--out", out.string()});
   EXPECT_EQ(shown.header["frames"], 4);
   EXPECT_EQ(shown.header["frame_step"], 3);
@@ -328,23 +328,23 @@ TEST_F(Html, holds_no_more_frames_than_wanted) {
     EXPECT_NEAR(last[3 * v], scene.objects[0].mesh.point(v).x(), 1e-3);
 }
 
-TEST_F(Html, says_what_was_written) {
+TEST_F(Html, reports_what_was_written) {
   const auto all = run_program({"detect", bodies_file(), "--html", page.string()});
   EXPECT_NE(all.out.find("page: " + page.string() + ", "), std::string::npos) << all.out;
   EXPECT_EQ(all.out.find("--html-frames"), std::string::npos) << all.out;
   const auto some = run_program({"detect", bodies_file(), "--html", page.string(), "--html-frames", "5"});
-  EXPECT_NE(some.out.find("5 of 10 frames: the first of every 2 (see --html-frames)\n"), std::string::npos) << some.out;
+  EXPECT_NE(some.out.find("5 of 10 frames: one of every 2 (see --html-frames)\n"), std::string::npos) << some.out;
   EXPECT_EQ(run_program({"detect", bodies_file(), "--html", page.string(), "--quiet"}).out, "");
 }
 
-TEST_F(Html, of_the_papers_pair_is_small) {
+TEST_F(Html, of_the_paper_s_pair_is_small) {
   const auto shown = page_of({"detect", LODESTONE_DATA "/scenes/teapot_sphere_1.json", "--particles", "32"});
   EXPECT_EQ(shown.header["frames"], 300);
   EXPECT_EQ(shown.header["frame_step"], 1);
   EXPECT_LT(file_size(page), 15'000'000U);
 }
 
-TEST_F(Html, of_a_partition_shows_its_regions_and_where_they_begin) {
+TEST_F(Html, of_a_partition_shows_regions_and_particles) {
   const auto mesh = write("square.off", square_off), json = (folder.path() / "statistics.json").string();
   const auto shown = page_of({"partition", mesh, "--regions", "2", "--json", json});
   const auto statistics = read_json(json);
@@ -389,7 +389,7 @@ void write_small_scenes(const Temporary_folder& folder) {
         {"path": "linear", "way_points": [{"frame": 0, "at": [2.5, 0, 0]}, {"frame": 2, "at": [1.6, 0, 0]}]}}]}}]})");
 }
 
-TEST_F(Html, of_an_experiment_holds_its_report_and_its_plots_with_their_data) {
+TEST_F(Html, of_an_experiment_has_its_report_and_its_plots_with_their_data) {
   write_small_scenes(folder);
   const auto shown = page_of({"experiment", "modes", "--scenes", folder.path().string(), "--out", out.string()});
   EXPECT_EQ(shown.header["kind"], "experiment");
@@ -409,7 +409,7 @@ TEST_F(Html, of_an_experiment_holds_its_report_and_its_plots_with_their_data) {
       EXPECT_TRUE(row.contains(Json::json_pointer(field))) << field;
 }
 
-TEST_F(Html, of_an_experiment_without_plots_holds_its_report) {
+TEST_F(Html, of_an_experiment_without_plots_has_its_report) {
   write_small_scenes(folder);
   const auto shown =
       page_of({"experiment", "collision_distance", "--scenes", folder.path().string(), "--out", out.string()});
@@ -417,7 +417,7 @@ TEST_F(Html, of_an_experiment_without_plots_holds_its_report) {
   EXPECT_EQ(shown.header["plots"], Json::array());
 }
 
-TEST_F(Html, a_name_that_is_no_page_is_refused) {
+TEST_F(Html, a_name_that_does_not_end_in_html_is_refused) {
   const auto mesh = write("square.off", square_off);
   for (const std::string& target : {mesh, (folder.path() / "page").string(), (folder.path() / "a.json").string()}) {
     expect_error(run_program({"partition", mesh, "--html", target}), 2, ".html");
@@ -429,12 +429,13 @@ TEST_F(Html, a_name_that_is_no_page_is_refused) {
   EXPECT_EQ(content_of(folder.path()), std::set<std::string>{"square.off"});
 }
 
-TEST_F(Html, a_page_in_the_place_of_another_result_is_refused) {
+TEST_F(Html, a_page_with_the_path_of_another_result_is_refused) {
   const auto mesh = write("square.off", square_off);
   const auto there = folder.path() / "here" / ".." / "page.html", here = folder.path() / "page.html";
   create_directory(folder.path() / "here");
-  expect_error(run_program({"partition", mesh, "--html", here.string(), "--json", there.string()}), 2, "a file each");
-  expect_error(run_program({"detect", mesh, mesh, "--html", here.string(), "--out", there.string()}), 2, "a file each");
+  expect_error(run_program({"partition", mesh, "--html", here.string(), "--json", there.string()}), 2, "the same file");
+  expect_error(run_program({"detect", mesh, mesh, "--html", here.string(), "--out", there.string()}), 2,
+               "the same file");
   EXPECT_EQ(content_of(folder.path()), (std::set<std::string>{"here", "square.off"}));
 }
 
@@ -444,7 +445,7 @@ TEST_F(Html, a_limit_of_frames_needs_a_page) {
                "--html-frames");
 }
 
-TEST_F(Html, a_place_that_cannot_be_written_is_an_error_before_the_run) {
+TEST_F(Html, a_path_that_cannot_be_written_is_an_error_before_the_run) {
   const auto file = folder.write("file", "mine");
   const auto mesh = write("square.off", square_off);
   for (const std::string& target : {(file / "page.html").string(), std::string("/proc/lodestone/page.html")}) {
@@ -469,7 +470,7 @@ TEST_F(Html, a_full_disk_leaves_nothing) {
   EXPECT_EQ(content_of(page.parent_path()), std::set<std::string>{});
 }
 
-TEST_F(Html, a_bad_input_leaves_the_old_page) {
+TEST_F(Html, a_bad_input_keeps_the_old_page) {
   detect();
   const auto old = read_bytes(page);
   const auto bad = write("bad.off", "OFF\n");
@@ -479,7 +480,7 @@ TEST_F(Html, a_bad_input_leaves_the_old_page) {
   EXPECT_EQ(content_of(page.parent_path()), std::set<std::string>{"page.html"});
 }
 
-TEST(Html_without_a_viewer, is_an_error_that_says_why) {
+TEST(Html_without_a_viewer, is_an_error_that_states_the_reason) {
   if (LODESTONE_HAS_VIEWER) GTEST_SKIP() << "the program has the viewer";
   const Temporary_folder folder;
   const auto mesh = folder.write("square.off", square_off).string(), page = (folder.path() / "page.html").string();

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The square with a triangle through it, a vertex too many, a vertex twice, and a face without area.
+/// The square with a triangle through it, an unused vertex, a duplicate vertex, and a zero-area face.
 const std::string trouble =
     "OFF\n9 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.7 0.2 -1\n0.7 0.2 1\n0.8 0.2 1\n5 5 5\n0 0 0\n"
     "3 0 1 2\n3 0 2 3\n3 4 5 6\n3 0 8 1\n";
@@ -36,7 +36,7 @@ class Info : public testing::Test {
   Temporary_folder folder;
 };
 
-TEST_F(Info, of_a_mesh_tells_what_may_be_wrong_with_it) {
+TEST_F(Info, of_a_mesh_reports_its_defects) {
   const Json found = info({write("a.off", trouble)});
   EXPECT_EQ(found["kind"], "mesh");
   EXPECT_EQ(found["frames"], 1);
@@ -54,14 +54,14 @@ TEST_F(Info, of_a_mesh_tells_what_may_be_wrong_with_it) {
   EXPECT_EQ(object["box"], Json({{0, 0, -1}, {1, 1, 1}}));
 }
 
-TEST_F(Info, as_text_says_the_same) {
+TEST_F(Info, as_text_reports_the_same) {
   const auto result = run_program({"info", write("a.off", trouble)});
   expect_success(result);
   for (const std::string part : {"a.off", "open", "degenerate faces", "(0 0 -1) to (1 1 1)"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
 }
 
-TEST_F(Info, of_a_closed_one) {
+TEST_F(Info, of_a_closed_mesh_reports_that_it_is_closed) {
   const Json object = info({write("a.off", tetrahedron())})["objects"].at(0);
   EXPECT_EQ(object["closed"], true);
   EXPECT_EQ(object["self_intersections"], 0);
@@ -76,7 +76,7 @@ TEST_F(Info, faces_that_meet_in_an_edge_of_three_do_not_intersect) {
   EXPECT_EQ(object["self_intersections"], 0);
 }
 
-TEST_F(Info, of_a_point_cache_with_and_without_its_mesh) {
+TEST_F(Info, reads_a_point_cache_with_and_without_its_mesh) {
   const auto cache =
       write("a.mdd", packed<std::int32_t>({2, 4}, std::endian::big) + packed<float>({0, 0.04}, std::endian::big) +
                          packed<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 7}, std::endian::big) +
@@ -93,7 +93,7 @@ TEST_F(Info, of_a_point_cache_with_and_without_its_mesh) {
   EXPECT_EQ(both["objects"][0]["box"], alone["objects"][0]["box"]);
 }
 
-TEST_F(Info, of_a_sequence_a_gltf_file_and_a_scene) {
+TEST_F(Info, reads_a_sequence_a_gltf_file_and_a_scene) {
   write("f1.off", square_off);
   write("f2.off", square_off);
   EXPECT_EQ(info({(folder.path() / "f*.off").string()})["frames"], 2);
@@ -111,7 +111,7 @@ TEST_F(Info, of_a_sequence_a_gltf_file_and_a_scene) {
   EXPECT_EQ(scene["objects"][1]["closed"], true);
 }
 
-TEST_F(Info, of_what_cannot_be_read_is_an_error) {
+TEST_F(Info, of_an_unreadable_file_is_an_error) {
   expect_error(run_program({"info", write("a.off", "rubbish")}), 3, "a.off:1: ");
   expect_error(run_program({"info", write("a.glb", "glTF")}), 3, "a.glb: byte 4");
   expect_error(run_program({"info", write("a.mdd", "rubbish")}), 3, "a.mdd");

@@ -109,7 +109,7 @@ TEST_F(Program_output, a_folder_in_place_of_a_result_is_an_error) {
   }
 }
 
-TEST_F(Program_output, a_folder_that_cannot_be_made_is_an_error) {
+TEST_F(Program_output, a_folder_that_cannot_be_created_is_an_error) {
   create_symlink("circle", folder.path() / "circle");
   for (const auto& target : {std::string("/proc/lodestone"), std::string("/dev/null"), std::string(300, 'x'),
                              std::string(5000, 'x'), (folder.path() / "circle").string()}) {
@@ -118,14 +118,14 @@ TEST_F(Program_output, a_folder_that_cannot_be_made_is_an_error) {
   }
 }
 
-TEST_F(Program_output, a_standard_output_that_is_full_is_an_error) {
+TEST_F(Program_output, a_full_standard_output_is_an_error) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   expect_error(run_program({"detect", scene(3)}, {.standard_output = "/dev/full"}), 4, "standard output");
   expect_error(run_program({"partition", (folder.path() / "a.off").string()}, {.standard_output = "/dev/full"}), 4,
                "standard output");
 }
 
-TEST_F(Program_output, a_signal_ends_the_run_and_leaves_nothing_half_written) {
+TEST_F(Program_output, a_signal_ends_the_run_and_leaves_no_partial_file) {
   const auto input = scene(1'000'000);
   for (const int signal : {SIGINT, SIGTERM})
     for (const bool old : {false, true}) {

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A tetrahedron that comes from x = 3 to x = 0.25, where it meets another that stands.
+/// A tetrahedron that moves from x = 3 to x = 0.25, where it meets another that rests.
 class Paraview : public testing::Test {
  protected:
   Paraview() {
@@ -39,7 +39,7 @@ class Paraview : public testing::Test {
   std::filesystem::path scene, out = folder.path() / "out";
 };
 
-TEST_F(Paraview, lists_hold_every_frame_with_its_time) {
+TEST_F(Paraview, lists_have_every_frame_with_its_time) {
   detect({});
   EXPECT_EQ(content_of(out), (std::set<std::string>{"frames", "meshes.pvd", "particles.pvd", "contacts.pvd"}));
   EXPECT_EQ(content_of(out / "frames").size(), 9U);
@@ -53,7 +53,7 @@ TEST_F(Paraview, lists_hold_every_frame_with_its_time) {
   }
 }
 
-TEST_F(Paraview, meshes_carry_objects_regions_and_particles) {
+TEST_F(Paraview, meshes_have_objects_regions_and_particles) {
   detect({"--particles", "2"});
   const auto found = read_vtk({frame("meshes_0000"), frame("meshes_0002"), frame("particles_0000")});
   const Json& first = found[0];
@@ -127,7 +127,7 @@ TEST_F(Paraview, a_run_that_fails_leaves_nothing) {
   EXPECT_EQ(content_of(out), std::set<std::string>{});
 }
 
-TEST_F(Paraview, a_folder_that_cannot_be_made_is_an_error) {
+TEST_F(Paraview, a_folder_that_cannot_be_created_is_an_error) {
   const auto file = folder.write("file", "");
   expect_error(run_program({"detect", scene.string(), "--paraview", (file / "out").string()}), 4, "file");
   expect_error(run_program({"detect", scene.string(), "--paraview", ""}), 2, "");

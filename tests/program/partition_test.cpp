@@ -44,7 +44,7 @@ class Partition_program : public testing::Test {
   std::filesystem::path ply = folder.path() / "new" / "coloured.ply", json = folder.path() / "new" / "stats.json";
 };
 
-TEST_F(Partition_program, writes_a_mesh_of_equal_counts_and_places) {
+TEST_F(Partition_program, writes_a_mesh_with_the_same_counts_and_positions) {
   const auto result = divide({"--strategy", "lbg", "--regions", "16"});
   expect_success(result);
   const auto before = read_mesh(mesh).mesh, after = read_mesh(ply).mesh;
@@ -55,7 +55,7 @@ TEST_F(Partition_program, writes_a_mesh_of_equal_counts_and_places) {
   EXPECT_EQ(content_of(folder.path() / "new"), (std::set<std::string>{"coloured.ply", "stats.json"}));
 }
 
-TEST_F(Partition_program, writes_statistics_that_fit_together) {
+TEST_F(Partition_program, writes_consistent_statistics) {
   for (const int regions : {1, 7, 16, 50}) {
     SCOPED_TRACE(regions);
     expect_success(divide({"--regions", std::to_string(regions)}));
@@ -77,7 +77,7 @@ TEST_F(Partition_program, writes_statistics_that_fit_together) {
   }
 }
 
-TEST_F(Partition_program, makes_as_many_regions_as_wanted_of_a_sphere) {
+TEST_F(Partition_program, divides_a_sphere_into_the_requested_number_of_regions) {
   expect_success(divide({"--regions", "16", "--keep-islands"}));
   EXPECT_EQ(read_json(json)["regions"], 16);
 }
@@ -94,14 +94,14 @@ TEST_F(Partition_program, the_regions_of_the_coloured_mesh_are_those_of_the_stat
   EXPECT_EQ(counted, sizes);
 }
 
-TEST_F(Partition_program, particles_are_numbered_as_in_the_file) {
+TEST_F(Partition_program, particles_have_their_vertex_indices_in_the_file) {
   // The first vertex of this file belongs to no face and is not in the mesh.
   const auto file = folder.write("unused.off", "OFF\n4 1 0\n9 9 9\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n");
   expect_success(run_program({"partition", file.string(), "--regions", "3", "--json", json.string()}));
   EXPECT_EQ(read_json(json)["particles"].get<std::set<int>>(), (std::set<int>{1, 2, 3}));
 }
 
-TEST_F(Partition_program, gives_each_vertex_its_region_when_more_are_wanted) {
+TEST_F(Partition_program, gives_each_vertex_a_region_when_more_are_requested) {
   const auto file = folder.write("square.off", square_off);
   expect_success(run_program({"partition", file.string(), "--regions", "1000000", "--json", json.string()}));
   const Json statistics = read_json(json);
@@ -132,12 +132,12 @@ TEST_F(Partition_program, prints_a_table_without_writing_a_file) {
   EXPECT_EQ(content_of(folder.path()), std::set<std::string>{"sphere.ply"});
 }
 
-TEST_F(Partition_program, refuses_a_strategy_that_it_does_not_have) {
+TEST_F(Partition_program, refuses_an_unknown_strategy) {
   expect_error(divide({"--strategy", "guess"}), 2, "guess");
   expect_no_results();
 }
 
-TEST_F(Partition_program, refuses_to_make_no_region) {
+TEST_F(Partition_program, refuses_zero_regions) {
   for (const auto* regions : {"0", "-1", "1.5", "many", "", "1000001", "99999999999999999999"}) {
     SCOPED_TRACE(regions);
     expect_error(divide({"--regions", regions}), 2, "--regions");
@@ -158,7 +158,7 @@ TEST_F(Partition_program, refuses_options_out_of_range) {
   expect_no_results();
 }
 
-TEST_F(Partition_program, refuses_to_write_a_mesh_that_is_not_called_ply) {
+TEST_F(Partition_program, refuses_to_write_a_mesh_without_the_extension_ply) {
   expect_error(run_program({"partition", mesh.string(), "--out", (folder.path() / "out.off").string()}), 2, "out.off");
   EXPECT_EQ(content_of(folder.path()), std::set<std::string>{"sphere.ply"});
 }

@@ -25,7 +25,7 @@ struct Partitions_experiment : ::testing::Test {
   }
   std::filesystem::path rows(const std::string& out) const { return folder.path() / out / "rows.jsonl"; }
 
-  /// By id, without what differs between two runs of the same.
+  /// By id, without the fields that differ between two equal runs.
   std::map<std::string, nlohmann::json> results(const std::string& out) const {
     std::map<std::string, nlohmann::json> by_id;
     for (auto row : read_json_lines(rows(out))) {
@@ -78,7 +78,7 @@ TEST_F(Partitions_experiment, killed_at_any_moment_it_continues_where_it_stopped
   EXPECT_EQ(results("a"), results("whole"));
 }
 
-TEST_F(Partitions_experiment, an_interrupt_ends_it_with_a_word_and_the_finished_runs_kept) {
+TEST_F(Partitions_experiment, an_interrupt_ends_it_with_a_message_and_keeps_the_finished_runs) {
   Running_program program(command("a"));
   for (int wait = 0; wait < 2000; ++wait) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -91,7 +91,7 @@ TEST_F(Partitions_experiment, an_interrupt_ends_it_with_a_word_and_the_finished_
   EXPECT_FALSE(read_json_lines(rows("a")).empty());
 }
 
-TEST_F(Partitions_experiment, shards_that_ran_apart_are_merged_into_the_whole) {
+TEST_F(Partitions_experiment, shards_that_ran_separately_are_merged) {
   const auto first = run_program(command("a", {"--shard", "1/2"}));
   expect_success(first);
   EXPECT_NE(first.out.find("12 of 25 runs are still to do"), std::string::npos) << first.out;

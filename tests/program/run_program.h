@@ -23,12 +23,12 @@
 #include <utility>
 #include <vector>
 
-/// Starts the program as a user would, and looks at what it leaves behind.
+/// Starts the program as a user would, and inspects what it leaves behind.
 namespace lodestone::test {
 
 /// How a run ended.
 struct Program_result {
-  int exit_code = -1;      ///< -1: it did not exit by itself
+  int exit_code = -1;      ///< -1: killed by a signal
   int signal = 0;          ///< that ended it; 0: none
   bool timed_out = false;  ///< it was killed for taking too long
   std::string out, err;    ///< what it wrote to the standard output and to the standard error
@@ -37,7 +37,7 @@ struct Program_result {
 struct Program_options {
   std::chrono::seconds limit{60};       ///< a run that takes longer is killed
   rlim_t largest_file = RLIM_INFINITY;  ///< bytes; writing more fails as a full disk does
-  std::string standard_output = {};     ///< file that takes the standard output; empty: it is captured
+  std::string standard_output = {};     ///< file for the standard output; empty: captured
 };
 
 /// The program's name and arguments as `exec` wants them.
@@ -156,7 +156,7 @@ inline std::vector<nlohmann::json> read_json_lines(const std::filesystem::path& 
   return values;
 }
 
-/// Names of everything in a folder; empty if there is no such folder.
+/// Names of all entries of a folder; empty if there is no such folder.
 inline std::set<std::string> content_of(const std::filesystem::path& folder) {
   std::set<std::string> names;
   if (is_directory(folder))
@@ -165,8 +165,8 @@ inline std::set<std::string> content_of(const std::filesystem::path& folder) {
   return names;
 }
 
-/// The run must have ended by itself with this code, without a word on the standard output, and with one line on the
-/// standard error that holds `part`.
+/// The run must have exited with this code, with no standard output and one line of standard error that contains
+/// `part`.
 inline void expect_error(const Program_result& result, int exit_code, const std::string& part) {
   EXPECT_FALSE(result.timed_out);
   EXPECT_EQ(result.signal, 0);

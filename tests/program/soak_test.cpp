@@ -6,7 +6,7 @@
 namespace lodestone {
 namespace {
 
-TEST(Soak, a_short_one_finds_no_difference_in_any_kind_of_mesh_and_can_be_repeated) {
+TEST(Soak, a_short_run_finds_no_difference_in_any_kind_of_mesh_and_can_be_repeated) {
   const auto result = soak(7, 1), again = soak(7, 1);
   EXPECT_EQ(result.differences, 0U);
   EXPECT_EQ(result.invalid_trees, 0U);
@@ -26,7 +26,7 @@ TEST(Soak, a_short_one_finds_no_difference_in_any_kind_of_mesh_and_can_be_repeat
   EXPECT_EQ(again.intersecting, result.intersecting);
 }
 
-TEST(Soak, checks_at_least_as_many_pairs_as_asked_for_and_says_how_far_it_is) {
+TEST(Soak, checks_at_least_the_requested_pairs_and_reports_its_progress) {
   std::size_t last = 0;
   const auto result = soak(9, 600'000, [&](std::size_t done) {
     EXPECT_GE(done, last);

@@ -16,7 +16,7 @@ namespace {
 
 struct Terminal_session {
   int exit_code = -1;
-  std::string bytes;  ///< everything that was sent to the terminal
+  std::string bytes;  ///< all output sent to the terminal
 };
 
 /// Runs the program with a terminal of 200 columns for all three streams.
@@ -38,7 +38,7 @@ Terminal_session run_on_terminal(const std::vector<std::string>& arguments) {
   while (true) {
     const auto count = ::read(terminal, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;  // an error tells that the other side is closed
+    if (count <= 0) break;  // an error means that the other side is closed
     session.bytes.append(bytes.data(), static_cast<std::size_t>(count));
   }
   ::close(terminal);
@@ -48,7 +48,7 @@ Terminal_session run_on_terminal(const std::vector<std::string>& arguments) {
   return session;
 }
 
-/// What is left to see on the terminal: it knows line feed, carriage return and the erasure to the end of the line.
+/// What remains visible on the terminal. Interprets line feed, carriage return and erasure to the end of the line.
 std::string screen_of(const std::string& bytes) {
   std::vector<std::string> lines(1);
   std::size_t column = 0;
@@ -85,7 +85,7 @@ class Terminal : public testing::Test {
   std::string scene;
 };
 
-TEST_F(Terminal, shows_a_progress_bar_that_is_gone_at_the_end) {
+TEST_F(Terminal, shows_a_progress_bar_and_erases_it_at_the_end) {
   const auto session = run_on_terminal({"detect", scene});
   EXPECT_EQ(session.exit_code, 0);
   EXPECT_NE(session.bytes.find("detect ["), std::string::npos) << session.bytes;
@@ -112,7 +112,7 @@ TEST_F(Terminal, shows_an_error_without_the_bar) {
 
 TEST_F(Terminal, shows_nothing_when_quiet) { EXPECT_EQ(run_on_terminal({"detect", scene, "--quiet"}).bytes, ""); }
 
-TEST_F(Terminal, elsewhere_there_is_no_bar_and_no_control_sequence) {
+TEST_F(Terminal, without_a_terminal_there_is_no_bar_and_no_control_sequence) {
   const auto result = run_program({"detect", scene});
   expect_success(result);
   EXPECT_EQ(result.out.find('\x1b'), std::string::npos);
@@ -148,13 +148,13 @@ TEST(Help, lists_the_options_of_each_command) {
                                     "--scenes", "--out", "--quiet", "Exit codes:"});
 }
 
-TEST(Help, is_given_for_all_commands_at_once) {
+TEST(Help, can_be_shown_for_all_commands_at_once) {
   const auto result = run_program({"--help-all"});
   expect_success(result);
   expect_parts(result.out, {"--truth", "--keep-islands", "--scenes"});
 }
 
-TEST(Help, tells_the_version) {
+TEST(Help, shows_the_version) {
   const auto result = run_program({"--version"});
   expect_success(result);
   EXPECT_TRUE(result.out.starts_with("lodestone ") && result.out.ends_with('\n')) << result.out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counts what a test program takes from the heap. To be included by one source of a program.
+// Counts the heap allocations of a test program. Include it in one source file only.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers and points without rounding.
+// Exact numbers and points.
 #pragma once
 
 #include <CGAL/Exact_rational.h>

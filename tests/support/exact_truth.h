@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a frame of the mode exact must hold: what checking every face against every other finds.
+// What a frame of mode exact must contain: the result of checking every face against every other.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 namespace lodestone {
 
 using Exact_detector = Detector<Surface_mesh>;
-/// Meshes of a detector, by object number.
+/// Meshes of a detector, by object index.
 using Meshes = std::vector<const Surface_mesh*>;
 
 inline Meshes all_of(const std::deque<Surface_mesh>& owned) {
@@ -57,7 +57,7 @@ inline void expect_contacts(const Frame& frame, Object_id a, Object_id b, const 
   EXPECT_FALSE(result->capped) << where;
 }
 
-/// Every pair of different objects, listed or not; gives how many intersect.
+/// Checks every pair of different objects, listed or not; returns how many intersect.
 inline std::size_t expect_exhaustive(const Frame& frame, const Meshes& meshes) {
   std::size_t colliding = 0;
   for (Object_id a = 0; a < meshes.size(); ++a)
@@ -69,7 +69,7 @@ inline std::size_t expect_exhaustive(const Frame& frame, const Meshes& meshes) {
   return colliding;
 }
 
-/// The triangle of a face, by number.
+/// The triangle of a face, by index.
 inline Triangle triangle_of(const Surface_mesh& mesh, std::uint32_t face) {
   Triangle triangle;
   auto corner = triangle.begin();
@@ -87,7 +87,7 @@ inline std::vector<Face_pair> near_face_pairs(const Surface_mesh& a, const Surfa
   return pairs;
 }
 
-/// The distance of two surfaces: the least over all pairs of faces.
+/// The distance of two surfaces: the minimum over all face pairs.
 inline double distance_of(const Surface_mesh& a, const Surface_mesh& b) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto f : a.faces())
@@ -96,7 +96,7 @@ inline double distance_of(const Surface_mesh& a, const Surface_mesh& b) {
   return least;
 }
 
-/// Positions of all vertices, by number.
+/// Positions of all vertices, by index.
 inline Positions positions_of(const Surface_mesh& mesh) {
   return read_positions(Mesh_numbering<Surface_mesh>(mesh), mesh.points());
 }
@@ -126,7 +126,7 @@ inline void crumple(Surface_mesh& mesh, double distance, std::uint64_t seed) {
   });
 }
 
-/// A frame without its times, which never repeat.
+/// A frame without its times, which differ in every run.
 inline void expect_same_frame(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.number, b.number);
   EXPECT_EQ(a.face_pairs, b.face_pairs);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Objects as the trees take them: faces and coordinates by number.
+// Objects as the trees take them: faces and coordinates by index.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@
 
 namespace lodestone {
 
-/// Faces and coordinates, which need not form a mesh that CGAL could hold.
+/// Faces and coordinates, which need not form a half-edge mesh.
 struct Face_soup {
   std::vector<Corners> faces;
   std::vector<double> coordinates;
@@ -61,7 +61,7 @@ inline Face_soup placed(Face_soup soup, double factor, double offset = 0) {
   return soup;
 }
 
-/// Turned about a random axis through the origin by any angle, then moved by at most `distance` along each axis.
+/// Rotates about a random axis through the origin by any angle, then moves by at most `distance` along each axis.
 inline Face_soup posed_at_random(Face_soup soup, double distance, std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto vector = [&] {
@@ -136,7 +136,7 @@ inline Face_soup loose_triangles(std::uint32_t count, double size, std::uint64_t
   return soup;
 }
 
-/// Eight regions, by the side of the mean vertex on which a vertex lies along each axis.
+/// Eight regions, by the octant around the mean vertex.
 inline std::vector<Region_index> octants(const Face_soup& soup) {
   const Positions positions = soup.positions();
   const Eigen::RowVector3d mean = positions.colwise().mean();
@@ -164,7 +164,7 @@ inline std::vector<std::pair<std::string, Face_soup>> small_objects() {
           {"triangles", loose_triangles(300, 0.3, 1)}};
 }
 
-/// An object with its faces and coordinates. Stays where it is, for trees refer to both.
+/// An object with its faces and coordinates. Not movable, since trees refer to both.
 class Posed_object {
  public:
   explicit Posed_object(Face_soup soup, std::size_t leaf_faces = 16, bool divided = true)

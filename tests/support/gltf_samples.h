@@ -9,7 +9,7 @@
 
 #include "support/mesh_samples.h"
 
-/// glTF files, put together piece by piece.
+/// Builds glTF files piece by piece.
 namespace lodestone::test {
 
 inline std::string base64(const std::string& bytes) {
@@ -29,7 +29,7 @@ struct Gltf_sample {
   nlohmann::json json = {{"asset", {{"version", "2.0"}}}};
   std::string bytes = {};
 
-  /// The number of a new buffer view of these bytes.
+  /// Adds a buffer view of these bytes and returns its index.
   std::size_t add_view(const std::string& content) {
     bytes.resize((bytes.size() + 3) / 4 * 4);
     json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", content.size()}});
@@ -96,7 +96,7 @@ inline Gltf_sample square_gltf() {
   return sample;
 }
 
-/// A bit of everything: two nodes above each other, a skin of two joints, two morph targets, one of them sparse, and
+/// A file with every feature: a node with a child, a skin of two joints, two morph targets, one of them sparse, and
 /// curves of all kinds over two seconds.
 inline Gltf_sample rich_gltf() {
   auto sample = square_gltf();

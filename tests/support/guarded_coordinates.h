@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coordinates whose end is the end of the readable memory.
+// Coordinates that end at the end of readable memory.
 #pragma once
 
 #include <sys/mman.h>
@@ -11,7 +11,7 @@
 
 namespace lodestone {
 
-/// A copy of some coordinates. Reading past the last one ends the program.
+/// A copy of some coordinates. Reading past the last one crashes the program.
 class Guarded_coordinates {
  public:
   explicit Guarded_coordinates(std::span<const double> values) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pairs of triangles that are hard to tell apart.
+// Pairs of triangles that are hard to decide.
 #pragma once
 
 #include <cmath>

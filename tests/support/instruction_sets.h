@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same test for every instruction set that the inner loops are built for and this processor has.
+// Runs a test for every instruction set that the kernels are built for and the processor supports.
 #pragma once
 
 #include <gtest/gtest.h>

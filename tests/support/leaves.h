@@ -16,7 +16,7 @@
 
 namespace lodestone {
 
-/// A leaf that owns what it consists of.
+/// A leaf that owns its data.
 struct Leaf {
   std::vector<double> coordinates;
   std::vector<std::uint32_t> vertices;
@@ -88,7 +88,7 @@ inline std::vector<Eigen::Vector3d> box_corners(const Eigen::Vector3d& half, con
   return corners;
 }
 
-/// As many points in a turned box of the given half widths about a centre, some of which may be 0.
+/// Random points in a rotated box of the given half-widths about a centre; half-widths may be 0.
 inline std::vector<Eigen::Vector3d> points_in_box(std::size_t count, const Eigen::Vector3d& half,
                                                   const Eigen::Vector3d& centre, std::mt19937_64& random) {
   const Eigen::Matrix3d turn = random_turn(random);
@@ -124,7 +124,7 @@ struct Named_leaf {
   Leaf leaf;
 };
 
-/// Leaves as meshes have them, and such as they should not have; about 60 vertices, of about size 1.
+/// Typical and degenerate leaves, with about 60 vertices and a size of about 1.
 inline std::vector<Named_leaf> leaf_cases() {
   std::mt19937_64 random(1);
   const auto plain = [](const Eigen::Vector3d& p) { return p; };
@@ -181,7 +181,7 @@ void for_placed_leaves(const Check& check) {
     }
 }
 
-/// Bodies, flat and straight ones, and single points, of every size, about the origin and far from it.
+/// Solid, flat and straight leaves, and single points, of every size, about the origin and far from it.
 inline std::vector<Named_leaf> hard_leaves() {
   std::mt19937_64 random(7);
   std::vector<Named_leaf> leaves;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes pages apart again, as docs/page_format.md says, without the code that makes them.
+// Decodes pages from docs/page_format.md alone, without the code that makes them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace lodestone::test {
 
-/// Whole numbers of a section, one after the other.
+/// Reads the integers of a section in order.
 class Varints {
  public:
   explicit Varints(std::string bytes) : bytes_(std::move(bytes)) {}
@@ -63,7 +63,7 @@ inline std::string inflated(std::string_view bytes) {
   return text;
 }
 
-/// Where an object is in one frame: x y z of each vertex.
+/// Positions of an object in one frame: x y z of each vertex.
 using Decoded_positions = std::vector<double>;
 
 class Decoded_page {
@@ -143,7 +143,7 @@ class Decoded_page {
     return frames;
   }
 
-  /// Every section by name, but for the times.
+  /// Every section by name, except for the times.
   std::map<std::string, std::string> timeless() const {
     std::map<std::string, std::string> sections;
     for (const auto& [name, place] : header.at("sections").items())
@@ -151,7 +151,7 @@ class Decoded_page {
     return sections;
   }
 
-  /// The sections must fill what follows the header, without gaps or overlaps.
+  /// The sections must fill the bytes after the header without gaps or overlaps.
   void expect_packed() const {
     std::set<std::pair<std::size_t, std::size_t>> places;
     for (const auto& place : header.at("sections")) places.emplace(place.at("offset"), place.at("bytes"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which points lie in volumes that are bounded by planes, decided exactly.
+// Which points are in volumes bounded by planes, decided exactly.
 #pragma once
 
 #include <cmath>

@@ -9,7 +9,7 @@
 
 namespace lodestone::test {
 
-/// A fresh folder for the files of one test, removed with it.
+/// A temporary folder for the files of one test, removed by the destructor.
 class Temporary_folder {
  public:
   Temporary_folder() {
@@ -30,7 +30,7 @@ class Temporary_folder {
   /// Writes a file of exactly these bytes.
   std::filesystem::path write(const std::string& name, std::string_view bytes) const {
     auto file = path_ / name;
-    remove(file);  // to overwrite a file can be slow: some file systems then flush it to disk
+    remove(file);  // overwriting can be slow: some file systems then flush the file to disk
     std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return file;
   }

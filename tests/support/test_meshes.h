@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small surfaces with known sizes, and what the stages want to know of a mesh by number.
+// Small surfaces of known sizes, and the inputs of the stages by index.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace lodestone {
 
-/// A mesh with these vertices and faces, numbered alike.
+/// A mesh with these vertices and faces, with the same indices.
 inline Surface_mesh mesh_of(const std::vector<Point>& points, const std::vector<Corners>& faces) {
   using Index = Surface_mesh::Vertex_index;
   Surface_mesh mesh;
@@ -139,7 +139,7 @@ inline void scale(Surface_mesh& mesh, double factor) {
   deform(mesh, [&](const Point& p) { return Point(factor * p.x(), factor * p.y(), factor * p.z()); });
 }
 
-/// The point with coordinates that fit into float: CGAL's wrapper of OpenMesh writes no others.
+/// The point rounded to float: CGAL's wrapper of OpenMesh writes floats.
 inline Point as_float(const Point& p) {
   const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
   return {rounded(p.x()), rounded(p.y()), rounded(p.z())};
@@ -150,10 +150,10 @@ inline Surface_mesh as_float(Surface_mesh mesh) {
   return mesh;
 }
 
-/// Adds a copy of `part` to `mesh` as components of their own.
+/// Adds a copy of `part` to `mesh` as separate components.
 inline void append(Surface_mesh& mesh, const Surface_mesh& part) { mesh.join(part); }
 
-/// A mesh by number, as the stages take it.
+/// A mesh by index, as the stages take it.
 struct Numbered_mesh {
   Mesh_numbering<Surface_mesh> numbering;
   Vertex_graph graph;
@@ -169,7 +169,7 @@ struct Numbered_mesh {
   std::span<const double> coordinates() const { return {positions.data(), static_cast<std::size_t>(positions.size())}; }
 };
 
-/// Sizes of the connected pieces of each label, by flooding; vertices without edges are passed over.
+/// Sizes of the connected pieces of each label, by flood fill; skips vertices without edges.
 inline std::vector<std::vector<std::size_t>> pieces_of(const Vertex_graph& graph,
                                                        const std::vector<Region_index>& labels, std::size_t regions) {
   std::vector<std::vector<std::size_t>> pieces(regions);

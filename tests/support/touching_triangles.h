@@ -43,8 +43,8 @@ inline bool same_sign(std::initializer_list<Wide> values) {
   return above || below;
 }
 
-/// Whether the origin lies between p and q, on the triangle p q r, in the tetrahedron p q r s. Where the points are not
-/// independent these answer 'no': the origin then lies in the hull of fewer of them.
+/// Whether the origin lies between p and q, on the triangle p q r, in the tetrahedron p q r s. For affinely dependent
+/// points the answer is 'no': the origin then lies in the hull of fewer of them.
 inline bool origin_in(const Wide_vector& p, const Wide_vector& q) { return is_zero(cross(p, q)) && dot(p, q) <= 0; }
 
 inline bool origin_in(const Wide_vector& p, const Wide_vector& q, const Wide_vector& r) {
@@ -106,7 +106,7 @@ inline Integer_triangle random_triangle(std::mt19937_64& random, int size) {
   return t;
 }
 
-/// Two triangles of which a corner of the second lies on the first, or misses it by one unit of some 10^7.
+/// Two triangles; a corner of the second lies on the first, or misses it by one unit of some 10^7.
 inline std::pair<Integer_triangle, Integer_triangle> nearly_touching(std::mt19937_64& random) {
   const auto a0 = random_triangle(random, 1 << 13);
   Integer_triangle a{};
@@ -128,7 +128,7 @@ inline std::pair<Integer_triangle, Integer_triangle> nearly_touching(std::mt1993
   return {a, b};
 }
 
-/// A triangle without area whose corners need products beyond 53 bits to tell so, and one that meets it or nearly does.
+/// A zero-area triangle that takes products beyond 53 bits to recognise, and one that meets it or just misses it.
 inline std::pair<Integer_triangle, Integer_triangle> nearly_touching_a_segment(std::mt19937_64& random) {
   const auto below = [&](std::uint64_t limit) { return static_cast<std::int64_t>(random() % limit); };
   Integer_point start{}, along{};

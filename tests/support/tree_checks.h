@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Objects with every oddity that a tree must take, and what must hold for any tree.
+// Objects with every degeneracy that a tree must accept, and checks that must hold for any tree.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ inline void expect_equal_boxes(const Region_tree& a, const Region_tree& b) {
   EXPECT_EQ(a.looseness(), b.looseness());
 }
 
-/// Every promise about faces, vertices and boxes, apart from what `validate` finds.
+/// Checks all guarantees about faces, vertices and boxes that `validate` does not.
 inline void expect_tree(const Region_tree& tree, const Face_soup& soup, Coordinates coordinates) {
   EXPECT_EQ(tree.validate(soup.faces, coordinates), "");
   std::vector<int> times(soup.faces.size(), 0);

@@ -23,7 +23,7 @@
 
 namespace lodestone {
 
-/// The vertices that both faces have, each once.
+/// The common vertices of two faces, each once.
 inline std::vector<std::uint32_t> common_vertices(const Corners& a, const Corners& b) {
   std::vector<std::uint32_t> common;
   for (const auto v : a)
@@ -66,7 +66,7 @@ inline Shape hull(const Exact::Point_3& a, const Exact::Point_3& b) {
   return Exact::Segment_3(a, b);
 }
 
-/// A face as the set of points it is.
+/// A face as a set of points.
 inline Shape face_shape(const Positions& positions, const Corners& corners) {
   const auto a = point(positions, corners[0]), b = point(positions, corners[1]), c = point(positions, corners[2]);
   if (!CGAL::collinear(a, b, c)) return Exact::Triangle_3(a, b, c);
@@ -97,8 +97,8 @@ struct Corners_of_intersection {
   }
 };
 
-/// Whether two faces have a point in common that lies on no vertex and no edge that both have. Their intersection is
-/// convex: without an area it lies on a common edge when its corners do.
+/// Whether two faces have a common point outside their common vertices and edges. Their intersection is convex, so an
+/// intersection without area lies on a common edge if its corners do.
 inline bool faces_intersect(const Positions& positions, const Corners& a, const Corners& b) {
   const auto meeting = std::visit(Corners_of_intersection(), face_shape(positions, a), face_shape(positions, b));
   if (meeting.size() > 2) return true;
@@ -124,7 +124,7 @@ inline std::vector<Face_pair> adjacent_pairs(const Positions& positions, std::sp
 
 }  // namespace by_definition
 
-/// What Neighbour_check says of a whole mesh; pairs sorted.
+/// The result of Neighbour_check for a whole mesh; pairs sorted.
 struct Answer {
   std::vector<Face_pair> pairs;
   std::size_t exact_tests = 0;
@@ -147,7 +147,7 @@ inline Answer answer(const Surface_mesh& mesh) {
   return answer(numbered.positions, numbered.faces);
 }
 
-/// Checks a mesh against CGAL, whose faces without area are none; gives the number of pairs.
+/// Compares a mesh without zero-area faces with CGAL; returns the number of pairs.
 inline std::size_t expect_equal_to_cgal(const Surface_mesh& mesh) {
   const Numbered_mesh numbered(mesh);
   const auto expected = reported_by_cgal(mesh, numbered.faces);
@@ -166,7 +166,7 @@ inline void crumple(Surface_mesh& mesh, double distance, std::uint64_t seed, int
   });
 }
 
-/// Turns a mesh by an angle that no coordinate survives without rounding.
+/// Rotates a mesh by an angle at which every coordinate is rounded.
 inline void turn(Surface_mesh& mesh) {
   const Eigen::Matrix3d rotation(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
   deform(mesh, [&](const Point& p) {

@@ -47,11 +47,11 @@ TEST(Contact_normal, of_a_wall_through_a_floor_points_halfway_between_them) {
   const auto contact = contact_normal(wall, floor_tile);
   const double half = std::sqrt(0.5);
   EXPECT_LT((contact.normal - Eigen::Vector3d(-half, 0, half)).norm(), 1e-15);
-  // The floor reaches up to 0 along the normal, at its corner in the origin; the wall down to -2 / sqrt(2).
+  // Along the normal the floor reaches up to 0, at its corner in the origin, and the wall down to -2 / sqrt(2).
   EXPECT_NEAR(contact.depth, std::sqrt(2.0), 1e-15);
 }
 
-TEST(Contact_normal, is_the_other_face_normal_where_one_has_no_area) {
+TEST(Contact_normal, is_the_other_face_s_normal_where_one_has_no_area) {
   const Triangle needle = as_triangle({{{1, 1, -1}, {1, 1, 3}, {1, 1, 5}}});
   const auto down = contact_normal(needle, floor_tile);
   EXPECT_EQ(down.normal, Eigen::Vector3d(0, 0, 1));
@@ -68,7 +68,7 @@ TEST(Contact_normal, is_the_other_face_normal_where_one_has_no_area) {
   }
 }
 
-TEST(Contact_normal, is_that_of_the_second_face_where_both_look_the_same_way) {
+TEST(Contact_normal, is_that_of_the_second_face_where_both_normals_are_equal) {
   const Triangle within = as_triangle({{{1, 1, 0}, {2, 1, 0}, {1, 2, 0}}});
   EXPECT_EQ(contact_normal(within, floor_tile).normal, Eigen::Vector3d(0, 0, 1));
   EXPECT_EQ(contact_normal(within, floor_tile).depth, 0);
@@ -79,7 +79,7 @@ TEST(Contact_normal, is_that_of_the_second_face_where_both_look_the_same_way) {
   EXPECT_EQ(contact_normal(floor_tile, turned).normal, Eigen::Vector3d(0, 0, -1));
 }
 
-TEST(Contact_normal, is_of_unit_length_and_the_move_it_names_leaves_the_projections_touching) {
+TEST(Contact_normal, is_of_unit_length_and_moving_by_its_depth_leaves_the_projections_touching) {
   std::mt19937_64 random(1);
   std::size_t met = 0;
   for (int trial = 0; trial < 20000; ++trial) {
@@ -101,7 +101,7 @@ TEST(Contact_normal, is_of_unit_length_and_the_move_it_names_leaves_the_projecti
   EXPECT_GT(met, 2000U);
 }
 
-TEST(Contact_normal, is_the_difference_of_the_unit_normals_also_of_slivers) {
+TEST(Contact_normal, is_the_difference_of_the_unit_normals_even_for_slivers) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> place(-1, 1), exponent(-17, 0);
   const auto point = [&] {
@@ -128,7 +128,7 @@ TEST(Contact_normal, is_the_difference_of_the_unit_normals_also_of_slivers) {
   EXPECT_GT(checked, 4000U);
 }
 
-TEST(Contact_normal, turns_around_when_the_triangles_change_places_and_scales_with_powers_of_two) {
+TEST(Contact_normal, is_reversed_when_the_triangles_are_swapped_and_scales_with_powers_of_two) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 5000; ++trial) {
     const auto a = as_triangle(random_triangle(random, 30)), b = as_triangle(random_triangle(random, 30));
@@ -159,7 +159,7 @@ TEST(Contact_normal, is_finite_at_the_smallest_and_greatest_coordinates) {
   }
 }
 
-TEST(Contact_normal, is_right_for_a_triangle_however_small_beside_the_other) {
+TEST(Contact_normal, is_right_for_a_triangle_of_any_size_beside_the_other) {
   const Triangle tile = as_triangle({{{0, 0, 0}, {3, 1, 1}, {1, 4, -2}}});
   const Triangle large = as_triangle({{{-3, -2, 1}, {5, -3, 0}, {-3, 6, 2}}});
   const Eigen::Vector3d expected = (exact_unit_normal(large) - exact_unit_normal(tile)).normalized();
@@ -188,7 +188,7 @@ TEST(Contact_normal, of_two_overlapping_balls_points_from_one_to_the_other) {
   EXPECT_GT(met, 20U);
 }
 
-TEST(Gap_normal, of_a_wall_above_a_floor_points_up_and_tells_their_distance) {
+TEST(Gap_normal, of_a_wall_above_a_floor_points_up_and_gives_their_distance) {
   const Triangle floor = as_triangle({{{0, 0, 0}, {80, 0, 0}, {0, 80, 0}}});
   const Triangle wall = as_triangle({{{16, 8, 1}, {16, 32, 1}, {16, 16, 40}}});
   const auto gap = gap_normal(closest_points(wall, floor));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The exact test of one pair of faces; how pairs are found in a mesh is tested in face_neighbours_test.cpp.
+// The exact test of one pair of faces; pairs of a mesh are tested in neighbour_check_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -114,12 +114,12 @@ Positions placed(const Known_case& c, double scale, double offset) {
   return positions;
 }
 
-TEST(Definition, knows_the_known_cases) {
+TEST(Definition, is_right_in_the_known_cases) {
   for (const auto& c : known_cases)
     EXPECT_EQ(by_definition::faces_intersect(placed(c, 1, 0), c.a, c.b), c.meets) << c.name;
 }
 
-TEST(Faces_intersect, is_right_in_the_known_cases_at_any_scale_place_and_order_of_corners) {
+TEST(Faces_intersect, is_right_in_the_known_cases_at_any_scale_position_and_order_of_corners) {
   for (const auto& c : known_cases) {
     Corners a = c.a, b = c.b;
     std::ranges::sort(a);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Single fans, made so that the proof from one direction just holds or just fails; through the public class.
+// Single fans for which the proof from one direction just holds or just fails; tested through the public class.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ Surface_mesh fan(std::uint32_t count, bool closed, Place place) {
 
 Point on_circle(double angle, double height) { return {std::cos(angle), std::sin(angle), height}; }
 
-TEST(Fan_projection, takes_a_fan_of_2000_faces) {
+TEST(Fan_projection, accepts_a_fan_of_2000_faces) {
   for (const std::uint32_t count : {100, 2000}) {
     const double step = 2 * std::numbers::pi / count;
     const auto cone = fan(count, true, [&](std::uint32_t i) { return on_circle(step * i, 0.5); });
@@ -40,7 +40,7 @@ TEST(Fan_projection, takes_a_fan_of_2000_faces) {
   }
 }
 
-TEST(Fan_projection, sees_fans_that_turn_more_than_once) {
+TEST(Fan_projection, detects_fans_that_turn_more_than_once) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> height(-1, 1);
   std::size_t met = 0, apart = 0;
@@ -50,7 +50,7 @@ TEST(Fan_projection, sees_fans_that_turn_more_than_once) {
         for (const double start : {0.0, 0.5, 1.0, 1.5, 3.0, 4.5}) {
           if (closed && turns != std::round(turns)) continue;
           const double step = 2 * std::numbers::pi * turns / (closed ? count : count - 1);
-          // A spiral stair, or a flat one; and at any rate one that is seen as turning from above.
+          // A spiral staircase, or a flat one; from above it always winds around.
           const bool flat = random() % 2 == 0;
           auto mesh = fan(count, closed, [&](std::uint32_t i) {
             const double far = 0.5 + 0.5 * std::abs(height(random)), angle = start + step * i;
@@ -65,13 +65,13 @@ TEST(Fan_projection, sees_fans_that_turn_more_than_once) {
   EXPECT_GT(apart, 30U);
 }
 
-TEST(Fan_projection, sees_an_arm_that_turns_back_by_a_last_digit) {
+TEST(Fan_projection, detects_an_arm_that_turns_back_by_the_last_digit) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> place(-1, 1);
   std::size_t met = 0, apart = 0;
   for (int trial = 0; trial < 1000; ++trial) {
-    // In the plane z = 0, neighbours 2 and 3 lie in one direction from vertex 0, give or take their last digits. The
-    // vertex has more digits than they have: differences are rounded.
+    // In the plane z = 0, neighbours 2 and 3 are in the same direction from vertex 0, up to their last digits. The
+    // vertex has more digits than they have, so differences are rounded.
     const double x = place(random) / 64, y = place(random) / 64, start = place(random);
     const double longer = 1 + place(random) / 2;
     auto mesh = fan(6, true, [&](std::uint32_t i) {

@@ -46,7 +46,7 @@ TEST(Neighbour_check, equals_cgal_on_tiny_huge_and_far_away_surfaces) {
     shift(mesh, 0x1p20, -0x1p20, 0x1p20);
     found += expect_equal_to_cgal(mesh);
     scale(mesh, 0x1p-20);
-    shift(mesh, 0, 0x1p20, 0);  // few digits are left: many vertices fall on a lattice
+    shift(mesh, 0, 0x1p20, 0);  // few digits are left: many vertices round to a lattice
     const Numbered_mesh numbered(mesh);
     if (reported_by_cgal(mesh, numbered.faces).faces_without_area == 0) found += expect_equal_to_cgal(mesh);
   }
@@ -85,7 +85,7 @@ TEST(Neighbour_check, equals_cgal_where_one_last_digit_decides) {
   std::size_t found = 0;
   for (int trial = 0; trial < 30; ++trial) {
     auto mesh = cloth(8, 8);
-    // Whole rows of vertices fall on a few lines, give or take a last digit.
+    // Whole rows of vertices are on a few lines, up to a last digit.
     deform(mesh, [&](const Point& p) {
       const auto digit = [&] { return 0x1p-52 * (static_cast<double>(random() % 3) - 1); };
       const double z = trial % 2 == 0 ? 0 : 0.3 * p.x() + 0.7 * p.y();
@@ -97,7 +97,7 @@ TEST(Neighbour_check, equals_cgal_where_one_last_digit_decides) {
   EXPECT_LT(found, 30U * 200U);
 }
 
-TEST(Neighbour_check, equals_cgal_where_products_of_coordinates_are_a_few_units_of_the_least_number) {
+TEST(Neighbour_check, equals_cgal_where_products_of_coordinates_are_a_few_units_of_the_smallest_double) {
   std::size_t found = 0;
   for (int trial = 0; trial < 120; ++trial) {
     auto mesh = icosphere(2);
@@ -157,7 +157,7 @@ TEST(Neighbour_check, equals_the_definition_on_any_faces) {
   EXPECT_GT(found, 1000U);
 }
 
-TEST(Neighbour_check, takes_faces_without_area_as_segments_and_points) {
+TEST(Neighbour_check, treats_zero_area_faces_as_segments_and_points) {
   std::mt19937_64 random(3);
   std::size_t found = 0, without_area = 0;
   for (int trial = 0; trial < 12; ++trial) {
@@ -170,7 +170,7 @@ TEST(Neighbour_check, takes_faces_without_area_as_segments_and_points) {
     const auto pairs = answer(numbered.positions, numbered.faces).pairs;
     ASSERT_EQ(pairs, by_definition::adjacent_pairs(numbered.positions, numbered.faces)) << trial;
 
-    // CGAL leaves out all pairs of a face without area.
+    // CGAL omits all pairs of a zero-area face.
     const auto reported = reported_by_cgal(mesh, numbered.faces);
     const auto has_area = [&](std::uint32_t face) {
       const auto& [a, b, c] = numbered.faces[face];
@@ -213,7 +213,7 @@ TEST(Neighbour_check, finds_each_pair_once_however_vertices_are_split) {
   }
 }
 
-TEST(Neighbour_check, counts_exact_tests_until_told_to_start_anew) {
+TEST(Neighbour_check, counts_exact_tests_until_reset) {
   auto mesh = cloth(8, 8);
   crumple(mesh, 0.1, 1);
   const Numbered_mesh numbered(mesh);

@@ -15,7 +15,7 @@
 namespace lodestone {
 namespace {
 
-/// Faces and coordinates, which need not form a mesh that CGAL could hold.
+/// Faces and coordinates, which need not form a half-edge mesh.
 struct Soup {
   std::vector<Corners> faces;
   std::vector<double> positions;
@@ -41,7 +41,7 @@ Point placed(const Point& p, double scale, double offset) {
   return {scale * p.x() + offset, scale * p.y() + offset, scale * p.z() + offset};
 }
 
-/// Scales at which nothing is rounded, and an offset at which coordinates of few digits are not.
+/// Scales that never round, and an offset that does not round coordinates of few digits.
 const std::vector<std::pair<double, double>> places{{1, 0},        {0x1p-300, 0}, {0x1p300, 0}, {0x1p-1060, 0},
                                                     {0x1p1010, 0}, {1, 0x1p20},   {1, -0x1p20}};
 
@@ -149,8 +149,8 @@ TEST(Point_inside, is_right_for_points_on_the_lattice_of_an_octahedron) {
   }
 }
 
-/// A cube with faces that have no area: some closed in themselves, and one that fills the slit between an edge and its
-/// two halves.
+/// A cube with zero-area faces: some closed in themselves, and one that fills the slit between an edge and its two
+/// halves.
 Soup cube_with_degenerate_faces() {
   Soup soup(cube(2));
   const auto first = soup.faces.front();
@@ -168,7 +168,7 @@ Soup cube_with_degenerate_faces() {
   return soup;
 }
 
-TEST(Point_inside, is_right_in_a_cube_with_faces_that_have_no_area) {
+TEST(Point_inside, is_right_in_a_cube_with_zero_area_faces) {
   const Soup soup = cube_with_degenerate_faces();
   EXPECT_TRUE(is_closed(soup.vertices(), soup.faces));
   for (int i = -1; i <= 9; ++i)
@@ -183,7 +183,7 @@ TEST(Point_inside, is_right_in_a_cube_with_faces_that_have_no_area) {
 
 Wide_vector wide(const Integer_point& p) { return {p[0], p[1], p[2]}; }
 
-TEST(Point_inside, counts_modulo_two_the_tetrahedra_on_a_small_lattice_that_hold_the_point) {
+TEST(Point_inside, counts_modulo_two_the_lattice_tetrahedra_that_contain_the_point) {
   std::mt19937_64 random(6);
   std::size_t within = 0, checked = 0;
   for (int trial = 0; trial < 20000; ++trial) {
@@ -215,7 +215,7 @@ TEST(Point_inside, counts_modulo_two_the_tetrahedra_on_a_small_lattice_that_hold
   EXPECT_GT(within, 1000U);
 }
 
-TEST(Crosses_upward_ray, counts_a_triangle_above_the_point_only) {
+TEST(Crosses_upward_ray, counts_a_triangle_only_above_the_point) {
   const Triangle t = as_triangle({{{0, 0, 2}, {4, 0, 2}, {0, 4, 6}}});
   const Triangle turned{t[0], t[2], t[1]};
   for (const auto& triangle : {t, turned}) {
@@ -258,7 +258,7 @@ TEST(Crosses_upward_ray, counts_one_face_around_a_vertex_and_one_of_two_at_an_ed
     }
 }
 
-TEST(Crosses_upward_ray, never_counts_a_vertical_triangle_nor_one_without_area) {
+TEST(Crosses_upward_ray, never_counts_a_vertical_or_zero_area_triangle) {
   for (const auto& t :
        {Integer_triangle{{{0, 0, 1}, {4, 0, 1}, {2, 0, 5}}}, Integer_triangle{{{0, 0, 1}, {2, 2, 1}, {4, 4, 9}}},
         Integer_triangle{{{0, 0, 1}, {2, 2, 2}, {4, 4, 3}}}, Integer_triangle{{{2, 0, 1}, {2, 0, 1}, {2, 0, 3}}},
@@ -267,7 +267,7 @@ TEST(Crosses_upward_ray, never_counts_a_vertical_triangle_nor_one_without_area) 
       for (int y = 0; y <= 8; ++y) EXPECT_FALSE(crosses_upward_ray(as_triangle(t), {x / 2.0, y / 2.0, 0})) << text(t);
 }
 
-TEST(Is_closed, holds_if_every_edge_is_in_an_even_number_of_faces) {
+TEST(Is_closed, is_true_if_every_edge_is_in_an_even_number_of_faces) {
   EXPECT_TRUE(is_closed(0, {}));
   const std::vector<Corners> twice{{0, 1, 2}, {0, 2, 1}};
   EXPECT_TRUE(is_closed(3, twice));
@@ -288,7 +288,7 @@ TEST(Is_closed, ignores_faces_with_a_repeated_vertex) {
   EXPECT_FALSE(is_closed(3, with_a_face));
 }
 
-TEST(Is_closed, fails_for_a_mesh_without_one_of_its_faces) {
+TEST(Is_closed, is_false_for_a_mesh_without_one_of_its_faces) {
   const Soup soup(potato(4));
   EXPECT_TRUE(is_closed(soup.vertices(), soup.faces));
   for (std::size_t missing = 0; missing < soup.faces.size(); ++missing) {

@@ -52,7 +52,7 @@ TEST(Distance_oracle, equals_that_of_cgal_on_exact_numbers) {
   });
 }
 
-TEST(Closest_points, have_the_distance_of_the_triangles_up_to_one_part_in_2_to_the_30) {
+TEST(Closest_points, have_the_distance_of_the_triangles_up_to_a_relative_error_of_2_to_the_minus_30) {
   for_pairs(150, [](const Triangle& a, const Triangle& b) {
     const Rational expected = exact_squared_distance(a, b);
     for (const auto& found : {closest_points(a, b), closest_points(b, a)}) {
@@ -63,7 +63,7 @@ TEST(Closest_points, have_the_distance_of_the_triangles_up_to_one_part_in_2_to_t
   });
 }
 
-TEST(Closest_points, lie_on_the_triangles_as_far_apart_as_they_say) {
+TEST(Closest_points, lie_on_the_triangles_at_the_reported_distance) {
   for_pairs(150, [](const Triangle& a, const Triangle& b) {
     const auto found = closest_points(a, b);
     const double digits = 0x1p-50 * greatest_coordinate(a, b);
@@ -178,7 +178,7 @@ TEST(Triangles_nearer_than, is_strict) {
   }
 }
 
-TEST(Triangles_nearer_than, asks_for_an_intersection_at_distances_of_zero_and_less) {
+TEST(Triangles_nearer_than, means_an_intersection_at_distances_of_zero_and_less) {
   const auto a = as_triangle(base);
   const auto touching = as_triangle({{{1, 1, 0}, {1, 1, 9}, {2, 1, 9}}});
   const auto above = as_triangle({{{1, 1, 1}, {1, 1, 9}, {2, 1, 9}}});
@@ -234,7 +234,7 @@ Eigen::Vector3d unit(const Exact_vector& exact) {
       .normalized();
 }
 
-TEST(Closest_points, tell_the_direction_of_a_gap_of_any_size) {
+TEST(Closest_points, give_the_direction_of_a_gap_of_any_size) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> coordinate(-1, 1), inner(0.2, 0.4);
   std::size_t apart = 0;
@@ -254,7 +254,7 @@ TEST(Closest_points, tell_the_direction_of_a_gap_of_any_size) {
                           as_point(tip + normal - 0.2 * (r - p))};
       const Exact_vector up = CGAL::cross_product(exact_point(floor[1]) - exact_point(floor[0]),
                                                   exact_point(floor[2]) - exact_point(floor[0]));
-      // Rounded, a short gap may be none.
+      // A short gap may be rounded to zero.
       if (!((exact_point(wall[0]) - exact_point(floor[0])) * up > 0)) continue;
       ++apart;
       EXPECT_LT((closest_points(wall, floor).direction - unit(up)).norm(), 1e-9) << gap;

@@ -67,7 +67,7 @@ const std::vector<Known_case> known_cases{
     {"different points", {{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}}, {{{1, 2, 4}, {1, 2, 4}, {1, 2, 4}}}, false},
 };
 
-TEST(Oracle, knows_the_known_cases) {
+TEST(Oracle, is_right_in_the_known_cases) {
   for (const auto& c : known_cases) {
     EXPECT_EQ(have_common_point(c.a, c.b), c.meets) << c.name;
     EXPECT_EQ(have_common_point(c.b, c.a), c.meets) << c.name;
@@ -87,7 +87,7 @@ class Coordinates_of {
   double coordinates_[3][3];
 };
 
-TEST(Triangles_intersect, is_right_in_the_known_cases_whatever_the_guess) {
+TEST(Triangles_intersect, is_right_in_the_known_cases_for_any_guess) {
   for (const auto& c : known_cases)
     for (const double scale : {1.0, 0x1p-300, 0x1p300, 0x1p-1072, 0x1p995, 0x1p1018})
       for (Crossing guess = 0; guess <= no_crossing; ++guess) {
@@ -100,7 +100,7 @@ TEST(Triangles_intersect, is_right_in_the_known_cases_whatever_the_guess) {
       }
 }
 
-TEST(Triangles_intersect, is_right_in_the_known_cases_at_any_scale_place_and_order_of_corners) {
+TEST(Triangles_intersect, is_right_in_the_known_cases_at_any_scale_position_and_order_of_corners) {
   for (const auto& c : known_cases) {
     Integer_triangle a = c.a, b = c.b;
     std::ranges::sort(a);
@@ -157,7 +157,7 @@ TEST(Triangles_intersect, equals_the_oracle_where_one_last_digit_decides) {
   EXPECT_LT(met, 55000U);
 }
 
-TEST(Triangles_intersect, equals_the_oracle_where_corners_are_collinear_but_for_rounding) {
+TEST(Triangles_intersect, equals_the_oracle_where_corners_are_collinear_up_to_rounding) {
   std::mt19937_64 random(6);
   std::size_t met = 0;
   for (int trial = 0; trial < 20000; ++trial) {
@@ -173,7 +173,7 @@ TEST(Triangles_intersect, equals_the_oracle_where_corners_are_collinear_but_for_
   EXPECT_LT(met, 16000U);
 }
 
-TEST(Triangles_intersect, equals_the_oracle_far_off_and_at_extreme_scales) {
+TEST(Triangles_intersect, equals_the_oracle_far_from_the_origin_and_at_extreme_scales) {
   std::mt19937_64 random(4);
   for (int trial = 0; trial < 30000; ++trial) {
     const auto a = random_triangle(random, 4), b = random_triangle(random, 4);
@@ -201,7 +201,7 @@ double distance(const Point& p, const Triangle& t) {
   return within ? std::min(least, std::abs((p - t[0]) * normal) / std::sqrt(normal.squared_length())) : least;
 }
 
-TEST(Triangle_intersection, has_points_on_both_triangles_and_none_where_they_do_not_meet) {
+TEST(Triangle_intersection, has_points_on_both_triangles_and_none_if_they_are_apart) {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 15000; ++trial) {
     const int size = 2 + trial % 4;

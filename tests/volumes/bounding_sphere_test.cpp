@@ -30,7 +30,7 @@ double smallest_radius(const Leaf& leaf) {
   return CGAL::Min_sphere_of_spheres_d<Traits>(points.begin(), points.end()).radius();
 }
 
-TEST(Bounding_sphere, holds_the_corners_of_random_triangles_exactly) {
+TEST(Bounding_sphere, contains_the_corners_of_random_triangles_exactly) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 20000; ++i) {
     const Eigen::Vector3d offset = (i % 2) * 0x1p20 * random_vector(random), a = random_vector(random);
@@ -38,7 +38,7 @@ TEST(Bounding_sphere, holds_the_corners_of_random_triangles_exactly) {
     const Leaf leaf = strip({a + offset, b + offset, c + offset});
     const auto ball = volume_of<Bounding_sphere>(leaf);
     for (std::size_t place = 0; place < 3; ++place) ASSERT_TRUE(inside(ball, exact_point(leaf.point(place))));
-    // The border is in reach: a widening that is left out must be seen.
+    // Points are close to the border, so that a missing widening is detected.
     ASSERT_LE(ball.radius, 1.01 * (a - b).norm() + 1.01 * (a - c).norm());
   }
 }
@@ -61,7 +61,7 @@ TEST(Bounding_sphere, is_at_most_one_per_cent_larger_than_the_smallest) {
   }
 }
 
-TEST(Bounding_sphere, is_as_in_closed_form) {
+TEST(Bounding_sphere, equals_the_closed_form) {
   using V = Eigen::Vector3d;
   struct Case {
     Leaf leaf;
@@ -96,7 +96,7 @@ Bounding_sphere ball_at(const Eigen::Vector3d& centre, double radius) {
   return {.centre = {centre.x(), centre.y(), centre.z()}, .radius = radius};
 }
 
-TEST(Bounding_sphere, of_two_balls_holds_both_and_is_the_smallest) {
+TEST(Bounding_sphere, of_two_balls_contains_both_and_is_the_smallest) {
   std::mt19937_64 random(3);
   for (const double unit : {1.0, 0x1p-300, 0x1p300, 0x1p-600, 0x1p600, 0x1p-1070, 0x1p1019})
     for (int i = 0; i < 3000; ++i) {
@@ -117,7 +117,7 @@ TEST(Bounding_sphere, of_two_balls_holds_both_and_is_the_smallest) {
     }
 }
 
-TEST(Bounding_sphere, of_one_in_the_other_is_the_other) {
+TEST(Bounding_sphere, of_a_ball_inside_another_is_the_outer_one) {
   const auto large = ball_at({1, 2, 3}, 3), small = ball_at({1, 2, 4}, 1), inner = ball_at({1, 2, 3}, 1);
   for (const auto& ball : {large, small, inner, ball_at({1, 2, 3}, 0), ball_at({1, 2, 3}, infinity)}) {
     EXPECT_EQ(volume_of(ball, ball), ball);
@@ -134,14 +134,14 @@ TEST(Bounding_sphere, is_near_another_unless_they_are_apart) {
       const Eigen::Vector3d p = (i % 2) * (unit < 0x1p1000 ? 0x1p10 : 1) * random_vector(random),
                             step = random_vector(random);
       const double a_radius = step.norm() * 0.3, margin = i % 3 == 0 ? 0 : a_radius / 2;
-      // They touch, up to rounding and a little more.
+      // They touch, up to a little more than rounding.
       const double b_radius = (step.norm() - a_radius - margin) * (1 + (i % 7 - 3.0) * 0x1p-52);
       const auto a = ball_at(unit * p, unit * a_radius), b = ball_at(unit * (p + step), unit * b_radius);
       const Rational reach = Rational(a.radius) + Rational(b.radius) + Rational(unit * margin);
       const bool meet = squared_distance(exact_point(a.centre), exact_point(b.centre)) <= reach * reach;
       ASSERT_TRUE(near(a, b, unit * margin) || !meet);
       apart += !meet;
-      // A clear distance is seen at any scale.
+      // A clear distance is detected at any scale.
       ASSERT_FALSE(near(a, ball_at(unit * (p + 1.001 * step), b.radius), unit * margin) && unit > 0x1p-1000);
     }
   EXPECT_GT(apart, 1000);
@@ -175,7 +175,7 @@ TEST(Bounding_sphere, is_the_same_for_every_instruction_set_and_never_reads_past
   });
 }
 
-TEST(Bounding_sphere, denies_nothing_where_numbers_end) {
+TEST(Bounding_sphere, never_separates_on_overflow_underflow_or_nan) {
   const auto nan = std::numeric_limits<double>::quiet_NaN();
   const auto wide =
       volume_of<Bounding_sphere>(strip({Eigen::Vector3d(-most, -most, -most), Eigen::Vector3d(most, most, most)}));

@@ -11,13 +11,13 @@ namespace {
 const std::vector<Eigen::Vector3d> octahedron{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 const auto cube = box_corners({1, 1, 1}, Eigen::Matrix3d::Identity());
 
-TEST(K_dop, has_the_octahedron_itself_where_it_has_the_directions_to_the_corners) {
+TEST(K_dop, with_directions_to_the_corners_fits_the_octahedron_exactly) {
   EXPECT_NEAR(volume_of<K_dop<14>>(octahedron).volume(), 4.0 / 3, 1e-13);
   EXPECT_NEAR(volume_of<K_dop<26>>(octahedron).volume(), 4.0 / 3, 1e-13);
 }
 
 // |x| + |y| <= 1 and so on: the rhombic dodecahedron whose corners are those of the octahedron and (1, 1, 1) / 2.
-TEST(K_dop, has_a_rhombic_dodecahedron_around_the_octahedron_with_the_directions_to_the_edges) {
+TEST(K_dop, with_directions_to_the_edges_is_a_rhombic_dodecahedron_around_the_octahedron) {
   EXPECT_NEAR(volume_of<K_dop<18>>(octahedron).volume(), 2, 1e-13);
 }
 
@@ -42,13 +42,13 @@ TEST(K_dop, of_a_regular_tetrahedron_is_the_tetrahedron) {
   EXPECT_NEAR(volume_of<K_dop<14>>(tetrahedron).volume(), 8.0 / 3, 1e-13);
 }
 
-TEST(K_dop, volume_grows_with_the_cube_of_the_size_wherever_it_is) {
+TEST(K_dop, volume_grows_with_the_cube_of_the_size_at_any_position) {
   auto points = octahedron;
   for (auto& p : points) p = 1e90 * (p + Eigen::Vector3d(5, 6, 7));
   EXPECT_NEAR(volume_of<K_dop<14>>(points).volume() / 1e270, 4.0 / 3, 1e-11);
 }
 
-TEST(K_dop, tells_boxes_apart_that_meet_along_every_axis) {
+TEST(K_dop, separates_leaves_whose_boxes_meet) {
   const std::vector<Eigen::Vector3d> low{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}}, high{{1, 0.5, 0}, {0.5, 1, 0}, {1, 1, 0}};
   EXPECT_FALSE(near(volume_of<K_dop<18>>(low), volume_of<K_dop<18>>(high), 0));
   EXPECT_FALSE(near(volume_of<K_dop<26>>(low), volume_of<K_dop<26>>(high), 0));

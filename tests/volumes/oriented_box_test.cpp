@@ -54,7 +54,7 @@ TEST(Oriented_box, of_a_turned_box_is_the_box) {
   }
 }
 
-TEST(Oriented_box, of_a_turned_rectangle_or_segment_is_as_flat) {
+TEST(Oriented_box, of_a_turned_rectangle_or_segment_is_flat) {
   std::mt19937_64 random(22);
   for (const double width : {0.4, 0.0})
     for (int sample = 0; sample < 1000; ++sample) {
@@ -118,7 +118,7 @@ Oriented_box smallest_up_to(const Eigen::Vector3d& p, const Eigen::Vector3d& cen
   return box;
 }
 
-TEST(Oriented_box, is_near_one_with_which_it_shares_a_corner) {
+TEST(Oriented_box, is_near_another_that_shares_a_corner) {
   std::mt19937_64 random(26);
   for (const double offset : {0.0, 0x1p20})
     for (int sample = 0; sample < 1000; ++sample) {
@@ -130,7 +130,7 @@ TEST(Oriented_box, is_near_one_with_which_it_shares_a_corner) {
     }
 }
 
-// An edge of the one beam and one of the other, at right angles, are the nearest: only their cross product tells.
+// The nearest parts are two perpendicular edges, one of each beam: only their cross product separates them.
 TEST(Oriented_box, measures_the_margin_from_edge_to_edge) {
   const Eigen::Matrix3d about_y = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitY()).matrix();
   const Eigen::Matrix3d about_x = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitX()).matrix();

@@ -12,7 +12,7 @@
 namespace lodestone {
 namespace {
 
-/// In the columns of a matrix.
+/// As the columns of a matrix.
 Eigen::Matrix3d unit_directions(const Quantised_turn& turn) {
   Eigen::Matrix3d axes;
   const auto directions = turn.directions();
@@ -21,7 +21,7 @@ Eigen::Matrix3d unit_directions(const Quantised_turn& turn) {
   return axes;
 }
 
-TEST(Quantised_turn, has_directions_of_its_length_at_right_angles) {
+TEST(Quantised_turn, has_perpendicular_directions_of_its_length) {
   for (std::int16_t x = -7; x <= 7; ++x)
     for (std::int16_t y = -7; y <= 7; ++y)
       for (std::int16_t z = -7; z <= 7; ++z) {
@@ -34,7 +34,7 @@ TEST(Quantised_turn, has_directions_of_its_length_at_right_angles) {
       }
 }
 
-TEST(Quospo, has_directions_within_some_degrees_of_those_of_any_box) {
+TEST(Quospo, has_directions_within_a_few_degrees_of_those_of_any_box) {
   std::mt19937_64 random(31);
   double least = 1;
   for (int sample = 0; sample < 5000; ++sample) {

@@ -37,7 +37,7 @@ std::vector<Exact_point> points_inside(const Volume& volume, const Leaf& leaf, s
 
 TYPED_TEST(Slab_volume, is_a_bounding_volume) { EXPECT_TRUE(Bounding_volume<TypeParam>); }
 
-TYPED_TEST(Slab_volume, has_what_is_inside_either_of_two_inside_the_one_around_both) {
+TYPED_TEST(Slab_volume, the_volume_around_two_contains_the_points_of_both) {
   const auto leaves = hard_leaves();
   std::mt19937_64 random(11);
   for (std::size_t i = 0; i + 1 < leaves.size(); ++i) {
@@ -48,7 +48,7 @@ TYPED_TEST(Slab_volume, has_what_is_inside_either_of_two_inside_the_one_around_b
   }
 }
 
-TYPED_TEST(Slab_volume, bounds_contain_what_is_inside) {
+TYPED_TEST(Slab_volume, bounds_contain_the_points_of_the_volume) {
   std::mt19937_64 random(12);
   for (const auto& [name, leaf] : hard_leaves()) {
     const auto volume = volume_of<TypeParam>(leaf);
@@ -58,7 +58,7 @@ TYPED_TEST(Slab_volume, bounds_contain_what_is_inside) {
   }
 }
 
-TYPED_TEST(Slab_volume, is_near_one_that_shares_a_vertex) {
+TYPED_TEST(Slab_volume, is_near_another_that_shares_a_vertex) {
   std::mt19937_64 random(13);
   for (const auto& [name, leaf] : hard_leaves()) {
     const auto a = volume_of<TypeParam>(leaf);
@@ -74,7 +74,7 @@ TYPED_TEST(Slab_volume, is_near_one_that_shares_a_vertex) {
   }
 }
 
-TYPED_TEST(Slab_volume, is_near_one_within_the_margin) {
+TYPED_TEST(Slab_volume, is_near_another_within_the_margin) {
   std::mt19937_64 random(14);
   for (const double scale : {1.0, 0x1p-300, 0x1p300, 1e-320})
     for (int sample = 0; sample < 3000; ++sample) {
@@ -92,7 +92,7 @@ TYPED_TEST(Slab_volume, is_near_one_within_the_margin) {
     }
 }
 
-TYPED_TEST(Slab_volume, is_not_near_one_beyond_a_plane) {
+TYPED_TEST(Slab_volume, is_not_near_another_beyond_a_plane) {
   std::mt19937_64 random(15);
   for (const auto& d : K_dop<26>::directions) {
     const Eigen::Vector3d step(3.5 * d[0], 3.5 * d[1], 3.5 * d[2]);
@@ -151,7 +151,7 @@ TYPED_TEST(Slab_volume, reads_nothing_past_the_last_vertex) {
   }
 }
 
-TYPED_TEST(Slab_volume, of_coordinates_that_are_not_finite_comes_to_an_end) {
+TYPED_TEST(Slab_volume, of_non_finite_coordinates_terminates) {
   std::mt19937_64 random(18);
   for (const double bad : {double{NAN}, double{INFINITY}, double{-INFINITY}})
     for (std::size_t place = 0; place < 27; ++place) {

@@ -33,7 +33,7 @@ void expect_inside(const Spherical_shell& shell, const std::vector<Exact_point>&
   for (const auto& p : points) ASSERT_TRUE(inside(shell, p));
 }
 
-TEST(Spherical_shell, holds_random_triangles_exactly) {
+TEST(Spherical_shell, contains_random_triangles_exactly) {
   std::mt19937_64 random(1);
   int shells = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -121,7 +121,7 @@ std::vector<Spherical_shell> assorted_shells(std::mt19937_64& random) {
   return shells;
 }
 
-TEST(Spherical_shell, of_two_holds_both_exactly) {
+TEST(Spherical_shell, of_two_shells_contains_both_exactly) {
   std::mt19937_64 random(2);
   auto shells = assorted_shells(random);
   std::vector<std::vector<Exact_point>> points;
@@ -141,7 +141,7 @@ TEST(Spherical_shell, of_two_holds_both_exactly) {
   EXPECT_GT(with_shell, 200);
 }
 
-TEST(Spherical_shell, of_neighbours_on_one_sphere_is_about_its_centre) {
+TEST(Spherical_shell, of_neighbours_on_one_sphere_is_centred_on_it) {
   const auto patch = [](double x, double y) {
     return volume_of<Spherical_shell>(
         grid(8, 8, [=](const auto& p) { return onto_sphere(p + Eigen::Vector3d(x, y, 0), 3); }));
@@ -154,7 +154,7 @@ TEST(Spherical_shell, of_neighbours_on_one_sphere_is_about_its_centre) {
   EXPECT_LT(four.volume(), 0.02 * four.ball.volume());
 }
 
-TEST(Spherical_shell, is_near_one_that_has_a_point_in_common) {
+TEST(Spherical_shell, is_near_another_with_a_common_point) {
   std::mt19937_64 random(3);
   const auto shells = assorted_shells(random);
   int apart = 0, seen_by_balls = 0;
@@ -170,7 +170,7 @@ TEST(Spherical_shell, is_near_one_that_has_a_point_in_common) {
   EXPECT_GT(apart, seen_by_balls + 50);
 }
 
-TEST(Spherical_shell, is_near_one_that_is_as_far_as_the_margin) {
+TEST(Spherical_shell, is_near_another_at_the_distance_of_the_margin) {
   std::mt19937_64 random(4);
   const auto integer = [&] { return static_cast<double>(random() % 64); };
   for (int i = 0; i < 100000; ++i) {
@@ -190,7 +190,7 @@ TEST(Spherical_shell, is_near_one_that_is_as_far_as_the_margin) {
   }
 }
 
-TEST(Spherical_shell, tells_surfaces_apart_whose_balls_meet) {
+TEST(Spherical_shell, separates_surfaces_whose_balls_meet) {
   const auto layer = [](double radius, double turn) {
     return volume_of<Spherical_shell>(grid(8, 8, [=](const auto& p) -> Eigen::Vector3d {
       return Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitX()) *
@@ -220,7 +220,7 @@ TEST(Spherical_shell, is_the_same_for_every_instruction_set_and_never_reads_past
   });
 }
 
-TEST(Spherical_shell, denies_nothing_where_numbers_end) {
+TEST(Spherical_shell, never_separates_on_overflow_underflow_or_nan) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto unit = volume_of<Spherical_shell>(grid(8, 8, [](const auto& p) { return onto_sphere(p, 1); }));
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {

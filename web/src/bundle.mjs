@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One script of a module and all that it imports, to stand inside a page.
+// Bundles a module and its imports into one script, for embedding in a page.
 import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -8,7 +8,7 @@ import { build } from 'esbuild';
 const web = fileURLToPath(new URL('..', import.meta.url));
 
 /**
- * @param {string} entry  a module, relative to this folder's parent
+ * @param {string} entry  path of a module, relative to this folder's parent
  * @returns {Promise<{script: string, licences: string}>}
  */
 export async function bundle(entry) {
@@ -28,7 +28,7 @@ export async function bundle(entry) {
   return { script: result.outputFiles[0].text, licences: licences(Object.keys(result.metafile.inputs)) };
 }
 
-/** The licences of what is bundled ask to be handed on with it. */
+/** Bundled packages require their licences to be included. */
 function licences(sources) {
   const packages = new Map();
   for (const folder of new Set(sources.map(package_folder).filter(Boolean))) {
@@ -40,7 +40,7 @@ function licences(sources) {
   return entries.sort().join('\n\n');
 }
 
-/** node_modules/three/src/Three.js -> node_modules/three, @scope/name likewise; nothing for a source of ours. */
+/** node_modules/three/src/Three.js -> node_modules/three, @scope/name likewise; nothing for sources of this project. */
 function package_folder(source) {
   return source.match(/^.*node_modules\/(@[^/]+\/)?[^/]+/)?.[0];
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the commands of this folder share: errors of one line, files that appear whole or not at all.
+// Shared by the commands of this folder: one-line errors, and files that appear whole or not at all.
 import fs from 'node:fs';
 import path from 'node:path';
 
-/** An error whose message tells the user what to mend; anything else that is thrown is a fault of ours. */
+/** An error in the user's input. Any other exception is a bug. */
 export class Bad_input extends Error {}
 
 /** Runs a command: a `Bad_input` becomes one line and exit code 1. */
@@ -17,7 +17,7 @@ export async function run_command(main) {
   }
 }
 
-/** Writes a file under another name in its folder, then renames it. */
+/** Writes a file under a temporary name in its folder, then renames it. */
 export function write_whole(file, content) {
   const temporary = path.join(path.dirname(file), `.${path.basename(file)}.${process.pid}`);
   fs.mkdirSync(path.dirname(file), { recursive: true });

@@ -6,8 +6,8 @@ import {
 } from 'three';
 import { region_geometry, region_material } from './region_surface.mjs';
 
-// A picture is the mean of passes. In each the lamp and pieces of sky are elsewhere, and the camera is moved by a part of
-// a pixel: shadows become soft, creases dark, edges smooth.
+// A picture is the mean of several passes. Each pass has another lamp position, other sky lights and a subpixel camera
+// offset: this gives soft shadows, dark creases and smooth edges.
 const passes = 24;
 const skies = 3;
 const background = new Color('#f3f4f6');
@@ -15,7 +15,7 @@ const lamp_direction = new Vector3(-0.25, -0.7, 0.95).normalize();
 const lamp_spread = 0.3;
 const lamp_strength = 2;
 const sky_strength = 2.5;
-const sky_spread = 0.93;  // Light from the horizon would draw long streaks on the ground.
+const sky_spread = 0.93;  // Light from the horizon would cast long streaks on the ground.
 const fill_strength = 0.25;
 const shadow_depth = 0.5;
 const view_from = new Vector3(0.62, -1, 0.55).normalize();
@@ -28,10 +28,10 @@ renderer.outputColorSpace = LinearSRGBColorSpace;
 renderer.shadowMap.enabled = true;
 renderer.shadowMap.type = BasicShadowMap;
 
-/** The same points in every run, evenly in the unit square. */
+/** Deterministic points, evenly distributed in the unit square. */
 const even_point = (i) => [((i + 0.5) * 0.7548776662466927) % 1, ((i + 0.5) * 0.5698402909980532) % 1];
 
-/** Directions around the vertical, as evenly as a level ground sees them; `spread` is the sine of the widest angle. */
+/** Directions around the vertical, cosine-weighted for level ground; `spread` is the sine of the widest angle. */
 function upward([u, v], spread) {
   const r = spread * Math.sqrt(u);
   return new Vector3(r * Math.cos(2 * Math.PI * v), r * Math.sin(2 * Math.PI * v), Math.sqrt(1 - r * r));
@@ -39,7 +39,7 @@ function upward([u, v], spread) {
 
 const to_lamp = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), lamp_direction);
 
-/** Directions to the lamp and to the pieces of sky in a pass. */
+/** Directions to the lamp and the sky lights in a pass. */
 function light_directions(pass) {
   const lamp = upward(even_point(pass), lamp_spread).applyQuaternion(to_lamp);
   const sky = Array.from({ length: skies }, (_, i) => upward(even_point(pass * skies + i), sky_spread));
@@ -50,24 +50,24 @@ function shadow_light(strength) {
   const light = new DirectionalLight(0xffffff, strength);
   light.castShadow = true;
   light.shadow.mapSize.set(1024, 1024);
-  // The mesh lies in the unit ball; its shadow on the ground is drawn as far as the map reaches.
+  // The mesh is inside the unit ball; its shadow on the ground is limited to the shadow map.
   Object.assign(light.shadow.camera, { left: -1.5, right: 1.5, top: 1.5, bottom: -1.5, near: 0.5, far: 8 });
   light.shadow.normalBias = 0.012;
   light.shadow.bias = -0.0008;
   return light;
 }
 
-/** A ground that is as bright as the background wherever nothing shades it, and that shadows darken a little. */
+/** A ground as bright as the background where it is unshaded, and slightly darker in shadows. */
 function ground(height, lights) {
   const material = new MeshLambertMaterial({ color: background.clone().multiplyScalar((shadow_depth * Math.PI) / brightness(lights)) });
   material.emissive = background.clone().multiplyScalar(1 - shadow_depth);
   const plane = new Mesh(new PlaneGeometry(200, 200), material);
-  plane.position.z = height - 0.01;  // A flat mesh must not lie in it.
+  plane.position.z = height - 0.01;  // A flat mesh must not coincide with it.
   plane.receiveShadow = true;
   return plane;
 }
 
-/** What falls on a level ground in the open, in the mean of the passes. */
+/** Mean illumination of unshaded level ground over all passes. */
 function brightness(lights) {
   let sum = 0;
   for (let pass = 0; pass < passes; ++pass)
@@ -75,7 +75,7 @@ function brightness(lights) {
   return fill_strength + sum / passes;
 }
 
-/** A camera from the side and above, near enough that the mesh just fits. */
+/** A camera from the side and above, at the distance at which the mesh just fits. */
 function fitted_camera(positions) {
   const camera = new PerspectiveCamera(field_of_view, aspect, 0.05, 100);
   camera.up.set(0, 0, 1);
@@ -98,7 +98,7 @@ function add_pass(sum, target, buffer) {
   for (let i = 0; i < sum.length; ++i) sum[i] += buffer[i];
 }
 
-/** The mean of the passes, which is linear light from the lowest row up, on a canvas. */
+/** The mean of the passes on a canvas. Passes are in linear light, with the lowest row first. */
 function to_canvas(sum, width, height) {
   const image = new ImageData(width, height);
   const curve = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
@@ -136,7 +136,7 @@ function render(mesh, width, height) {
   return to_canvas(sum, width, height);
 }
 
-/** All pictures taken so far, as cards with their names below. */
+/** All pictures taken so far, with their names below. */
 function sheet_of(pictures, columns) {
   const [width, gap, label_height] = [400, 16, 40];
   const height = Math.round(width / aspect);
@@ -159,7 +159,7 @@ function sheet_of(pictures, columns) {
 async function png(canvas) {
   const bytes = new Uint8Array(await (await canvas.convertToBlob({ type: 'image/png' })).arrayBuffer());
   let text = '';
-  // As many at once as a call takes arguments.
+  // In chunks, because of the limit on arguments per call.
   for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
   return btoa(text);
 }
@@ -170,7 +170,7 @@ function decode(text, Type) {
 
 const taken = [];
 
-/** @returns {Promise<string>} a PNG, in base64 as all that goes between this page and the program */
+/** @returns {Promise<string>} a PNG in base64, like all data between this page and the program */
 globalThis.take_picture = ({ encoded, label, width }) => {
   const mesh = {
     positions: decode(encoded.positions, Float32Array),

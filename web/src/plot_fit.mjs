@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a plot fits a page: the width is that of its place, and a phone gets one column.
+// Fits a plot to a page: the width of its container, and one column on a phone.
 import { is_single_view, plot_config } from './plot_style.mjs';
 
-/** The heading stands beside the plot already; the width is that of the page. */
+/** Drops the title, since the page has a heading, and uses the width of the page. */
 export function fitted_plot(spec, narrow) {
   const fitted = { ...spec, title: undefined };
   if (is_single_view(spec)) return { ...fitted, width: spec.width ?? 'container' };
   return narrow ? in_one_column(fitted) : fitted;
 }
 
-/** Small multiples that wrap stand one below the other. */
+/** Puts wrapping small multiples one below the other. */
 function in_one_column(spec) {
   const facet = spec.encoding?.facet;
   if (facet) return { ...spec, columns: undefined, encoding: { ...spec.encoding, facet: { ...facet, columns: 1 } } };

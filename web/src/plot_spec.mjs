@@ -12,13 +12,13 @@ const extension = '.vl.json';
  * @property {string} name        of the file, without its extension
  * @property {string} title
  * @property {string} description
- * @property {object} spec        a Vega-Lite specification that holds its data
+ * @property {object} spec        a Vega-Lite specification with inline data
  */
 
 /**
  * All plots of a folder, in the order of their names.
  * @param {string} spec_folder  holds *.vl.json
- * @param {string} data_folder  what the specifications' data are relative to
+ * @param {string} data_folder  folder that data paths are relative to
  * @returns {Plot[]}
  */
 export function read_plots(spec_folder, data_folder) {
@@ -46,7 +46,7 @@ function read_plot(file, data_folder) {
   return { name, title: [title].flat().join(' '), description: spec.description ?? '', spec };
 }
 
-/** Replaces each `data` of a specification, at any depth, by the rows themselves; returns all rows. */
+/** Replaces each `data` of a specification, at any depth, by its rows; returns all rows. */
 function inline_data(spec, file, data_folder) {
   const all_rows = [];
   for (const node of objects_in(spec)) {
@@ -74,10 +74,10 @@ function read_rows(data, file, data_folder) {
   return rows;
 }
 
-/** A plot with a misspelt field is drawn without complaint, and empty; so every field must be in a row or be computed. */
+/** Checks that every field is in a row or computed, since Vega silently draws an empty plot for a misspelt field. */
 function check_fields(spec, rows, file) {
   const nodes = [...objects_in(spec)];
-  // The names of pivoted columns are values of the data.
+  // The names of pivoted columns are data values.
   if (nodes.some((node) => node.pivot !== undefined)) return;
   const known = new Set([...rows.flatMap((row) => Object.keys(row)), ...nodes.flatMap(computed_fields)]);
   for (const field of nodes.flatMap(named_fields))
@@ -107,11 +107,11 @@ function expression_fields(expression) {
   try {
     return generate(parseExpression(expression)).fields;
   } catch {
-    return [];  // The compiler words it better.
+    return [];  // The compiler's message is better.
   }
 }
 
-/** Every object inside a specification, itself included, without the rows of its data. */
+/** Every object inside a specification, including itself but not its data rows. */
 function* objects_in(node) {
   if (is_object(node)) yield node;
   for (const [key, child] of Object.entries(node ?? {}))

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How plots look, the same in files and on the page.
+// The style of plots, in files and on the page.
 
 const inks = {
   light: { text: '#24292f', faint: '#57606a', line: '#e3e6ea', marks: '#4269d0' },
   dark: { text: '#e6e8eb', faint: '#a3abb4', line: '#30363d', marks: '#7d9bf0' },
 };
 
-// Hues that can be told apart on white and on near-black (those of Observable Plot, without the yellow).
+// Hues that are distinguishable on white and on near-black (those of Observable Plot, without the yellow).
 const hues = ['#4269d0', '#ff725c', '#3ca951', '#e0a100', '#a463f2', '#38b2a3', '#ff8ab7', '#9c6b4e', '#97bbf5', '#9498a0'];
 
-/** A Vega-Lite configuration; what a specification says itself goes before it. */
+/** A Vega-Lite configuration; a specification's own settings override it. */
 export function plot_config(scheme, font) {
   const { text, faint, line, marks } = inks[scheme];
   return {
@@ -27,7 +27,7 @@ export function plot_config(scheme, font) {
   };
 }
 
-/** Whether a specification is one plot, or layers of one, which can take the width of the page. */
+/** Whether a specification is a single or layered plot, which can take the width of the page. */
 export function is_single_view(spec) {
   const { row, column, facet } = spec.encoding ?? {};
   return Boolean(spec.mark || spec.layer) && !row && !column && !facet && !spec.repeat;

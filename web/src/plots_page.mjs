@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One HTML page that holds all plots, their data and the code that draws them.
+// One HTML page with all plots, their data and the code that draws them.
 import fs from 'node:fs';
 import { bundle } from './bundle.mjs';
 
 /**
  * @param {string} title
  * @param {import('./plot_spec.mjs').Plot[]} plots
- * @returns {Promise<string>} HTML that loads nothing
+ * @returns {Promise<string>} self-contained HTML
  */
 export async function plots_page(title, plots) {
   const { script, licences } = await bundle('src/plots_page_client.mjs');
@@ -40,7 +40,7 @@ ${licences.replaceAll('--', '- -')}
 }
 
 /**
- * Several plots of the same data hold it once: each `values` becomes the number of a table.
+ * Stores equal data of several plots once: each `values` becomes the index of a table.
  * @param {object[]} specs
  */
 function shared_tables(specs) {
@@ -63,7 +63,7 @@ function section({ name, title, description }) {
 </section>`;
 }
 
-/** JSON that cannot end the script element it stands in. */
+/** JSON that cannot end the enclosing script element. */
 function embed_json(value) {
   return JSON.stringify(value).replaceAll('<', '\\u003c');
 }

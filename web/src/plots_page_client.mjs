@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs in the page of plots: draws them, and again when the colour scheme or the kind of screen changes.
+// Runs in the page of plots: draws them, and redraws when the colour scheme or the kind of screen changes.
 import embed from 'vega-embed';
 import { fitted_plot, page_plot_config } from './plot_fit.mjs';
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A browser packs its PNG files in haste; packed again they are a quarter smaller, pixel for pixel the same.
+// Recompresses PNG files of a browser, which makes them a quarter smaller with identical pixels.
 import { deflateSync, inflateSync } from 'node:zlib';
 
 const signature_length = 8;
@@ -37,7 +37,7 @@ const crc_table = Uint32Array.from({ length: 256 }, (_, byte) => {
   return crc;
 });
 
-/** That of zlib, which Node.js 18 does not offer. */
+/** CRC-32 as in zlib, which Node.js 18 does not provide. */
 function crc32(bytes) {
   let crc = 0xffffffff;
   for (const byte of bytes) crc = (crc >>> 8) ^ crc_table[(crc ^ byte) & 0xff];

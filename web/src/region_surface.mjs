@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface whose regions have flat colours and crisp borders, for three.js.
+// A surface with a flat colour per region and sharp borders, for three.js.
 import { BufferAttribute, BufferGeometry, DoubleSide, MeshPhongMaterial } from 'three';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 
 const sharp_edge = (40 * Math.PI) / 180;
 
 /**
- * Regions label vertices, so a face can belong to three. Each point of it takes the colour of the region that weighs
- * most there: the sum of the barycentric coordinates of the region's corners. A border of two regions is then a straight
- * line between midpoints of edges, three meet in the centroid, and no face needs to be split.
+ * Regions label vertices, so a face can belong to three. Each point takes the colour of the region with the largest
+ * weight, the sum of the barycentric coordinates of the region's corners. The border of two regions is then a straight
+ * line between midpoints of edges, three borders meet in the centroid, and no face needs to be split.
  *
  * @param {import('./coloured_ply.mjs').Coloured_mesh} mesh
  */
@@ -33,7 +33,7 @@ function corners_with_normals(positions, faces) {
   const indexed = new BufferGeometry();
   indexed.setAttribute('position', new BufferAttribute(positions.slice(), 3));
   indexed.setIndex(new BufferAttribute(faces, 1));
-  // three.js takes vertices within a hundredth of a unit for one.
+  // three.js would join vertices within a hundredth of a unit.
   const larger = 1e5;
   const geometry = toCreasedNormals(indexed.scale(larger, larger, larger), sharp_edge);
   return geometry.scale(1 / larger, 1 / larger, 1 / larger);
@@ -53,7 +53,7 @@ v_colour_1 = colour_1;
 v_colour_2 = colour_2;
 `;
 
-// The weights are linear on a face, so their derivatives tell the distance to the border in pixels.
+// The weights are linear on a face, so their derivatives give the distance to the border in pixels.
 const paint = `
 float most = max(v_weight.x, max(v_weight.y, v_weight.z));
 vec3 behind = vec3(most) - v_weight;

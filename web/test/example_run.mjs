@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A made-up run: a wobbling torus knot, and a sphere that passes through it. What is found is not the method's, only alike.
+// A synthetic run: a wobbling torus knot, and a sphere that passes through it. The results only resemble those of the
+// method.
 
 const length = ([x, y, z]) => Math.hypot(x, y, z);
 const less = (a, b) => a.map((x, i) => x - b[i]);
@@ -11,7 +12,7 @@ function torus_faces(rows, columns) {
   return square_faces(rows, columns, at);
 }
 
-/** Rows from pole to pole; the poles are rows too, whose vertices coincide in place. */
+/** Rows from pole to pole. The poles are rows of coinciding vertices. */
 function sphere_faces(rows, columns) {
   return square_faces(rows - 1, columns, (i, j) => i * columns + (j % columns));
 }
@@ -59,7 +60,7 @@ function sphere_positions(rows, columns, t) {
   return positions;
 }
 
-/** Vertices spread over the mesh by taking, again and again, the one farthest from those taken; each vertex goes to the nearest. */
+/** Farthest-point sampling of seed vertices; each vertex belongs to the nearest seed. */
 function nearest_seed_labels(positions, regions) {
   const vertices = positions.length / 3;
   const place = (v) => positions.slice(3 * v, 3 * v + 3);
@@ -114,7 +115,7 @@ function play_frame(objects, sphere, f, t) {
   const links = first.flatMap((p, a) => second.map((q, b) => [0, a, 1, b, length(less(place(0, p), place(1, q)))]));
   const mu = length(less(place(0, 0), place(0, 1)));
   const contacts = crossings(objects, sphere, t, place);
-  // What this method misses is made up: now and then no pair of particles is near.
+  // Synthetic misses: at times no pair of particles is near.
   const candidates = f % 29 < 4 ? [] : links.filter((link) => link[4] < 2.5 * mu).sort((a, b) => a[4] - b[4]);
   const positive = contacts.length > 0;
   const found = positive && candidates.length > 0;
@@ -146,7 +147,7 @@ function walk(objects, f, place) {
   return { moves, iterations };
 }
 
-/** Faces of the knot with corners inside and outside of the sphere, with the sphere's face that is nearest in direction. */
+/** Faces of the knot with corners inside and outside the sphere, each with the sphere's face nearest in direction. */
 function crossings(objects, { rows, columns }, t, place) {
   const middle = sphere_middle(t);
   const depth = (p) => {

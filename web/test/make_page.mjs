@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pages to look at and to test with: make_page TEMPLATE OUT_FILE [KIND]
+// Writes pages for inspection and tests: make_page TEMPLATE OUT_FILE [KIND]
 import fs from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { example_run } from './example_run.mjs';
@@ -45,7 +45,8 @@ const own_plot = {
 
 /**
  * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact'} kind
- * @returns {{bytes: Buffer, lines: string[], log: object[]}} the container, its lines of frames.jsonl, and what was made up
+ * @returns {{bytes: Buffer, lines: string[], log: object[]}} the container, its lines of frames.jsonl, and the
+ * synthetic data
  */
 export function make_container(kind) {
   const writer = new Container_writer();
@@ -94,7 +95,7 @@ function add_object(writer, object, i, exact) {
   };
 }
 
-/** As src/program/frame_log.cpp writes it. */
+/** In the format of src/program/frame_log.cpp. */
 function line_of({ moves, iterations, candidates, contacts, positive, found }, frame, exact) {
   const faces = contacts.map(([, face_a, , face_b]) => [face_a, face_b]).sort((p, q) => p[0] - q[0] || p[1] - q[1]);
   const counts = { exact_tests: 4 * candidates.length, contacts: contacts.length };
@@ -104,7 +105,7 @@ function line_of({ moves, iterations, candidates, contacts, positive, found }, f
   return { frame, pairs: [{ a: 'knot', b: 'sphere', collides: found, faces, truth: positive }], statistics };
 }
 
-/** Times are made up, but the same in each run. */
+/** Times are synthetic, and the same in each run. */
 function stage_of({ candidates, iterations, positive, found, nearest }, frame) {
   const noise = (i) => 0.8 + 0.4 * ((Math.imul(frame * 8 + i + 1, 2654435761) >>> 8) / 2 ** 24);
   const times = {

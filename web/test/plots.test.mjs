@@ -11,7 +11,7 @@ const here = path.dirname(fileURLToPath(import.meta.url));
 const specs = path.join(here, 'plots');
 const plot_names = ['by_mesh', 'distortion', 'time'];
 
-/** A folder that holds the example's data, and goes with the test. */
+/** A temporary folder with the example's data, removed after the test. */
 function data_folder(t) {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'plots-'));
   t.after(() => fs.rmSync(folder, { recursive: true }));
@@ -28,7 +28,7 @@ function results(folder) {
   return files.map((file) => fs.readFileSync(path.join(folder, file), 'utf8'));
 }
 
-/** Whether each element is closed, in order, and text holds no markup. */
+/** Whether elements are properly nested and closed, and text has no markup. */
 function is_well_formed(xml) {
   const open = [];
   const rest = xml.replace(/<(\/?)([\w:]+)((?:\s+[\w:-]+="[^"<]*")*)\s*(\/?)>/g, (_, closes, name, _attributes, empty) => {
@@ -41,7 +41,7 @@ function is_well_formed(xml) {
 
 const count = (text, part) => text.split(part).length - 1;
 
-/** What a page loads: addresses in its elements, outside of its scripts, and in its style. */
+/** URLs that a page loads: in its elements, outside its scripts, and in its style. */
 function loads(html) {
   const markup = html.replace(/(<script[^>]*>)[^]*?<\/script>/g, '$1').replace(/<!--[^]*?-->/g, '');
   return [...markup.matchAll(/(?:src|href|srcset|data|action)\s*=\s*"([^"]*)"|url\(([^)]*)\)|@import\s+(\S+)/g)].map((m) => m[1] ?? m[2] ?? m[3]);

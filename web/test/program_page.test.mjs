@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A page as the program writes it, of the paper's pair: what it shows is what the program wrote beside it.
+// A page that the program writes for the paper's pair shows the same results as the program's other files.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';

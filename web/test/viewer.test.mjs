@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The viewer in a browser. The machine that runs this may be busy: waiting has an end, but a distant one.
+// The viewer in a browser. Timeouts are long, since the machine may be busy.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import os from 'node:os';
@@ -19,7 +19,7 @@ const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'viewer-'));
 let template, browser;
 
 const made = new Map();
-/** The container of a kind, and what went into it. */
+/** The container of a kind, and its contents. */
 function container(kind) {
   if (!made.has(kind)) made.set(kind, make_container(kind));
   return made.get(kind);
@@ -32,7 +32,7 @@ function write(name, data) {
   return pathToFileURL(file).href;
 }
 
-/** Opens a page; what it logs as an error and what it requests is kept. */
+/** Opens a page, and records its logged errors and its requests. */
 async function open(url, options = laptop, where = browser) {
   const page = await where.newPage(options);
   page.setDefaultTimeout(patience);
@@ -55,7 +55,7 @@ async function goto_frame(page, frame) {
   await settled(page);
 }
 
-/** Keeps the picture in the page, once nothing is left to draw. */
+/** Stores the picture in the page, once drawing has finished. */
 async function keep_picture(page) {
   await settled(page);
   await page.evaluate(() => {
@@ -87,7 +87,7 @@ async function changes_picture(page, act, what) {
   assert.ok(count > 150, `${what}: ${count} pixels`);
 }
 
-/** A frame in which everything can be seen. */
+/** A frame in which everything is visible. */
 const busy_frame = (log) => log.findIndex(({ candidates, contacts }, f) => f > 10 && candidates.length > 0 && contacts.length > 0);
 
 describe('the viewer', () => {
@@ -145,7 +145,7 @@ describe('the viewer', () => {
     const keys = await page.evaluate('Object.keys(lodestone.layers)');
     assert.deepEqual(keys, ['surfaces', 'regions', 'wireframe', 'particles', 'trails', 'candidates', 'segments', 'faces']);
     for (const key of keys) {
-      // What lies inside is seen through the knot, and of candidate pairs the lines alone.
+      // The inside is visible through the knot, and candidate pairs are shown only by their lines.
       if (key === 'candidates') {
         await changes_picture(page, () => page.check('#object-0-translucent'), 'translucent');
         await page.evaluate(() => (window.lodestone.layers.regions = window.lodestone.layers.particles = false));
@@ -253,7 +253,7 @@ describe('the viewer', () => {
       const rule = page.locator('.plot-frame', { has: plot }).locator('.rule');
       for (const part of [0.7, 0.4]) {
         await page.mouse.click(box.x + part * box.width, box.y + 60);
-        // The rule follows to where the click was, within half a frame.
+        // The rule moves to the position of the click, within half a frame.
         const { x } = await rule.boundingBox();
         assert.ok(Math.abs(x - (box.x + part * box.width)) < (0.6 * box.width) / 39, `${name}: ${x}`);
       }

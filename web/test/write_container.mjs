@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes what docs/page_format.md describes, from its text alone: the tests' other end of the contract.
+// Writes the format of docs/page_format.md, implemented from that text alone.
 import { deflateRawSync } from 'node:zlib';
 
-/** @param {Iterable<number>} values  whole numbers from 0 on */
+/** @param {Iterable<number>} values  integers >= 0 */
 export function varints(values) {
   const bytes = [];
   for (let value of values) {
@@ -46,12 +46,12 @@ export function on_grid(frames) {
   return { box, grid: frames.map((frame) => Uint16Array.from(frame, (x, i) => Math.round((65535 * (x - box[i % 3])) / extent(i % 3)))) };
 }
 
-/** Collects sections, and places them one after the other. */
+/** Collects sections, and concatenates them. */
 export class Container_writer {
   sections = {};
   packed = [];
 
-  /** @param {string} name @param {Buffer | string | object} content  bytes, text, or what becomes JSON @returns {string} the name */
+  /** @param {string} name @param {Buffer | string | object} content  bytes, text, or an object to store as JSON @returns {string} the name */
   add(name, content) {
     const raw = Buffer.isBuffer(content) ? content : Buffer.from(typeof content === 'string' ? content : JSON.stringify(content));
     const stored = deflateRawSync(raw);
@@ -70,7 +70,7 @@ export class Container_writer {
   }
 }
 
-/** @param {string} template @param {string} title @param {Buffer | string} data  bytes, or text to stand there as it is */
+/** @param {string} template @param {string} title @param {Buffer | string} data  bytes, or text to insert unchanged */
 export function fill(template, title, data) {
   const escaped = title.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
   const text = Buffer.isBuffer(data) ? data.toString('base64') : data;

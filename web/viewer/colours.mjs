@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of what is drawn; those of the page stand in style.css.
+// Colours of the picture; those of the page are in style.css.
 
 /**
- * The same as in files that `lodestone partition --out` writes: hues in steps of the golden section, in three
+ * The same colours as in files of `lodestone partition --out`: hues in steps of the golden section, with three
  * lightnesses.
  * @param {number} region
  * @returns {[number, number, number]} 0 to 255
@@ -17,12 +17,12 @@ export function region_colour(region) {
   return [channel(0), channel(4), channel(2)];
 }
 
-/** Of whole objects, where no regions are. */
+/** Colours of whole objects, without regions. */
 const object_colours = [[154, 172, 200], [214, 186, 148], [160, 193, 168], [196, 166, 193], [190, 190, 160], [160, 188, 196]];
 
 export const object_colour = (object) => object_colours[object % object_colours.length];
 
-/** Marks on the surfaces, which can have any colour: a core in one colour, with a rim that parts it from what is behind. */
+/** Marks on the surfaces, which can have any colour: a core in one colour, with a rim that separates it from the background. */
 export const marks = {
   particle: { core: [1, 1, 1], rim: [0.07, 0.08, 0.1] },
   near: [1, 0.82, 0.1],  // a particle or region of a candidate pair

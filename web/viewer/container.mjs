@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The block of data in the page -> what the viewer shows. The format is that of docs/page_format.md.
+// Decodes the page's block of data, in the format of docs/page_format.md, for the viewer.
 import { Damaged, decode_labels, decode_particles, decode_positions, decode_topology } from './decode.mjs';
 
 const magic = 'LDSTPAGE';
@@ -8,7 +8,7 @@ const preamble = 16;
 
 /**
  * @typedef {object} Partition
- * @property {number} frame         of the page, from which on it holds
+ * @property {number} frame         of the page, from which it applies
  * @property {number} regions
  * @property {Uint32Array} labels   region of each vertex
  *

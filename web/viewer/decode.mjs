@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bytes of the sections -> numbers, as docs/page_format.md says. Nothing here touches the page.
+// Decodes the bytes of sections to numbers, as docs/page_format.md describes. Independent of the page.
 
-/** What is wrong with the data of a page, in words for its reader. */
+/** An error in the data of a page, with a message for its reader. */
 export class Damaged extends Error {}
 
-/** Reads varints one after the other. */
+/** Reads consecutive varints. */
 export class Varint_reader {
   /** @param {Uint8Array} bytes @param {string} name  of the section, for messages */
   constructor(bytes, name) {
@@ -13,21 +13,21 @@ export class Varint_reader {
     this.at = 0;
   }
 
-  /** @returns {number} a whole number from 0 to 2^53 - 1 */
+  /** @returns {number} an integer from 0 to 2^53 - 1 */
   next() {
     const byte = this.bytes[this.at++];
     if (byte < 128) return byte;
     return this.#rest(byte);
   }
 
-  /** @returns {number} a whole number of either sign */
+  /** @returns {number} an integer of either sign */
   next_signed() {
     const n = this.next();
     if (n < 2147483648) return (n >>> 1) ^ -(n & 1);
     return n % 2 === 0 ? n / 2 : -(n + 1) / 2;
   }
 
-  /** Whatever is left over belongs to nothing: the counts of the header are wrong. */
+  /** Checks that no bytes are left: otherwise the counts of the header are wrong. */
   finish() {
     if (this.at !== this.bytes.length) throw new Damaged(`${this.name}: ${this.bytes.length - this.at} bytes too many`);
   }
@@ -35,7 +35,7 @@ export class Varint_reader {
   #rest(first) {
     if (first === undefined) throw new Damaged(`${this.name}: ends early`);
     let value = first & 127;
-    // Bits beyond the 32nd are lost to shifts, so the places are multiplied.
+    // Multiplies instead of shifting, since shifts lose bits beyond the 32nd.
     for (let place = 128; place <= 2 ** 49; place *= 128) {
       const byte = this.bytes[this.at++];
       if (byte === undefined) throw new Damaged(`${this.name}: ends early`);

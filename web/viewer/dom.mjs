@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements of the page. Text is set as text, so nothing that a file says becomes markup.
+// Elements of the page. Text is set as text, so that nothing from a file becomes markup.
 
 /** @param {string} id @returns {any} the element of the template with that id */
 export const by_id = (id) => document.getElementById(id);
@@ -18,7 +18,7 @@ export function element(tag, properties = {}, ...children) {
   return made;
 }
 
-/** The same for pictures; all properties are attributes. */
+/** The same for SVG; all properties are attributes. */
 export function svg_element(tag, attributes = {}, ...children) {
   const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The faces of one object that intersect another: in one colour, with dark edges, faint where a surface is before them.
+// The faces of one object that intersect another: in one colour, with dark edges, faint where a surface hides them.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, GLSL3, Group, Mesh, RawShaderMaterial } from 'three';
 import { marks } from './colours.mjs';
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Specifications of the plots over frames that every run gets.
+// Specifications of the plots over frames that every run has.
 import { stage_names } from './numbers.mjs';
 
 /**
@@ -52,7 +52,7 @@ function distance_plot(stages, scene_frame) {
   };
 }
 
-/** Nothing to recall before the first collision. */
+/** No recall before the first collision. */
 function recall_plot(stages, scene_frame) {
   let positive = 0, found = 0;
   const values = [];

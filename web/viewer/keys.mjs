@@ -46,7 +46,7 @@ export function listen_to_keys({ player, shown, reset, turn }) {
 
 /** Space presses the button that has the focus; arrows choose in a list. */
 function is_for_element({ key, target }) {
-  if (target.closest?.('dialog:not([open])')) return false;  // It keeps the focus for a moment after it was closed.
+  if (target.closest?.('dialog:not([open])')) return false;  // It keeps the focus for a moment after closing.
   if (key === ' ' && target.closest?.('button, input, select, summary, a')) return true;
   return Boolean(target.closest?.('select, textarea, input:not([type=checkbox])')) && key !== '?';
 }

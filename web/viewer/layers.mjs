@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What can be shown and hidden, and which of it a page has.
+// The layers that can be shown and hidden, and which of them a page has.
 
 /**
  * @typedef {object} Layer
@@ -34,7 +34,7 @@ function has_any(lists, fits = () => true) {
   return Boolean(lists?.some((list) => list.some(fits)));
 }
 
-/** What is shown at present: layers, and per object whether it is visible and whether one sees through it. */
+/** The current visibility: layers, and per object whether it is visible and whether it is translucent. */
 export class Shown {
   /** @param {import('./container.mjs').Page} page */
   constructor(page) {

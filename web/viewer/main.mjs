@@ -19,7 +19,7 @@ async function main() {
   const theme = new Theme(by_id('theme'));
   const began = performance.now();
   const page = await read_page(by_id('lodestone-data').textContent);
-  by_id('lodestone-data').textContent = '';  // Megabytes of text that nobody reads again.
+  by_id('lodestone-data').textContent = '';  // Megabytes of text that are not read again.
   const stats = { decode_ms: performance.now() - began };
   const player = new Player(page.header);
   const shown = new Shown(page);
@@ -32,7 +32,7 @@ async function main() {
   player.on_change(() => plots.follow());
   document.documentElement.dataset.ready = 'yes';
   Object.assign(stats, view?.stats, { ready_ms: performance.now() });
-  // The plots come last: a second of work that the picture need not wait for.
+  // The plots come last: they take a second, which the picture need not wait for.
   const plots_ready = new Promise((resolve) => setTimeout(() => theme.on_change((scheme) => plots.draw(scheme).then(resolve)), 50));
   return { page, player, shown, view, stats, plots_ready };
 }
@@ -90,7 +90,7 @@ function complain(error) {
 const started = main();
 started.catch(complain);
 
-/** For tests, and for those who look at a run from the browser's console. */
+/** For tests, and for inspecting a run from the browser's console. */
 window.lodestone = {
   ready: started.then(({ page, player, shown, view, stats, plots_ready }) => {
     const layer_switch = (key) => ({ enumerable: true, get: () => shown.layers[key], set: (on) => shown.set_layer(key, Boolean(on)) });

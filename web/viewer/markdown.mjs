@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reports: headings, paragraphs, lists, tables, code. Whatever else Markdown can do stands there as it was written.
+// Reports: headings, paragraphs, lists, tables, code. All other Markdown is shown as plain text.
 import { element } from './dom.mjs';
 
 /** @param {string} text @returns {HTMLElement[]} */
@@ -75,7 +75,7 @@ function inline(text) {
     if (/^\*\*.+\*\*$/.test(part)) return element('strong', {}, ...inline(part.slice(2, -2)));
     const link = part.match(/^\[([^\]]+)\]\(([^)\s]+)\)$/);
     if (!link) return part;
-    if (!/^https?:\/\//.test(link[2])) return link[1];  // Files beside the report are not beside the page.
+    if (!/^https?:\/\//.test(link[2])) return link[1];  // Relative links would not work from the page.
     return element('a', { href: link[2], rel: 'noreferrer', textContent: link[1] });
   });
 }

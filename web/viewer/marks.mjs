@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands on the surfaces in one frame: particles, trails, candidate pairs, contacts.
+// Marks on the surfaces in one frame: particles, trails, candidate pairs, contacts.
 import { Group } from 'three';
 import { marks } from './colours.mjs';
 import { Faces } from './faces.mjs';
@@ -54,7 +54,7 @@ export class Marks {
     });
   }
 
-  /** Where each particle walked lately, on the surface as it is now; older parts are fainter. */
+  /** The recent path of each particle, on the current surface; older parts are fainter. */
   #trails(frame, object) {
     const segments = [];
     const count = this.page.objects[object].particles[frame].length;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Normals of vertices, anew for each frame that is shown: a few milliseconds for 50 000 triangles.
+// Vertex normals, recomputed for each frame shown: a few milliseconds for 50 000 triangles.
 
 /**
  * @param {import('./container.mjs').Page_object} object
- * @param {number[]} cell  lengths of a step of the grid along x, y, z
+ * @param {number[]} cell  step lengths of the grid along x, y, z
  * @returns {(q: Uint16Array) => Uint16Array}  positions of a frame -> the normal of each vertex, folded into two bytes
  */
 export function vertex_normals({ corners, vertices }, [sx, sy, sz]) {
@@ -27,7 +27,7 @@ export function vertex_normals({ corners, vertices }, [sx, sy, sz]) {
   };
 }
 
-/** A direction on the octahedron |x| + |y| + |z| = 1, whose lower half is folded over the upper one. */
+/** Octahedral encoding: a direction on |x| + |y| + |z| = 1, with the lower half folded over the upper one. */
 export function fold(x, y, z) {
   const size = Math.abs(x) + Math.abs(y) + Math.abs(z);
   if (!(size > 0)) return 0x8080;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The figures of the frame: its line of frames.jsonl, and what each stage took.
+// The figures of the frame: its line of frames.jsonl, and the time of each stage.
 import { by_id, element, number_text } from './dom.mjs';
 import { set_text } from './panel.mjs';
 
@@ -26,7 +26,7 @@ export function line_of(page, frame) {
   }
 }
 
-/** Rows once made are kept, so that playing changes nothing but text. */
+/** Rows are reused, so that playing changes only text. */
 class Rows {
   constructor(root, make) {
     this.root = root;
@@ -90,7 +90,7 @@ function pair_row(name) {
   return { nodes: [element('li', {}, element('span', { className: 'name', textContent: name }), state)], set };
 }
 
-/** A bar whose length grows with the root: stages differ a thousandfold. */
+/** A bar with a square-root scale, since stages differ by a factor of a thousand. */
 function stage_row(key, most) {
   const value = element('dd', { id: `stage-${key}` });
   const bar = element('i', { className: `bar ${key}` });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What became of each frame: whether surfaces met, and whether that was found.
+// The outcome of each frame: whether surfaces met, and whether that was found.
 
 /** @typedef {'none' | 'confirmed' | 'missed'} Outcome */
 
@@ -12,7 +12,7 @@ export function outcome_of({ positive, found }) {
 }
 
 /**
- * Neighbouring frames of which `is` holds, as [first, count].
+ * Runs of consecutive frames for which `is` holds, as [first, count].
  * @param {number} frames
  * @param {(frame: number) => boolean} is
  * @returns {[number, number][]}
@@ -27,7 +27,7 @@ export function runs(frames, is) {
   return found;
 }
 
-/** Frames of the page from which on an object has new regions. */
+/** Frames of the page at which an object gets new regions. */
 export function repartitions(page) {
   const frames = page.objects.flatMap(({ partitions }) => partitions.map(({ frame }) => frame));
   return [...new Set(frames)].filter((frame) => frame > 0).sort((a, b) => a - b);

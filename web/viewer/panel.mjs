@@ -58,7 +58,7 @@ function object_facts({ vertices, triangles, partitions, particles }, frame) {
   return facts.join(', ');
 }
 
-/** Untouched text costs no layout. */
+/** Unchanged text needs no new layout. */
 export function set_text(node, text) {
   if (node.textContent !== text) node.textContent = text;
 }

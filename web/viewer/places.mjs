@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where things are. The scene is moved and scaled into the unit ball: far from zero, 32-bit floats would be too coarse.
+// Positions. The scene is moved and scaled into the unit ball, since 32-bit floats are too coarse far from zero.
 
 /** @param {import('./container.mjs').Page_object[]} objects @returns {{centre: number[], radius: number}} of all boxes */
 export function common_ball(objects) {
@@ -8,7 +8,7 @@ export function common_ball(objects) {
   return { centre: least.map((x, axis) => (x + most[axis]) / 2), radius: Math.hypot(...most.map((x, axis) => x - least[axis])) / 2 || 1 };
 }
 
-/** Places on one object. */
+/** Positions on one object. */
 export class Places {
   /** @param {import('./container.mjs').Page_object} object @param {{centre: number[], radius: number}} ball */
   constructor(object, ball) {
@@ -27,15 +27,15 @@ export class Places {
     return [x + sx * q[3 * vertex], y + sy * q[3 * vertex + 1], z + sz * q[3 * vertex + 2]];
   }
 
-  /** Places of about so many vertices, from all frames. */
+  /** Positions of about `count` vertices, from all frames. */
   samples(count) {
     const { frames, vertices } = this.object;
-    // The step of the golden section meets every frame and every part of the mesh.
+    // Steps of the golden section sample every frame and every part of the mesh.
     return Array.from({ length: count }, (_, i) =>
       this.of_vertex(Math.floor((i / count) * frames.length), Math.floor(((i * 0.6180339887498949) % 1) * vertices)));
   }
 
-  /** The one that holds in a frame. */
+  /** The partition that applies to a frame. */
   partition(frame) {
     return this.object.partitions.findLast((partition) => partition.frame <= frame);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which frame is shown, and how time goes on. Knows nothing of how a frame looks.
+// The current frame and the playback. Independent of how a frame is drawn.
 
 export const speeds = [0.1, 0.25, 0.5, 1, 2, 4];
 
@@ -17,18 +17,18 @@ export class Player {
     this.listeners = [];
   }
 
-  /** Calls `listener` now, and after every change of the frame or of how it plays. */
+  /** Calls `listener` now, and after every change of the frame or of the playback. */
   on_change(listener) {
     this.listeners.push(listener);
     listener();
   }
 
-  /** Number in the scene of a frame of the page. */
+  /** The frame of the scene for a frame of the page. */
   scene_frame(frame = this.frame) {
     return this.first_frame + frame * this.frame_step;
   }
 
-  /** Frame of the page nearest to one of the scene. */
+  /** The frame of the page nearest to a frame of the scene. */
   page_frame(scene_frame) {
     return this.#clamped(Math.round((scene_frame - this.first_frame) / this.frame_step));
   }
@@ -40,7 +40,7 @@ export class Player {
     this.#changed();
   }
 
-  /** Stops, and goes on by some frames. */
+  /** Stops, and moves by some frames. */
   step(by) {
     this.pause();
     this.goto(this.frame + by);
@@ -92,7 +92,7 @@ export class Player {
     this.#changed();
   }
 
-  /** A slow screen leaves out frames; time goes on. */
+  /** A slow screen skips frames, but keeps time. */
   #advance(by) {
     const next = this.frame + by;
     if (next < this.frames) return this.goto(next);

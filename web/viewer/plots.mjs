@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plots below the picture. Those over frames carry a rule at the current one, and lead to the frame that is clicked.
+// Plots below the picture. Plots over frames have a rule at the current frame; a click goes to that frame.
 import embed from 'vega-embed';
 import { fitted_plot, page_plot_config } from '../src/plot_fit.mjs';
 import { by_id, element } from './dom.mjs';
@@ -19,7 +19,7 @@ export class Plots {
     this.narrow.addEventListener('change', () => this.draw(this.scheme));
   }
 
-  /** Draws all of them, one after the other so that the page stays alive. @param {'light' | 'dark'} scheme */
+  /** Draws all plots, one at a time so that the page stays responsive. @param {'light' | 'dark'} scheme */
   async draw(scheme) {
     this.scheme = scheme;
     this.turn = {};

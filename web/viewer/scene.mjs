@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The picture: surfaces and marks of one frame, seen by a camera that orbits. Drawn only when something has changed.
+// The picture: surfaces and marks of one frame, with an orbiting camera. Drawn only when something has changed.
 import { Box3, Color, MOUSE, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { stage_background } from './colours.mjs';
@@ -79,7 +79,7 @@ export class View {
     this.#draw_soon();
   }
 
-  /** The camera as at first: from the side and a little above, near enough that all frames just fit. */
+  /** The initial camera: from the side and slightly above, at the distance at which all frames just fit. */
   reset() {
     this.moved = false;
     const { camera, controls } = this;
@@ -110,7 +110,7 @@ export class View {
     this.#draw_soon();
   }
 
-  /** Whether nothing is left to draw. */
+  /** Whether drawing has finished. */
   get settled() {
     return this.due === undefined && this.sharpness.settled;
   }
@@ -154,7 +154,7 @@ export class View {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.moved) this.reset();
-    if (this.stats.draws > 0) this.draw();  // At once, for a canvas is cleared when its size changes.
+    if (this.stats.draws > 0) this.draw();  // At once, since resizing clears a canvas.
   }
 
   #set_size() {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines and dots of a width in pixels, with round ends, a rim, and a faint copy where a surface hides them.
+// Lines and dots with a width in pixels, round ends and a rim; faint where a surface hides them.
 import {
   DynamicDrawUsage, GLSL3, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, RawShaderMaterial, Vector2,
 } from 'three';
 
-// Depth is moved a little towards the eye, so that a mark on a surface does not sink into it.
+// Depth is offset slightly towards the eye, so that a mark on a surface is not hidden by it.
 const vertex_shader = `
 precision highp float;
 uniform mat4 modelViewMatrix, projectionMatrix;
@@ -65,7 +65,8 @@ void main() {
 export class Segments {
   /**
    * @param {{core: number[], rim: number[]}} colours
-   * @param {{width: number, rim_width: number, hidden: number, order: number}} look  pixels; opacity where a surface is before it
+   * @param {{width: number, rim_width: number, hidden: number, order: number}} look  pixels; opacity where a surface
+   * hides it
    */
   constructor({ core, rim }, { width, rim_width, hidden, order }) {
     this.core = core;
@@ -77,7 +78,7 @@ export class Segments {
     this.group.add(this.#mesh(1, true, order + 1));
   }
 
-  /** @param {Segment[]} segments  to draw instead of those before */
+  /** @param {Segment[]} segments  to draw instead of the previous ones */
   set(segments) {
     if (segments.length > this.geometry.attributes.start.count) this.#grow(segments.length);
     const { start, end, tint, fade } = this.geometry.attributes;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How many pixels are drawn per pixel of the page: two, so that edges are smooth; on slow machines one while things move.
+// The number of pixels drawn per pixel of the page: two, for smooth edges; on slow machines one during motion.
 
 const fine = 2;
 const quick = 1;
 const most_pixels = 8e6;
 const slow_ms = 40;      // between two draws
-const slow_draws = 5;    // so many in a row are no hiccup
-const pause_ms = 250;    // after which a picture that stands still is drawn finely
+const slow_draws = 5;    // this many in a row mean a slow machine
+const pause_ms = 250;    // after which a still picture is drawn finely
 
 export class Sharpness {
   /**
-   * @param {() => boolean} moving  whether it plays, or the camera is held
-   * @param {() => void} change     is called when the picture is to be drawn again, with another ratio
+   * @param {() => boolean} moving  whether it plays, or the camera is being moved
+   * @param {() => void} change     called when the picture must be redrawn with another ratio
    */
   constructor(moving, change) {
     this.moving = moving;
@@ -21,7 +21,7 @@ export class Sharpness {
     this.then = undefined;
   }
 
-  /** Whether the picture is as fine as it gets. */
+  /** Whether the picture has its finest resolution. */
   get settled() {
     return !this.quick && this.timer === undefined;
   }
@@ -41,7 +41,7 @@ export class Sharpness {
   }
 
   #rest() {
-    // A movement may end without another draw.
+    // A motion may end without another draw.
     this.timer = this.moving() ? setTimeout(() => this.#rest(), pause_ms) : undefined;
     if (this.timer !== undefined) return;
     this.then = undefined;

@@ -9,8 +9,9 @@ import { vertex_normals } from './normals.mjs';
 import { fragment_shader, row_length, vertex_shader } from './surface_shader.mjs';
 
 /**
- * Most faces lie inside of a region: they share their vertices, and a new frame is an upload of eight bytes for each.
- * Those on a border, and all while the wireframe is shown, must know their three corners apart, so theirs are copied.
+ * Most faces are inside a region: they share their vertices, and a new frame is an upload of eight bytes per vertex.
+ * Faces on a border, and all faces in wireframe mode, must tell their three corners apart, so their vertices are
+ * copied.
  */
 export class Surface {
   /**
@@ -40,7 +41,7 @@ export class Surface {
     this.group.add(this.shared, this.copied);
   }
 
-  /** @param {number} frame  of the page @param {boolean} apart  whether each face must know its corners */
+  /** @param {number} frame  of the page @param {boolean} apart  whether each face must tell its corners apart */
   show(frame, apart) {
     const partition = this.places.partition(frame);
     if (partition !== this.partition || apart !== this.apart) this.#arrange(partition, apart);
@@ -123,7 +124,7 @@ export class Surface {
 
   #mesh(geometry) {
     const mesh = new Mesh(geometry, this.material);
-    mesh.frustumCulled = false;  // Its box is not known to three.js.
+    mesh.frustumCulled = false;  // three.js does not know its box.
     return mesh;
   }
 }

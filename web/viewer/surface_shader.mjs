@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws a surface; a vertex is eight bytes.
 
-/** A row of the palette, which holds a colour per region, and in alpha whether the region is one of a candidate pair. */
+/** A row of the palette. It has a colour per region; alpha marks the regions of candidate pairs. */
 export const row_length = 256;
 
 // `vertex` holds x, y, z on the object's grid and a normal in two bytes; `regions` those of the face's three corners.
@@ -25,7 +25,7 @@ vec3 unfolded(uint folded) {
 
 void main() {
   int slot = gl_VertexID % 3;
-  v_corner = vec3(slot == 0, slot == 1, slot == 2);  // Means nothing where faces share vertices.
+  v_corner = vec3(slot == 0, slot == 1, slot == 2);  // Unspecified where faces share vertices.
   v_regions = regions;
   v_normal = normalMatrix * unfolded(vertex.w);
   vec4 view = modelViewMatrix * vec4(origin + cell * vec3(vertex.xyz), 1.0);
@@ -34,8 +34,8 @@ void main() {
 }
 `;
 
-// Regions label vertices; each point of a face takes the region that weighs most in barycentric coordinates, as in
-// src/region_surface.mjs. The derivatives of the weights tell how many pixels away the border is.
+// Regions label vertices; each point of a face takes the region with the largest barycentric weight, as in
+// src/region_surface.mjs. The derivatives of the weights give the distance to the border in pixels.
 export const fragment_shader = `
 precision highp float;
 precision highp int;
@@ -74,7 +74,7 @@ vec3 region_paint() {
   return mix(own.rgb, marked ? accent : own.rgb * 0.25, line);
 }
 
-/** How much of an edge of the triangle is here; fades where triangles are only a few pixels high. */
+/** Coverage by an edge of the triangle; fades where triangles are only a few pixels high. */
 float edge() {
   vec3 slope = fwidth(v_corner);
   vec3 away = v_corner / max(slope, vec3(1e-9));
@@ -87,7 +87,7 @@ void main() {
   if (!filled && line < 0.02) discard;
   vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
   vec3 flat_normal = normalize(cross(dFdx(v_view), dFdy(v_view)));
-  if (dot(flat_normal, normal) < 0.77) normal = flat_normal;  // An edge sharper than 40 degrees stays one.
+  if (dot(flat_normal, normal) < 0.77) normal = flat_normal;  // Edges sharper than 40 degrees stay sharp.
   vec3 to_eye = normalize(-v_view);
   vec3 to_lamp = normalize(vec3(-0.35, 0.6, 0.75));
   vec3 paint = coloured ? region_paint() : plain;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light or dark: as the system says, until the button says otherwise.
+// Light or dark: the system's setting, until the button overrides it.
 
 export class Theme {
   /** @param {HTMLButtonElement} button */

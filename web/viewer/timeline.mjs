@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bar of all frames and, below it, the part of them that is looked at, with a lane for each kind of mark.
+// The bar of all frames and, below it, the selected window, with a lane for each kind of mark.
 import { element, svg_element } from './dom.mjs';
 import { outcome_of, outcome_words, repartitions, runs } from './outcome.mjs';
 
@@ -37,7 +37,7 @@ export class Timeline {
     player.on_change(() => this.#follow());
   }
 
-  /** @param {number} factor  above 1: fewer frames, larger @param {number} [around]  frame that keeps its place */
+  /** @param {number} factor  above 1: fewer frames, larger @param {number} [around]  frame that keeps its position */
   zoom(factor, around = this.player.frame + 0.5) {
     const [start, length] = this.window;
     const wanted = Math.min(this.player.frames, Math.max(Math.min(least_frames, this.player.frames), length / factor));
@@ -81,11 +81,11 @@ export class Timeline {
     const [start, length] = this.window;
     this.heads[0].style.left = percent((frame + 0.5) / frames);
     this.heads[1].style.left = percent((frame + 0.5 - start) / length);
-    // A frame is as wide as its mark, once that can be seen.
+    // A frame has the width of its mark, once that is visible.
     this.heads[1].style.width = `max(3px, ${percent(1 / length)})`;
   }
 
-  /** The window moves along when the frame leaves it. */
+  /** The window follows a frame that leaves it. */
   #follow() {
     const { frame, playing, scene_frame } = this.player;
     const [start, length] = this.window;
@@ -144,7 +144,7 @@ export class Timeline {
 
 const percent = (part) => `${100 * part}%`;
 
-/** Each kind of mark, with the runs of frames that carry it. */
+/** Each kind of mark, with its runs of frames. */
 function lanes_of(page) {
   const { stages, header } = page;
   const is = (kind) => (frame) => stages !== null && outcome_of(stages[frame]) === kind;
@@ -158,7 +158,7 @@ function lanes_of(page) {
   return anew.size > 0 ? lanes : lanes.slice(0, 3);
 }
 
-/** A picture as wide as the frames and stretched to its place. */
+/** A picture as wide as the number of frames, stretched to its container. */
 function bars(frames, lanes, height) {
   const viewBox = `0 0 ${frames} ${height}`;
   const picture = svg_element('svg', { viewBox, preserveAspectRatio: 'none', 'data-height': height, 'aria-hidden': 'true' });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The buttons that move through time, and the legend of the timeline, whose entries lead to the next such frame.
+// The playback buttons, and the legend of the timeline, whose entries go to the next such frame.
 import { by_id, element, icon } from './dom.mjs';
 import { outcome_of, outcome_words, repartitions } from './outcome.mjs';
 import { speeds } from './player.mjs';
@@ -83,7 +83,7 @@ function go_to_next(player, is) {
   }
 }
 
-/** Number and outcome of the frame above the picture; spoken when it stands still. */
+/** Number and outcome of the frame, above the picture; announced to screen readers when paused. */
 export function show_frame_number(page, player) {
   const spoken = by_id('spoken');
   let later;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The way of a particle from frame to frame. The page knows only where it stood, so the way is a shortest one along edges.
+// The path of a particle from frame to frame. The page knows only its vertex per frame, so the path is a shortest one
+// along edges.
 
-const most_visited = 4000;  // A particle walks a few edges per frame; whoever went further gets a straight line.
+const most_visited = 4000;  // A particle walks a few edges per frame; longer paths become straight lines.
 
 export class Walks {
   /** @param {import('./container.mjs').Page_object} object */
@@ -13,7 +14,8 @@ export class Walks {
   }
 
   /**
-   * Vertices that particle i passed between the frame before and this one, oldest first; none if it was not there yet.
+   * Vertices that particle i passed between the previous frame and this one, oldest first; none if it did not exist
+   * yet.
    * @returns {number[]}
    */
   way(frame, i) {
@@ -25,7 +27,7 @@ export class Walks {
     return this.known.get(key);
   }
 
-  /** Breadth-first from the end, so that the way back is the way. */
+  /** Breadth-first from the end, so that following predecessors gives the path in order. */
   #shortest(from, to) {
     this.neighbours ??= neighbours_of(this.object);
     const { first, list } = this.neighbours;
@@ -41,7 +43,7 @@ export class Walks {
   }
 }
 
-/** Neighbours of vertex v stand in `list` from first[v] to first[v + 1]; some of them twice. */
+/** Neighbours of vertex v are in `list` from first[v] to first[v + 1]; some of them twice. */
 function neighbours_of({ corners, vertices }) {
   const first = new Uint32Array(vertices + 1);
   for (const vertex of corners) first[vertex + 1] += 2;

@@ -9,9 +9,9 @@
 namespace lodestone {
 
 /// Axis-aligned box, the volume of \cite cohen1995 and \cite held1995. Minima and maxima of coordinates do not round,
-/// so it is the smallest one. Model of Bounding_volume.
+/// so it is the smallest such box. Model of Bounding_volume.
 ///
-/// Four lanes, so that one vector instruction handles a side of it; the fourth means nothing.
+/// Padded to four lanes, so that one vector instruction handles all three axes; the fourth lane is unspecified.
 struct alignas(64) Aabb {
   static constexpr std::string_view name = "aabb";
 
@@ -25,7 +25,7 @@ struct alignas(64) Aabb {
       high[lane] = a.high[lane] > b.high[lane] ? a.high[lane] : b.high[lane];
     }
   }
-  /// Sum of the three sides; infinite where the true sum is beyond all doubles.
+  /// Sum of the three side lengths; infinite on overflow.
   double extent() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
   double volume() const { return (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]); }
   Aabb bounds() const { return *this; }
@@ -38,8 +38,8 @@ struct alignas(64) Aabb {
 };
 
 /// Whether two boxes come within `margin` >= 0 of each other along every axis; with 0: whether they have a point in
-/// common. `false` proves them farther apart: a sum rounded to nearest is never below a double that the true sum is
-/// not below.
+/// common. `false` proves them farther apart, since rounding to nearest is monotonic: where the exact sum is at least a
+/// double, so is the rounded sum.
 inline bool near(const Aabb& a, const Aabb& b, double margin) {
   bool result = true;
   for (int axis = 0; axis < 3; ++axis)

@@ -13,7 +13,7 @@
 
 namespace lodestone {
 
-/// All models of Bounding_volume that the library has: what its tests and experiments run through.
+/// All models of Bounding_volume in the library. Tests and experiments iterate over this list.
 using Bounding_volumes =
     std::tuple<Aabb, Bounding_sphere, Oriented_box, K_dop<14>, K_dop<18>, K_dop<26>, Quospo, Spherical_shell>;
 

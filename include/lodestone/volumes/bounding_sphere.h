@@ -9,24 +9,24 @@
 namespace lodestone {
 
 /// Ball, the volume of \cite hubbard1996, \cite palmer1995 and \cite quinlan1994: the points p with
-/// |p - centre| <= radius, as real numbers; all points if the radius is infinite. Model of Bounding_volume.
+/// |p - centre| <= radius, in exact arithmetic; all points if the radius is infinite. Model of Bounding_volume.
 ///
-/// The radius is at most one per cent above that of the smallest ball around what it was fitted to, and never below it
-/// (Bounding_sphere::enclose). A ball looks alike from all sides, so it is as tight around a turned leaf as around the
-/// leaf, and the test of two is the cheapest of all.
+/// The radius is never below that of the smallest ball around the faces it was fitted to, and at most one per cent
+/// above it (Bounding_sphere::enclose). A ball is rotation-invariant, so rotating a leaf does not change how tight it
+/// is. The test of two balls is the cheapest of all volumes.
 struct alignas(32) Bounding_sphere {
   static constexpr std::string_view name = "bounding_sphere";
 
   double centre[3];
   double radius;
 
-  /// Smallest ball around a few of the vertices, to which the farthest of all is added until it is not much farther
-  /// than they are: \cite gaertner1999. Since no ball around all can be smaller than that around a few, this bounds
-  /// the radius from below. Mostly three to six passes over the V vertices of the leaf, each O(V).
+  /// Smallest ball around a few of the vertices, as in \cite gaertner1999: the farthest vertex is added to these until
+  /// it is at most one per cent outside their ball. No ball around all vertices is smaller than that around a few,
+  /// which bounds the radius from below. Usually three to six passes over the V vertices of the leaf, each O(V).
   /// @throws Bad_argument  more vertices than a leaf can have
   void enclose(const Leaf_faces& faces);
 
-  /// Smallest ball around two, up to rounding. One of the two if it encloses the other.
+  /// Smallest ball around both, up to rounding; one of the two if it encloses the other.
   void enclose(const Bounding_sphere& a, const Bounding_sphere& b);
 
   /// Diameter.
@@ -37,16 +37,16 @@ struct alignas(32) Bounding_sphere {
   friend bool operator==(const Bounding_sphere&, const Bounding_sphere&) = default;
 };
 
-/// As `near`, whatever the size of the coordinates. Slow.
+/// As `near`, for coordinates of any magnitude. Slow.
 bool near_scaled(const Bounding_sphere& a, const Bounding_sphere& b, double margin);
 
 /// Whether two balls come within `margin` >= 0 of each other; with 0: whether they have a point in common. `false`
 /// proves them farther apart.
 ///
-/// Let u = 2^-53. The squared distance of the centres is computed with at most five roundings in a row, so it is at
-/// most (1 + u)^5 times the true one; the square of the sum of radii and margin, times a factor, with at most six, so
-/// it is at least (1 - u)^6 times the true one. 1 + 32 u is more than both together, and what is lost where a term
-/// underflows is far below a squared distance of 1e-280. Fewer roundings, by fused instructions, do no harm.
+/// Let u = 2^-53. The computed squared distance of the centres has at most five successive roundings, so it is at most
+/// (1 + u)^5 times the exact one. The computed square of the sum of radii and margin, times a factor, has at most six,
+/// so it is at least (1 - u)^6 times the exact one. The factor 1 + 32 u covers both. Underflow of a term is negligible
+/// against a squared distance of 1e-280. Fused instructions only remove roundings.
 inline bool near(const Bounding_sphere& a, const Bounding_sphere& b, double margin) {
   const double x = a.centre[0] - b.centre[0], y = a.centre[1] - b.centre[1], z = a.centre[2] - b.centre[2];
   const double squared_distance = x * x + y * y + z * z;

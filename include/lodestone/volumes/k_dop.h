@@ -10,8 +10,8 @@
 
 namespace lodestone {
 
-/// Directions of a `K_dop`: the three axes, then, unless K is 14, those to the edges of a cube, then, unless K is 18,
-/// those to its corners; one of two opposite ones.
+/// Directions of a `K_dop`, in this order: the three axes; unless K is 14, the directions to the edges of a cube;
+/// unless K is 18, those to its corners. Of two opposite directions only one is listed.
 template <int K>
 constexpr std::array<std::array<int, 3>, K / 2> dop_directions() {
   constexpr int axes[3][3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -28,15 +28,16 @@ constexpr std::array<std::array<int, 3>, K / 2> dop_directions() {
   return directions;
 }
 
-/// Discrete orientation polytope of K faces, \cite klosowski1998 and \cite zachmann1998: the points p with
+/// Discrete orientation polytope with K faces, \cite klosowski1998 and \cite zachmann1998: the points p with
 ///
 ///     low[i] <= d_i . p <= high[i]   for i = 0 ... K / 2 - 1,   d_i = directions[i],
 ///
-/// in exact arithmetic. The d_i are not of length 1, so that a projection is a sum of coordinates. Model of
+/// in exact arithmetic. The d_i are not unit vectors, so that a projection is a plain sum of coordinates. Model of
 /// Bounding_volume.
 ///
-/// The slabs along the axes are as narrow as can be. The others are wider on either side by at most 2^-50 of the sum of
-/// the largest |x|, |y| and |z|, for sums round; where these sums could overflow, they have no limits.
+/// The slabs along the axes are as narrow as possible. The others allow for the rounding of sums: on either side they
+/// are wider by at most 2^-50 of the sum of the largest |x|, |y| and |z|. Where these sums could overflow, slabs are
+/// unbounded.
 ///
 /// @tparam K  14: axes and corners of a cube; 18: axes and edges; 26: all three
 template <int K>
@@ -49,16 +50,16 @@ struct K_dop {
   double low[slabs];
   double high[slabs];
 
-  /// K / 2 projections of every vertex.
+  /// Cost: K / 2 projections per vertex.
   void enclose(const Leaf_faces& faces);
-  /// Exact: the smallest one around both.
+  /// Exact: the smallest polytope around both.
   void enclose(const K_dop& a, const K_dop& b) {
     for (int i = 0; i < slabs; ++i) {
       low[i] = a.low[i] < b.low[i] ? a.low[i] : b.low[i];
       high[i] = a.high[i] > b.high[i] ? a.high[i] : b.high[i];
     }
   }
-  /// Sum of the three sides of `bounds()`, which do not round before they are subtracted.
+  /// Sum of the three side lengths of `bounds()`, whose limits are exact.
   double extent() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
   /// Of the polytope, up to rounding. O(K^3), for experiments.
   double volume() const;
@@ -71,13 +72,13 @@ struct K_dop {
   }
 };
 
-/// Whether two come within `margin` >= 0 of each other along every direction; with 0: whether every two slabs of one
+/// Whether two come within `margin` >= 0 of each other along every direction; with 0: whether the two slabs of every
 /// direction have a point in common.
 ///
-/// `false` proves them farther apart: points within the margin have projections within the margin times |d_i|. The
-/// factors are more than 2^-52 above the square roots of 2 and 3, and what is added covers products below the normal
-/// doubles, so the product is not below that. And a sum rounded to nearest is never below a double that the true sum is
-/// not below.
+/// `false` proves them farther apart. Points within the margin have projections within the margin times |d_i|. The
+/// computed product is never below that: its factors exceed the square roots of 2 and 3 by more than 2^-52, and the
+/// added constant covers subnormal products. The comparison is safe since rounding to nearest is monotonic: where the
+/// exact sum is at least a double, so is the rounded sum.
 template <int K>
 bool near(const K_dop<K>& a, const K_dop<K>& b, double margin) {
   bool apart = false;

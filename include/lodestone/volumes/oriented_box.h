@@ -12,23 +12,23 @@ namespace lodestone {
 ///
 ///     |axes[i] . (p - centre)| <= half[i]   for i = 0, 1, 2
 ///
-/// in exact arithmetic. The axes are not exactly orthonormal, but their dot products differ from those of an
-/// orthonormal basis by at most 3e-15: all that `enclose` makes are. Model of Bounding_volume.
+/// in exact arithmetic. The axes are not exactly orthonormal: their dot products differ from those of an orthonormal
+/// basis by at most 3e-15, which `enclose` guarantees. Model of Bounding_volume.
 ///
-/// Gottschalk and others take the axes from the convex hull of the faces, integrated over its area; here they come from
-/// the vertices, which is what a refit has time for.
+/// Gottschalk et al. derive the axes from the convex hull of the faces, integrated over its area. Here they are derived
+/// from the vertices, which is cheap enough for a refit.
 struct Oriented_box {
   static constexpr std::string_view name = "oriented_box";
 
   double centre[3];
-  double half[3];     ///< half widths
+  double half[3];     ///< half-widths
   double axes[3][3];  ///< by axis, then x, y, z
 
-  /// The principal axes of the vertices, or those of space where these give a smaller surface. Every width is more than
-  /// it need be by some 2^-46 of the largest. Where one would be beyond 1e307, all are infinite.
+  /// Uses the principal axes of the vertices, or the coordinate axes if these give a smaller surface area. Every width
+  /// is larger than necessary by about 2^-46 of the largest. If a width would exceed 1e307, all are infinite.
   void enclose(const Leaf_faces& faces);
-  /// Of boxes with the axes of a, those of b and the principal axes of both (two solid boxes of equal mass) the one of
-  /// the smallest surface. O(1).
+  /// Tries the axes of a, the axes of b and the principal axes of both (as two solid boxes of equal mass), and keeps
+  /// the box with the smallest surface area. O(1).
   void enclose(const Oriented_box& a, const Oriented_box& b);
   /// Sum of the three widths.
   double extent() const { return 2 * ((half[0] + half[1]) + half[2]); }
@@ -46,11 +46,11 @@ struct Oriented_box {
   }
 };
 
-/// Whether none of 15 axes separates the two by more than `margin` >= 0 (by more than 0): the three of a, the three of
-/// b and the cross product of each two.
+/// Separating axis test: whether none of 15 axes separates the two by more than `margin` >= 0. These are the three axes
+/// of a, the three of b, and the cross product of each pair.
 ///
-/// `false` proves them farther apart. True boxes that have a gap of more than 2e-13 of their size and distance along
-/// one of the axes, and the margin, are told apart.
+/// `false` proves them farther apart. Boxes whose gap along one of these axes exceeds the margin by more than 2e-13 of
+/// their size and distance are found to be apart.
 bool near(const Oriented_box& a, const Oriented_box& b, double margin);
 
 }  // namespace lodestone

@@ -11,19 +11,19 @@
 
 namespace lodestone {
 
-/// One of finitely many turns: a quaternion w + x i + y j + z k of whole numbers, w always being the same.
+/// One of a finite set of rotations: a quaternion w + x i + y j + z k with integer components and a fixed w.
 ///
-/// 24 turns take the three axes of space and their opposites to themselves, so three lines at right angles have a turn
-/// to them with |x|, |y|, |z| <= (sqrt(2) - 1) w. Rounded to whole numbers, these are -7 to 7 for w = 16, and no three
-/// lines are farther than about 6 degrees from those of the turn that they round to.
+/// A frame of three perpendicular lines is mapped to itself by 24 rotations. So every such frame can be reached from
+/// the coordinate axes by a rotation with |x|, |y|, |z| <= (sqrt(2) - 1) w. For w = 16 these round to integers from -7
+/// to 7, and every frame is within about 6 degrees of the rotation that it rounds to.
 struct Quantised_turn {
   std::int16_t w = 16, x = 0, y = 0, z = 0;
 
   friend bool operator==(const Quantised_turn&, const Quantised_turn&) = default;
 
-  /// The length of a direction: w^2 + x^2 + y^2 + z^2.
+  /// The length of each direction: w^2 + x^2 + y^2 + z^2.
   constexpr double length() const { return 1.0 * w * w + 1.0 * x * x + 1.0 * y * y + 1.0 * z * z; }
-  /// Three directions at right angles: whole numbers, and without rounding.
+  /// Three perpendicular directions with integer components, computed without rounding.
   constexpr std::array<std::array<double, 3>, 3> directions() const {
     const double ww = w * w, xx = x * x, yy = y * y, zz = z * z;
     const double wx = 2 * w * x, wy = 2 * w * y, wz = 2 * w * z, xy = 2 * x * y, xz = 2 * x * z, yz = 2 * y * z;
@@ -37,12 +37,12 @@ struct Quantised_turn {
 ///
 ///     low[i] <= p_i <= high[i]   and   turned_low[i] <= d_i . p <= turned_high[i]   for i = 0, 1, 2,
 ///
-/// d_i = turn.directions()[i], in exact arithmetic: the slabs along the axes of space, and those along that one of a
-/// fixed set of frames which is nearest to the principal axes. Model of Bounding_volume.
+/// d_i = turn.directions()[i], in exact arithmetic: slabs along the coordinate axes, and slabs along the directions of
+/// one frame out of a fixed set, the nearest to the principal axes. Model of Bounding_volume.
 ///
-/// He joins the good fit of oriented boxes to the quick test of slabs along known directions; that is what is taken
-/// from there. The set of frames, all of whole numbers, how they are chosen, and the bounds of one volume along the
-/// directions of another follow from the definition above and are this library's own.
+/// From He comes the idea of combining the tight fit of oriented boxes with the fast test of slabs along known
+/// directions. This library's own are the set of frames with integer components, how a frame is chosen, and the bounds
+/// of one volume along the directions of another.
 struct Quospo {
   static constexpr std::string_view name = "quospo";
 
@@ -50,13 +50,13 @@ struct Quospo {
   double turned_low[3], turned_high[3];
   Quantised_turn turn;
 
-  /// The turned slabs are wider than they need be by less than 2^-48 of the largest coordinate and of the length of a
-  /// direction; where they could overflow, they have no limits.
+  /// The turned slabs are wider than necessary by less than 2^-48 of the largest coordinate times the length of a
+  /// direction; where they could overflow, they are unbounded.
   void enclose(const Leaf_faces& faces);
-  /// The slabs along the axes of space are as narrow as can be. The frame is that of a, that of b or the one nearest to
-  /// the principal axes of both, whichever gives the smallest surface. O(1).
+  /// The slabs along the coordinate axes are as narrow as possible. The frame is that of a, that of b or the one
+  /// nearest to the principal axes of both, whichever gives the smallest surface area. O(1).
   void enclose(const Quospo& a, const Quospo& b);
-  /// Sum of the three sides of `bounds()`.
+  /// Sum of the three side lengths of `bounds()`.
   double extent() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
   /// Of the polytope, up to rounding; for experiments.
   double volume() const;
@@ -75,10 +75,10 @@ struct Quospo {
 /// `near` along the directions of two different frames.
 bool near_when_turned(const Quospo& a, const Quospo& b, double margin);
 
-/// Whether two come within `margin` >= 0 of each other along the axes of space and the directions of both frames.
+/// Whether two come within `margin` >= 0 of each other along the coordinate axes and the directions of both frames.
 ///
-/// `false` proves them farther apart. As for `K_dop`, a sum rounded to nearest is never below a double that the true
-/// sum is not below, and the margin times the length of a direction is rounded up.
+/// `false` proves them farther apart. As for `K_dop`, rounding to nearest is monotonic, and the margin times the length
+/// of a direction is rounded up.
 inline bool near(const Quospo& a, const Quospo& b, double margin) {
   bool apart = false;
   for (int i = 0; i < 3; ++i) apart |= (a.low[i] > b.high[i] + margin) | (b.low[i] > a.high[i] + margin);

@@ -6,7 +6,7 @@
 
 namespace lodestone {
 
-/// The same box as Eigen's.
+/// Converts a box to Eigen's type.
 inline Box to_box(const Aabb& box) {
   return {Eigen::Vector3d(box.low[0], box.low[1], box.low[2]), Eigen::Vector3d(box.high[0], box.high[1], box.high[2])};
 }

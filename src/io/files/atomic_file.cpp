@@ -21,12 +21,12 @@ constexpr std::size_t buffer_size = std::size_t{1} << 20;
 Atomic_file::Atomic_file(std::filesystem::path target) : target_(std::move(target)) {
   std::error_code error;
   if (target_.filename().empty() || std::filesystem::is_directory(target_, error))
-    throw Bad_output(target_.string() + ": is a folder, a file name is wanted");
+    throw Bad_output(target_.string() + ": is a folder, expected a file name");
   if (target_.has_parent_path()) {
     std::filesystem::create_directories(target_.parent_path(), error);
-    if (error) throw Bad_output(target_.parent_path().string() + ": cannot make the folder: " + error.message());
+    if (error) throw Bad_output(target_.parent_path().string() + ": cannot create the folder: " + error.message());
   }
-  // O_EXCL: never a file, or a link to one, that somebody else has put there.
+  // O_EXCL: never opens an existing file or link, which another user may have put there.
   for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
     temporary_ = target_;
     temporary_.replace_filename("." + target_.filename().string() + "." + std::to_string(::getpid()) + "." +
@@ -66,7 +66,7 @@ void Atomic_file::finish() {
 
 void Atomic_file::commit() {
   finish();
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be put in place");
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be renamed into place");
   ::close(descriptor_);
   descriptor_ = -1;
 }

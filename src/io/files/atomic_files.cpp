@@ -16,14 +16,14 @@ Atomic_files::Atomic_files(fs::path folder) : folder_(std::move(folder)) {
   if (folder_.empty()) folder_ = ".";
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) throw Bad_output(folder_.string() + ": cannot make the folder: " + error.message());
+  if (error) throw Bad_output(folder_.string() + ": cannot create the folder: " + error.message());
   bool made = false;
   for (int attempt = 0; !made && attempt < 100; ++attempt) {
     hidden_ = folder_ / (".new." + std::to_string(::getpid()) + "." + std::to_string(attempt));
     made = fs::create_directory(hidden_, error);
     if (error) break;
   }
-  if (!made) throw Bad_output(folder_.string() + ": cannot make a folder in it: " + error.message());
+  if (!made) throw Bad_output(folder_.string() + ": cannot create a folder in it: " + error.message());
 }
 
 Atomic_files::~Atomic_files() {
@@ -42,7 +42,7 @@ void Atomic_files::commit() {
     const auto target = folder_ / name;
     fs::create_directories(target.parent_path(), error);
     if (!error) fs::rename(hidden_ / name, target, error);
-    if (error) throw Bad_output(target.string() + ": cannot be put in place: " + error.message());
+    if (error) throw Bad_output(target.string() + ": cannot be renamed into place: " + error.message());
   }
   names_.clear();
 }

@@ -9,7 +9,7 @@
 
 namespace lodestone {
 
-/// The number of type T whose bytes begin at `bytes`, which need not be aligned.
+/// Reads a T from `bytes`, which need not be aligned.
 template <class T>
 T load(const char* bytes, std::endian order = std::endian::little) {
   std::array<char, sizeof(T)> raw;
@@ -18,7 +18,7 @@ T load(const char* bytes, std::endian order = std::endian::little) {
   return std::bit_cast<T>(raw);
 }
 
-/// Adds the bytes of `value`.
+/// Appends the bytes of `value`.
 template <class T>
 void append(std::string& bytes, T value, std::endian order = std::endian::little) {
   auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);

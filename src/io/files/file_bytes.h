@@ -9,10 +9,10 @@
 
 namespace lodestone {
 
-/// The bytes of a mesh file, mapped into memory so that a huge file costs nothing before it is understood.
+/// The bytes of a mesh file. Memory-mapped: a huge file costs nothing before it is checked.
 class File_bytes {
  public:
-  /// @throws Bad_mesh when there is no such file, or it is a directory, empty or unreadable
+  /// @throws Bad_mesh  the file does not exist, or is a directory, empty or unreadable
   explicit File_bytes(const std::filesystem::path& file);
 
   /// The file's name as the user gave it.
@@ -27,7 +27,7 @@ class File_bytes {
   boost::interprocess::mapped_region region_;
 };
 
-/// `text` in quotes, fit for a one-line message: unprintable characters as `?`, cut after 40 characters.
+/// `text` in quotes, for a one-line message: unprintable characters as `?`, truncated to 40 characters.
 std::string in_quotes(std::string_view text);
 
 }  // namespace lodestone

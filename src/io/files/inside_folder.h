@@ -8,7 +8,7 @@
 
 namespace lodestone {
 
-/// Whether `name`, taken relative to `folder`, leads to something inside it, even when symbolic links are followed.
+/// Whether `name`, relative to `folder`, is inside the folder after symbolic links are resolved.
 inline bool is_inside(const std::filesystem::path& folder, const std::string& name, std::error_code& error) {
   const auto inside = std::filesystem::weakly_canonical(folder, error);
   const auto path = std::filesystem::weakly_canonical(inside / name, error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What nlohmann-json accepts without a word and a scene must not hold: the same key twice, bottomless nesting.
+// Refuses what nlohmann-json silently accepts and a scene must not contain: duplicate keys, unlimited nesting.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::string line_and_column(std::string_view text, std::size_t byte) {
   return fmt::format("{}:{}", line, before.size() - line_start + 1);
 }
 
-/// Walks through the text without building anything, and stops at the first fault.
+/// Parses the text without building a document, and stops at the first error.
 class Syntax_check final : public nlohmann::json_sax<Json> {
  public:
   Syntax_check(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
@@ -58,14 +58,13 @@ class Syntax_check final : public nlohmann::json_sax<Json> {
   bool key(string_t& key) override {
     Level& level = levels_.back();
     if (!level.keys.insert(key).second)
-      throw Bad_scene(fmt::format("{}: {}: key {} stands twice", name_, place(), in_quotes(key)));
+      throw Bad_scene(fmt::format("{}: {}: duplicate key {}", name_, place(), in_quotes(key)));
     level.key = key;
     return true;
   }
 
   bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception& error) override {
-    // The library's "[json.exception.parse_error.101] parse error at line 1, column 2: cause", without what is said
-    // twice.
+    // Keeps only the cause of "[json.exception.parse_error.101] parse error at line 1, column 2: cause".
     std::string_view cause = error.what();
     for (const std::string_view lead : {"] ", "column "})
       if (const auto found = cause.find(lead); found != cause.npos) cause.remove_prefix(found + lead.size());
@@ -76,7 +75,7 @@ class Syntax_check final : public nlohmann::json_sax<Json> {
   }
 
  private:
-  /// An object or array that is open, and how far it has been read.
+  /// An open object or array, and the progress within it.
   struct Level {
     bool is_object = false;
     std::set<std::string> keys;
@@ -99,7 +98,7 @@ class Syntax_check final : public nlohmann::json_sax<Json> {
     return step();
   }
 
-  /// JSON pointer to the object or array that is open.
+  /// JSON pointer to the innermost open object or array.
   std::string place() const {
     std::string result;
     for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {

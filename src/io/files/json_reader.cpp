@@ -12,7 +12,7 @@ namespace lodestone::detail {
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 80;
   const bool cut = text.size() > longest;
-  // A character may be cut in two: `replace` stands in for what is left of it.
+  // Truncation can split a character: `replace` substitutes the remainder.
   const Json shown = cut ? std::string(text.substr(0, longest)) + "..." : std::string(text);
   return shown.dump(-1, ' ', true, Json::error_handler_t::replace);
 }

@@ -13,74 +13,73 @@
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/errors.h"
 
-/// Checked reading of JSON: every question a reader asks is answered, or ends in a Bad_scene that names file and place.
+/// Checked reading of JSON: every access returns a valid value or throws a Bad_scene with file, JSON pointer and cause.
 namespace lodestone::detail {
 
 using Json = nlohmann::json;
 
 /// The file as JSON.
-/// @throws Bad_scene  no such file, more than 16 MiB, a syntax error (with line and column), a key that stands twice in
-/// one
-///                    object, nesting deeper than 32
+/// @throws Bad_scene  no such file, more than 16 MiB, a syntax error (with line and column), a duplicate key in an
+///                    object, nesting deeper than 32 levels
 Json parse_json(const std::filesystem::path& file);
 
-/// The same for a text in memory of any length.
-/// @param name  of the file it is from, for messages
+/// The same for a text in memory, of any length.
+/// @param name  file name for messages
 Json parse_json_text(std::string_view text, const std::string& name);
 
-/// `text` as a JSON string: in double quotes, on one line whatever it holds, cut after 80 characters.
+/// `text` as a JSON string: in double quotes, always on one line, truncated to 80 characters.
 std::string in_quotes(std::string_view text);
 
-/// A value of a document and where it stands. The document must outlive it.
+/// A value of a document, with its JSON pointer. The document must outlive it.
 class Json_value {
  public:
-  /// @param file   the document's name, for messages
+  /// @param file   name of the document, for messages
   /// @param place  JSON pointer to `value`
   Json_value(const Json& value, std::string file, std::string place = {});
 
-  /// @throws Bad_scene, always: `FILE: PLACE: cause`
+  /// @throws Bad_scene  always: `FILE: POINTER: cause`
   [[noreturn]] void fail(std::string_view cause) const;
 
   /// Refuses anything but an object.
   void expect_object() const;
-  /// Refuses anything but an object, and one with keys other than these.
+  /// Refuses anything but an object, and any key other than these.
   void expect_keys(std::initializer_list<std::string_view> keys) const;
-  /// The only key of an object, which must be one of these.
+  /// The key of an object that has exactly one key, out of these.
   std::string expect_one_key(std::initializer_list<std::string_view> keys) const;
-  /// The key that is there, of several that exclude each other.
+  /// Which one of several mutually exclusive keys the object has.
   std::string exactly_one_of(std::initializer_list<std::string_view> keys) const;
 
   bool has(std::string_view key) const;
-  /// Refuses an object without the key.
+  /// The value under a key. Refuses an object without the key.
   Json_value at(std::string_view key) const;
   std::optional<Json_value> find(std::string_view key) const;
 
-  /// Refuses an empty array and one of more than `most` elements.
+  /// The elements of an array. Refuses an empty array and one with more than `most` elements.
   std::vector<Json_value> elements(std::size_t most) const;
-  /// The elements under a key of an object; none where the key is missing or its array empty.
+  /// The elements of the array under a key of an object; none if the key is missing or the array empty.
   std::vector<Json_value> list(std::string_view key, std::size_t most) const;
   bool is_string() const { return value_->is_string(); }
   bool is_array() const { return value_->is_array(); }
 
-  /// Refuses an empty string and control characters, which would break messages, tables and file names.
+  /// A string. Refuses an empty one and control characters, which would break messages, tables and file names.
   std::string text() const;
-  /// A string that may hold anything.
+  /// A string with any contents.
   std::string any_text() const;
   bool boolean() const;
-  /// One of several words.
+  /// A string that is one of `words`.
   std::string word(std::initializer_list<std::string_view> words) const;
   double number() const;
-  /// A whole number of [least, most].
+  /// An integer in [least, most].
   std::size_t count(std::size_t least, std::size_t most) const;
   /// Three numbers.
   Kernel::Vector_3 vector() const;
 
-  // The same for a key of an object, with a value to use when it is not there.
+  // The same for a key of an object, with a default for a missing key.
   double number(std::string_view key, double otherwise) const;
   std::size_t count(std::string_view key, std::size_t least, std::size_t most, std::size_t otherwise) const;
   Kernel::Vector_3 vector(std::string_view key, const Kernel::Vector_3& otherwise) const;
 
-  /// What `build` returns; a Bad_argument it throws becomes an error of this place.
+  /// What `build` returns. A Bad_argument that it throws is reported as a Bad_scene of this value.
   template <class Build>
   auto checked(Build build) const {
     try {

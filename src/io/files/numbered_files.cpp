@@ -22,7 +22,7 @@ constexpr std::string_view digits = "0123456789";
 
 struct Pattern {
   std::string before, after;  ///< of the file's name, around the number
-  std::size_t width = 0;      ///< least number of digits; 0: any
+  std::size_t width = 0;      ///< minimum number of digits; 0: any
 };
 
 Pattern parse(const fs::path& pattern) {
@@ -31,13 +31,13 @@ Pattern parse(const fs::path& pattern) {
   const auto last = name.find_last_of(marks);
   const bool one_run = first != name.npos && name.find_first_not_of(name[first], first) > last;
   if (!one_run || (name[first] == '*' && first != last))
-    throw Bad_argument(fmt::format("{}: expected one * or one run of # in the number's place", pattern.string()));
+    throw Bad_argument(fmt::format("{}: expected one * or one run of # for the number", pattern.string()));
   return {.before = name.substr(0, first),
           .after = name.substr(last + 1),
           .width = name[first] == '*' ? 0 : last + 1 - first};
 }
 
-/// The digits that stand in the number's place; nothing if the name does not fit the pattern.
+/// The digits of the number in a file name; nothing if the name does not match the pattern.
 std::optional<std::string> digits_of(const std::string& name, const Pattern& pattern) {
   if (name.size() <= pattern.before.size() + pattern.after.size()) return std::nullopt;
   if (!name.starts_with(pattern.before) || !name.ends_with(pattern.after)) return std::nullopt;
@@ -49,7 +49,7 @@ std::optional<std::string> digits_of(const std::string& name, const Pattern& pat
 }
 
 std::size_t value_of(const std::string& number, const fs::path& file) {
-  constexpr std::size_t most_digits = 18;  // that fit into 64 bits, whatever they are
+  constexpr std::size_t most_digits = 18;  // any number of 18 digits fits into 64 bits
   const auto significant = std::min(number.find_first_not_of('0'), number.size() - 1);
   if (number.size() - significant > most_digits)
     throw Bad_motion(fmt::format("{}: the number in the file's name is too large", file.string()));
@@ -63,7 +63,7 @@ void check_no_gap(const Numbered& files, const Pattern& pattern) {
     if (next->first == file->first + 1) continue;
     const auto width = digits_of(file->second.filename().string(), pattern)->size();
     const auto missing = fmt::format("{}{:0{}}{}", pattern.before, file->first + 1, width, pattern.after);
-    throw Bad_motion(fmt::format("{}: there is no such file, but {} and {} are there",
+    throw Bad_motion(fmt::format("{}: there is no such file, but {} and {} exist",
                                  (file->second.parent_path() / missing).string(), file->second.filename().string(),
                                  next->second.filename().string()));
   }

@@ -6,7 +6,7 @@
 
 namespace lodestone {
 
-/// `text` with its ASCII letters in lower case, whatever the locale.
+/// `text` with its ASCII letters in lower case, independent of the locale.
 inline std::string lower_case(std::string text) {
   std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
   return text;

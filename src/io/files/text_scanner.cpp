@@ -14,10 +14,10 @@ namespace lodestone {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
-/// Far beyond any line of a mesh: a huge binary file is refused here, before all of it is searched for a line's end.
+/// Far longer than any line of a mesh: refuses a huge binary file before all of it is searched for a line end.
 constexpr std::size_t longest_line = std::size_t{1} << 26U;
 
-/// std::from_chars knows no leading plus, which is legal in every text format.
+/// std::from_chars does not accept a leading plus, which is legal in every text format.
 std::string_view without_plus(std::string_view word) {
   const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   return plus ? word.substr(1) : word;
@@ -39,7 +39,7 @@ bool Text_scanner::next_line() {
     ++line_number_;
     line_ = text.substr(next_, longest_line);
     line_ = line_.substr(0, line_.find('\n'));
-    if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is no text");
+    if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is not text");
     next_ = std::min(next_ + line_.size() + 1, text.size());
     if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
     if (line_.find_first_not_of(blanks) != std::string_view::npos) return true;

@@ -9,32 +9,32 @@
 
 namespace lodestone {
 
-/// Walks through a text file line by line and word by word, and knows the line for the error message.
+/// Reads a text file line by line and word by word, and keeps the line number for error messages.
 ///
-/// Words are separated by blanks; a line ends with LF or CR LF and may be of any length.
+/// Words are separated by blanks; a line ends with LF or CR LF.
 class Text_scanner {
  public:
-  /// @param comment  character from which on the rest of a line is ignored; 0: none
+  /// @param comment  character that starts a comment to the end of the line; 0: none
   explicit Text_scanner(const File_bytes& file, char comment = '\0') : file_(&file), comment_(comment) {}
 
-  /// Moves to the next line that holds a word; false at the file's end.
+  /// Moves to the next line with a word; false at the end of the file.
   bool next_line();
-  /// Next word of the current line; empty at the line's end.
+  /// Next word of the current line; empty at the end of the line.
   std::string_view next_word();
-  /// Next word of the current line or a later one; empty at the file's end.
+  /// Next word of the current line or a later one; empty at the end of the file.
   std::string_view next_word_of_file();
   void skip_rest_of_line() { line_ = {}; }
 
-  /// Number of bytes before the first line not yet looked at.
+  /// Offset in bytes of the first unread line.
   std::size_t offset() const { return next_; }
-  /// Number of bytes not yet looked at, those of the current line included.
+  /// Number of unread bytes, including those of the current line.
   std::size_t bytes_left() const { return file_->view().size() - next_ + line_.size(); }
 
-  /// `word` as a number.
-  /// @throws Bad_mesh when it is none, infinite, or too large or too small for a double
+  /// `word` as a floating-point number.
+  /// @throws Bad_mesh  not a number, infinite, or too large or too small for a double
   double number(std::string_view word) const;
-  /// `word` as a number of things.
-  /// @throws Bad_mesh when it is negative, no integer or beyond 64 bits
+  /// `word` as a count.
+  /// @throws Bad_mesh  negative, not an integer, or beyond 64 bits
   std::size_t count(std::string_view word) const;
 
   /// @throws Bad_mesh, always: `NAME:LINE: cause`
@@ -45,7 +45,7 @@ class Text_scanner {
   char comment_;
   std::size_t next_ = 0;         // offset of the next line
   std::size_t line_number_ = 0;  // from 1; 0 before the first line
-  std::string_view line_;        // what is left of the current line
+  std::string_view line_;        // the unread rest of the current line
 };
 
 }  // namespace lodestone

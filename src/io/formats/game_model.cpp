@@ -19,7 +19,7 @@
 namespace lodestone {
 namespace {
 
-/// Reads numbers at places that the file itself names, none of which is trusted.
+/// Reads numbers at offsets that the file specifies. No offset or count is trusted.
 class Model_reader {
  public:
   Model_reader(const File_bytes& file, const Mesh_file_options& options) : file_(file), options_(options) {}
@@ -32,7 +32,7 @@ class Model_reader {
   void read_md3_surface(std::size_t at, std::size_t length);
   void add_face(std::size_t at, std::size_t first, std::size_t vertices, std::size_t bytes_per_corner);
 
-  /// A count or a place at a byte of the file.
+  /// The count or offset that is stored at byte `at` of the file.
   std::size_t number(std::size_t at) const {
     const auto value = load<std::int32_t>(file_.view().data() + at);
     if (value < 0) file_.fail_at(at, fmt::format("expected a number of 0 or more, found {}", value));
@@ -41,12 +41,12 @@ class Model_reader {
   void expect_version(std::size_t version) const {
     if (number(4) != version) file_.fail_at(4, fmt::format("expected version {}, found {}", version, number(4)));
   }
-  /// `count` items of `bytes` bytes must stand from `offset` on.
+  /// Refuses a file that is too short for `count` items of `bytes` bytes from `offset` on.
   void expect_room(std::size_t at, std::size_t offset, std::size_t count, std::size_t bytes, const char* things) const {
     const auto size = file_.view().size();
     if (offset > size || count > (size - offset) / bytes)
       file_.fail_at(
-          at, fmt::format("{} {} from byte {} on cannot stand in a file of {} bytes", count, things, offset, size));
+          at, fmt::format("{} {} from byte {} on do not fit into a file of {} bytes", count, things, offset, size));
   }
 
   const File_bytes& file_;
@@ -69,8 +69,8 @@ void Model_reader::add_face(std::size_t at, std::size_t first, std::size_t verti
     file_.fail_at(at, too_many_faces(model_.faces.size(), options_.max_faces));
 }
 
-// MD2: 17 numbers, then what they point to. A frame is a scale and an offset per axis, a name, and per vertex three
-// bytes and the number of a normal.
+// MD2: 17 numbers, then the data at the offsets among them. A frame is a scale and an offset per axis, a name, and per
+// vertex three bytes and the index of a normal.
 constexpr std::size_t md2_header = 68, md2_frame_header = 40, md2_vertex = 4, md2_triangle = 12;
 
 void Model_reader::read_md2() {
@@ -90,8 +90,8 @@ void Model_reader::read_md2() {
   for (std::size_t face = 0; face < faces; ++face) add_face(triangles_at + face * md2_triangle, 0, vertices, 2);
 }
 
-// MD3: a header, and surfaces one after the other, each with a header of its own. Places are counted from where the
-// surface begins. A vertex is three 16-bit numbers, in 64ths, and a normal; those of a frame follow those of the last.
+// MD3: a header, then surfaces one after the other, each with its own header. Offsets are relative to the start of the
+// surface. A vertex is three 16-bit numbers, in 64ths, and a normal. The vertices are stored frame after frame.
 constexpr std::size_t md3_header = 108, md3_surface_header = 108, md3_vertex = 8, md3_triangle = 12;
 
 void Model_reader::read_md3() {
@@ -120,7 +120,7 @@ void Model_reader::read_md3_surface(std::size_t at, std::size_t length) {
   expect_room(at + 84, triangles_at, faces, md3_triangle, "triangles");
   expect_room(at + 80, vertices_at, vertices, md3_vertex, "vertices");
   expect_room(at + 72, vertices_at, frames, std::max<std::size_t>(vertices, 1) * md3_vertex, "frames");
-  // Surfaces that shared their bytes could make a short file hold more than the memory.
+  // If surfaces could share bytes, a short file could describe more data than fits into memory.
   if (triangles_at + faces * md3_triangle > at + length || vertices_at + frames * vertices * md3_vertex > at + length)
     file_.fail_at(at + 104, fmt::format("the surface does not end within its {} bytes", length));
   for (std::size_t face = 0; face < faces; ++face)
@@ -129,9 +129,9 @@ void Model_reader::read_md3_surface(std::size_t at, std::size_t length) {
   model_.vertices += vertices;
 }
 
-// ---- Vertices that are one ----
+// ---- Welding ----
 
-/// The bytes of an MD3 vertex in one frame; its normal does not count.
+/// The position of an MD3 vertex in one frame, as bytes; its normal is ignored.
 std::string_view position_bytes(const Game_model& model, const Game_surface& surface, std::size_t vertex,
                                 std::size_t frame) {
   constexpr std::size_t bytes = 6;
@@ -156,7 +156,7 @@ struct Same_place {
   }
 };
 
-/// MD3 doubles vertices at the seams of textures; MD2 does not.
+/// Joins vertices that have the same position in every frame. MD3 duplicates vertices at texture seams; MD2 does not.
 void weld(Game_model& model) {
   std::vector<std::uint32_t> first_of;
   for (const auto& surface : model.surfaces) {
@@ -177,7 +177,7 @@ Game_model Model_reader::read() {
   else if (file_.view().starts_with("IDP3"))
     read_md3();
   else
-    file_.fail_at(0, "expected IDP2 or IDP3, this is no MD2 or MD3 model");
+    file_.fail_at(0, "expected IDP2 or IDP3, this is not an MD2 or MD3 model");
   model_.bytes = file_.view();
   if (!model_.is_md2) weld(model_);
   return std::move(model_);

@@ -10,28 +10,28 @@
 #include "lodestone/io/formats/mesh_file_options.h"
 #include "lodestone/mesh/mesh_numbering.h"
 
-/// Key-framed models of games: MD2 (Quake II) and MD3 (Quake III). A file is triangles, and where all vertices are in
-/// each frame, in fixed point.
+/// Key-framed game models: MD2 (Quake II) and MD3 (Quake III). A file has triangles and the positions of all vertices
+/// in each frame, in fixed point.
 namespace lodestone {
 
-/// Vertices of one surface of a file.
+/// The vertices of one surface in a file.
 struct Game_surface {
   std::size_t vertices = 0;
-  std::size_t first_frame = 0;  ///< byte of the first frame's vertices
-  std::size_t frame_bytes = 0;  ///< from one frame to the next
+  std::size_t first_frame = 0;  ///< byte offset of the first frame's vertices
+  std::size_t frame_bytes = 0;  ///< stride from one frame to the next
 };
 
 struct Game_model {
   std::string name = {};   ///< of the file
-  std::string bytes = {};  ///< all of it
+  std::string bytes = {};  ///< the whole file
   bool is_md2 = false;
   std::size_t frames = 0;
   std::size_t vertices = 0;
   std::vector<Game_surface> surfaces = {};
-  std::vector<Corners> faces = {};  ///< vertices that are the same in every frame are named by one number
+  std::vector<Corners> faces = {};  ///< vertices that coincide in every frame have one index
 };
 
-/// By the file's extension.
+/// Whether the file's extension is that of a game model.
 bool is_game_model(const std::filesystem::path& file);
 
 /// @throws Bad_mesh

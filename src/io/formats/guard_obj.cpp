@@ -12,19 +12,20 @@
 namespace lodestone {
 namespace {
 
-/// Statements that are legal and say nothing about the triangles. Free-form curves and surfaces are not among them:
-/// to skip those would lose part of the shape.
+/// Legal statements that do not affect the triangles. Free-form curves and surfaces are not among them, because
+/// skipping those would lose part of the shape.
 constexpr std::array<std::string_view, 21> skipped_statements = {
     "vt",     "vn",     "vp",    "g",        "o",        "s",   "mg",         "l",         "p",     "usemtl", "mtllib",
     "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech", "stech"};
 
-/// The largest vertex number met, from 1, and where. A face may refer to vertices further down: this is checked last.
+/// The largest vertex number found, from 1, and its location. Checked at the end of the file, since a face may refer to
+/// vertices that follow it.
 struct Farthest_corner {
   std::size_t vertex;
   Text_scanner place;
 };
 
-/// The vertex number, from 1, of a corner written `7`, `-2` (counted back from here) or `7/1/3` (texture, normal).
+/// The vertex number, from 1, of a corner written as `7`, `-2` (counted back from here) or `7/1/3` (texture, normal).
 std::size_t vertex_number(const Text_scanner& text, std::string_view corner, std::size_t vertices) {
   const auto word = corner.substr(0, corner.find('/'));
   std::int64_t number = 0;
@@ -33,7 +34,7 @@ std::size_t vertex_number(const Text_scanner& text, std::string_view corner, std
     text.fail(fmt::format("expected the number of a vertex, found {}", in_quotes(corner)));
   if (number == 0) text.fail("face refers to vertex 0, but vertices are counted from 1");
   if (number > 0) return static_cast<std::size_t>(number);
-  // The least 64-bit integer has no negative: the sum is taken in unsigned arithmetic, which wraps.
+  // Unsigned, so that it wraps: the smallest 64-bit integer cannot be negated.
   const auto back = std::uint64_t{0} - static_cast<std::uint64_t>(number);
   if (back > vertices) text.fail(fmt::format("face refers to vertex {} with {} vertices so far", number, vertices));
   return vertices + 1 - back;

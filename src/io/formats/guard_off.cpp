@@ -6,21 +6,21 @@
 namespace lodestone {
 namespace {
 
-/// Vertex lines may carry texture (ST), colour (C) and normal (N), which are skipped.
+/// Vertex lines may have texture coordinates (ST), a colour (C) and a normal (N), which are skipped.
 bool is_off_keyword(std::string_view word) {
   for (const std::string_view prefix : {"ST", "C", "N"})
     if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
   return word == "OFF";
 }
 
-/// Reads the keyword and the counts, which may stand on one line or on two. The number of edges means nothing.
+/// Reads the keyword and the counts, which may be on one line or on two. The number of edges is ignored.
 void read_header(Text_scanner& text, std::size_t max_faces, Guarded_mesh& mesh) {
   text.next_line();
   const auto keyword = text.next_word();
   if (!is_off_keyword(keyword))
     text.fail(fmt::format("expected OFF, COFF, NOFF or alike, found {}", in_quotes(keyword)));
   auto word = text.next_word_of_file();
-  if (word == "BINARY") text.fail("binary OFF is not read, only text");
+  if (word == "BINARY") text.fail("binary OFF is not supported, only text");
   mesh.vertices = text.count(word);
   mesh.faces = text.count(text.next_word());
   if (mesh.faces == 0 || mesh.vertices == 0) text.fail("the file holds no face");

@@ -14,7 +14,7 @@
 namespace lodestone {
 namespace {
 
-/// The body of the plain copy, in two parts because a file may list its faces first.
+/// The body of the plain copy, in two parts since a file may list its faces first.
 struct Plain_body {
   std::string vertices, faces;
 };
@@ -48,7 +48,7 @@ const Ply_element& only_element(const Ply_header& header, bool (*wanted)(const P
   return *std::ranges::find_if(header.elements, wanted);
 }
 
-/// Checks what the header alone tells, and takes the counts from it.
+/// Checks the header on its own, and reads the counts from it.
 void check_header(const Ply_header& header, const Text_scanner& text, std::size_t max_faces, Guarded_mesh& mesh) {
   const auto& vertices = only_element(header, is_vertices, "vertex", text);
   const auto& faces = only_element(header, is_faces, "face", text);
@@ -65,7 +65,7 @@ void check_room(const Values& values, const Ply_element& element) {
   std::size_t least = 0;
   for (const auto& property : element.properties)
     least += Values::least_bytes(property.count_type.value_or(property.type));
-  const auto room = values.bytes_left() + 1;  // the blank after the last value of a text may be missing
+  const auto room = values.bytes_left() + 1;  // the last value of a text need not be followed by a blank
   if (least > 0 && element.count > room / least)
     values.fail(too_short_for(element.count, "items of element " + in_quotes(element.name), values.bytes_left()));
 }
@@ -73,7 +73,7 @@ void check_room(const Values& values, const Ply_element& element) {
 template <class Values>
 std::size_t next_integer(Values& values, Ply_type type, std::string_view what) {
   const double value = values.next(type);
-  const double end = std::size_t{1} << 32U;  // PLY knows no wider integer
+  const double end = std::size_t{1} << 32U;  // the widest integer of PLY has 32 bits
   if (value < 0 || value >= end || value != std::floor(value))
     values.fail(fmt::format("expected {}, found {}", what, value));
   return static_cast<std::size_t>(value);
@@ -117,7 +117,7 @@ void copy_corners(Values& values, std::size_t face, const Ply_property& list, Gu
 
 template <class Values>
 void copy_element(Values& values, const Ply_element& element, Guarded_mesh& mesh, Plain_body& body) {
-  if (element.properties.empty()) return;  // however many items, they hold nothing
+  if (element.properties.empty()) return;  // whatever the count, there is nothing to read
   for (std::size_t item = 0; item < element.count; ++item) {
     if (is_vertices(element)) {
       copy_vertex(values, element, mesh, body);

@@ -24,7 +24,7 @@ void need_keyword(const Text_scanner& text, std::string_view word, std::string_v
   if (!is_keyword(word, keyword)) text.fail(fmt::format("expected '{}', found {}", keyword, in_quotes(word)));
 }
 
-/// Copies what follows the word `facet`. The normal is skipped: it is often wrong, and follows from the corners.
+/// Copies the part after the word `facet`. The normal is skipped: it is often wrong, and the corners determine it.
 void copy_facet(Text_scanner& text, Guarded_mesh& mesh) {
   mesh.plain += "facet\n";
   need_keyword(text, text.next_word_of_file(), "normal");
@@ -93,12 +93,12 @@ Guarded_mesh guard_binary(const File_bytes& file, std::size_t max_faces) {
   Guarded_mesh mesh;
   mesh.faces = facets;
   for (std::size_t facet = 0; facet < facets; ++facet) check_corners(file, facet, mesh);
-  // A header that begins with 'solid' would send CGAL's reader through the text branch first.
+  // Blank, since CGAL's reader would first try to read a header that begins with 'solid' as text.
   mesh.plain = std::string(header_bytes, '\0').append(bytes.substr(header_bytes));
   return mesh;
 }
 
-/// Headers of binary files may begin with 'solid' too, but the count of faces behind them holds a zero byte.
+/// The header of a binary file may begin with 'solid' too, but the face count after it contains a zero byte.
 bool is_text(std::string_view bytes) {
   const auto begin = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   return is_keyword(bytes.substr(begin, 5), "solid") &&

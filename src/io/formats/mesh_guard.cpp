@@ -6,7 +6,7 @@
 namespace lodestone {
 
 std::string too_short_for(std::size_t count, const std::string& things, std::size_t bytes_left) {
-  return fmt::format("{} {} cannot stand in the {} bytes that follow", count, things, bytes_left);
+  return fmt::format("{} {} do not fit into the {} bytes that follow", count, things, bytes_left);
 }
 
 std::string too_many_faces(std::size_t faces, std::size_t max_faces) {

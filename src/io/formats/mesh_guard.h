@@ -9,36 +9,36 @@
 #include "io/files/file_bytes.h"
 #include "io/files/text_scanner.h"
 
-/// One guard per format: it understands the whole file before CGAL's reader may see any of it.
+/// One guard per format: it checks the whole file before CGAL's reader sees any of it.
 ///
-/// CGAL 5.5's readers index past arrays, allocate what a header claims, stop early without a word, or refuse legal
-/// statements. So a guard hands them a copy that holds the same vertices and faces in the plainest form of the format,
-/// and the sums by which `read_mesh_soup` proves that they arrived.
+/// CGAL 5.5's readers index past the end of arrays, allocate what a header claims, stop early without an error, or
+/// refuse legal statements. So a guard gives them a copy with the same vertices and faces in the plainest form of the
+/// format. It also computes the checksums with which `read_mesh_soup` verifies that they were read completely.
 namespace lodestone {
 
-/// A sum that depends on every number added and on their order.
+/// A checksum that depends on every number added and on their order.
 class Checksum {
  public:
-  /// Zero and minus zero count as equal, as they do when STL corners are welded.
+  /// Zero and minus zero are equal, as in the welding of STL corners.
   void add_coordinate(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }
   void add_corner(std::uint64_t vertex) { add(vertex); }
   bool operator==(const Checksum&) const = default;
 
  private:
   void add(std::uint64_t bits) {
-    sum_ = (sum_ ^ bits) * 0x9E3779B97F4A7C15U;  // 2^64 over the golden ratio: odd, its bits well mixed
+    sum_ = (sum_ ^ bits) * 0x9E3779B97F4A7C15U;  // 2^64 / golden ratio: odd, with well-mixed bits
     sum_ ^= sum_ >> 32U;
   }
   std::uint64_t sum_ = 0;
 };
 
-/// What a guard has found in a file.
+/// The result of a guard.
 struct Guarded_mesh {
   std::string plain;         ///< the copy for CGAL's reader
-  std::size_t vertices = 0;  ///< 0 for STL, whose vertices are only known once welded
+  std::size_t vertices = 0;  ///< 0 for STL, whose vertices are known only after welding
   std::size_t faces = 0;
   Checksum coordinates;  ///< of the vertices in order; STL: of every corner of every face
-  Checksum corners;      ///< vertex numbers from 0, face by face; nothing for STL
+  Checksum corners;      ///< vertex indices, face by face; nothing for STL
 };
 
 /// @param max_faces  the face limit
@@ -48,14 +48,14 @@ Guarded_mesh guard_obj(const File_bytes& file, std::size_t max_faces);
 Guarded_mesh guard_ply(const File_bytes& file, std::size_t max_faces);
 Guarded_mesh guard_stl(const File_bytes& file, std::size_t max_faces);
 
-/// Cause of the error for a header whose counts cannot be true: fewer bytes are left than its items need at least.
+/// Error text for a header with impossible counts: fewer bytes are left than its items need at least.
 std::string too_short_for(std::size_t count, const std::string& things, std::size_t bytes_left);
-/// Cause of the error for a file with too many faces.
+/// Error text for a file with too many faces.
 std::string too_many_faces(std::size_t faces, std::size_t max_faces);
-/// Cause of the error for a face that is no triangle.
+/// Error text for a face that is not a triangle.
 std::string not_a_triangle(std::size_t face, std::size_t corners);
 
-/// Checks the three coordinates that follow on the current line and adds them to the plain copy, with the line's end.
+/// Checks the next three coordinates of the current line and adds them to the plain copy, with a line end.
 void copy_coordinates(Text_scanner& text, Guarded_mesh& mesh);
 
 }  // namespace lodestone

@@ -8,13 +8,13 @@
 
 namespace lodestone {
 
-/// Points and triangles as a file lists them: vertex and face indices are the file's own, from 0.
+/// Points and triangles in the order of the file: vertex and face indices are those of the file, from 0.
 struct Mesh_soup {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> faces;
 };
 
-/// Its faces in a form that takes little memory.
+/// The faces of a soup in compact form.
 std::vector<Corners> corners_of(const Mesh_soup& soup);
 
 }  // namespace lodestone

@@ -52,7 +52,7 @@ Ply_element read_element(Text_scanner& text) {
 
 Ply_property read_property(Text_scanner& text) {
   Ply_property property;
-  auto rest_of_line = text;  // a look ahead: the type stands where `list` may stand
+  auto rest_of_line = text;  // look-ahead: this word is either a type or `list`
   if (rest_of_line.next_word() == "list") {
     text.next_word();
     property.count_type = read_type(text);
@@ -68,11 +68,11 @@ void add_property(Text_scanner& text, Ply_header& header) {
   auto& properties = header.elements.back().properties;
   auto property = read_property(text);
   if (std::ranges::count(properties, property.name, &Ply_property::name) != 0)
-    text.fail(fmt::format("property {} stands twice in one element", in_quotes(property.name)));
+    text.fail(fmt::format("duplicate property {} in one element", in_quotes(property.name)));
   properties.push_back(std::move(property));
 }
 
-/// Moves to the next line that is no comment and takes its first word.
+/// Moves to the next line that is not a comment and reads its first word.
 std::string_view next_keyword(Text_scanner& text) {
   while (text.next_line()) {
     const auto keyword = text.next_word();

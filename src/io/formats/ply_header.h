@@ -13,7 +13,7 @@ namespace lodestone {
 
 enum class Ply_format { ascii, binary_little_endian, binary_big_endian };
 
-/// The number types of PLY; each has two names, such as `uchar` and `uint8`.
+/// The number types of PLY. Each has two names, such as `uchar` and `uint8`.
 enum class Ply_type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 std::size_t bytes_of(Ply_type type);
@@ -22,7 +22,7 @@ bool is_integer(Ply_type type);
 struct Ply_property {
   std::string name;
   Ply_type type = Ply_type::float32;   ///< of the value, or of each item of a list
-  std::optional<Ply_type> count_type;  ///< of the number of items; none: not a list
+  std::optional<Ply_type> count_type;  ///< of the item count; none: not a list
 };
 
 struct Ply_element {
@@ -36,7 +36,7 @@ struct Ply_header {
   std::vector<Ply_element> elements;
 };
 
-/// Reads a PLY header; `text` then stands before the first byte of the data.
+/// Reads a PLY header. Afterwards `text` is at the first byte of the data.
 /// @throws Bad_mesh
 Ply_header read_ply_header(Text_scanner& text);
 

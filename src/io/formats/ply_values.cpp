@@ -28,7 +28,7 @@ double load_as_double(const char* bytes, Ply_type type, std::endian order) {
     case Ply_type::float64:
       return load<double>(bytes, order);
   }
-  return 0;  // not reached: the switch is complete
+  return 0;  // unreachable: the switch is complete
 }
 
 }  // namespace

@@ -9,20 +9,20 @@
 #include "io/files/text_scanner.h"
 #include "io/formats/ply_header.h"
 
-/// The values of a PLY file, one after the other: the same calls for text and for binary.
+/// Reads the values of a PLY file in order, with the same interface for text and binary.
 namespace lodestone {
 
 class Ply_text_values {
  public:
   explicit Ply_text_values(const Text_scanner& after_header) : text_(after_header) {}
 
-  /// @throws Bad_mesh at the file's end, and for what is no finite number
+  /// @throws Bad_mesh  at the end of the file, and for anything but a finite number
   double next(Ply_type type);
-  /// Passes over a value that may be anything.
+  /// Skips a value without checking it.
   void skip(Ply_type type);
   bool at_end() { return text_.next_word_of_file().empty(); }
   std::size_t bytes_left() const { return text_.bytes_left(); }
-  /// The fewest bytes a value can take: a digit and a blank.
+  /// The minimum size of a value: a digit and a blank.
   static std::size_t least_bytes(Ply_type) { return 2; }
   [[noreturn]] void fail(std::string_view cause) const { text_.fail(cause); }
 

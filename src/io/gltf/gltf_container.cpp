@@ -21,9 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 using detail::Json_value;
 
-// A binary glTF file: magic number, version, length of the file; then chunks, each with length and type in front.
-constexpr std::string_view magic = "glTF";
-constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
+// A binary glTF file: magic number, version, length of the file; then chunks, each preceded by its length and type.
+constexpr std::string_view glb_magic = "glTF";
+constexpr std::size_t glb_header_bytes = 12, chunk_header_bytes = 8;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
 constexpr std::size_t most_buffers = 100'000;
@@ -33,7 +33,7 @@ struct Chunk {
   std::string_view bytes;
 };
 
-/// The chunk at `offset`, which is moved behind it; nothing at the file's end.
+/// Reads the chunk at `offset` and advances `offset` past it; nothing at the end of the file.
 std::optional<Chunk> next_chunk(const File_bytes& file, std::string_view bytes, std::size_t& offset) {
   if (offset == bytes.size()) return std::nullopt;
   if (bytes.size() - offset < chunk_header_bytes) file.fail_at(offset, "the file ends within the header of a chunk");
@@ -42,32 +42,32 @@ std::optional<Chunk> next_chunk(const File_bytes& file, std::string_view bytes, 
   const auto body = offset + chunk_header_bytes;
   if (length > bytes.size() - body)
     file.fail_at(offset,
-                 fmt::format("a chunk of {} bytes cannot stand in the {} that follow", length, bytes.size() - body));
+                 fmt::format("a chunk of {} bytes does not fit into the {} that follow", length, bytes.size() - body));
   offset = body + length;
   return Chunk{type, bytes.substr(body, length)};
 }
 
 void read_binary_gltf(const File_bytes& file, Gltf_document& document) {
-  if (file.view().size() < header_bytes) file.fail_at(file.view().size(), "the file ends within the header");
+  if (file.view().size() < glb_header_bytes) file.fail_at(file.view().size(), "the file ends within the header");
   const auto version = load<std::uint32_t>(file.view().data() + 4);
   const auto length = load<std::uint32_t>(file.view().data() + 8);
   if (version != 2) file.fail_at(4, fmt::format("expected version 2, found {}", version));
-  if (length < header_bytes || length > file.view().size())
+  if (length < glb_header_bytes || length > file.view().size())
     file.fail_at(8, fmt::format("{} bytes are announced, the file has {}", length, file.view().size()));
   const auto bytes = file.view().substr(0, length);
 
-  auto offset = header_bytes;
+  auto offset = glb_header_bytes;
   const auto first = next_chunk(file, bytes, offset);
-  if (!first || first->type != json_chunk) file.fail_at(header_bytes, "expected a chunk of JSON");
+  if (!first || first->type != json_chunk) file.fail_at(glb_header_bytes, "expected a chunk of JSON");
   document.json = detail::parse_json_text(first->bytes, document.name);
   if (const auto second = next_chunk(file, bytes, offset); second && second->type == binary_chunk) {
     document.has_binary = true;
     document.binary.assign(second->bytes.begin(), second->bytes.end());
   }
-  while (next_chunk(file, bytes, offset)) continue;  // later chunks must be whole, and mean nothing
+  while (next_chunk(file, bytes, offset)) continue;  // further chunks must be complete, and are ignored
 }
 
-/// `uri` with %20 and the like replaced by what they stand for.
+/// `uri` with percent-encoded characters decoded.
 std::string decoded(const std::string& uri) {
   std::string result;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -98,12 +98,13 @@ Bytes read_start(const fs::path& file, std::size_t length, const Json_value& uri
 Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder) {
   const auto text = uri.text();
   if (tinygltf::IsDataURI(text)) {
-    if (text.size() < length) uri.fail(fmt::format("{} bytes are announced, the text is too short for them", length));
+    if (text.size() < length)
+      uri.fail(fmt::format("{} bytes are announced, the data URI is too short for them", length));
     Bytes bytes;
     std::string mime_type;
     const bool is_decoded = tinygltf::DecodeDataURI(&bytes, mime_type, text, 0, false);
     if (!is_decoded || bytes.size() < length)
-      uri.fail(fmt::format("{} bytes are announced, {} stand there", length, bytes.size()));
+      uri.fail(fmt::format("{} bytes are announced, the data URI has {}", length, bytes.size()));
     bytes.resize(length);
     return bytes;
   }
@@ -119,7 +120,7 @@ Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder
 Gltf_document read_gltf_document(const fs::path& file) {
   const File_bytes bytes(file);
   Gltf_document document{.name = bytes.name()};
-  if (bytes.view().starts_with(magic))
+  if (bytes.view().starts_with(glb_magic))
     read_binary_gltf(bytes, document);
   else
     document.json = detail::parse_json_text(bytes.view(), document.name);

@@ -17,7 +17,7 @@ using detail::Json;
 using detail::Json_value;
 
 constexpr std::size_t most_elements = 10'000'000;
-// tinygltf keeps some offsets and counts in 32 bits with sign.
+// tinygltf stores some offsets and counts as signed 32-bit integers.
 constexpr std::size_t most_bytes = std::numeric_limits<std::int32_t>::max();
 
 struct Component {
@@ -31,7 +31,8 @@ struct Element {
   std::string_view name;
   std::size_t numbers;
 };
-// Matrices of bytes and shorts have gaps in them and stand in no attribute that is read.
+// MAT2 and MAT3 are missing, and MAT4 is read as floats only: no attribute that is read uses the others, and matrices
+// of bytes and shorts have padding.
 constexpr std::array<Element, 5> elements{{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}}};
 
 struct Accessor {
@@ -39,14 +40,14 @@ struct Accessor {
   std::size_t component = 0;
   std::size_t count = 0;
   bool normalized = false;
-  bool readable = true;  ///< of a type that is read
+  bool readable = true;  ///< false for the matrix types that are not read
 };
 
 struct View {
   std::size_t length = 0, stride = 0;
 };
 
-/// Goes through the sections in the order in which they refer to each other, and copies what is used.
+/// Checks the sections in the order in which they refer to each other, and copies what is used.
 class Guard {
  public:
   Guard(const Gltf_document& document, const std::vector<Bytes>& buffers)
@@ -78,9 +79,9 @@ class Guard {
     }
   }
 
-  /// A number of something that there are `count` of.
+  /// `value` as an index into a list of `count` elements.
   static std::size_t index(const Json_value& value, std::string_view things, std::size_t count) {
-    if (count == 0) value.fail(fmt::format("refers to one of the {}, of which there are none", things));
+    if (count == 0) value.fail(fmt::format("refers to one of the {}, but there are none", things));
     return value.count(0, count - 1);
   }
   std::size_t accessor_index(const Json_value& value) const { return index(value, "accessors", accessors_.size()); }
@@ -111,7 +112,7 @@ class Guard {
   Json plain_;
   std::vector<View> views_;
   std::vector<Accessor> accessors_;
-  std::size_t most_stored_ = 0;            ///< elements of the longest accessor whose elements the file holds
+  std::size_t most_stored_ = 0;            ///< length of the longest accessor whose elements are stored in the file
   std::vector<std::size_t> mesh_targets_;  ///< morph targets per mesh
   std::vector<bool> mesh_has_joints_;
   std::size_t nodes_ = 0;
@@ -123,13 +124,13 @@ void Guard::check_asset() const {
   const auto version = asset.at("version").text();
   if (!version.starts_with("2."))
     asset.at("version").fail(fmt::format("expected 2.0, found {}", detail::in_quotes(version)));
-  // An extension that changes where vertices are must be known; one that changes how they look need not be.
+  // An extension that affects positions must be supported; one that affects only appearance may be ignored.
   for (const auto& extension : root_.list("extensionsRequired", most_elements)) {
     const auto name = extension.text();
     const bool harmless = name == "KHR_mesh_quantization" || name.starts_with("KHR_materials_") ||
                           name.starts_with("KHR_texture_") || name.starts_with("EXT_texture_") ||
                           name == "KHR_lights_punctual";
-    if (!harmless) extension.fail(fmt::format("the extension {} is not read", detail::in_quotes(name)));
+    if (!harmless) extension.fail(fmt::format("the extension {} is not supported", detail::in_quotes(name)));
   }
 }
 
@@ -141,22 +142,22 @@ Json Guard::copy_view(const Json_value& view) {
   const auto offset = view.count("byteOffset", 0, size, 0);
   const auto length = view.at("byteLength").count(1, std::max<std::size_t>(size, 1));
   if (length > size - offset)
-    view.fail(fmt::format("{} bytes from byte {} on are not in the buffer of {}", length, offset, size));
+    view.fail(fmt::format("{} bytes from byte {} on do not fit into the buffer of {}", length, offset, size));
   const auto stride = view.count("byteStride", 4, 252, 0);
-  if (stride % 4 != 0) view.at("byteStride").fail(fmt::format("{} is no multiple of 4", stride));
+  if (stride % 4 != 0) view.at("byteStride").fail(fmt::format("{} is not a multiple of 4", stride));
   views_.push_back({length, stride});
   Json plain{{"buffer", buffer}, {"byteOffset", offset}, {"byteLength", length}};
   if (stride > 0) plain["byteStride"] = stride;
   return plain;
 }
 
-/// @param stride  from one element to the next
+/// @param stride  bytes from one element to the next
 void Guard::expect_room(const Json_value& place, std::size_t view, std::size_t offset, std::size_t count,
                         std::size_t bytes, std::size_t stride) const {
   const auto length = views_[view].length;
   if (offset > length || bytes > length - offset || (count - 1) > (length - offset - bytes) / stride)
-    place.fail(fmt::format("{} elements of {} bytes from byte {} on are not in the buffer view of {}", count, bytes,
-                           offset, length));
+    place.fail(fmt::format("{} elements of {} bytes from byte {} on do not fit into the buffer view of {}", count,
+                           bytes, offset, length));
 }
 
 void Guard::copy_accessors() {
@@ -165,21 +166,21 @@ void Guard::copy_accessors() {
     accessor.expect_object();
     plain_["accessors"].push_back(copy_accessor(accessor));
   }
-  // Elements that are all zero take no bytes: there may be as many as of something that takes some.
+  // An accessor of zeros is not stored, so the file's size does not limit it: the longest stored accessor does.
   for (std::size_t i = 0; i < all.size(); ++i)
     if (accessors_[i].count > most_stored_)
-      all[i].fail(fmt::format("has {} elements, more than the file holds of anything", accessors_[i].count));
+      all[i].fail(fmt::format("has {} elements, more than any stored accessor has", accessors_[i].count));
 }
 
 Json Guard::copy_accessor(const Json_value& value) {
   const auto type = value.at("type").text();
   const auto code = value.at("componentType").count(0, 100'000);
   const auto* const component = std::ranges::find(components, code, &Component::code);
-  if (component == components.end()) value.at("componentType").fail(fmt::format("{} is no type of numbers", code));
+  if (component == components.end()) value.at("componentType").fail(fmt::format("{} is not a component type", code));
   const auto* const element = std::ranges::find(elements, type, &Element::name);
   const bool readable = element != elements.end() && (type != "MAT4" || code == as_float);
   if (!readable && type != "MAT2" && type != "MAT3" && type != "MAT4")
-    value.at("type").fail(fmt::format("{} is no type of elements", detail::in_quotes(type)));
+    value.at("type").fail(fmt::format("{} is not an accessor type", detail::in_quotes(type)));
   Accessor accessor{.type = type, .component = code, .count = value.at("count").count(1, most_bytes)};
   accessor.readable = readable;
   if (const auto normalized = value.find("normalized")) accessor.normalized = normalized->boolean();
@@ -210,7 +211,7 @@ Json Guard::copy_sparse(const Json_value& sparse, std::size_t count, std::size_t
   const auto indices = sparse.at("indices"), values = sparse.at("values");
   const auto code = indices.at("componentType").count(0, 100'000);
   if (code != 5121 && code != 5123 && code != 5125)
-    indices.at("componentType").fail(fmt::format("{} is no type of whole numbers", code));
+    indices.at("componentType").fail(fmt::format("{} is not an index type, expected 5121, 5123 or 5125", code));
   const auto index_bytes = std::ranges::find(components, code, &Component::code)->bytes;
   const auto index_view = index(indices.at("bufferView"), "buffer views", views_.size());
   const auto index_offset = indices.count("byteOffset", 0, most_bytes, 0);
@@ -224,13 +225,13 @@ Json Guard::copy_sparse(const Json_value& sparse, std::size_t count, std::size_t
 }
 
 /// The accessor that `place` names, which must have this type.
-/// @param whole  whole numbers are wanted, otherwise real ones, which may be stored as normalized integers
+/// @param whole  true: unsigned integers; false: real numbers, which may be stored as normalized integers
 const Accessor& Guard::expect(const Json_value& place, std::string_view type, bool whole) const {
   const auto& accessor = accessors_[accessor_index(place)];
   if (accessor.type != type || !accessor.readable)
     place.fail(fmt::format("expected an accessor of type {}, found {}", type, accessor.type));
   const bool is_whole = accessor.component == 5121 || accessor.component == 5123 || accessor.component == 5125;
-  if (whole && (!is_whole || accessor.normalized)) place.fail("expected an accessor of whole numbers without sign");
+  if (whole && (!is_whole || accessor.normalized)) place.fail("expected an accessor of unsigned integers");
   return accessor;
 }
 
@@ -266,7 +267,7 @@ Json Guard::copy_primitive(const Json_value& primitive, std::size_t& targets) co
              {"mode", primitive.count("mode", 0, 6, 4)}};
   if (const auto indices = primitive.find("indices")) {
     expect(*indices, "SCALAR", true);
-    // tinygltf refuses indices that are all zero.
+    // tinygltf refuses an accessor of indices that has no buffer view.
     const auto number = accessor_index(*indices);
     if (!plain_["accessors"][number].contains("bufferView")) indices->fail("expected indices with a buffer view");
     plain["indices"] = number;
@@ -286,7 +287,7 @@ Json Guard::copy_primitive(const Json_value& primitive, std::size_t& targets) co
   return plain;
 }
 
-/// POSITION, and JOINTS_n with WEIGHTS_n.
+/// Copies POSITION, and the pairs JOINTS_n and WEIGHTS_n.
 Json Guard::copy_attributes(const Json_value& attributes, std::size_t& vertices) const {
   const auto position = attributes.at("POSITION");
   vertices = expect(position, "VEC3", false).count;
@@ -295,9 +296,10 @@ Json Guard::copy_attributes(const Json_value& attributes, std::size_t& vertices)
     const auto joints_name = fmt::format("JOINTS_{}", set), weights_name = fmt::format("WEIGHTS_{}", set);
     const auto joints = attributes.find(joints_name), weights = attributes.find(weights_name);
     if (!joints && !weights) return plain;
-    if (!joints || !weights) attributes.fail(fmt::format("{} and {} need each other", joints_name, weights_name));
+    if (!joints || !weights)
+      attributes.fail(fmt::format("{} and {} must be given together", joints_name, weights_name));
     if (expect(*joints, "VEC4", true).count != vertices || expect(*weights, "VEC4", false).count != vertices)
-      attributes.fail(fmt::format("{} or {} is not for {} vertices", joints_name, weights_name, vertices));
+      attributes.fail(fmt::format("expected {} and {} for {} vertices", joints_name, weights_name, vertices));
     plain[joints_name] = accessor_index(*joints);
     plain[weights_name] = accessor_index(*weights);
   }
@@ -347,7 +349,7 @@ void Guard::copy_place(const Json_value& node, Json& plain) const {
   for (const auto& [key, length] : fields) {
     const auto value = node.find(key);
     if (!value) continue;
-    if (plain.contains("matrix")) value->fail("stands beside a matrix");
+    if (plain.contains("matrix")) value->fail("cannot be combined with a matrix");
     plain[key] = Json::array();
     for (const auto& number : value->elements(length)) plain[key].push_back(number.number());
     if (plain[key].size() != length)
@@ -355,7 +357,7 @@ void Guard::copy_place(const Json_value& node, Json& plain) const {
   }
 }
 
-/// A node has one parent at most, and is not below itself.
+/// Checks that every node has at most one parent and is not its own ancestor.
 void Guard::check_tree() const {
   std::vector<std::size_t> parent(nodes_, nodes_);
   const auto all = root_.list("nodes", most_elements);
@@ -374,7 +376,7 @@ void Guard::check_tree() const {
   std::vector<bool> seen(nodes_);
   for (const auto node : reached) seen[node] = true;
   const auto first = static_cast<std::size_t>(std::ranges::find(seen, false) - seen.begin());
-  all[first].fail("is below itself: the nodes form a circle");
+  all[first].fail("is its own ancestor: the nodes form a cycle");
 }
 
 void Guard::copy_scenes() {
@@ -383,7 +385,7 @@ void Guard::copy_scenes() {
     std::set<std::size_t> taken;
     for (const auto& node : scene.list("nodes", most_elements)) {
       const auto number = index(node, "nodes", nodes_);
-      if (!taken.insert(number).second) node.fail(fmt::format("node {} stands twice in the scene", number));
+      if (!taken.insert(number).second) node.fail(fmt::format("node {} is in the scene twice", number));
       plain["nodes"].push_back(number);
     }
     return plain;
@@ -402,7 +404,7 @@ Json Guard::copy_animation(const Json_value& animation) const {
   for (const auto& channel : animation.at("channels").elements(most_elements)) {
     const auto sampler = index(channel.at("sampler"), "samplers", plain["samplers"].size());
     const auto target = channel.at("target");
-    // A channel of an extension, or of a node that is left open, moves nothing that is read.
+    // Skipped: a channel of an extension, or without a node, moves nothing that is read.
     const auto path = target.at("path").text();
     if (!target.has("node") || path == "pointer") continue;
     const auto node = index(target.at("node"), "nodes", nodes_);
@@ -421,7 +423,7 @@ Json Guard::copy_sampler(const Json_value& sampler) const {
           {"interpolation", interpolation ? interpolation->word({"LINEAR", "STEP", "CUBICSPLINE"}) : "LINEAR"}};
 }
 
-/// The keys of a sampler must be as many as its times, and of the kind that the target takes.
+/// Checks that a sampler has as many keys as times, and of the type that the target takes.
 void Guard::check_channel(const Json_value& target, const Json& sampler) const {
   const auto path = target.at("path").word({"translation", "rotation", "scale", "weights"});
   const auto& keys = accessors_[sampler["output"].get<std::size_t>()];
@@ -431,14 +433,13 @@ void Guard::check_channel(const Json_value& target, const Json& sampler) const {
     target.fail(fmt::format("expected keys of type {}, found {}", type, keys.type));
   const std::size_t per_time = sampler["interpolation"] == "CUBICSPLINE" ? 3 : 1;
   const auto wanted = times * per_time * numbers_per_key(target, path);
-  if (keys.count != wanted)
-    target.fail(fmt::format("{} times need {} elements of keys, found {}", times, wanted, keys.count));
+  if (keys.count != wanted) target.fail(fmt::format("{} times need {} keys, found {}", times, wanted, keys.count));
 }
 
 std::size_t Guard::numbers_per_key(const Json_value& target, const std::string& path) const {
   const auto& node = plain_["nodes"][target.at("node").count(0, nodes_ - 1)];
   if (path != "weights" && node.contains("matrix"))
-    target.fail("the node has a matrix, which cannot be moved in parts");
+    target.fail("the node has a matrix, so its parts cannot be animated");
   if (path != "weights") return 1;
   const auto targets = node.contains("mesh") ? mesh_targets_[node["mesh"].get<std::size_t>()] : 0;
   if (targets == 0) target.fail("the node has no morph targets");

@@ -17,7 +17,7 @@ namespace {
   throw Bad_mesh(fmt::format("{}: /accessors/{}: {}", name, accessor, cause));
 }
 
-/// Integers of T as themselves, or, normalized, as parts of the largest.
+/// Integers of T as they are or, if normalized, divided by the largest T.
 template <class T>
 double integer_at(const char* bytes, bool normalized) {
   const auto value = static_cast<double>(load<T>(bytes));
@@ -47,7 +47,7 @@ const char* view_bytes(const tinygltf::Model& model, int view, std::size_t offse
   return reinterpret_cast<const char*>(buffer.data.data()) + place.byteOffset + offset;
 }
 
-/// Puts the elements of a sparse accessor over those that stand there.
+/// Overwrites elements with those of a sparse accessor.
 void overlay(const tinygltf::Model& model, int number, std::size_t width, const std::string& name,
              std::vector<double>& values) {
   const auto& accessor = model.accessors[static_cast<std::size_t>(number)];

@@ -10,14 +10,14 @@
 namespace lodestone {
 namespace {
 
-/// The keys on both sides of a time, and how far it is from one to the other.
+/// The keys before and after a time, and its position between them.
 struct Between {
   std::size_t before = 0, after = 0;
   double part = 0;     ///< 0 to 1
   double seconds = 0;  ///< from key to key
 };
 
-/// Before the first key and behind the last the curve stands.
+/// The curve is constant before the first key and after the last.
 Between between(const std::vector<double>& times, double time) {
   const auto next = static_cast<std::size_t>(std::ranges::upper_bound(times, time) - times.begin());
   if (next == 0) return {};
@@ -32,7 +32,7 @@ double cubic(double from, double leaving, double to, double arriving, double par
          seconds * (t3 - t2) * arriving;
 }
 
-/// Numbers of the curve one by one. A rotation must be made a unit quaternion afterwards.
+/// Samples each number of the curve independently. The caller must normalise a rotation afterwards.
 void sample(const Gltf_curve& curve, double time, std::vector<double>& value) {
   const auto [before, after, part, seconds] = between(curve.times, time);
   value.resize(curve.width);
@@ -64,7 +64,7 @@ Eigen::Quaterniond unit(Eigen::Quaterniond rotation, const Gltf_scene& scene, st
   return rotation;
 }
 
-/// Linear curves turn at even speed along the shorter way.
+/// Linear curves rotate at constant speed, the shorter way round.
 Eigen::Quaterniond sample_rotation(const Gltf_curve& curve, double time, const Gltf_scene& scene) {
   if (curve.interpolation == Gltf_interpolation::linear) {
     const auto keys = between(curve.times, time);
@@ -77,10 +77,10 @@ Eigen::Quaterniond sample_rotation(const Gltf_curve& curve, double time, const G
   return unit(quaternion(value.data()), scene, curve.node);
 }
 
-/// What the animation has made of each node.
+/// The state of each node at one time of the animation.
 struct Posed_nodes {
   std::vector<Eigen::Affine3d> to_world;
-  std::vector<std::vector<double>> weights;  ///< of morph targets; empty: as at rest
+  std::vector<std::vector<double>> weights;  ///< of morph targets; empty: rest weights
 };
 
 Eigen::Affine3d transformation(const Gltf_place& place) {
@@ -138,7 +138,7 @@ std::vector<Eigen::Affine3d> joint_motions(const Gltf_skin& skin, const Posed_no
   return motions;
 }
 
-/// A mesh with a skin follows its joints alone, and not its node.
+/// A mesh with a skin follows only its joints, not its node.
 void pose_part(const Gltf_scene& scene, const Gltf_part& part, const Posed_nodes& posed, std::span<Point> positions) {
   const auto& shape = *part.shape;
   const auto& own = posed.weights[part.node];
@@ -155,8 +155,8 @@ void pose_part(const Gltf_scene& scene, const Gltf_part& part, const Posed_nodes
       if (weight != 0) moved += weight * (joints[shape.joints[influence]] * at);
     }
     if (!moved.allFinite())
-      throw Bad_motion(fmt::format("{}: vertex {} (counted from 0) is moved to a place that is not finite", scene.name,
-                                   part.first_vertex + vertex));
+      throw Bad_motion(fmt::format("{}: vertex {} (counted from 0) is moved to a position that is not finite",
+                                   scene.name, part.first_vertex + vertex));
     positions[part.first_vertex + vertex] = Point(moved.x(), moved.y(), moved.z());
   }
 }

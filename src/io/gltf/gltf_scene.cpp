@@ -21,7 +21,7 @@ namespace {
 
 // ---- tinygltf ----
 
-/// tinygltf asks for files by the names that the guard has given them: their numbers.
+/// tinygltf requests files by the names that the guard gave them: the indices of the buffers.
 bool buffer_is_there(const std::string&, void*) { return true; }
 std::string buffer_name(const std::string& name, void*) { return name; }
 bool take_buffer(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
@@ -103,7 +103,7 @@ std::vector<std::uint32_t> Shape_reader::corners_of(const tinygltf::Primitive& p
   return corners;
 }
 
-/// Strips and fans become triangles; points and lines have none.
+/// Strips and fans become triangles; points and lines give none.
 void Shape_reader::add_faces(int mode, const std::vector<std::uint32_t>& corners, std::uint32_t first) {
   const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
     shape_.faces.push_back({first + corners[a], first + corners[b], first + corners[c]});
@@ -119,7 +119,8 @@ void Shape_reader::add_faces(int mode, const std::vector<std::uint32_t>& corners
   }
 }
 
-/// Weights are made to add up to 1, as rounded ones do not; a vertex without any follows its first joint.
+/// Normalises the weights to a sum of 1, since rounded weights do not add up to it. A vertex without weights follows
+/// its first joint.
 void Shape_reader::read_joints(const tinygltf::Primitive& primitive, std::size_t first, std::size_t count) {
   const auto width = shape_.influences;
   shape_.joints.resize((first + count) * width);
@@ -160,7 +161,7 @@ void Shape_reader::read_primitive(const tinygltf::Primitive& primitive) {
   add_faces(primitive.mode, corners_of(primitive, count), static_cast<std::uint32_t>(first));
 }
 
-/// Tells vertices apart by everything that decides where they are at any time.
+/// Vertices are equal if everything that determines their positions over time is equal.
 struct Same_vertex {
   const Gltf_shape* shape;
 
@@ -257,7 +258,7 @@ void read_skins(const tinygltf::Model& model, Gltf_scene& scene) {
   }
 }
 
-/// The nodes of the scene that is shown, in the order of the file; of all if the file has no scenes.
+/// The nodes of the default scene, in file order; all nodes if the file has no scenes.
 std::vector<std::size_t> shown_nodes(const tinygltf::Model& model, const Gltf_scene& scene) {
   if (model.scenes.empty()) return scene.order;
   const auto number = model.defaultScene < 0 ? 0U : static_cast<std::size_t>(model.defaultScene);
@@ -293,7 +294,7 @@ void read_parts(const tinygltf::Model& model, const Mesh_file_options& options, 
     if (part.skin != no_index) check_joints(part, scene);
     scene.vertices += shape->vertices();
     faces += shape->faces.size();
-    // One mesh can stand at many nodes, so that a short file can hold more than the memory.
+    // Many nodes can show one mesh, so a short file can describe more faces than fit into memory.
     if (faces > options.max_faces || scene.vertices > 3 * options.max_faces)
       throw Bad_mesh(fmt::format("{}: {}", scene.name, too_many_faces(faces, options.max_faces)));
     scene.parts.push_back(std::move(part));

@@ -15,7 +15,7 @@
 #include "io/formats/mesh_soup.h"
 #include "lodestone/io/formats/mesh_file_options.h"
 
-/// A glTF file as Lodestone needs it: triangles, and all that moves their vertices.
+/// A glTF file as Lodestone needs it: triangles, and everything that moves their vertices.
 namespace lodestone {
 
 inline constexpr std::size_t no_index = std::numeric_limits<std::size_t>::max();
@@ -23,26 +23,26 @@ inline constexpr std::size_t no_index = std::numeric_limits<std::size_t>::max();
 /// x, y, z of one vertex after the other.
 using Coordinate_list = std::vector<double>;
 
-/// A mesh of the file, its primitives one after the other. Vertices that are the same in everything that moves them
-/// (seams of textures make copies) are named by one number in the faces.
+/// A mesh of the file, with its primitives concatenated. Texture seams duplicate vertices: the faces use one index for
+/// vertices that always move together.
 struct Gltf_shape {
   Coordinate_list positions = {};
-  std::vector<Coordinate_list> targets = {};  ///< per morph target: what it adds, or nothing
+  std::vector<Coordinate_list> targets = {};  ///< per morph target: its offsets, or empty
   std::vector<double> weights = {};           ///< of the targets, unless the node has its own
   std::size_t influences = 0;                 ///< joints per vertex
-  std::vector<std::uint32_t> joints = {};     ///< `influences` per vertex: places in the skin's list
+  std::vector<std::uint32_t> joints = {};     ///< `influences` per vertex: indices into the skin's list
   std::vector<double> joint_weights = {};     ///< their sum is 1 for each vertex
   std::vector<Corners> faces = {};
 
   std::size_t vertices() const { return positions.size() / 3; }
 };
 
-/// Where a node is with respect to its parent.
+/// The transformation of a node relative to its parent.
 struct Gltf_place {
   Eigen::Vector3d translation{0, 0, 0};
   Eigen::Quaterniond rotation{1, 0, 0, 0};
   Eigen::Vector3d scale{1, 1, 1};
-  std::optional<Eigen::Affine3d> matrix = {};  ///< in place of the other three
+  std::optional<Eigen::Affine3d> matrix = {};  ///< replaces the other three
 };
 
 struct Gltf_node {
@@ -53,10 +53,10 @@ struct Gltf_node {
 
 struct Gltf_skin {
   std::vector<std::size_t> joints = {};         ///< nodes
-  std::vector<Eigen::Affine3d> from_mesh = {};  ///< per joint: from the mesh at rest into the joint's own axes
+  std::vector<Eigen::Affine3d> from_mesh = {};  ///< per joint: from the mesh at rest into the joint's coordinates
 };
 
-/// A mesh where a node shows it.
+/// An instance of a mesh, at a node.
 struct Gltf_part {
   std::shared_ptr<const Gltf_shape> shape = {};
   std::size_t node = 0;
@@ -67,14 +67,14 @@ struct Gltf_part {
 enum class Gltf_path { translation, rotation, scale, weights };
 enum class Gltf_interpolation { step, linear, cubic };
 
-/// A value of a node over time.
+/// A property of a node over time.
 struct Gltf_curve {
   std::size_t node = 0;
   Gltf_path path = Gltf_path::translation;
   Gltf_interpolation interpolation = Gltf_interpolation::linear;
   std::size_t width = 3;            ///< numbers per value
   std::vector<double> times = {};   ///< seconds, increasing
-  std::vector<double> values = {};  ///< per time: the value; cubic: tangent before, value, tangent behind
+  std::vector<double> values = {};  ///< per time: the value; cubic: in-tangent, value, out-tangent
 };
 
 struct Gltf_animation {
@@ -86,27 +86,27 @@ struct Gltf_animation {
 struct Gltf_scene {
   std::string name = {};  ///< of the file
   std::vector<Gltf_node> nodes = {};
-  std::vector<std::size_t> order = {};  ///< of the nodes: parents first
+  std::vector<std::size_t> order = {};  ///< node indices, parents first
   std::vector<Gltf_skin> skins = {};
   std::vector<Gltf_part> parts = {};
   std::vector<Gltf_animation> animations = {};
   std::size_t vertices = 0;  ///< of all parts
 };
 
-/// By the file's extension.
+/// Whether the file's extension is that of glTF.
 bool is_gltf(const std::filesystem::path& file);
 
-/// Reads a `.gltf` or `.glb` file through its guard and tinygltf. Images are not looked at.
+/// Reads a `.gltf` or `.glb` file through its guard and tinygltf. Images are ignored.
 /// @throws Bad_mesh
 std::shared_ptr<const Gltf_scene> read_gltf_scene(const std::filesystem::path& file,
                                                   const Mesh_file_options& options = {});
 
-/// All vertices at a time of an animation, or at rest without one.
-/// @param positions  as many as the scene has
+/// Computes the positions of all vertices at a time of an animation, or at rest without one.
+/// @param positions  one per vertex of the scene
 /// @throws Bad_motion  a coordinate that is not finite, a rotation that has no direction
 void pose_gltf(const Gltf_scene& scene, const Gltf_animation* animation, double time, std::span<Point> positions);
 
-/// The triangles of all parts, with the vertices at rest.
+/// The triangles of all parts, with vertices at rest.
 Mesh_soup soup_of(const Gltf_scene& scene);
 
 }  // namespace lodestone

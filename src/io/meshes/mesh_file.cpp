@@ -15,13 +15,13 @@ namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
 
-/// A soup on its way to a mesh, with the way back: per point, its number in the file.
+/// A soup on its way to a mesh, with the file vertex of each point.
 struct Tracked_soup {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> faces;
   std::vector<std::uint32_t> file_vertex;
 
-  /// Adds a copy of the file's vertex and returns its number.
+  /// Adds a copy of a file vertex and returns the copy's index.
   std::size_t add(const Mesh_soup& soup, std::size_t vertex) {
     points.push_back(soup.points[vertex]);
     file_vertex.push_back(static_cast<std::uint32_t>(vertex));
@@ -30,7 +30,7 @@ struct Tracked_soup {
 };
 
 /// Keeps the vertices that faces use, in file order.
-/// @return per vertex of the file its number in `tracked`; unspecified for unused ones
+/// @return per file vertex: its index in `tracked`; unspecified for unused vertices
 std::vector<std::size_t> add_used_vertices(const Mesh_soup& soup, Tracked_soup& tracked) {
   std::vector<bool> used(soup.points.size());
   for (const auto& face : soup.faces)
@@ -41,8 +41,8 @@ std::vector<std::size_t> add_used_vertices(const Mesh_soup& soup, Tracked_soup& 
   return number;
 }
 
-/// A face that names one vertex twice is a legal triangle of no area, but no face of a half-edge mesh: the later
-/// corners get copies of the vertex.
+/// A face that names one vertex twice is a legal triangle of zero area, but not a legal face of a half-edge mesh: the
+/// later corners get copies of the vertex.
 Tracked_soup with_distinct_corners(const Mesh_soup& soup) {
   Tracked_soup tracked;
   const auto number = add_used_vertices(soup, tracked);
@@ -56,7 +56,7 @@ Tracked_soup with_distinct_corners(const Mesh_soup& soup) {
   return tracked;
 }
 
-/// Notes where CGAL's copies of non-manifold vertices come from; each is the point appended next.
+/// Records the originals of CGAL's copies of non-manifold vertices. Each copy is the next point appended.
 struct Copy_recorder : PMP::Default_orientation_visitor {
   explicit Copy_recorder(std::vector<std::uint32_t>& origin) : file_vertex(&origin) {}
   void duplicated_vertex(std::size_t original, std::size_t) { file_vertex->push_back((*file_vertex)[original]); }

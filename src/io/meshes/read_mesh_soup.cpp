@@ -25,7 +25,7 @@
 namespace lodestone {
 namespace {
 
-// Some of CGAL's readers print their complaints unless told not to.
+// Some of CGAL's readers print their errors by default.
 const auto silent = CGAL::parameters::verbose(false);
 
 struct Mesh_format {
@@ -59,7 +59,7 @@ void add_point(const Point& point, Checksum& coordinates) {
   for (int axis = 0; axis < 3; ++axis) coordinates.add_coordinate(point[axis]);
 }
 
-/// Whether the soup holds, number for number, what the guard has read.
+/// Whether the soup has exactly the numbers that the guard has read.
 bool is_complete(const Mesh_soup& soup, const Guarded_mesh& guarded) {
   const bool welded = guarded.vertices == 0;
   if (soup.faces.size() != guarded.faces || (!welded && soup.points.size() != guarded.vertices)) return false;
@@ -76,7 +76,7 @@ bool is_complete(const Mesh_soup& soup, const Guarded_mesh& guarded) {
   return coordinates == guarded.coordinates && corners == guarded.corners;
 }
 
-/// A game model in its first frame.
+/// The first frame of a game model.
 Mesh_soup soup_of(const Game_model& model) {
   Mesh_soup soup;
   soup.points.resize(model.vertices);
@@ -96,14 +96,14 @@ Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_opti
   if (is_game_model(file)) return soup_of(*read_game_model(file, options));
   const auto& format = format_of(file);
   auto guarded = format.guard(File_bytes(file), options.max_faces);
-  // Surface_mesh and CGAL's readers number in 32 bits; a triangle has up to 6 half-edges.
+  // Surface_mesh and CGAL's readers use 32-bit indices; a triangle has up to 6 half-edges.
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
   if (guarded.vertices > most || guarded.faces > most / 6)
     throw Bad_mesh(fmt::format("{}: {} vertices and {} faces are too many for 32-bit numbers", file.string(),
                                guarded.vertices, guarded.faces));
   std::istringstream plain(std::move(guarded.plain));
   Mesh_soup soup;
-  // A global C++ locale with another decimal sign, for one, makes CGAL's readers misread numbers without notice.
+  // CGAL's readers can silently misread numbers, for example under a global C++ locale with another decimal separator.
   if (!format.read(plain, soup) || !is_complete(soup, guarded))
     throw Bad_mesh(fmt::format("{}: CGAL's reader did not deliver the {} vertices and {} faces of the file",
                                file.string(), guarded.vertices, guarded.faces));

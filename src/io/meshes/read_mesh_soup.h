@@ -9,12 +9,12 @@
 
 namespace lodestone {
 
-/// Reads a mesh file of any format through its guard and CGAL's reader. The corners of an STL file are welded where
-/// they are equal; its points are numbered in order of first appearance.
-/// @throws Bad_mesh as `read_mesh`
+/// Reads a mesh file of any format through its guard and CGAL's reader. Equal corners of an STL file are welded, and
+/// its points are in order of first appearance.
+/// @throws Bad_mesh  as `read_mesh`
 Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_options& options = {});
 
-/// As `mesh_of` of points and faces.
+/// As `mesh_of` for points and faces.
 Mesh_file mesh_of(const Mesh_soup& soup, const std::string& name);
 
 }  // namespace lodestone

@@ -25,7 +25,7 @@ using detail::unit;
 
 // ---- Geometry ----
 
-/// What a deformation may know of the shape it starts from.
+/// The properties of the rest shape that deformations use.
 struct Rest_shape {
   std::vector<Point> points;
   Point middle{0, 0, 0};
@@ -55,7 +55,8 @@ double length_along(const Rest_shape& rest, const Vector& direction) {
   return high - low;
 }
 
-/// Radians per length that give `degrees` over the whole shape; a flat shape cannot be bent or twisted.
+/// Radians per unit of length that give `degrees` over the whole shape. 0 for a shape that is flat along the axis,
+/// which cannot be bent or twisted.
 double angle_per_length(const Rest_shape& rest, const Vector& axis, double degrees) {
   const double length = length_along(rest, axis);
   return length > 0 ? degrees * degree / length : 0;
@@ -68,13 +69,13 @@ double swing(double frame, double period, double phase) {
 /// sin(angle) / angle.
 double sinc(double angle) { return angle == 0 ? 1 : std::sin(angle) / angle; }
 
-/// Turns `v` around the unit vector `axis` (Rodrigues' formula).
+/// Rotates `v` around the unit vector `axis` (Rodrigues' formula).
 Vector rotated(const Vector& v, const Vector& axis, double angle) {
   const double cosine = std::cos(angle);
   return cosine * v + std::sin(angle) * CGAL::cross_product(axis, v) + ((1 - cosine) * (axis * v)) * axis;
 }
 
-// ---- One function for each deformation: all positions of one frame ----
+// ---- One function per deformation: all positions of one frame ----
 
 void apply(const Wobble& wobble, const Rest_shape& rest, double frame, std::span<Point> positions) {
   if (rest.half_diagonal == 0) return;
@@ -96,7 +97,7 @@ void apply(const Bend& bend, const Rest_shape& rest, double frame, std::span<Poi
     const Vector d = p - rest.middle;
     const double u = d * axis;
     const double w = d * towards;
-    // Written with sin(x) / x, which stays exact while the curvature passes through 0.
+    // With sin(x) / x, which stays accurate while the curvature passes through 0.
     const double angle = curvature * u;
     const double bent_u = u * sinc(angle) - w * std::sin(angle);
     const double bent_w = u * sinc(angle / 2) * std::sin(angle / 2) + w * std::cos(angle);
@@ -126,7 +127,7 @@ void apply(const Spin& spin, const Rest_shape& rest, double frame, std::span<Poi
 
 Vector mean_velocity(const Way_point& from, const Way_point& to) { return (to.at - from.at) / (to.frame - from.frame); }
 
-/// Velocity at way point `i` of a smooth path: the mean one from the way point before to the way point after.
+/// Velocity at way point `i` of a smooth path: the mean velocity from the preceding way point to the following one.
 Vector velocity(const Travel& travel, std::size_t i) {
   const auto& way = travel.way_points;
   const std::size_t last = way.size() - 1;
@@ -136,7 +137,7 @@ Vector velocity(const Travel& travel, std::size_t i) {
   return mean_velocity(way[i == 0 ? 0 : i - 1], way[std::min(i + 1, last)]);
 }
 
-/// Cubic Hermite interpolation from way point `i` to the next, at the share `s` of [0, 1] of the time between them.
+/// Cubic Hermite interpolation from way point `i` to the next, at the fraction `s` in [0, 1] of the time between them.
 Vector on_smooth_path(const Travel& travel, std::size_t i, double s) {
   const Way_point& from = travel.way_points[i];
   const Way_point& to = travel.way_points[i + 1];
@@ -249,7 +250,8 @@ Motion deform(std::vector<Point> rest, std::vector<Deformation> deformations) {
   auto pose = [shape = measure(std::move(rest)), steps = std::move(deformations)](std::size_t frame,
                                                                                   std::span<Point> positions) {
     if (positions.size() != shape.points.size())
-      throw Bad_motion(fmt::format("deformation of {} vertices asked for {}", shape.points.size(), positions.size()));
+      throw Bad_motion(fmt::format("positions of {} vertices are requested, the shape has {}", positions.size(),
+                                   shape.points.size()));
     std::ranges::copy(shape.points, positions.begin());
     for (const Deformation& step : steps)
       std::visit([&](const auto& d) { apply(d, shape, double(frame), positions); }, step);

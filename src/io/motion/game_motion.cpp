@@ -13,10 +13,10 @@ Motion motion_of(std::shared_ptr<const Game_model> model) {
   const auto frames = model->frames;
   return {.frames = frames, .pose = [model = std::move(model)](std::size_t frame, std::span<Point> positions) {
             if (frame >= model->frames)
-              throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is asked for, the model has {}", model->name,
+              throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is requested, the model has {}", model->name,
                                            frame, model->frames));
             if (positions.size() != model->vertices)
-              throw Bad_motion(fmt::format("{}: positions of {} vertices are asked for, the model has {}", model->name,
+              throw Bad_motion(fmt::format("{}: positions of {} vertices are requested, the model has {}", model->name,
                                            positions.size(), model->vertices));
             pose_game_model(*model, frame, positions);
           }};

@@ -8,7 +8,7 @@
 
 namespace lodestone {
 
-/// As `read_game_motion`, of a file that has been read.
+/// As `read_game_motion`, for a file that has already been read.
 Motion motion_of(std::shared_ptr<const Game_model> model);
 
 }  // namespace lodestone

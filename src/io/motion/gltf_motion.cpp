@@ -19,7 +19,7 @@ std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, s
   if (const auto* number = std::get_if<std::size_t>(&wanted)) {
     if (*number >= count)
       throw Bad_motion(
-          fmt::format("{}: animation {} (counted from 0) is asked for, the file has {}", scene.name, *number, count));
+          fmt::format("{}: animation {} (counted from 0) is requested, the file has {}", scene.name, *number, count));
     return *number;
   }
   const auto& name = std::get<std::string>(wanted);
@@ -29,7 +29,7 @@ std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, s
 }
 
 std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate) {
-  // The end may be rounded down by what a float can lose.
+  // The tolerance allows for an end that was rounded down to a float.
   const double frames = std::floor(animation.seconds * rate * (1 + 1e-6)) + 1;
   if (!(frames <= double{most_sampled_frames}))
     throw Bad_motion(fmt::format("{}: {} seconds at {} frames per second are more than {} frames", scene.name,
@@ -41,17 +41,18 @@ std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, 
 
 Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options) {
   const double rate = options.frames_per_second;
-  if (!(rate > 0) || !std::isfinite(rate)) throw Bad_argument(fmt::format("{} frames per second are no rate", rate));
+  if (!(rate > 0) || !std::isfinite(rate))
+    throw Bad_argument(fmt::format("{} frames per second: expected a positive and finite number", rate));
   const auto number = number_of(*scene, options.animation);
   const auto frames = frames_of(*scene, scene->animations[number], rate);
   const auto pose = [scene = std::move(scene), number, frames, rate](std::size_t frame, std::span<Point> positions) {
     if (frame >= frames)
       throw Bad_motion(
-          fmt::format("{}: frame {} (counted from 0) is asked for, the animation has {}", scene->name, frame, frames));
+          fmt::format("{}: frame {} (counted from 0) is requested, the animation has {}", scene->name, frame, frames));
     if (positions.size() != scene->vertices)
-      throw Bad_motion(fmt::format("{}: positions of {} vertices are asked for, the file has {}", scene->name,
+      throw Bad_motion(fmt::format("{}: positions of {} vertices are requested, the file has {}", scene->name,
                                    positions.size(), scene->vertices));
-    // Times of keys are floats: rounded alike, a frame at a key finds its value.
+    // Key times are floats. With the same rounding, a frame at a key gets the key's exact value.
     const auto time = static_cast<float>(static_cast<double>(frame) / rate);
     pose_gltf(*scene, &scene->animations[number], time, positions);
   };

@@ -8,7 +8,7 @@
 
 namespace lodestone {
 
-/// As `read_gltf_motion`, of a file that has been read.
+/// As `read_gltf_motion`, for a file that has already been read.
 Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options);
 
 }  // namespace lodestone

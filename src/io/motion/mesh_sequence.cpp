@@ -25,7 +25,7 @@ Mesh_soup read_frame(const std::filesystem::path& file) {
   }
 }
 
-/// What all frames must have in common with the first.
+/// The properties of the first frame that all others must share.
 struct First_frame {
   std::filesystem::path file;
   Faces corners;
@@ -64,7 +64,7 @@ Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t 
   const auto frames = files.size();
   const auto pose = [files = std::move(files), first, vertices](std::size_t frame, std::span<Point> positions) {
     if (frame >= files.size())
-      throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is asked for, the sequence has {}",
+      throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is requested, the sequence has {}",
                                    first->file.string(), frame, files.size()));
     const auto posed = read_frame(files[frame]);
     check_vertices(files[frame], posed.points.size(), vertices);

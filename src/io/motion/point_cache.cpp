@@ -17,6 +17,7 @@
 #include "io/motion/point_cache_layout.h"
 #include "lodestone/io/motion/motion.h"
 #include "lodestone/mesh/errors.h"
+#include "mesh/is_finite.h"
 
 namespace lodestone {
 namespace {
@@ -28,7 +29,7 @@ template <class... Values>
   throw Bad_motion(fmt::format("{}: {}", file.string(), fmt::format(cause, std::forward<Values>(values)...)));
 }
 
-/// Where the positions of a cache begin, and in which order of bytes they stand.
+/// Where the positions of a cache begin, and their endianness.
 struct Cache {
   fs::path file;
   Point_cache header = {};
@@ -51,13 +52,13 @@ std::array<char, Bytes> read_header(std::ifstream& in, const fs::path& file) {
   return header;
 }
 
-/// @param at  of the number in the file, for the message
+/// @param at  offset of the number in the file, for the message
 std::size_t positive(std::int32_t number, std::size_t at, std::string_view things, const fs::path& file) {
   if (number < 1) fail(file, "byte {}: the cache has {} {}, expected 1 or more", at, number, things);
   return static_cast<std::size_t>(number);
 }
 
-/// The file must be long enough for all that its header announces.
+/// Refuses a file that is shorter than its header announces.
 void check_length(const Cache& cache) {
   std::error_code ignored;
   const auto& [format, vertices, frames, rate] = cache.header;
@@ -75,7 +76,7 @@ Cache open_pc2(const fs::path& file) {
   const auto header = read_header<pc2::header_bytes>(in, file);
   const auto number_at = [&](std::size_t offset) { return load<std::int32_t>(header.data() + offset); };
   if (std::string_view(header.data(), pc2::signature.size()) != pc2::signature)
-    fail(file, "byte 0: expected 'POINTCACHE2', this is no PC2 point cache");
+    fail(file, "byte 0: expected 'POINTCACHE2', this is not a PC2 point cache");
   const auto version = number_at(pc2::version_at);
   if (version != 1) fail(file, "byte {}: expected version 1, found {}", pc2::version_at, version);
   Cache cache{.file = file, .first_frame = pc2::header_bytes};
@@ -86,7 +87,7 @@ Cache open_pc2(const fs::path& file) {
 
 // ---- MDD ----
 
-/// Frames per second by the first and last time; the times between them are not looked at.
+/// Frames per second from the first and last time; the times between them are ignored.
 double mdd_rate(std::ifstream& in, const fs::path& file, std::size_t frames) {
   std::array<char, sizeof(float)> raw{};
   std::array<double, 2> ends{};
@@ -99,13 +100,13 @@ double mdd_rate(std::ifstream& in, const fs::path& file, std::size_t frames) {
   return std::isfinite(rate) && rate > 0 ? rate : 0;
 }
 
-/// Without a signature the length is all that tells a cache from something else.
+/// The format has no signature: only the length tells an MDD cache from another file.
 void check_mdd_length(const Cache& cache) {
   std::error_code ignored;
   const auto wanted = cache.first_frame + cache.header.frames * cache.header.vertices * point_bytes;
   const auto found = file_size(cache.file, ignored);
   if (found != wanted)
-    fail(cache.file, "{} frames of {} vertices take {} bytes, the file has {}: this is no MDD point cache",
+    fail(cache.file, "{} frames of {} vertices take {} bytes, the file has {}: this is not an MDD point cache",
          cache.header.frames, cache.header.vertices, wanted, found);
 }
 
@@ -131,7 +132,7 @@ Cache open_mdd(const fs::path& file) {
 
 // ---- Frames ----
 
-/// The file is opened for each frame: a motion then has no state, and threads may share it.
+/// Opens the file for each frame: a motion then has no state, and threads may share it.
 std::vector<char> read_frame(const Cache& cache, std::size_t frame) {
   std::vector<char> bytes(cache.header.vertices * point_bytes);
   std::ifstream in(cache.file, std::ios::binary);
@@ -146,12 +147,8 @@ Point point_at(const char* bytes, std::endian order) {
   return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
-bool is_finite(const Point& point) {
-  return std::isfinite(point.x()) && std::isfinite(point.y()) && std::isfinite(point.z());
-}
-
-/// @param vertices  number that is asked for
-/// @param counted_at  place of the number of vertices in the file
+/// @param vertices  required number of vertices
+/// @param counted_at  offset of the number of vertices in the file
 Motion motion_of(const Cache& cache, std::size_t vertices, std::size_t counted_at) {
   const auto& header = cache.header;
   if (header.vertices != vertices)
@@ -159,9 +156,9 @@ Motion motion_of(const Cache& cache, std::size_t vertices, std::size_t counted_a
   check_length(cache);
   const auto pose = [cache](std::size_t frame, std::span<Point> positions) {
     const auto& [format, points, frames, rate] = cache.header;
-    if (frame >= frames) fail(cache.file, "frame {} (counted from 0) is asked for, the cache has {}", frame, frames);
+    if (frame >= frames) fail(cache.file, "frame {} (counted from 0) is requested, the cache has {}", frame, frames);
     if (positions.size() != points)
-      fail(cache.file, "positions of {} vertices are asked for, the cache has {}", positions.size(), points);
+      fail(cache.file, "positions of {} vertices are requested, the cache has {}", positions.size(), points);
     const auto bytes = read_frame(cache, frame);
     for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
       positions[vertex] = point_at(bytes.data() + vertex * point_bytes, cache.order);

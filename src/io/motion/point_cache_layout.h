@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-/// Where things stand in point caches, in bytes. Numbers are int32 or float32.
+/// The layout of point caches, in bytes. Numbers are int32 or float32.
 namespace lodestone {
 
 /// x, y and z of one vertex, in both formats.

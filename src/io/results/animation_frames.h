@@ -10,17 +10,17 @@
 
 namespace lodestone {
 
-/// The frames that are to be written, one after the other.
+/// The frames to write, in order.
 class Animation_frames {
  public:
-  /// @param passes  times that all frames will be read
+  /// @param passes  how many times all frames will be read, for the progress
   Animation_frames(const Animation& animation, const Animation_output_options& options, std::size_t passes = 1);
 
   std::size_t size() const { return numbers_.size(); }
   /// Positions of the i-th frame of the output, in doubles; valid until the next call.
   /// @throws Bad_motion
   std::span<const Point> positions(std::size_t i);
-  /// The same in floats, x y z of each vertex after the other.
+  /// The same in floats: x y z, vertex by vertex.
   /// @throws Bad_motion  a coordinate is too large for a float
   std::span<const float> floats(std::size_t i);
 

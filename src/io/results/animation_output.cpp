@@ -149,7 +149,8 @@ void write_meshes(const fs::path& output, const std::string& extension, Animatio
 
 void write_animation(const fs::path& output, const Animation& animation, const Animation_output_options& options) {
   if (!(options.frames_per_second > 0) || !std::isfinite(options.frames_per_second))
-    throw Bad_argument(fmt::format("{} frames per second are no rate", options.frames_per_second));
+    throw Bad_argument(
+        fmt::format("{} frames per second: expected a positive and finite number", options.frames_per_second));
   const auto extension = lower_case(output.extension().string());
   const bool is_mesh = extension == ".off" || extension == ".obj" || extension == ".ply";
   if (extension == ".pc2" || extension == ".mdd")
@@ -160,7 +161,7 @@ void write_animation(const fs::path& output, const Animation& animation, const A
         fmt::format("{}: animations are written as .pc2, .mdd, .gltf, .glb, .obj, .off or .ply", output.string()));
   if (animation.faces.empty())
     throw Bad_argument(
-        fmt::format("{}: needs faces, which a point cache does not have: name its mesh", output.string()));
+        fmt::format("{}: needs faces, which a point cache does not have: give its mesh", output.string()));
   if (is_mesh) return write_meshes(output, extension, {animation, options}, animation.faces);
   write_gltf(output, animation, options);
 }

@@ -23,10 +23,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Weights grow with the square of the frames, and graphics cards hold as many layers.
+// The number of weights is quadratic in the number of frames, and graphics cards support 2048 texture layers.
 constexpr std::size_t most_gltf_frames = 2048;
 
-// Numbers of the format.
+// Constants of the format.
 constexpr int unsigned_byte = 5121, unsigned_int = 5125, floats = 5126;
 constexpr int vertex_data = 34962, index_data = 34963;
 
@@ -49,22 +49,22 @@ std::vector<float> difference(std::span<const float> frame, const std::vector<fl
   return result;
 }
 
-/// glTF keeps colours in linear light; screens show their 2.2nd root, or nearly.
+/// From sRGB to linear light, which glTF uses for vertex colours.
 std::uint8_t linear(std::uint8_t channel) {
   const double shown = channel / 255.0;
   const double light = shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4);
   return static_cast<std::uint8_t>(std::lround(255 * light));
 }
 
-/// One animation on its way into a file. The numbers of accessors and buffer views follow from the order of `json`.
+/// Writes one animation. The indices of accessors and buffer views follow from the order in `json`.
 class Gltf_writer {
  public:
   Gltf_writer(const Animation& animation, const Animation_output_options& options)
       : animation_(animation), options_(options), frames_(animation, options, 2) {}
 
-  /// Reads all frames once, for the ranges that stand in front of them.
+  /// Reads all frames once, for the ranges that the JSON states before the data.
   void measure();
-  /// @param uri  of the buffer; empty: behind the JSON
+  /// @param uri  of the buffer; empty: the binary chunk after the JSON
   Json json(const std::string& uri) const;
   std::size_t buffer_bytes() const { return view_ends().back(); }
   /// Reads all frames once more.
@@ -72,7 +72,7 @@ class Gltf_writer {
 
  private:
   std::size_t vertices() const { return animation_.vertices; }
-  /// Where the buffer views end: corners, positions, colours, times, weights.
+  /// End offsets of the buffer views: corners, positions, colours, times, weights.
   std::array<std::size_t, 5> view_ends() const;
   Json views() const;
   Json accessors() const;
@@ -87,8 +87,7 @@ class Gltf_writer {
 
 void Gltf_writer::measure() {
   if (frames_.size() > most_gltf_frames)
-    throw Bad_argument(
-        fmt::format("glTF is written with {} frames at most, found {}", most_gltf_frames, frames_.size()));
+    throw Bad_argument(fmt::format("glTF output has at most {} frames, found {}", most_gltf_frames, frames_.size()));
   ranges_.resize(frames_.size());
   for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
     const auto found = frames_.floats(frame);
@@ -96,7 +95,7 @@ void Gltf_writer::measure() {
     const auto stored = frame == 0 ? first_ : difference(found, first_);
     for (std::size_t i = 0; i < stored.size(); ++i) {
       if (!std::isfinite(stored[i]))
-        throw Bad_motion(fmt::format("vertex {} (counted from 0) moves farther than a float can say", i / 3));
+        throw Bad_motion(fmt::format("vertex {} (counted from 0) moves farther than a float can express", i / 3));
       extend(ranges_[frame], i, stored[i]);
     }
   }
@@ -162,7 +161,7 @@ Json Gltf_writer::json(const std::string& uri) const {
   for (std::size_t frame = 1; frame < frames; ++frame) primitive["targets"].push_back({{"POSITION", frame + 1}});
   Json buffer{{"byteLength", buffer_bytes()}};
   if (!uri.empty()) buffer["uri"] = uri;
-  // Surfaces may be open: their back is shown too.
+  // Double-sided, since surfaces may be open.
   primitive["material"] = 0;
   Json result{{"asset", {{"version", "2.0"}, {"generator", "Lodestone"}}},
               {"scene", 0},
@@ -229,7 +228,7 @@ void write_glb(const fs::path& output, Gltf_writer& writer) {
   out.commit();
 }
 
-/// What a URI may hold as it is.
+/// `name` with the characters percent-encoded that a URI may not contain.
 std::string in_uri(const std::string& name) {
   std::string result;
   for (const char c : name) {

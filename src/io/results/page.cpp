@@ -31,7 +31,7 @@ Json box_json(const Box& box) {
   return {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()};
 }
 
-/// The sections of a container, and the names by which its header finds them.
+/// The sections of a container, with the names that its header uses for them.
 class Section_list {
  public:
   std::string add(std::string name, const Section& section) {
@@ -64,18 +64,18 @@ std::string container(const std::string& header, const std::string& sections) {
   return bytes + header + sections;
 }
 
-/// @throws Bad_argument  the frames do not have the same parts
+/// @throws Bad_argument  the two frames have different parts
 void check_parts(const Page_frame& first, const Page_frame& frame) {
   if (frame.particles.size() != first.particles.size() || frame.numbers.empty() != first.numbers.empty() ||
       frame.stages.empty() != first.stages.empty() || frame.candidates.has_value() != first.candidates.has_value() ||
       frame.contacts.has_value() != first.contacts.has_value())
-    throw Bad_argument("a frame of a page must have the parts that the first one has, and no others");
+    throw Bad_argument("a frame of a page must have exactly the parts of the first frame");
 }
 
 }  // namespace
 
 Object_id Page::add_object(std::string name, std::uint32_t vertices, std::vector<Corners> corners) {
-  if (!frames_.empty()) throw Bad_argument("an object after the first frame of a page");
+  if (!frames_.empty()) throw Bad_argument("objects must be added before the first frame of a page");
   for (const auto& face : corners)
     for (const auto corner : face)
       if (corner >= vertices) throw Bad_argument(fmt::format("a face refers to vertex {} of {}", corner, vertices));
@@ -96,7 +96,7 @@ void Page::set_regions(Object_id object, const std::vector<Region_index>& labels
 void Page::add_frame(Page_frame frame) {
   const std::size_t objects = objects_.size();
   if (frame.positions.size() != objects || (!frame.particles.empty() && frame.particles.size() != objects))
-    throw Bad_argument(fmt::format("a frame of {} objects for a page of {}", frame.positions.size(), objects));
+    throw Bad_argument(fmt::format("the frame has {} objects, the page {}", frame.positions.size(), objects));
   check_parts(frames_.empty() ? frame : frames_.front(), frame);
   for (std::size_t o = 0; o < objects; ++o) {
     if (frame.positions[o].rows() != objects_[o].vertices)

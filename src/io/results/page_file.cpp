@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A page as a file: title and data within the viewer's template.
+// A page as a file: title and data inside the viewer's template.
 #include <algorithm>
 #include <string>
 
@@ -36,7 +36,7 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-/// @param bytes  a number that three divides, unless they are the last
+/// @param bytes  a multiple of three bytes, except in the last call
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -50,7 +50,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-/// Counts what it writes.
+/// Counts the bytes that it writes.
 struct Counted_file {
   Atomic_file& file;
   std::size_t bytes = 0;
@@ -81,7 +81,7 @@ std::size_t write_page(Atomic_file& file, std::string_view page_template, std::s
                        std::string_view data) {
   const auto at = page_template.find(data_place);
   if (at == std::string_view::npos || page_template.find(data_place, at + 1) != std::string_view::npos)
-    throw Bad_argument("the template of a page must have one place for its data");
+    throw Bad_argument("the template of a page must have @LODESTONE_DATA@ exactly once");
   const std::string shown = escaped(title);
   Counted_file counted{file};
   write_titled(counted, page_template.substr(0, at), shown);

@@ -13,10 +13,10 @@ namespace {
 constexpr std::size_t pending_size = std::size_t{1} << 16;
 constexpr double largest_step = 65535;
 
-/// Which of the 65536 steps from `low` to `high` a coordinate is nearest to.
+/// The nearest of the 65536 steps from `low` to `high`.
 std::int64_t step_of(double coordinate, double low, double high) {
   double extent = high - low, offset = coordinate - low;
-  // Halves are exact here: a difference overflows only where numbers are far from subnormal.
+  // Halving is exact: a difference overflows only for numbers far from subnormal.
   if (!std::isfinite(extent)) extent = high / 2 - low / 2, offset = coordinate / 2 - low / 2;
   return extent > 0 ? std::llround(largest_step * (offset / extent)) : 0;
 }
@@ -29,7 +29,7 @@ std::vector<std::int64_t> steps_of(const Positions& positions, const Box& box) {
   return steps;
 }
 
-/// `[item, item, ...]` of all frames in one array.
+/// One array with an array `[item, item, ...]` per frame.
 template <class Item>
 Section json_section(std::span<const Page_frame> frames, Item item) {
   Section_writer section;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How numbers become the sections of a page: see docs/page_format.md.
+// Encodes numbers as the sections of a page: see docs/page_format.md.
 #pragma once
 
 #include <zlib.h>
@@ -15,13 +15,13 @@
 
 namespace lodestone {
 
-/// A raw deflate stream, and how long it is when inflated.
+/// A raw deflate stream, with its inflated length.
 struct Section {
   std::string bytes;
   std::size_t raw = 0;
 };
 
-/// Deflates what is added, piece by piece.
+/// Deflates its input piece by piece.
 class Section_writer {
  public:
   Section_writer();
@@ -30,9 +30,9 @@ class Section_writer {
   Section_writer& operator=(const Section_writer&) = delete;
 
   void add(std::string_view text);
-  /// Seven bits per byte, the low ones first.
+  /// Seven bits per byte, low bits first.
   void add_varint(std::uint64_t number);
-  /// Numbers near zero become short: 0, -1, 1, -2 ... are stored as 0, 1, 2, 3 ...
+  /// Zigzag encoding, which is short for numbers near zero: 0, -1, 1, -2 ... are stored as 0, 1, 2, 3 ...
   void add_signed(std::int64_t number) {
     add_varint(number >= 0 ? 2 * static_cast<std::uint64_t>(number)
                            : 2 * static_cast<std::uint64_t>(-(number + 1)) + 1);

@@ -12,8 +12,7 @@ namespace lodestone {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-/// Red, green and blue as screens show them. Hues in steps of the golden section never come close to those just before
-/// them.
+/// sRGB colour of a region. Hues advance by the golden section, so consecutive regions get clearly different hues.
 inline Colour region_colour(Region_index region) {
   const double hue = 6 * std::fmod(0.61803398874989485 * region, 1.0);
   const double lightness = 0.75 + 0.2 * static_cast<double>(region % 3) / 2;

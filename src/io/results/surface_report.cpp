@@ -14,7 +14,7 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Every edge once per face, sorted. A face that names a vertex twice has no edge between the two.
+/// All edges, once per face, sorted. A face that names a vertex twice has no edge between the two.
 std::vector<Edge> sorted_edges(std::span<const Corners> faces) {
   std::vector<Edge> edges;
   edges.reserve(3 * faces.size());

@@ -16,7 +16,7 @@ bool is_number(const std::string& cell) {
   return !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell[0])) != 0 || cell[0] == '-' || cell[0] == '+');
 }
 
-/// A bar within a cell would end it.
+/// An unescaped bar would end the cell.
 std::string escaped(const std::string& cell) {
   std::string text;
   for (const char c : cell) text += c == '|' ? "\\|" : std::string(1, c);

@@ -34,8 +34,8 @@ std::string in_xml(std::string_view text) {
   return result;
 }
 
-/// The two halves of the file as they grow: what describes the arrays, and the bytes of all arrays, each after its own
-/// length.
+/// The two parts of the file under construction: the description of the arrays, and their bytes, each array preceded by
+/// its length.
 class Vtp_text {
  public:
   template <class Value>

@@ -16,7 +16,7 @@ namespace {
 using Vector = Kernel::Vector_3;
 using Transformation = Kernel::Aff_transformation_3;
 
-// Far above what an experiment needs, and small enough that a scene of a few lines cannot fill the memory.
+// Far above what an experiment needs, and small enough that a scene of a few lines cannot exhaust memory.
 constexpr std::size_t most_patch_cuts = 200;
 constexpr std::size_t most_cuts = 2000;
 constexpr std::size_t most_frequency = 400;

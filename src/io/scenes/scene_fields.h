@@ -6,7 +6,7 @@
 #include "io/files/json_reader.h"
 #include "lodestone/io/motion/deformation.h"
 
-/// The parts of a scene that no file is needed for, as docs/scene.schema.json describes them.
+/// The parts of a scene that do not refer to files, as docs/scene.schema.json describes them.
 namespace lodestone::detail {
 
 /// {"icosphere": {"frequency": 8}} and so on.
@@ -15,8 +15,8 @@ Surface_mesh read_shape(const Json_value& value);
 /// [{"wobble": {...}}, {"travel": {...}}].
 std::vector<Deformation> read_deformations(const Json_value& value);
 
-/// {"scale": 2, "rotate": {"axis": [0, 0, 1], "degrees": 90}, "translate": [1, 0, 0]}: first scaled, then rotated, then
-/// translated.
+/// {"scale": 2, "rotate": {"axis": [0, 0, 1], "degrees": 90}, "translate": [1, 0, 0]}: scale first, then rotate, then
+/// translate.
 Kernel::Aff_transformation_3 read_placement(const Json_value& value);
 
 /// Three numbers that are not all zero.

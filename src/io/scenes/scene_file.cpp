@@ -18,6 +18,7 @@
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/mesh/errors.h"
+#include "mesh/is_finite.h"
 
 namespace lodestone {
 
@@ -32,11 +33,9 @@ constexpr std::size_t most_ignored = 100'000;
 constexpr std::size_t most_scene_frames = 1'000'000;
 constexpr std::size_t most_particles = 100'000;
 
-bool is_finite(const Point& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
-
 // ---- Files ----
 
-/// The file that `value` names, inside `folder` even when symbolic links are followed.
+/// The file that `value` names, inside `folder` after symbolic links are resolved.
 std::filesystem::path path_of(const std::string& name, const Json_value& value, const std::filesystem::path& folder) {
   std::error_code error;
   const bool inside = is_inside(folder, name, error);
@@ -49,7 +48,7 @@ std::filesystem::path read_path(const Json_value& value, const std::filesystem::
   return path_of(value.text(), value, folder);
 }
 
-/// `pattern` with its run of # replaced by `number`, with zeros in front to the length of the run.
+/// `pattern` with its run of # replaced by `number`, zero-padded to the length of the run.
 std::string numbered(std::string pattern, std::size_t number) {
   const auto first = pattern.find('#');
   const auto length = pattern.find_last_of('#') + 1 - first;
@@ -63,7 +62,7 @@ std::vector<std::filesystem::path> read_numbered_files(const Json_value& value, 
   const std::string name = pattern.text();
   const auto run = name.find('#');
   if (run == name.npos || name.find('#', name.find_first_not_of('#', run)) != name.npos)
-    pattern.fail(fmt::format("{} must have one run of # in the number's place", in_quotes(name)));
+    pattern.fail(fmt::format("{} must have one run of # for the number", in_quotes(name)));
   const std::size_t first = value.at("first").count(0, most_scene_frames);
   const std::size_t last = value.at("last").count(first, most_scene_frames);
 
@@ -72,7 +71,7 @@ std::vector<std::filesystem::path> read_numbered_files(const Json_value& value, 
   return files;
 }
 
-/// "walk_*.obj": all files that are there.
+/// "walk_*.obj": all matching files.
 std::vector<std::filesystem::path> read_found_files(const Json_value& value, const std::filesystem::path& folder) {
   const std::string pattern = value.text();
   path_of(pattern, value, folder);
@@ -114,8 +113,8 @@ Scene_object read_rest(const Json_value& value, const std::filesystem::path& fol
   return object_of(read_mesh(read_path(value.at("mesh"), folder)));
 }
 
-/// Positions in the order of the file. Vertices that no face uses are not in the mesh: they stand in for the first one,
-/// so that they change no bounding box.
+/// Positions in file order. Vertices that no face uses are not in the mesh: they get the position of the first vertex,
+/// which does not affect the bounding box.
 std::vector<Point> rest_positions(const Scene_object& object) {
   const auto& mesh = object.mesh;
   if (mesh.is_empty()) return std::vector<Point>(object.file_vertices, Point(0, 0, 0));
@@ -127,7 +126,7 @@ std::vector<Point> rest_positions(const Scene_object& object) {
 void place_mesh(Surface_mesh& mesh, const Json_value& value, const Placement& placement) {
   for (const auto v : mesh.vertices()) {
     mesh.point(v) = mesh.point(v).transform(*placement);
-    if (!is_finite(mesh.point(v))) value.fail("moves a vertex to a non-finite place");
+    if (!is_finite(mesh.point(v))) value.fail("moves a vertex to a non-finite position");
   }
 }
 
@@ -159,7 +158,7 @@ Motion read_gltf(const Json_value& value, std::size_t vertices, const std::files
   return read_gltf_motion(read_path(value.at("file"), folder), vertices, options);
 }
 
-/// Deformations start from the mesh as it was placed; positions from files are placed as they are read.
+/// Deformations start from the mesh after its placement; positions from files are transformed as they are read.
 Motion read_motion(const Json_value& value, const Scene_object& object, const Placement& placement,
                    const std::filesystem::path& folder) {
   const std::string kind = value.expect_one_key({"pc2", "mdd", "gltf", "keyframes", "sequence", "deform"});
@@ -204,7 +203,7 @@ std::vector<Scene_object> read_objects(const Json_value& value, const std::files
   return objects;
 }
 
-/// Pairs of names, as numbers of objects.
+/// Pairs of names, converted to pairs of object indices.
 std::vector<Object_pair> read_ignored(const Json_value& scene, const std::vector<Scene_object>& objects) {
   std::map<std::string, std::uint32_t> numbers;
   for (std::uint32_t o = 0; o < objects.size(); ++o) numbers.emplace(objects[o].name, o);
@@ -225,7 +224,7 @@ std::vector<Object_pair> read_ignored(const Json_value& scene, const std::vector
   return ignored;
 }
 
-/// Frames of the shortest motion that ends; 0 when none does.
+/// Number of frames of the shortest motion that ends; 0 if none ends.
 std::size_t shortest_motion(const std::vector<Scene_object>& objects) {
   std::size_t shortest = 0;
   for (const Scene_object& object : objects) {

@@ -16,11 +16,11 @@ namespace lodestone {
 
 namespace {
 
-/// Control points in rows of four.
+/// Control points, row by row, four to a row.
 using Patch = std::array<Point, 16>;
 using Weights = std::array<double, 4>;
 
-/// Numbers of a text one after the other, with the line they stand in for error messages.
+/// Reads the numbers of a text in order, and keeps the line number for error messages.
 class Number_reader {
  public:
   Number_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {}
@@ -71,14 +71,15 @@ std::vector<std::size_t> read_point_numbers(Number_reader& reader, std::size_t p
 }
 
 std::vector<Point> read_points(Number_reader& reader, std::size_t count) {
-  // Beyond this the products of the evaluation could overflow.
+  // Larger coordinates could overflow in the evaluation.
   constexpr double largest = 1e100;
   std::vector<Point> points;
   for (std::size_t i = 0; i < count; ++i) {
     std::array<double, 3> p{};
     for (double& coordinate : p) {
       coordinate = reader.next<double>("a coordinate");
-      if (!(std::abs(coordinate) <= largest)) reader.fail(fmt::format("coordinate {} is not within 1e100", coordinate));
+      if (!(std::abs(coordinate) <= largest))
+        reader.fail(fmt::format("coordinate {} is not between -1e100 and 1e100", coordinate));
     }
     points.emplace_back(p[0], p[1], p[2]);
   }
@@ -90,7 +91,7 @@ std::vector<Patch> read_patches(std::string_view text, std::string_view name) {
   const auto patches = reader.next<std::size_t>("the number of patches");
   const auto points = reader.next<std::size_t>("the number of points");
   if (patches == 0) reader.fail("no patch");
-  // Every number takes two characters at least, so a longer announcement is a lie and would only cost memory.
+  // Every number takes at least two characters, so larger counts are wrong and would only waste memory.
   if (patches > reader.characters_left() / 32 || points > reader.characters_left() / 6)
     reader.fail(fmt::format("announces {} patches and {} points, more than the text can hold", patches, points));
 
@@ -103,7 +104,8 @@ std::vector<Patch> read_patches(std::string_view text, std::string_view name) {
   return result;
 }
 
-/// Cubic Bernstein polynomials at i / n. From whole numbers, so that the weights at (n - i) / n are the same, reversed.
+/// Cubic Bernstein polynomials at i / n. Computed from integers, so that the weights at (n - i) / n are bitwise the
+/// same, reversed.
 Weights bernstein(std::size_t i, std::size_t n) {
   const double a = double(n - i);
   const double b = double(i);
@@ -111,15 +113,15 @@ Weights bernstein(std::size_t i, std::size_t n) {
   return {a * a * a / whole, 3 * (a * a * b) / whole, 3 * (b * b * a) / whole, b * b * b / whole};
 }
 
-/// Weighted mean of four numbers. Outer and inner pairs are added apart: reversing both orders changes no bit.
-/// Four equal numbers are returned as they are, since the weights' sum is rounded: an edge collapsed to a point stays
-/// one.
+/// Weighted mean of four numbers. The outer and inner pairs are added separately, so that reversing both orders changes
+/// no bit. Four equal numbers are returned unchanged, since the sum of the weights is rounded: a collapsed edge stays a
+/// point.
 double weighted(const Weights& w, double p0, double p1, double p2, double p3) {
   if (p0 == p1 && p1 == p2 && p2 == p3) return p0;
   return (w[0] * p0 + w[3] * p3) + (w[1] * p1 + w[2] * p2);
 }
 
-/// On a border one set of weights is (1, 0, 0, 0) or its reverse, so the result depends on the border's points alone.
+/// On a border one set of weights is (1, 0, 0, 0) or its reverse, so only the border's points affect the result.
 Point point_of(const Patch& patch, const Weights& u, const Weights& v) {
   const auto coordinate = [&](int axis) {
     const auto row = [&](std::size_t r) {

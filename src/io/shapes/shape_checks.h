@@ -13,7 +13,7 @@
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/errors.h"
 
-/// What the built-in shapes share: argument checks and welding.
+/// Argument checks and welding for the built-in shapes.
 namespace lodestone::detail {
 
 inline constexpr std::size_t max_shape_faces = 50'000'000;
@@ -22,7 +22,7 @@ inline void check_count(std::string_view shape, std::string_view what, std::size
   if (value < least) throw Bad_argument(fmt::format("{}: {} is {}, must be >= {}", shape, what, value, least));
 }
 
-/// Refuses `per_cell * a * b` faces beyond the limit, without overflow.
+/// Refuses more than the limit of `per_cell * a * b` faces, without overflow.
 inline void check_faces(std::string_view shape, std::size_t per_cell, std::size_t a, std::size_t b) {
   if (a > max_shape_faces / per_cell / b)
     throw Bad_argument(fmt::format("{}: {} x {} gives more than {} triangles", shape, a, b, max_shape_faces));
@@ -33,7 +33,7 @@ inline void check_length(std::string_view shape, std::string_view what, double v
     throw Bad_argument(fmt::format("{}: {} is {}, must be positive and finite", shape, what, value));
 }
 
-/// Points numbered in order of first use; equal coordinates get the same number.
+/// Points indexed in order of first use; equal coordinates get the same index.
 class Welded_points {
  public:
   std::size_t number(const Point& p) {

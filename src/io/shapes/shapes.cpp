@@ -38,7 +38,8 @@ Vertices add_circle_of_latitude(Surface_mesh& mesh, double polar, std::size_t sl
   return circle;
 }
 
-/// Joins two rings of vertices, the first outward-left of the second, by a band of squares.
+/// Joins two rings of vertices by a band of squares. Seen from outside, `upper` is above `lower`, and both run from
+/// left to right.
 void add_band(Surface_mesh& mesh, const Vertices& upper, const Vertices& lower) {
   for (std::size_t i = 0; i < upper.size(); ++i) {
     const std::size_t j = (i + 1) % upper.size();
@@ -72,7 +73,7 @@ struct Icosahedron {
   std::array<std::array<std::size_t, 3>, 20> faces;
 };
 
-/// A pole, two rings of five corners turned against each other by a tenth of a turn, and the other pole.
+/// A pole, two rings of five corners that are rotated against each other by 36 degrees, and the other pole.
 Icosahedron icosahedron() {
   const double polar = std::atan(2.0);
   Icosahedron solid{};
@@ -90,8 +91,8 @@ Icosahedron icosahedron() {
   return solid;
 }
 
-/// The triangle's point with whole-number weights. Faces on both sides of an edge get the same bits: the third
-/// weight is 0, and the sum of two products does not depend on their order.
+/// The triangle's point with integer weights. Faces on both sides of an edge get the same bits: the third weight is 0,
+/// and the sum of two products does not depend on their order.
 Point weighted(const std::array<Point, 3>& corners, std::size_t i, std::size_t j, std::size_t k) {
   const auto coordinate = [&](int axis) {
     return double(i) * corners[0][axis] + double(j) * corners[1][axis] + double(k) * corners[2][axis];
@@ -142,8 +143,8 @@ void check(const Torus_knot_options& options) {
     throw Bad_argument(fmt::format("torus_knot: p = {} and q = {} have a common divisor", options.p, options.q));
 }
 
-/// Adds the circle around the knot at `t` of [0, 1). The knot lies on a torus, whose normal is at right angles to
-/// the knot's tangent: with it the circles close after one round without a twist to correct.
+/// Adds the circle around the knot at `t` in [0, 1). The knot lies on a torus, whose normal is perpendicular to the
+/// knot's tangent. Frames built on that normal close after one round without a twist to correct.
 Vertices add_cross_section(Surface_mesh& mesh, const Torus_knot_options& options, double t) {
   const double p = double(options.p);
   const double q = double(options.q);

@@ -26,7 +26,7 @@ std::ptrdiff_t files_in(const std::filesystem::path& folder) {
   return std::distance(Iterator(folder), Iterator());
 }
 
-/// Making the file must fail with a message of one line that begins with `path`.
+/// Creating the file must fail with a one-line message that begins with `path`.
 void expect_refused(const std::filesystem::path& target, const std::filesystem::path& path) {
   try {
     const Atomic_file file(target);
@@ -81,7 +81,7 @@ TEST(Atomic_file, leaves_nothing_without_a_commit) {
   EXPECT_EQ(files_in(folder.path()), 0);
 }
 
-TEST(Atomic_file, leaves_what_was_there_without_a_commit) {
+TEST(Atomic_file, keeps_an_existing_file_without_a_commit) {
   const Temporary_folder folder;
   const auto target = folder.write("result", "old");
   { Atomic_file(target).write("new"); }
@@ -89,7 +89,7 @@ TEST(Atomic_file, leaves_what_was_there_without_a_commit) {
   EXPECT_EQ(files_in(folder.path()), 1);
 }
 
-TEST(Atomic_file, takes_the_place_of_what_was_there) {
+TEST(Atomic_file, replaces_an_existing_file) {
   const Temporary_folder folder;
   const auto target = folder.write("result", "a longer text than the new one");
   Atomic_file file(target);
@@ -99,7 +99,7 @@ TEST(Atomic_file, takes_the_place_of_what_was_there) {
   EXPECT_EQ(files_in(folder.path()), 1);
 }
 
-TEST(Atomic_file, takes_the_place_of_a_link_not_of_its_target) {
+TEST(Atomic_file, replaces_a_link_not_its_target) {
   const Temporary_folder folder;
   const auto elsewhere = folder.write("elsewhere", "mine");
   create_symlink(elsewhere, folder.path() / "result");
@@ -110,7 +110,7 @@ TEST(Atomic_file, takes_the_place_of_a_link_not_of_its_target) {
   EXPECT_EQ(bytes_of(folder.path() / "result"), "new");
 }
 
-TEST(Atomic_file, makes_the_folders_it_needs) {
+TEST(Atomic_file, creates_the_folders_it_needs) {
   const Temporary_folder folder;
   const auto target = folder.path() / "a" / "b" / "c" / "result";
   Atomic_file file(target);
@@ -119,7 +119,7 @@ TEST(Atomic_file, makes_the_folders_it_needs) {
   EXPECT_EQ(bytes_of(target), "new");
 }
 
-TEST(Atomic_file, refuses_a_folder_and_what_cannot_be_one) {
+TEST(Atomic_file, refuses_a_folder_as_target_and_a_file_as_folder) {
   const Temporary_folder folder;
   const auto file = folder.write("file", "mine");
   create_directory(folder.path() / "folder");
@@ -131,7 +131,7 @@ TEST(Atomic_file, refuses_a_folder_and_what_cannot_be_one) {
   EXPECT_EQ(bytes_of(file), "mine");
 }
 
-/// In a process of its own, whose files may have 1000 bytes.
+/// In a separate process with a file-size limit of 1000 bytes.
 void write_on_full_disk(const std::filesystem::path& target, std::size_t size) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{1000, 1000};

@@ -40,7 +40,7 @@ class Atomic_files_test : public testing::Test {
   Temporary_folder folder;
 };
 
-TEST_F(Atomic_files_test, appear_together_in_place_of_what_was_there) {
+TEST_F(Atomic_files_test, appear_together_and_replace_existing_files) {
   write(folder.path() / "a", "old");
   {
     Atomic_files files(folder.path());
@@ -63,7 +63,7 @@ TEST_F(Atomic_files_test, leave_nothing_behind_without_commit) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
-TEST_F(Atomic_files_test, of_two_at_work_do_not_meet) {
+TEST_F(Atomic_files_test, two_sets_in_one_folder_do_not_interfere) {
   Atomic_files first(folder.path()), second(folder.path());
   write(first.add("a"), "first");
   write(second.add("a"), "second");
@@ -73,7 +73,7 @@ TEST_F(Atomic_files_test, of_two_at_work_do_not_meet) {
   EXPECT_EQ(text_of("a"), "first");
 }
 
-TEST_F(Atomic_files_test, in_a_folder_that_cannot_be_or_over_a_folder_are_refused) {
+TEST_F(Atomic_files_test, are_refused_in_an_impossible_folder_or_over_a_folder) {
   EXPECT_THROW(Atomic_files(folder.write("file", "") / "inner"), Bad_output);
   fs::create_directories(folder.path() / "a" / "b");
   Atomic_files files(folder.path());

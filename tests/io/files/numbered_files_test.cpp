@@ -45,32 +45,32 @@ TEST_F(Numbered_files, are_found_in_the_order_of_their_numbers) {
   EXPECT_EQ(find("f*.off"), (Names{"f8.off", "f9.off", "f10.off", "f11.off"}));
 }
 
-TEST_F(Numbered_files, may_have_zeros_in_front) {
+TEST_F(Numbered_files, may_have_leading_zeros) {
   make({"f0008.off", "f0010.off", "f0009.off"});
   EXPECT_EQ(find("f*.off"), (Names{"f0008.off", "f0009.off", "f0010.off"}));
   EXPECT_EQ(find("f####.off"), find("f*.off"));
 }
 
-TEST_F(Numbered_files, of_a_run_have_as_many_digits_or_more_without_zeros) {
+TEST_F(Numbered_files, of_a_run_of_marks_have_that_many_digits_or_more_without_leading_zeros) {
   make({"f99.off", "f100.off", "f0099.off", "f098.off", "f98.off"});
   EXPECT_EQ(find("f##.off"), (Names{"f98.off", "f99.off", "f100.off"}));
 }
 
-TEST_F(Numbered_files, with_something_else_in_the_numbers_place_are_passed_over) {
+TEST_F(Numbered_files, names_without_a_number_are_skipped) {
   make({"f1.off", "f2.off", "frest.off", "f.off", "f3.obj", "f-3.off", "g5.off", "f1_.off", "f 3.off"});
   EXPECT_EQ(find("f*.off"), (Names{"f1.off", "f2.off"}));
 }
 
-TEST_F(Numbered_files, that_are_missing_are_named) {
+TEST_F(Numbered_files, missing_files_are_named) {
   make({"f1.off", "f2.off", "f4.off"});
-  expect_error("f*.off", (folder.path() / "f3.off").string() + ": there is no such file, but f2.off and f4.off are");
+  expect_error("f*.off", (folder.path() / "f3.off").string() + ": there is no such file, but f2.off and f4.off exist");
   make({"g0099.off", "g0102.off"});
   expect_error("g*.off", "g0100.off: there is no such file");
   expect_error("h*.off", "h*.off: there is no such file");
   expect_error("none/h*.off", "none: the folder cannot be read");
 }
 
-TEST_F(Numbered_files, two_of_one_number_and_a_number_too_large_are_refused) {
+TEST_F(Numbered_files, two_files_with_one_number_and_a_number_too_large_are_refused) {
   make({"f1.off", "f01.off"});
   expect_error("f*.off", "f1.off: has the same number as f01.off");
   make({"g1234567890123456789.off"});
@@ -79,7 +79,7 @@ TEST_F(Numbered_files, two_of_one_number_and_a_number_too_large_are_refused) {
   EXPECT_EQ(find("h*.off").size(), 1U);
 }
 
-TEST_F(Numbered_files, need_one_mark_in_the_name) {
+TEST_F(Numbered_files, need_exactly_one_mark_in_the_name) {
   for (const auto* pattern : {"f.off", "f*_*.off", "f#_#.off", "f*#.off", "f**.off", "f#*.off", "*/f.off", ""}) {
     EXPECT_THROW(find_numbered_files(folder.path() / pattern), Bad_argument) << pattern;
   }
@@ -88,13 +88,13 @@ TEST_F(Numbered_files, need_one_mark_in_the_name) {
   EXPECT_FALSE(is_pattern("a*/f.off"));
 }
 
-TEST_F(Numbered_files, are_named_for_writing) {
+TEST_F(Numbered_files, get_their_names_for_writing_from_the_pattern) {
   EXPECT_EQ(numbered_file("a/f####.off", 7), "a/f0007.off");
   EXPECT_EQ(numbered_file("a/f####.off", 123456), "a/f123456.off");
   EXPECT_EQ(numbered_file("f*.off", 12), "f12.off");
 }
 
-TEST_F(Numbered_files, are_the_motion_of_a_scene) {
+TEST_F(Numbered_files, can_be_the_motion_of_a_scene) {
   make({"mesh.off", "f9.off", "f10.off"});
   Scene scene = read(folder, with_object(R"("mesh": "mesh.off", "motion": {"sequence": "f*.off"})"));
   EXPECT_EQ(scene.frames, 2U);

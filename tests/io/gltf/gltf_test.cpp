@@ -36,7 +36,7 @@ std::vector<Point> moved(const Move& move) {
 class Gltf : public testing::Test {
  protected:
   std::filesystem::path write(const Gltf_sample& sample) const { return folder.write("a.glb", sample.glb()); }
-  /// All vertices in the frame at this time, at ten frames per second.
+  /// All vertices at this time, at ten frames per second.
   std::vector<Point> at(const Gltf_sample& sample, double seconds) const {
     const auto animation = read_animation(write(sample), {.frames_per_second = 10});
     std::vector<Point> positions(animation.vertices);
@@ -50,7 +50,7 @@ class Gltf : public testing::Test {
 
 // Containers
 
-TEST_F(Gltf, text_binary_and_separate_buffer_are_the_same) {
+TEST_F(Gltf, text_binary_and_separate_buffer_give_the_same_scene) {
   const auto sample = square_gltf();
   folder.write("own buffer.bin", sample.bytes + "more");
   for (const auto& file : {folder.write("a.glb", sample.glb()), folder.write("a.gltf", sample.gltf()),
@@ -63,7 +63,7 @@ TEST_F(Gltf, text_binary_and_separate_buffer_are_the_same) {
   }
 }
 
-TEST_F(Gltf, images_are_not_looked_at) {
+TEST_F(Gltf, images_are_ignored) {
   auto sample = square_gltf();
   sample.json["images"] = {{{"uri", "none.png"}}, {{"uri", "data:image/png;base64,rubbish"}}};
   sample.json["textures"] = {{{"source", 99}}};
@@ -73,7 +73,7 @@ TEST_F(Gltf, images_are_not_looked_at) {
 
 // Faces
 
-TEST_F(Gltf, vertices_doubled_at_a_seam_are_one) {
+TEST_F(Gltf, vertices_duplicated_at_a_seam_are_joined) {
   auto sample = square_gltf();
   auto& primitive = sample.json["meshes"][0]["primitives"][0];
   primitive["attributes"]["POSITION"] = sample.add_points({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0});
@@ -85,7 +85,7 @@ TEST_F(Gltf, vertices_doubled_at_a_seam_are_one) {
   EXPECT_EQ(read_animation(write(sample)).faces, (std::vector<Corners>{{0, 1, 2}, {0, 2, 5}}));
 }
 
-TEST_F(Gltf, vertices_that_part_in_motion_are_two) {
+TEST_F(Gltf, vertices_that_separate_in_motion_stay_two) {
   auto sample = square_gltf();
   auto& primitive = sample.json["meshes"][0]["primitives"][0];
   primitive["attributes"]["POSITION"] = sample.add_points({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0});
@@ -115,7 +115,7 @@ TEST_F(Gltf, points_and_lines_have_no_faces) {
   EXPECT_EQ(read_animation(write(sample)).faces, (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
 }
 
-TEST_F(Gltf, one_mesh_at_two_nodes_stands_twice) {
+TEST_F(Gltf, one_mesh_at_two_nodes_appears_twice) {
   auto sample = square_gltf();
   sample.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {0, 0, 5}}}, {{"mesh", 0}}};
   sample.json["scenes"] = {{{"nodes", {0}}}, {{"nodes", {0, 1}}}};
@@ -139,7 +139,7 @@ TEST_F(Gltf, normalized_integers_and_strides_are_read) {
   expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, -1}});
 }
 
-TEST_F(Gltf, sparse_accessors_change_what_they_name) {
+TEST_F(Gltf, sparse_accessors_replace_the_elements_they_name) {
   auto sample = square_gltf();
   const auto indices = sample.add_view(packed<std::uint8_t>({1, 3}));
   const auto values = sample.add_view(packed<float>({5, 5, 5, 6, 6, 6}));
@@ -151,7 +151,7 @@ TEST_F(Gltf, sparse_accessors_change_what_they_name) {
 
 // Motion
 
-TEST_F(Gltf, nodes_carry_their_children) {
+TEST_F(Gltf, nodes_move_their_children) {
   auto sample = square_gltf();
   const double half = std::sqrt(0.5);
   sample.json["nodes"] = {{{"mesh", 0}, {"translation", {1, 0, 0}}, {"scale", {2, 1, 1}}},
@@ -162,7 +162,7 @@ TEST_F(Gltf, nodes_carry_their_children) {
               moved([](double x, double y, double z) { return Point(10 - y, 20 + 2 * x + 1, 30 + 3 * z); }));
 }
 
-TEST_F(Gltf, straight_curves_go_evenly_from_key_to_key_and_stand_outside) {
+TEST_F(Gltf, linear_curves_interpolate_between_keys_and_are_constant_outside) {
   auto sample = square_gltf();
   sample.animate(0, "translation", sample.add_numbers({0.5, 1.5}), sample.add_points({0, 0, 0, 0, 0, 4}));
   sample.animate(0, "scale", sample.add_numbers({0, 2}), sample.add_points({1, 1, 1, 1, 1, 1}));
@@ -170,7 +170,7 @@ TEST_F(Gltf, straight_curves_go_evenly_from_key_to_key_and_stand_outside) {
     expect_near(at(sample, time), moved([z = z](double x, double y, double) { return Point(x, y, z); }));
 }
 
-TEST_F(Gltf, steps_hold_until_the_next_key) {
+TEST_F(Gltf, step_curves_are_constant_until_the_next_key) {
   auto sample = square_gltf();
   const auto times = sample.add_numbers({0, 0.1, 0.3, 0.7});
   sample.animate(0, "translation", times, sample.add_points({0, 0, 0, 0, 0, 1, 0, 0, 3, 0, 0, 7}), "STEP");
@@ -179,7 +179,7 @@ TEST_F(Gltf, steps_hold_until_the_next_key) {
 }
 
 TEST_F(Gltf, cubic_curves_are_hermite_splines) {
-  // z(t) = t^3 with its own slopes at 0 and 2 must come back everywhere.
+  // z(t) = t^3 with its slopes at 0 and 2 must be reproduced everywhere.
   auto sample = square_gltf();
   sample.animate(0, "translation", sample.add_numbers({0, 2}),
                  sample.add_points({9, 9, 9, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 9, 9, 9}), "CUBICSPLINE");
@@ -188,7 +188,7 @@ TEST_F(Gltf, cubic_curves_are_hermite_splines) {
                 moved([time](double x, double y, double) { return Point(x, y, time * time * time); }));
 }
 
-TEST_F(Gltf, rotations_turn_evenly_the_shorter_way) {
+TEST_F(Gltf, rotations_have_constant_speed_along_the_shorter_way) {
   auto sample = square_gltf();
   const double half = std::sqrt(0.5);
   sample.animate(0, "rotation", sample.add_numbers({0, 1}), sample.add_quaternions({0, 0, 0, 1, 0, 0, -half, -half}));
@@ -210,7 +210,7 @@ TEST_F(Gltf, morph_targets_add_up) {
   expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 0}, {1.5, 1, 0}, {0, 1.5, 0}});
 }
 
-TEST_F(Gltf, weights_of_a_curve_take_the_place_of_all_others) {
+TEST_F(Gltf, weights_of_a_curve_replace_all_others) {
   auto sample = rich_gltf();
   sample.json.erase("animations");
   sample.json.erase("skins");
@@ -230,12 +230,12 @@ TEST_F(Gltf, skins_move_vertices_with_their_joints_and_not_with_the_node) {
   sample.json["nodes"][0].erase("children");
   sample.json["scenes"] = {{{"nodes", {0, 1}}}};
   expect_near(at_rest(sample), square_points);
-  // Joint 1 stands at (1, 0, 0) at rest, and is lifted by 2 here.
+  // Joint 1 is at (1, 0, 0) at rest, and is lifted by 2 here.
   sample.json["nodes"][2]["translation"] = {1, 0, 2};
   expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 2 * 127 / 255.0}, {1, 1, 2}, {0, 1, 2}});
 }
 
-TEST_F(Gltf, the_whole_of_it_at_once) {
+TEST_F(Gltf, nodes_skins_and_morph_targets_work_together) {
   // At 1 s: weights 1 and 0; joint 0 turned by 180 degrees about z; joint 1 at (1, 1, 0) below it, scaled by 1.5.
   const auto root = [](double x, double y, double z) { return Point(-x, -y, z); };
   const auto tip = [&](double x, double y, double z) { return root(1 + 1.5 * (x - 1), 1 + 1.5 * y, 1.5 * z); };
@@ -245,7 +245,7 @@ TEST_F(Gltf, the_whole_of_it_at_once) {
   expect_near(at(rich_gltf(), 1), {root(0, 0, 1), mixed, tip(1, 1, 1), tip(0, 1, 1)});
 }
 
-TEST_F(Gltf, frames_reach_to_the_end_of_the_animation) {
+TEST_F(Gltf, the_last_frame_is_at_or_before_the_end_of_the_animation) {
   auto sample = square_gltf();
   sample.animate(0, "translation", sample.add_numbers({0, 1.1}), sample.add_points({0, 0, 0, 0, 0, 1}));
   const auto file = write(sample);
@@ -257,7 +257,7 @@ TEST_F(Gltf, frames_reach_to_the_end_of_the_animation) {
     EXPECT_THROW(read_animation(file, {.frames_per_second = rate}), Bad_argument);
 }
 
-TEST_F(Gltf, animations_are_chosen_by_number_or_name) {
+TEST_F(Gltf, animations_are_chosen_by_index_or_name) {
   auto sample = square_gltf();
   sample.animate(0, "translation", sample.add_numbers({0, 1}), sample.add_points({0, 0, 0, 0, 0, 1}));
   auto second = sample.json["animations"][0];
@@ -280,7 +280,7 @@ TEST_F(Gltf, animations_are_chosen_by_number_or_name) {
 
 // Scenes
 
-TEST_F(Gltf, is_mesh_and_motion_of_a_scene) {
+TEST_F(Gltf, can_be_mesh_and_motion_of_a_scene) {
   folder.write("a.gltf", rich_gltf().gltf());
   auto scene = read(folder, with_object(R"("mesh": "a.gltf", "place": {"translate": [0, 0, 7]},
     "motion": {"gltf": {"file": "a.gltf", "animation": "walk", "frames_per_second": 10}})"));

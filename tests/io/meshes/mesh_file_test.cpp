@@ -23,7 +23,7 @@ namespace {
 
 using Corners = std::multiset<std::size_t>;
 
-/// Per face of the mesh, in order, the file's numbers of its corners.
+/// Per face of the mesh, in order: its corners as file vertices.
 std::vector<Corners> file_corners(const Mesh_file& read) {
   std::vector<Corners> result;
   for (const auto face : faces(read.mesh)) {
@@ -41,7 +41,7 @@ void expect_square(const Mesh_file& read) {
   for (const auto v : vertices(read.mesh)) EXPECT_EQ(read.mesh.point(v), corners.at(read.file_vertex.at(v)));
 }
 
-/// What holds for every mesh that was read.
+/// Checks what must hold for every mesh that was read.
 void expect_sound(const Mesh_file& read) {
   EXPECT_TRUE(read.mesh.is_valid(false));
   EXPECT_EQ(read.file_vertex.size(), num_vertices(read.mesh));
@@ -89,7 +89,7 @@ TEST_F(Mesh_reading, gives_the_same_mesh_from_every_format) {
   }
 }
 
-TEST_F(Mesh_reading, knows_extensions_in_capitals) { expect_square(read("SQUARE.OFF", square_off)); }
+TEST_F(Mesh_reading, accepts_extensions_in_capitals) { expect_square(read("SQUARE.OFF", square_off)); }
 
 TEST_F(Mesh_reading, accepts_windows_line_ends_in_text) {
   for (auto [name, bytes] : all_squares()) {
@@ -100,7 +100,7 @@ TEST_F(Mesh_reading, accepts_windows_line_ends_in_text) {
   }
 }
 
-TEST_F(Mesh_reading, accepts_text_without_a_line_end_at_the_file_s_end) {
+TEST_F(Mesh_reading, accepts_text_without_a_final_line_end) {
   for (auto [name, bytes] : all_squares())
     if (bytes.back() == '\n') {
       SCOPED_TRACE(name);
@@ -125,7 +125,7 @@ TEST_F(Mesh_reading, keeps_every_bit_of_a_coordinate) {
   EXPECT_EQ(mesh.point(Surface_mesh::Vertex_index(2)), Point(1, -1, 0.5));
 }
 
-TEST_F(Mesh_reading, keeps_the_order_of_faces_whatever_their_connection) {
+TEST_F(Mesh_reading, keeps_the_order_of_faces_for_any_connectivity) {
   read_faces(7, {{4, 5, 6}, {0, 1, 2}, {2, 1, 3}, {6, 5, 3}});
 }
 
@@ -174,7 +174,7 @@ TEST_F(Mesh_reading, accepts_any_triangles_over_few_vertices) {
   }
 }
 
-TEST_F(Mesh_reading, leaves_out_vertices_that_no_face_uses) {
+TEST_F(Mesh_reading, drops_vertices_that_no_face_uses) {
   const auto read = read_faces(6, {{1, 3, 5}});
   EXPECT_EQ(read.file_vertices, 6U);
   EXPECT_EQ(read.file_vertex, (std::vector<std::uint32_t>{1, 3, 5}));
@@ -216,7 +216,7 @@ TEST_F(Mesh_reading, accepts_every_optional_part_of_obj) {
   expect_square(read("forward.obj", "f 1 2 3\nf 1 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"));
 }
 
-TEST_F(Mesh_reading, skips_all_else_that_ply_may_hold) {
+TEST_F(Mesh_reading, skips_other_elements_and_properties_of_ply) {
   expect_square(
       read("more.ply",
            "ply\ncomment before the format\nformat ascii 1.0\nobj_info none\nelement material 1\n"
@@ -246,7 +246,7 @@ TEST_F(Mesh_reading, accepts_ply_that_lists_faces_first) {
                      "3 0 1 2\n3 0 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"));
 }
 
-TEST_F(Mesh_reading, tells_binary_stl_from_text_though_its_header_begins_with_solid) {
+TEST_F(Mesh_reading, recognises_binary_stl_whose_header_begins_with_solid) {
   expect_square(read("solid.stl", square_binary_stl("solid facet normal vertex 1 2 3")));
 }
 

@@ -57,25 +57,25 @@ Points scaled(const Points& points, double factor) {
   return result;
 }
 
-TEST(Deform, by_nothing_stands_still) {
+TEST(Deform, without_deformations_never_moves) {
   EXPECT_EQ(posed(std::vector<Deformation>{}, 0), box);
   EXPECT_EQ(posed(std::vector<Deformation>{}, 1'000'000), box);
 }
 
-TEST(Deform, takes_an_empty_shape) { EXPECT_TRUE(posed({Wobble{}, Bend{}, Twist{}, Spin{}}, 3, {}).empty()); }
+TEST(Deform, accepts_an_empty_shape) { EXPECT_TRUE(posed({Wobble{}, Bend{}, Twist{}, Spin{}}, 3, {}).empty()); }
 
-TEST(Deform, takes_a_shape_without_extent) {
+TEST(Deform, accepts_a_shape_without_extent) {
   const Points point(2, Point(1, 2, 3));
   expect_near(posed({Wobble{}, Bend{}, Twist{}, Spin{}, Inflate{}}, 7, point), point);
 }
 
-TEST(Deform, refuses_another_number_of_positions) {
+TEST(Deform, refuses_a_wrong_number_of_positions) {
   const Motion motion = deform(box, {Wobble{}});
   Points positions(box.size() - 1);
   EXPECT_THROW(motion.pose(0, positions), Bad_motion);
 }
 
-TEST(Deform, gives_the_same_bytes_for_the_same_frame_whatever_was_asked_before) {
+TEST(Deform, gives_the_same_bytes_for_the_same_frame_in_any_order_of_calls) {
   const std::vector<Deformation> all{
       Wobble{},  Bend{}, Twist{},
       Inflate{}, Spin{}, Travel{{{0, {0, 0, 0}}, {50, {1, 2, 3}}, {90, {0, 1, 0}}}, Path::smooth}};
@@ -92,7 +92,7 @@ TEST(Deform, gives_the_same_bytes_for_the_same_frame_whatever_was_asked_before) 
 TEST(Deform, applies_deformations_in_their_order) {
   const Deformation spin = Spin{.axis = {0, 0, 1}, .degrees_per_frame = 90};
   const Deformation travel = Travel{{{0, {5, 0, 0}}}, Path::linear};
-  // Turned by a quarter about (10, 0, 0): the way to +x becomes one to +y if it was walked before.
+  // A quarter turn about (10, 0, 0): a translation along +x becomes one along +y if it came before the turn.
   EXPECT_LT(distance(posed({spin, travel}, 1)[0], Point(15, 0, 0)), 1e-12);
   EXPECT_LT(distance(posed({travel, spin}, 1)[0], Point(10, 5, 0)), 1e-12);
 }
@@ -118,7 +118,7 @@ TEST(Wobble, repeats_after_its_period_and_travels_in_between) {
   EXPECT_GT(distance(posed({wobble}, 13)[1], posed({wobble}, 3)[1]), 0.1);
 }
 
-TEST(Wobble, does_not_depend_on_where_the_shape_is_and_grows_with_it) {
+TEST(Wobble, is_translation_invariant_and_scales_with_the_shape) {
   const Vector far(100, -50, 30);
   const Points rest = moved(scaled(box, 3), far);
   const Points expected = moved(scaled(posed({Wobble{}}, 11), 3), far);
@@ -126,7 +126,7 @@ TEST(Wobble, does_not_depend_on_where_the_shape_is_and_grows_with_it) {
   for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_LT(distance(actual[i], expected[i]), 1e-10);
 }
 
-TEST(Wobble, of_period_zero_stands_still) {
+TEST(Wobble, of_period_zero_does_not_travel) {
   const Wobble wobble{.period = 0, .phase = 0.3};
   EXPECT_EQ(posed({wobble}, 0), posed({wobble}, 99));
 }
@@ -161,7 +161,7 @@ TEST(Bend, swings_through_the_rest_shape_to_the_other_side) {
   EXPECT_LT(posed({bend}, 30, line)[0].z(), -0.1);
 }
 
-TEST(Twist, keeps_the_distance_from_the_axis_and_the_place_along_it) {
+TEST(Twist, keeps_the_distance_from_the_axis_and_the_position_along_it) {
   const Points twisted = posed({Twist{.axis = {0, 0, 2}, .degrees = 70, .period = 0}}, 0);
   for (std::size_t i = 0; i < box.size(); ++i) {
     EXPECT_NEAR(twisted[i].z(), box[i].z(), 1e-12);
@@ -175,7 +175,7 @@ TEST(Twist, turns_the_ends_by_half_the_angle_each) {
   expect_near(twisted, {Point(0, -1, -2), Point(1, 0, 0), Point(0, 1, 2), Point(-1, 0, 0)});
 }
 
-TEST(Inflate, scales_from_one_to_its_factor_and_holds) {
+TEST(Inflate, scales_from_one_to_its_factor_and_stays_there) {
   const Inflate inflate{.factor = 3, .frames = 100};
   expect_near(posed({inflate}, 0), box);
   expect_near(posed({inflate}, 50), scaled(box, 2));
@@ -193,7 +193,7 @@ TEST(Spin, turns_about_the_middle) {
 
 class Paths : public testing::TestWithParam<Path> {};
 
-TEST_P(Paths, hit_their_way_points) {
+TEST_P(Paths, pass_through_their_way_points) {
   const Travel travel{{{10, {1, 0, 0}}, {25, {2, 5, 1}}, {45, {-3, 1, 0}}, {70, {1, 0, 0}}}, GetParam()};
   for (const Way_point& p : travel.way_points) expect_near(posed({travel}, std::size_t(p.frame)), moved(box, p.at));
 }
@@ -205,7 +205,7 @@ TEST(Travel, on_a_linear_path_is_half_way_at_half_time) {
   expect_near(posed({travel}, 20), moved(box, {2, 2, 0}));
 }
 
-TEST(Travel, stands_before_the_first_and_after_the_last_way_point) {
+TEST(Travel, rests_before_the_first_and_after_the_last_way_point) {
   for (const Path path : {Path::linear, Path::smooth}) {
     const Travel travel{{{10, {1, 0, 0}}, {30, {3, 4, 0}}}, path};
     expect_near(posed({travel}, 0), moved(box, {1, 0, 0}));
@@ -213,7 +213,7 @@ TEST(Travel, stands_before_the_first_and_after_the_last_way_point) {
   }
 }
 
-TEST(Travel, on_a_smooth_path_through_points_of_a_line_at_even_speed_is_that_line) {
+TEST(Travel, on_a_smooth_path_reproduces_a_straight_line_at_constant_speed) {
   const Travel travel{{{0, {0, 0, 0}}, {10, {1, 2, 0}}, {40, {4, 8, 0}}, {50, {5, 10, 0}}}, Path::smooth};
   for (std::size_t frame = 0; frame <= 50; ++frame)
     expect_near(posed({travel}, frame), moved(box, {double(frame) / 10, double(frame) / 5, 0}));
@@ -239,7 +239,7 @@ TEST(Travel, on_a_closed_path_repeats_for_ever_without_a_kink_at_its_seam) {
     expect_near(posed(motion, frame + 1000), posed(motion, frame));
     expect_near(posed(motion, frame + 7000), posed(motion, frame));
   }
-  // Before the first way point too: frame 50 is the path's frame 1050.
+  // Also before the first way point: frame 50 is the path's frame 1050.
   expect_near(posed(motion, 50), posed(motion, 1050));
   const Vector into = posed(motion, 1100)[0] - posed(motion, 1099)[0];
   const Vector out_of = posed(motion, 1101)[0] - posed(motion, 1100)[0];
@@ -276,7 +276,7 @@ TEST(Deformation, refuses_periods_below_zero) {
   EXPECT_EQ(message_of(Twist{.period = infinity}), "period is inf, must be >= 0 and finite");
 }
 
-TEST(Deformation, refuses_directions_that_point_nowhere) {
+TEST(Deformation, refuses_zero_and_non_finite_directions) {
   EXPECT_EQ(message_of(Bend{.axis = {0, 0, 0}}), "axis must be finite and not zero");
   EXPECT_EQ(message_of(Bend{.towards = {0, 0, 0}}), "towards must be finite and not zero");
   EXPECT_EQ(message_of(Twist{.axis = {0, 0, 0}}), "axis must be finite and not zero");
@@ -284,7 +284,7 @@ TEST(Deformation, refuses_directions_that_point_nowhere) {
   EXPECT_EQ(message_of(Bend{.axis = {1, 0, 1}, .towards = {-2, 0, -2}}), "towards is parallel to axis");
 }
 
-TEST(Deformation, takes_directions_of_any_length) {
+TEST(Deformation, accepts_directions_of_any_length) {
   const double tiny = std::numeric_limits<double>::denorm_min();
   expect_near(posed({Spin{.axis = {0, 0, 1e300}}}, 9), posed({Spin{}}, 9));
   expect_near(posed({Twist{.axis = {0, 0, tiny}}}, 9), posed({Twist{}}, 9));

@@ -24,7 +24,7 @@ std::string padded(std::string text, std::size_t length) {
   return text;
 }
 
-/// The square, two frames: in frame t it stands at x = t, and its third corner at z = 1.5 t.
+/// The square in two frames: in frame t it is at x = t, and its third corner at z = 1.5 t.
 std::string square_md2() {
   auto bytes = "IDP2" + numbers({8, 64, 64, 56, 0, 4, 0, 2, 0, 2, 68, 68, 68, 92, 204, 204});
   bytes += packed<std::uint16_t>({0, 1, 2, 0, 0, 0, 0, 2, 3, 0, 0, 0});
@@ -35,7 +35,7 @@ std::string square_md2() {
   return bytes;
 }
 
-/// The same with five vertices, the last in the place of the first, in two surfaces of one triangle each.
+/// The same with five vertices, the last coinciding with the first, in two surfaces of one triangle each.
 std::string square_md3() {
   const auto surface = [](std::initializer_list<double> corners) {
     auto bytes = "IDP3" + padded("body", 64) + numbers({0, 2, 0, 5, 1, 108, 120, 120, 120, 200});
@@ -111,7 +111,7 @@ TEST_F(Game_models, of_quake_iii_are_read_and_welded_within_a_surface) {
   }
 }
 
-TEST_F(Game_models, are_mesh_and_motion_of_a_scene) {
+TEST_F(Game_models, can_be_mesh_and_motion_of_a_scene) {
   folder.write("a.md2", square_md2());
   auto scene = read(folder, with_object(R"("mesh": "a.md2", "motion": {"keyframes": "a.md2"})"));
   EXPECT_EQ(scene.frames, 2U);
@@ -120,7 +120,7 @@ TEST_F(Game_models, are_mesh_and_motion_of_a_scene) {
   EXPECT_THROW(read_game_motion(folder.path() / "a.md2", 5), Bad_motion);
 }
 
-TEST_F(Game_models, that_lie_are_told) {
+TEST_F(Game_models, with_wrong_counts_and_offsets_are_refused) {
   const auto md2 = square_md2();
   const auto changed = [](std::string bytes, std::size_t at, double value) {
     return bytes.replace(at, 4, numbers({value}));
@@ -129,8 +129,8 @@ TEST_F(Game_models, that_lie_are_told) {
   expect_error("a.md2", changed(md2, 4, 7), ": byte 4: expected version 8, found 7");
   expect_error("a.md2", changed(md2, 16, 55), ": byte 16: frames of 55 bytes cannot hold 4 vertices");
   expect_error("a.md2", changed(md2, 24, 2e9), ": byte 16: frames of 56 bytes cannot hold 2000000000 vertices");
-  expect_error("a.md2", changed(md2, 32, 2e9), ": byte 32: 2000000000 triangles from byte 68 on cannot stand");
-  expect_error("a.md2", changed(md2, 40, 3), ": byte 40: 3 frames from byte 92 on cannot stand in a file of 204");
+  expect_error("a.md2", changed(md2, 32, 2e9), ": byte 32: 2000000000 triangles from byte 68 on do not fit");
+  expect_error("a.md2", changed(md2, 40, 3), ": byte 40: 3 frames from byte 92 on do not fit into a file of 204");
   expect_error("a.md2", changed(md2, 40, -1), ": byte 40: expected a number of 0 or more, found -1");
   expect_error("a.md2", changed(md2, 68, 7), ": byte 68: face refers to vertex 7 of 4 (counted from 0)");
   auto endless = md2;
@@ -141,10 +141,10 @@ TEST_F(Game_models, that_lie_are_told) {
   expect_error("a.md3", changed(md3, 108 + 104, 8), ": byte 212: a surface cannot have 8 bytes");
   expect_error("a.md3", changed(md3, 108 + 104, 199), ": byte 212: the surface does not end within its 199 bytes");
   expect_error("a.md3", changed(md3, 84, 0), ": byte 84: the file holds no face");
-  expect_error("a.md3", changed(md3, 84, 3), ": byte 100: 1 surface headers from byte 508 on cannot stand");
+  expect_error("a.md3", changed(md3, 84, 3), ": byte 100: 1 surface headers from byte 508 on do not fit");
 }
 
-TEST_F(Game_models, cut_short_or_damaged_are_errors_or_models) {
+TEST_F(Game_models, truncated_or_damaged_give_an_error_or_a_model) {
   for (const auto& [name, bytes] : {Sample{"a.md2", square_md2()}, Sample{"a.md3", square_md3()}}) {
     for (std::size_t length = 0; length < bytes.size(); ++length) read_all(folder.write(name, bytes.substr(0, length)));
     EXPECT_EQ(good, 0U) << name;

@@ -54,7 +54,7 @@ TEST_F(Mdd_cache, gives_each_frame_in_any_order) {
   }
 }
 
-TEST_F(Mdd_cache, header_tells_counts_and_rate) {
+TEST_F(Mdd_cache, header_gives_counts_and_rate) {
   const auto cache = read_point_cache_header(folder.write("a.MDD", three_frames()));
   EXPECT_EQ(cache.format, Cache_format::mdd);
   EXPECT_EQ(cache.vertices, 2U);
@@ -63,7 +63,7 @@ TEST_F(Mdd_cache, header_tells_counts_and_rate) {
   EXPECT_THROW(read_point_cache_header(folder.write("a.mdc", three_frames())), Bad_motion);
 }
 
-TEST_F(Mdd_cache, refuses_a_frame_past_the_end_and_another_number_of_vertices) {
+TEST_F(Mdd_cache, refuses_a_frame_past_the_end_and_a_wrong_number_of_vertices) {
   const auto motion = read_mdd_cache(folder.write("a.mdd", three_frames()), 2);
   std::vector<Point> positions(2);
   EXPECT_THROW(motion.pose(3, positions), Bad_motion);
@@ -72,7 +72,7 @@ TEST_F(Mdd_cache, refuses_a_frame_past_the_end_and_another_number_of_vertices) {
   expect_error(three_frames(), 3, ": byte 4: the cache has 2 vertices, expected 3");
 }
 
-TEST_F(Mdd_cache, names_frame_and_vertex_of_a_coordinate_that_is_not_finite) {
+TEST_F(Mdd_cache, names_frame_and_vertex_of_a_non_finite_coordinate) {
   for (const double wrong : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     expect_error(header(1, 2) + big_floats({0, 0, 0, 0, 0, wrong, 0}), 2, ": frame 0, vertex 1 (counted from 0): ");
 }
@@ -83,12 +83,12 @@ TEST_F(Mdd_cache, refuses_counts_below_one) {
   expect_error(header(3, -2), 2, ": byte 4: the cache has -2 vertices, expected 1 or more");
 }
 
-TEST_F(Mdd_cache, refuses_a_file_of_another_length_than_its_header_says) {
+TEST_F(Mdd_cache, refuses_a_file_whose_length_contradicts_its_header) {
   const auto whole = three_frames();
   for (std::size_t length = 0; length < whole.size(); ++length) expect_error(whole.substr(0, length), 2, ":");
   expect_error(whole.substr(0, 8), 2, ": 3 frames are announced, but the file ends within their times");
   expect_error(whole.substr(0, whole.size() - 1), 2, ": 3 frames of 2 vertices are announced, but the file ends");
-  expect_error(whole + 'x', 2, ": 3 frames of 2 vertices take 92 bytes, the file has 93: this is no MDD");
+  expect_error(whole + 'x', 2, ": 3 frames of 2 vertices take 92 bytes, the file has 93: this is not an MDD");
 }
 
 TEST_F(Mdd_cache, refuses_counts_whose_product_overflows) {

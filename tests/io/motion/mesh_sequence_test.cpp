@@ -37,7 +37,7 @@ class Mesh_sequence : public testing::Test {
   Temporary_folder folder;
 };
 
-TEST_F(Mesh_sequence, gives_positions_in_file_order_also_of_unused_vertices) {
+TEST_F(Mesh_sequence, gives_positions_in_file_order_including_unused_vertices) {
   const auto motion =
       read_mesh_sequence({folder.write("0.off", raised_triangle("0")), folder.write("1.off", raised_triangle("5"))}, 4);
   EXPECT_EQ(motion.frames, 2U);
@@ -61,18 +61,18 @@ TEST_F(Mesh_sequence, mixes_formats) {
   }
 }
 
-TEST_F(Mesh_sequence, refuses_no_file_and_a_file_that_does_not_exist) {
+TEST_F(Mesh_sequence, refuses_an_empty_list_and_a_file_that_does_not_exist) {
   EXPECT_THROW(read_mesh_sequence({}, 4), Bad_motion);
   const auto first = folder.write("0.off", raised_triangle("0"));
   EXPECT_THROW(read_mesh_sequence({first, folder.path() / "none.off"}, 4), Bad_motion);
 }
 
-TEST_F(Mesh_sequence, refuses_a_first_file_that_is_broken_or_has_another_number_of_vertices) {
+TEST_F(Mesh_sequence, refuses_a_first_file_that_is_broken_or_has_a_wrong_number_of_vertices) {
   EXPECT_THROW(read_mesh_sequence({folder.write("0.off", "OFF\n")}, 4), Bad_motion);
   EXPECT_THROW(read_mesh_sequence({folder.write("0.off", raised_triangle("0"))}, 3), Bad_motion);
 }
 
-TEST_F(Mesh_sequence, refuses_a_frame_past_the_end_and_too_little_room) {
+TEST_F(Mesh_sequence, refuses_a_frame_past_the_end_and_too_few_positions) {
   const auto motion = read_mesh_sequence({folder.write("0.off", raised_triangle("0"))}, 4);
   std::vector<Point> positions(4);
   EXPECT_THROW(motion.pose(1, positions), Bad_motion);
@@ -84,7 +84,7 @@ TEST_F(Mesh_sequence, names_file_and_line_of_a_broken_frame) {
   expect_error(raised_triangle("nan"), ":3: 'nan' is not a finite number");
 }
 
-TEST_F(Mesh_sequence, refuses_a_frame_with_another_number_of_vertices) {
+TEST_F(Mesh_sequence, refuses_a_frame_with_a_wrong_number_of_vertices) {
   expect_error("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ": the mesh has 3 vertices, expected 4");
 }
 

@@ -60,18 +60,18 @@ TEST_F(Point_cache, refuses_a_frame_past_the_end) {
   EXPECT_THROW(motion.pose(3, positions), Bad_motion);
 }
 
-TEST_F(Point_cache, refuses_to_write_to_another_number_of_vertices) {
+TEST_F(Point_cache, refuses_to_write_to_a_wrong_number_of_positions) {
   const auto motion = read_point_cache(folder.write("a.pc2", three_frames()), 2);
   std::vector<Point> positions(1);
   EXPECT_THROW(motion.pose(0, positions), Bad_motion);
 }
 
-TEST_F(Point_cache, names_frame_and_vertex_of_a_coordinate_that_is_not_finite) {
+TEST_F(Point_cache, names_frame_and_vertex_of_a_non_finite_coordinate) {
   for (const double wrong : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     expect_error(header(2, 1) + packed<float>({0, 0, 0, 0, wrong, 0}), 2, ": frame 0, vertex 1 (counted from 0): ");
 }
 
-TEST_F(Point_cache, reads_sound_frames_before_a_broken_one) {
+TEST_F(Point_cache, reads_valid_frames_before_a_broken_one) {
   const auto bytes = header(1, 2) + packed<float>({1, 2, 3, std::numeric_limits<double>::quiet_NaN(), 0, 0});
   const auto motion = read_point_cache(folder.write("a.pc2", bytes), 1);
   std::vector<Point> positions(1);
@@ -80,7 +80,7 @@ TEST_F(Point_cache, reads_sound_frames_before_a_broken_one) {
   EXPECT_THROW(motion.pose(1, positions), Bad_motion);
 }
 
-TEST_F(Point_cache, refuses_another_number_of_vertices) {
+TEST_F(Point_cache, refuses_a_wrong_number_of_vertices) {
   expect_error(three_frames(), 3, ": byte 16: the cache has 2 vertices, expected 3");
   expect_error(header(0, 3), 0, ": byte 16: the cache has 0 vertices, expected 1 or more");
 }
@@ -103,7 +103,7 @@ TEST_F(Point_cache, refuses_counts_whose_product_overflows) {
   EXPECT_THROW(read_point_cache(file, static_cast<std::size_t>(most)), Bad_motion);
 }
 
-TEST_F(Point_cache, refuses_what_is_no_point_cache) {
+TEST_F(Point_cache, refuses_truncated_headers_and_other_files) {
   expect_error("", 2, ": byte 0: the file ends within the header");
   expect_error(three_frames().substr(0, 31), 2, ": byte 31: the file ends within the header");
   expect_error(std::string(100, 'x'), 2, ": byte 0: expected 'POINTCACHE2'");

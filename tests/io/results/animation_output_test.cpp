@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a vertex of the square is in a frame: nothing that a float holds exactly.
+/// The position of a vertex of the square in a frame; not exactly representable as float.
 Point place(std::size_t vertex, std::size_t frame) {
   const auto v = static_cast<double>(vertex), t = static_cast<double>(frame);
   return {v / 3 + t, std::sin(v + t), t * t / 7 - v};
@@ -46,7 +46,7 @@ std::set<std::string> names_in(const fs::path& folder) {
 
 class Animation_output : public testing::Test {
  protected:
-  /// The output must hold these frames of the square.
+  /// The output must contain these frames of the square.
   void expect_frames(const Animation& found, const std::vector<std::size_t>& frames, double tolerance) const {
     ASSERT_EQ(found.motion.frames, frames.size());
     ASSERT_EQ(found.vertices, 5U);
@@ -106,7 +106,7 @@ TEST_F(Animation_output, gltf_is_read_back_with_its_faces) {
   EXPECT_LT(CGAL::squared_distance(positions[2], CGAL::midpoint(place(2, 1), place(2, 2))), 1e-10);
 }
 
-TEST_F(Animation_output, gltf_of_one_frame_stands_still) {
+TEST_F(Animation_output, gltf_of_one_frame_is_read_back_as_one_frame) {
   write_animation(folder.path() / "a.glb", square, {.frames = {2}});
   expect_frames(read_animation(folder.path() / "a.glb"), {2}, 1e-6);
 }
@@ -131,7 +131,7 @@ TEST_F(Animation_output, gltf_shows_regions_as_colours) {
   EXPECT_THROW(write_animation(folder.path() / "b.glb", square, {.regions = {0}}), Bad_argument);
 }
 
-TEST_F(Animation_output, what_cannot_be_written_leaves_nothing) {
+TEST_F(Animation_output, a_failed_output_leaves_no_file) {
   const fs::path out = folder.path() / "out";
   auto broken = square;
   broken.motion.pose = [pose = square.motion.pose](std::size_t frame, std::span<Point> positions) {
@@ -163,7 +163,7 @@ TEST_F(Animation_output, what_cannot_be_written_leaves_nothing) {
   }
 }
 
-TEST_F(Animation_output, can_be_given_up_between_frames) {
+TEST_F(Animation_output, can_be_abandoned_between_frames) {
   struct Enough {};
   for (const std::string name : {"a.pc2", "a.glb", "a.gltf", "f#.obj"}) {
     std::size_t calls = 0;

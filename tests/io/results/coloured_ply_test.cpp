@@ -20,7 +20,7 @@
 namespace lodestone::test {
 namespace {
 
-/// A vertex as it stands in the file.
+/// A vertex as stored in the file.
 struct Written_vertex {
   std::array<double, 3> position;
   std::array<std::uint8_t, 3> colour;
@@ -70,7 +70,7 @@ TEST_F(Coloured_ply, is_read_back_as_the_same_mesh) {
   }
 }
 
-TEST_F(Coloured_ply, holds_the_region_of_each_vertex) {
+TEST_F(Coloured_ply, stores_the_region_of_each_vertex) {
   for (auto& region : regions) region %= 7;
   write_coloured_ply(file, mesh, regions);
   const auto vertices = written_vertices(file, 92);
@@ -80,7 +80,7 @@ TEST_F(Coloured_ply, holds_the_region_of_each_vertex) {
   }
 }
 
-TEST_F(Coloured_ply, regions_of_neighbouring_numbers_have_colours_far_apart) {
+TEST_F(Coloured_ply, regions_with_consecutive_indices_have_colours_far_apart) {
   write_coloured_ply(file, mesh, regions);
   const auto vertices = written_vertices(file, 92);
   for (std::size_t a = 0; a < vertices.size(); ++a)

@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 
 const std::vector<Corners> tetrahedron_faces{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
-/// Points that move on curves, each its own.
+/// Points that move, each on its own curve.
 std::vector<Positions> moving_points(Eigen::Index vertices, std::size_t frames) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> anywhere(-1, 1);
@@ -43,7 +43,7 @@ Page page_of(const std::vector<Positions>& frames) {
   return page;
 }
 
-/// Every coordinate must come back within half a step of its object's box, up to a few roundings.
+/// Every coordinate must be decoded within half a step of its object's box, up to a few roundings.
 void expect_positions(const std::vector<Positions>& frames) {
   const Decoded_page page(page_of(frames).data());
   const auto decoded = page.positions(0);
@@ -93,7 +93,7 @@ TEST(Page, positions_over_the_whole_range_of_doubles_come_back) {
   expect_positions({positions, -positions});
 }
 
-TEST(Page, flat_and_still_objects_come_back_exactly_where_they_are_flat) {
+TEST(Page, flat_and_still_objects_come_back_exactly_along_flat_axes) {
   auto frames = moving_points(20, 3);
   for (auto& positions : frames) positions.col(1).setConstant(0.1);
   expect_positions(frames);
@@ -102,8 +102,8 @@ TEST(Page, flat_and_still_objects_come_back_exactly_where_they_are_flat) {
   expect_positions({Positions::Constant(3, 3, 7), Positions::Constant(3, 3, 7)});
 }
 
-/// Corners, in numbers of one and of two bytes: differences 0, 1, 1, 198, -200, 1; stored 0, 2, 2, 396, 399, 2.
-TEST(Page, the_bytes_of_a_topology_are_those_of_the_format) {
+/// Corners, as varints of one and of two bytes: differences 0, 1, 1, 198, -200, 1; stored 0, 2, 2, 396, 399, 2.
+TEST(Page, the_bytes_of_a_topology_follow_the_format) {
   Page page({.title = ""});
   page.add_object("object", 300, {{0, 1, 2}, {200, 0, 1}});
   page.add_frame({.positions = {Positions::Zero(300, 3)}});
@@ -112,8 +112,8 @@ TEST(Page, the_bytes_of_a_topology_are_those_of_the_format) {
   EXPECT_EQ(decoded.topology(0), (std::vector<std::uint32_t>{0, 1, 2, 200, 0, 1}));
 }
 
-/// One coordinate goes through the steps 0, 65535 in three frames, the others stay at 0.
-TEST(Page, the_bytes_of_positions_are_those_of_the_format) {
+/// One coordinate alternates between the steps 0 and 65535 in three frames; the others stay at 0.
+TEST(Page, the_bytes_of_positions_follow_the_format) {
   Positions here = Positions::Zero(2, 3), there = here;
   there(1, 0) = 2;
   Page page({.title = ""});
@@ -153,7 +153,7 @@ Page full_page() {
   return page;
 }
 
-TEST(Page, everything_in_it_comes_back) {
+TEST(Page, all_parts_of_a_page_come_back) {
   const Decoded_page page(full_page().data());
   page.expect_packed();
   const auto& header = page.header;
@@ -180,7 +180,7 @@ TEST(Page, everything_in_it_comes_back) {
   EXPECT_EQ(page.json_section("contacts"), Json::parse("[[], [], []]"));
 }
 
-TEST(Page, regions_are_kept_once_from_the_frame_on_that_they_hold_from) {
+TEST(Page, regions_are_stored_once_with_their_first_frame) {
   const Decoded_page page(full_page().data());
   ASSERT_EQ(page.object(0)["partitions"].size(), 2U);
   EXPECT_EQ(page.object(0)["partitions"][0]["frame"], 0);
@@ -193,7 +193,7 @@ TEST(Page, regions_are_kept_once_from_the_frame_on_that_they_hold_from) {
   EXPECT_EQ(page.labels(1, 0), (std::vector<std::uint32_t>{0, 0, 0, 0}));
 }
 
-TEST(Page, of_regions_set_twice_before_a_frame_the_later_ones_count) {
+TEST(Page, regions_set_twice_before_a_frame_are_the_later_ones) {
   Page page({.title = ""});
   page.add_object("object", 3, {{0, 1, 2}});
   page.set_regions(0, {0, 1, 2});
@@ -204,7 +204,7 @@ TEST(Page, of_regions_set_twice_before_a_frame_the_later_ones_count) {
   EXPECT_EQ(decoded.labels(0, 0), (std::vector<std::uint32_t>{0, 0, 0}));
 }
 
-TEST(Page, contacts_hold_their_segment_if_there_is_one_digit_by_digit) {
+TEST(Page, contacts_store_their_segment_without_rounding) {
   Page page({.title = ""});
   page.add_object("object", 3, {{0, 1, 2}});
   const std::array<double, 6> ends{0.1, -std::ldexp(1, 300), std::ldexp(1, -300), 1.0 / 3, 0, 5e-324};
@@ -218,7 +218,7 @@ TEST(Page, contacts_hold_their_segment_if_there_is_one_digit_by_digit) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(contacts[0][0][4 + i].get<double>(), ends[i]);
 }
 
-TEST(Page, what_frames_do_not_have_is_null) {
+TEST(Page, missing_parts_of_frames_are_null) {
   const Decoded_page page(page_of(moving_points(3, 1)).data());
   for (const char* key : {"mode", "strategy", "numbers", "stages", "candidates", "contacts", "report"})
     EXPECT_EQ(page.header.at(key), nullptr) << key;
@@ -263,7 +263,7 @@ TEST(Page, large_sections_come_back_whole) {
   EXPECT_TRUE(decoded.section(decoded.header["numbers"]) == numbers);
 }
 
-TEST(Page, refuses_what_does_not_fit_together) {
+TEST(Page, refuses_inconsistent_input) {
   Page page({.title = ""});
   EXPECT_THROW(page.add_object("object", 3, {{0, 1, 3}}), Bad_argument);
   page.add_object("object", 3, {{0, 1, 2}});
@@ -282,7 +282,7 @@ TEST(Page, refuses_what_does_not_fit_together) {
   EXPECT_EQ(page.frames(), 1U);
 }
 
-TEST(Page_frame_step, is_the_least_that_keeps_the_page_small) {
+TEST(Page_frame_step, is_the_smallest_that_keeps_the_page_small) {
   EXPECT_EQ(page_frame_step(300, 3600), 1U);
   EXPECT_EQ(page_frame_step(1, 100'000'000), 1U);
   EXPECT_EQ(page_frame_step(300, 100'000'000), 300U);
@@ -291,14 +291,14 @@ TEST(Page_frame_step, is_the_least_that_keeps_the_page_small) {
     for (const std::size_t vertices : {60'000, 500'000, 50'000'000}) {
       const auto held = [&](std::size_t step) { return (frames + step - 1) / step * vertices; };
       const std::size_t step = page_frame_step(frames, vertices);
-      EXPECT_LE(held(step), std::max<std::size_t>(5'000'000, vertices));  // one frame there is always
+      EXPECT_LE(held(step), std::max<std::size_t>(5'000'000, vertices));  // always at least one frame
       if (step > 1) {
         EXPECT_GT(held(step - 1), 5'000'000U);
       }
     }
 }
 
-TEST(Page_frame_step, follows_a_wish) {
+TEST(Page_frame_step, follows_a_requested_number_of_frames) {
   EXPECT_EQ(page_frame_step(10, 5, 4), 3U);  // 0, 3, 6, 9
   EXPECT_EQ(page_frame_step(10, 5, 10), 1U);
   EXPECT_EQ(page_frame_step(10, 5, 9), 2U);  // no step of whole frames gives nine
@@ -345,12 +345,12 @@ TEST_F(Page_writing, a_title_stays_text) {
             "<h1>&lt;/title&gt;&lt;script&gt;alert(&quot;1&quot; &amp; &#39;2&#39;)&lt;/script&gt;</h1>");
 }
 
-TEST_F(Page_writing, places_within_what_is_put_in_are_no_places) {
+TEST_F(Page_writing, inserted_text_is_not_searched_for_marks) {
   EXPECT_EQ(written("@LODESTONE_TITLE@|@LODESTONE_DATA@|@LODESTONE_TITLE@", "@LODESTONE_DATA@@LODESTONE_TITLE@", "foo"),
             "@LODESTONE_DATA@@LODESTONE_TITLE@|Zm9v|@LODESTONE_DATA@@LODESTONE_TITLE@");
 }
 
-TEST_F(Page_writing, a_template_has_one_place_for_the_data) {
+TEST_F(Page_writing, a_template_must_have_one_mark_for_the_data) {
   for (const auto* bad : {"", "@LODESTONE_TITLE@", "@LODESTONE_DATA@ @LODESTONE_DATA@", "@LODESTONE_DATA"})
     EXPECT_THROW(written(bad, "title", "data"), Bad_argument);
   EXPECT_EQ(written("@LODESTONE_DATA@", "title", ""), "");

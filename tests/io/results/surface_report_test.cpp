@@ -13,7 +13,7 @@ namespace {
 const std::vector<Point> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const std::vector<Corners> tetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
-TEST(Surface_report, of_a_tetrahedron) {
+TEST(Surface_report, of_a_tetrahedron_is_closed_and_clean) {
   const auto report = inspect_surface(corners, tetrahedron);
   EXPECT_EQ(report.vertices, 4U);
   EXPECT_EQ(report.faces, 4U);
@@ -25,13 +25,13 @@ TEST(Surface_report, of_a_tetrahedron) {
   EXPECT_EQ(report.box.max(), Eigen::Vector3d(1, 1, 1));
 }
 
-TEST(Surface_report, of_an_open_one) {
+TEST(Surface_report, of_an_open_surface_counts_its_border_edges) {
   const auto report = inspect_surface(corners, std::span(tetrahedron).first(3));
   EXPECT_FALSE(report.closed);
   EXPECT_EQ(report.border_edges, 3U);
 }
 
-TEST(Surface_report, of_edges_with_more_than_two_faces) {
+TEST(Surface_report, counts_edges_with_more_than_two_faces) {
   // Three leaves of a book, then four: an even number of faces around its back, but borders elsewhere.
   const std::vector<Point> points{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   const std::vector<Corners> leaves{{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {0, 1, 5}};
@@ -44,7 +44,7 @@ TEST(Surface_report, of_edges_with_more_than_two_faces) {
   }
 }
 
-TEST(Surface_report, of_two_pieces_that_touch_without_sharing_a_vertex) {
+TEST(Surface_report, counts_components_that_touch_without_sharing_a_vertex) {
   auto points = corners;
   points.insert(points.end(), {{-0.0, 0, 0}, {-1, 0, 0}, {0, -1, 0}});
   auto faces = tetrahedron;
@@ -54,14 +54,14 @@ TEST(Surface_report, of_two_pieces_that_touch_without_sharing_a_vertex) {
   EXPECT_EQ(report.duplicate_vertices, 1U);
 }
 
-TEST(Surface_report, of_faces_without_area) {
+TEST(Surface_report, counts_zero_area_faces) {
   const std::vector<Point> points{{0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, {0.4, 0.4, 0.4}, {1, 0, 0}};
   const std::vector<Corners> faces{{0, 1, 2}, {0, 0, 3}, {3, 3, 3}, {0, 1, 3}};
   const auto report = inspect_surface(points, faces);
   EXPECT_EQ(report.degenerate_faces, 3U);
 }
 
-TEST(Surface_report, of_no_vertices_and_unused_ones_far_away) {
+TEST(Surface_report, ignores_unused_vertices_in_the_box) {
   EXPECT_FALSE(inspect_surface({}, {}).closed);
   auto points = corners;
   points.emplace_back(99, 99, 99);

@@ -52,7 +52,7 @@ TEST_F(Vtp, may_be_empty) {
   EXPECT_EQ(found["point_data"], Json({{"region", Json::array()}}));
 }
 
-TEST_F(Vtp, refuses_arrays_of_another_length_and_cells_of_no_point) {
+TEST_F(Vtp, refuses_arrays_of_a_wrong_length_and_cells_with_a_point_out_of_range) {
   auto data = square();
   data.point_data[0].values = std::vector<std::uint32_t>{1, 2, 3};
   EXPECT_THROW(write_vtp(file, data), Bad_argument);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is no scene: one error each, on one line, with file, place and cause.
+// Invalid scenes: one error each, on one line, with file, JSON pointer and cause.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -45,14 +45,14 @@ std::string with_deformation(std::string_view deformation) {
 
 // ---- Structure ----
 
-TEST(Bad_scene_file, unknown_key_in_a_motion) {
+TEST(Bad_scene_file, an_unknown_key_in_a_motion_is_refused) {
   EXPECT_EQ(
       error_of(
           R"({"objects": [{"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "a.off", "motion": {"pc": "a"}}]})"),
       R"(scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, keyframes, sequence, deform))");
 }
 
-TEST(Bad_scene_file, unknown_keys_everywhere_else) {
+TEST(Bad_scene_file, unknown_keys_are_refused_everywhere) {
   EXPECT_EQ(error_of(R"({"object": []})"),
             R"(scene.json: /: unknown key "object" (expected one of name, description, frames, objects, ignore))");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "colour": 1)")).substr(0, 46),
@@ -75,7 +75,7 @@ TEST(Bad_scene_file, an_unknown_key_cannot_break_the_line_of_the_message) {
   EXPECT_LT(error_of("{\"" + std::string(100'000, 'x') + "\": 1}").size(), 300U);
 }
 
-TEST(Bad_scene_file, missing_keys) {
+TEST(Bad_scene_file, missing_keys_are_named) {
   EXPECT_EQ(error_of("{}"), R"(scene.json: /: missing key "objects")");
   EXPECT_EQ(error_of(R"({"objects": [{"mesh": "a.off"}]})"), R"(scene.json: /objects/0: missing key "name")");
   EXPECT_EQ(error_of(R"({"objects": [{"name": "a"}]})"), "scene.json: /objects/0: missing key: one of mesh, shape");
@@ -89,14 +89,14 @@ TEST(Bad_scene_file, missing_keys) {
             R"(scene.json: /objects/0/motion/deform/0/travel: missing key "way_points")");
 }
 
-TEST(Bad_scene_file, keys_that_exclude_each_other) {
+TEST(Bad_scene_file, mutually_exclusive_keys_are_refused) {
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "shape": {"teapot": {}})")),
             "scene.json: /objects/0: mesh and shape exclude each other");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "motion": {"pc2": "a", "deform": []})")),
             "scene.json: /objects/0/motion: pc2 and deform exclude each other");
 }
 
-TEST(Bad_scene_file, wrong_types) {
+TEST(Bad_scene_file, wrong_types_are_refused) {
   EXPECT_EQ(error_of("[]"), "scene.json: /: expected an object, found array");
   EXPECT_EQ(error_of("3"), "scene.json: /: expected an object, found number");
   EXPECT_EQ(error_of(R"({"objects": {}})"), "scene.json: /objects: expected an array, found object");
@@ -117,7 +117,7 @@ TEST(Bad_scene_file, wrong_types) {
             "scene.json: /objects/0/motion/sequence: expected an object, found number");
 }
 
-TEST(Bad_scene_file, wrong_numbers_of_components) {
+TEST(Bad_scene_file, wrong_numbers_of_components_are_refused) {
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "place": {"scale": [1, 2]})")),
             "scene.json: /objects/0/place/scale: expected 3 numbers, found 2");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "scattered_side": [1, 2, 3, 4])")),
@@ -126,7 +126,7 @@ TEST(Bad_scene_file, wrong_numbers_of_components) {
             "scene.json: /objects/0/scattered_side/2: expected a number, found string");
 }
 
-TEST(Bad_scene_file, counts_out_of_range) {
+TEST(Bad_scene_file, counts_out_of_range_are_refused) {
   for (const std::string bad : {"0", "-1", "100001", "1.5", "1e30", "18446744073709551617"}) {
     const std::string message = error_of(with_object(R"("mesh": "a.off", "particles": )" + bad));
     EXPECT_TRUE(message.starts_with("scene.json: /objects/0/particles: ")) << message;
@@ -140,11 +140,11 @@ TEST(Bad_scene_file, counts_out_of_range) {
             "scene.json: /frames: 0 is not a whole number from 1 to 1000000");
 }
 
-TEST(Bad_scene_file, numbers_too_large_for_a_double) {
+TEST(Bad_scene_file, numbers_too_large_for_a_double_are_refused) {
   EXPECT_EQ(error_of("{\n  \"frames\": 1e999\n}"), "scene.json:2:17: number overflow parsing '1e999'");
 }
 
-TEST(Bad_scene_file, shapes_and_deformations_out_of_range) {
+TEST(Bad_scene_file, shapes_and_deformations_out_of_range_are_refused) {
   EXPECT_EQ(error_of(with_object(R"("shape": {"torus_knot": {"p": 2, "q": 4}})")),
             "scene.json: /objects/0/shape/torus_knot: torus_knot: p = 2 and q = 4 have a common divisor");
   EXPECT_EQ(error_of(with_object(R"("shape": {"torus_knot": {"tube": 0}})")),
@@ -159,7 +159,7 @@ TEST(Bad_scene_file, shapes_and_deformations_out_of_range) {
       R"(scene.json: /objects/0/motion/deform/0/travel/path: "curly" is not one of linear, smooth, closed)");
 }
 
-TEST(Bad_scene_file, scales_that_turn_the_shape_inside_out_and_directions_without_one) {
+TEST(Bad_scene_file, negative_scales_and_zero_directions_are_refused) {
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "place": {"scale": 0})")),
             "scene.json: /objects/0/place/scale: 0 is not > 0");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "place": {"scale": [1, -1, 1]})")),
@@ -170,12 +170,12 @@ TEST(Bad_scene_file, scales_that_turn_the_shape_inside_out_and_directions_withou
             "scene.json: /objects/0/place/rotate/axis: a direction must not be zero");
 }
 
-TEST(Bad_scene_file, placement_out_of_the_range_of_numbers) {
+TEST(Bad_scene_file, a_placement_that_overflows_is_refused) {
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "place": {"scale": 1e308, "translate": [1.5e308, 0, 0]})")),
-            "scene.json: /objects/0/place: moves a vertex to a non-finite place");
+            "scene.json: /objects/0/place: moves a vertex to a non-finite position");
 }
 
-TEST(Bad_scene_file, names_that_are_empty_taken_or_unprintable) {
+TEST(Bad_scene_file, empty_duplicate_and_unprintable_names_are_refused) {
   EXPECT_EQ(error_of(R"({"objects": [{"name": "", "mesh": "a.off"}]})"), "scene.json: /objects/0/name: is empty");
   EXPECT_EQ(error_of(R"({"objects": [{"name": "a", "mesh": "a.off"}, {"name": "a", "mesh": "a.off"}]})"),
             R"(scene.json: /objects/1/name: "a" is taken by an object above)");
@@ -183,7 +183,7 @@ TEST(Bad_scene_file, names_that_are_empty_taken_or_unprintable) {
             R"(scene.json: /objects/0/name: "a\tb" has a control character)");
 }
 
-TEST(Bad_scene_file, empty_lists) {
+TEST(Bad_scene_file, empty_lists_are_refused) {
   EXPECT_EQ(error_of(R"({"objects": []})"), "scene.json: /objects: is empty");
   EXPECT_EQ(error_of(with_deformation("")), "scene.json: /objects/0/motion/deform: is empty");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "motion": {"sequence": []})")),
@@ -192,35 +192,33 @@ TEST(Bad_scene_file, empty_lists) {
 
 // ---- Frames ----
 
-TEST(Bad_scene_file, more_frames_than_a_motion_holds) {
+TEST(Bad_scene_file, more_frames_than_a_motion_has_are_refused) {
   EXPECT_EQ(error_of(R"({"frames": 4, "objects": [{"name": "a", "mesh": "a.off",
                        "motion": {"sequence": {"pattern": "frame_#.off", "first": 1, "last": 3}}}]})"),
             "scene.json: /frames: 4 frames are more than the 3 of the shortest motion");
 }
 
-TEST(Bad_scene_file, no_frames_though_no_motion_ends) {
+TEST(Bad_scene_file, a_missing_number_of_frames_is_refused_if_no_motion_ends) {
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "motion": {"deform": [{"spin": {}}]})")),
             R"(scene.json: /: missing key "frames": no motion ends by itself)");
 }
 
-TEST(Bad_scene_file, patterns_that_name_no_sequence) {
+TEST(Bad_scene_file, patterns_that_name_no_sequence_are_refused) {
   const auto with_pattern = [](const std::string& pattern, const std::string& last) {
     return with_object(R"("mesh": "a.off", "motion": {"sequence": {"pattern": ")" + pattern +
                        R"(", "first": 2, "last": )" + last + "}}");
   };
-  EXPECT_EQ(
-      error_of(with_pattern("frame.off", "3")),
-      R"(scene.json: /objects/0/motion/sequence/pattern: "frame.off" must have one run of # in the number's place)");
-  EXPECT_EQ(
-      error_of(with_pattern("#_#.off", "3")),
-      R"(scene.json: /objects/0/motion/sequence/pattern: "#_#.off" must have one run of # in the number's place)");
+  EXPECT_EQ(error_of(with_pattern("frame.off", "3")),
+            R"(scene.json: /objects/0/motion/sequence/pattern: "frame.off" must have one run of # for the number)");
+  EXPECT_EQ(error_of(with_pattern("#_#.off", "3")),
+            R"(scene.json: /objects/0/motion/sequence/pattern: "#_#.off" must have one run of # for the number)");
   EXPECT_EQ(error_of(with_pattern("frame_#.off", "1")),
             "scene.json: /objects/0/motion/sequence/last: 1 is not a whole number from 2 to 1000000");
 }
 
 // ---- Files ----
 
-TEST(Bad_scene_file, paths_that_leave_the_folder) {
+TEST(Bad_scene_file, paths_that_leave_the_folder_are_refused) {
   for (const std::string bad : {"../a.off", "x/../../a.off", "/etc/passwd", "..", "."})
     EXPECT_EQ(error_of(with_object(R"("mesh": ")" + bad + R"(")")),
               R"(scene.json: /objects/0/mesh: ")" + bad + R"(" is not inside the scene's folder)");
@@ -233,13 +231,13 @@ TEST(Bad_scene_file, paths_that_leave_the_folder) {
             R"(scene.json: /objects/0/motion/sequence/pattern: "../1.off" is not inside the scene's folder)");
 }
 
-TEST(Bad_scene_file, absolute_path_to_a_file_inside_the_folder) {
+TEST(Bad_scene_file, an_absolute_path_is_refused_even_to_a_file_inside_the_folder) {
   const Temporary_folder folder;
   const auto mesh = folder.write("a.off", tetrahedron());
   EXPECT_THROW(read(folder, with_object(R"("mesh": ")" + mesh.string() + R"(")")), Bad_scene);
 }
 
-TEST(Bad_scene_file, neighbour_whose_name_starts_like_the_folders) {
+TEST(Bad_scene_file, a_sibling_folder_whose_name_starts_with_the_folder_s_is_refused) {
   const Temporary_folder folder;
   for (const auto* name : {"scenes", "scenes_secret"}) create_directory(folder.path() / name);
   folder.write("scenes_secret/a.off", tetrahedron());
@@ -247,7 +245,7 @@ TEST(Bad_scene_file, neighbour_whose_name_starts_like_the_folders) {
   EXPECT_THROW(read_scene(scene), Bad_scene);
 }
 
-TEST(Bad_scene_file, links_that_lead_outside) {
+TEST(Bad_scene_file, links_that_lead_outside_are_refused) {
   const Temporary_folder outside;
   outside.write("a.off", tetrahedron());
   const Temporary_folder folder;
@@ -257,13 +255,13 @@ TEST(Bad_scene_file, links_that_lead_outside) {
   EXPECT_THROW(read(folder, with_object(R"("mesh": "folder/a.off")")), Bad_scene);
 }
 
-TEST(Bad_scene_file, links_in_a_circle) {
+TEST(Bad_scene_file, cyclic_links_are_refused) {
   const Temporary_folder folder;
   std::filesystem::create_symlink("loop.off", folder.path() / "loop.off");
   EXPECT_THROW(read(folder, with_object(R"("mesh": "loop.off")")), Bad_scene);
 }
 
-TEST(Bad_scene_file, file_names_with_a_hidden_end) {
+TEST(Bad_scene_file, file_names_with_a_null_character_are_refused) {
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off\u0000.txt")")),
             R"(scene.json: /objects/0/mesh: "a.off\u0000.txt" has a control character)");
 }
@@ -290,21 +288,21 @@ TEST(Bad_scene_file, syntax_errors_have_line_and_column) {
   EXPECT_EQ(error_of("{\"objects\": [{\"name\": \"a\"}]} x").substr(0, 17), "scene.json:1:30: ");
 }
 
-TEST(Bad_scene_file, what_json_has_not) {
+TEST(Bad_scene_file, text_that_is_not_json_is_refused) {
   for (const std::string bad : {"NaN", "Infinity", "// x", "\"\xff\"", "{'a': 1}", "01"}) {
     const std::string message = error_of(bad);
     EXPECT_TRUE(message.starts_with("scene.json:1:")) << message;
   }
 }
 
-TEST(Bad_scene_file, keys_that_stand_twice) {
-  EXPECT_EQ(error_of(R"({"objects": [], "objects": []})"), R"(scene.json: /: key "objects" stands twice)");
+TEST(Bad_scene_file, duplicate_keys_are_refused) {
+  EXPECT_EQ(error_of(R"({"objects": [], "objects": []})"), R"(scene.json: /: duplicate key "objects")");
   EXPECT_EQ(error_of(R"({"objects": [{"name": "a"}, {"name": "b", "mesh": "a.off", "name": "c"}]})"),
-            R"(scene.json: /objects/1: key "name" stands twice)");
-  EXPECT_EQ(error_of(R"({"x": [[1, {}], 2, {"y": {"z": 1, "z": 1}}]})"), R"(scene.json: /x/2/y: key "z" stands twice)");
+            R"(scene.json: /objects/1: duplicate key "name")");
+  EXPECT_EQ(error_of(R"({"x": [[1, {}], 2, {"y": {"z": 1, "z": 1}}]})"), R"(scene.json: /x/2/y: duplicate key "z")");
 }
 
-TEST(Bad_scene_file, bottomless_nesting) {
+TEST(Bad_scene_file, deep_nesting_is_refused) {
   for (const std::string open : {"[", "{\"a\":"}) {
     std::string text;
     for (int i = 0; i < 100'000; ++i) text += open;
@@ -314,7 +312,7 @@ TEST(Bad_scene_file, bottomless_nesting) {
             std::string::npos);
 }
 
-TEST(Bad_scene_file, scene_files_that_are_none) {
+TEST(Bad_scene_file, missing_irregular_and_huge_scene_files_are_refused) {
   const Temporary_folder folder;
   const auto message_of = [](const std::filesystem::path& file) {
     try {
@@ -332,7 +330,7 @@ TEST(Bad_scene_file, scene_files_that_are_none) {
   EXPECT_EQ(message_of(huge), huge.string() + ": is longer than 16 MiB, too long for a scene");
 }
 
-TEST(Bad_scene_file, ignored_names_that_are_no_objects) {
+TEST(Bad_scene_file, ignored_names_of_no_object_are_refused) {
   EXPECT_EQ(error_of(R"({"objects": [{"name": "a", "mesh": "a.off"}], "ignore": [["a", "a"], ["a", "A"]]})"),
             R"(scene.json: /ignore/1/1: there is no object "A")");
   EXPECT_EQ(error_of(R"({"objects": [{"name": "a", "mesh": "a.off"}], "ignore": [["a"]]})"),

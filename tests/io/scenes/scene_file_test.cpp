@@ -27,7 +27,7 @@ Point corner(const Scene_object& object, std::size_t i) {
   return object.mesh.point(Surface_mesh::Vertex_index(static_cast<std::uint32_t>(i)));
 }
 
-TEST(Read_scene, least_scene_has_one_frame_and_the_files_name) {
+TEST(Read_scene, a_minimal_scene_has_one_frame_and_the_file_s_name) {
   const Temporary_folder folder;
   folder.write("a.off", tetrahedron());
   Scene scene = read(folder, with_object(R"("mesh": "a.off")"));
@@ -45,7 +45,7 @@ TEST(Read_scene, least_scene_has_one_frame_and_the_files_name) {
   EXPECT_EQ(corner(object, 1), Point(1, 0, 0));
 }
 
-TEST(Read_scene, takes_every_setting) {
+TEST(Read_scene, reads_every_setting) {
   const Temporary_folder folder;
   const Scene scene = read(folder, R"({"name": "two", "description": "why", "frames": 7, "objects": [
     {"name": "a", "shape": {"icosphere": {"frequency": 2}}, "particles": 12, "scattered_side": [0, 0, -2]},
@@ -127,7 +127,7 @@ TEST(Read_scene, deforms_the_placed_shape_as_the_functions_do) {
   for (const auto v : object.mesh.vertices()) EXPECT_EQ(object.mesh.point(v), positions[v]);
 }
 
-TEST(Read_scene, fills_in_the_defaults_of_deformations) {
+TEST(Read_scene, uses_the_defaults_of_deformations) {
   const Temporary_folder folder;
   Scene scene = read(folder, R"({"frames": 50, "objects": [{"name": "a", "shape": {"icosphere": {"frequency": 2}},
     "motion": {"deform": [{"wobble": {}}, {"bend": {}}, {"twist": {}}, {"inflate": {}}, {"spin": {}},
@@ -141,7 +141,7 @@ TEST(Read_scene, fills_in_the_defaults_of_deformations) {
   for (const auto v : object.mesh.vertices()) EXPECT_EQ(object.mesh.point(v), positions[v]);
 }
 
-TEST(Read_scene, takes_a_sequence_as_a_list_or_a_pattern_and_its_length_as_the_scenes) {
+TEST(Read_scene, accepts_a_sequence_as_a_list_or_a_pattern_and_gets_its_length) {
   for (const std::string sequence :
        {R"(["m/007.off", "m/008.off", "m/009.off"])", R"({"pattern": "m/###.off", "first": 7, "last": 9})"}) {
     const Temporary_folder folder;
@@ -167,7 +167,7 @@ TEST(Read_scene, lasts_as_long_as_the_shortest_motion_that_ends) {
   EXPECT_EQ(scene.frames, 2U);
 }
 
-TEST(Read_scene, places_the_positions_of_files_too) {
+TEST(Read_scene, places_the_positions_of_files) {
   const Temporary_folder folder;
   for (int i = 1; i <= 3; ++i) folder.write("frame_" + std::to_string(i) + ".off", tetrahedron(i));
   Scene scene = read(folder, with_object(R"("mesh": "frame_1.off", "place": {"scale": 2, "translate": [0, 1, 0]},
@@ -204,7 +204,7 @@ TEST(Still_object, never_moves) {
   EXPECT_EQ(corner(object, 1), Point(4, 0, 0));
 }
 
-TEST(Pose, leaves_the_mesh_as_it_was_when_a_coordinate_is_not_finite) {
+TEST(Pose, leaves_the_mesh_unchanged_if_a_coordinate_is_not_finite) {
   const Temporary_folder folder;
   Scene_object object = still_object("it", folder.write("a.off", tetrahedron()));
   object.motion.pose = [](std::size_t, std::span<Point> positions) {
@@ -220,7 +220,7 @@ TEST(Pose, leaves_the_mesh_as_it_was_when_a_coordinate_is_not_finite) {
   EXPECT_EQ(corner(object, 1), Point(1, 0, 0));
 }
 
-TEST(Pose, writes_each_mesh_vertex_from_its_number_in_the_file) {
+TEST(Pose, moves_each_mesh_vertex_to_the_position_of_its_file_vertex) {
   const Temporary_folder folder;
   Scene_object object = still_object("it", folder.write("a.off", tetrahedron()));
   object.file_vertex = {3, 3, 0, 1};

@@ -286,7 +286,7 @@ bool is_huge(const Json& scene) {
 
 class Published_scenes : public testing::TestWithParam<fs::path> {};
 
-TEST_P(Published_scenes, keep_to_the_schema_and_can_be_played) {
+TEST_P(Published_scenes, follow_the_schema_and_can_be_played) {
   const Json json = read_json(GetParam());
   EXPECT_TRUE(Scene_schema().accepts(json));
   if (is_huge(json)) return;

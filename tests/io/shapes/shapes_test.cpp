@@ -77,13 +77,13 @@ std::string message_of(std::string_view patches) {
 
 class Teapot_grids : public testing::TestWithParam<Patch_grid> {};
 
-TEST_P(Teapot_grids, give_64uv_minus_8v_triangles_in_four_pieces_without_cracks) {
+TEST_P(Teapot_grids, give_64uv_minus_8v_triangles_in_four_components_without_cracks) {
   const auto [u, v] = GetParam();
   Surface_mesh mesh = teapot({.u = u, .v = v});
   EXPECT_EQ(mesh.number_of_faces(), 64 * u * v - 8 * v);
   const auto component = mesh.add_property_map<Surface_mesh::Face_index, std::size_t>("component").first;
   EXPECT_EQ(PMP::connected_components(mesh, component), 4U);
-  // Body and lid have one border each, handle and spout two. A crack would be one more.
+  // Body and lid have one border each, handle and spout two. A crack would add a border.
   EXPECT_EQ(number_of_borders(mesh), 6U);
   // Two discs and two open tubes.
   EXPECT_EQ(euler_characteristic(mesh), 2);
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Teapot_grids,
                          testing::Values(Patch_grid{1, 2}, Patch_grid{2, 3}, Patch_grid{3, 2}, Patch_grid{9, 10},
                                          Patch_grid{10, 9}, Patch_grid{7, 7}, Patch_grid{10, 10}, Patch_grid{1, 13}));
 
-TEST(Teapot, every_piece_faces_outward) {
+TEST(Teapot, every_component_faces_outward) {
   Surface_mesh mesh = teapot();
   const auto component = mesh.add_property_map<Surface_mesh::Face_index, std::size_t>("component").first;
   const std::size_t pieces = PMP::connected_components(mesh, component);
@@ -109,7 +109,7 @@ TEST(Teapot, every_piece_faces_outward) {
   }
 }
 
-TEST(Teapot, has_newells_size) {
+TEST(Teapot, has_newell_s_size) {
   CGAL::Bbox_3 box;
   const Surface_mesh mesh = teapot({.u = 6, .v = 6});
   for (const auto v : mesh.vertices()) box += mesh.point(v).bbox();
@@ -133,15 +133,15 @@ const std::string flat_patch =
     "0 0 0\n0 1 0\n0 2 0\n0 3 0\n1 0 0\n1 1 0\n1 2 0\n1 3 0\n"
     "2 0 0\n2 1 0\n2 2 0\n2 3 0\n3 0 0\n3 1 0\n3 2 0\n3 3 0\n";
 
-TEST(Bezier_patches, of_evenly_spaced_control_points_are_the_flat_square) {
+TEST(Bezier_patches, with_evenly_spaced_control_points_give_a_flat_square) {
   const Surface_mesh mesh = bezier_patches(flat_patch, "flat", {4, 5});
   EXPECT_EQ(mesh.number_of_faces(), 40U);
   EXPECT_NEAR(area(mesh), 9, 1e-12);
-  // Along a row is y, from row to row is x: outside is y cross x, below.
+  // Along a row is y, from row to row is x: y cross x points down, which is outside.
   EXPECT_NEAR(volume(mesh, Point(0, 0, 1), [](auto) { return true; }), 3, 1e-12);
 }
 
-TEST(Bezier_patches, that_disagree_on_their_sides_are_made_to_agree) {
+TEST(Bezier_patches, with_opposite_orientations_are_made_consistent) {
   // The second patch shares the first row of the flat one, named in the same direction: it lies on the other side of
   // it.
   std::string text = flat_patch;
@@ -161,28 +161,28 @@ TEST(Bezier_patches, name_the_line_of_a_broken_number) {
   EXPECT_EQ(message_of(text), "test.bpt:13: expected a coordinate");
 }
 
-TEST(Bezier_patches, refuse_a_point_number_past_the_points) {
+TEST(Bezier_patches, refuse_a_point_index_out_of_range) {
   std::string text = flat_patch;
   text.replace(text.find(" 15\n"), 3, " 16");
   EXPECT_EQ(message_of(text), "test.bpt:2: patch refers to point 16 of 16");
 }
 
-TEST(Bezier_patches, refuse_negative_point_numbers) {
+TEST(Bezier_patches, refuse_negative_point_indices) {
   std::string text = flat_patch;
   text.replace(text.find(" 15\n"), 3, " -1");
   EXPECT_EQ(message_of(text), "test.bpt:2: expected a point number");
 }
 
-TEST(Bezier_patches, refuse_what_is_cut_short) {
+TEST(Bezier_patches, refuse_truncated_text) {
   EXPECT_EQ(message_of(flat_patch.substr(0, flat_patch.size() - 4)), "test.bpt:18: expected a coordinate");
   EXPECT_EQ(message_of(""), "test.bpt:1: expected the number of patches");
 }
 
-TEST(Bezier_patches, refuse_what_follows_the_last_point) {
+TEST(Bezier_patches, refuse_text_after_the_last_point) {
   EXPECT_EQ(message_of(flat_patch + "7\n"), "test.bpt:19: expected the end after the last point");
 }
 
-TEST(Bezier_patches, refuse_counts_that_the_text_cannot_hold) {
+TEST(Bezier_patches, refuse_counts_too_large_for_the_text) {
   EXPECT_EQ(message_of("4000000000 1\n0 1 2\n0 1 2\n"),
             "test.bpt:1: announces 4000000000 patches and 1 points, more than the text can hold");
   EXPECT_EQ(message_of("1 4000000000\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n"),
@@ -195,17 +195,17 @@ TEST(Bezier_patches, refuse_non_finite_and_enormous_coordinates) {
     std::string text = flat_patch;
     text.replace(text.find("3 3 0"), 1, bad);
     EXPECT_EQ(message_of(text),
-              "test.bpt:18: coordinate " + (bad == "1e200" ? "1e+200" : bad) + " is not within 1e100");
+              "test.bpt:18: coordinate " + (bad == "1e200" ? "1e+200" : bad) + " is not between -1e100 and 1e100");
   }
 }
 
-TEST(Bezier_patches, refuse_patches_without_area) {
+TEST(Bezier_patches, refuse_text_whose_patches_all_have_no_area) {
   EXPECT_EQ(message_of("1 1\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n1 2 3\n"), "test.bpt: every patch is a point or a line");
 }
 
 // ---- Spheres ----
 
-TEST(Uv_sphere, of_the_papers_experiment_has_1260_triangles) { EXPECT_EQ(uv_sphere(30, 22).number_of_faces(), 1260U); }
+TEST(Uv_sphere, of_the_paper_s_experiment_has_1260_triangles) { EXPECT_EQ(uv_sphere(30, 22).number_of_faces(), 1260U); }
 
 TEST(Uv_sphere, is_watertight_faces_outward_and_has_radius_one) {
   for (const auto& [slices, stacks] : std::vector<std::pair<std::size_t, std::size_t>>{{3, 2}, {5, 3}, {30, 22}}) {
@@ -229,7 +229,7 @@ TEST(Icosphere, is_watertight_faces_outward_and_has_radius_one) {
   }
 }
 
-TEST(Icosphere, of_frequency_one_is_the_regular_icosahedron_and_finer_ones_near_the_ball) {
+TEST(Icosphere, of_frequency_one_is_the_regular_icosahedron_and_finer_ones_approach_the_ball) {
   const double edge = 1 / std::sin(2 * pi / 5);
   EXPECT_NEAR(volume(icosphere(1)), 5 * (3 + std::sqrt(5.0)) / 12 * std::pow(edge, 3), 1e-14);
   EXPECT_NEAR(volume(icosphere(60)), 4 * pi / 3, 2e-3);
@@ -248,7 +248,7 @@ TEST(Torus_knot, is_a_closed_tube_that_faces_outward) {
   }
 }
 
-TEST(Torus_knot, with_one_turn_and_no_other_is_the_torus) {
+TEST(Torus_knot, with_p_1_and_q_0_is_the_torus) {
   // The knot is then the circle of radius R = 3/2 radius; Pappus: area 4 pi^2 R r, volume 2 pi^2 R r^2.
   const Surface_mesh mesh = torus_knot({.p = 1, .q = 0, .radius = 2, .tube = 0.5, .segments = 300, .sides = 200});
   EXPECT_NEAR(area(mesh), 4 * pi * pi * 3 * 0.5, 0.02);
@@ -266,7 +266,7 @@ TEST(Cloth, is_the_unit_square_facing_up) {
   EXPECT_NEAR(volume(mesh, Point(0, 0, -1), [](auto) { return true; }), 1.0 / 3, 1e-15);
 }
 
-TEST(Shapes, refuse_counts_below_the_least) {
+TEST(Shapes, refuse_counts_below_the_minimum) {
   EXPECT_THROW(uv_sphere(2, 5), Bad_argument);
   EXPECT_THROW(uv_sphere(3, 1), Bad_argument);
   EXPECT_THROW(icosphere(0), Bad_argument);

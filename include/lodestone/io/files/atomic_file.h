@@ -7,11 +7,11 @@
 
 namespace lodestone {
 
-/// A file that appears whole or not at all: written under another name in the same folder, renamed by `commit`.
+/// A file that appears whole or not at all: written under a temporary name in the same folder, renamed by `commit`.
 class Atomic_file {
  public:
   /// Creates the folder if it is missing.
-  /// @throws Bad_output  the folder or the file cannot be made
+  /// @throws Bad_output  the folder or the file cannot be created
   explicit Atomic_file(std::filesystem::path target);
   Atomic_file(const Atomic_file&) = delete;
   Atomic_file& operator=(const Atomic_file&) = delete;
@@ -20,11 +20,11 @@ class Atomic_file {
 
   /// @throws Bad_output  the disk is full, or any other error of the system
   void write(std::string_view bytes);
-  /// Waits until the system has everything on disk. Of several files that belong together each is finished before the
-  /// first is committed: after that only a rename can fail.
+  /// Waits until everything is on disk. Of several files that belong together, finish each before the first `commit`:
+  /// after that only a rename can fail.
   /// @throws Bad_output
   void finish();
-  /// Finishes, and puts the file in place of whatever had its name.
+  /// Finishes, and renames the file to its target, replacing any existing file.
   /// @throws Bad_output
   void commit();
 

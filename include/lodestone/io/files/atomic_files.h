@@ -6,21 +6,21 @@
 
 namespace lodestone {
 
-/// Files of one folder that appear together, once all of them are written: one per frame, say. Until `commit` they
-/// stand in a hidden folder beside their places.
+/// Files of one folder that appear together once all of them are written, such as one file per frame. Until `commit`
+/// they are in a hidden folder inside it.
 class Atomic_files {
  public:
   /// Creates the folder if it is missing.
-  /// @throws Bad_output  it cannot be made
+  /// @throws Bad_output  the folder cannot be created
   explicit Atomic_files(std::filesystem::path folder);
   Atomic_files(const Atomic_files&) = delete;
   Atomic_files& operator=(const Atomic_files&) = delete;
   /// Without `commit` nothing is left behind.
   ~Atomic_files();
 
-  /// Where to write the file that will be `name`, relative to the folder and inside it.
+  /// Returns the path to write to. `commit` then renames the file to `name`, a path relative to and inside the folder.
   std::filesystem::path add(const std::filesystem::path& name);
-  /// Puts the files in place of whatever had their names, in the order of `add`: only a rename can fail now.
+  /// Renames the files to their targets in the order of `add`, replacing existing files. Only a rename can fail.
   /// @throws Bad_output
   void commit();
 

@@ -6,7 +6,7 @@
 namespace lodestone {
 
 struct Mesh_file_options {
-  std::size_t max_faces = 50'000'000;  ///< files that announce or hold more faces are refused
+  std::size_t max_faces = 50'000'000;  ///< files that have or announce more faces are refused
 };
 
 }  // namespace lodestone

@@ -14,33 +14,35 @@
 
 namespace lodestone {
 
-/// A mesh as read from a file. Face number i of the mesh is the i-th face of the file.
+/// A mesh as read from a file. Faces keep their indices: face i of the mesh is face i of the file.
 ///
-/// A half-edge mesh cannot hold everything a file can: a vertex on a non-manifold edge, or named twice by one face,
-/// stands several times in the mesh, and a vertex that no face uses is left out. `file_vertex` keeps the way back.
-/// Where neighbouring faces of the file are oriented against each other, some are reversed.
+/// A half-edge mesh cannot represent everything a file can. The reader duplicates a vertex that is on a non-manifold
+/// edge, or that one face names twice. It drops vertices that no face uses. `file_vertex` maps mesh vertices to file
+/// vertices. Where neighbouring faces of the file have opposite orientations, some are reversed.
 ///
-/// An STL file lists corners instead of vertices: equal corners are one vertex, numbered in order of first appearance.
+/// An STL file lists corners instead of vertices: equal corners are one vertex, indexed in order of first appearance.
 struct Mesh_file {
   Surface_mesh mesh;
-  std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its number in the file, from 0
+  std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its index in the file
   std::size_t file_vertices = 0;           ///< number of vertices in the file
 };
 
-/// Reads a triangle mesh from OFF, OBJ, PLY (ascii, binary) or STL (ascii, binary), by the file's extension.
+/// Reads a triangle mesh, in the format of the file's extension: OFF, OBJ, PLY (ascii, binary), STL (ascii, binary),
+/// glTF 2.0 (.gltf, .glb; at rest), MD2 or MD3 (first frame).
 ///
 /// The file is checked before CGAL's reader sees it: header counts against the file's size, indices against counts,
 /// finite coordinates, triangles only, the face limit. Zero-area faces, faces that name a vertex twice, non-manifold
 /// edges, duplicate vertices, several components and open borders are legal. Binary OFF and free-form surfaces in OBJ
-/// are refused. Linear in the file's size but for a vertex of very many faces: CGAL walks around it once per face.
+/// are refused. Cost: linear in the file's size, except at a vertex with very many faces, which CGAL circles once per
+/// face.
 ///
-/// @throws Bad_mesh with file, line (text formats) or byte (binary formats), and cause
+/// @throws Bad_mesh  with file, line (text formats) or byte (binary formats), and cause
 Mesh_file read_mesh(const std::filesystem::path& file, const Mesh_file_options& options = {});
 
-/// The same from points and triangles in memory.
+/// Builds the same result from points and triangles in memory.
 /// @param points  finite
-/// @param faces   vertex numbers below the number of points
-/// @param name    what error messages call them
+/// @param faces   vertex indices, each below the number of points
+/// @param name    used in error messages in place of a file name
 /// @throws Bad_mesh
 Mesh_file mesh_of(std::span<const Point> points, std::span<const Corners> faces, const std::string& name);
 

@@ -12,25 +12,25 @@
 
 namespace lodestone {
 
-/// Triangles whose vertices move, as files hold them.
+/// Triangles whose vertices move, as read from files.
 struct Animation {
   std::string kind;                 ///< mesh, sequence, pc2, mdd, gltf, md2, md3
-  std::size_t vertices = 0;         ///< of the file
-  std::vector<Corners> faces = {};  ///< vertex numbers of the file; none of a point cache without its mesh
+  std::size_t vertices = 0;         ///< number of vertices in the file
+  std::vector<Corners> faces = {};  ///< file vertices; empty for a point cache without its mesh
   Motion motion = {};               ///< at least one frame
-  double frames_per_second = 0;     ///< 0: the file does not say
+  double frames_per_second = 0;     ///< 0: the file does not specify it
 };
 
 struct Animation_options {
-  std::filesystem::path mesh = {};  ///< of a point cache: the mesh file that it moves; empty: positions alone
-  double frames_per_second = 30;    ///< at which a glTF animation is sampled; > 0
-  std::variant<std::size_t, std::string> animation = std::size_t{0};  ///< of a glTF file: its number or name
+  std::filesystem::path mesh = {};  ///< for a point cache: the mesh file that it moves; empty: positions only
+  double frames_per_second = 30;    ///< sampling rate of a glTF animation; > 0
+  std::variant<std::size_t, std::string> animation = std::size_t{0};  ///< in a glTF file: its index or name
 };
 
-/// Reads any of: a mesh file (one frame), a pattern of numbered mesh files, a point cache `.pc2` or `.mdd`, glTF, MD2,
-/// MD3. Frames are read as `motion.pose` asks for them.
-/// @throws Bad_mesh, Bad_motion  a file that is missing or broken
-/// @throws Bad_argument          a mesh for something that is no point cache
+/// Reads one of: a mesh file (one frame), a pattern of numbered mesh files, a point cache `.pc2` or `.mdd`, glTF, MD2,
+/// MD3. `motion.pose` reads each frame on demand.
+/// @throws Bad_mesh, Bad_motion  a file is missing or broken
+/// @throws Bad_argument          `options.mesh` is given, and `input` is not a point cache
 Animation read_animation(const std::filesystem::path& input, const Animation_options& options = {});
 
 }  // namespace lodestone

@@ -13,50 +13,50 @@
 
 namespace lodestone {
 
-/// How the vertices of one object move: a function from the frame number to all positions.
+/// How the vertices of one object move: a function from the frame index to all positions.
 struct Motion {
-  std::size_t frames = 0;  ///< number of frames it holds; 0: any number
+  std::size_t frames = 0;  ///< number of frames; 0: unlimited
 
   /// Writes the positions of `frame` (counted from 0), one per vertex of the object's file or shape, in that order.
-  /// @throws Bad_motion when the frame is broken or past the end
+  /// @throws Bad_motion  the frame is broken or past the end
   std::function<void(std::size_t frame, std::span<Point> positions)> pose;
 };
 
-/// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). Frames are read one by one, as asked for;
-/// several threads may ask at once.
+/// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). `pose` reads each frame on demand, and several
+/// threads may call it at once.
 /// @param vertices  number of vertices the cache must have
-/// @throws Bad_motion  not a PC2 file, another number of vertices, shorter than its header says; when a frame is
-///                     read: a non-finite coordinate
+/// @throws Bad_motion  not a PC2 file, a wrong number of vertices, shorter than its header says; from `pose`: a
+///                     non-finite coordinate
 Motion read_point_cache(const std::filesystem::path& file, std::size_t vertices);
 
-/// The same from a point cache in the MDD format (LightWave, Blender, Houdini). It has no signature: the size of the
-/// file must be exactly what its header asks for. The times of the frames are not used.
+/// The same from a point cache in the MDD format (LightWave, Blender, Houdini). The format has no signature, so the
+/// file's size must be exactly what its header implies. The times of the frames are ignored.
 Motion read_mdd_cache(const std::filesystem::path& file, std::size_t vertices);
 
 /// Motion from the frames of a game model, MD2 or MD3. The file is kept in memory.
 /// @param vertices  number of vertices the model must have
-/// @throws Bad_motion  a broken file, another number of vertices; when a frame is read: a non-finite coordinate
+/// @throws Bad_motion  a broken file, a wrong number of vertices; from `pose`: a non-finite coordinate
 Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices);
 
-/// Motion from one mesh file per frame, all with the same faces. The first is read at once, for its faces; each file is
-/// read when its frame is asked for. Any format of `read_mesh`; positions come in file order.
+/// Motion from one mesh file per frame, all with the same faces. The first file is read at once, for its faces; `pose`
+/// reads the file of each frame on demand. Any format of `read_mesh`; positions come in file order.
 /// @param vertices  number of vertices each file must have
-/// @throws Bad_motion  no file, a file that does not exist, a broken first one; when a frame is read: a broken file,
-///                     another number of vertices or other faces than the first
+/// @throws Bad_motion  no file, a file that does not exist, a broken first file; from `pose`: a broken file, a wrong
+///                     number of vertices, faces that differ from those of the first file
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices);
 
 struct Gltf_motion_options {
-  double frames_per_second = 30;  ///< at which the animation is sampled; > 0
-  /// Which animation of the file: its number from 0, or its name.
+  double frames_per_second = 30;  ///< sampling rate; > 0
+  /// Which animation of the file: its index or its name.
   std::variant<std::size_t, std::string> animation = std::size_t{0};
 };
 
-/// Motion from an animation of a glTF 2.0 file (.gltf, .glb): nodes, skins and morph targets. Frame t is the moment
-/// t / frames_per_second; the last frame is the last before the animation's end, or at it. The file is kept in memory,
-/// frames are computed as asked for. Vertices come as `read_mesh` numbers those of the file.
+/// Motion from an animation of a glTF 2.0 file (.gltf, .glb): nodes, skins and morph targets. Frame t is sampled at
+/// t / frames_per_second seconds; the last frame is the last at or before the animation's end. The file is kept in
+/// memory, and `pose` computes frames on demand. Vertices have the indices that `read_mesh` gives those of the file.
 /// @param vertices  number of vertices the file must have
-/// @throws Bad_motion    a broken file, another number of vertices, no such animation, more than a million frames
-/// @throws Bad_argument  no frame rate
+/// @throws Bad_motion    a broken file, a wrong number of vertices, no such animation, more than a million frames
+/// @throws Bad_argument  the frame rate is not positive and finite
 Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices,
                         const Gltf_motion_options& options = {});
 

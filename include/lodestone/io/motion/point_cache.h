@@ -6,10 +6,11 @@
 
 namespace lodestone {
 
-/// PC2: Blender, 3ds Max, Maya; little endian, with a signature. MDD: LightWave, Blender, Houdini; big endian, without.
+/// PC2: Blender, 3ds Max, Maya; little endian, with a signature. MDD: LightWave, Blender, Houdini; big endian, no
+/// signature.
 enum class Cache_format { pc2, mdd };
 
-/// What a point cache says about itself.
+/// The header of a point cache.
 struct Point_cache {
   Cache_format format = Cache_format::pc2;
   std::size_t vertices = 0;
@@ -17,8 +18,9 @@ struct Point_cache {
   double frames_per_second = 0;  ///< from the times of an MDD cache; 0: unknown
 };
 
-/// Reads the header of a point cache, by the file's extension `.pc2` or `.mdd`, and holds it against the file's size.
-/// @throws Bad_motion  no such file, another extension, no cache of that format, shorter than its header says
+/// Reads the header of a point cache, in the format of its extension (`.pc2`, `.mdd`), and checks it against the file's
+/// size.
+/// @throws Bad_motion  no such file, another extension, not a cache of that format, shorter than its header says
 Point_cache read_point_cache_header(const std::filesystem::path& file);
 
 }  // namespace lodestone

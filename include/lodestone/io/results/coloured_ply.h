@@ -8,9 +8,9 @@
 
 namespace lodestone {
 
-/// Writes a mesh as binary PLY with a colour per vertex that shows its region, and the region's number as property
-/// `region`. Regions with neighbouring numbers get colours far apart. The file appears whole or not at all.
-/// @param regions  per vertex
+/// Writes a mesh as binary PLY with the region of each vertex as its colour, and the region's index as property
+/// `region`. Regions with consecutive indices get clearly different colours. The file appears whole or not at all.
+/// @param regions  per vertex: its region
 /// @throws Bad_output
 void write_coloured_ply(const std::filesystem::path& file, const Surface_mesh& mesh,
                         const std::vector<Region_index>& regions);

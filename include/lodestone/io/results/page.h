@@ -16,18 +16,18 @@ namespace lodestone {
 
 enum class Page_kind { detect, partition, experiment };
 
-/// What a page says about itself as a whole.
+/// What applies to a page as a whole.
 struct Page_head {
   Page_kind kind = Page_kind::detect;
   std::string title;
   std::optional<std::string> mode = {}, strategy = {};
-  std::size_t first_frame = 0;  ///< number in the scene of the page's first frame
-  std::size_t frame_step = 1;   ///< frames of the scene from one of the page to the next
+  std::size_t first_frame = 0;  ///< frame of the scene that is the page's first
+  std::size_t frame_step = 1;   ///< frames of the scene per frame of the page
   double frames_per_second = 30;
   std::optional<std::string> report = {};  ///< Markdown
 };
 
-/// Two faces that meet, with the ends of the segment in which they do; or a side of the polygon, if they are coplanar.
+/// Two faces in contact, with the ends of their common segment. If they are coplanar: one side of their common polygon.
 struct Page_contact {
   Object_id a = 0;
   std::uint32_t face_a = 0;
@@ -36,51 +36,53 @@ struct Page_contact {
   std::optional<std::array<double, 6>> ends = {};  ///< x y z of each; equal ends: a point
 };
 
-/// One frame. What is empty or missing in the first frame must be so in all.
+/// One frame. A part that is empty or missing in the first frame must be empty or missing in all.
 struct Page_frame {
   std::vector<Positions> positions;                        ///< per object
   std::vector<std::vector<std::uint32_t>> particles = {};  ///< per object: vertex of each particle, in region order
-  std::string numbers = {};                                ///< the frame's line of frames.jsonl, line break included
-  std::string stages = {};                                 ///< times and truth: a JSON object
+  std::string numbers = {};                                ///< the frame's line of frames.jsonl, with its line break
+  std::string stages = {};                                 ///< times and truth, as a JSON object
   std::optional<std::vector<Candidate_regions>> candidates = {};
   std::optional<std::vector<Page_contact>> contacts = {};
 };
 
 struct Page_plot {
   std::string name, title, description;
-  std::string spec;  ///< Vega-Lite, its data inline: JSON
+  std::string spec;  ///< Vega-Lite as JSON, with inline data
 };
 
-/// What the viewer shows, gathered frame by frame and packed as docs/page_format.md says.
+/// The data that the viewer shows, collected frame by frame and packed as docs/page_format.md describes.
 ///
-/// Positions are rounded to 65536 steps of the box that an object needs over all frames, so they are kept until the
-/// end: 24 bytes per vertex and frame. The same calls give the same bytes.
+/// Positions are quantised to 65536 steps of the object's bounding box over all frames, so all positions stay in memory
+/// until the end: 24 bytes per vertex and frame. The same calls give the same bytes.
 class Page {
  public:
   explicit Page(Page_head head) : head_(std::move(head)) {}
 
   /// Adds an object. All objects come before the first frame.
-  /// @throws Bad_argument  a corner that is no vertex
+  /// @throws Bad_argument  a corner that is not a vertex
   Object_id add_object(std::string name, std::uint32_t vertices, std::vector<Corners> corners);
-  /// The region of each vertex of an object from the next frame on. Labels that hold already change nothing.
-  /// @throws Bad_argument  no such object, another number of labels than of vertices
+  /// Sets the region of each vertex of an object from the next frame on. Labels that equal the current ones change
+  /// nothing.
+  /// @throws Bad_argument  no such object, not one label per vertex
   void set_regions(Object_id object, const std::vector<Region_index>& labels);
-  /// @throws Bad_argument  other objects or vertices than the page has, a part that earlier frames have or lack
+  /// @throws Bad_argument  the frame differs from the page in its objects or vertices, or from the first frame in its
+  ///                       parts
   /// @throws Bad_mesh      a coordinate that is not finite
   void add_frame(Page_frame frame);
-  /// @throws Bad_argument  its specification is not JSON
+  /// @throws Bad_argument  the specification is not JSON
   void add_plot(Page_plot plot);
 
   const std::string& title() const { return head_.title; }
   std::size_t frames() const { return frames_.size(); }
   const std::vector<Corners>& corners(Object_id object) const { return objects_.at(object).corners; }
 
-  /// The container.
+  /// The container of docs/page_format.md.
   std::string data() const;
 
  private:
   struct Partition_from {
-    std::size_t frame = 0;  ///< of the page
+    std::size_t frame = 0;  ///< of the page, from which the labels apply
     std::size_t regions = 0;
     std::vector<Region_index> labels;
   };
@@ -98,16 +100,16 @@ class Page {
   std::vector<Page_plot> plots_;
 };
 
-/// How many frames of a scene lie between two of its page: 1, unless the page would get too long.
+/// Frames of a scene per frame of its page: 1, unless the page would have too many frames.
 /// @param vertices  of all objects together
-/// @param most      frames of the page, at most; 0: as many as hold 5 million positions (about 15 MB of
-///                  page), and at least one
+/// @param most      maximum number of frames on the page; 0: as many as have 5 million positions together (about 15 MB
+///                  of page), and at least one
 std::size_t page_frame_step(std::size_t frames, std::size_t vertices, std::size_t most = 0);
 
-/// Writes a page: the template with the title in each place of `@LODESTONE_TITLE@`, escaped for HTML, and the data,
-/// as base64, in that of `@LODESTONE_DATA@`. Neither is looked through for further places.
+/// Writes a page: the template with every `@LODESTONE_TITLE@` replaced by the title, escaped for HTML, and
+/// `@LODESTONE_DATA@` replaced by the data in base64. The inserted text is not searched for further marks.
 /// @return number of bytes
-/// @throws Bad_argument  the template has not one place for the data
+/// @throws Bad_argument  the template does not have `@LODESTONE_DATA@` exactly once
 /// @throws Bad_output    as Atomic_file
 std::size_t write_page(Atomic_file& file, std::string_view page_template, std::string_view title,
                        std::string_view data);

@@ -6,15 +6,15 @@
 
 namespace lodestone {
 
-/// A table for people: columns aligned in a terminal, and valid Markdown.
+/// A table that has aligned columns in a terminal and is valid Markdown.
 class Text_table {
  public:
   explicit Text_table(std::vector<std::string> header);
 
-  /// @throws Bad_argument  another number of cells than the header has
+  /// @throws Bad_argument  the number of cells differs from that of the header
   void add(std::vector<std::string> row);
 
-  /// Cells that begin with a digit or a sign stand to the right. Ends with a line break.
+  /// The table, ending with a line break. Columns whose cells all begin with a digit or a sign are right-aligned.
   std::string text() const;
 
  private:

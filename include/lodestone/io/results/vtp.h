@@ -9,16 +9,17 @@
 
 #include "lodestone/mesh/concepts.h"
 
-/// Files that ParaView and other programs on VTK open: points with lines and triangles, and lists of them over time.
+/// Files for ParaView and other programs built on VTK: points with lines and polygons, and lists of such files over
+/// time.
 namespace lodestone {
 
-/// One number per point or per cell, under a name.
+/// A named array with one number per point or per cell.
 struct Vtp_array {
   std::string name;
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint32_t>, std::vector<double>> values;
 };
 
-/// What a .vtp file holds. Cells are numbered in VTK's order: first all vertices, then all lines, then all polygons.
+/// The contents of a .vtp file. Cells are in VTK's order: first all vertices, then all lines, then all polygons.
 struct Vtp_data {
   std::vector<Point> points = {};
   std::vector<std::vector<std::uint32_t>> vertices = {};  ///< cells of one point each
@@ -28,10 +29,10 @@ struct Vtp_data {
   std::vector<Vtp_array> cell_data = {};
 };
 
-/// Writes XML PolyData: a header that any text editor shows, and all numbers behind it as raw little-endian bytes
-/// (`appended` data). The file appears whole or not at all.
+/// Writes XML PolyData: a text header, followed by all numbers as raw little-endian bytes (`appended` data). The file
+/// appears whole or not at all.
 /// @throws Bad_output
-/// @throws Bad_argument  an array of another length than its points or cells, a cell that refers to no point
+/// @throws Bad_argument  an array without one number per point or cell, a cell that refers to a point out of range
 void write_vtp(const std::filesystem::path& file, const Vtp_data& data);
 
 /// One moment of a .pvd file.
@@ -40,7 +41,7 @@ struct Pvd_step {
   std::string file;  ///< relative to the .pvd file
 };
 
-/// Text of a .pvd file, the list of .vtp files that ParaView plays as one object over time.
+/// Text of a .pvd file: the list of .vtp files that ParaView plays as one object over time.
 std::string pvd_text(const std::vector<Pvd_step>& steps);
 
 }  // namespace lodestone

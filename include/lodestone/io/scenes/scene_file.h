@@ -15,16 +15,16 @@
 
 namespace lodestone {
 
-/// A mesh, how it moves, and what an experiment needs to know about it.
+/// A mesh, its motion, and what an experiment needs to know about it.
 struct Scene_object {
   std::string name;
   Surface_mesh mesh;                       ///< at rest, until `pose` moves it
-  std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its number among the positions of `motion`
+  std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its index in the positions of `motion`
   std::size_t file_vertices = 0;           ///< number of those positions
-  Motion motion;                           ///< of an object that never moves too
+  Motion motion;                           ///< also set for an object that never moves
   std::size_t particles = 0;               ///< 0: automatic
 
-  /// Where the particles of the predecessor's method start: only on the part that lies farthest in this direction.
+  /// Where the particles of the predecessor start: only on the part of the surface farthest in this direction.
   std::optional<Kernel::Vector_3> scattered_side;
 };
 
@@ -33,7 +33,7 @@ struct Scene {
   std::string description;
   std::size_t frames = 1;
   std::vector<Scene_object> objects;
-  std::vector<Object_pair> ignored;  ///< pairs of objects not to look at, a <= b, sorted; a = b: an object and itself
+  std::vector<Object_pair> ignored;  ///< object pairs to skip, a <= b, sorted; a = b: self-collisions of an object
 
   /// @param pair  a <= b
   bool ignores(Object_pair pair) const { return std::ranges::binary_search(ignored, pair); }
@@ -41,21 +41,21 @@ struct Scene {
 
 /// Reads a scene: JSON as described by docs/scene.schema.json.
 ///
-/// Meshes are read or made at once, frames of point caches and mesh sequences as `pose` asks for them. Files are looked
-/// for in the scene's own folder; a path that leaves it is refused.
+/// Meshes are read or made at once; `pose` reads frames of point caches and mesh sequences on demand. Paths are
+/// relative to the scene's folder; a path that leaves it is refused.
 ///
-/// @throws Bad_scene  what the schema does not allow, with a JSON pointer, such as
-///                    `scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, sequence,
-///                    deform)`; a syntax error, with line and column
+/// @throws Bad_scene  a violation of the schema, with a JSON pointer, such as
+///                    `scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, keyframes,
+///                    sequence, deform)`; a syntax error, with line and column
 /// @throws Bad_mesh, Bad_motion  a file that the scene names is missing or broken
 Scene read_scene(const std::filesystem::path& file);
 
-/// An object from a mesh file that never moves.
+/// An object from a mesh file, which never moves.
 /// @throws Bad_mesh
 Scene_object still_object(std::string name, const std::filesystem::path& mesh_file);
 
-/// Moves the object's mesh to where it is in `frame`, counted from 0.
-/// @throws Bad_motion  a non-finite coordinate, a broken frame, one past the end; the mesh is then unchanged
+/// Moves the object's mesh to its positions in `frame`, counted from 0.
+/// @throws Bad_motion  a non-finite coordinate, a broken frame, a frame past the end; the mesh is then unchanged
 void pose(Scene_object& object, std::size_t frame);
 
 }  // namespace lodestone
