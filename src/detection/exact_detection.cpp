@@ -3,17 +3,6 @@
 
 namespace lodestone {
 
-Positions scaled_positions(Coordinates coordinates) {
-  double largest = 0;
-  for (const double x : coordinates) largest = std::max(largest, std::abs(x));
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  Positions positions(static_cast<Eigen::Index>(coordinates.size() / 3), 3);
-  std::transform(coordinates.begin(), coordinates.end(), positions.data(),
-                 [exponent](double x) { return std::ldexp(x, -exponent); });
-  return positions;
-}
-
 namespace {
 
 [[noreturn]] void fail_not_finite(std::size_t vertex, std::uint32_t object) {

@@ -300,7 +300,7 @@ TEST(Detector, statistics_agree_with_the_frame) {
     const Frame& frame = detector.detect();
     const auto& statistics = frame.statistics;
     EXPECT_EQ(frame.number, number);
-    EXPECT_EQ(statistics.near_pairs, frame.pairs.size());
+    EXPECT_EQ(statistics.object_candidates, frame.pairs.size());
     EXPECT_EQ(statistics.contacts, frame.face_pairs.size());
     EXPECT_GE(statistics.exact_tests, statistics.contacts);
     EXPECT_GE(statistics.iterations, 1U);

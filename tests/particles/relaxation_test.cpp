@@ -70,7 +70,7 @@ Relaxation relax_all(const std::vector<Walker*>& walkers, bool siblings_repel = 
     objects.push_back({.particles = &walkers[o]->particles,
                        .steps = &walkers[o]->steps,
                        .reader = &walkers[o]->reader,
-                       .near = near[o],
+                       .opponents = near[o],
                        .siblings_repel = siblings_repel});
     counts.push_back(walkers[o]->particles.at.size());
   }
@@ -241,9 +241,9 @@ TEST(Relax, an_object_without_near_objects_is_not_relaxed) {
   const std::vector<std::uint32_t> feels_post{2}, feels_walker{0};
   std::vector<Walking_object<Reader>> objects;
   for (Walker* w : {static_cast<Walker*>(&walker), static_cast<Walker*>(&alone), static_cast<Walker*>(&post)})
-    objects.push_back({.particles = &w->particles, .steps = &w->steps, .reader = &w->reader, .near = {}});
-  objects[0].near = feels_post;
-  objects[2].near = feels_walker;
+    objects.push_back({.particles = &w->particles, .steps = &w->steps, .reader = &w->reader, .opponents = {}});
+  objects[0].opponents = feels_post;
+  objects[2].opponents = feels_walker;
   Relaxation_scratch scratch;
   scratch.reserve(std::vector<std::size_t>{1, 1, 1});
   relax(std::span<const Walking_object<Reader>>(objects), scratch);
@@ -270,8 +270,8 @@ TEST(Relax, allocates_nothing_after_the_first_call) {
   Grid_walker one(30, 30, 0, 30), other(30, 30, 899, 30);
   const std::vector<std::uint32_t> feels_other{1}, feels_one{0};
   const std::vector<Walking_object<Reader>> objects{
-      {.particles = &one.particles, .steps = &one.steps, .reader = &one.reader, .near = feels_other},
-      {.particles = &other.particles, .steps = &other.steps, .reader = &other.reader, .near = feels_one}};
+      {.particles = &one.particles, .steps = &one.steps, .reader = &one.reader, .opponents = feels_other},
+      {.particles = &other.particles, .steps = &other.steps, .reader = &other.reader, .opponents = feels_one}};
   Relaxation_scratch scratch;
   scratch.reserve(std::vector<std::size_t>{1, 1});
   const std::span<const Walking_object<Reader>> span(objects);

@@ -143,7 +143,7 @@ inline void expect_same_frame(const Frame& a, const Frame& b) {
   };
   for (std::size_t i = 0; i < a.pairs.size(); ++i) EXPECT_EQ(fields(a.pairs[i]), fields(b.pairs[i])) << i;
   const auto counts = [](const Frame_statistics& s) {
-    return std::make_tuple(s.near_pairs, s.iterations, s.moves, s.relaxed, s.candidates, s.exact_tests, s.contacts,
+    return std::make_tuple(s.object_candidates, s.iterations, s.moves, s.relaxed, s.candidates, s.exact_tests, s.contacts,
                            s.repartitions);
   };
   EXPECT_EQ(counts(a.statistics), counts(b.statistics));

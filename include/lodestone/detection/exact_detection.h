@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "lodestone/detection/broad_phase.h"
-#include "lodestone/detection/collision_filter.h"
-#include "lodestone/detection/detector_options.h"
+#include "lodestone/detection/detection.h"
 #include "lodestone/detection/exact_object.h"
-#include "lodestone/detection/frame.h"
-#include "lodestone/mesh/region_maps.h"
+#include "lodestone/detection/frame_builder.h"
+#include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/mesh/stopwatch.h"
 #include "lodestone/partition/partition.h"
 #include "lodestone/queries/closest_faces.h"
@@ -25,46 +24,49 @@
 
 namespace lodestone {
 
-/// The coordinates as positions of magnitude at most 1: divided by a power of two, which loses nothing but what is far
-/// below the last digit of the largest. Whatever squares lengths can work with them.
-Positions scaled_positions(Coordinates coordinates);
-
 /// The mode `exact` of a Detector: its objects, and what happens to them in a frame.
 ///
 /// Every call that answers first reads all positions of the objects that it is about and refits their trees: it cannot
 /// answer for where they were before.
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-class Exact_detection {
+class Exact_detection final : public Detection<Mesh, Points> {
  public:
+  /// What a refusal tells a user who asks another mode for this one's answers.
+  static constexpr const char* needed = "this needs the mode exact";
+
   using Object = Exact_object<Mesh, Points, Volume>;
   using Surface = Basic_tree_surface<Volume>;
 
   Exact_detection(const Detector_options& options, Strategy strategy)
-      : options_(options), strategy_(std::move(strategy)), workers_(options.exact.threads), search_(workers_) {}
+      : options_(options),
+        strategy_(std::move(strategy)),
+        workers_(options.exact.threads),
+        search_(workers_),
+        frame_(options) {}
   // The search refers to the workers.
   Exact_detection(const Exact_detection&) = delete;
   Exact_detection& operator=(const Exact_detection&) = delete;
 
-  void add(const Mesh& mesh, Points points, const Object_options& options) {
+  void add(const Mesh& mesh, Points points, const Object_options& options) override {
     check_no_visitor();
     objects_.push_back(std::make_unique<Object>(mesh, points, options));
   }
-  void write_maps(Object_id object, Mesh& mesh) { objects_[object]->maps.emplace(mesh); }
+  void write_maps(Object_id object, Mesh& mesh) override { objects_[object]->maps.emplace(mesh); }
 
   /// The mesh is where positions come from.
-  void update(Object_id object) {
+  void update(Object_id object) override {
     check_no_visitor();
     objects_[object]->given.reset();
   }
   /// These are its positions until the next update.
   void update(Object_id object, const Eigen::Ref<const Positions>& positions);
   /// Reads the faces of the mesh anew.
-  void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) {
+  void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override {
     check_no_visitor();
     objects_[object]->rebuild(file_vertex);
   }
 
-  const Frame& detect(const Collision_filter& filter);
+  const Frame& detect(const Collision_filter& filter) override;
   const Frame& detect(const Collision_filter& filter, Object_pair pair);
   template <Contact_visitor Visitor>
   Visit visit(Object_pair pair, Visitor&& visitor) {
@@ -78,7 +80,7 @@ class Exact_detection {
   bool contains(Object_id outer, Object_id inner);
 
   const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_[object]->surface.tree(); }
-  const std::optional<Region_maps<Mesh>>& maps(Object_id object) const { return objects_[object]->maps; }
+  const std::optional<Region_maps<Mesh>>& maps(Object_id object) const override { return objects_[object]->maps; }
 
  private:
   /// While a visitor is shown face pairs.
@@ -100,9 +102,8 @@ class Exact_detection {
   void refresh(std::span<const Object_id> ids);
   void start_frame(std::span<const Object_id> ids);
   const Frame& finish_frame();
-  void find_near_pairs(const Collision_filter& filter);
+  void find_candidates(const Collision_filter& filter);
   void check(Object_pair pair);
-  void add_geometry(const Pair_result& result);
   Containment containment(Object_pair pair, bool found);
 
   Detector_options options_;
@@ -110,7 +111,7 @@ class Exact_detection {
   Workers workers_;
   Contact_search search_;
   std::vector<std::unique_ptr<Object>> objects_;
-  Frame frame_;
+  Frame_builder frame_;
   std::size_t rebuilds_ = 0;  ///< since the last frame: other calls rebuild too
   bool visited_ = false;      ///< a visitor is being shown face pairs
 
@@ -121,7 +122,7 @@ class Exact_detection {
   std::vector<Box> boxes_;
   std::vector<double> reach_;
   Broad_phase broad_phase_;
-  std::vector<Object_pair> near_pairs_;
+  std::vector<Object_pair> candidates_;
 };
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
@@ -141,9 +142,9 @@ template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volu
 const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Collision_filter& filter) {
   for (auto id = static_cast<Object_id>(all_.size()); id < objects_.size(); ++id) all_.push_back(id);
   start_frame(all_);
-  timed(frame_.statistics.seconds.broad_phase, [&] { find_near_pairs(filter); });
-  timed(frame_.statistics.seconds.confirmation, [&] {
-    for (const auto pair : near_pairs_) check(pair);
+  timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
+  timed(frame_.seconds().confirmation, [&] {
+    for (const auto pair : candidates_) check(pair);
   });
   return finish_frame();
 }
@@ -152,7 +153,7 @@ template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volu
 const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Collision_filter& filter, Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   start_frame(std::span(ids).first(pair.a == pair.b ? 1 : 2));
-  if (filter.may_collide(pair.a, pair.b)) timed(frame_.statistics.seconds.confirmation, [&] { check(pair); });
+  if (filter.may_collide(pair.a, pair.b)) timed(frame_.seconds().confirmation, [&] { check(pair); });
   return finish_frame();
 }
 
@@ -176,22 +177,15 @@ bool Exact_detection<Mesh, Strategy, Points, Volume>::contains(Object_id outer, 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::start_frame(std::span<const Object_id> ids) {
   check_no_visitor();
-  ++frame_.number;
-  frame_.pairs.clear();
-  frame_.face_pairs.clear();
-  frame_.contact_points.clear();
-  frame_.contact_normals.clear();
-  frame_.statistics = {};
-  near_pairs_.clear();
-  timed(frame_.statistics.seconds.refit, [&] { refresh(ids); });
+  frame_.start();
+  candidates_.clear();
+  timed(frame_.seconds().refit, [&] { refresh(ids); });
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::finish_frame() {
-  frame_.statistics.near_pairs = frame_.pairs.size();
-  frame_.statistics.contacts = frame_.face_pairs.size();
-  frame_.statistics.repartitions = std::exchange(rebuilds_, 0);
-  return frame_;
+  frame_.statistics().repartitions = std::exchange(rebuilds_, 0);
+  return frame_.finish();
 }
 
 /// Divides the surface into regions, and builds a tree over them.
@@ -240,16 +234,16 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::refresh(std::span<const Ob
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::find_near_pairs(const Collision_filter& filter) {
+void Exact_detection<Mesh, Strategy, Points, Volume>::find_candidates(const Collision_filter& filter) {
   boxes_.clear();
   for (const auto& object : objects_) boxes_.push_back(to_box(object->surface.tree().volume(0).bounds()));
   reach_.assign(objects_.size(), options_.exact.tolerance);
   for (const auto pair : broad_phase_.find(boxes_, reach_))
-    if (filter.may_collide(pair.a, pair.b)) near_pairs_.push_back(pair);
+    if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
   if (!options_.exact.self_collision) return;
   for (Object_id id = 0; id < objects_.size(); ++id)
-    if (filter.may_collide(id, id)) near_pairs_.push_back({id, id});
-  std::ranges::sort(near_pairs_);
+    if (filter.may_collide(id, id)) candidates_.push_back({id, id});
+  std::ranges::sort(candidates_);
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
@@ -258,18 +252,20 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::check(Object_pair pair) {
   const Surface& b = objects_[pair.b]->surface;
   const Contact_request request{
       .query = options_.contacts, .tolerance = options_.exact.tolerance, .most = options_.most_contacts};
-  Pair_result result{.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size()};
-  const Contact_summary summary = pair.a == pair.b ? search_.within(a, request, frame_.face_pairs)
-                                                   : search_.between(a, b, request, frame_.face_pairs);
+  Pair_result result = frame_.start_pair(pair);
+  const Contact_summary summary = pair.a == pair.b ? search_.within(a, request, frame_.face_pairs())
+                                                   : search_.between(a, b, request, frame_.face_pairs());
   result.collides = summary.found;
   result.capped = summary.capped;
   result.candidates = summary.leaf_tests;
-  result.contacts = frame_.face_pairs.size() - result.first_contact;
   if (options_.exact.containment && pair.a != pair.b) result.containment = containment(pair, summary.found);
-  frame_.statistics.candidates += summary.leaf_tests;
-  frame_.statistics.exact_tests += summary.exact_tests;
-  add_geometry(result);
-  frame_.pairs.push_back(result);
+  frame_.statistics().candidates += summary.leaf_tests;
+  frame_.statistics().exact_tests += summary.exact_tests;
+  frame_.end_pair(result, [this](Object_id id, std::uint32_t face) {
+    const Surface& surface = objects_[id]->surface;
+    return face_triangle(surface.corners()[face],
+                         [&](auto vertex) { return surface.coordinates().data() + 3 * std::size_t{vertex}; });
+  });
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
@@ -283,27 +279,6 @@ Containment Exact_detection<Mesh, Strategy, Points, Volume>::containment(Object_
   if (found && (options_.exact.tolerance == 0 || search_.between(a, b, {.query = Contact_query::yes_no}, none).found))
     return Containment::none;
   return a_in_b ? Containment::a_in_b : Containment::b_in_a;
-}
-
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::add_geometry(const Pair_result& result) {
-  if (!options_.contact_points && !options_.contact_normals) return;
-  const auto triangle = [this](Object_id id, std::uint32_t face) {
-    const Surface& surface = objects_[id]->surface;
-    return face_triangle(surface.corners()[face],
-                         [&](auto vertex) { return surface.coordinates().data() + 3 * std::size_t{vertex}; });
-  };
-  for (const auto& [face_a, face_b] : frame_.contacts(result)) {
-    const Triangle a = triangle(result.a, face_a), b = triangle(result.b, face_b);
-    if (options_.exact.tolerance > 0 && !triangles_intersect(a, b)) {
-      const Closest_points nearest = closest_points(a, b);
-      if (options_.contact_points) frame_.contact_points.push_back({nearest.a, nearest.b});
-      if (options_.contact_normals) frame_.contact_normals.push_back(gap_normal(nearest));
-      continue;
-    }
-    if (options_.contact_points) frame_.contact_points.push_back(triangle_intersection(a, b));
-    if (options_.contact_normals) frame_.contact_normals.push_back(contact_normal(a, b));
-  }
 }
 
 }  // namespace lodestone

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lodestone/detection/detector_options.h"
+#include "lodestone/mesh/connectivity.h"
 #include "lodestone/mesh/coordinate_reader.h"
 #include "lodestone/mesh/joined_vertices.h"
 #include "lodestone/mesh/region_maps.h"
@@ -73,15 +74,7 @@ class Exact_object {
 
 template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
 Coordinates Exact_object<Mesh, Points, Volume>::read(std::uint32_t id) {
-  const auto vertices = num_vertices(*mesh_), faces = num_faces(*mesh_);
-  if constexpr (requires { mesh_->has_garbage(); })
-    if (mesh_->has_garbage())
-      throw Bad_mesh("object " + std::to_string(id) +
-                     " holds removed elements: call collect_garbage() on its mesh, then rebuild()");
-  if (vertices != numbering().vertex_count() || faces != numbering().corners().size())
-    throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(vertices) + " vertices and " +
-                   std::to_string(faces) + " faces, but had " + std::to_string(numbering().vertex_count()) + " and " +
-                   std::to_string(numbering().corners().size()) + ": call rebuild() after such a change");
+  check_connectivity(*mesh_, numbering(), [id] { return "object " + std::to_string(id); });
   if (given) return {given->data(), static_cast<std::size_t>(given->size())};
   return reader_.read(numbering());
 }

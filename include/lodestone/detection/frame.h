@@ -27,14 +27,14 @@ struct Stage_times {
 
 struct Frame_statistics {
   Stage_times seconds = {};
-  std::size_t near_pairs = 0;    ///< object pairs that the broad phase let through, those with themselves included
-  std::size_t iterations = 0;    ///< of the relaxation
-  std::size_t moves = 0;         ///< steps of all particles together
-  bool relaxed = true;           ///< false: the relaxation was stopped by R_max
-  std::size_t candidates = 0;    ///< candidate region pairs; in mode exact pairs of leaves
-  std::size_t exact_tests = 0;   ///< face pairs given to the exact test
-  std::size_t contacts = 0;      ///< intersecting face pairs found, each once
-  std::size_t repartitions = 0;  ///< objects repartitioned since the frame before; in mode exact trees rebuilt
+  std::size_t object_candidates = 0;  ///< object pairs that passed the broad phase, those with themselves included
+  std::size_t iterations = 0;         ///< of the relaxation
+  std::size_t moves = 0;              ///< steps of all particles together
+  bool relaxed = true;                ///< false: the relaxation was stopped by R_max
+  std::size_t candidates = 0;         ///< candidate region pairs; in mode exact pairs of leaves
+  std::size_t exact_tests = 0;        ///< face pairs given to the exact test
+  std::size_t contacts = 0;           ///< intersecting face pairs found, each once
+  std::size_t repartitions = 0;       ///< objects repartitioned since the frame before; in mode exact trees rebuilt
 };
 
 /// Whether one object lies inside the other: their surfaces are apart, and every piece of it is enclosed.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lodestone/mesh/connectivity.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/mesh/patch.h"
@@ -193,10 +194,7 @@ Positions Particle_object<Mesh, Points>::measured_positions(Distance_measure mea
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 void Particle_object<Mesh, Points>::check_connectivity() const {
-  if (num_vertices(*mesh_) != numbering_.vertex_count() || num_faces(*mesh_) != numbering_.corners().size())
-    throw Bad_mesh("the mesh has " + std::to_string(num_vertices(*mesh_)) + " vertices and " +
-                   std::to_string(num_faces(*mesh_)) + " faces, but had " + std::to_string(numbering_.vertex_count()) +
-                   " and " + std::to_string(numbering_.corners().size()) + " when it was added");
+  lodestone::check_connectivity(*mesh_, numbering_, [] { return "the mesh"; });
 }
 
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>

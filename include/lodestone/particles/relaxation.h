@@ -37,8 +37,8 @@ struct Walking_object {
   Particles* particles = nullptr;
   const Region_steps* steps = nullptr;
   const Reader* reader = nullptr;
-  std::span<const std::uint32_t> near;  ///< indices of the objects whose particles this one feels
-  bool siblings_repel = false;          ///< particles of the object push each other away: only for the predecessor
+  std::span<const std::uint32_t> opponents;  ///< indices of the objects whose particles this one feels
+  bool siblings_repel = false;               ///< particles of the object push each other away: only for the predecessor
 };
 
 struct Relaxation {
@@ -115,7 +115,7 @@ void gather_attractors(std::span<const Walking_object<Reader>> objects, const Wa
     for (const auto& position : particles.positions) attractors.add(position, reach * reach);
   };
   scratch.attractors.clear();
-  for (const auto other : object.near) {
+  for (const auto other : object.opponents) {
     const Particles& particles = *objects[other].particles;
     add_all(scratch.attractors, particles, std::max(object.particles->effective_radius, particles.effective_radius));
   }
@@ -145,12 +145,12 @@ Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scr
   Relaxation result;
   std::size_t iteration_limit = 1;
   for (const auto& object : objects)
-    if (!object.near.empty()) iteration_limit = std::max(iteration_limit, object.particles->hop_limit);
+    if (!object.opponents.empty()) iteration_limit = std::max(iteration_limit, object.particles->hop_limit);
 
   for (result.relaxed = false; !result.relaxed && result.iterations < iteration_limit; ++result.iterations) {
     result.relaxed = true;
     for (std::size_t o = 0; o < objects.size(); ++o) {
-      if (objects[o].near.empty()) continue;
+      if (objects[o].opponents.empty()) continue;
       const std::size_t count = objects[o].particles->at.size();
       internal::gather_attractors(objects, objects[o], scratch);
       std::size_t moved = 0;
@@ -164,7 +164,7 @@ Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scr
       result.relaxed &= 10 * moved < count;
     }
     for (std::size_t o = 0; o < objects.size(); ++o) {
-      if (objects[o].near.empty()) continue;
+      if (objects[o].opponents.empty()) continue;
       objects[o].particles->at.swap(scratch.next_at[o]);
       objects[o].particles->positions.swap(scratch.next_positions[o]);
     }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "lodestone/detection/collision_filter.h"
+#include "lodestone/detection/detector_options.h"
+#include "lodestone/detection/frame.h"
+#include "lodestone/mesh/region_maps.h"
+
+namespace lodestone {
+
+/// What a Detector asks of a mode. The models own the objects; `Object_id`s are checked by the caller.
+///
+/// What only one model can answer is no part of this interface: the Detector asks that model itself. A new mode is one
+/// more model, and one more line in `make_detection`.
+template <Triangle_mesh Mesh, class Points>
+class Detection {
+ public:
+  virtual ~Detection() = default;
+
+  /// Adds an object, whose id is the number of objects before.
+  /// @throws Bad_mesh, Bad_argument  nothing has been added
+  virtual void add(const Mesh& mesh, Points points, const Object_options& options) = 0;
+  /// Keeps the property maps of an object's mesh up to date from the next partition on.
+  virtual void write_maps(Object_id object, Mesh& mesh) = 0;
+  /// @return none if the maps are not kept
+  virtual const std::optional<Region_maps<Mesh>>& maps(Object_id object) const = 0;
+
+  /// Takes note that the vertices of an object have moved.
+  virtual void update(Object_id object) = 0;
+  /// Reads the faces of an object's mesh again.
+  /// @throws Bad_mesh, Bad_argument  the object stays as it was
+  virtual void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) = 0;
+
+  /// Finds the collisions between all objects where their vertices are now.
+  /// @return valid until the next call
+  virtual const Frame& detect(const Collision_filter& filter) = 0;
+};
+
+}  // namespace lodestone

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/detection/frame_builder.h"
+
+#include "lodestone/triangles/triangle_distance.h"
+
+namespace lodestone {
+
+Frame_builder::Frame_builder(const Detector_options& options)
+    : points_(options.contact_points),
+      normals_(options.contact_normals),
+      contacts_may_be_apart_(options.exact.tolerance > 0) {}
+
+void Frame_builder::reserve(std::size_t pairs, std::size_t face_pairs) {
+  frame_.pairs.reserve(pairs);
+  frame_.face_pairs.reserve(face_pairs);
+}
+
+void Frame_builder::start(const Frame_statistics& statistics) {
+  ++frame_.number;
+  frame_.pairs.clear();
+  frame_.face_pairs.clear();
+  frame_.contact_points.clear();
+  frame_.contact_normals.clear();
+  frame_.candidates.clear();
+  frame_.statistics = statistics;
+}
+
+const Frame& Frame_builder::finish() {
+  frame_.statistics.object_candidates = frame_.pairs.size();
+  frame_.statistics.contacts = frame_.face_pairs.size();
+  return frame_;
+}
+
+void Frame_builder::add_geometry(const Triangle& a, const Triangle& b) {
+  if (contacts_may_be_apart_ && !triangles_intersect(a, b)) {
+    const Closest_points nearest = closest_points(a, b);
+    if (points_) frame_.contact_points.push_back({nearest.a, nearest.b});
+    if (normals_) frame_.contact_normals.push_back(gap_normal(nearest));
+    return;
+  }
+  if (points_) frame_.contact_points.push_back(triangle_intersection(a, b));
+  if (normals_) frame_.contact_normals.push_back(contact_normal(a, b));
+}
+
+}  // namespace lodestone
