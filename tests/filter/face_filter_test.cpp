@@ -127,13 +127,13 @@ TEST(Face_filter, never_read_past_the_last_vertex) {
           const Tree_view posed_a{&a, here.values()}, posed_b{&b, there.values()};
           Face_filter face_filter;
           for (const double margin : {0.0, 0.1}) {
-            leaf_pairs.begin(posed_a, posed_b, margin);
+            face_filter.begin(posed_a, posed_b, margin);
             for (std::uint32_t s = 0; s < a.leaf_count(); ++s)
-              for (std::uint32_t t = 0; t < b.leaf_count(); ++t) near += leaf_pairs.face_candidates(s, t).size();
+              for (std::uint32_t t = 0; t < b.leaf_count(); ++t) near += face_filter.face_candidates(s, t).size();
           }
-          leaf_pairs.begin_within(posed_a);
+          face_filter.begin_within(posed_a);
           for (std::uint32_t s = 0; s < a.leaf_count(); ++s)
-            for (std::uint32_t t = s; t < a.leaf_count(); ++t) near += leaf_pairs.face_candidates(s, t).size();
+            for (std::uint32_t t = s; t < a.leaf_count(); ++t) near += face_filter.face_candidates(s, t).size();
         });
     }
   }
@@ -160,8 +160,8 @@ TEST(Face_filter, know_an_edge_that_passes_through_the_other_face) {
     a.set(0, s), b.set(0, t);
     a.refit(), b.refit();
     for_instruction_sets([&] {
-      leaf_pairs.begin(a.view(), b.view(), 0);
-      const auto near = leaf_pairs.face_candidates(0, 0);
+      face_filter.begin(a.view(), b.view(), 0);
+      const auto near = face_filter.face_candidates(0, 0);
       ASSERT_EQ(near.size(), 1U);
       const Crossing crossing = near[0].crossing;
       ASSERT_LT(crossing, no_crossing);
@@ -182,12 +182,12 @@ TEST(Face_filter, are_read_anew_after_every_begin) {
   a.set(0, s), b.set(0, s);
   a.refit(), b.refit();
   Face_filter face_filter;
-  leaf_pairs.begin(a.view(), b.view(), 0);
-  EXPECT_EQ(leaf_pairs.face_candidates(0, 0).size(), 1U);
+  face_filter.begin(a.view(), b.view(), 0);
+  EXPECT_EQ(face_filter.face_candidates(0, 0).size(), 1U);
   b.set(0, {Point(0, 0, 1), Point(1, 0, 1), Point(0, 1, 2)});
   b.refit();
-  leaf_pairs.begin(a.view(), b.view(), 0);
-  EXPECT_TRUE(leaf_pairs.face_candidates(0, 0).empty());
+  face_filter.begin(a.view(), b.view(), 0);
+  EXPECT_TRUE(face_filter.face_candidates(0, 0).empty());
 }
 
 TEST(Face_filter, of_full_leaves_whose_faces_all_meet_are_all_of_them) {
@@ -240,11 +240,11 @@ std::size_t expect_pairs_within(const Posed_object& object) {
   std::vector<Numbers> answers;
   for_instruction_sets([&] {
     Face_filter face_filter;
-    leaf_pairs.begin_within(posed);
+    face_filter.begin_within(posed);
     Numbers found;
     for (std::uint32_t i = 0; i < leaves; ++i)
       for (std::uint32_t j = i; j < leaves; ++j)
-        for (auto [a, b] : numbered(leaf_pairs.face_candidates(i, j), posed, i, posed, j)) {
+        for (auto [a, b] : numbered(face_filter.face_candidates(i, j), posed, i, posed, j)) {
           EXPECT_FALSE(share_a_vertex(soup.faces[a], soup.faces[b])) << a << ' ' << b;
           found.push_back({std::min(a, b), std::max(a, b)});
         }

@@ -62,8 +62,8 @@ inline Numbers near_pairs(const Tree_view& a, const Tree_view& b, double margin)
   Face_filter face_filter;
   std::vector<Numbers> answers;
   for_instruction_sets([&] {
-    leaf_pairs.begin(a, b, margin);
-    answers.push_back(listed_order(leaf_pairs.face_candidates(0, 0), a, 0, b, 0));
+    face_filter.begin(a, b, margin);
+    answers.push_back(listed_order(face_filter.face_candidates(0, 0), a, 0, b, 0));
   });
   for (const auto& answer : answers) EXPECT_EQ(answer, answers[0]);
   std::ranges::sort(answers[0]);
