@@ -28,11 +28,11 @@ struct Fit {
 Fit fit(const kernel::Leaf_points& points) {
   constexpr double enough = 1.02;  // < 1.01^2
   constexpr int most_passes = 32;  // seldom more than six are needed
-  const auto at = [&](std::size_t place) { return Eigen::Vector3d(points.x[place], points.y[place], points.z[place]); };
-  Support support(at(kernel::farthest(points, at(0).data()).place));
+  const auto at = [&](std::size_t index) { return Eigen::Vector3d(points.x[index], points.y[index], points.z[index]); };
+  Support support(at(kernel::farthest(points, at(0).data()).index));
   auto farthest = kernel::farthest(points, support.centre().data());
   for (int pass = 0; pass < most_passes && farthest.squared_distance > enough * support.squared_radius(); ++pass) {
-    if (!support.add(at(farthest.place))) break;
+    if (!support.add(at(farthest.index))) break;
     farthest = kernel::farthest(points, support.centre().data());
   }
   return {support.centre(), farthest.squared_distance};
@@ -88,7 +88,7 @@ void Bounding_sphere::enclose(const Leaf_faces& faces) {
   if (faces.vertices.size() > points.capacity)
     throw Bad_argument("a ball is fitted to at most 384 vertices, those of a leaf, but there are " +
                        std::to_string(faces.vertices.size()));
-  kernel::gather(faces.coordinates.data(), faces.vertices.data(), faces.vertices.size(), points);
+  kernel::gather(faces, points);
   const Fit ball = fit(points);
   if (is_ordinary(ball.squared_radius)) {
     // Five roundings, and that of the root.
