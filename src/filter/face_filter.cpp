@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "filter/face_columns.h"
 #include "filter/face_filter_kernel.h"
 #include "filter/filter_scratch.h"
 
@@ -12,22 +13,23 @@ namespace lodestone {
 
 namespace {
 
-/// Leaves of a tree that are kept at a time: a walk meets most leaves again soon or not at all.
+/// Leaves that are kept per tree: a walk meets most leaves again soon or not at all.
 constexpr std::size_t slot_count = 32;
 constexpr auto no_leaf = std::numeric_limits<std::uint32_t>::max();
 
-/// A power of two that brings a size near 1, as far as there is one.
+/// A power of two, from 2^-1000 to 2^1000, that brings a size near 1 or nearer to it.
 double unit_scale(double size) { return size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1; }
 
-/// A number, or 0, as a float that is no less.
+/// A float that is no less than a number, and no less than 0.
 float rounded_up(double number) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   if (number >= static_cast<double>(std::numeric_limits<float>::max())) return infinity;
   return number > 0 ? std::nextafter(static_cast<float>(number), infinity) : 0;
 }
 
-/// Rounding and steps are finest where the two trees overlap: only faces there can be near each other. Where they only
-/// touch, the overlap is flat: steps of its size would tell nothing apart, so it counts as a thousandth of a tree.
+/// Rounding and steps are finest where the two trees overlap: only faces there may meet. Where the trees only touch,
+/// the overlap is flat, and steps of its size would separate nothing: each of its sides counts as at least a thousandth
+/// of a tree.
 kernel::Filter_request filter_request(const Aabb& a, const Aabb& b, double margin) {
   kernel::Filter_request request{};
   request.margin = margin;
@@ -56,26 +58,25 @@ Face_filter::Face_filter(Face_filter&&) noexcept = default;
 Face_filter& Face_filter::operator=(Face_filter&&) noexcept = default;
 
 void Face_filter::Side::begin(const Layout_view& tree) {
-  posed = tree;
+  view = tree;
   slots.resize(slot_count);
   for (Slot& slot : slots) slot.leaf = no_leaf;
 }
 
-Face_filter::Slot& Face_filter::Side::at(std::uint32_t leaf) {
+Face_filter::Slot& Face_filter::Side::slot_of(std::uint32_t leaf) {
   Slot& slot = slots[leaf % slot_count];
   if (!slot.faces) slot.faces = std::make_unique_for_overwrite<Face_columns>();
   if (slot.leaf != leaf) {
     slot.leaf = leaf;
-    slot.faces->count = 0;
-    slot.faces->knows_leaf = false;
-    if (posed.boxes.empty()) slot.box.enclose(posed.layout->leaf_faces(leaf, posed.coordinates));
+    slot.faces->clear();
+    if (view.boxes.empty()) slot.box.enclose(view.leaf(leaf));
   }
   return slot;
 }
 
-kernel::Leaf_input Face_filter::view(Side& side, std::uint32_t leaf) {
-  Slot& slot = side.at(leaf);
-  const auto& [layout, coordinates, bounds, boxes] = side.posed;
+kernel::Leaf_input Face_filter::Side::input(std::uint32_t leaf) {
+  Slot& slot = slot_of(leaf);
+  const auto& [layout, coordinates, bounds, boxes] = view;
   return {.coordinates = coordinates.data(),
           .vertices = layout->vertices(leaf).data(),
           .corners = layout->corners(leaf).data(),
@@ -99,13 +100,13 @@ void Face_filter::begin_within(const Layout_view& tree) {
 std::span<const Face_candidate> Face_filter::face_candidates(std::uint32_t leaf_a, std::uint32_t leaf_b) {
   const bool one_mesh = request_->one_mesh;
   request_->one_leaf = one_mesh && leaf_a == leaf_b;
-  const auto a = view(sides_[0], leaf_a);
-  // Within one mesh a leaf is kept once, unless the two would be kept in the same place.
-  const bool together = one_mesh && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
-  const auto b = view(sides_[together ? 0 : 1], leaf_b);
-  near_.resize(std::max(near_.size(), a.face_count * b.face_count + most_float_lanes));
-  const std::size_t count = kernel::face_candidates(a, b, *request_, *scratch_, near_.data());
-  return {near_.data(), count};
+  const auto a = sides_[0].input(leaf_a);
+  // One tree has its leaves in one side, so that each is read once. The second side is for two leaves of one slot.
+  const bool one_side = one_mesh && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
+  const auto b = sides_[one_side ? 0 : 1].input(leaf_b);
+  candidates_.resize(std::max(candidates_.size(), a.face_count * b.face_count + most_float_lanes));
+  const std::size_t count = kernel::face_candidates(a, b, *request_, *scratch_, candidates_.data());
+  return {candidates_.data(), count};
 }
 
 }  // namespace lodestone

@@ -11,7 +11,6 @@
 
 #include <limits>
 
-#include "filter/filter_scratch.h"
 #include "lodestone/triangles/crossing.h"
 #include "simd/vector_types-inl.h"
 
@@ -28,7 +27,7 @@ struct Two_triangles {
 
   HWY_INLINE Two_triangles(const Vector3<Tag> (&a)[3], const Vector3<Tag> (&b)[3])
       : a1(a[1] - a[0]), a2(a[2] - a[0]), b0(b[0] - a[0]), b1(b[1] - a[0]), b2(b[2] - a[0]) {
-    reach = greater(greater(greater(sizes(a1), sizes(a2)), greater(sizes(b0), sizes(b1))), sizes(b2));
+    reach = greater(greater(greater(absolute(a1), absolute(a2)), greater(absolute(b0), absolute(b1))), absolute(b2));
   }
 };
 
@@ -76,7 +75,7 @@ HWY_INLINE hn::Mask<Tag> apart_along(const Two_triangles<Tag>& two, const Vector
   const auto low_a = hn::Min(hn::Min(pa1, pa2), zero), high_a = hn::Max(hn::Max(pa1, pa2), zero);
   const auto low_b = hn::Min(hn::Min(pb0, pb1), pb2), high_b = hn::Max(hn::Max(pb0, pb1), pb2);
   const auto share = hn::Set(d, 18 * std::numeric_limits<T>::epsilon());
-  auto needed = hn::Add(hn::Mul(share, dot(sizes(axis), reach)), hn::Set(d, Safe_range<T>::least));
+  auto needed = hn::Add(hn::Mul(share, dot(absolute(axis), reach)), hn::Set(d, Safe_range<T>::least));
   if (margin > 0) needed = hn::Add(needed, hn::Mul(hn::Set(d, margin), length_bound(axis)));
   const auto gap = hn::Max(hn::Sub(low_b, high_a), hn::Sub(low_a, high_b));
   // A projection that is not a number could be missing from the minima and maxima.
@@ -221,29 +220,6 @@ HWY_INLINE hn::Mask<Tag> not_apart_by_planes(const Two_triangles<Tag>& two, cons
   among = hn::AndNot(apart(cross(normal_b, f0)), among);
   among = hn::AndNot(apart(cross(normal_b, f1)), among);
   return hn::AndNot(apart(cross(normal_b, two.b0 - two.b2)), among);
-}
-
-/// In which lanes floating point does not prove that a and b are farther apart than the margin (0: have no point in
-/// common), of those in `asked`.
-/// @param one_mesh  they are faces of one mesh
-/// @param crossing  is set to a `Crossing` for each of them
-HWY_INLINE Truths not_proven_apart(const Vector3<Lanes> (&a)[3], const Vector3<Lanes> (&b)[3], double margin,
-                                   bool one_mesh, Truths asked, Numbers& crossing) {
-  const Lanes d;
-  const Two_triangles<Lanes> two(a, b);
-  crossing = all(no_crossing);
-  auto left = asked;
-  // Planes separate most faces that are near each other on one surface.
-  if (one_mesh || margin > 0) left = not_apart_by_planes(two, two.reach, margin, left);
-  if (margin > 0 || hn::AllFalse(d, left)) return left;
-  const auto of = determinants(two);
-  const auto gap = greatest_gap(of);
-  left = hn::AndNot(hn::Gt(gap, telling_gap(two, 1e90)), left);
-  crossing = find_crossing(of, gap);
-  const auto unclear = hn::And(left, hn::Eq(crossing, all(no_crossing)));
-  if (one_mesh || hn::AllFalse(d, unclear)) return left;
-  // What comes of one lane must not depend on the others: their number differs between instruction sets.
-  return hn::Or(hn::AndNot(unclear, left), not_apart_by_planes(two, two.reach, margin, unclear));
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

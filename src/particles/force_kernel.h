@@ -15,8 +15,8 @@ struct Attractor_columns {
 
 inline constexpr std::size_t point_lanes = 8;
 
-/// Adds to each of eight forces the sum of 1 / r^2 over the attractors from `begin` to `end` at r below their reach.
-/// Built for several instruction sets; all give the same bits.
+/// Adds to the force at each of eight points the sum of 1 / r^2 over the attractors from `begin` to `end` whose reach
+/// is above their distance r. Built for several instruction sets and chosen at run time; all give the same bits.
 void add_forces(const Attractor_columns& attractors, std::size_t begin, std::size_t end, const double* x,
                 const double* y, const double* z, double* forces);
 

@@ -11,11 +11,14 @@
 #include <hwy/highway.h>
 
 #include "partition/fixed_components.h"
+#include "simd/vector_types-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+
+static_assert(block_size % double_lanes == 0);
 
 /// Same as std::sqrt, but without its branch for errno.
 HWY_INLINE double square_root(double x) {
@@ -27,7 +30,7 @@ HWY_INLINE double square_root(double x) {
 /// which of them is the least is unpredictable, and a misprediction costs more than the eight distances.
 template <int K>
 HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
-  const hn::CappedTag<double, block_size> d;
+  const Double_lanes d;
   const std::size_t k = K > 0 ? K : pass.components;
   const double* vector = pass.blocks + v / block_size * block_size * k + v % block_size;
   const Neighbourhood& around = pass.neighbourhoods[pass.labels[v]];
@@ -42,7 +45,7 @@ HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
   const double reach = (2 * square_root(pass.squared_distances[v]) + around.distances[0]) * (1 + 1e-9) + pass.margin;
   std::size_t first = 0;
   for (; first < around.count && around.distances[first] <= reach; first += block_size) {
-    for (std::size_t lane = 0; lane < block_size; lane += hn::Lanes(d)) {
+    for (std::size_t lane = 0; lane < block_size; lane += double_lanes) {
       auto squared = hn::Zero(d);
       for (std::size_t i = 0; i < k; ++i) {
         const auto row = hn::LoadU(d, around.components + first * k + i * block_size + lane);
@@ -71,13 +74,13 @@ HWY_INLINE void search(Bounded_pass& pass, std::size_t v) {
 /// Eight vectors with the same code vector, one vector per lane: checks the bounds, and searches where they fail.
 template <int K>
 HWY_INLINE void pass_uniform_block(Bounded_pass& pass, std::size_t block) {
-  const hn::CappedTag<double, block_size> d;
+  const Double_lanes d;
   const std::size_t k = K > 0 ? K : pass.components;
   const std::uint32_t start = pass.labels[block * block_size];
   const double* code = pass.codes + start * k;
   const Neighbourhood& around = pass.neighbourhoods[start];
 
-  for (std::size_t lane = 0; lane < block_size; lane += hn::Lanes(d)) {
+  for (std::size_t lane = 0; lane < block_size; lane += double_lanes) {
     const std::size_t v = block * block_size + lane;
     const double* components = pass.blocks + block * block_size * k + lane;
     const auto distance_to = [&](const double* other, std::size_t stride) HWY_ATTR {
@@ -109,14 +112,14 @@ HWY_INLINE void pass_uniform_block(Bounded_pass& pass, std::size_t block) {
       nearest = hn::IfThenElse(wins, squared, nearest);
       label = hn::IfThenElse(wins, other, label);
     }
-    pass.distance_evaluations += tried * hn::Lanes(d);
+    pass.distance_evaluations += tried * double_lanes;
 
     HWY_ALIGN double is_open[block_size], labels[block_size], squared[block_size], bounds[block_size];
     hn::Store(hn::IfThenElseZero(open, hn::Set(d, 1.0)), d, is_open);
     hn::Store(label, d, labels);
     hn::Store(nearest, d, squared);
     hn::Store(hn::Mul(hn::Sqrt(second), hn::Set(d, 1 - 1e-9)), d, bounds);
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
+    for (std::size_t i = 0; i < double_lanes; ++i) {
       if (is_open[i] == 0) continue;
       pass.labels[v + i] = static_cast<std::uint32_t>(labels[i]);
       pass.squared_distances[v + i] = squared[i];

@@ -7,7 +7,7 @@
 
 namespace lodestone::kernel {
 
-/// For each pattern of eight bits the numbers of those that are set, ascending, then zeros.
+/// For each pattern of eight bits, the indices of the bits that are set, ascending, then zeros.
 inline constexpr auto lane_lists = [] {
   std::array<std::array<std::uint8_t, 8>, 256> lists{};
   for (unsigned bits = 0; bits < lists.size(); ++bits) {
@@ -18,11 +18,11 @@ inline constexpr auto lane_lists = [] {
   return lists;
 }();
 
-/// The numbers themselves, as bytes.
-inline constexpr auto every_place = [] {
-  std::array<std::uint8_t, 256> places{};
-  for (unsigned place = 0; place < places.size(); ++place) places[place] = static_cast<std::uint8_t>(place);
-  return places;
+/// 0, 1, 2, ..., 255.
+inline constexpr auto every_index = [] {
+  std::array<std::uint8_t, 256> indices{};
+  for (unsigned index = 0; index < indices.size(); ++index) indices[index] = static_cast<std::uint8_t>(index);
+  return indices;
 }();
 
 }  // namespace lodestone::kernel

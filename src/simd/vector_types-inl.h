@@ -9,28 +9,54 @@
 
 #include <hwy/highway.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
 
 #include "simd/widest_vector.h"
 
+// The vectors of all kernels. `X_lanes` is a tag of Highway's; `Xs` is a vector with these lanes.
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many doubles as the widest vector holds.
-using Lanes = hn::CappedTag<double, widest>;
-using Numbers = hn::Vec<Lanes>;
-using Truths = hn::Mask<Lanes>;
+using Double_lanes = hn::CappedTag<double, most_double_lanes>;
+using Doubles = hn::Vec<Double_lanes>;
+using Double_mask = hn::Mask<Double_lanes>;
+constexpr std::size_t double_lanes = hn::MaxLanes(Double_lanes());
 
-HWY_INLINE Numbers all(double value) { return hn::Set(Lanes(), value); }
+using Float_lanes = hn::CappedTag<float, most_float_lanes>;
+using Floats = hn::Vec<Float_lanes>;
+constexpr std::size_t float_lanes = hn::MaxLanes(Float_lanes());
 
+/// Indices of as many elements as a vector holds floats.
+using Index_lanes = hn::Rebind<std::uint32_t, Float_lanes>;
+using Indices = hn::Vec<Index_lanes>;
+
+/// One side of several boxes, in steps.
+using Side_lanes = hn::CappedTag<std::int16_t, most_side_lanes>;
+using Sides = hn::Vec<Side_lanes>;
+constexpr std::size_t side_lanes = hn::MaxLanes(Side_lanes());
+
+/// x, y and z of one position, and padding: one vector of four lanes, two of two, or four of one.
+using Position_lanes = hn::CappedTag<double, 4>;
+using Position_vector = hn::Vec<Position_lanes>;
+constexpr std::size_t position_lanes = hn::MaxLanes(Position_lanes());
+constexpr std::size_t position_vectors = 4 / position_lanes;
+
+/// One vector of space per lane.
 template <class Tag>
 struct Vector3 {
   hn::Vec<Tag> x, y, z;
 };
+
+/// One vector of space, in every lane.
+template <class Tag, class T>
+HWY_INLINE Vector3<Tag> in_all_lanes(Tag d, const T* vector) {
+  return {hn::Set(d, vector[0]), hn::Set(d, vector[1]), hn::Set(d, vector[2])};
+}
 
 template <class Tag>
 HWY_INLINE Vector3<Tag> operator-(const Vector3<Tag>& p, const Vector3<Tag>& q) {
@@ -41,28 +67,19 @@ HWY_INLINE Vector3<Tag> cross(const Vector3<Tag>& u, const Vector3<Tag>& v) {
   return {hn::Sub(hn::Mul(u.y, v.z), hn::Mul(u.z, v.y)), hn::Sub(hn::Mul(u.z, v.x), hn::Mul(u.x, v.z)),
           hn::Sub(hn::Mul(u.x, v.y), hn::Mul(u.y, v.x))};
 }
+/// (x + y) + z, each product and sum rounded.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> dot(const Vector3<Tag>& u, const Vector3<Tag>& v) {
   return hn::Add(hn::Add(hn::Mul(u.x, v.x), hn::Mul(u.y, v.y)), hn::Mul(u.z, v.z));
 }
 template <class Tag>
-HWY_INLINE Vector3<Tag> sizes(const Vector3<Tag>& u) {
+HWY_INLINE Vector3<Tag> absolute(const Vector3<Tag>& u) {
   return {hn::Abs(u.x), hn::Abs(u.y), hn::Abs(u.z)};
 }
 template <class Tag>
 HWY_INLINE Vector3<Tag> greater(const Vector3<Tag>& u, const Vector3<Tag>& v) {
   return {hn::Max(u.x, v.x), hn::Max(u.y, v.y), hn::Max(u.z, v.z)};
 }
-
-/// One side of as many boxes as a vector holds, in steps.
-using Box_lanes = hn::CappedTag<std::int16_t, most_box_lanes>;
-using Sides = hn::Vec<Box_lanes>;
-/// As many vertices as a vector has floats.
-using Vertex_lanes = hn::CappedTag<std::uint32_t, most_float_lanes>;
-
-/// As many rounded coordinates as a vector holds.
-using Float_lanes = hn::Rebind<float, Vertex_lanes>;
-using Floats = hn::Vec<Float_lanes>;
 
 /// One bit per lane.
 template <class Tag>

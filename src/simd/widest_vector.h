@@ -3,12 +3,12 @@
 
 #include <cstddef>
 
-/// Lanes of the widest vector that any instruction set offers: arrays have room for a whole one past their last
-/// element.
+/// Lanes of the widest vector of any instruction set. Arrays that kernels read or write have this much padding, so that
+/// a whole vector fits past their last element.
 namespace lodestone {
 
-inline constexpr std::size_t widest = 8;             ///< doubles
-inline constexpr std::size_t most_float_lanes = 16;  ///< floats
-inline constexpr std::size_t most_box_lanes = 32;    ///< sides of boxes, 16 bits each
+inline constexpr std::size_t most_double_lanes = 8;
+inline constexpr std::size_t most_float_lanes = 16;
+inline constexpr std::size_t most_side_lanes = 32;  ///< sides of boxes, 16 bits each
 
 }  // namespace lodestone

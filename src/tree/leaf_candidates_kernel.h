@@ -7,7 +7,7 @@
 #include "lodestone/tree/leaf_candidates.h"
 #include "lodestone/volumes/aabb.h"
 
-/// Leaves of two trees, all with all, built for several instruction sets and chosen at run time.
+/// All leaves below one node against all below another, built for several instruction sets and chosen at run time.
 namespace lodestone::kernel {
 
 /// The leaves below a node.
@@ -18,7 +18,7 @@ struct Leaf_bunch {
   std::uint32_t count;         ///< 1 .. bunch_leaves
 };
 
-/// Sets all of `near` but the numbers of the first leaves.
-void list_leaf_candidates(const Leaf_bunch& a, const Leaf_bunch& b, double margin, Leaf_candidates& near);
+/// Lists the pairs of leaves whose boxes are within the margin of each other. Does not set `first_a` and `first_b`.
+void list_leaf_candidates(const Leaf_bunch& a, const Leaf_bunch& b, double margin, Leaf_candidates& candidates);
 
 }  // namespace lodestone::kernel

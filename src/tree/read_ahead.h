@@ -3,12 +3,12 @@
 
 #include "simd/widest_vector.h"
 
-/// How far past the end of a leaf's lists kernels read; a tree's lists are padded by as much.
+/// How far past the end of a leaf's lists kernels read; a tree's lists have this much padding.
 namespace lodestone::kernel {
 
-/// Vertices that a refit of coordinates beyond the cache prefetches.
+/// Vertices by which a refit prefetches coordinates that do not fit into the cache.
 inline constexpr std::size_t vertices_ahead = 64;
-/// Faces whose corners are read in vectors, whatever they are.
-inline constexpr std::size_t faces_ahead = most_box_lanes;
+/// Faces in the widest vector that corners are read in.
+inline constexpr std::size_t faces_ahead = most_side_lanes;
 
 }  // namespace lodestone::kernel

@@ -8,81 +8,82 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/position_vectors-inl.h"
+#include "simd/positions-inl.h"
+#include "simd/vector_types-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using V = hn::Vec<D>;
-
 struct Bounds {
-  V low[vectors];
-  V high[vectors];
-  V sum[vectors];
+  Position_vector low[position_vectors];
+  Position_vector high[position_vectors];
+  Position_vector sum[position_vectors];
 };
 
-/// The last vertex of a list may be the last of the mesh: nothing past its z is read.
-HWY_INLINE void start_with_last(Bounds& bounds, const double* vertex) {
-  for (std::size_t i = 0; i < vectors; ++i) bounds.low[i] = bounds.high[i] = bounds.sum[i] = load_last(vertex, i);
+/// Starts with the last vertex of a list, which may be the last of the mesh.
+HWY_INLINE void start_with_last(Bounds& bounds, const double* position) {
+  for (std::size_t i = 0; i < position_vectors; ++i)
+    bounds.low[i] = bounds.high[i] = bounds.sum[i] = load_position(position, i);
 }
 
-HWY_INLINE void extend(Bounds& bounds, const double* vertex) {
-  for (std::size_t i = 0; i < vectors; ++i) {
-    const auto x = hn::LoadU(D(), vertex + i * lanes);
+HWY_INLINE void extend(Bounds& bounds, const double* position) {
+  for (std::size_t i = 0; i < position_vectors; ++i) {
+    const auto x = load_inner_position(position, i);
     bounds.low[i] = hn::Min(bounds.low[i], x);
     bounds.high[i] = hn::Max(bounds.high[i], x);
     bounds.sum[i] = hn::Add(bounds.sum[i], x);
   }
 }
 
-/// Bounds of several vertices side by side: two in a vector where it holds eight doubles.
+// Where a vector holds eight doubles, it bounds two vertices side by side.
 #if HWY_MAX_BYTES >= 64
 constexpr std::size_t vertices_per_vector = 2;
-using Wide = hn::CappedTag<double, 2 * lanes>;
+using Wide_lanes = Double_lanes;
 
 struct Wide_bounds {
-  hn::Vec<Wide> low[vectors];
-  hn::Vec<Wide> high[vectors];
-  hn::Vec<Wide> sum[vectors];
+  Doubles low[position_vectors];
+  Doubles high[position_vectors];
+  Doubles sum[position_vectors];
 };
 
 HWY_INLINE Wide_bounds widen(const Bounds& bounds) {
-  const Wide d;
+  const Wide_lanes d;
   return {{hn::Combine(d, bounds.low[0], bounds.low[0])},
           {hn::Combine(d, bounds.high[0], bounds.high[0])},
           {hn::Combine(d, bounds.sum[0], bounds.sum[0])}};
 }
 HWY_INLINE Bounds narrow(const Wide_bounds& bounds) {
-  const D d;
+  const Position_lanes d;
   return {{hn::Min(hn::LowerHalf(d, bounds.low[0]), hn::UpperHalf(d, bounds.low[0]))},
           {hn::Max(hn::LowerHalf(d, bounds.high[0]), hn::UpperHalf(d, bounds.high[0]))},
           {hn::Add(hn::LowerHalf(d, bounds.sum[0]), hn::UpperHalf(d, bounds.sum[0]))}};
 }
 #else
 constexpr std::size_t vertices_per_vector = 1;
-using Wide = D;
+using Wide_lanes = Position_lanes;
 using Wide_bounds = Bounds;
 
 HWY_INLINE Wide_bounds widen(const Bounds& bounds) { return bounds; }
 HWY_INLINE Bounds narrow(const Wide_bounds& bounds) { return bounds; }
 #endif
 
-/// Vector i of the vertices at `vertices[k]` and, if there is room, of the one two places further.
-HWY_INLINE hn::Vec<Wide> load_wide(const double* coordinates, const std::uint32_t* vertices, std::size_t k,
-                                   std::size_t i) {
-  const auto first = hn::LoadU(D(), coordinates + 3 * std::size_t{vertices[k]} + i * lanes);
+/// Vector i of vertex `vertices[k]` and, where a vector holds two, of `vertices[k + 2]`.
+HWY_INLINE hn::Vec<Wide_lanes> load_wide(const double* coordinates, const std::uint32_t* vertices, std::size_t k,
+                                         std::size_t i) {
+  const auto first = load_inner_position(coordinates + 3 * std::size_t{vertices[k]}, i);
 #if HWY_MAX_BYTES >= 64
-  return hn::Combine(Wide(), hn::LoadU(D(), coordinates + 3 * std::size_t{vertices[k + 2]} + i * lanes), first);
+  return hn::Combine(Wide_lanes(), load_inner_position(coordinates + 3 * std::size_t{vertices[k + 2]}, i), first);
 #else
   return first;
 #endif
 }
 
-/// Four vertices. They are compared with each other first: so only one instruction in several waits for those before.
+/// Extends by four vertices. They are compared with each other first, which shortens the chain of dependent
+/// instructions.
 HWY_INLINE void extend(Wide_bounds& bounds, const double* coordinates, const std::uint32_t* vertices) {
-  for (std::size_t i = 0; i < vectors; ++i) {
+  for (std::size_t i = 0; i < position_vectors; ++i) {
     const auto p = load_wide(coordinates, vertices, 0, i), q = load_wide(coordinates, vertices, 1, i);
     auto low = hn::Min(p, q), high = hn::Max(p, q), sum = hn::Add(p, q);
     if constexpr (vertices_per_vector == 1) {
@@ -97,7 +98,7 @@ HWY_INLINE void extend(Wide_bounds& bounds, const double* coordinates, const std
   }
 }
 
-/// @tparam ahead  vertices by which memory is asked for before it is read; 0: the processor looks ahead by itself
+/// @tparam ahead  vertices by which to prefetch; 0: left to the processor
 template <std::size_t ahead>
 HWY_INLINE Bounds leaf_bounds(const double* coordinates, const std::uint32_t* vertex, const std::uint32_t* end) {
   const std::uint32_t* const last = end - 1;
@@ -113,31 +114,32 @@ HWY_INLINE Bounds leaf_bounds(const double* coordinates, const std::uint32_t* ve
       for (std::size_t k = 0; k < 4; ++k) hwy::Prefetch(coordinates + 3 * std::size_t{vertex[ahead + k]});
     extend(wide, coordinates, vertex);
   }
-  // Some twice, which changes no minimum and no maximum, rather than one by one.
+  // The rest, with up to three vertices a second time: minima and maxima stay the same, and the sum is only tested for
+  // being finite.
   if (vertex < last) extend(wide, coordinates, last - 4);
   return narrow(wide);
 }
 
 template <std::size_t ahead>
 HWY_INLINE Refit_sums refit_leaves_ahead(const Refit& refit, std::size_t first, std::size_t end) {
-  const D d;
-  V sums[vectors], extents[vectors];
-  for (std::size_t i = 0; i < vectors; ++i) sums[i] = extents[i] = hn::Zero(d);
+  const Position_lanes d;
+  Position_vector sums[position_vectors], extents[position_vectors];
+  for (std::size_t i = 0; i < position_vectors; ++i) sums[i] = extents[i] = hn::Zero(d);
   for (std::size_t leaf = first; leaf < end; ++leaf) {
     const Bounds bounds = leaf_bounds<ahead>(refit.coordinates, refit.vertices + refit.vertex_begin[leaf],
                                              refit.vertices + refit.vertex_begin[leaf + 1]);
     Aabb& box = refit.boxes[refit.leaf_nodes[leaf]];
-    for (std::size_t i = 0; i < vectors; ++i) {
-      hn::Store(bounds.low[i], d, box.low + i * lanes);
-      hn::Store(bounds.high[i], d, box.high + i * lanes);
+    for (std::size_t i = 0; i < position_vectors; ++i) {
+      hn::Store(bounds.low[i], d, box.low + i * position_lanes);
+      hn::Store(bounds.high[i], d, box.high + i * position_lanes);
       sums[i] = hn::Add(sums[i], bounds.sum[i]);
       extents[i] = hn::Add(extents[i], hn::Sub(bounds.high[i], bounds.low[i]));
     }
   }
   alignas(64) double sum[4], extent[4];
-  for (std::size_t i = 0; i < vectors; ++i) {
-    hn::Store(sums[i], d, sum + i * lanes);
-    hn::Store(extents[i], d, extent + i * lanes);
+  for (std::size_t i = 0; i < position_vectors; ++i) {
+    hn::Store(sums[i], d, sum + i * position_lanes);
+    hn::Store(extents[i], d, extent + i * position_lanes);
   }
   return {.coordinates = sum[0] + sum[1] + sum[2], .extents = extent[0] + extent[1] + extent[2]};
 }
@@ -147,29 +149,29 @@ Refit_sums refit_leaves_kernel(const Refit& refit, std::size_t first, std::size_
                             : refit_leaves_ahead<0>(refit, first, end);
 }
 
-/// Four sums run side by side, so that no addition waits for the one before.
+/// Four independent sums, so that no addition waits for the one before.
 double sum_coordinates_kernel(const Refit& refit, std::size_t leaf) {
-  const D d;
+  const Position_lanes d;
   const double* const coordinates = refit.coordinates;
   const std::uint32_t* vertex = refit.vertices + refit.vertex_begin[leaf];
   const std::uint32_t* const last = refit.vertices + refit.vertex_begin[leaf + 1] - 1;
-  V sums[4][vectors];
-  for (std::size_t i = 0; i < vectors; ++i) {
+  Position_vector sums[4][position_vectors];
+  for (std::size_t i = 0; i < position_vectors; ++i) {
     for (auto& sum : sums) sum[i] = hn::Zero(d);
-    sums[0][i] = load_last(coordinates + 3 * std::size_t{*last}, i);
+    sums[0][i] = load_position(coordinates + 3 * std::size_t{*last}, i);
   }
   for (; vertex + 4 <= last; vertex += 4)
     for (std::size_t k = 0; k < 4; ++k) {
       if (refit.beyond_cache) hwy::Prefetch(coordinates + 3 * std::size_t{vertex[vertices_ahead + k]});
-      for (std::size_t i = 0; i < vectors; ++i)
-        sums[k][i] = hn::Add(sums[k][i], hn::LoadU(d, coordinates + 3 * std::size_t{vertex[k]} + i * lanes));
+      for (std::size_t i = 0; i < position_vectors; ++i)
+        sums[k][i] = hn::Add(sums[k][i], load_inner_position(coordinates + 3 * std::size_t{vertex[k]}, i));
     }
   for (; vertex < last; ++vertex)
-    for (std::size_t i = 0; i < vectors; ++i)
-      sums[1][i] = hn::Add(sums[1][i], hn::LoadU(d, coordinates + 3 * std::size_t{*vertex} + i * lanes));
+    for (std::size_t i = 0; i < position_vectors; ++i)
+      sums[1][i] = hn::Add(sums[1][i], load_inner_position(coordinates + 3 * std::size_t{*vertex}, i));
   alignas(64) double sum[4];
-  for (std::size_t i = 0; i < vectors; ++i)
-    hn::Store(hn::Add(hn::Add(sums[0][i], sums[1][i]), hn::Add(sums[2][i], sums[3][i])), d, sum + i * lanes);
+  for (std::size_t i = 0; i < position_vectors; ++i)
+    hn::Store(hn::Add(hn::Add(sums[0][i], sums[1][i]), hn::Add(sums[2][i], sums[3][i])), d, sum + i * position_lanes);
   return sum[0] + sum[1] + sum[2];
 }
 

@@ -6,82 +6,60 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/position_vectors-inl.h"
+#include "simd/vector_types-inl.h"
+#include "volumes/vertex_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE void copy_vertex(const double* vertex, std::size_t index, Leaf_points& points) {
-  points.x[index] = vertex[0];
-  points.y[index] = vertex[1];
-  points.z[index] = vertex[2];
+static_assert(Leaf_points::step == block_vertices && Leaf_points::capacity % block_vertices == 0);
+
+HWY_INLINE void store_block(const Vertex_block& block, std::size_t first, Leaf_points& points) {
+  const Double_lanes d;
+  for (std::size_t i = 0; i < block_vectors; ++i) {
+    hn::Store(block.of[i].x, d, points.x + first + i * double_lanes);
+    hn::Store(block.of[i].y, d, points.y + first + i * double_lanes);
+    hn::Store(block.of[i].z, d, points.z + first + i * double_lanes);
+  }
 }
 
-#if HWY_MAX_BYTES >= 32
-constexpr std::size_t vertices_at_once = 4;
-
-/// Copies and transposes four vertices. None may be the last of the mesh, since the load reads one number past z.
-HWY_INLINE void copy_vertices(const double* coordinates, const std::uint32_t* vertices, std::size_t index,
-                              Leaf_points& points) {
-  const D d;
-  const auto load = [&](std::size_t k)
-                        HWY_ATTR { return hn::LoadU(d, coordinates + 3 * std::size_t{vertices[index + k]}); };
-  const auto p = load(0), q = load(1), r = load(2), s = load(3);
-  const auto pq_even = hn::InterleaveLower(d, p, q), rs_even = hn::InterleaveLower(d, r, s);
-  const auto pq_odd = hn::InterleaveUpper(d, p, q), rs_odd = hn::InterleaveUpper(d, r, s);
-  hn::Store(hn::ConcatLowerLower(d, rs_even, pq_even), d, points.x + index);
-  hn::Store(hn::ConcatLowerLower(d, rs_odd, pq_odd), d, points.y + index);
-  hn::Store(hn::ConcatUpperUpper(d, rs_even, pq_even), d, points.z + index);
-}
-#else
-constexpr std::size_t vertices_at_once = 1;
-
-HWY_INLINE void copy_vertices(const double* coordinates, const std::uint32_t* vertices, std::size_t index,
-                              Leaf_points& points) {
-  copy_vertex(coordinates + 3 * std::size_t{vertices[index]}, index, points);
-}
-#endif
-
-void gather_kernel(const double* coordinates, const std::uint32_t* vertices, std::size_t count, Leaf_points& points) {
-  const std::size_t last = count - 1;
-  std::size_t index = 0;
-  for (; index + vertices_at_once <= last; index += vertices_at_once)
-    copy_vertices(coordinates, vertices, index, points);
-  for (; index < last; ++index) copy_vertex(coordinates + 3 * std::size_t{vertices[index]}, index, points);
-  points.count = count;
-  points.size = (count + Leaf_points::step - 1) / Leaf_points::step * Leaf_points::step;
-  for (; index < points.size; ++index) copy_vertex(coordinates + 3 * std::size_t{vertices[last]}, index, points);
+void gather_kernel(const Leaf_faces& faces, Leaf_points& points) {
+  const Vertex_blocks blocks(faces);
+  for (std::size_t first = 0; first < blocks.last_block(); first += block_vertices)
+    store_block(blocks.load(first), first, points);
+  store_block(blocks.load_last(), blocks.last_block(), points);
+  points.count = blocks.last + 1;
+  points.size = blocks.last_block() + block_vertices;
 }
 
-using Wide = hn::CappedTag<double, Leaf_points::step>;
-constexpr std::size_t wide_lanes = hn::MaxLanes(Wide());
+HWY_INLINE Vector3<Double_lanes> load_points(const Leaf_points& points, std::size_t first) {
+  const Double_lanes d;
+  return {hn::Load(d, points.x + first), hn::Load(d, points.y + first), hn::Load(d, points.z + first)};
+}
 
-/// Packs a squared distance and the index of its vertex into one number: the index replaces the last nine bits. One
-/// maximum then finds both, and no two numbers are equal.
-template <class V>
-HWY_INLINE V with_index(V squared_distance, hn::Vec<hn::RebindToUnsigned<Wide>> index) {
-  const hn::RebindToUnsigned<Wide> bits;
+/// A squared distance and the index of its vertex in one number: the index replaces the last bits. So one maximum finds
+/// both, and no two are equal.
+HWY_INLINE Doubles with_index(Doubles squared_distance, hn::Vec<hn::RebindToUnsigned<Double_lanes>> index) {
+  const hn::RebindToUnsigned<Double_lanes> bits;
   static_assert(Leaf_points::capacity <= 512);
-  return hn::BitCast(Wide(),
+  return hn::BitCast(Double_lanes(),
                      hn::Or(hn::And(hn::BitCast(bits, squared_distance), hn::Set(bits, ~std::uint64_t{511})), index));
 }
 
 Farthest farthest_kernel(const Leaf_points& points, const double* centre) {
-  const Wide d;
-  const hn::RebindToUnsigned<Wide> bits;
-  const auto cx = hn::Set(d, centre[0]), cy = hn::Set(d, centre[1]), cz = hn::Set(d, centre[2]);
+  const Double_lanes d;
+  const hn::RebindToUnsigned<Double_lanes> bits;
+  const auto from = in_all_lanes(d, centre);
   auto most = hn::Zero(d), most_with_index = hn::Zero(d);
   auto index = hn::Iota(bits, 0);
-  for (std::size_t i = 0; i < points.size; i += wide_lanes) {
-    const auto x = hn::Sub(hn::Load(d, points.x + i), cx);
-    const auto y = hn::Sub(hn::Load(d, points.y + i), cy);
-    const auto z = hn::Sub(hn::Load(d, points.z + i), cz);
-    const auto squared = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+  for (std::size_t i = 0; i < points.size; i += double_lanes) {
+    const auto v = load_points(points, i) - from;
+    const auto squared = dot(v, v);
     most = hn::Max(most, squared);
     most_with_index = hn::Max(most_with_index, with_index(squared, index));
-    index = hn::Add(index, hn::Set(bits, wide_lanes));
+    index = hn::Add(index, hn::Set(bits, double_lanes));
   }
   const double winner = hn::GetLane(hn::MaxOfLanes(d, most_with_index));
   std::uint64_t winner_bits;
@@ -89,25 +67,27 @@ Farthest farthest_kernel(const Leaf_points& points, const double* centre) {
   return {.index = winner_bits & 511, .squared_distance = hn::GetLane(hn::MaxOfLanes(d, most))};
 }
 
-/// Sums the terms of `terms(x, y, z, out)` over all vertices; (x, y, z) is the vertex minus `origin`, times `factor`.
-/// Always keeps eight partial sums, each of every eighth vertex, so that all instruction sets give the same bits.
+/// Sums terms over the vertices, as seen from a point and times a factor. Every instruction set adds the same eight
+/// partial sums, each of every eighth vertex, so all give the same bits.
+/// @param terms  `terms(x, y, z, out)` writes `count` terms
 template <std::size_t count, class Terms>
 HWY_INLINE void add_up(const Leaf_points& points, const double* origin, double factor, const Terms& terms,
                        double* results) {
-  const Wide d;
-  const hn::RebindToSigned<Wide> numbers;
-  const auto end = hn::Set(numbers, static_cast<std::int64_t>(points.count));
-  const auto ox = hn::Set(d, origin[0]), oy = hn::Set(d, origin[1]), oz = hn::Set(d, origin[2]);
+  const Double_lanes d;
+  const hn::RebindToSigned<Double_lanes> integers;
+  const auto end = hn::Set(integers, static_cast<std::int64_t>(points.count));
+  const auto from = in_all_lanes(d, origin);
   const auto scale = hn::Set(d, factor);
   alignas(64) double sums[count][Leaf_points::step];
-  for (std::size_t first = 0; first < Leaf_points::step; first += wide_lanes) {
-    hn::Vec<Wide> sum[count], term[count];
+  for (std::size_t first = 0; first < Leaf_points::step; first += double_lanes) {
+    Doubles sum[count], term[count];
     for (auto& s : sum) s = hn::Zero(d);
     for (std::size_t i = first; i < points.size; i += Leaf_points::step) {
-      const auto there = hn::RebindMask(d, hn::Lt(hn::Iota(numbers, static_cast<std::int64_t>(i)), end));
-      const auto x = hn::IfThenElseZero(there, hn::Mul(hn::Sub(hn::Load(d, points.x + i), ox), scale));
-      const auto y = hn::IfThenElseZero(there, hn::Mul(hn::Sub(hn::Load(d, points.y + i), oy), scale));
-      const auto z = hn::IfThenElseZero(there, hn::Mul(hn::Sub(hn::Load(d, points.z + i), oz), scale));
+      const auto real = hn::RebindMask(d, hn::Lt(hn::Iota(integers, static_cast<std::int64_t>(i)), end));
+      const auto v = load_points(points, i) - from;
+      const auto x = hn::IfThenElseZero(real, hn::Mul(v.x, scale));
+      const auto y = hn::IfThenElseZero(real, hn::Mul(v.y, scale));
+      const auto z = hn::IfThenElseZero(real, hn::Mul(v.z, scale));
       terms(x, y, z, term);
       for (std::size_t k = 0; k < count; ++k) sum[k] = hn::Add(sum[k], term[k]);
     }
@@ -156,16 +136,12 @@ Sphere_moments sphere_moments_kernel(const Leaf_points& points, const double* or
 
 Directions directions_kernel(const Leaf_points& points, const double* centre, const double* axis,
                              double* squared_distances) {
-  const Wide d;
-  const auto cx = hn::Set(d, centre[0]), cy = hn::Set(d, centre[1]), cz = hn::Set(d, centre[2]);
-  const auto ax = hn::Set(d, axis[0]), ay = hn::Set(d, axis[1]), az = hn::Set(d, axis[2]);
+  const Double_lanes d;
+  const auto from = in_all_lanes(d, centre), direction = in_all_lanes(d, axis);
   auto least = hn::Set(d, hwy::HighestValue<double>()), most = hn::Zero(d), least_cosine = hn::Set(d, 1);
-  for (std::size_t i = 0; i < points.size; i += wide_lanes) {
-    const auto x = hn::Sub(hn::Load(d, points.x + i), cx);
-    const auto y = hn::Sub(hn::Load(d, points.y + i), cy);
-    const auto z = hn::Sub(hn::Load(d, points.z + i), cz);
-    const auto squared = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
-    const auto along = hn::Add(hn::Add(hn::Mul(x, ax), hn::Mul(y, ay)), hn::Mul(z, az));
+  for (std::size_t i = 0; i < points.size; i += double_lanes) {
+    const auto v = load_points(points, i) - from;
+    const auto squared = dot(v, v), along = dot(v, direction);
     least = hn::Min(least, squared);
     most = hn::Max(most, squared);
     least_cosine = hn::Min(least_cosine, hn::Div(along, hn::Sqrt(squared)));
@@ -188,9 +164,7 @@ HWY_EXPORT(sum_kernel);
 HWY_EXPORT(sphere_moments_kernel);
 HWY_EXPORT(directions_kernel);
 
-void gather(const double* coordinates, const std::uint32_t* vertices, std::size_t count, Leaf_points& points) {
-  HWY_DYNAMIC_DISPATCH(gather_kernel)(coordinates, vertices, count, points);
-}
+void gather(const Leaf_faces& faces, Leaf_points& points) { HWY_DYNAMIC_DISPATCH(gather_kernel)(faces, points); }
 
 Farthest farthest(const Leaf_points& points, const double* centre) {
   return HWY_DYNAMIC_DISPATCH(farthest_kernel)(points, centre);

@@ -6,29 +6,28 @@
 
 #include "lodestone/volumes/leaf_faces.h"
 
-/// Loops over the vertices of a leaf, for volumes bounded by spheres. Built for several instruction sets and chosen at
-/// run time. Roundings are the same in all of them, and so are the results.
+/// Loops over the vertices of a leaf that fit volumes bounded by spheres, built for several instruction sets and chosen
+/// at run time. All round alike, so all give the same bits.
 namespace lodestone::kernel {
 
-/// Vertices of a leaf as a structure of arrays, for vector loads.
+/// The vertices of a leaf in columns, one per coordinate.
 struct Leaf_points {
   static constexpr std::size_t capacity = 3 * most_leaf_faces;
-  static constexpr std::size_t step = 8;  ///< padded to a multiple of this with copies of the last vertex
+  static constexpr std::size_t step = 8;  ///< columns are padded with the last vertex to a multiple of this
 
   alignas(64) double x[capacity];
   alignas(64) double y[capacity];
   alignas(64) double z[capacity];
-  std::size_t count;  ///< vertices without padding
-  std::size_t size;   ///< vertices with padding
+  std::size_t count;  ///< vertices
+  std::size_t size;   ///< the same with the padding
 };
 
-/// Copies the vertices of a leaf. Reads nothing past the coordinates of the last one.
-/// @param vertices  `count` indices, ascending; at least one and at most the capacity
-void gather(const double* coordinates, const std::uint32_t* vertices, std::size_t count, Leaf_points& points);
+/// Copies the vertices of a leaf. Reads nothing past the z of the last one.
+void gather(const Leaf_faces& faces, Leaf_points& points);
 
 struct Farthest {
-  std::size_t index;  ///< of the farthest vertex, or of one whose squared distance is at least 1 - 2^-43 of the largest
-  double squared_distance;  ///< the largest: x x + y y + z z with each sum and product rounded
+  std::size_t index;        ///< of the vertex, or of one whose squared distance is at least 1 - 2^-43 times its
+  double squared_distance;  ///< the largest: (x x + y y) + z z, each sum and product rounded
 };
 
 /// The vertex farthest from a point.
@@ -38,26 +37,26 @@ struct Sum {
   double x, y, z;
 };
 
-/// Sum over all vertices of vertex - origin.
+/// The sum of the vertices as seen from a point.
 Sum sum(const Leaf_points& points, const double* origin);
 
-/// Means of products of coordinates; r is x x + y y + z z.
+/// Means of products of coordinates; r stands for x x + y y + z z.
 struct Sphere_moments {
   double xx, xy, yy, yz, zz, zx, rx, ry, rz, rr;
 };
 
-/// Moments of (vertex - origin) factor over all vertices.
+/// The moments of the vertices as seen from a point, times a factor.
 Sphere_moments sphere_moments(const Leaf_points& points, const double* origin, double factor);
 
 struct Directions {
   double least_squared_distance;
   double most_squared_distance;
-  double least_cosine;  ///< of the angles at the centre between vertices and the axis; unspecified if a vertex is there
+  double least_cosine;  ///< of the angles at the centre between vertices and axis; undefined if a vertex is the centre
 };
 
-/// The range of the vertices' distances from a centre, and of their angles to an axis.
-/// @param squared_distances  output per vertex, computed as in `farthest`; aligned to 64 bytes, with room for
-/// `capacity`
+/// How far vertices are from a centre, and how far off an axis.
+/// @param squared_distances  set, one per vertex, each computed as `Farthest` says; aligned to 64 bytes, with room for
+///                           `Leaf_points::capacity`
 Directions directions(const Leaf_points& points, const double* centre, const double* axis, double* squared_distances);
 
 }  // namespace lodestone::kernel

@@ -87,7 +87,7 @@ void Bounding_sphere::enclose(const Leaf_faces& faces) {
   kernel::Leaf_points points;
   if (faces.vertices.size() > points.capacity)
     throw Bad_argument("a leaf has at most 384 vertices, found " + std::to_string(faces.vertices.size()));
-  kernel::gather(faces.coordinates.data(), faces.vertices.data(), faces.vertices.size(), points);
+  kernel::gather(faces, points);
   const Fit ball = fit(points);
   if (is_ordinary(ball.squared_radius)) {
     // `above` covers six roundings: five of the squared radius and one of the root.

@@ -98,7 +98,7 @@ void Spherical_shell::enclose(const Leaf_faces& faces) {
   *this = plain_shell(around);
   if (!has_room_for_shell(around)) return;
   kernel::Leaf_points points;
-  kernel::gather(faces.coordinates.data(), faces.vertices.data(), faces.vertices.size(), points);
+  kernel::gather(faces, points);
   const auto fitted = shell_centre(faces, points, around);
   if (!fitted.allFinite()) return;
   const auto shell = shell_about(fitted, faces, points, around);

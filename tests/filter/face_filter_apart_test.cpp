@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces of two leaves that are apart are left out, though their boxes overlap.
+// Faces that are apart are discarded, though their boxes overlap.
 #include <Eigen/Geometry>
 
 #include "filter/filter_checks.h"
@@ -8,7 +8,8 @@
 namespace lodestone {
 namespace {
 
-/// Pairs whose boxes overlap, apart along the normal of one of them or within its plane across an edge.
+/// Pairs whose boxes overlap, and which are a gap apart: along the normal of one of them, or across one of its edges
+/// within its plane.
 std::vector<Triangle_pair> apart_by(double gap, std::mt19937_64& random, int count) {
   std::vector<Triangle_pair> pairs;
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -37,33 +38,33 @@ std::vector<Triangle_pair> apart_by(double gap, std::mt19937_64& random, int cou
   return pairs;
 }
 
-TEST(Face_filter, leave_out_faces_that_a_plane_through_one_of_them_separates) {
+TEST(Face_filter, discards_faces_that_a_normal_or_edge_of_one_of_them_separates) {
   std::mt19937_64 random(1);
   Single_leaf a(1), b(1);
-  for (const Place& place : {Place{1, 0}, {1, 1}, {0x1p-200, 0}, {0x1p200, 0}})
+  for (const Placement& placement : {Placement{1, 0}, {1, 1}, {0x1p-200, 0}, {0x1p200, 0}})
     for (const auto& [s, t] : apart_by(1e-9, random, 2000)) {
-      a.set(0, placed(s, place)), b.set(0, placed(t, place));
+      a.set(0, placed(s, placement)), b.set(0, placed(t, placement));
       a.refit(), b.refit();
-      ASSERT_TRUE(near_pairs(a.view(), b.view(), 0).empty()) << place.scale;
-      ASSERT_TRUE(near_pairs(b.view(), a.view(), 0).empty()) << place.scale;
+      ASSERT_TRUE(candidate_pairs(a.view(), b.view(), 0).empty()) << placement.scale;
+      ASSERT_TRUE(candidate_pairs(b.view(), a.view(), 0).empty()) << placement.scale;
     }
-  // Beyond 1e-90 and 1e90 determinants are not relied upon: a normal still separates.
+  // Below 1e-90 and above 1e90, where determinants prove nothing, a normal still separates.
   const auto pairs = apart_by(1e-9, random, 2000);
   for (const double scale : {0x1p-310, 0x1p310})
     for (std::size_t i = 0; i < pairs.size(); i += 2) {
       a.set(0, placed(pairs[i].first, {scale, 0})), b.set(0, placed(pairs[i].second, {scale, 0}));
       a.refit(), b.refit();
-      ASSERT_TRUE(near_pairs(a.view(), b.view(), 0).empty()) << scale;
+      ASSERT_TRUE(candidate_pairs(a.view(), b.view(), 0).empty()) << scale;
     }
   for (const auto& [s, t] : apart_by(0.1, random, 2000)) {
     a.set(0, s), b.set(0, t);
     a.refit(), b.refit();
-    ASSERT_TRUE(near_pairs(a.view(), b.view(), 0.1 - 1e-9).empty());
+    ASSERT_TRUE(candidate_pairs(a.view(), b.view(), 0.1 - 1e-9).empty());
   }
 }
 
-/// Pairs that are a gap apart across an edge of each, and along no direction that only one of them decides: two edges
-/// at right angles, one above the other, and faces that lean aside from them.
+/// Pairs that are a gap apart across an edge of each, and in no direction given by one of them alone: two edges at
+/// right angles, one above the other, and faces that lean away from them.
 std::vector<Triangle_pair> apart_across_edges(double gap, std::mt19937_64& random, int count) {
   std::vector<Triangle_pair> pairs;
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -84,28 +85,28 @@ std::vector<Triangle_pair> apart_across_edges(double gap, std::mt19937_64& rando
   return pairs;
 }
 
-TEST(Face_filter, leave_out_faces_that_an_edge_of_each_separates) {
+TEST(Face_filter, discards_faces_that_an_edge_of_each_separates) {
   std::mt19937_64 random(1);
   Single_leaf a(1), b(1);
-  for (const Place& place : {Place{1, 0}, {1, 1}, {0x1p-200, 0}, {0x1p200, 0}})
+  for (const Placement& placement : {Placement{1, 0}, {1, 1}, {0x1p-200, 0}, {0x1p200, 0}})
     for (const auto& [s, t] : apart_across_edges(1e-9, random, 500)) {
-      a.set(0, placed(s, place)), b.set(0, placed(t, place));
+      a.set(0, placed(s, placement)), b.set(0, placed(t, placement));
       a.refit(), b.refit();
-      ASSERT_TRUE(near_pairs(a.view(), b.view(), 0).empty()) << place.scale;
-      ASSERT_TRUE(near_pairs(b.view(), a.view(), 0).empty()) << place.scale;
+      ASSERT_TRUE(candidate_pairs(a.view(), b.view(), 0).empty()) << placement.scale;
+      ASSERT_TRUE(candidate_pairs(b.view(), a.view(), 0).empty()) << placement.scale;
     }
 }
 
-TEST(Face_filter, of_two_leaves_whose_boxes_overlap_are_few) {
+TEST(Face_filter, keeps_few_pairs_of_parallel_leaves_whose_boxes_overlap) {
   Face_soup low(cloth(8, 8)), high = low;
   deform(low, [](const Point& p) { return Point(p.x(), p.y(), p.x()); });
   deform(high, [](const Point& p) { return Point(p.x(), p.y(), p.x() + 0.2); });
   const Posed_object a(low, 128, false), b(high, 128, false);
   ASSERT_EQ(a.object().tree().leaf_count(), 1U);
-  EXPECT_TRUE(near_pairs(a.view(), b.view(), 0).empty());
-  const auto near = near_pairs(a.view(), b.view(), 0.15);
-  EXPECT_GT(near.size(), 0U);
-  EXPECT_LT(near.size(), 128U * 128 / 5);
+  EXPECT_TRUE(candidate_pairs(a.view(), b.view(), 0).empty());
+  const auto candidates = candidate_pairs(a.view(), b.view(), 0.15);
+  EXPECT_GT(candidates.size(), 0U);
+  EXPECT_LT(candidates.size(), 128U * 128 / 5);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Leaves that are nearly flat: faces that only touch the slab around the other leaf, or just miss it, are not lost.
+// Leaves that are nearly flat: faces that only touch the slab around the other leaf, or just miss it, are kept.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Faces of a patch, nearly in one plane, and others that come down to it from one side.
+/// The faces of a patch, nearly in one plane, and pins: faces that come down to it from one side.
 class Patch_and_pins {
  public:
   explicit Patch_and_pins(std::uint64_t seed) : random_(seed) {
@@ -27,11 +27,11 @@ class Patch_and_pins {
 
   static constexpr std::uint32_t faces = 64;
 
-  void set_patch(Single_leaf& leaf, const Place& place) const {
-    for (std::uint32_t f = 0; f < faces; ++f) leaf.set(f, placed(triangle(patch_[f]), place));
+  void set_patch(Single_leaf& leaf, const Placement& placement) const {
+    for (std::uint32_t f = 0; f < faces; ++f) leaf.set(f, placed(triangle(patch_[f]), placement));
   }
-  /// The pins end on the patch, or as far from it as is told, up to rounding or a little.
-  void set_pins(Single_leaf& leaf, double height, const Place& place) {
+  /// The pins end at a height above the patch, up to rounding or a little more.
+  void set_pins(Single_leaf& leaf, double height, const Placement& placement) {
     for (std::uint32_t f = 0; f < faces; ++f) {
       const auto& [p, q, r] = patch_[random_() % faces];
       const double u = random_() % 3 == 0 ? 0 : 0.5 + 0.5 * uniform(),
@@ -43,7 +43,7 @@ class Patch_and_pins {
         return Vector3d(end +
                         turn_ * (0.2 * Vector3d(uniform(), uniform(), 0) + Vector3d(0, 0, 0.6 + 0.5 * uniform())));
       };
-      leaf.set(f, placed(triangle({end, up(), up()}), place));
+      leaf.set(f, placed(triangle({end, up(), up()}), placement));
     }
   }
 
@@ -61,32 +61,34 @@ class Patch_and_pins {
   std::array<Corners_of_face, faces> patch_;
 };
 
-/// Checks that pairs which are left out are apart, which `near` tells; gives how many are near.
+/// Checks that no pair is discarded for which `near(a, b)` holds.
+/// @return number of pairs for which it holds
 template <class Near>
-std::size_t expect_none_left_out(const Single_leaf& a, const Single_leaf& b, double margin, const Near& near) {
-  const Numbers listed = near_pairs(a.view(), b.view(), margin);
+std::size_t expect_near_faces_kept(const Single_leaf& a, const Single_leaf& b, double margin, const Near& near) {
+  const Face_pairs kept = candidate_pairs(a.view(), b.view(), margin);
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < a.size(); ++i)
     for (std::uint32_t j = 0; j < b.size(); ++j) {
       const bool is_near = near(a.triangle(i), b.triangle(j));
       count += is_near ? 1 : 0;
-      EXPECT_TRUE(!is_near || std::ranges::binary_search(listed, Face_pair{i, j})) << i << ' ' << j;
+      EXPECT_TRUE(!is_near || std::ranges::binary_search(kept, Face_pair{i, j})) << i << ' ' << j;
     }
   return count;
 }
 
-TEST(Leaf_pairs_of_patches, include_faces_that_touch) {
+TEST(Face_filter_of_patches, keeps_faces_that_touch) {
   Single_leaf patch(Patch_and_pins::faces), pins(Patch_and_pins::faces);
   std::size_t meet = 0, asked = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed)
-    for (const Place& place : places) {
-      SCOPED_TRACE(testing::Message() << "seed " << seed << ", scale " << place.scale << ", offset " << place.offset);
+    for (const Placement& placement : placements) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", scale " << placement.scale << ", offset "
+                                      << placement.offset);
       Patch_and_pins both(seed);
-      both.set_patch(patch, place);
-      both.set_pins(pins, 0, place);
+      both.set_patch(patch, placement);
+      both.set_pins(pins, 0, placement);
       patch.refit(), pins.refit();
-      meet += expect_none_left_out(patch, pins, 0, triangles_intersect);
-      expect_none_left_out(pins, patch, 0, triangles_intersect);
+      meet += expect_near_faces_kept(patch, pins, 0, triangles_intersect);
+      expect_near_faces_kept(pins, patch, 0, triangles_intersect);
       asked += patch.size() * pins.size();
       if (HasFailure()) return;
     }
@@ -94,23 +96,23 @@ TEST(Leaf_pairs_of_patches, include_faces_that_touch) {
   EXPECT_LT(meet, asked / 4);
 }
 
-TEST(Leaf_pairs_of_patches, include_faces_nearer_than_the_margin) {
+TEST(Face_filter_of_patches, keeps_faces_nearer_than_the_margin) {
   Single_leaf patch(Patch_and_pins::faces), pins(Patch_and_pins::faces);
   std::size_t near = 0, asked = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed)
-    for (const Place& place : {Place{1, 0}, {1, 0x1p20}, {0x1p-300, 0}, {0x1p300, 0}})
+    for (const Placement& placement : {Placement{1, 0}, {1, 0x1p20}, {0x1p-300, 0}, {0x1p300, 0}})
       for (const double height : {1e-6, 0.01, 0.3}) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed << ", scale " << place.scale << ", height " << height);
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", scale " << placement.scale << ", height " << height);
         Patch_and_pins both(seed);
-        both.set_patch(patch, place);
-        both.set_pins(pins, height, place);
+        both.set_patch(patch, placement);
+        both.set_pins(pins, height, placement);
         patch.refit(), pins.refit();
-        const double margin = place.scale * height * (seed % 2 == 0 ? 1 : 1 + 1e-9);
+        const double margin = placement.scale * height * (seed % 2 == 0 ? 1 : 1 + 1e-9);
         const auto nearer = [margin](const Triangle& s, const Triangle& t) {
           return triangles_nearer_than(s, t, margin);
         };
-        near += expect_none_left_out(patch, pins, margin, nearer);
-        expect_none_left_out(pins, patch, margin, nearer);
+        near += expect_near_faces_kept(patch, pins, margin, nearer);
+        expect_near_faces_kept(pins, patch, margin, nearer);
         asked += patch.size() * pins.size();
         if (HasFailure()) return;
       }
@@ -118,8 +120,8 @@ TEST(Leaf_pairs_of_patches, include_faces_nearer_than_the_margin) {
   EXPECT_LT(near, asked / 2);
 }
 
-/// Corners are rounded to what the whole leaves need: small faces lose most of it.
-TEST(Leaf_pairs_of_patches, include_faces_nearer_than_the_margin_that_are_tiny_beside_others) {
+/// Corners are rounded relative to the size of their leaf, so small faces lose most of their digits.
+TEST(Face_filter_of_patches, keeps_faces_nearer_than_the_margin_that_are_tiny_beside_others) {
   constexpr std::uint32_t last = Patch_and_pins::faces;
   Single_leaf patch(last + 1), pins(last + 1);
   patch.set(last, {Point(-1, -1, -1), Point(1, 1, 1), Point(1, -1, 0.5)});
@@ -129,13 +131,13 @@ TEST(Leaf_pairs_of_patches, include_faces_nearer_than_the_margin_that_are_tiny_b
     for (int exponent = -4; exponent >= -24; exponent -= 4)
       for (const double height : {1e-3, 0.3}) {
         SCOPED_TRACE(testing::Message() << "seed " << seed << ", scale 2^" << exponent << ", height " << height);
-        const Place place{std::ldexp(1, exponent), 0.07 * static_cast<double>(seed)};
+        const Placement placement{std::ldexp(1, exponent), 0.07 * static_cast<double>(seed)};
         Patch_and_pins both(seed);
-        both.set_patch(patch, place);
-        both.set_pins(pins, height, place);
+        both.set_patch(patch, placement);
+        both.set_pins(pins, height, placement);
         patch.refit(), pins.refit();
-        const double margin = place.scale * height * (1 + 1e-9);
-        near += expect_none_left_out(patch, pins, margin, [margin](const Triangle& s, const Triangle& t) {
+        const double margin = placement.scale * height * (1 + 1e-9);
+        near += expect_near_faces_kept(patch, pins, margin, [margin](const Triangle& s, const Triangle& t) {
           return triangles_nearer_than(s, t, margin);
         });
         if (HasFailure()) return;

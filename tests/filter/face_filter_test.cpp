@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces of two leaves that meet, or come near each other, are listed.
+// Faces that meet, or are nearer than the margin, are kept.
 #include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
 #include <gtest/gtest.h>
 
@@ -15,10 +15,12 @@ namespace lodestone {
 namespace {
 
 struct Tally {
-  std::size_t pairs = 0, near = 0, true_ones = 0;
+  std::size_t pairs = 0;      ///< of all leaves
+  std::size_t kept = 0;       ///< candidates
+  std::size_t true_ones = 0;  ///< found among the pairs that were looked at
 };
 
-/// Calls `check(a, b, tally)` with pairs of leaves, `per_kind` pairs of faces at least for each kind and place.
+/// Calls `check(a, b, tally)` with pairs of leaves, at least `per_kind` pairs of faces for each kind and placement.
 template <class Check>
 Tally for_leaves(std::size_t per_kind, const Check& check) {
   Tally total;
@@ -27,14 +29,14 @@ Tally for_leaves(std::size_t per_kind, const Check& check) {
     leaves.try_emplace(size, std::array{Single_leaf(size), Single_leaf(size)});
   Hard_pairs hard(1);
   for (const auto& kind : Hard_pairs::kinds())
-    for (const auto& place : places) {
-      SCOPED_TRACE(testing::Message() << kind.name << ", scale " << place.scale << ", offset " << place.offset);
+    for (const auto& placement : placements) {
+      SCOPED_TRACE(testing::Message() << kind.name << ", scale " << placement.scale << ", offset " << placement.offset);
       for (auto& [size, pair] : leaves)
         for (std::size_t done = 0; done < per_kind; done += size * size) {
           auto& [a, b] = pair;
           for (std::uint32_t i = 0; i < size; ++i) {
             const auto [s, t] = (hard.*kind.make)();
-            a.set(i, placed(s, place)), b.set(i, placed(t, place));
+            a.set(i, placed(s, placement)), b.set(i, placed(t, placement));
           }
           a.refit(), b.refit();
           total.pairs += size * size;
@@ -45,33 +47,33 @@ Tally for_leaves(std::size_t per_kind, const Check& check) {
   return total;
 }
 
-/// Checks that the pairs left out are apart, which `near(a, b)` tells; of those listed, one in a few is looked at.
+/// Checks that no pair is discarded for which `near(a, b)` holds. Of those kept, one in 16 is looked at.
 template <class Near>
-void expect_none_left_out(const Single_leaf& a, const Single_leaf& b, const Numbers& listed, Tally& tally,
-                          const Near& near) {
-  auto next = listed.begin();
+void expect_near_faces_kept(const Single_leaf& a, const Single_leaf& b, const Face_pairs& kept, Tally& tally,
+                            const Near& near) {
+  auto next = kept.begin();
   for (std::uint32_t i = 0; i < a.size(); ++i)
     for (std::uint32_t j = 0; j < b.size(); ++j) {
-      const bool is_listed = next != listed.end() && *next == Face_pair{i, j};
-      if (is_listed) ++next, ++tally.near;
-      if (is_listed && tally.near % 16 != 0) continue;
+      const bool is_kept = next != kept.end() && *next == Face_pair{i, j};
+      if (is_kept) ++next, ++tally.kept;
+      if (is_kept && tally.kept % 16 != 0) continue;
       const bool is_near = near(a.triangle(i), b.triangle(j));
       if (is_near) ++tally.true_ones;
-      ASSERT_TRUE(is_listed || !is_near) << i << ' ' << j;
+      ASSERT_TRUE(is_kept || !is_near) << i << ' ' << j;
     }
 }
 
-TEST(Face_filter, never_leave_out_faces_that_intersect) {
+TEST(Face_filter, keeps_all_intersecting_faces) {
   const auto tally = for_leaves(3200, [](const Single_leaf& a, const Single_leaf& b, Tally& total) {
-    expect_none_left_out(a, b, near_pairs(a.view(), b.view(), 0), total, triangles_intersect);
+    expect_near_faces_kept(a, b, candidate_pairs(a.view(), b.view(), 0), total, triangles_intersect);
   });
   EXPECT_GT(tally.pairs, 1000000U);
   EXPECT_GT(tally.true_ones, 10000U) << "of one in 16";
-  EXPECT_LT(tally.near, tally.pairs / 2);
+  EXPECT_LT(tally.kept, tally.pairs / 2);
 }
 
-/// Boxes and corners are rounded to what a mesh of this size needs: faces that are small beside it lose most.
-TEST(Face_filter, never_leave_out_faces_that_are_tiny_beside_their_mesh) {
+/// Boxes and corners are rounded relative to the size of their mesh, so small faces lose most of their digits.
+TEST(Face_filter, keeps_intersecting_faces_that_are_tiny_beside_their_mesh) {
   constexpr std::uint32_t tiny = 32;
   Single_leaf a(tiny + 1), b(tiny + 1);
   a.set(tiny, {Point(-1, -1, -1), Point(1, 1, 1), Point(1, -1, 0.5)});
@@ -91,31 +93,31 @@ TEST(Face_filter, never_leave_out_faces_that_are_tiny_beside_their_mesh) {
         }
         a.refit(), b.refit();
         tally.pairs += a.size() * b.size();
-        expect_none_left_out(a, b, near_pairs(a.view(), b.view(), 0), tally, triangles_intersect);
+        expect_near_faces_kept(a, b, candidate_pairs(a.view(), b.view(), 0), tally, triangles_intersect);
         if (HasFailure()) return;
       }
     }
   EXPECT_GT(tally.true_ones, 1000U) << "of one in 16";
-  EXPECT_LT(tally.near, tally.pairs / 4);
+  EXPECT_LT(tally.kept, tally.pairs / 4);
 }
 
-TEST(Face_filter, never_leave_out_faces_nearer_than_the_margin) {
+TEST(Face_filter, keeps_all_faces_nearer_than_the_margin) {
   std::mt19937_64 random(2);
   const auto tally = for_leaves(128, [&](const Single_leaf& a, const Single_leaf& b, Tally& total) {
-    // A margin that decides about some pair by the last digit, or thereabouts.
+    // A margin that differs from the distance of some pair in the last digit, or not much more.
     const double distance = closest_points(a.triangle(random() % a.size()), b.triangle(random() % b.size())).distance;
     const double factors[]{1, 1 - 0x1p-53, 1 + 0x1p-52, 1 - 1e-9, 1 + 1e-9, 0.5, 2};
     const double margin = std::min(factors[random() % 7] * distance, std::numeric_limits<double>::max());
     if (margin == 0) return;
-    expect_none_left_out(a, b, near_pairs(a.view(), b.view(), margin), total,
-                         [&](const Triangle& s, const Triangle& t) { return triangles_nearer_than(s, t, margin); });
+    expect_near_faces_kept(a, b, candidate_pairs(a.view(), b.view(), margin), total,
+                           [&](const Triangle& s, const Triangle& t) { return triangles_nearer_than(s, t, margin); });
   });
   EXPECT_GT(tally.true_ones, 300U) << "of one in 16";
-  EXPECT_LT(tally.near, tally.pairs * 3 / 4);
+  EXPECT_LT(tally.kept, tally.pairs * 3 / 4);
 }
 
-TEST(Face_filter, never_read_past_the_last_vertex) {
-  std::size_t near = 0;
+TEST(Face_filter, reads_nothing_past_the_last_vertex) {
+  std::size_t count = 0;
   for (const std::uint32_t frequency : {1U, 2U, 4U, 7U}) {
     const Face_soup ball(icosphere(frequency)), other = placed(ball, 1, 0.3);
     for (const auto& soup : {ball, shuffled(ball, 1)}) {
@@ -127,20 +129,20 @@ TEST(Face_filter, never_read_past_the_last_vertex) {
           const Tree_view posed_a{&a, here.values()}, posed_b{&b, there.values()};
           Face_filter face_filter;
           for (const double margin : {0.0, 0.1}) {
-            leaf_pairs.begin(posed_a, posed_b, margin);
+            face_filter.begin(posed_a, posed_b, margin);
             for (std::uint32_t s = 0; s < a.leaf_count(); ++s)
-              for (std::uint32_t t = 0; t < b.leaf_count(); ++t) near += leaf_pairs.face_candidates(s, t).size();
+              for (std::uint32_t t = 0; t < b.leaf_count(); ++t) count += face_filter.face_candidates(s, t).size();
           }
-          leaf_pairs.begin_within(posed_a);
+          face_filter.begin_within(posed_a);
           for (std::uint32_t s = 0; s < a.leaf_count(); ++s)
-            for (std::uint32_t t = s; t < a.leaf_count(); ++t) near += leaf_pairs.face_candidates(s, t).size();
+            for (std::uint32_t t = s; t < a.leaf_count(); ++t) count += face_filter.face_candidates(s, t).size();
         });
     }
   }
-  EXPECT_GT(near, 1000U);
+  EXPECT_GT(count, 1000U);
 }
 
-TEST(Face_filter, know_an_edge_that_passes_through_the_other_face) {
+TEST(Face_filter, guesses_an_edge_that_passes_through_the_other_face) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(0, 1);
   const auto triangle = [&] {
@@ -160,10 +162,10 @@ TEST(Face_filter, know_an_edge_that_passes_through_the_other_face) {
     a.set(0, s), b.set(0, t);
     a.refit(), b.refit();
     for_instruction_sets([&] {
-      leaf_pairs.begin(a.view(), b.view(), 0);
-      const auto near = leaf_pairs.face_candidates(0, 0);
-      ASSERT_EQ(near.size(), 1U);
-      const Crossing crossing = near[0].crossing;
+      face_filter.begin(a.view(), b.view(), 0);
+      const auto candidates = face_filter.face_candidates(0, 0);
+      ASSERT_EQ(candidates.size(), 1U);
+      const Crossing crossing = candidates[0].crossing;
       ASSERT_LT(crossing, no_crossing);
       seen.insert(crossing);
       const Triangle &edges = crossing % 6 < 3 ? s : t, &face = crossing % 6 < 3 ? t : s;
@@ -172,25 +174,25 @@ TEST(Face_filter, know_an_edge_that_passes_through_the_other_face) {
       EXPECT_EQ(CGAL::orientation(face[0], face[1], face[2], start), crossing < 6 ? CGAL::POSITIVE : CGAL::NEGATIVE);
     });
   }
-  // The last one that is found is told, and edge 0 of a is never the only one: two edges pass, save by chance.
+  // The last edge that is found is the guess. Two edges pass, save by chance, so edge 0 of a is never the last.
   EXPECT_EQ(seen.size(), 10U);
 }
 
-TEST(Face_filter, are_read_anew_after_every_begin) {
+TEST(Face_filter, reads_positions_again_after_every_begin) {
   Single_leaf a(1), b(1);
   const Triangle s{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};
   a.set(0, s), b.set(0, s);
   a.refit(), b.refit();
   Face_filter face_filter;
-  leaf_pairs.begin(a.view(), b.view(), 0);
-  EXPECT_EQ(leaf_pairs.face_candidates(0, 0).size(), 1U);
+  face_filter.begin(a.view(), b.view(), 0);
+  EXPECT_EQ(face_filter.face_candidates(0, 0).size(), 1U);
   b.set(0, {Point(0, 0, 1), Point(1, 0, 1), Point(0, 1, 2)});
   b.refit();
-  leaf_pairs.begin(a.view(), b.view(), 0);
-  EXPECT_TRUE(leaf_pairs.face_candidates(0, 0).empty());
+  face_filter.begin(a.view(), b.view(), 0);
+  EXPECT_TRUE(face_filter.face_candidates(0, 0).empty());
 }
 
-TEST(Face_filter, of_full_leaves_whose_faces_all_meet_are_all_of_them) {
+TEST(Face_filter, keeps_all_pairs_of_full_leaves_whose_faces_all_meet) {
   constexpr std::uint32_t full = 128;
   Single_leaf a(full), b(full);
   for (std::uint32_t i = 0; i < full; ++i) {
@@ -200,16 +202,17 @@ TEST(Face_filter, of_full_leaves_whose_faces_all_meet_are_all_of_them) {
   }
   a.refit(), b.refit();
   for (const double margin : {0.0, 0.5}) {
-    const auto near = near_pairs(a.view(), b.view(), margin);
-    EXPECT_EQ(near.size(), full * full);
-    EXPECT_EQ(near.back(), (Face_pair{full - 1, full - 1}));
+    const auto candidates = candidate_pairs(a.view(), b.view(), margin);
+    EXPECT_EQ(candidates.size(), full * full);
+    EXPECT_EQ(candidates.back(), (Face_pair{full - 1, full - 1}));
   }
 }
 
-/// The boxes of the faces touch, or miss each other by the last digit: what is lost by rounding must not matter.
-TEST(Face_filter, never_leave_out_faces_whose_boxes_only_touch) {
+/// The boxes of the faces touch, or miss each other by the last digit.
+TEST(Face_filter, keeps_faces_whose_boxes_only_touch) {
   Single_leaf a(16), b(16);
-  for (const Place& place : {Place{1, 0}, {1, 0x1p20}, {1, -0x1p40}, {0x1p-200, 0}, {0x1p-1040, 0}, {0x1p1020, 0}})
+  for (const Placement& placement :
+       {Placement{1, 0}, {1, 0x1p20}, {1, -0x1p40}, {0x1p-200, 0}, {0x1p-1040, 0}, {0x1p1020, 0}})
     for (int axis = 0; axis < 3; ++axis) {
       for (std::uint32_t f = 0; f < 16; ++f) {
         const auto turned = [&](double x, double y, double z) {
@@ -217,13 +220,13 @@ TEST(Face_filter, never_leave_out_faces_whose_boxes_only_touch) {
           return Point(p[(3 - axis) % 3], p[(4 - axis) % 3], p[(5 - axis) % 3]);
         };
         const double touch = 1.0 / 3, y = f;
-        a.set(f, placed({turned(0, y, 0), turned(touch, y, 0), turned(0, y, 1)}, place));
-        b.set(f, placed({turned(touch, y, 0), turned(1, y, 0), turned(1, y, 1)}, place));
+        a.set(f, placed({turned(0, y, 0), turned(touch, y, 0), turned(0, y, 1)}, placement));
+        b.set(f, placed({turned(touch, y, 0), turned(1, y, 0), turned(1, y, 1)}, placement));
       }
       a.refit(), b.refit();
-      const auto near = near_pairs(a.view(), b.view(), 0);
+      const auto candidates = candidate_pairs(a.view(), b.view(), 0);
       for (std::uint32_t f = 0; f < 16; ++f)
-        ASSERT_TRUE(std::ranges::binary_search(near, Face_pair{f, f})) << place.scale << ' ' << axis;
+        ASSERT_TRUE(std::ranges::binary_search(candidates, Face_pair{f, f})) << placement.scale << ' ' << axis;
     }
 }
 
@@ -231,20 +234,21 @@ bool share_a_vertex(const Corners& a, const Corners& b) {
   return std::ranges::any_of(a, [&](std::uint32_t v) { return std::ranges::count(b, v) > 0; });
 }
 
-/// Checks the pairs within an object for each instruction set; gives how many intersect.
+/// Checks the candidates within an object on each instruction set.
+/// @return number of intersecting pairs
 std::size_t expect_pairs_within(const Posed_object& object) {
   const Face_soup& soup = object.soup();
   const auto posed = object.view();
   const auto leaves = static_cast<std::uint32_t>(posed.tree->leaf_count());
   std::size_t intersecting = 0;
-  std::vector<Numbers> answers;
+  std::vector<Face_pairs> answers;
   for_instruction_sets([&] {
     Face_filter face_filter;
-    leaf_pairs.begin_within(posed);
-    Numbers found;
+    face_filter.begin_within(posed);
+    Face_pairs found;
     for (std::uint32_t i = 0; i < leaves; ++i)
       for (std::uint32_t j = i; j < leaves; ++j)
-        for (auto [a, b] : numbered(leaf_pairs.face_candidates(i, j), posed, i, posed, j)) {
+        for (auto [a, b] : face_pairs(face_filter.face_candidates(i, j), posed, i, posed, j)) {
           EXPECT_FALSE(share_a_vertex(soup.faces[a], soup.faces[b])) << a << ' ' << b;
           found.push_back({std::min(a, b), std::max(a, b)});
         }
@@ -262,13 +266,13 @@ std::size_t expect_pairs_within(const Posed_object& object) {
   return intersecting;
 }
 
-TEST(Face_filter, within_one_mesh_are_each_pair_once_of_faces_that_share_no_vertex) {
+TEST(Face_filter, within_one_mesh_keeps_each_intersecting_pair_that_shares_no_vertex_once) {
   std::size_t intersecting = 0;
   for (const std::size_t leaf_faces : {2, 9, 128}) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed)
-      for (const auto& place : places) {
+      for (const auto& placement : placements) {
         const auto soup = lattice_soup(128, 20U << seed % 3U * 2, 6, seed);
-        intersecting += expect_pairs_within(Posed_object(placed(soup, place.scale, place.offset), leaf_faces));
+        intersecting += expect_pairs_within(Posed_object(placed(soup, placement.scale, placement.offset), leaf_faces));
       }
     for (const double distance : {0.02, 0.1, 0.5})
       intersecting += expect_pairs_within(Posed_object(crumpled(icosphere(3), distance, 1), leaf_faces));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pairs of leaves of any triangles, and what Face_filter lists of them on every instruction set.
+// Leaves of any triangles, and what Face_filter keeps of them on every instruction set.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 
 namespace lodestone {
 
-using Numbers = std::vector<Face_pair>;
+using Face_pairs = std::vector<Face_pair>;
 
 /// A tree of a single leaf whose faces share no vertex, refitted to triangles.
 class Single_leaf {
@@ -41,29 +41,23 @@ class Single_leaf {
   Region_tree tree_;
 };
 
-/// Faces by number instead of place, in the order in which they are listed.
-inline Numbers listed_order(std::span<const Face_candidate> places, const Tree_view& a, std::uint32_t leaf_a,
-                            const Tree_view& b, std::uint32_t leaf_b) {
-  Numbers pairs;
-  for (const auto& place : places) pairs.push_back({a.tree->faces(leaf_a)[place.a], b.tree->faces(leaf_b)[place.b]});
+/// Candidates by their indices in the meshes, in the same order.
+inline Face_pairs face_pairs(std::span<const Face_candidate> candidates, const Tree_view& a, std::uint32_t leaf_a,
+                             const Tree_view& b, std::uint32_t leaf_b) {
+  Face_pairs pairs;
+  for (const auto& candidate : candidates)
+    pairs.push_back({a.tree->faces(leaf_a)[candidate.a], b.tree->faces(leaf_b)[candidate.b]});
   return pairs;
 }
 
-/// The same, sorted.
-inline Numbers numbered(std::span<const Face_candidate> places, const Tree_view& a, std::uint32_t leaf_a,
-                        const Tree_view& b, std::uint32_t leaf_b) {
-  Numbers pairs = listed_order(places, a, leaf_a, b, leaf_b);
-  std::ranges::sort(pairs);
-  return pairs;
-}
-
-/// The near pairs of two trees of one leaf, the same for each instruction set and in the same order; sorted.
-inline Numbers near_pairs(const Tree_view& a, const Tree_view& b, double margin) {
+/// The candidates of two trees of one leaf each, sorted. Checks that every instruction set gives the same in the same
+/// order, and none twice.
+inline Face_pairs candidate_pairs(const Tree_view& a, const Tree_view& b, double margin) {
   Face_filter face_filter;
-  std::vector<Numbers> answers;
+  std::vector<Face_pairs> answers;
   for_instruction_sets([&] {
-    leaf_pairs.begin(a, b, margin);
-    answers.push_back(listed_order(leaf_pairs.face_candidates(0, 0), a, 0, b, 0));
+    face_filter.begin(a, b, margin);
+    answers.push_back(face_pairs(face_filter.face_candidates(0, 0), a, 0, b, 0));
   });
   for (const auto& answer : answers) EXPECT_EQ(answer, answers[0]);
   std::ranges::sort(answers[0]);
@@ -71,15 +65,15 @@ inline Numbers near_pairs(const Tree_view& a, const Tree_view& b, double margin)
   return answers[0];
 }
 
-struct Place {
+struct Placement {
   double scale, offset;
 };
-inline const std::vector<Place> places{{1, 0},        {1, 0x1p20},  {1, -0x1p40},   {0x1p-300, 0},
-                                       {0x1p-340, 0}, {0x1p300, 0}, {0x1p-1050, 0}, {0x1p1020, 0}};
+inline const std::vector<Placement> placements{{1, 0},        {1, 0x1p20},  {1, -0x1p40},   {0x1p-300, 0},
+                                               {0x1p-340, 0}, {0x1p300, 0}, {0x1p-1050, 0}, {0x1p1020, 0}};
 
-inline Triangle placed(Triangle t, const Place& place) {
+inline Triangle placed(Triangle t, const Placement& placement) {
   for (auto& p : t) {
-    const auto moved = [&](double x) { return place.scale * x + place.offset; };
+    const auto moved = [&](double x) { return placement.scale * x + placement.offset; };
     p = {moved(p.x()), moved(p.y()), moved(p.z())};
   }
   return t;

@@ -7,12 +7,12 @@
 
 namespace lodestone {
 
-/// Two faces by their places in the lists of their leaves.
+/// Two faces, one of each of two leaves, that may meet.
 struct Face_candidate {
-  std::uint8_t a = 0;
-  std::uint8_t b = 0;
+  std::uint8_t a = 0;  ///< index in the first leaf
+  std::uint8_t b = 0;  ///< index in the second leaf
   Crossing crossing = no_crossing;
-  std::uint8_t unused = 0;  ///< so that a vector can write several
+  std::uint8_t unused = 0;  ///< padding: a vector writes several candidates at once
 };
 
 }  // namespace lodestone

@@ -19,7 +19,9 @@ struct Leaf_input;
 struct Filter_request;
 }  // namespace kernel
 
-/// Leaf against leaf: which of their faces are near each other. Holds the memory that it needs; one per thread.
+/// Leaf against leaf: discards the face pairs that floating point proves apart, and no others.
+///
+/// Holds the memory that it needs, so each thread needs its own.
 class Face_filter {
  public:
   Face_filter();
@@ -27,44 +29,46 @@ class Face_filter {
   Face_filter(Face_filter&&) noexcept;
   Face_filter& operator=(Face_filter&&) noexcept;
 
-  /// What follows is about the leaves of these two trees, whose vertices do not move meanwhile: what has been read of a
-  /// leaf is kept for the next ones that it meets.
-  /// @param margin  >= 0
+  /// Sets the two trees whose leaves the next calls compare.
+  ///
+  /// The vertices must not move until the next `begin`: what has been read of a leaf is kept.
+  /// @param margin  >= 0; only pairs farther apart than this are discarded
   void begin(const Layout_view& a, const Layout_view& b, double margin);
-  /// The same for the leaves of one tree, and faces that share no vertex.
+  /// The same for leaves of one tree, with margin 0. Pairs of faces that share a vertex are discarded too.
   void begin_within(const Layout_view& tree);
 
-  /// The face pairs of two leaves that floating point does not prove to be apart; with a margin: farther apart than it.
-  /// Each pair once if both leaves are one.
+  /// The face pairs of two leaves that are not proven apart; if the two are one leaf of one tree, each pair once.
   ///
-  /// The box around the near faces of the other leaf rules out faces, boxes of faces rule out pairs, and so do
-  /// directions, of corners rounded to floats first: along a normal of either face, within the plane of either across
-  /// its edges, or without a margin across an edge of each, the projections of the two are apart by more than all
-  /// rounding can amount to. O(n + m + n m / vector width) for leaves of n and m faces; the result is valid until the
-  /// next call.
+  /// Faces outside the box around the other leaf's nearest faces are discarded, then pairs whose boxes do not overlap,
+  /// then pairs whose projections onto some direction are farther apart than the margin and any rounding. The
+  /// directions are both normals, those across an edge within its plane, and with margin 0 those across one edge of
+  /// each face.
+  ///
+  /// O(n + m + n m / lanes) for leaves of n and m faces.
+  /// @return valid until the next call
   std::span<const Face_candidate> face_candidates(std::uint32_t leaf_a, std::uint32_t leaf_b);
 
  private:
-  /// A leaf as it was last looked at.
+  /// What is kept of one leaf.
   struct Slot {
     std::uint32_t leaf;
     std::unique_ptr<Face_columns> faces;
-    Aabb box;  ///< if the tree has none
+    Aabb box;  ///< if the tree has no boxes
   };
-  /// Leaves of one tree.
+  /// One tree, and what is kept of its leaves.
   struct Side {
-    Layout_view posed;
+    Layout_view view;
     std::vector<Slot> slots;
 
     void begin(const Layout_view& tree);
-    Slot& at(std::uint32_t leaf);
+    Slot& slot_of(std::uint32_t leaf);
+    kernel::Leaf_input input(std::uint32_t leaf);
   };
-  static kernel::Leaf_input view(Side& side, std::uint32_t leaf);
 
   std::array<Side, 2> sides_;
   std::unique_ptr<kernel::Filter_request> request_;
   std::unique_ptr<Filter_scratch> scratch_;
-  std::vector<Face_candidate> near_;
+  std::vector<Face_candidate> candidates_;
 };
 
 }  // namespace lodestone
