@@ -13,9 +13,9 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A box that others are compared with.
+/// A box moved out by the margin on its high side.
 struct Grown_box {
-  hn::Vec<D> low[vectors], high[vectors];  ///< the high side moved out by the margin
+  hn::Vec<D> low[vectors], high[vectors];
 
   HWY_INLINE Grown_box(const Aabb& box, double margin) {
     for (std::size_t i = 0; i < vectors; ++i) {
@@ -28,16 +28,16 @@ struct Grown_box {
 /// 1 if two boxes are within the margin of each other, as `near(Aabb, Aabb, margin)`, else 0.
 HWY_INLINE std::size_t is_near(const Grown_box& a, const Aabb& b, double margin) {
   const Grown_box other(b, margin);
-  std::uint32_t near = 0;
+  std::uint32_t sides = 0;
   for (std::size_t i = 0; i < vectors; ++i) {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(D(), hn::And(hn::Le(a.low[i], other.high[i]), hn::Le(other.low[i], a.high[i])), bits);
-    near |= std::uint32_t{bits[0]} << (i * lanes);
+    sides |= std::uint32_t{bits[0]} << (i * lanes);
   }
-  return (near & 7U) == 7U ? 1 : 0;  // x, y and z
+  return (sides & 7U) == 7U ? 1 : 0;  // x, y and z
 }
 
-/// Lists the leaves whose boxes are near a box. No branch could foretell which are.
+/// Lists the leaves whose boxes are near a box. Branchless, since it is unpredictable which are.
 HWY_INLINE std::size_t list_leaves(const Leaf_bunch& leaves, const Aabb& box, double margin, std::uint8_t* list) {
   const Grown_box grown(box, margin);
   std::size_t count = 0;
@@ -48,7 +48,7 @@ HWY_INLINE std::size_t list_leaves(const Leaf_bunch& leaves, const Aabb& box, do
   return count;
 }
 
-void list_leaf_candidates_kernel(const Leaf_bunch& a, const Leaf_bunch& b, double margin, Leaf_candidates& near) {
+void list_leaf_candidates_kernel(const Leaf_bunch& a, const Leaf_bunch& b, double margin, Leaf_candidates& candidates) {
   std::uint8_t leaves_a[bunch_leaves + 1], leaves_b[bunch_leaves + 1];
   const std::size_t count_a = list_leaves(a, *b.around, margin, leaves_a);
   const std::size_t count_b = list_leaves(b, *a.around, margin, leaves_b);
@@ -56,12 +56,12 @@ void list_leaf_candidates_kernel(const Leaf_bunch& a, const Leaf_bunch& b, doubl
   for (std::size_t i = 0; i < count_a; ++i) {
     const Grown_box box(a.boxes[a.nodes[leaves_a[i]]], margin);
     for (std::size_t j = 0; j < count_b; ++j) {
-      near.a[count] = leaves_a[i];
-      near.b[count] = leaves_b[j];
+      candidates.a[count] = leaves_a[i];
+      candidates.b[count] = leaves_b[j];
       count += is_near(box, b.boxes[b.nodes[leaves_b[j]]], margin);
     }
   }
-  near.count = count;
+  candidates.count = count;
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE
@@ -72,8 +72,8 @@ namespace lodestone::kernel {
 
 HWY_EXPORT(list_leaf_candidates_kernel);
 
-void list_leaf_candidates(const Leaf_bunch& a, const Leaf_bunch& b, double margin, Leaf_candidates& near) {
-  HWY_DYNAMIC_DISPATCH(list_leaf_candidates_kernel)(a, b, margin, near);
+void list_leaf_candidates(const Leaf_bunch& a, const Leaf_bunch& b, double margin, Leaf_candidates& candidates) {
+  HWY_DYNAMIC_DISPATCH(list_leaf_candidates_kernel)(a, b, margin, candidates);
 }
 
 }  // namespace lodestone::kernel

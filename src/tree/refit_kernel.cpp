@@ -23,7 +23,7 @@ struct Bounds {
   V sum[vectors];
 };
 
-/// The last vertex of a list may be the last of the mesh: nothing past its z is read.
+/// Reads nothing past z: the last vertex of a list may be the last of the mesh.
 HWY_INLINE void start_with_last(Bounds& bounds, const double* vertex) {
   for (std::size_t i = 0; i < vectors; ++i) bounds.low[i] = bounds.high[i] = bounds.sum[i] = load_last(vertex, i);
 }
@@ -37,7 +37,7 @@ HWY_INLINE void extend(Bounds& bounds, const double* vertex) {
   }
 }
 
-/// Bounds of several vertices side by side: two in a vector where it holds eight doubles.
+/// Bounds of two vertices side by side where a vector holds eight doubles, else of one.
 #if HWY_MAX_BYTES >= 64
 constexpr std::size_t vertices_per_vector = 2;
 using Wide = hn::CappedTag<double, 2 * lanes>;
@@ -69,7 +69,7 @@ HWY_INLINE Wide_bounds widen(const Bounds& bounds) { return bounds; }
 HWY_INLINE Bounds narrow(const Wide_bounds& bounds) { return bounds; }
 #endif
 
-/// Vector i of the vertices at `vertices[k]` and, if there is room, of the one two places further.
+/// Vector i of vertex `vertices[k]` and, where a vector holds two vertices, of `vertices[k + 2]`.
 HWY_INLINE hn::Vec<Wide> load_wide(const double* coordinates, const std::uint32_t* vertices, std::size_t k,
                                    std::size_t i) {
   const auto first = hn::LoadU(D(), coordinates + 3 * std::size_t{vertices[k]} + i * lanes);
@@ -80,7 +80,8 @@ HWY_INLINE hn::Vec<Wide> load_wide(const double* coordinates, const std::uint32_
 #endif
 }
 
-/// Four vertices. They are compared with each other first: so only one instruction in several waits for those before.
+/// Extends bounds by four vertices. These are combined with each other first, so that few instructions depend on the
+/// bounds so far.
 HWY_INLINE void extend(Wide_bounds& bounds, const double* coordinates, const std::uint32_t* vertices) {
   for (std::size_t i = 0; i < vectors; ++i) {
     const auto p = load_wide(coordinates, vertices, 0, i), q = load_wide(coordinates, vertices, 1, i);
@@ -97,7 +98,7 @@ HWY_INLINE void extend(Wide_bounds& bounds, const double* coordinates, const std
   }
 }
 
-/// @tparam ahead  vertices by which memory is asked for before it is read; 0: the processor looks ahead by itself
+/// @tparam ahead  vertices by which memory is prefetched; 0: left to the processor
 template <std::size_t ahead>
 HWY_INLINE Bounds leaf_bounds(const double* coordinates, const std::uint32_t* vertex, const std::uint32_t* end) {
   const std::uint32_t* const last = end - 1;
@@ -113,7 +114,7 @@ HWY_INLINE Bounds leaf_bounds(const double* coordinates, const std::uint32_t* ve
       for (std::size_t k = 0; k < 4; ++k) hwy::Prefetch(coordinates + 3 * std::size_t{vertex[ahead + k]});
     extend(wide, coordinates, vertex);
   }
-  // Some twice, which changes no minimum and no maximum, rather than one by one.
+  // The last four at once, some of them a second time: that changes no minimum and no maximum.
   if (vertex < last) extend(wide, coordinates, last - 4);
   return narrow(wide);
 }
@@ -147,7 +148,7 @@ Refit_sums refit_leaves_kernel(const Refit& refit, std::size_t first, std::size_
                             : refit_leaves_ahead<0>(refit, first, end);
 }
 
-/// Four sums run side by side, so that no addition waits for the one before.
+/// Four independent sums, so that no addition waits for the one before.
 double sum_coordinates_kernel(const Refit& refit, std::size_t leaf) {
   const D d;
   const double* const coordinates = refit.coordinates;
