@@ -56,6 +56,7 @@ class Basic_contact_search {
  public:
   using Surface = Basic_tree_surface<Volume>;
 
+  /// @param workers  must outlive this
   explicit Basic_contact_search(Workers& workers) : workers_(workers), memory_(workers.count()), tasks_(1) {}
 
   /// Appends the contacts of two objects to `found`, sorted; none for the query `yes_no`.
