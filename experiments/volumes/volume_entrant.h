@@ -86,7 +86,7 @@ class Volume_entrant : public Entrant {
   std::vector<std::unique_ptr<Object>> objects_;
   std::vector<Object*> addresses_;
   std::vector<Coordinates> coordinates_;
-  Contact_search search_{Workers::alone()};
+  Basic_contact_search<Volume> search_{Workers::alone()};
   std::vector<Face_pair> unlisted_;
   Answer answer_;
 };

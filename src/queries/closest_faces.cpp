@@ -4,24 +4,27 @@
 #include <queue>
 #include <tuple>
 
-#include "lodestone/queries/visit_contacts.h"
+#include "lodestone/filter/face_filter.h"
+#include "lodestone/queries/leaf_triangle.h"
+#include "lodestone/tree/node_pair.h"
+#include "lodestone/triangles/triangle_intersection.h"
 #include "lodestone/volumes/to_box.h"
 
 namespace lodestone {
 
 namespace {
 
-/// A leaf's faces with their boxes.
+/// The faces of a leaf, each with its box.
 struct Boxed_leaf {
   std::vector<Triangle> triangles;
   std::vector<Box> boxes;
 
-  void fill(const Layout_view& posed, std::uint32_t leaf) {
+  void fill(const Layout_view& view, std::uint32_t leaf) {
     triangles.clear();
     boxes.clear();
-    const Leaf_faces faces = posed.leaf(leaf);
-    for (std::size_t place = 0; place < faces.corners.size(); ++place) {
-      triangles.push_back(triangle_of(leaf_corners(faces, place)));
+    const Leaf_faces faces = view.leaf(leaf);
+    for (std::size_t index = 0; index < faces.corners.size(); ++index) {
+      triangles.push_back(triangle_of(leaf_triangle(faces, index)));
       Box box;
       for (const Point& p : triangles.back()) box.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
       boxes.push_back(box);
@@ -34,14 +37,14 @@ class Search {
   Search(const Layout_view& a, const Layout_view& b) : a_(a), b_(b) {
     best_.points.distance = std::numeric_limits<double>::infinity();
     best_.faces = {std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()};
-    leaf_pairs_.begin(a, b, 0);
+    face_filter_.begin(a, b, 0);
   }
 
   Closest_faces run() {
-    push({0, 0});
-    while (!ahead_.empty() && ahead_.top().bound <= best_.points.distance) {
-      const Node_pair pair = ahead_.top().pair;
-      ahead_.pop();
+    push(root_pair);
+    while (!queue_.empty() && queue_.top().bound <= best_.points.distance) {
+      const Node_pair pair = queue_.top().pair;
+      queue_.pop();
       if (a_.layout->is_leaf(pair.a) && b_.layout->is_leaf(pair.b)) {
         try_leaves(a_.layout->node(pair.a).leaf, b_.layout->node(pair.b).leaf);
         continue;
@@ -54,15 +57,15 @@ class Search {
   }
 
  private:
-  struct Ahead {
+  struct Candidate {
     double bound;
     Node_pair pair;
-    bool operator<(const Ahead& other) const { return bound > other.bound; }  // the nearest on top
+    bool operator<(const Candidate& other) const { return bound > other.bound; }  // the nearest is on top
   };
 
   void push(Node_pair pair) {
     const double bound = distance_lower_bound(to_box(a_.boxes[pair.a]), to_box(b_.boxes[pair.b]));
-    if (bound <= best_.points.distance) ahead_.push({bound, pair});
+    if (bound <= best_.points.distance) queue_.push({bound, pair});
   }
 
   void try_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b) {
@@ -79,13 +82,14 @@ class Search {
       }
   }
 
-  /// The objects intersect: what is left is to find the lowest of the face pairs that do.
+  /// The objects intersect, so only a lower intersecting face pair can still be the answer.
   void look_for_lower(std::uint32_t leaf_a, std::uint32_t leaf_b) {
-    for (const auto& places : leaf_pairs_.face_candidates(leaf_a, leaf_b)) {
-      const Face_pair faces{a_.layout->faces(leaf_a)[places.a], b_.layout->faces(leaf_b)[places.b]};
+    for (const Face_candidate& candidate : face_filter_.face_candidates(leaf_a, leaf_b)) {
+      const Face_pair faces{a_.layout->faces(leaf_a)[candidate.a], b_.layout->faces(leaf_b)[candidate.b]};
       if (!(faces < best_.faces)) continue;
-      const Triangle_corners a = leaf_corners(a_.leaf(leaf_a), places.a), b = leaf_corners(b_.leaf(leaf_b), places.b);
-      if (!triangles_intersect_given(a, b, places.crossing)) continue;
+      const Triangle_corners a = leaf_triangle(a_.leaf(leaf_a), candidate.a);
+      const Triangle_corners b = leaf_triangle(b_.leaf(leaf_b), candidate.b);
+      if (!triangles_intersect_given(a, b, candidate.crossing)) continue;
       best_ = {faces, closest_points(triangle_of(a), triangle_of(b))};
     }
   }
@@ -93,10 +97,10 @@ class Search {
   const Layout_view& a_;
   const Layout_view& b_;
   Closest_faces best_;
-  std::priority_queue<Ahead> ahead_;
+  std::priority_queue<Candidate> queue_;
   std::vector<Node_pair> below_;
   Boxed_leaf faces_a_, faces_b_;
-  Face_filter leaf_pairs_;
+  Face_filter face_filter_;
 };
 
 }  // namespace

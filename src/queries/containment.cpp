@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
-#include "lodestone/queries/visit_contacts.h"
+#include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/triangles/ray_crossing.h"
 
 namespace lodestone {
 
 namespace {
 
-/// Whether the ray from the point upwards meets the box.
+/// Whether the ray from the point along +z meets the box.
 bool meets_ray(const Aabb& box, const Point& point) {
   return box.low[0] <= point.x() && point.x() <= box.high[0] && box.low[1] <= point.y() && point.y() <= box.high[1] &&
          point.z() <= box.high[2];
@@ -26,19 +26,19 @@ bool box_within(const Aabb& inner, const Aabb& outer) {
 bool encloses(const Layout_view& surface, const Point& point) {
   const Tree_layout& tree = *surface.layout;
   bool inside = false;
-  std::vector<std::uint32_t> ahead{0};
-  while (!ahead.empty()) {
-    const std::uint32_t n = ahead.back();
-    ahead.pop_back();
+  std::vector<std::uint32_t> stack{0};
+  while (!stack.empty()) {
+    const std::uint32_t n = stack.back();
+    stack.pop_back();
     if (!meets_ray(surface.boxes[n], point)) continue;
     if (!tree.is_leaf(n)) {
-      ahead.push_back(tree.node(n).second_child);
-      ahead.push_back(n + 1);
+      stack.push_back(tree.node(n).second_child);
+      stack.push_back(n + 1);
       continue;
     }
     const Leaf_faces leaf = surface.leaf(tree.node(n).leaf);
-    for (std::size_t place = 0; place < leaf.corners.size(); ++place)
-      inside ^= crosses_upward_ray(triangle_of(leaf_corners(leaf, place)), point);
+    for (std::size_t index = 0; index < leaf.corners.size(); ++index)
+      inside ^= crosses_upward_ray(triangle_of(leaf_triangle(leaf, index)), point);
   }
   return inside;
 }

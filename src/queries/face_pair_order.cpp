@@ -11,7 +11,7 @@ namespace lodestone {
 
 namespace {
 
-/// Fewer than this are sorted sooner by std::sort.
+/// Below this number, std::sort is faster.
 constexpr std::size_t few = 32;
 
 }  // namespace

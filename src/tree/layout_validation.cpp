@@ -21,20 +21,20 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
       ++uses[face];
       for (std::size_t corner = 0; corner < 3; ++corner)
         if (list[corners(leaf)[i][corner]] != mesh_corners[face][corner])
-          return fmt::format("leaf {}: face {} has another corner than in the mesh", leaf, face);
+          return fmt::format("leaf {}: face {} has other corners than in the mesh", leaf, face);
     }
     if (leaf_nodes_[leaf] >= nodes_.size() || !is_leaf(leaf_nodes_[leaf]))
-      return fmt::format("leaf {}: its node is none of a leaf", leaf);
+      return fmt::format("leaf {}: its node is not a leaf", leaf);
   }
   for (std::uint32_t face = 0; face < uses.size(); ++face)
     if (uses[face] != 1) return fmt::format("face {} is in {} leaves", face, uses[face]);
 
-  // A walk from the root meets all nodes and all leaves in their order.
+  // A depth-first walk from the root meets all nodes and all leaves in ascending order.
   std::uint32_t next = 0, leaf = 0;
-  std::vector<std::uint32_t> ahead{0};
-  while (!ahead.empty()) {
-    const std::uint32_t n = ahead.back();
-    ahead.pop_back();
+  std::vector<std::uint32_t> stack{0};
+  while (!stack.empty()) {
+    const std::uint32_t n = stack.back();
+    stack.pop_back();
     if (n != next++ || n >= nodes_.size()) return fmt::format("node {} is out of order", n);
     if (nodes_[n].leaf != leaf) return fmt::format("node {}: its first leaf should be {}", n, leaf);
     if (is_leaf(n)) {
@@ -46,8 +46,8 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
     if (second <= n + 1 || second >= nodes_.size()) return fmt::format("node {}: there is no node {}", n, second);
     if (nodes_[n + 1].end_leaf != nodes_[second].leaf || nodes_[second].end_leaf != nodes_[n].end_leaf)
       return fmt::format("node {}: its leaves are not those of its children", n);
-    ahead.push_back(second);
-    ahead.push_back(n + 1);
+    stack.push_back(second);
+    stack.push_back(n + 1);
   }
   if (next != nodes_.size() || leaf != leaf_count()) return "the tree has nodes that no walk from its root meets";
   return {};

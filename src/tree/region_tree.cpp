@@ -5,12 +5,12 @@
 
 namespace lodestone {
 
-/// A node's box is one line of the cache: a walk that looks at it waits once, and a refit writes whole lines.
+/// A node's box is one cache line: a walk waits once to read it, and a refit writes whole lines.
 static_assert(sizeof(Aabb) == 64);
 
 namespace {
 
-/// Vertices whose coordinates, 12 MB, share a processor's last cache with little else.
+/// Above this number of vertices, 12 MB, coordinates are assumed not to fit into a processor's last-level cache.
 constexpr std::size_t cached_vertices = 500'000;
 
 kernel::Refit refit_of(const Tree_layout& layout, Coordinates coordinates, Aabb* boxes) {

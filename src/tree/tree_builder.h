@@ -7,7 +7,7 @@
 
 namespace lodestone {
 
-/// Fills the nodes and leaves of a Tree_layout.
+/// Makes the nodes and leaves of a Tree_layout.
 class Tree_builder {
  public:
   Tree_builder(Tree_layout& tree, std::span<const Corners> corners, std::span<const Region_index> labels,
@@ -17,10 +17,10 @@ class Tree_builder {
   void build();
 
  private:
-  /// Something to be split: a face with the middle of its corners, or a region with the middle of its faces.
+  /// What a split distributes: a face with the mean of its corners, or a region with the mean of its faces' centres.
   struct Item {
     Eigen::Vector3d centre;
-    std::uint32_t number;
+    std::uint32_t index;
   };
 
   std::vector<Item> face_items() const;
@@ -29,8 +29,8 @@ class Tree_builder {
   void add_regions(std::span<Item> regions);
   void add_faces(std::span<Item> faces);
   void add_leaf(std::span<Item> faces);
-  /// Adds a node with two children: `add` is called with the first so many items along the axis on which their
-  /// centres are spread widest, then with the others.
+  /// Adds a node and its two children. Each call of `add` adds a child: the first with the first `first_count` items
+  /// along the axis on which the centres are spread widest, the second with the others.
   template <class Add>
   void add_parts(std::span<Item> items, std::size_t first_count, Add add);
 
@@ -40,7 +40,7 @@ class Tree_builder {
   Coordinates coordinates_;
   const Region_tree_options& options_;
   std::vector<Item> faces_;                  ///< by region
-  std::vector<std::uint32_t> region_begin_;  ///< per region and past the last: its start in `faces_`
+  std::vector<std::uint32_t> region_begin_;  ///< per region and past the last: where it starts in `faces_`
 };
 
 }  // namespace lodestone

@@ -13,7 +13,7 @@ namespace lodestone {
 
 namespace {
 
-/// Leaves of a part: few enough that their volumes are still in the cache when the nodes above them are fitted.
+/// Most leaves of a part: few enough that their volumes are still in the cache when the nodes above are fitted.
 constexpr std::uint32_t part_leaves = 128;
 
 }  // namespace
@@ -23,7 +23,7 @@ Tree_layout::Tree_layout(std::span<const Corners> corners, std::span<const Regio
   if (options.leaf_faces < 2 || options.leaf_faces > most_leaf_faces)
     throw Bad_argument("a leaf must hold at most 2 to 128 faces");
   if (corners.size() > std::numeric_limits<std::uint32_t>::max() / 3)
-    throw Bad_mesh("the mesh has more than 1431655765 faces, which is what a tree can number");
+    throw Bad_mesh("the mesh has more than 1431655765 faces, the most that a tree can index");
   Tree_builder(*this, corners, labels, coordinates, options).build();
   vertices_.resize(vertices_.size() + kernel::vertices_ahead + 4, vertices_.back());
   static_assert(kernel::vertices_ahead >= most_float_lanes, "a leaf's vertices are read in vectors");
@@ -36,19 +36,19 @@ void Tree_layout::find_parts() {
   struct Subtree {
     std::uint32_t node, end_node, end_leaf;
   };
-  std::vector<Subtree> ahead{
+  std::vector<Subtree> stack{
       {0, static_cast<std::uint32_t>(nodes_.size()), static_cast<std::uint32_t>(leaf_nodes_.size())}};
-  while (!ahead.empty()) {
-    const auto [n, end_node, end_leaf] = ahead.back();
-    ahead.pop_back();
+  while (!stack.empty()) {
+    const auto [n, end_node, end_leaf] = stack.back();
+    stack.pop_back();
     if (end_leaf - nodes_[n].leaf <= part_leaves) {
       parts_.push_back({.first_node = n, .end_node = end_node, .first_leaf = nodes_[n].leaf, .end_leaf = end_leaf});
       continue;
     }
     top_nodes_.push_back(n);
     const std::uint32_t second = nodes_[n].second_child;
-    ahead.push_back({second, end_node, end_leaf});
-    ahead.push_back({n + 1, second, nodes_[second].leaf});
+    stack.push_back({second, end_node, end_leaf});
+    stack.push_back({n + 1, second, nodes_[second].leaf});
   }
 }
 

@@ -6,7 +6,7 @@
 namespace lodestone {
 
 void list_leaf_candidates(const Region_tree& a, const Region_tree& b, Node_pair pair, double margin,
-                          Leaf_candidates& near) {
+                          Leaf_candidates& candidates) {
   const auto bunch = [](const Region_tree& tree, std::uint32_t n) {
     const auto& node = tree.node(n);
     return kernel::Leaf_bunch{.boxes = tree.volumes().data(),
@@ -14,9 +14,9 @@ void list_leaf_candidates(const Region_tree& a, const Region_tree& b, Node_pair 
                               .nodes = tree.leaf_nodes().data() + node.leaf,
                               .count = node.end_leaf - node.leaf};
   };
-  near.first_a = a.node(pair.a).leaf;
-  near.first_b = b.node(pair.b).leaf;
-  kernel::list_leaf_candidates(bunch(a, pair.a), bunch(b, pair.b), margin, near);
+  candidates.first_a = a.node(pair.a).leaf;
+  candidates.first_b = b.node(pair.b).leaf;
+  kernel::list_leaf_candidates(bunch(a, pair.a), bunch(b, pair.b), margin, candidates);
 }
 
 }  // namespace lodestone

@@ -54,7 +54,7 @@ struct Ball {
 TEST(Count_walk, counts_the_steps_of_the_search_for_all_contacts) {
   const Ball<Counted_box> a(20, 0), b(25, 1.7);
   const Walk_counts counts = count_walk(a.tree(), b.tree());
-  Contact_search search(Workers::alone());
+  Basic_contact_search<Counted_box> search(Workers::alone());
   std::vector<Face_pair> found;
   compared = 0;
   const auto summary = search.between(*a.object, *b.object, {}, found);

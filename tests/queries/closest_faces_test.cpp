@@ -10,7 +10,7 @@
 namespace lodestone {
 namespace {
 
-/// The answer from all pairs of faces.
+/// The closest of all face pairs.
 Closest_faces by_all_pairs(const Face_soup& a, const Face_soup& b) {
   Closest_faces best;
   bool any = false;
@@ -23,7 +23,7 @@ Closest_faces by_all_pairs(const Face_soup& a, const Face_soup& b) {
   return best;
 }
 
-/// Checks two objects in both orders and with leaves of several sizes; gives their distance.
+/// Checks two objects in both orders and with several leaf sizes, and returns their distance.
 double expect_closest(const Face_soup& first, const Face_soup& second) {
   const auto check = [](const Face_soup& s, const Face_soup& t) {
     const auto truth = by_all_pairs(s, t);
@@ -49,7 +49,7 @@ Face_soup moved(Face_soup soup, double x, double y, double z) {
   return soup;
 }
 
-/// Objects of some dozen faces.
+/// Objects of a few dozen faces.
 std::vector<Face_soup> few_faces() {
   return {icosphere(2),
           Face_soup(potato(3)),
@@ -75,7 +75,7 @@ TEST(Closest_faces, equal_those_of_all_pairs_in_any_pose) {
   EXPECT_GT(meeting, 20);
 }
 
-TEST(Closest_faces, of_many_at_one_distance_are_the_lowest) {
+TEST(Closest_faces, of_many_at_the_same_distance_are_the_lowest) {
   const Face_soup box(cube(2)), sheet(cloth(4, 4));
   EXPECT_EQ(expect_closest(box, moved(box, 3, 0, 0)), 2);
   EXPECT_EQ(expect_closest(box, moved(box, 4, 5, 0)), 5);
@@ -118,7 +118,7 @@ TEST(Closest_faces, scale_with_powers_of_two) {
   }
 }
 
-TEST(Closest_faces, beyond_the_largest_distance_are_the_lowest) {
+TEST(Closest_faces, at_a_distance_that_overflows_are_the_lowest) {
   const Face_soup ball(icosphere(1));
   EXPECT_EQ(expect_closest(placed(ball, 1e300, -1.7e308), placed(ball, 1e300, 1.7e308)),
             std::numeric_limits<double>::infinity());

@@ -100,7 +100,7 @@ TEST(Contact_search, with_a_tolerance_equals_exhaustive_checking_of_distances) {
   }
 }
 
-TEST(Contact_search, with_a_tolerance_leaves_out_faces_exactly_that_far_apart) {
+TEST(Contact_search, faces_exactly_as_far_apart_as_the_tolerance_are_no_contact) {
   Face_soup low(cloth(8, 8)), high = low;
   deform(high, [](const Point& p) { return Point(p.x(), p.y(), 0.25); });
   for (const double offset : {0.0, 0x1p20}) {
@@ -129,7 +129,7 @@ TEST(Contact_search, finds_the_same_with_any_number_of_workers) {
   }
 }
 
-TEST(Contact_search, adds_to_what_was_found_before_and_can_be_asked_again) {
+TEST(Contact_search, appends_to_the_list_and_can_be_reused) {
   const Posed_object a(icosphere(6)), b(torus_knot());
   const auto truth = true_pairs(a.soup(), b.soup());
   ASSERT_GT(truth.size(), 2U);

@@ -8,7 +8,7 @@
 namespace lodestone {
 namespace {
 
-/// All intersecting pairs of faces by CGAL; empty, with a failure, if there are faces without area.
+/// All intersecting face pairs by CGAL. Fails the test if there are faces without area.
 std::vector<Face_pair> by_cgal(const Surface_mesh& mesh) {
   std::vector<std::pair<Surface_mesh::Face_index, Surface_mesh::Face_index>> all;
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(all));
@@ -21,7 +21,7 @@ std::vector<Face_pair> by_cgal(const Surface_mesh& mesh) {
   return pairs;
 }
 
-/// All intersecting pairs of faces by definition.
+/// All intersecting face pairs by `faces_intersect`.
 std::vector<Face_pair> by_definition_of_faces(const Face_soup& soup) {
   std::vector<Face_pair> pairs;
   for (std::uint32_t a = 0; a < soup.faces.size(); ++a)
@@ -90,7 +90,7 @@ TEST(Contact_search_within, equals_cgal_on_tiny_huge_and_far_away_surfaces) {
     }
 }
 
-TEST(Contact_search_within, finds_nothing_in_surfaces_that_are_sound) {
+TEST(Contact_search_within, finds_nothing_in_surfaces_that_do_not_intersect_themselves) {
   for (const auto& mesh : {icosphere(9), uv_sphere(20, 15), cloth(30, 20), cube(6), torus_knot(), potato(8)}) {
     EXPECT_TRUE(by_cgal(mesh).empty());
     EXPECT_FALSE(search_within(Posed_object(Face_soup(mesh))).summary.found);
@@ -110,7 +110,7 @@ TEST(Contact_search_within, equals_the_definition_for_any_faces) {
   EXPECT_GT(found, 10000U);
 }
 
-TEST(Contact_search_within, does_not_mind_the_tolerance) {
+TEST(Contact_search_within, ignores_the_tolerance) {
   const Posed_object object(crumpled(icosphere(5), 0.1, 1));
   EXPECT_TRUE(search_within(object, {.tolerance = 0.5}) == search_within(object));
 }
@@ -130,13 +130,12 @@ TEST(Contact_search_within, finds_the_same_with_any_number_of_workers) {
   }
 }
 
-/// Tasks of neighbours, which look at vertices, then outnumber those of the walk, which looks at leaves: a worker may
-/// begin with either.
-TEST(Contact_search_within, finds_the_same_where_most_tasks_are_about_vertices) {
+/// A worker may then begin with a task of either kind.
+TEST(Contact_search_within, finds_the_same_where_most_tasks_check_neighbours) {
   auto mesh = icosphere(40);
   crumple(mesh, 0.02, 3);
   Face_soup soup(mesh);
-  soup.coordinates.resize(soup.coordinates.size() + 3 * std::size_t{3'000'000});  // that no face has
+  soup.coordinates.resize(soup.coordinates.size() + 3 * std::size_t{3'000'000});  // that no face uses
   const Posed_object object(std::move(soup), 16, false);
   const Answer alone = search_within(object);
   EXPECT_GT(alone.found.size(), 1000U);

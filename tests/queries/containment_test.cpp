@@ -14,7 +14,7 @@ Face_soup moved(Face_soup soup, double x, double y, double z) {
   return soup;
 }
 
-/// Whether `outer` encloses `inner`, whatever the leaf size, the order of vertices, the scale and the place.
+/// Whether `outer` encloses `inner`, whatever the leaf size, the order of vertices, the scale and the position.
 bool encloses(const Face_soup& outer, const Face_soup& inner) {
   std::vector<bool> answers;
   for (const std::size_t leaf_faces : {2, 16, 128})
@@ -27,14 +27,14 @@ bool encloses(const Face_soup& outer, const Face_soup& inner) {
   return answers[0];
 }
 
-TEST(Containment, of_a_sphere_in_a_sphere_is_one_way) {
+TEST(Containment, a_sphere_encloses_a_smaller_one_and_not_the_reverse) {
   const Face_soup ball(icosphere(5)), pea = placed(icosphere(3), 0.25);
   EXPECT_TRUE(encloses(ball, pea));
   EXPECT_TRUE(encloses(ball, moved(pea, 0.3, -0.4, 0.2)));
   EXPECT_FALSE(encloses(pea, ball));
 }
 
-TEST(Containment, of_what_lies_outside_is_denied_on_every_side) {
+TEST(Containment, what_lies_outside_is_not_enclosed_on_any_side) {
   const Face_soup ball(icosphere(5)), pea = placed(icosphere(3), 0.25);
   for (const auto& [x, y, z] : {std::array{2.0, 0.0, 0.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, 2.0}, {0.0, 0.0, -2.0}})
     EXPECT_FALSE(encloses(ball, moved(pea, x, y, z)));
@@ -45,7 +45,7 @@ TEST(Containment, of_what_lies_outside_is_denied_on_every_side) {
   EXPECT_FALSE(encloses(torus_knot({.p = 1, .q = 0}), placed(icosphere(2), 0.1))) << "in the hole";
 }
 
-TEST(Containment, in_a_hollow_is_denied_and_in_a_core_is_not) {
+TEST(Containment, a_hollow_does_not_enclose_and_a_core_in_it_does) {
   const Face_soup pea = placed(icosphere(3), 0.125);
   const Face_soup ball(icosphere(5)), hollow = joined(ball, placed(ball, 0.5)),
                                       core = joined(hollow, placed(ball, 0.25));
@@ -56,7 +56,7 @@ TEST(Containment, in_a_hollow_is_denied_and_in_a_core_is_not) {
   EXPECT_FALSE(encloses(ball, joined(hollow, placed(ball, 2))));
 }
 
-TEST(Containment, asks_for_every_piece) {
+TEST(Containment, every_component_must_be_inside) {
   const Face_soup ball(icosphere(5)), pea = placed(icosphere(2), 0.125);
   const Face_soup inside[]{pea, moved(pea, 0.5, 0, 0), moved(pea, 0, 0, -0.5)}, outside = moved(pea, 0, 0, -3);
   const auto all_in = joined(joined(inside[0], inside[1]), inside[2]);
@@ -71,7 +71,7 @@ TEST(Containment, asks_for_every_piece) {
   EXPECT_FALSE(encloses(two, moved(all_in, 2, 0, 0)));
 }
 
-TEST(Containment, in_a_surface_that_is_not_closed_is_denied) {
+TEST(Containment, an_open_surface_encloses_nothing) {
   const Face_soup pea = moved(placed(icosphere(2), 0.125), 0.5, 0.5, -0.5);
   EXPECT_FALSE(encloses(cloth(9, 9), pea));
   Face_soup ball(icosphere(5));
@@ -80,13 +80,13 @@ TEST(Containment, in_a_surface_that_is_not_closed_is_denied) {
   EXPECT_FALSE(encloses(joined(icosphere(5), moved(cloth(3, 3), 9, 0, 0)), placed(icosphere(2), 0.125)));
 }
 
-TEST(Containment, of_an_open_surface_in_a_closed_one_is_seen) {
+TEST(Containment, a_closed_surface_encloses_an_open_one) {
   const Face_soup sheet = moved(cloth(9, 9), -0.5, -0.5, 0);
   EXPECT_TRUE(encloses(icosphere(5), sheet));
   EXPECT_FALSE(encloses(icosphere(5), moved(sheet, 0, 0, 1.5)));
 }
 
-TEST(Containment, is_right_below_vertices_and_edges) {
+TEST(Containment, is_exact_below_vertices_and_edges) {
   // All vertices of a cube's sides lie above or below each other, and above those of the inner cube.
   const Face_soup box(cube(4)), small = placed(cube(4), 0.5, 0.25), tiny = placed(cube(2), 0.25, 0.25);
   EXPECT_TRUE(encloses(box, small));

@@ -53,7 +53,7 @@ TEST(Exhaustive, counts_touching_and_zero_area_faces) {
   }
 }
 
-TEST(Exhaustive, numbers_faces_of_the_first_mesh_first) {
+TEST(Exhaustive, lists_the_index_in_the_first_mesh_first) {
   const auto one = single_triangle();
   auto many = grid(3, 3);
   shift(many, -1.9, -1.9, 0);  // only the last square reaches over the origin

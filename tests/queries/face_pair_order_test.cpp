@@ -15,11 +15,11 @@ TEST(Face_pair_order, is_that_of_comparing_pairs) {
   for (const std::size_t count : {0, 1, 2, 31, 32, 33, 300, 5000})
     for (const int bits_a : {0, 1, 7, 8, 9, 16, 31, 32})
       for (const int bits_b : {0, 1, 8, 15, 17, 24, 32}) {
-        const auto number = [&](int bits) {
+        const auto index = [&](int bits) {
           return static_cast<std::uint32_t>(bits == 0 ? 0 : random() >> (64 - bits));
         };
         std::vector<Face_pair> pairs(count);
-        for (auto& pair : pairs) pair = {number(bits_a), number(bits_b)};
+        for (auto& pair : pairs) pair = {index(bits_a), index(bits_b)};
         auto expected = pairs;
         std::ranges::sort(expected);
         sort_face_pairs(pairs);
@@ -27,7 +27,7 @@ TEST(Face_pair_order, is_that_of_comparing_pairs) {
       }
 }
 
-TEST(Face_pair_order, reaches_to_the_largest_numbers) {
+TEST(Face_pair_order, holds_up_to_the_largest_indices) {
   constexpr std::uint32_t most = 0xffffffff;
   std::vector<Face_pair> pairs(100, {most, most});
   pairs[50] = {most, 0};

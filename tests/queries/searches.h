@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a search answers, and what must hold for any answer.
+// What a search returns, and checks that hold for any search.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ inline bool operator==(const Answer& a, const Answer& b) {
          a.summary.leaf_tests == b.summary.leaf_tests && a.summary.exact_tests == b.summary.exact_tests;
 }
 
-/// A search with workers of its own, asked again and again.
+/// A search with workers of its own, which is reused.
 class Searcher {
  public:
   explicit Searcher(std::size_t threads) : workers_(threads), search_(workers_) {}

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Refits of region trees.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -14,7 +13,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most = std::numeric_limits<double>::max();
 
-TEST(Region_tree_refit, in_parts_in_any_order_gives_the_same_boxes) {
+TEST(Region_tree_refit, parts_in_any_order_give_the_same_boxes) {
   std::mt19937_64 random(1);
   for (const auto& soup : {Face_soup(icosphere(71)), Face_soup(icosphere(5)), Face_soup(single_triangle())}) {
     Region_tree whole(soup.faces, octants(soup), soup.coordinates);
@@ -38,7 +37,7 @@ TEST(Region_tree_refit, in_parts_in_any_order_gives_the_same_boxes) {
   }
 }
 
-TEST(Region_tree_refit, gives_the_same_boxes_for_every_instruction_set) {
+TEST(Region_tree_refit, every_instruction_set_gives_the_same_boxes) {
   const auto soup = shuffled(Face_soup(icosphere(20)), 1);
   const auto now = crumpled(soup, 0.3, 1);
   for (const std::size_t leaf_faces : {2, 3, 5, 64}) {
@@ -64,7 +63,7 @@ TEST(Region_tree_refit, never_reads_past_the_last_vertex) {
       });
 }
 
-TEST(Region_tree_refit, tells_coordinates_that_are_not_finite_at_any_vertex) {
+TEST(Region_tree_refit, a_non_finite_coordinate_of_any_vertex_is_reported) {
   for (const auto& soup : {Face_soup(single_triangle()), Face_soup(icosphere(2)), shuffled(Face_soup(cloth(5, 5)), 1)})
     for_instruction_sets([&] {
       Region_tree tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 4}), good = tree;
@@ -80,20 +79,20 @@ TEST(Region_tree_refit, tells_coordinates_that_are_not_finite_at_any_vertex) {
     });
 }
 
-TEST(Region_tree_refit, tells_one_bad_coordinate_among_a_hundred_thousand_and_infinities_that_cancel) {
+TEST(Region_tree_refit, one_bad_coordinate_in_a_hundred_thousand_and_infinities_that_cancel_are_reported) {
   const Face_soup soup(icosphere(71));
   Region_tree tree(soup.faces, octants(soup), soup.coordinates);
   const std::size_t count = soup.coordinates.size();
-  for (const std::size_t place : {std::size_t{0}, std::size_t{1}, count / 2, count - 2, count - 1}) {
+  for (const std::size_t index : {std::size_t{0}, std::size_t{1}, count / 2, count - 2, count - 1}) {
     auto now = soup.coordinates;
-    now[place] = infinity;
+    now[index] = infinity;
     EXPECT_FALSE(tree.refit(now));
-    now[count - 1 - place] = -infinity;
+    now[count - 1 - index] = -infinity;
     EXPECT_FALSE(tree.refit(now));
   }
 }
 
-TEST(Region_tree_refit, takes_the_largest_finite_coordinates) {
+TEST(Region_tree_refit, the_largest_finite_coordinates_are_accepted) {
   for (const auto& base : {Face_soup(icosphere(3)), Face_soup(icosphere(71))}) {
     Region_tree tree(base.faces, {}, base.coordinates);
     for (const double size : {1e308, most}) {
@@ -118,7 +117,7 @@ Face_soup rounded(Face_soup soup) {
   return soup;
 }
 
-TEST(Region_tree_refit, leaves_the_tree_as_loose_when_it_is_moved_turned_or_scaled) {
+TEST(Region_tree_refit, looseness_does_not_change_when_a_mesh_is_moved_turned_or_scaled) {
   const auto soup = rounded(Face_soup(torus_knot()));
   Region_tree tree(soup.faces, octants(soup), soup.coordinates);
   const double looseness = tree.looseness();
@@ -138,7 +137,7 @@ TEST(Region_tree_refit, leaves_the_tree_as_loose_when_it_is_moved_turned_or_scal
   EXPECT_EQ(tree.looseness(), looseness);
 }
 
-TEST(Region_tree_refit, makes_the_tree_looser_the_further_its_leaves_are_pulled_apart) {
+TEST(Region_tree_refit, looseness_grows_when_leaves_are_pulled_apart) {
   const Face_soup soup(icosphere(20));
   Region_tree tree(soup.faces, octants(soup), soup.coordinates);
   double before = tree.looseness();
@@ -149,7 +148,7 @@ TEST(Region_tree_refit, makes_the_tree_looser_the_further_its_leaves_are_pulled_
   }
 }
 
-TEST(Region_tree_refit, of_one_leaf_fills_the_box_and_in_one_point_leaves_nothing_loose) {
+TEST(Region_tree_refit, looseness_is_one_for_a_single_leaf_and_zero_for_a_point) {
   const Face_soup triangle(single_triangle());
   Region_tree tree(triangle.faces, {}, triangle.coordinates);
   EXPECT_EQ(tree.looseness(), 1);

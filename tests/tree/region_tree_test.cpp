@@ -12,13 +12,13 @@ namespace {
 
 using Labels = std::vector<Region_index>;
 
-/// The lowest region that a corner is in.
+/// The lowest of the corners' regions.
 Region_index region_of(const Corners& corners, const Labels& labels) {
   if (labels.empty()) return 0;
   return std::min({labels[corners[0]], labels[corners[1]], labels[corners[2]]});
 }
 
-/// Regions stay apart, and each has as few leaves as there can be, of nearly one size.
+/// Checks that each leaf is of one region, and that each region has as few leaves as possible, of nearly equal size.
 void expect_leaves_of_regions(const Region_tree& tree, const Face_soup& soup, const Labels& labels,
                               std::size_t leaf_faces) {
   std::map<Region_index, std::size_t> faces_of, leaves_of;
@@ -36,7 +36,7 @@ void expect_leaves_of_regions(const Region_tree& tree, const Face_soup& soup, co
   for (const auto& [region, leaves] : leaves_of) ASSERT_EQ(leaves, (faces_of[region] + leaf_faces - 1) / leaf_faces);
 }
 
-TEST(Region_tree, keeps_its_promises_after_the_build_and_after_every_refit) {
+TEST(Region_tree, is_valid_after_the_build_and_after_every_refit) {
   for (const auto& [name, soup] : tree_cases())
     for (const std::size_t leaf_faces : {2, 3, 7, 32, 64, 127, 128})
       for (const bool divided : {false, true}) {
@@ -54,7 +54,7 @@ TEST(Region_tree, keeps_its_promises_after_the_build_and_after_every_refit) {
       }
 }
 
-TEST(Region_tree, takes_any_labels) {
+TEST(Region_tree, of_any_labels_is_valid) {
   std::mt19937_64 random(1);
   const Face_soup soup(icosphere(6));
   for (const Region_index regions : {2U, 30U, 5000U}) {
@@ -66,7 +66,7 @@ TEST(Region_tree, takes_any_labels) {
   }
 }
 
-TEST(Region_tree, of_a_hundred_thousand_faces_keeps_its_promises) {
+TEST(Region_tree, of_a_hundred_thousand_faces_is_valid) {
   for (const auto& soup : {Face_soup(icosphere(71)), shuffled(Face_soup(cloth(300, 170)), 1)})
     for (const std::size_t leaf_faces : {2, 32, 128}) {
       Region_tree tree(soup.faces, octants(soup), soup.coordinates, {.leaf_faces = leaf_faces});
@@ -77,7 +77,7 @@ TEST(Region_tree, of_a_hundred_thousand_faces_keeps_its_promises) {
     }
 }
 
-TEST(Region_tree, says_what_does_not_fit_other_faces_or_coordinates) {
+TEST(Region_tree, validation_reports_other_faces_and_other_coordinates) {
   const Face_soup soup(icosphere(5));
   const Region_tree tree(soup.faces, octants(soup), soup.coordinates);
   for (std::size_t i = 0; i < soup.coordinates.size(); i += 7) {
@@ -98,7 +98,7 @@ TEST(Region_tree, says_what_does_not_fit_other_faces_or_coordinates) {
   EXPECT_NE(tree.validate(faces, soup.coordinates), "");
 }
 
-TEST(Region_tree, refuses_leaf_sizes_out_of_range) {
+TEST(Region_tree, leaf_sizes_out_of_range_are_refused) {
   const Face_soup soup(icosphere(2));
   for (const std::size_t leaf_faces : {std::size_t{0}, std::size_t{1}, std::size_t{129}, ~std::size_t{0}})
     EXPECT_THROW(Region_tree(soup.faces, {}, soup.coordinates, {.leaf_faces = leaf_faces}), Bad_argument);

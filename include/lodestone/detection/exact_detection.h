@@ -109,7 +109,7 @@ class Exact_detection final : public Detection<Mesh, Points> {
   Detector_options options_;
   Strategy strategy_;
   Workers workers_;
-  Contact_search search_;
+  Basic_contact_search<Volume> search_;
   std::vector<std::unique_ptr<Object>> objects_;
   Frame_builder frame_;
   std::size_t rebuilds_ = 0;  ///< since the last frame: other calls rebuild too

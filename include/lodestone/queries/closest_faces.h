@@ -7,18 +7,18 @@
 
 namespace lodestone {
 
-/// Two faces, one of each object, that no others are nearer than.
+/// The closest faces of two objects, one of each.
 struct Closest_faces {
   Face_pair faces = {};
   Closest_points points = {};  ///< with their distance, in units of the coordinates; 0 if and only if they intersect
 };
 
-/// The closest faces of two trees. Distances are those of `closest_points`, and no pair is nearer by more than their
-/// error, one part in 2^30. Of several pairs that intersect the lowest; of several that are equally far apart always
-/// the same.
+/// The closest faces of two trees. The distance is that of `closest_points`, with its relative error of 2^-30; no other
+/// pair is nearer by more than this error. Among several pairs that intersect, the lowest is returned. Among several at
+/// the same distance, the choice is deterministic.
 ///
-/// Branch and bound over pairs of nodes, the nearest boxes first: O(log F) openings and a few leaves where one place is
-/// clearly nearest, more where the surfaces run side by side.
+/// Branch and bound over node pairs, those with the nearest boxes first. O(log F) node pairs are opened, and a few leaf
+/// pairs are compared, where the surfaces are nearest at one point; more where they run side by side.
 /// @param a, b  with boxes
 Closest_faces closest_faces(const Layout_view& a, const Layout_view& b);
 

@@ -6,13 +6,15 @@
 
 namespace lodestone {
 
-/// Whether a point that is not on the surface lies inside it: whether the ray from it upwards along z crosses an odd
-/// number of faces, exactly. O(log F + crossed leaves).
+/// Whether a point lies inside a surface: whether the ray from the point along +z crosses an odd number of faces.
+/// Exact. O(log F + leaves that the ray meets).
 /// @param surface  closed, see `Object_surface::closed`; with boxes
+/// @param point    not on the surface
 bool encloses(const Layout_view& surface, const Point& point);
 
-/// Whether every piece of `inner` lies inside `outer`, whose surfaces do not intersect. Exact. False where `outer` is
-/// not closed: it has no inside. A hollow in `outer`, bounded by a piece of its surface, is outside.
+/// Whether every component of `inner` lies inside `outer`. Exact. False if `outer` is not closed: it has no inside. A
+/// hollow in `outer`, bounded by a component of its surface, counts as outside.
+/// @param outer, inner                two surfaces that do not intersect
 /// @param outer_layout, inner_layout  of the two, with boxes
 bool encloses(const Object_surface& outer, const Layout_view& outer_layout, const Object_surface& inner,
               const Layout_view& inner_layout);

@@ -7,7 +7,7 @@
 #include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/mesh/pairs.h"
 
-/// The truth that every mode is held against.
+/// Exhaustive checking: the truth that every mode is compared with.
 namespace lodestone {
 
 /// All intersecting face pairs of two sets of triangles, sorted: `CGAL::box_intersection_d` over all faces, then
@@ -16,9 +16,9 @@ namespace lodestone {
 std::vector<Face_pair> exhaustive_numbered(const Positions& positions_a, std::span<const Corners> faces_a,
                                            const Positions& positions_b, std::span<const Corners> faces_b);
 
-/// The same on meshes; faces are numbered in the order of `faces(mesh)`.
+/// All intersecting face pairs of two meshes, sorted; the index of a face is its rank in `faces(mesh)`.
 /// @param np_a, np_b  `vertex_point_map`
-/// @throws Bad_mesh  no face, a face that is no triangle, a coordinate that is not finite
+/// @throws Bad_mesh  a mesh has no face, a face that is not a triangle, or a coordinate that is not finite
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b, class Parameters_a = CGAL::parameters::Default_named_parameters,
           class Parameters_b = CGAL::parameters::Default_named_parameters>
 std::vector<Face_pair> exhaustive_face_pairs(const Mesh_a& a, const Mesh_b& b,

@@ -7,7 +7,7 @@
 
 namespace lodestone {
 
-/// Sorts face pairs, as `std::sort` would: by a, then by b. O(n log n), with vector instructions.
+/// Sorts face pairs by a, then by b. O(n log n), with vector instructions.
 void sort_face_pairs(std::span<Face_pair> pairs);
 
 }  // namespace lodestone

@@ -8,13 +8,13 @@
 
 namespace lodestone {
 
-/// Axis-aligned boxes of all nodes of a tree, for queries that need them whatever the tree's volumes are. Those of the
-/// tree itself if it has them; else they are fitted to the vertices: O(V).
+/// Axis-aligned boxes of all nodes of a tree, for queries that need boxes whatever the tree's volumes are. A tree of
+/// boxes lends its own: O(1). For any other, boxes are fitted to the vertices: O(V).
 template <Bounding_volume Volume>
 class Node_boxes {
  public:
-  /// @param posed  its tree outlives this
-  explicit Node_boxes(const Basic_tree_view<Volume>& posed) : layout_(posed) {
+  /// @param view  its tree must outlive this
+  explicit Node_boxes(const Basic_tree_view<Volume>& view) : layout_(view) {
     if constexpr (!std::same_as<Volume, Aabb>) {
       const Tree_layout& tree = *layout_.layout;
       boxes_.resize(tree.node_count());

@@ -6,15 +6,20 @@
 
 namespace lodestone {
 
-/// Below two nodes with at most so many leaves each, boxes of leaves are compared all with all: sooner done than
-/// walking on, for no branch foretells which are near.
+/// Most leaves below each of two nodes whose leaf boxes are compared all with all. Below that, the branches of a
+/// further descent are unpredictable and cost more than the comparisons that they save.
 inline constexpr std::uint32_t bunch_leaves = 32;
 
-/// Pairs of leaves below two such nodes; there is room for one more, which is written before it is known to count.
+/// The candidate leaf pairs below two nodes with at most `bunch_leaves` leaves each.
 struct Leaf_candidates {
-  std::uint32_t first_a, first_b;  ///< numbers of the nodes' first leaves
+  std::uint32_t first_a, first_b;  ///< index of the first leaf below each node
   std::size_t count;
-  std::uint8_t a[bunch_leaves * bunch_leaves + 1], b[bunch_leaves * bunch_leaves + 1];  ///< less the first
+  /// Leaf indices, relative to the first leaf. One entry more than there can be pairs: the kernel writes each pair
+  /// before it knows whether the pair counts.
+  std::uint8_t a[bunch_leaves * bunch_leaves + 1], b[bunch_leaves * bunch_leaves + 1];
+
+  std::uint32_t leaf_a(std::size_t i) const { return first_a + a[i]; }
+  std::uint32_t leaf_b(std::size_t i) const { return first_b + b[i]; }
 };
 
 }  // namespace lodestone

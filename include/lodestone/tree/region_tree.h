@@ -12,17 +12,17 @@
 
 namespace lodestone {
 
-/// What is added up while volumes are fitted to leaves.
+/// Sums over the leaves that volumes are fitted to.
 struct Leaf_sums {
-  double coordinates = 0;  ///< not finite if one of them is not, else mostly finite
-  double extents = 0;      ///< of the volumes
+  double coordinates = 0;  ///< of all vertices. Non-finite if any input is; may also overflow
+  double extents = 0;      ///< of the leaves' volumes
 };
 
-/// Sum of the coordinates of the vertices of one leaf: not finite if one of them is not, else mostly finite.
+/// Sum of the coordinates of a leaf's vertices. Non-finite if any input is; may also overflow.
 double sum_coordinates(const Tree_layout& layout, Coordinates coordinates, std::size_t leaf);
 
-/// Fits the volumes of the leaves `first` to `end`. A volume that can do better for many leaves at a time has an
-/// overload of its own.
+/// Fits the volumes of the leaves in [first, end). A volume type that is fitted faster to many leaves at once has an
+/// overload.
 /// @param volumes  per node
 template <Bounding_volume Volume>
 Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::size_t first, std::size_t end,
@@ -40,31 +40,31 @@ Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::si
                      std::span<Aabb> boxes);
 
 /// A hierarchy of bounding volumes over the faces of one object, in the layout of Tree_layout. Built once, refitted in
-/// every frame. No volume of a single face is kept.
+/// every frame. Nodes have volumes, single faces do not.
 ///
-/// @tparam Volume  of every node, see Bounding_volume; axis-aligned boxes (Region_tree) are the fastest to refit
+/// @tparam Volume  see Bounding_volume; axis-aligned boxes (Region_tree) are the fastest to refit
 template <Bounding_volume Volume>
 class Basic_region_tree : public Tree_layout {
  public:
   Basic_region_tree() = default;
 
-  /// The volumes are those of `coordinates`; the rest as Tree_layout.
+  /// Groups the faces as Tree_layout does, with the same parameters and errors, and fits the volumes to `coordinates`.
   Basic_region_tree(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
                     const Region_tree_options& options = {})
       : Tree_layout(corners, labels, coordinates, options), volumes_(node_count()), part_sums_(parts().size()) {
     refit(coordinates);
   }
 
-  /// Fits all volumes to where the vertices are now: leaves to their vertices, each of which is read once, other nodes
-  /// to the volumes of their children. O(V).
-  /// @return false: a coordinate is not finite, and the volumes mean nothing until the next refit
+  /// Fits all volumes to the current coordinates: those of leaves to the leaf's vertices, each of which is read once,
+  /// those of other nodes to the volumes of their children. O(V).
+  /// @return false if a coordinate is not finite: the volumes are then meaningless until the next refit
   bool refit(Coordinates coordinates) {
     for (std::size_t part = 0; part < part_count(); ++part) refit_part(part, coordinates);
     return finish_refit(coordinates);
   }
 
-  /// How many parts a refit consists of. Parts can be refitted in any order and by several threads, then `finish_refit`
-  /// joins them: the volumes are the same as those of `refit`.
+  /// A refit in parts. They can be refitted in any order and by several threads. `finish_refit` then fits the nodes
+  /// above them and returns what `refit` would. The volumes are the same, too.
   std::size_t part_count() const { return parts().size(); }
   void refit_part(std::size_t part, Coordinates coordinates);
   bool finish_refit(Coordinates coordinates);
@@ -72,12 +72,13 @@ class Basic_region_tree : public Tree_layout {
   const Volume& volume(std::uint32_t n) const { return volumes_[n]; }
   std::span<const Volume> volumes() const { return volumes_; }
 
-  /// Mean extent of a leaf's volume, in extents of the root's. It grows when leaves are pulled apart, and for boxes is
-  /// the same for a mesh that is moved, turned by right angles, or scaled. 0 for a point.
+  /// Mean extent of the leaves' volumes, relative to the extent of the root's. It grows when leaves are pulled apart.
+  /// For boxes it stays the same if the mesh is moved, turned by right angles, or scaled. 0 for a point.
   double looseness() const { return looseness_; }
 
-  /// What contradicts the definition above, in words; empty if nothing does. For tests: O(F log F).
-  /// @param corners, coordinates  of the mesh, and of the last refit
+  /// For tests: describes the first violation of the definition above; empty if there is none. O(F log F).
+  /// @param corners      of the mesh
+  /// @param coordinates  of the last refit
   std::string validate(std::span<const Corners> corners, Coordinates coordinates) const;
 
  private:
@@ -110,9 +111,9 @@ bool Basic_region_tree<Volume>::finish_refit(Coordinates coordinates) {
   }
   const double whole = volumes_.front().extent();
   looseness_ = whole > 0 ? sums.extents / static_cast<double>(leaf_count()) / whole : 0;
-  if (!std::isfinite(looseness_)) looseness_ = 0;  // beyond 1e306 the sum overflows: such trees are not judged
+  if (!std::isfinite(looseness_)) looseness_ = 0;  // the sum overflows beyond 1e306: such trees never count as loose
 
-  // The sum may have overflowed, or the coordinates themselves are to blame.
+  // Finite coordinates can have a sum that overflows.
   return std::isfinite(sums.coordinates) || finite(coordinates);
 }
 

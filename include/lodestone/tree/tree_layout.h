@@ -12,26 +12,25 @@
 namespace lodestone {
 
 struct Region_tree_options {
-  std::size_t leaf_faces = 96;  ///< most faces of a leaf, 2 .. 128; leaves of large regions have nearly as many
+  std::size_t leaf_faces = 96;  ///< most faces per leaf, 2 .. 128; the leaves of large regions are nearly full
 };
 
-/// What a region tree has but for its volumes: how the faces of one object are grouped, from its regions down to leaves
-/// of a few dozen faces. Built once; nothing here changes when vertices move.
+/// A region tree without its volumes: how the faces of one object are grouped, from its regions down to leaves of a few
+/// dozen faces. Built once; nothing here changes when vertices move.
 ///
-/// Every face is in one leaf. A leaf lists the vertices of its faces once, in ascending order, so that a refit walks
-/// through memory forwards whatever the order of the vertices in the mesh.
+/// Every face is in one leaf. A leaf lists each vertex of its faces once, in ascending order, so that a refit reads
+/// memory forwards, whatever the order of the vertices in the mesh.
 ///
-/// Nodes are numbered in the order in which a depth-first walk meets them: the first child follows its parent. So are
-/// leaves.
+/// Nodes are indexed in depth-first order: the first child directly follows its parent. So are leaves.
 class Tree_layout {
  public:
-  /// A node's place below others.
+  /// What lies below a node.
   struct Node {
-    std::uint32_t second_child = 0;  ///< the first one is the next node; 0: the node is a leaf
-    std::uint32_t leaf = 0;          ///< number of the first leaf at or below the node
-    std::uint32_t end_leaf = 0;      ///< past the last one
+    std::uint32_t second_child = 0;  ///< the first child is the next node; 0: the node is a leaf
+    std::uint32_t leaf = 0;          ///< index of the first leaf at or below the node
+    std::uint32_t end_leaf = 0;      ///< one past the last
   };
-  /// A subtree that is refitted in one go: nodes and leaves are consecutive.
+  /// A subtree that is refitted in one go. Its nodes and its leaves are consecutive.
   struct Part {
     std::uint32_t first_node = 0, end_node = 0;
     std::uint32_t first_leaf = 0, end_leaf = 0;
@@ -39,15 +38,15 @@ class Tree_layout {
 
   Tree_layout() = default;
 
-  /// Groups the regions, by halves of their number, and splits each into as few leaves as there can be, of nearly one
-  /// size; both along the axis on which the centres are spread widest. O(F log F).
+  /// Groups the regions by halving their number again and again, and splits each region into as few leaves as possible,
+  /// of nearly equal size. Both are split along the axis on which the centres are spread widest. O(F log F).
   ///
-  /// A face belongs to the lowest region that one of its corners is in.
+  /// A face is grouped with the lowest of its corners' regions.
   ///
   /// @param corners      F >= 1 faces
   /// @param labels       V: region of each vertex; empty: a single region
   /// @param coordinates  3 V, all finite
-  /// @throws Bad_argument  an option out of range
+  /// @throws Bad_argument  an option is out of range
   /// @throws Bad_mesh      more than 2^32 / 3 faces
   Tree_layout(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
               const Region_tree_options& options);
@@ -58,15 +57,15 @@ class Tree_layout {
 
   std::size_t leaf_count() const { return leaf_nodes_.size(); }
   std::uint32_t leaf_node(std::size_t leaf) const { return leaf_nodes_[leaf]; }
-  /// Numbers of the faces of a leaf.
+  /// Indices of the faces of a leaf.
   std::span<const std::uint32_t> faces(std::size_t leaf) const {
     return {faces_.data() + face_begin_[leaf], faces_.data() + face_begin_[leaf + 1]};
   }
-  /// Numbers of its vertices, ascending.
+  /// Indices of the vertices of a leaf, ascending.
   std::span<const std::uint32_t> vertices(std::size_t leaf) const {
     return {vertices_.data() + vertex_begin_[leaf], vertices_.data() + vertex_begin_[leaf + 1]};
   }
-  /// Per face of a leaf: its corners, as places in `vertices(leaf)`.
+  /// Per face of a leaf: its corners, as indices into `vertices(leaf)`.
   std::span<const Leaf_corners> corners(std::size_t leaf) const {
     return {corners_.data() + face_begin_[leaf], corners_.data() + face_begin_[leaf + 1]};
   }
@@ -74,22 +73,23 @@ class Tree_layout {
     return {coordinates, vertices(leaf), corners(leaf)};
   }
 
-  /// Subtrees that can be refitted in any order and by several threads, and the nodes above them, parents before
-  /// children.
+  /// Subtrees that can be refitted in any order and by several threads.
   std::span<const Part> parts() const { return parts_; }
+  /// The nodes above all parts, parents before children.
   std::span<const std::uint32_t> top_nodes() const { return top_nodes_; }
 
-  /// Vertex lists of all leaves, one after the other, with some more at the end for a reader that looks ahead; per leaf
-  /// and past the last: its start; per leaf: its node.
+  /// The vertex lists of all leaves, one after the other, padded with valid indices for kernels that read ahead.
   std::span<const std::uint32_t> all_vertices() const { return vertices_; }
+  /// Per leaf and past the last: where its list in `all_vertices` starts.
   std::span<const std::uint32_t> vertex_begin() const { return vertex_begin_; }
+  /// Per leaf: the index of its node.
   std::span<const std::uint32_t> leaf_nodes() const { return leaf_nodes_; }
 
-  /// Whether the coordinates of all vertices of faces are finite. O(V).
+  /// Whether all coordinates that faces use are finite. O(V).
   bool finite(Coordinates coordinates) const;
 
  protected:
-  /// What contradicts the definition above, in words; empty if nothing does. O(F log F).
+  /// Describes the first violation of the definition above; empty if there is none. O(F log F).
   std::string validate_layout(std::span<const Corners> corners, std::size_t vertex_count) const;
 
  private:
@@ -99,11 +99,11 @@ class Tree_layout {
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> leaf_nodes_;
-  std::vector<std::uint32_t> face_begin_;  ///< per leaf and past the last: its start in `faces_` and `corners_`
+  std::vector<std::uint32_t> face_begin_;  ///< per leaf and past the last: where it starts in `faces_` and `corners_`
   std::vector<std::uint32_t> vertex_begin_;
   std::vector<std::uint32_t> faces_;
   std::vector<std::uint32_t> vertices_;
-  std::vector<Leaf_corners> corners_;  ///< and some more at the end for a reader that looks ahead
+  std::vector<Leaf_corners> corners_;  ///< padded for kernels that read ahead
   std::vector<Part> parts_;
   std::vector<std::uint32_t> top_nodes_;
 };

@@ -11,15 +11,15 @@
 
 namespace lodestone {
 
-/// One object as the exact mode keeps it from frame to frame: its surface, and a tree over it.
+/// The surface of one object and a tree over it, kept from frame to frame.
 template <Bounding_volume Volume>
 class Basic_tree_surface : public Object_surface {
  public:
   using Object_surface::Object_surface;
 
-  /// Builds the tree, anew if there is one. O(F log F).
+  /// Builds the tree, or rebuilds it. O(F log F).
   /// @param labels       V: region of each vertex
-  /// @param coordinates  3 V, all finite, not changed before the next refit
+  /// @param coordinates  3 V, all finite; must stay unchanged until the next refit
   void build(std::span<const Region_index> labels, Coordinates coordinates, const Region_tree_options& options) {
     coordinates_ = coordinates;
     tree_ = Basic_region_tree<Volume>(corners(), labels, coordinates, options);
@@ -29,9 +29,9 @@ class Basic_tree_surface : public Object_surface {
 
   const Basic_region_tree<Volume>& tree() const { return tree_; }
   Basic_tree_view<Volume> view() const { return {&tree_, coordinates_}; }
-  /// Whether all coordinates that faces use are finite. Nothing can be asked of an object where one is not.
+  /// Whether all coordinates that faces use are finite. Every query requires it.
   bool finite() const { return finite_; }
-  /// Whether the leaves have become looser by more than `factor` since the tree was built.
+  /// Whether the looseness of the tree has grown by more than `factor` since it was built.
   bool looser_than(double factor) const { return tree_.looseness() > factor * built_looseness_; }
 
  private:
@@ -47,19 +47,19 @@ class Basic_tree_surface : public Object_surface {
 /// An object of the mode `exact`.
 using Tree_surface = Basic_tree_surface<Aabb>;
 
-/// Moves objects to where their vertices are now: all that depends on positions. O(V), shared among the workers.
-/// @param coordinates  per object: 3 V, not changed before the next refit
+/// Refits the trees of several objects to the current positions. O(V), shared among the workers.
+/// @param coordinates  per object: 3 V; must stay unchanged until the next refit
 template <Bounding_volume Volume>
 void refit(std::span<Basic_tree_surface<Volume>* const> objects, std::span<const Coordinates> coordinates,
            Workers& workers) {
-  constexpr std::size_t shared_parts = 8;  // fewer take one thread less time than waking others
-  // The parts of all trees are one list of tasks, so that many small objects are shared as well as a large one.
+  constexpr std::size_t shared_parts = 8;  // with fewer, waking other threads takes longer than refitting
+  // The parts of all trees are one list of tasks, so that many small objects are shared as evenly as a large one.
   std::vector<std::size_t> first_part{0};
   for (std::size_t o = 0; o < objects.size(); ++o) {
     objects[o]->coordinates_ = coordinates[o];
     first_part.push_back(first_part.back() + objects[o]->tree_.part_count());
   }
-  // Whoever moves vertices mostly does so in order: the last ones are still in the calling thread's caches.
+  // In reverse: callers usually write vertices in ascending order, so the last are still in this thread's cache.
   const auto refit_part = [&](std::size_t index, std::size_t) {
     const std::size_t task = first_part.back() - 1 - index;
     const auto o = static_cast<std::size_t>(std::ranges::upper_bound(first_part, task) - first_part.begin()) - 1;

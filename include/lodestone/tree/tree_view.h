@@ -9,14 +9,14 @@
 
 namespace lodestone {
 
-/// What leaves are looked at with: how faces are grouped, and where they are.
+/// A layout with the coordinates of its vertices: what filters and queries read, whatever volumes the tree has.
 struct Layout_view {
   const Tree_layout* layout = nullptr;
   Coordinates coordinates = {};
-  Aabb bounds = {};                  ///< around all faces, if only roughly
+  Aabb bounds = {};                  ///< encloses all faces, not always tightly
   std::span<const Aabb> boxes = {};  ///< per node; empty: the tree has volumes of another kind
 
-  Leaf_faces leaf(std::uint32_t number) const { return layout->leaf_faces(number, coordinates); }
+  Leaf_faces leaf(std::uint32_t index) const { return layout->leaf_faces(index, coordinates); }
 };
 
 /// A tree with the coordinates that it was refitted to.
