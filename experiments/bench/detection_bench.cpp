@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bench/frame_player.h"
+#include "lodestone/detector.h"
 #include "lodestone/queries/exhaustive.h"
 #include "shared/measured_run.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The collision distance as the mean over adjacent vertices, and read literally as the mean over all vertex pairs.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "lodestone/io/results/text_table.h"
 #include "shared/experiment.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compares the mode exact with exhaustive checking in every frame of every scene. Nothing is timed.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -17,7 +18,7 @@ namespace lodestone {
 
 namespace {
 
-using Scene_detector = Detector<Surface_mesh>;
+using Exact_detector = Detector<Surface_mesh>;
 
 /// What was checked of one scene; the counts are sums over the frames.
 struct Checked {
@@ -80,7 +81,7 @@ class Scene_check {
   }
 
   Scene& scene_;
-  std::vector<Scene_detector> detectors_;
+  std::vector<Exact_detector> detectors_;
   Checked checked_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sphere inflates to three times its size, without repartitioning and with several growth limits.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <limits>
 

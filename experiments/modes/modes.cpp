@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a frame costs in each mode, and what it misses.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "lodestone/io/results/text_table.h"
 #include "shared/experiment.h"

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "partitions/partition_run.h"
 
+#include <nlohmann/json.hpp>
+
 #include <fstream>
 #include <limits>
 
 #include "lodestone/mesh/stopwatch.h"
 #include "lodestone/partition/partition_measures.h"
-#include "shared/measured_run.h"
 #include "program/measures_json.h"
+#include "shared/measured_run.h"
 
 namespace lodestone {
 

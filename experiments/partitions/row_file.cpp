@@ -19,7 +19,7 @@ namespace lodestone {
 
 namespace {
 
-std::string text_of(const std::filesystem::path& file) {
+std::string content_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Bad_argument(file.string() + ": cannot be read");
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -45,7 +45,7 @@ std::map<std::string, Row_file::Row> parsed(const std::filesystem::path& file, s
 }  // namespace
 
 std::map<std::string, Row_file::Row> read_rows(const std::filesystem::path& file) {
-  const std::string text = text_of(file);
+  const std::string text = content_of(file);
   return parsed(file, std::string_view(text).substr(0, whole_lines(text)));
 }
 
@@ -57,7 +57,7 @@ Row_file::Row_file(std::filesystem::path file) : file_(std::move(file)) {
   if (descriptor_ < 0) fail("cannot be opened");
   try {
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("is in use by another sweep");
-    const std::string text = text_of(file_);
+    const std::string text = content_of(file_);
     const std::size_t whole = whole_lines(text);
     rows_ = parsed(file_, std::string_view(text).substr(0, whole));
     if (whole < text.size() && ::ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) fail("cannot be mended");

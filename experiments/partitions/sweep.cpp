@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "partitions/sweep.h"
 
+#include <nlohmann/json.hpp>
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Other collision libraries on the same frames: time, memory, and right and wrong answers.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "lodestone/io/results/text_table.h"
 #include "peers/peer.h"

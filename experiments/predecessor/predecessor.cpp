@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The two situations in which the paper says that its predecessor fails. Both methods play the same frames.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "lodestone/io/results/text_table.h"
 #include "shared/experiment.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rule by which the mode exact rebuilds a tree, on motions that make leaves loose and on some that do not.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "lodestone/detector.h"
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/io/shapes/shapes.h"
@@ -18,17 +20,17 @@ namespace lodestone {
 
 namespace {
 
-constexpr std::size_t frames = 240;
+constexpr std::size_t motion_frames = 240;
 
 /// An object that moves, and a sphere that it meets.
-struct Case {
+struct Loosening_motion {
   std::string name;
   Surface_mesh mesh;
   Motion motion;
 };
 
 /// Tetrahedra that swing through a box, each on a line of its own: pieces that start as neighbours do not stay so.
-Case drifting_pieces() {
+Loosening_motion drifting_pieces() {
   constexpr std::size_t pieces = 5000;
   std::mt19937_64 random(1);
   const auto uniform = [&random] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
@@ -49,21 +51,22 @@ Case drifting_pieces() {
     for (std::size_t v = 0; v < rest.size(); ++v) {
       const auto& speed = speeds[v / 4];
       const auto swing = [&](int axis) {
-        return 0.5 * std::sin(2 * std::numbers::pi * (speed[axis] + static_cast<double>(frame) * speed[axis] / frames));
+        return 0.5 * std::sin(2 * std::numbers::pi *
+                              (speed[axis] + static_cast<double>(frame) * speed[axis] / motion_frames));
       };
       positions[v] = Point(rest[v].x() + swing(0), rest[v].y() + swing(1), rest[v].z() + swing(2));
     }
   };
-  return {"20 000 triangles in drifting pieces", mesh, {.frames = frames, .pose = pose}};
+  return {"20 000 triangles in drifting pieces", mesh, {.frames = motion_frames, .pose = pose}};
 }
 
-Case deformed(std::string name, Surface_mesh mesh, std::vector<Deformation> deformations) {
+Loosening_motion deformed(std::string name, Surface_mesh mesh, std::vector<Deformation> deformations) {
   std::vector<Point> rest(mesh.points().begin(), mesh.points().end());
   return {std::move(name), std::move(mesh), deform(std::move(rest), std::move(deformations))};
 }
 
-std::vector<Case> cases() {
-  std::vector<Case> result;
+std::vector<Loosening_motion> loosening_motions() {
+  std::vector<Loosening_motion> result;
   result.push_back(drifting_pieces());
   result.push_back(deformed("cloth that crumples, 20 000 triangles", cloth(100, 100),
                             {Wobble{.amplitude = 0.3, .waves = 4, .period = 240}}));
@@ -73,7 +76,7 @@ std::vector<Case> cases() {
   return result;
 }
 
-struct Row {
+struct Limit_figures {
   double limit;
   std::size_t rebuilds = 0;
   std::vector<double> microseconds = {};
@@ -81,20 +84,20 @@ struct Row {
   std::size_t different = 0;  ///< frames whose face pairs differ from those of the detector that never rebuilds
 };
 
-void play(Case& moving, std::span<Row> rows) {
+void play(Loosening_motion& moving, std::span<Limit_figures> rows) {
   Surface_mesh obstacle = icosphere(32);
   for (const auto v : obstacle.vertices()) {
     const Point& p = obstacle.point(v);
     obstacle.point(v) = Point(0.3 * p.x() + 0.5, 0.3 * p.y() + 0.5, 0.3 * p.z() + 0.2);
   }
   std::vector<Detector<Surface_mesh>> detectors;
-  for (const Row& row : rows) {
+  for (const Limit_figures& row : rows) {
     detectors.emplace_back(Detector_options{.mode = Mode::exact, .exact = {.loosest = row.limit}});
     detectors.back().add(std::as_const(moving.mesh));
     detectors.back().add(std::as_const(obstacle));
   }
   std::vector<Point> positions(moving.mesh.number_of_vertices());
-  for (std::size_t frame = 0; frame < frames; ++frame) {
+  for (std::size_t frame = 0; frame < motion_frames; ++frame) {
     moving.motion.pose(frame, positions);
     for (const auto v : moving.mesh.vertices()) moving.mesh.point(v) = positions[v];
     std::vector<std::vector<Face_pair>> found(rows.size());
@@ -121,13 +124,13 @@ std::string run_rebuild(const Experiment_context& context) {
   Text_table table({"motion", "limit", "rebuilds", "median frame (us)", "mean frame (us)", "looseness, first", "last",
                     "frames that differ"});
   nlohmann::ordered_json json;
-  auto all = cases();
+  auto all = loosening_motions();
   for (std::size_t c = 0; c < all.size(); ++c) {
-    std::vector<Row> rows;
+    std::vector<Limit_figures> rows;
     for (const double limit : {1.25, 1.5, 2.0, 4.0, std::numeric_limits<double>::infinity()})
       rows.push_back({.limit = limit});
     play(all[c], rows);
-    for (const Row& row : rows) {
+    for (const Limit_figures& row : rows) {
       table.add({all[c].name, std::isinf(row.limit) ? "never" : fmt::format("{}", row.limit),
                  std::to_string(row.rebuilds), fmt::format("{:.1f}", median(row.microseconds)),
                  fmt::format("{:.1f}", mean(row.microseconds)), fmt::format("{:.4f}", row.loosenesses.front()),
@@ -146,7 +149,7 @@ std::string run_rebuild(const Experiment_context& context) {
   return fmt::format(
              "All face pairs of a moving object and a sphere of 20 480 triangles that stands still; {} frames, one "
              "core. A tree is rebuilt when its looseness exceeds `limit` times the looseness it was built with.\n\n",
-             frames) +
+             motion_frames) +
          table.text();
 }
 

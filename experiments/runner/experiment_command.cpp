@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "lodestone/io/files/atomic_file.h"
-#include "runner/experiment_command.h"
 #include "program/exit_codes.h"
-#include "runner/experiment_plots.h"
 #include "program/page_file.h"
 #include "program/printable.h"
 #include "program/progress.h"
+#include "runner/experiment_command.h"
+#include "runner/experiment_plots.h"
 #include "runner/experiments.h"
 
 namespace lodestone {

@@ -3,8 +3,8 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
-#include "runner/experiment_command.h"
 #include "program/run_reported.h"
+#include "runner/experiment_command.h"
 #include "runner/experiments.h"
 
 namespace lodestone {

@@ -2,11 +2,13 @@
 // How partition, detection and repartition check grow, beside the paper's O(kMN), O(N^2) and O(N). In O(kMN) k is the
 // number of Lloyd iterations, M that of vertices and N that of particles.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <cmath>
 #include <string_view>
 
+#include "lodestone/detection/particle_object.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "shared/experiment.h"
@@ -20,12 +22,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-constexpr int passes = 5;
+constexpr int runs_per_figure = 5;
 
 template <class Function>
 double seconds_of(Function function) {
   std::vector<double> seconds;
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < runs_per_figure; ++pass) {
     const auto start = Clock::now();
     function();
     seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
@@ -261,7 +263,7 @@ std::string run_scaling(const Experiment_context& context) {
   std::string report = fmt::format(
       "Partition: LBG over a teapot, medians of {} runs. The paper: O(kMN), with k Lloyd iterations, M vertices and N "
       "particles. `k` counts the iterations of all rounds, from one code vector to N.\n\n",
-      passes);
+      runs_per_figure);
   report += partition_against_iterations(steps, json);
   report += partition_against_vertices(steps, json);
   report += partition_against_regions(steps, json);

@@ -2,20 +2,17 @@
 #include "shared/measured_run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 #include "lodestone/detector.h"
 #include "lodestone/queries/exhaustive.h"
+#include "shared/lap_timer.h"
 
 namespace lodestone {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Scene_detector = Detector<Surface_mesh, Any_strategy>;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::vector<Object_pair> all_pairs(const Scene& scene) {
   std::vector<Object_pair> pairs;
@@ -60,11 +57,11 @@ class Scene_run {
     for (std::size_t turn = 0; turn < detectors_.size(); ++turn) {
       // Each frame starts with another setting, because the first one finds the positions outside the caches.
       const std::size_t s = (frame + turn) % detectors_.size();
-      const auto start = Clock::now();
+      const Lap_timer timer;
       detectors_[s].update();
       const Frame& answer = detectors_[s].detect();
       if (frame == 0)
-        run.measurements[s].preparation_seconds += seconds_since(start);
+        run.measurements[s].preparation_seconds += timer.seconds();
       else
         run.measurements[s].frames.push_back(answer.statistics);
       for (std::size_t p = 0; p < pairs_.size(); ++p) scores_[s].add(pairs_[p], truth[p], answered(answer, pairs_[p]));
@@ -86,7 +83,7 @@ class Scene_run {
  private:
   std::vector<bool> find_truth(std::vector<double>* seconds) {
     std::vector<bool> truth;
-    const auto start = Clock::now();
+    const Lap_timer timer;
     if (exact_) {
       const Frame& answer = exact_->detect();
       for (const auto pair : pairs_) truth.push_back(answered(answer, pair));
@@ -94,7 +91,7 @@ class Scene_run {
       for (const auto& [a, b] : pairs_)
         truth.push_back(!exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh).empty());
     }
-    if (seconds != nullptr) seconds->push_back(seconds_since(start));
+    if (seconds != nullptr) seconds->push_back(timer.seconds());
     return truth;
   }
 

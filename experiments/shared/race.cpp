@@ -94,9 +94,9 @@ struct Player {
   }
 };
 
-class Scene_run {
+class Scene_race {
  public:
-  Scene_run(Scene& scene, const Race_options& options, const std::function<void(double)>& progress)
+  Scene_race(Scene& scene, const Race_options& options, const std::function<void(double)>& progress)
       : scene_(scene), options_(options), progress_(progress) {
     figures_ = {.name = scene.name, .objects = scene.objects.size(), .frames = scene.frames};
     numberings_.reserve(scene.objects.size());
@@ -268,7 +268,7 @@ Scene_figures measure_race(Scene& scene, std::span<const Entry> entries, const R
                            const std::function<void(double)>& progress) {
   // Earlier scenes leave the heap fragmented. Without trimming, an entry would be slower than in a run of one scene.
   ::malloc_trim(0);
-  return Scene_run(scene, options, progress).run(entries);
+  return Scene_race(scene, options, progress).run(entries);
 }
 
 }  // namespace lodestone

@@ -2,6 +2,8 @@
 // Compares the mode exact with the plainest possible check, on meshes that are made to be hard.
 #include "soak/soak.h"
 
+#include <nlohmann/json.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The experiment of the paper: a deforming teapot of about 5784 polygons against a deforming sphere of 1260.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "lodestone/io/results/text_table.h"
 #include "shared/experiment.h"

@@ -64,7 +64,7 @@ std::string partitions_text(const Volume_scene& scene) {
 }
 
 /// A row for each strategy and kind of piece, a column for each volume.
-std::string tightness_table(const Volume_scene& scene) {
+std::string tightness_by_strategy(const Volume_scene& scene) {
   const auto models = scene.models();
   std::vector<std::string> header{"regions by", "of"};
   header.insert(header.end(), models.begin(), models.end());
@@ -102,7 +102,7 @@ std::string volume_section(const Volume_scene& scene) {
   std::string text = scene_heading(scene.race);
   text += partitions_text(scene) + notes(scene);
   text += titled("Per frame", times_table(scene));
-  text += titled("Tightness in the first / last sampled frame", tightness_table(scene));
+  text += titled("Tightness in the first / last sampled frame", tightness_by_strategy(scene));
   return text;
 }
 
