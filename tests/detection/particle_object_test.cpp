@@ -353,7 +353,7 @@ TEST(Particle_object, two_single_particles_walk_towards_each_other) {
     return Walker{.particles = &counted.object.particles(),
                   .steps = &counted.object.steps(),
                   .reader = &counted.object.reader(),
-                  .near = near};
+                  .opponents = near};
   };
   const std::vector<Walker> walkers{walker(a, near_a), walker(b, near_b)};
   Relaxation_scratch scratch;

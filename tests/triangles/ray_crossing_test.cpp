@@ -9,6 +9,7 @@
 #include <random>
 
 #include "lodestone/io/shapes/shapes.h"
+#include "lodestone/mesh/is_closed.h"
 #include "support/test_meshes.h"
 #include "support/touching_triangles.h"
 
