@@ -14,4 +14,5 @@ install(EXPORT lodestone_targets FILE lodestoneTargets.cmake NAMESPACE lodestone
 configure_package_config_file(cmake/lodestoneConfig.cmake.in lodestoneConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(lodestoneConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lodestoneConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/lodestoneConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/precompile.cmake
         DESTINATION ${package_folder})

@@ -137,7 +137,7 @@ TEST(Contact_search_within, finds_the_same_where_most_tasks_check_neighbours) {
   Face_soup soup(mesh);
   soup.coordinates.resize(soup.coordinates.size() + 3 * std::size_t{3'000'000});  // that no face uses
   const Posed_object object(std::move(soup), 16, false);
-  const Answer alone = search_within(object);
+  const Search_answer alone = search_within(object);
   EXPECT_GT(alone.found.size(), 1000U);
   for (int repetition = 0; repetition < 10; ++repetition) {
     Searcher several(0);

@@ -12,12 +12,12 @@
 
 namespace lodestone {
 
-struct Answer {
+struct Search_answer {
   Contact_summary summary;
   std::vector<Face_pair> found;
 };
 
-inline bool operator==(const Answer& a, const Answer& b) {
+inline bool operator==(const Search_answer& a, const Search_answer& b) {
   return a.found == b.found && a.summary.found == b.summary.found && a.summary.capped == b.summary.capped &&
          a.summary.leaf_tests == b.summary.leaf_tests && a.summary.exact_tests == b.summary.exact_tests;
 }
@@ -27,13 +27,13 @@ class Searcher {
  public:
   explicit Searcher(std::size_t threads) : workers_(threads), search_(workers_) {}
 
-  Answer between(const Posed_object& a, const Posed_object& b, const Contact_request& request) {
-    Answer answer;
+  Search_answer between(const Posed_object& a, const Posed_object& b, const Contact_request& request) {
+    Search_answer answer;
     answer.summary = search_.between(a.object(), b.object(), request, answer.found);
     return answer;
   }
-  Answer within(const Posed_object& object, const Contact_request& request) {
-    Answer answer;
+  Search_answer within(const Posed_object& object, const Contact_request& request) {
+    Search_answer answer;
     answer.summary = search_.within(object.object(), request, answer.found);
     return answer;
   }
@@ -43,10 +43,10 @@ class Searcher {
   Contact_search search_;
 };
 
-inline Answer search_between(const Posed_object& a, const Posed_object& b, const Contact_request& request = {}) {
+inline Search_answer search_between(const Posed_object& a, const Posed_object& b, const Contact_request& request = {}) {
   return Searcher(1).between(a, b, request);
 }
-inline Answer search_within(const Posed_object& object, const Contact_request& request = {}) {
+inline Search_answer search_within(const Posed_object& object, const Contact_request& request = {}) {
   return Searcher(1).within(object, request);
 }
 
@@ -65,7 +65,7 @@ void expect_same_for_any_workers(std::size_t contacts, const Ask& ask) {
                                               {.query = Contact_query::first, .tolerance = 0.01},
                                               {.tolerance = 0.01, .most = 100}};
   Searcher alone(1);
-  std::vector<Answer> expected;
+  std::vector<Search_answer> expected;
   for (const auto& request : requests) expected.push_back(ask(alone, request));
   for (const std::size_t threads : {2, 3, 4, 7}) {
     Searcher several(threads);
@@ -77,18 +77,18 @@ void expect_same_for_any_workers(std::size_t contacts, const Ask& ask) {
 /// Checks every query and several caps against all true pairs, sorted. `ask(request)` gives an answer.
 template <class Ask>
 void expect_answers(const std::vector<Face_pair>& truth, double tolerance, const Ask& ask) {
-  const Answer all = ask({.tolerance = tolerance});
+  const Search_answer all = ask({.tolerance = tolerance});
   EXPECT_EQ(all.found, truth);
   EXPECT_EQ(all.summary.found, !truth.empty());
   EXPECT_FALSE(all.summary.capped);
   EXPECT_GE(all.summary.exact_tests, truth.size());
 
-  const Answer yes_no = ask({.query = Contact_query::yes_no, .tolerance = tolerance});
+  const Search_answer yes_no = ask({.query = Contact_query::yes_no, .tolerance = tolerance});
   EXPECT_EQ(yes_no.summary.found, !truth.empty());
   EXPECT_FALSE(yes_no.summary.capped);
   EXPECT_TRUE(yes_no.found.empty());
 
-  const Answer first = ask({.query = Contact_query::first, .tolerance = tolerance});
+  const Search_answer first = ask({.query = Contact_query::first, .tolerance = tolerance});
   EXPECT_EQ(first.summary.found, !truth.empty());
   EXPECT_FALSE(first.summary.capped);
   EXPECT_EQ(first.found.size(), std::min<std::size_t>(1, truth.size()));
@@ -97,7 +97,7 @@ void expect_answers(const std::vector<Face_pair>& truth, double tolerance, const
   const std::size_t size = truth.size();
   for (const std::size_t most : {std::size_t{1}, std::size_t{2}, size / 2, size - 1, size, size + 1, 2 * size}) {
     if (most == 0 || most == ~std::size_t{0}) continue;
-    const Answer some = ask({.tolerance = tolerance, .most = most});
+    const Search_answer some = ask({.tolerance = tolerance, .most = most});
     EXPECT_EQ(some.found.size(), std::min(most, size)) << most;
     EXPECT_EQ(some.summary.capped, most < size) << most;
     EXPECT_EQ(some.summary.found, !truth.empty());

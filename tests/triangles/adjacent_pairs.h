@@ -125,16 +125,16 @@ inline std::vector<Face_pair> adjacent_pairs(const Positions& positions, std::sp
 }  // namespace by_definition
 
 /// The result of Neighbour_check for a whole mesh; pairs sorted.
-struct Answer {
+struct Neighbour_answer {
   std::vector<Face_pair> pairs;
   std::size_t exact_tests = 0;
 };
 
-inline Answer answer(const Positions& positions, std::span<const Corners> faces) {
+inline Neighbour_answer answer(const Positions& positions, std::span<const Corners> faces) {
   const auto vertex_count = static_cast<std::uint32_t>(positions.rows());
   const Vertex_fans fans(vertex_count, faces);
   Neighbour_check check;
-  Answer result;
+  Neighbour_answer result;
   check.check(fans, faces, {positions.data(), static_cast<std::size_t>(positions.size())}, 0, vertex_count,
               result.pairs);
   result.exact_tests = check.exact_tests();
@@ -142,7 +142,7 @@ inline Answer answer(const Positions& positions, std::span<const Corners> faces)
   return result;
 }
 
-inline Answer answer(const Surface_mesh& mesh) {
+inline Neighbour_answer answer(const Surface_mesh& mesh) {
   const Numbered_mesh numbered(mesh);
   return answer(numbered.positions, numbered.faces);
 }
