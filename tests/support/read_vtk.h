@@ -15,7 +15,7 @@ namespace lodestone::test {
 
 /// What tests/support/read_vtk.py prints about .vtp and .pvd files: one JSON value per file.
 inline std::vector<nlohmann::json> read_vtk(const std::vector<std::filesystem::path>& files) {
-  std::string command = std::string(LODESTONE_PYTHON) + " " + LODESTONE_TESTS + "/read_vtk.py";
+  std::string command = std::string(LODESTONE_PYTHON) + " " + LODESTONE_TESTS + "/support/read_vtk.py";
   for (const auto& file : files) command += " '" + file.string() + "'";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   std::string text;
