@@ -34,8 +34,8 @@ struct Least_squares {
 
 using Jet_fitting = CGAL::Monge_via_jet_fitting<Local_kernel, Local_kernel, Least_squares>;
 
-constexpr std::size_t degree = 2;        // of the fitted polynomial
-constexpr std::size_t coefficients = 6;  // of the fitted polynomial
+constexpr std::size_t fitted_degree = 2;  // of the fitted polynomial
+constexpr std::size_t coefficients = 6;   // of the fitted polynomial
 constexpr std::size_t most_points = 1000;
 
 /// A vertex and its rings of neighbours, nearer rings first.
@@ -89,7 +89,7 @@ Patch patch_of(const Positions& positions, const std::vector<std::uint32_t>& ver
 /// Mean curvature at the first point of a patch, in units of 1 / radius; 0 if the points do not span a surface.
 double fitted_mean_curvature(const Patch& patch, const Eigen::RowVector3d& normal) {
   Jet_fitting fitting;
-  auto form = fitting(patch.points.begin(), patch.points.end(), degree, 2);
+  auto form = fitting(patch.points.begin(), patch.points.end(), fitted_degree, 2);
   // If the points lie on a line, rounding alone decides the second direction of the patch.
   if (!(fitting.pca_basis(1).first > 1e-12 * fitting.pca_basis(0).first)) return 0;
   form.comply_wrt_given_normal({normal[0], normal[1], normal[2]});

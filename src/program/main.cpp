@@ -203,7 +203,9 @@ int run_commands(int argc, char** argv) {
   add_info(program, info);
   add_convert(program, convert);
   // Registered for the help only: the program of the experiments parses its arguments.
-  program.add_subcommand("experiment", "Run one of the experiments")->prefix_command()->set_help_flag();
+  program.add_subcommand("experiment", "Run one of the experiments, see lodestone experiment --help")
+      ->prefix_command()
+      ->set_help_flag();
 
   if (const auto done = parse(program, argc, argv)) return *done;
   int code = exit_code::success;
