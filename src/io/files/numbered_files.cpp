@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view marks = "*#";
-constexpr std::string_view digits = "0123456789";
+constexpr std::string_view all_digits = "0123456789";
 
 struct Pattern {
   std::string before, after;  ///< of the file's name, around the number
@@ -42,7 +42,7 @@ std::optional<std::string> digits_of(const std::string& name, const Pattern& pat
   if (name.size() <= pattern.before.size() + pattern.after.size()) return std::nullopt;
   if (!name.starts_with(pattern.before) || !name.ends_with(pattern.after)) return std::nullopt;
   auto number = name.substr(pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
-  if (number.find_first_not_of(digits) != number.npos) return std::nullopt;
+  if (number.find_first_not_of(all_digits) != number.npos) return std::nullopt;
   const bool padded = number.size() == pattern.width || (number.size() > pattern.width && number.front() != '0');
   if (pattern.width > 0 && !padded) return std::nullopt;
   return number;
