@@ -182,7 +182,16 @@ class Detector {
   std::vector<const Mesh*> meshes_;
 };
 
+// The library holds the detectors of a Surface_mesh: a file that uses one does not compile the modes again.
+using Own_detection = std::unique_ptr<Detection<Surface_mesh, Own_points<Surface_mesh>>>;
+extern template class Particle_object<Surface_mesh, Own_points<Surface_mesh>>;
+extern template class Particle_detection<Surface_mesh, Lbg, Own_points<Surface_mesh>>;
+extern template class Exact_detection<Surface_mesh, Lbg, Own_points<Surface_mesh>, Aabb>;
+extern template Own_detection make_detection<Surface_mesh, Lbg, Own_points<Surface_mesh>, Aabb>(const Detector_options&, Lbg);
 extern template class Detector<Surface_mesh>;
+extern template class Particle_detection<Surface_mesh, Any_strategy, Own_points<Surface_mesh>>;
+extern template class Exact_detection<Surface_mesh, Any_strategy, Own_points<Surface_mesh>, Aabb>;
+extern template Own_detection make_detection<Surface_mesh, Any_strategy, Own_points<Surface_mesh>, Aabb>(const Detector_options&, Any_strategy);
 extern template class Detector<Surface_mesh, Any_strategy>;
 
 /// A detector in whose mode `exact` the trees have volumes of another kind.
