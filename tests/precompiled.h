@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The slow headers, compiled once.
+// What most tests include and what is slow to read, compiled once.
 #pragma once
 
-#include "precompiled.h"
-
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>

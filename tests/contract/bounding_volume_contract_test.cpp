@@ -5,11 +5,10 @@
 #include "contract/volume_leaves.h"
 #include "support/hard_pairs.h"
 #include "support/instruction_sets.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whether a box contains all corners of the faces.
 bool surrounds(const Aabb& box, const Face_soup& soup) {

@@ -4,6 +4,7 @@
 
 #include "contract/volume_leaves.h"
 #include "lodestone/tree/region_tree.h"
+#include "support/special_numbers.h"
 #include "support/tree_checks.h"
 
 namespace lodestone {
@@ -137,7 +138,6 @@ TYPED_TEST(Bounding_volume_tree, a_refit_in_parts_in_any_order_equals_a_whole_re
 }
 
 TYPED_TEST(Bounding_volume_tree, a_refit_reports_a_non_finite_coordinate_and_the_next_recovers) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (auto& [name, soup] : tree_cases()) {
     Basic_region_tree<TypeParam> tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 4});
     const auto good = tree;

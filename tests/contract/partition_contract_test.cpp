@@ -2,6 +2,7 @@
 // The partition stage on every mesh type.
 #include <algorithm>
 
+#include "contract/divided.h"
 #include "contract/mesh_types.h"
 #include "lodestone/particles/hop_metric.h"
 #include "lodestone/partition/lbg.h"
@@ -9,25 +10,6 @@
 
 namespace lodestone {
 namespace {
-
-/// Labels by vertex index.
-template <class Mesh>
-struct Divided {
-  std::vector<Region_index> labels;
-  std::vector<std::uint32_t> particles;
-  std::size_t regions = 0;
-};
-
-template <class Mesh>
-Divided<Mesh> divide(const Mesh& mesh, std::size_t regions, const Partition_options& options = {}) {
-  const auto map = get(CGAL::dynamic_vertex_property_t<Region_index>(), mesh);
-  const auto result = partition(mesh, regions, map, Lbg{}, options);
-  const Mesh_numbering<Mesh> numbering(mesh);
-  Divided<Mesh> divided{.labels = {}, .particles = {}, .regions = result.regions};
-  for (const auto v : vertices(mesh)) divided.labels.push_back(get(map, v));
-  for (const auto v : result.particles) divided.particles.push_back(numbering.index(v));
-  return divided;
-}
 
 template <class Mesh>
 struct Partition_contract : ::testing::Test {};
@@ -52,7 +34,7 @@ TYPED_TEST(Partition_contract, every_vertex_has_one_region_and_every_region_is_c
   const auto source = as_float(potato(7));
   const Numbered_mesh numbered(source);
   for (const std::size_t regions : {1, 5, 24}) {
-    const auto divided = divide(converted<TypeParam>(source), regions);
+    const auto divided = divide(converted<TypeParam>(source), regions, Lbg{});
     EXPECT_EQ(divided.regions, regions);
     for (const auto& pieces : pieces_of(numbered.graph, divided.labels, regions)) EXPECT_EQ(pieces.size(), 1U);
     ASSERT_EQ(divided.particles.size(), regions);
@@ -65,9 +47,9 @@ TYPED_TEST(Partition_contract, regions_are_the_same_on_every_mesh_type_and_in_ev
   const auto source = as_float(potato(7));
   const auto mesh = converted<TypeParam>(source);
   for (const bool keep_islands : {false, true}) {
-    const auto expected = divide(source, 20, {.keep_islands = keep_islands});
+    const auto expected = divide(source, 20, Lbg{}, {.keep_islands = keep_islands});
     for (int run = 0; run < 2; ++run) {
-      const auto divided = divide(mesh, 20, {.keep_islands = keep_islands});
+      const auto divided = divide(mesh, 20, Lbg{}, {.keep_islands = keep_islands});
       EXPECT_EQ(divided.labels, expected.labels);
       EXPECT_EQ(divided.particles, expected.particles);
     }
@@ -77,16 +59,16 @@ TYPED_TEST(Partition_contract, regions_are_the_same_on_every_mesh_type_and_in_ev
 TYPED_TEST(Partition_contract, open_borders_and_several_components_are_divided) {
   auto source = grid(6, 6);
   append(source, sphere(2, 1, {20, 0, 0}));
-  const auto divided = divide(converted<TypeParam>(source), 7);
+  const auto divided = divide(converted<TypeParam>(source), 7, Lbg{});
   for (const auto& pieces : pieces_of(Numbered_mesh(source).graph, divided.labels, divided.regions))
     EXPECT_EQ(pieces.size(), 1U);
 }
 
 TYPED_TEST(Partition_contract, bad_meshes_are_refused) {
-  EXPECT_THROW(divide(TypeParam(), 3), Bad_mesh);
+  EXPECT_THROW(divide(TypeParam(), 3, Lbg{}), Bad_mesh);
   auto source = sphere(2);
   source.point(Surface_mesh::Vertex_index(1)) = Point(0, std::numeric_limits<double>::infinity(), 0);
-  EXPECT_THROW(divide(converted<TypeParam>(source), 3), Bad_mesh);
+  EXPECT_THROW(divide(converted<TypeParam>(source), 3, Lbg{}), Bad_mesh);
 }
 
 TYPED_TEST(Partition_contract, hops_are_those_of_the_grid) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "contract/divided.h"
 #include "contract/mesh_types.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/partition/strategies.h"
@@ -11,26 +12,6 @@
 
 namespace lodestone {
 namespace {
-
-/// Labels and particles by vertex index.
-struct Divided {
-  std::vector<Region_index> labels;
-  std::vector<std::uint32_t> particles;
-  std::size_t regions = 0;
-
-  bool operator==(const Divided&) const = default;
-};
-
-template <class Mesh>
-Divided divide(const Mesh& mesh, std::size_t regions, const Any_strategy& strategy) {
-  const auto map = get(CGAL::dynamic_vertex_property_t<Region_index>(), mesh);
-  const auto result = partition(mesh, regions, map, strategy);
-  const Mesh_numbering<Mesh> numbering(mesh);
-  Divided divided{.labels = {}, .particles = {}, .regions = result.regions};
-  for (const auto v : vertices(mesh)) divided.labels.push_back(get(map, v));
-  for (const auto v : result.particles) divided.particles.push_back(numbering.index(v));
-  return divided;
-}
 
 class Strategy_contract : public ::testing::TestWithParam<Strategy_entry> {
  protected:

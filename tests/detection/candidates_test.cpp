@@ -35,12 +35,12 @@ void expect_same(const std::vector<Candidate_regions>& found, const std::vector<
   }
 }
 
-Scene three_spheres() { return {sphere(8), sphere(8, 1, {1.9, 0.1, 0.2}), sphere(8, 1, {1, 1.7, 0})}; }
+Owned_meshes three_spheres() { return {sphere(8), sphere(8, 1, {1.9, 0.1, 0.2}), sphere(8, 1, {1, 1.7, 0})}; }
 
 TEST(Candidates, listed_are_all_particle_pairs_below_the_collision_distance_in_the_order_of_the_pairs) {
   for (const Mode mode : modes)
     for (const auto contacts : {Contact_query::yes_no, Contact_query::first, Contact_query::all}) {
-      Scene scene = three_spheres();
+      Owned_meshes scene = three_spheres();
       Detector<Surface_mesh> detector({.mode = mode, .particles = 40, .contacts = contacts, .list_candidates = true});
       add_all(detector, scene);
       for (int frame = 0; frame < 3; ++frame) {
@@ -60,7 +60,7 @@ TEST(Candidates, listed_are_all_particle_pairs_below_the_collision_distance_in_t
 }
 
 TEST(Candidates, of_the_closest_choice_is_the_nearest_of_each_pair) {
-  Scene scene = three_spheres();
+  Owned_meshes scene = three_spheres();
   Detector<Surface_mesh> detector({.particles = 40, .candidates = Candidate_choice::closest, .list_candidates = true});
   add_all(detector, scene);
   const Frame& found = detector.detect();
@@ -71,7 +71,7 @@ TEST(Candidates, of_the_closest_choice_is_the_nearest_of_each_pair) {
 }
 
 TEST(Candidates, are_listed_only_when_asked_for_and_change_nothing_else) {
-  Scene scene = three_spheres(), same_scene = three_spheres();
+  Owned_meshes scene = three_spheres(), same_scene = three_spheres();
   Detector<Surface_mesh> silent({.particles = 40}), listing({.particles = 40, .list_candidates = true});
   add_all(silent, scene);
   add_all(listing, same_scene);
@@ -84,11 +84,11 @@ TEST(Candidates, are_listed_only_when_asked_for_and_change_nothing_else) {
 }
 
 TEST(Candidates, there_are_none_where_objects_are_far_apart_nor_in_mode_exact) {
-  Scene far = two_spheres(9);
+  Owned_meshes far = two_spheres(9);
   Detector<Surface_mesh> particles({.particles = 40, .list_candidates = true});
   add_all(particles, far);
   EXPECT_TRUE(particles.detect().candidates.empty());
-  Scene near = two_spheres(1.5);
+  Owned_meshes near = two_spheres(1.5);
   Detector<Surface_mesh> exact({.mode = Mode::exact, .list_candidates = true});
   add_all(exact, near);
   EXPECT_TRUE(exact.detect().collides());
@@ -96,7 +96,7 @@ TEST(Candidates, there_are_none_where_objects_are_far_apart_nor_in_mode_exact) {
 }
 
 TEST(Candidates, of_the_last_frame_are_gone_in_the_next) {
-  Scene scene = two_spheres(1.8);
+  Owned_meshes scene = two_spheres(1.8);
   Detector<Surface_mesh> detector({.particles = 40, .list_candidates = true});
   add_all(detector, scene);
   EXPECT_FALSE(detector.detect().candidates.empty());

@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "detection/detector_scenes.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
 
 TEST(Detector, options_out_of_range_are_refused) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, infinity, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(Detector<Surface_mesh>({.collision_distance = bad}), Bad_argument) << bad;
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
@@ -59,7 +59,6 @@ TEST(Detector, a_coordinate_that_is_not_finite_is_refused_by_the_first_frame) {
 }
 
 TEST(Detector, a_coordinate_that_is_not_finite_is_refused_in_any_frame_that_reads_it) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const auto mode : modes)
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity}) {
       auto scene = two_spheres(1.8);

@@ -12,7 +12,7 @@ namespace lodestone {
 namespace {
 
 TEST(Detector, an_object_that_moves_without_growing_is_not_repartitioned) {
-  Scene scene{potato(10), potato(10, 2)};
+  Owned_meshes scene{potato(10), potato(10, 2)};
   shift(scene[1], 3);
   Detector<Surface_mesh> detector({.particles = 24});
   add_all(detector, scene);
@@ -83,7 +83,7 @@ TEST(Detector, an_object_that_starts_without_extent_is_repartitioned_when_it_unf
 }
 
 TEST(Detector, particles_are_counted_beside_objects_without_extent) {
-  Scene scene{sphere(8), single_triangle(), sphere(8, 2, {5, 0, 0})};
+  Owned_meshes scene{sphere(8), single_triangle(), sphere(8, 2, {5, 0, 0})};
   deform(scene[1], [](const Point&) { return Point(0, 0, 1); });
   Detector<Surface_mesh> detector({.contacts = Contact_query::all});
   add_all(detector, scene);

@@ -94,7 +94,7 @@ TEST(Detector, does_not_depend_on_the_unit) {
 TEST(Detector, follows_many_objects) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> place(-3, 3), step(-0.1, 0.1), size(0.5, 1);
-  Scene scene;
+  Owned_meshes scene;
   for (int i = 0; i < 24; ++i) scene.push_back(sphere(5, size(random), {place(random), place(random), place(random)}));
   auto options = all_contacts;
   options.particles = 12;

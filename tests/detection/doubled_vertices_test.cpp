@@ -14,15 +14,13 @@
 namespace lodestone {
 namespace {
 
-const Detector_options self_collision{.mode = Mode::exact, .exact = {.self_collision = true}};
-
 Mesh_file read_off(const std::string& text) {
   const test::Temporary_folder folder;
   return read_mesh(folder.write("mesh.off", text));
 }
 
 /// Every pair of faces, with their corners as the file numbers them.
-std::vector<Face_pair> self_intersections(const Mesh_file& file) {
+std::vector<Face_pair> pairs_by_file_vertices(const Mesh_file& file) {
   std::vector<Corners> corners(file.mesh.number_of_faces());
   for (const auto f : file.mesh.faces())
     std::ranges::transform(file.mesh.vertices_around_face(file.mesh.halfedge(f)), corners[f].begin(),
@@ -56,7 +54,7 @@ TEST(Doubled_vertices, make_no_neighbours_collide) {
   for (const auto& text : {bow, fan, two_boxes_at_an_edge}) {
     auto file = read_off(text);
     ASSERT_GT(file.mesh.number_of_vertices(), file.file_vertices);
-    ASSERT_EQ(self_intersections(file), std::vector<Face_pair>{});
+    ASSERT_EQ(pairs_by_file_vertices(file), std::vector<Face_pair>{});
     Exact_detector as_in_file(self_collision), as_in_mesh(self_collision);
     as_in_file.add(file.mesh, {.file_vertex = file.file_vertex});
     as_in_mesh.add(std::as_const(file.mesh));
@@ -81,7 +79,7 @@ TEST(Doubled_vertices, hide_no_collision) {
       if (p.x() == 2 && p.y() == 2) moved.mesh.point(v) = Point(2 - depth, 2 - depth, p.z() - 0.25 * depth);
     }
     detector.update(0, positions_of(moved.mesh));
-    const auto truth = self_intersections(moved);
+    const auto truth = pairs_by_file_vertices(moved);
     expect_contacts(detector.detect(), 0, 0, truth);
     found += truth.size();
   }

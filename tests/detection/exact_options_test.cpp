@@ -5,12 +5,10 @@
 #include <limits>
 
 #include "support/exact_truth.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Exact_options, out_of_range_are_refused) {
   for (const double bad : {-1.0, -1e-300, infinity, not_a_number})

@@ -5,18 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "lodestone/partition/lbg.h"
 #include "support/counting_points.h"
+#include "support/special_numbers.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A mesh as an object whose reads are counted.
 struct Counted_object {

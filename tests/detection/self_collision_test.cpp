@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Collisions of an object with itself against CGAL's self-intersections.
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
 #include "lodestone/io/shapes/shapes.h"
+#include "support/cgal_self_intersections.h"
 #include "support/exact_truth.h"
 
 namespace lodestone {
 namespace {
-
-const Detector_options self_collision{.mode = Mode::exact, .exact = {.self_collision = true}};
-
-/// What CGAL reports of a mesh whose faces all have an area.
-std::vector<Face_pair> self_intersections(const Surface_mesh& mesh) {
-  std::vector<std::pair<Surface_mesh::Face_index, Surface_mesh::Face_index>> reported;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(reported));
-  std::vector<Face_pair> pairs;
-  for (const auto& [f, g] : reported) {
-    EXPECT_NE(f, g) << "a face without area";
-    pairs.push_back({std::min<std::uint32_t>(f, g), std::max<std::uint32_t>(f, g)});
-  }
-  std::ranges::sort(pairs);
-  return pairs;
-}
 
 /// Plays a few frames of one mesh; gives the number of pairs in each.
 std::vector<std::size_t> expect_equal_to_cgal(Surface_mesh mesh, const std::function<void(Surface_mesh&, int)>& move,
@@ -35,7 +20,7 @@ std::vector<std::size_t> expect_equal_to_cgal(Surface_mesh mesh, const std::func
   std::vector<std::size_t> found;
   for (int frame = 0; frame < frames; ++frame) {
     move(mesh, frame);
-    const auto truth = self_intersections(mesh);
+    const auto truth = self_intersections_by_cgal(mesh);
     const Frame& result = detector.detect();
     EXPECT_EQ(result.pairs.size(), 1U);
     expect_contacts(result, 0, 0, truth);
@@ -127,7 +112,7 @@ TEST(Self_collision, stands_beside_collisions_with_other_objects) {
   std::vector<std::pair<Object_id, Object_id>> listed;
   for (const auto& pair : frame.pairs) listed.emplace_back(pair.a, pair.b);
   EXPECT_EQ(listed, (std::vector<std::pair<Object_id, Object_id>>{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}));
-  for (Object_id id = 0; id < 3; ++id) expect_contacts(frame, id, id, self_intersections(*bodies.meshes[id]));
+  for (Object_id id = 0; id < 3; ++id) expect_contacts(frame, id, id, self_intersections_by_cgal(*bodies.meshes[id]));
   EXPECT_TRUE(result_of(frame, 0, 0)->collides);
   EXPECT_TRUE(result_of(frame, 1, 1)->collides);
   EXPECT_FALSE(result_of(frame, 2, 2)->collides);
@@ -138,7 +123,7 @@ TEST(Self_collision, is_not_looked_for_unless_asked_for) {
   Exact_detector detector({.mode = Mode::exact});
   add_all(detector, bodies.meshes);
   for (const auto& pair : detector.detect().pairs) EXPECT_LT(pair.a, pair.b);
-  expect_contacts(detector.detect(1, 1), 1, 1, self_intersections(bodies.knot));  // asked for
+  expect_contacts(detector.detect(1, 1), 1, 1, self_intersections_by_cgal(bodies.knot));  // asked for
 }
 
 TEST(Self_collision, does_not_depend_on_the_tolerance) {
@@ -147,7 +132,7 @@ TEST(Self_collision, does_not_depend_on_the_tolerance) {
   options.exact.tolerance = 0.5;
   Exact_detector detector(options);
   detector.add(knot);
-  expect_contacts(detector.detect(), 0, 0, self_intersections(knot));
+  expect_contacts(detector.detect(), 0, 0, self_intersections_by_cgal(knot));
 }
 
 TEST(Self_collision, can_be_left_out_for_single_objects) {
@@ -164,12 +149,12 @@ TEST(Self_collision, can_be_left_out_for_single_objects) {
   EXPECT_EQ(expect_exhaustive(frame, bodies.meshes), 3U);
   EXPECT_TRUE(detector.detect(1, 1).pairs.empty());
   detector.ignore(0, 0, false);
-  expect_contacts(detector.detect(), 0, 0, self_intersections(bodies.cloth_mesh));
+  expect_contacts(detector.detect(), 0, 0, self_intersections_by_cgal(bodies.cloth_mesh));
 }
 
 TEST(Self_collision, answers_yes_or_no_and_lists_the_first_or_so_many) {
   const auto knot = torus_knot({.tube = 0.5}), ball = sphere(8, 0.7);
-  const auto truth = self_intersections(knot);
+  const auto truth = self_intersections_by_cgal(knot);
   ASSERT_GT(truth.size(), 20U);
   for (const auto query : {Contact_query::yes_no, Contact_query::first, Contact_query::all}) {
     auto options = self_collision;

@@ -3,17 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 
 #include "support/exact_truth.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 const Detector_options exact{.mode = Mode::exact};
 

@@ -16,7 +16,7 @@ namespace {
 namespace Euler = CGAL::Euler;
 using Halfedge_index = Surface_mesh::Halfedge_index;
 
-const Detector_options exact{.mode = Mode::exact, .exact = {.self_collision = true, .containment = true}};
+const Detector_options all_exact{.mode = Mode::exact, .exact = {.self_collision = true, .containment = true}};
 
 /// Cuts the edge between two triangles in its middle, and both triangles in two.
 void split(Surface_mesh& mesh, Halfedge_index h) {
@@ -69,7 +69,7 @@ TEST(Topology, is_right_after_rebuild) {
   auto a = potato(8), b = potato(8, 2);
   shift(b, 1.5);
   for (const bool writable : {false, true}) {
-    Exact_detector detector(exact);
+    Exact_detector detector(all_exact);
     if (writable)
       detector.add(a), detector.add(b);
     else
@@ -92,7 +92,7 @@ TEST(Topology, is_right_after_rebuild) {
 TEST(Topology, an_object_that_becomes_open_or_closed_is_known_as_such_after_rebuild) {
   auto outer = sphere(5);
   const auto inner = sphere(3, 0.3);
-  Exact_detector detector(exact);
+  Exact_detector detector(all_exact);
   add_all(detector, {&outer, &inner});
   EXPECT_TRUE(detector.contains(0, 1));
   Euler::make_hole(outer.halfedge(Surface_mesh::Face_index(5)), outer);
@@ -126,7 +126,7 @@ TEST(Topology, another_number_of_vertices_or_faces_is_refused_until_rebuild) {
     // Faces can be added at a vertex of a border.
     Euler::make_hole(a.halfedge(Surface_mesh::Vertex_index(0)), a);
     a.collect_garbage();
-    Exact_detector detector(exact);
+    Exact_detector detector(all_exact);
     add_all(detector, {&a, &b, &c});
     detector.detect();
     change(a);
@@ -149,7 +149,7 @@ TEST(Topology, another_number_of_vertices_or_faces_is_refused_until_rebuild) {
 
 TEST(Topology, a_rebuild_that_is_refused_leaves_the_object_as_it_was) {
   auto a = sphere(5), b = sphere(5, 1, {1.5, 0, 0});
-  Exact_detector detector(exact);
+  Exact_detector detector(all_exact);
   add_all(detector, {&a, &b});
   detector.detect();
   std::vector<Surface_mesh::Vertex_index> corners;
@@ -167,7 +167,7 @@ TEST(Topology, a_rebuild_that_is_refused_leaves_the_object_as_it_was) {
 
 TEST(Topology, given_positions_of_another_number_are_forgotten_by_a_rebuild) {
   auto a = sphere(5), b = sphere(5, 1, {1.5, 0, 0});
-  Exact_detector detector(exact);
+  Exact_detector detector(all_exact);
   add_all(detector, {&a, &b});
   Positions far = positions_of(a);
   far.array() += 100;

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "lodestone/mesh/errors.h"
+#include "support/read_file.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone {
@@ -18,10 +19,7 @@ struct Rows : ::testing::Test {
   test::Temporary_folder folder;
   std::filesystem::path file = folder.path() / "sub" / "rows.jsonl";
 
-  std::string text() const {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
+  std::string text() const { return test::read_bytes(file); }
   void append(const std::string& bytes) const { std::ofstream(file, std::ios::binary | std::ios::app) << bytes; }
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "support/special_numbers.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
@@ -74,7 +75,6 @@ TEST(Mesh_numbering, positions_come_from_the_given_map) {
 }
 
 TEST(Mesh_numbering, a_non_finite_coordinate_is_refused_with_its_vertex_index) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()})
     for (int axis = 0; axis < 3; ++axis) {
       auto mesh = tetrahedron();

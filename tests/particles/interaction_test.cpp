@@ -5,14 +5,14 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <random>
+
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
 
 constexpr int lanes = Attractors::lanes;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The force on one point, computed in `lane`; the other lanes hold `other`.
 double force_at(const Attractors& attractors, const Eigen::Vector3d& point, int lane = 0,

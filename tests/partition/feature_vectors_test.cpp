@@ -6,13 +6,13 @@
 #include <array>
 #include <limits>
 
+#include "support/special_numbers.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Positions rows(const std::vector<std::array<double, 3>>& points) {
   Positions positions(points.size(), 3);

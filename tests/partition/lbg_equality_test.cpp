@@ -9,30 +9,17 @@
 #include <vector>
 
 #include "lodestone/partition/lbg.h"
+#include "partition/quantise_cases.h"
+#include "support/special_numbers.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {
 
-constexpr std::array splits{Split::principal_axis, Split::multiplicative};
 using Random = std::mt19937_64;
 
 Eigen::Index between(Eigen::Index low, Eigen::Index high, Random& random) {
   return std::uniform_int_distribution<Eigen::Index>(low, high)(random);
-}
-
-Feature_vectors random_vectors(Eigen::Index count, Eigen::Index components, Random& random) {
-  std::normal_distribution<double> normal;
-  Feature_vectors vectors(count, components);
-  for (double& value : vectors.reshaped()) value = normal(random);
-  return vectors;
-}
-
-/// Integers below `values`: many vectors are equal, many equally far from two code vectors.
-Feature_vectors lattice(Eigen::Index count, Eigen::Index components, Eigen::Index values, Random& random) {
-  Feature_vectors vectors(count, components);
-  for (double& value : vectors.reshaped()) value = static_cast<double>(between(0, values - 1, random));
-  return vectors;
 }
 
 /// Vectors within about `spread` of a few centres.
@@ -86,13 +73,13 @@ TEST(Quantise, both_searches_agree_on_random_vectors) { compare_searches(300, 40
 TEST(Quantise, both_searches_agree_on_integer_lattices) {
   for (const Eigen::Index values : {2, 4})
     compare_searches(1000, 200, 40, [&](Eigen::Index count, Eigen::Index components, Random& random) {
-      return lattice(count, components, values, random);
+      return lattice_vectors(count, components, values, random);
     });
 }
 
 TEST(Quantise, both_searches_agree_on_lattices_whose_steps_are_not_exact) {
   compare_searches(500, 200, 40, [](Eigen::Index count, Eigen::Index components, Random& random) {
-    return Feature_vectors(0.1 * lattice(count, components, 4, random));
+    return Feature_vectors(0.1 * lattice_vectors(count, components, 4, random));
   });
 }
 
@@ -115,7 +102,6 @@ TEST(Quantise, both_searches_agree_far_from_the_origin_and_at_any_scale) {
 }
 
 TEST(Quantise, non_finite_and_too_large_components_are_refused) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Random random(1);
   const auto vectors = random_vectors(20, 3, random);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1.01e100, -1e101, 1e300})
@@ -133,7 +119,6 @@ TEST(Feature_vectors, weights_out_of_range_are_refused) {
   const auto made = [&](const Feature_options& options) {
     return feature_vectors(mesh.positions, mesh.faces, options);
   };
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {1.01e6, 1e100, infinity, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(made({.position_weight = bad}), Bad_argument) << bad;
     EXPECT_THROW(made({.normal_weight = bad}), Bad_argument) << bad;

@@ -8,25 +8,15 @@
 #include <random>
 #include <set>
 
+#include "partition/quantise_cases.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {
 
-constexpr std::array splits{Split::principal_axis, Split::multiplicative};
-
-Feature_vectors random_vectors(Eigen::Index count, Eigen::Index components, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  Feature_vectors vectors(count, components);
-  for (Eigen::Index i = 0; i < count; ++i)
-    for (Eigen::Index j = 0; j < components; ++j) vectors(i, j) = normal(random);
-  return vectors;
-}
-
 /// `per_cluster` vectors within 0.01 of each centre.
 Feature_vectors clusters(const Feature_vectors& centres, Eigen::Index per_cluster) {
-  Feature_vectors vectors = 0.005 * random_vectors(centres.rows() * per_cluster, centres.cols(), 3);
+  Feature_vectors vectors = 0.005 * seeded_vectors(centres.rows() * per_cluster, centres.cols(), 3);
   for (Eigen::Index v = 0; v < vectors.rows(); ++v) vectors.row(v) += centres.row(v / per_cluster);
   return vectors;
 }
@@ -56,7 +46,7 @@ std::vector<Region_index> labels_on(const Surface_mesh& mesh, std::size_t region
 }
 
 TEST(Quantise, one_cell_is_the_mean) {
-  const auto vectors = random_vectors(100, 6, 1);
+  const auto vectors = seeded_vectors(100, 6, 1);
   const auto result = quantise(vectors, 1);
   ASSERT_EQ(result.code_vectors.rows(), 1);
   EXPECT_TRUE(result.code_vectors.row(0).isApprox(vectors.colwise().mean(), 1e-13));
@@ -102,7 +92,7 @@ TEST(Quantise, two_code_vectors_cut_a_line_of_vectors_in_the_middle) {
 }
 
 TEST(Quantise, any_number_of_cells_is_reached_and_each_is_the_mean_of_its_vectors) {
-  const auto vectors = random_vectors(300, 6, 4);
+  const auto vectors = seeded_vectors(300, 6, 4);
   for (const std::size_t cells : {2, 3, 5, 6, 7, 12, 33, 100, 300})
     for (const auto split : splits) {
       const auto result = quantise(vectors, cells, {.split_rule = split});
@@ -112,7 +102,7 @@ TEST(Quantise, any_number_of_cells_is_reached_and_each_is_the_mean_of_its_vector
 }
 
 TEST(Quantise, code_vectors_double_until_the_last_split) {
-  const auto result = quantise(random_vectors(300, 3, 5), 11);
+  const auto result = quantise(seeded_vectors(300, 3, 5), 11);
   std::vector<std::size_t> counts;
   for (const auto& run : result.runs) counts.push_back(run.code_vectors);
   EXPECT_EQ(counts, (std::vector<std::size_t>{1, 2, 4, 8, 11}));
@@ -132,7 +122,7 @@ TEST(Quantise, the_last_split_takes_the_cell_with_the_largest_distortion) {
 TEST(Quantise, distortion_never_rises_within_a_run_and_a_run_ends_at_the_first_small_drop) {
   const double tolerance = 0.003;
   for (const auto split : splits) {
-    const auto result = quantise(random_vectors(2000, 6, 6), 24, {.tolerance = tolerance, .split_rule = split});
+    const auto result = quantise(seeded_vectors(2000, 6, 6), 24, {.tolerance = tolerance, .split_rule = split});
     for (const auto& run : result.runs) {
       const auto& d = run.distortion;
       ASSERT_GE(d.size(), 2U);
@@ -145,7 +135,7 @@ TEST(Quantise, distortion_never_rises_within_a_run_and_a_run_ends_at_the_first_s
 }
 
 TEST(Quantise, distortion_is_the_mean_squared_error_per_component) {
-  const auto vectors = random_vectors(500, 6, 7);
+  const auto vectors = seeded_vectors(500, 6, 7);
   const auto result = quantise(vectors, 1);
   const double spread = (vectors.rowwise() - vectors.colwise().mean().eval()).squaredNorm();
   EXPECT_NEAR(result.runs[0].distortion[0], spread / (6 * 500), 1e-12);
@@ -187,7 +177,7 @@ TEST(Quantise, bounded_and_plain_search_give_equal_results) {
   for (const auto split : splits)
     for (const Eigen::Index components : {3, 6, 7, 10})
       for (const std::size_t cells : {5, 64, 200}) {
-        const auto vectors = random_vectors(600, components, cells);
+        const auto vectors = seeded_vectors(600, components, cells);
         const auto bounded = quantise(vectors, cells, {.split_rule = split, .search = Nearest_search::bounded});
         const auto plain = quantise(vectors, cells, {.split_rule = split, .search = Nearest_search::plain});
         EXPECT_EQ(bounded.labels, plain.labels);
@@ -199,7 +189,7 @@ TEST(Quantise, bounded_and_plain_search_give_equal_results) {
 }
 
 TEST(Quantise, nothing_to_quantise_and_options_out_of_range_are_refused) {
-  const auto vectors = random_vectors(10, 3, 1);
+  const auto vectors = seeded_vectors(10, 3, 1);
   EXPECT_THROW(quantise(Feature_vectors(0, 3), 2), Bad_argument);
   EXPECT_THROW(quantise(vectors, 0), Bad_argument);
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {

@@ -7,19 +7,12 @@
 
 #include "lodestone/partition/lbg.h"
 #include "lodestone/partition/nearest_code_vector.h"
+#include "partition/quantise_cases.h"
 #include "support/instruction_sets.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {
-
-Feature_vectors random_vectors(std::size_t count, Eigen::Index components, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  Feature_vectors vectors(static_cast<Eigen::Index>(count), components);
-  for (double& value : vectors.reshaped()) value = normal(random);
-  return vectors;
-}
 
 bool same_bits(const Feature_vectors& a, const Feature_vectors& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() &&
@@ -50,7 +43,7 @@ TEST(Quantise, gives_the_same_bits_on_any_number_of_threads) {
       for (const std::size_t cells : {1, 2, 11, 64})
         for (const auto split : {Split::principal_axis, Split::multiplicative}) {
           SCOPED_TRACE(testing::Message() << "M = " << count << ", k = " << components << ", N = " << cells);
-          const auto vectors = random_vectors(count, components, count);
+          const auto vectors = seeded_vectors(count, components, count);
           const auto alone = quantise(vectors, cells, {.split_rule = split, .threads = 1});
           for (const std::size_t threads : {2, 3, 0}) {
             const auto shared = quantise(vectors, cells, {.split_rule = split, .threads = threads});
@@ -63,7 +56,7 @@ TEST(Quantise, gives_the_same_bits_on_any_number_of_threads) {
 TEST(Quantise, gives_the_same_bits_with_either_search_where_chunks_are_many) {
   for (const std::size_t count : {4097, 30003})
     for (const std::size_t cells : {2, 40}) {
-      const auto vectors = random_vectors(count, 6, count);
+      const auto vectors = seeded_vectors(count, 6, count);
       const auto plain = quantise(vectors, cells, {.search = Nearest_search::plain});
       for (const std::size_t threads : {1, 2}) {
         expect_same(quantise(vectors, cells, {.threads = threads}), plain);
@@ -74,7 +67,7 @@ TEST(Quantise, gives_the_same_bits_with_either_search_where_chunks_are_many) {
 
 TEST(Quantise, re_seeds_empty_cells_in_the_same_way_on_any_number_of_threads) {
   // Symmetric around the origin: the published split leaves one of each pair of code vectors empty.
-  Feature_vectors vectors = random_vectors(20000, 3, 1);
+  Feature_vectors vectors = seeded_vectors(20000, 3, 1);
   vectors.bottomRows(10000) = -vectors.topRows(10000);
   const Lbg_options options{.split_rule = Split::multiplicative};
   auto threaded = options;
@@ -84,7 +77,7 @@ TEST(Quantise, re_seeds_empty_cells_in_the_same_way_on_any_number_of_threads) {
 }
 
 TEST(Assignment, has_the_same_sums_from_either_search_and_any_number_of_workers) {
-  const auto vectors = random_vectors(25003, 6, 2);
+  const auto vectors = seeded_vectors(25003, 6, 2);
   for (const Eigen::Index cells : {1, 5, 200}) {
     const Feature_vectors codes = vectors.topRows(cells);
     Assignment plain;
@@ -105,8 +98,8 @@ TEST(Assignment, has_the_same_sums_from_either_search_and_any_number_of_workers)
 
 TEST(Assignment, adds_every_vector_exactly_once) {
   for (const std::size_t count : {1, 4095, 4096, 4097, 12289}) {
-    const auto vectors = random_vectors(count, 3, count);
-    const Feature_vectors codes = random_vectors(9, 3, 3);
+    const auto vectors = seeded_vectors(count, 3, count);
+    const Feature_vectors codes = seeded_vectors(9, 3, 3);
     Assignment assignment;
     assign_plain(vectors, codes, assignment);
     Feature_vectors sums = Feature_vectors::Zero(9, 3);
@@ -122,14 +115,14 @@ TEST(Assignment, adds_every_vector_exactly_once) {
 
 TEST(Quantise, gives_the_same_bits_on_every_instruction_set) {
   for (const Eigen::Index components : {3, 6, 7, 10}) {
-    const auto vectors = random_vectors(9003, components, 5);
+    const auto vectors = seeded_vectors(9003, components, 5);
     const auto plain = quantise(vectors, 100, {.search = Nearest_search::plain});
     for_instruction_sets([&] { expect_same(quantise(vectors, 100, {.threads = 2}), plain); });
   }
 }
 
 TEST(Bounded_assignment, follows_vectors_that_are_reordered) {
-  auto vectors = random_vectors(9001, 6, 4);
+  auto vectors = seeded_vectors(9001, 6, 4);
   const Feature_vectors codes = vectors.topRows(30);
   Bounded_assignment search(vectors);
   Assignment bounded, plain;

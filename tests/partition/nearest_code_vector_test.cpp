@@ -6,24 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "partition/quantise_cases.h"
+
 namespace lodestone {
 namespace {
-
-Feature_vectors random_vectors(Eigen::Index count, Eigen::Index components, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  Feature_vectors vectors(count, components);
-  for (Eigen::Index i = 0; i < count; ++i)
-    for (Eigen::Index j = 0; j < components; ++j) vectors(i, j) = normal(random);
-  return vectors;
-}
-
-/// Vectors on a coarse lattice: many of them equal, and many equally far from two code vectors.
-Feature_vectors lattice_vectors(Eigen::Index count, Eigen::Index components, std::mt19937_64& random) {
-  Feature_vectors vectors(count, components);
-  for (Eigen::Index i = 0; i < count; ++i)
-    for (Eigen::Index j = 0; j < components; ++j) vectors(i, j) = static_cast<double>(random() % 3);
-  return vectors;
-}
 
 Feature_vectors drawn(const Feature_vectors& vectors, Eigen::Index count, std::mt19937_64& random) {
   Feature_vectors codes(count, vectors.cols());
@@ -76,7 +62,7 @@ TEST(Bounded_assignment, equals_the_plain_loop_where_vectors_and_distances_are_e
   std::mt19937_64 random(2);
   for (const Eigen::Index components : {3, 6, 7, 10})
     for (const Eigen::Index codes : {1, 2, 5, 32, 150}) {
-      const auto vectors = lattice_vectors(300, components, random);
+      const auto vectors = lattice_vectors(300, components, 3, random);
       compare_over_iterations(vectors, codes, random);
       // Code vectors on the lattice itself: ties everywhere.
       Bounded_assignment search(vectors);
@@ -102,7 +88,7 @@ TEST(Bounded_assignment, equals_the_plain_loop_far_from_the_origin_and_at_any_sc
 
 TEST(Bounded_assignment, equals_the_plain_loop_in_tight_clusters) {
   std::mt19937_64 random(4);
-  Feature_vectors vectors = lattice_vectors(300, 3, random);
+  Feature_vectors vectors = lattice_vectors(300, 3, 3, random);
   vectors += 1e-9 * random_vectors(300, 3, random);
   for (const Eigen::Index codes : {4, 27, 90}) compare_over_iterations(vectors, codes, random);
 }

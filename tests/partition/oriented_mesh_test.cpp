@@ -5,27 +5,16 @@
 
 #include <algorithm>
 
-#include "support/test_meshes.h"
+#include "partition/surface_soup.h"
 
 namespace lodestone {
 namespace {
 
-/// A surface that need not be a mesh.
-struct Soup {
-  Positions positions;
-  std::vector<Corners> faces;
-  Vertex_graph graph = vertex_graph(static_cast<std::uint32_t>(positions.rows()), faces);
-
-  Oriented_mesh oriented() const { return oriented_mesh({graph, positions, faces}); }
-};
-
-Soup soup_of(const Surface_mesh& mesh) {
-  const Numbered_mesh numbered(mesh);
-  return {numbered.positions, {numbered.faces.begin(), numbered.faces.end()}};
-}
+Oriented_mesh oriented(const Surface_soup& soup) { return oriented_mesh(soup.surface()); }
 
 /// The sorted corners of every face, as the mesh has them.
-void expect_same_faces(const Soup& soup, const Oriented_mesh& oriented, const std::vector<std::uint32_t>& kept) {
+void expect_same_faces(const Surface_soup& soup, const Oriented_mesh& oriented,
+                       const std::vector<std::uint32_t>& kept) {
   ASSERT_TRUE(oriented.mesh.is_valid(false));
   ASSERT_EQ(oriented.mesh.number_of_vertices(), oriented.vertex_indices.size());
   ASSERT_EQ(oriented.face_indices, kept);
@@ -46,48 +35,48 @@ void expect_same_faces(const Soup& soup, const Oriented_mesh& oriented, const st
 
 TEST(Oriented_mesh, a_manifold_oriented_mesh_is_unchanged) {
   for (const auto& mesh : {potato(4), grid(4, 3), single_triangle(), cube(2)}) {
-    const auto soup = soup_of(mesh);
-    const auto oriented = soup.oriented();
-    ASSERT_EQ(oriented.mesh.number_of_faces(), mesh.number_of_faces());
+    const auto soup = surface_soup(mesh);
+    const auto result = oriented(soup);
+    ASSERT_EQ(result.mesh.number_of_faces(), mesh.number_of_faces());
     for (const auto f : mesh.faces()) {
-      const auto h = mesh.halfedge(f), same = oriented.mesh.halfedge(f);
-      EXPECT_EQ(mesh.target(mesh.next(h)), oriented.mesh.target(oriented.mesh.next(same)));
-      EXPECT_EQ(mesh.target(h), oriented.mesh.target(same));
+      const auto h = mesh.halfedge(f), same = result.mesh.halfedge(f);
+      EXPECT_EQ(mesh.target(mesh.next(h)), result.mesh.target(result.mesh.next(same)));
+      EXPECT_EQ(mesh.target(h), result.mesh.target(same));
     }
-    EXPECT_EQ(oriented.mesh.number_of_vertices(), mesh.number_of_vertices());
+    EXPECT_EQ(result.mesh.number_of_vertices(), mesh.number_of_vertices());
   }
 }
 
 TEST(Oriented_mesh, an_edge_of_three_faces_is_cut_open) {
-  const Soup soup{Positions::Random(5, 3), {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
-  expect_same_faces(soup, soup.oriented(), {0, 1, 2});
+  const Surface_soup soup{Positions::Random(5, 3), {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
+  expect_same_faces(soup, oriented(soup), {0, 1, 2});
 }
 
 TEST(Oriented_mesh, two_fans_at_a_vertex_get_a_vertex_each) {
-  const Soup soup{Positions::Random(5, 3), {{0, 1, 2}, {0, 3, 4}}};
-  const auto oriented = soup.oriented();
-  EXPECT_EQ(oriented.vertex_indices.size(), 6U);
-  expect_same_faces(soup, oriented, {0, 1});
+  const Surface_soup soup{Positions::Random(5, 3), {{0, 1, 2}, {0, 3, 4}}};
+  const auto result = oriented(soup);
+  EXPECT_EQ(result.vertex_indices.size(), 6U);
+  expect_same_faces(soup, result, {0, 1});
 }
 
 TEST(Oriented_mesh, faces_are_reversed_where_neighbours_disagree) {
-  const Soup soup{Positions::Random(4, 3), {{0, 1, 2}, {0, 1, 3}}};
-  const auto oriented = soup.oriented();
-  EXPECT_EQ(oriented.vertex_indices.size(), 4U);  // one sheet, nothing cut
-  expect_same_faces(soup, oriented, {0, 1});
-  EXPECT_NE(oriented.turned[0], oriented.turned[1]);
+  const Surface_soup soup{Positions::Random(4, 3), {{0, 1, 2}, {0, 1, 3}}};
+  const auto result = oriented(soup);
+  EXPECT_EQ(result.vertex_indices.size(), 4U);  // one sheet, nothing cut
+  expect_same_faces(soup, result, {0, 1});
+  EXPECT_NE(result.turned[0], result.turned[1]);
 }
 
 TEST(Oriented_mesh, a_face_with_a_repeated_corner_is_dropped) {
-  const Soup soup{Positions::Random(5, 3), {{0, 0, 1}, {1, 2, 3}, {4, 4, 4}}};
-  expect_same_faces(soup, soup.oriented(), {1});
-  const Soup nothing{Positions::Random(2, 3), {{0, 0, 1}}};
-  expect_same_faces(nothing, nothing.oriented(), {});
+  const Surface_soup soup{Positions::Random(5, 3), {{0, 0, 1}, {1, 2, 3}, {4, 4, 4}}};
+  expect_same_faces(soup, oriented(soup), {1});
+  const Surface_soup nothing{Positions::Random(2, 3), {{0, 0, 1}}};
+  expect_same_faces(nothing, oriented(nothing), {});
 }
 
 TEST(Oriented_mesh, one_face_three_times_is_three_faces) {
-  const Soup soup{Positions::Random(3, 3), {{0, 1, 2}, {0, 1, 2}, {2, 1, 0}}};
-  expect_same_faces(soup, soup.oriented(), {0, 1, 2});
+  const Surface_soup soup{Positions::Random(3, 3), {{0, 1, 2}, {0, 1, 2}, {2, 1, 0}}};
+  expect_same_faces(soup, oriented(soup), {0, 1, 2});
 }
 
 TEST(Oriented_mesh, coordinates_of_any_magnitude_are_scaled_to_minus_1_to_1) {
@@ -95,9 +84,9 @@ TEST(Oriented_mesh, coordinates_of_any_magnitude_are_scaled_to_minus_1_to_1) {
     auto mesh = potato(3);
     scale(mesh, size);
     double largest = 0;
-    const auto oriented = soup_of(mesh).oriented();
-    for (const auto v : oriented.mesh.vertices())
-      for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(oriented.mesh.point(v)[i]));
+    const auto result = oriented(surface_soup(mesh));
+    for (const auto v : result.mesh.vertices())
+      for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(result.mesh.point(v)[i]));
     EXPECT_LE(largest, 1);
     EXPECT_GE(largest, 0.5);
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "support/special_numbers.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
@@ -51,7 +52,6 @@ TEST(Particle_count, the_shadow_formula_holds_for_other_ratios) {
 }
 
 TEST(Particle_count, a_shadow_needs_two_radii_above_0) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(shadow_particle_count(bad, 1), Bad_argument) << bad;
     EXPECT_THROW(shadow_particle_count(1, bad), Bad_argument) << bad;

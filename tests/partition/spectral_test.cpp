@@ -10,6 +10,7 @@
 
 #include "partition/lathe.h"
 #include "partition/partition_checks.h"
+#include "partition/surface_soup.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
@@ -87,7 +88,7 @@ TEST(Spectral, between_unequal_balls_the_zero_cut_finds_the_bridge_and_the_media
   faces.push_back({0, count, count + 1});
   Positions positions(points.size(), 3);
   for (std::size_t v = 0; v < points.size(); ++v) positions.row(v) << points[v].x(), points[v].y(), points[v].z();
-  const Face_soup soup{positions, faces};
+  const Surface_soup soup{positions, faces};
   const auto labels = Spectral{.options = {.cut = Spectral_cut::zero}}.label(soup.surface(), 2).labels;
   // Zero is slightly inside the larger ball, near the bridge.
   std::uint32_t strays = 0;
@@ -132,9 +133,9 @@ TEST(Spectral, too_many_vertices_and_options_out_of_range_are_refused) {
   EXPECT_THROW(labels_of(Spectral{}, tetrahedron(), 0), Bad_argument);
   EXPECT_THROW(fiedler_vector(path(1)), Bad_argument);
   const auto vertices = static_cast<Eigen::Index>(Spectral::most_vertices + 1);
-  const Face_soup large{Positions::Zero(vertices, 3), {{0, 1, 2}}};
+  const Surface_soup large{Positions::Zero(vertices, 3), {{0, 1, 2}}};
   EXPECT_THROW(Spectral{}.label(large.surface(), 2), Bad_argument);
-  const Face_soup largest{Positions::Zero(vertices - 1, 3), {{0, 1, 2}}};
+  const Surface_soup largest{Positions::Zero(vertices - 1, 3), {{0, 1, 2}}};
   EXPECT_NO_THROW(Spectral{}.label(largest.surface(), 2));
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,7 +40,8 @@ std::string backward_strip(int squares) {
   return text;
 }
 
-/// A point cache of four vertices, those of `tetrahedron()`, moved along the x-axis by another distance in each frame.
+/// A point cache of four vertices, those of `tetrahedron_off()`, moved along the x-axis by another distance in each
+/// frame.
 std::string moving_tetrahedron(const std::vector<double>& distances) {
   auto bytes = std::string("POINTCACHE2\0", 12) + packed<std::int32_t>({1, 4}) + packed<float>({0, 1}) +
                packed<std::int32_t>({static_cast<double>(distances.size())});
@@ -72,8 +74,8 @@ class Detect : public testing::Test {
   /// The two tetrahedra of a scene, the first of which moves by these distances. Their surfaces meet where the distance
   /// is 1 or less.
   std::string write_meeting_tetrahedra(const std::vector<double>& distances) const {
-    write("moving.off", tetrahedron());
-    write("still.off", tetrahedron());
+    write("moving.off", tetrahedron_off());
+    write("still.off", tetrahedron_off());
     write("moving.pc2", moving_tetrahedron(distances));
     return write("scene.json", R"({"name": "meeting", "objects": [
       {"name": "moving", "mesh": "moving.off", "motion": {"pc2": "moving.pc2"}},
@@ -114,7 +116,8 @@ TEST_F(Detect, two_meshes_that_intersect_collide_and_the_output_folder_is_create
 }
 
 TEST_F(Detect, two_meshes_apart_do_not_collide) {
-  expect_success(detect({write("a.off", tetrahedron()), write("b.off", tetrahedron(2)), "--collision-distance", "9"}));
+  expect_success(
+      detect({write("a.off", tetrahedron_off()), write("b.off", tetrahedron_off(2)), "--collision-distance", "9"}));
   const auto lines = frames();
   ASSERT_EQ(lines.size(), 1U);
   for (const auto& pair : lines[0]["pairs"]) {
@@ -301,7 +304,7 @@ TEST_F(Detect, the_number_of_particles_is_the_requested_one) {
 }
 
 TEST_F(Detect, the_summary_counts_vertices_and_faces) {
-  expect_success(detect({write("square.off", square_off), write("tetrahedron.off", tetrahedron())}));
+  expect_success(detect({write("square.off", square_off), write("tetrahedron.off", tetrahedron_off())}));
   const Json objects = summary()["objects"];
   EXPECT_EQ(objects.at(0)["name"], "square");
   EXPECT_EQ(objects.at(0)["vertices"], 4);
@@ -312,8 +315,8 @@ TEST_F(Detect, the_summary_counts_vertices_and_faces) {
 
 TEST_F(Detect, files_of_equal_names_are_told_apart) {
   create_directory(folder.path() / "other");
-  expect_success(detect({write("a.off", tetrahedron()), write("other/a.off", tetrahedron()),
-                         write("a_2.off", tetrahedron()), write("a.obj", square_obj)}));
+  expect_success(detect({write("a.off", tetrahedron_off()), write("other/a.off", tetrahedron_off()),
+                         write("a_2.off", tetrahedron_off()), write("a.obj", square_obj)}));
   std::set<std::string> names;
   const Json result = summary();
   for (const auto& object : result["objects"]) names.insert(object["name"]);
@@ -322,7 +325,8 @@ TEST_F(Detect, files_of_equal_names_are_told_apart) {
 }
 
 TEST_F(Detect, names_of_files_may_be_any_bytes) {
-  const auto result = detect({write("\xff\xfe.off", tetrahedron()), write("two\nlines\x1b[2J.off", tetrahedron())});
+  const auto result =
+      detect({write("\xff\xfe.off", tetrahedron_off()), write("two\nlines\x1b[2J.off", tetrahedron_off())});
   expect_success(result);
   EXPECT_EQ(frames().at(0)["pairs"].at(0)["collides"], true);
   EXPECT_EQ(summary()["objects"].at(1)["name"], "two?lines?[2J");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -103,7 +104,7 @@ TEST_F(Exact, reports_which_object_is_inside_which) {
 
 TEST_F(Exact, reports_faces_of_one_object_that_intersect_each_other) {
   write("folded.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0.2 0.2 -1\n0.2 0.2 1\n0.3 0.3 1\n3 0 1 2\n3 3 4 5\n");
-  write("other.off", tetrahedron(9));
+  write("other.off", tetrahedron_off(9));
   expect_success(detect(write_folded(), {"--self", "--contacts", "all"}));
   const auto pairs = frames().at(0)["pairs"];
   ASSERT_EQ(pairs.size(), 2U) << pairs;
@@ -172,7 +173,7 @@ TEST_F(Exact, finds_self_collisions_of_a_single_mesh) {
 }
 
 TEST_F(Exact, skips_pairs_that_the_scene_ignores) {
-  write("a.off", tetrahedron(0));
+  write("a.off", tetrahedron_off(0));
   const auto objects = R"("objects": [{"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "a.off"},
                                       {"name": "c", "mesh": "a.off"}])";
   const auto scene = write("three.json", "{" + std::string(objects) + R"(, "ignore": [["c", "a"], ["b", "b"]]})");

@@ -6,18 +6,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "program/run_program.h"
 #include "support/mesh_samples.h"
 #include "support/scene_samples.h"
+#include "support/special_numbers.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// `text` with the first `from` replaced; `from` must occur.

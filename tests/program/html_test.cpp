@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -285,8 +286,9 @@ TEST_F(Html, the_truth_equals_exhaustive_checking_in_every_mode) {
 
 TEST_F(Html, nearest_is_the_distance_of_the_two_nearest_objects) {
   // Each reaches from a face in the plane x = 0 to a tip at x = 1, and is moved along the x-axis.
-  const std::vector<std::string> arguments{"detect", write("a.off", tetrahedron()), write("b.off", tetrahedron(7)),
-                                           write("c.off", tetrahedron(3)), write("d.off", tetrahedron(9))};
+  const std::vector<std::string> arguments{"detect", write("a.off", tetrahedron_off()),
+                                           write("b.off", tetrahedron_off(7)), write("c.off", tetrahedron_off(3)),
+                                           write("d.off", tetrahedron_off(9))};
   const auto stages = page_of(arguments).json_section("stages");
   EXPECT_DOUBLE_EQ(stages.at(0)["nearest"].get<double>(), 1);  // from the tip of b to d
 }
@@ -299,7 +301,7 @@ TEST_F(Html, a_single_object_has_no_nearest_distance) {
 }
 
 TEST_F(Html, pairs_that_the_scene_ignores_do_not_count_as_nearest) {
-  write("a.off", tetrahedron());
+  write("a.off", tetrahedron_off());
   const std::string objects = R"({"objects": [{"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "a.off"}])";
   const auto positive = [&](const std::string& ignored) {
     const auto stages =

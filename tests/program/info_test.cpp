@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -62,7 +63,7 @@ TEST_F(Info, as_text_reports_the_same) {
 }
 
 TEST_F(Info, of_a_closed_mesh_reports_that_it_is_closed) {
-  const Json object = info({write("a.off", tetrahedron())})["objects"].at(0);
+  const Json object = info({write("a.off", tetrahedron_off())})["objects"].at(0);
   EXPECT_EQ(object["closed"], true);
   EXPECT_EQ(object["self_intersections"], 0);
 }

@@ -18,8 +18,8 @@ namespace {
 class Program_output : public testing::Test {
  protected:
   void SetUp() override {
-    folder.write("a.off", tetrahedron());
-    folder.write("b.off", tetrahedron(1));
+    folder.write("a.off", tetrahedron_off());
+    folder.write("b.off", tetrahedron_off(1));
   }
   std::string scene(int frames) const {
     return folder

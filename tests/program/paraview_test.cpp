@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "program/run_program.h"
 #include "support/mesh_samples.h"
-#include "support/read_vtk.h"
+#include "support/read_file.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
 
@@ -22,7 +23,7 @@ using Json = nlohmann::json;
 class Paraview : public testing::Test {
  protected:
   Paraview() {
-    folder.write("a.off", tetrahedron());
+    folder.write("a.off", tetrahedron_off());
     scene = folder.write("scene.json", R"({"frames": 3, "objects": [
       {"name": "moving", "mesh": "a.off", "motion": {"deform": [{"travel": {"path": "linear", "way_points":
         [{"frame": 0, "at": [3, 0, 0]}, {"frame": 2, "at": [0.25, 0, 0]}]}}]}},

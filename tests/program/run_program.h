@@ -1,30 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <fcntl.h>
-#include <gtest/gtest.h>
-#include <poll.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <sys/types.h>
 
-#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "support/read_file.h"
 
 /// Starts the program as a user would, and inspects what it leaves behind.
 namespace lodestone::test {
+
+/// The program's name and arguments as `exec` wants them.
+class Command_line {
+ public:
+  explicit Command_line(const std::vector<std::string>& arguments);
+  Command_line(const Command_line&) = delete;
+  Command_line& operator=(const Command_line&) = delete;
+
+  char** data() { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> words_;
+  std::vector<char*> pointers_;
+};
 
 /// How a run ended.
 struct Program_result {
@@ -40,148 +44,34 @@ struct Program_options {
   std::string standard_output = {};     ///< file for the standard output; empty: captured
 };
 
-/// The program's name and arguments as `exec` wants them.
-class Command_line {
- public:
-  explicit Command_line(const std::vector<std::string>& arguments) : words_{LODESTONE_PROGRAM} {
-    words_.insert(words_.end(), arguments.begin(), arguments.end());
-    pointers_.reserve(words_.size() + 1);
-    for (auto& word : words_) pointers_.push_back(word.data());
-    pointers_.push_back(nullptr);
-  }
-  Command_line(const Command_line&) = delete;
-  Command_line& operator=(const Command_line&) = delete;
-
-  char** data() { return pointers_.data(); }
-
- private:
-  std::vector<std::string> words_;
-  std::vector<char*> pointers_;
-};
-
 /// The program at work.
 class Running_program {
  public:
-  explicit Running_program(const std::vector<std::string>& arguments, const Program_options& options = {})
-      : deadline_(std::chrono::steady_clock::now() + options.limit) {
-    Command_line command(arguments);
-
-    std::array<int, 2> out{}, err{};
-    if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0)
-      throw std::runtime_error("no pipe can be made");
-    process_ = ::fork();
-    if (process_ == 0) {
-      const int target =
-          options.standard_output.empty() ? out[1] : ::open(options.standard_output.c_str(), O_WRONLY | O_CREAT, 0666);
-      ::dup2(target, STDOUT_FILENO);
-      ::dup2(err[1], STDERR_FILENO);
-      const rlimit size{options.largest_file, options.largest_file};
-      if (options.largest_file != RLIM_INFINITY) ::setrlimit(RLIMIT_FSIZE, &size);
-      ::execv(command.data()[0], command.data());
-      ::_exit(127);
-    }
-    ::close(out[1]);
-    ::close(err[1]);
-    streams_ = {out[0], err[0]};
-  }
+  explicit Running_program(const std::vector<std::string>& arguments, const Program_options& options = {});
   Running_program(const Running_program&) = delete;
   Running_program& operator=(const Running_program&) = delete;
-  ~Running_program() {
-    if (process_ > 0) {
-      ::kill(process_, SIGKILL);
-      ::waitpid(process_, nullptr, 0);
-    }
-    for (const int stream : streams_) ::close(stream);
-  }
+  ~Running_program();
 
-  void send(int signal) const { ::kill(process_, signal); }
-
-  Program_result wait() {
-    Program_result result;
-    read_until_closed(result);
-    if (result.timed_out) send(SIGKILL);
-    int status = 0;
-    ::waitpid(std::exchange(process_, 0), &status, 0);
-    if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
-    if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
-    return result;
-  }
+  void send(int signal) const;
+  Program_result wait();
 
  private:
-  void read_until_closed(Program_result& result) const {
-    std::array<pollfd, 2> watched{{{streams_[0], POLLIN, 0}, {streams_[1], POLLIN, 0}}};
-    const std::array<std::string*, 2> texts{&result.out, &result.err};
-    while (watched[0].fd >= 0 || watched[1].fd >= 0) {
-      const auto left =
-          std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now());
-      result.timed_out = left.count() <= 0;
-      if (result.timed_out) return;
-      ::poll(watched.data(), watched.size(), static_cast<int>(left.count()));
-      for (std::size_t i = 0; i < watched.size(); ++i) {
-        if (watched[i].revents == 0) continue;
-        std::array<char, 4096> bytes{};
-        const auto count = ::read(watched[i].fd, bytes.data(), bytes.size());
-        if (count > 0)
-          texts[i]->append(bytes.data(), static_cast<std::size_t>(count));
-        else if (count == 0 || errno != EINTR)
-          watched[i].fd = -1;
-      }
-    }
-  }
+  void read_until_closed(Program_result& result) const;
 
   std::chrono::steady_clock::time_point deadline_;
   pid_t process_ = 0;
   std::array<int, 2> streams_{};
 };
 
-inline Program_result run_program(const std::vector<std::string>& arguments, const Program_options& options = {}) {
-  return Running_program(arguments, options).wait();
-}
-
-inline std::string read_bytes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  EXPECT_TRUE(in) << file;
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-inline nlohmann::json read_json(const std::filesystem::path& file) { return nlohmann::json::parse(read_bytes(file)); }
-
-/// One JSON value per line; the file must end with a line break.
-inline std::vector<nlohmann::json> read_json_lines(const std::filesystem::path& file) {
-  const std::string text = read_bytes(file);
-  EXPECT_TRUE(text.ends_with('\n')) << file;
-  std::istringstream lines(text);
-  std::vector<nlohmann::json> values;
-  for (std::string line; std::getline(lines, line);) values.push_back(nlohmann::json::parse(line));
-  return values;
-}
+Program_result run_program(const std::vector<std::string>& arguments, const Program_options& options = {});
 
 /// Names of all entries of a folder; empty if there is no such folder.
-inline std::set<std::string> content_of(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  if (is_directory(folder))
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      names.insert(entry.path().filename().string());
-  return names;
-}
+std::set<std::string> content_of(const std::filesystem::path& folder);
 
 /// The run must have exited with this code, with no standard output and one line of standard error that contains
 /// `part`.
-inline void expect_error(const Program_result& result, int exit_code, const std::string& part) {
-  EXPECT_FALSE(result.timed_out);
-  EXPECT_EQ(result.signal, 0);
-  EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  EXPECT_EQ(result.out, "");
-  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-  EXPECT_TRUE(result.err.starts_with("lodestone: ") && result.err.ends_with('\n')) << result.err;
-  EXPECT_NE(result.err.find(part), std::string::npos) << "expected '" << part << "' in: " << result.err;
-}
+void expect_error(const Program_result& result, int exit_code, const std::string& part);
 
-inline void expect_success(const Program_result& result) {
-  EXPECT_FALSE(result.timed_out);
-  EXPECT_EQ(result.signal, 0);
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "");
-}
+void expect_success(const Program_result& result);
 
 }  // namespace lodestone::test

@@ -75,7 +75,7 @@ std::string screen_of(const std::string& bytes) {
 class Terminal : public testing::Test {
  protected:
   void SetUp() override {
-    folder.write("a.off", tetrahedron());
+    folder.write("a.off", tetrahedron_off());
     scene = folder
                 .write("scene.json", R"({"frames": 500, "objects": [
                   {"name": "a", "mesh": "a.off"}, {"name": "b", "mesh": "a.off"}]})")
@@ -97,8 +97,8 @@ TEST_F(Terminal, shows_a_progress_bar_and_erases_it_at_the_end) {
 }
 
 TEST_F(Terminal, shows_an_error_without_the_bar) {
-  folder.write("f0.off", tetrahedron());
-  folder.write("f1.off", tetrahedron());
+  folder.write("f0.off", tetrahedron_off());
+  folder.write("f1.off", tetrahedron_off());
   folder.write("f2.off", "broken");
   const auto file = folder.write("broken.json", R"({"objects": [{"name": "a", "mesh": "a.off",
     "motion": {"sequence": {"pattern": "f#.off", "first": 0, "last": 2}}}]})");

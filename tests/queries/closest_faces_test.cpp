@@ -44,11 +44,6 @@ double expect_closest(const Face_soup& first, const Face_soup& second) {
   return check(first, second);
 }
 
-Face_soup moved(Face_soup soup, double x, double y, double z) {
-  deform(soup, [&](const Point& p) { return Point(p.x() + x, p.y() + y, p.z() + z); });
-  return soup;
-}
-
 /// Objects of a few dozen faces.
 std::vector<Face_soup> few_faces() {
   return {icosphere(2),

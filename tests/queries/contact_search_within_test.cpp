@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Searches within one object.
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <gtest/gtest.h>
 
 #include "queries/searches.h"
+#include "support/cgal_self_intersections.h"
 
 namespace lodestone {
 namespace {
-
-/// All intersecting face pairs by CGAL. Fails the test if there are faces without area.
-std::vector<Face_pair> by_cgal(const Surface_mesh& mesh) {
-  std::vector<std::pair<Surface_mesh::Face_index, Surface_mesh::Face_index>> all;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(all));
-  std::vector<Face_pair> pairs;
-  for (const auto& [f, g] : all) {
-    EXPECT_NE(f, g) << "a face without area";
-    pairs.push_back({std::min(f, g), std::max(f, g)});
-  }
-  std::ranges::sort(pairs);
-  return pairs;
-}
 
 /// All intersecting face pairs by `faces_intersect`.
 std::vector<Face_pair> by_definition_of_faces(const Face_soup& soup) {
@@ -28,15 +15,6 @@ std::vector<Face_pair> by_definition_of_faces(const Face_soup& soup) {
     for (std::uint32_t b = a + 1; b < soup.faces.size(); ++b)
       if (faces_intersect(soup.faces[a], soup.triangle(a), soup.faces[b], soup.triangle(b))) pairs.push_back({a, b});
   return pairs;
-}
-
-void crumple(Surface_mesh& mesh, double distance, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> step(0, distance);
-  deform(mesh, [&](const Point& p) {
-    const double x = step(random), y = step(random), z = step(random);
-    return Point(p.x() + x, p.y() + y, p.z() + z);
-  });
 }
 
 struct Folded {
@@ -70,7 +48,7 @@ TEST(Contact_search_within, equals_cgal) {
   for (const auto& [name, mesh] : folded_surfaces())
     for (const std::size_t leaf_faces : {2, 16, 128}) {
       SCOPED_TRACE(name + ", " + std::to_string(leaf_faces));
-      const auto truth = by_cgal(mesh);
+      const auto truth = self_intersections_by_cgal(mesh);
       const Posed_object object(Face_soup(mesh), leaf_faces);
       expect_answers(truth, 0, [&](const Contact_request& request) { return search_within(object, request); });
       Searcher several(3);
@@ -86,13 +64,13 @@ TEST(Contact_search_within, equals_cgal_on_tiny_huge_and_far_away_surfaces) {
       SCOPED_TRACE(name);
       scale(mesh, factor);
       shift(mesh, offset, -offset, offset);
-      EXPECT_EQ(search_within(Posed_object(Face_soup(mesh))).found, by_cgal(mesh));
+      EXPECT_EQ(search_within(Posed_object(Face_soup(mesh))).found, self_intersections_by_cgal(mesh));
     }
 }
 
 TEST(Contact_search_within, finds_nothing_in_surfaces_that_do_not_intersect_themselves) {
   for (const auto& mesh : {icosphere(9), uv_sphere(20, 15), cloth(30, 20), cube(6), torus_knot(), potato(8)}) {
-    EXPECT_TRUE(by_cgal(mesh).empty());
+    EXPECT_TRUE(self_intersections_by_cgal(mesh).empty());
     EXPECT_FALSE(search_within(Posed_object(Face_soup(mesh))).summary.found);
   }
 }
@@ -121,7 +99,7 @@ TEST(Contact_search_within, finds_the_same_with_any_number_of_workers) {
   for (auto& mesh : meshes) {
     crumple(mesh, 0.03, 1);
     const Posed_object object(Face_soup(mesh), 32);
-    const auto truth = by_cgal(mesh);
+    const auto truth = self_intersections_by_cgal(mesh);
     EXPECT_GT(truth.size(), 1000U);
     EXPECT_EQ(search_within(object).found, truth);
     expect_same_for_any_workers(truth.size(), [&](Searcher& searcher, const Contact_request& request) {

@@ -9,11 +9,6 @@
 namespace lodestone {
 namespace {
 
-Face_soup moved(Face_soup soup, double x, double y, double z) {
-  deform(soup, [&](const Point& p) { return Point(p.x() + x, p.y() + y, p.z() + z); });
-  return soup;
-}
-
 /// Whether `outer` encloses `inner`, whatever the leaf size, the order of vertices, the scale and the position.
 bool encloses(const Face_soup& outer, const Face_soup& inner) {
   std::vector<bool> answers;

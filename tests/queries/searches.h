@@ -17,10 +17,7 @@ struct Search_answer {
   std::vector<Face_pair> found;
 };
 
-inline bool operator==(const Search_answer& a, const Search_answer& b) {
-  return a.found == b.found && a.summary.found == b.summary.found && a.summary.capped == b.summary.capped &&
-         a.summary.leaf_tests == b.summary.leaf_tests && a.summary.exact_tests == b.summary.exact_tests;
-}
+bool operator==(const Search_answer& a, const Search_answer& b);
 
 /// A search with workers of its own, which is reused.
 class Searcher {
@@ -43,12 +40,8 @@ class Searcher {
   Contact_search search_;
 };
 
-inline Search_answer search_between(const Posed_object& a, const Posed_object& b, const Contact_request& request = {}) {
-  return Searcher(1).between(a, b, request);
-}
-inline Search_answer search_within(const Posed_object& object, const Contact_request& request = {}) {
-  return Searcher(1).within(object, request);
-}
+Search_answer search_between(const Posed_object& a, const Posed_object& b, const Contact_request& request = {});
+Search_answer search_within(const Posed_object& object, const Contact_request& request = {});
 
 /// Checks that searchers with any number of workers answer as one with a single worker. `ask(searcher, request)` gives
 /// an answer.

@@ -55,114 +55,35 @@ void deform(Face_soup& soup, Map map) {
   }
 }
 
+/// Moved by a vector.
+Face_soup moved(Face_soup soup, double x, double y, double z);
+
 /// Coordinates times `factor`, plus `offset`.
-inline Face_soup placed(Face_soup soup, double factor, double offset = 0) {
-  for (double& x : soup.coordinates) x = factor * x + offset;
-  return soup;
-}
+Face_soup placed(Face_soup soup, double factor, double offset = 0);
 
 /// Rotates about a random axis through the origin by any angle, then moves by at most `distance` along each axis.
-inline Face_soup posed_at_random(Face_soup soup, double distance, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> unit(-1, 1);
-  const auto vector = [&] {
-    const double x = unit(random), y = unit(random), z = unit(random);
-    return Eigen::Vector3d(x, y, z);
-  };
-  const Eigen::Matrix3d turn(Eigen::AngleAxisd(std::numbers::pi * unit(random), vector().normalized()));
-  const Eigen::Vector3d step = distance * vector();
-  deform(soup, [&](const Point& p) {
-    const Eigen::Vector3d q = turn * coordinates(p) + step;
-    return Point(q.x(), q.y(), q.z());
-  });
-  return soup;
-}
+Face_soup posed_at_random(Face_soup soup, double distance, std::mt19937_64& random);
 
 /// Moves every coordinate at random.
-inline Face_soup crumpled(Face_soup soup, double distance, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> step(0, distance);
-  for (double& x : soup.coordinates) x += step(random);
-  return soup;
-}
+Face_soup crumpled(Face_soup soup, double distance, std::uint64_t seed);
 
-inline Face_soup joined(Face_soup a, const Face_soup& b) {
-  const std::uint32_t first = a.vertex_count();
-  for (const auto& [i, j, k] : b.faces) a.faces.push_back({first + i, first + j, first + k});
-  a.coordinates.insert(a.coordinates.end(), b.coordinates.begin(), b.coordinates.end());
-  return a;
-}
+Face_soup joined(Face_soup a, const Face_soup& b);
 
 /// The same triangles with vertices, faces and the corners of each face in random order.
-inline Face_soup shuffled(const Face_soup& soup, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::vector<std::uint32_t> place(soup.vertex_count());
-  std::iota(place.begin(), place.end(), 0U);
-  std::ranges::shuffle(place, random);
-  Face_soup result = soup;
-  for (std::uint32_t v = 0; v < soup.vertex_count(); ++v)
-    for (int axis = 0; axis < 3; ++axis)
-      result.coordinates[3 * std::size_t{place[v]} + axis] = soup.coordinates[3 * std::size_t{v} + axis];
-  for (auto& corners : result.faces) {
-    for (auto& corner : corners) corner = place[corner];
-    std::ranges::shuffle(corners, random);
-  }
-  std::ranges::shuffle(result.faces, random);
-  return result;
-}
+Face_soup shuffled(const Face_soup& soup, std::uint64_t seed);
 
 /// Faces with any corners among the points of a lattice with `size` points a side: many share vertices, touch, lie in
 /// one plane, lie on each other or have no area.
-inline Face_soup lattice_soup(std::size_t faces, std::uint32_t vertices, std::uint64_t size, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  Face_soup soup;
-  for (std::uint32_t i = 0; i < 3 * vertices; ++i) soup.coordinates.push_back(static_cast<double>(random() % size));
-  soup.faces.resize(faces);
-  for (auto& corners : soup.faces)
-    for (auto& corner : corners) corner = static_cast<std::uint32_t>(random() % vertices);
-  return soup;
-}
+Face_soup lattice_soup(std::size_t faces, std::uint32_t vertices, std::uint64_t size, std::uint64_t seed);
 
 /// Small triangles anywhere in [-1, 1]^3, no two of which share a vertex.
-inline Face_soup loose_triangles(std::uint32_t count, double size, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  Face_soup soup;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double x = unit(random), y = unit(random), z = unit(random);
-    for (int corner = 0; corner < 3; ++corner)
-      for (const double centre : {x, y, z}) soup.coordinates.push_back(centre + size * unit(random));
-    soup.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-  }
-  return soup;
-}
+Face_soup loose_triangles(std::uint32_t count, double size, std::uint64_t seed);
 
 /// Eight regions, by the octant around the mean vertex.
-inline std::vector<Region_index> octants(const Face_soup& soup) {
-  const Positions positions = soup.positions();
-  const Eigen::RowVector3d mean = positions.colwise().mean();
-  std::vector<Region_index> labels;
-  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-    Region_index label = 0;
-    for (int axis = 0; axis < 3; ++axis) label = 2 * label + (positions(v, axis) > mean[axis] ? 1 : 0);
-    labels.push_back(label);
-  }
-  return labels;
-}
+std::vector<Region_index> octants(const Face_soup& soup);
 
 /// Objects of several kinds, each some hundred faces of about the size of the unit sphere.
-inline std::vector<std::pair<std::string, Face_soup>> small_objects() {
-  Face_soup pot(teapot({3, 3}));
-  deform(pot, [](const Point& p) { return Point(p.x() / 3, p.y() / 3, (p.z() - 1.5) / 3); });
-  Face_soup sheet(cloth(16, 12));
-  deform(sheet, [](const Point& p) {
-    return Point(2 * p.x() - 1, 2 * p.y() - 1, 0.3 * std::sin(9 * p.x()) * std::cos(7 * p.y()));
-  });
-  return {{"teapot", pot},
-          {"sphere", icosphere(5)},
-          {"torus knot", torus_knot({.radius = 0.7, .tube = 0.1, .segments = 40, .sides = 7})},
-          {"cloth", sheet},
-          {"triangles", loose_triangles(300, 0.3, 1)}};
-}
+std::vector<std::pair<std::string, Face_soup>> small_objects();
 
 /// An object with its faces and coordinates. Not movable, since trees refer to both.
 class Posed_object {
@@ -194,8 +115,6 @@ class Posed_object {
 };
 
 /// All intersecting face pairs, by exhaustive checking.
-inline std::vector<Face_pair> true_pairs(const Face_soup& a, const Face_soup& b) {
-  return exhaustive_numbered(a.positions(), a.faces, b.positions(), b.faces);
-}
+std::vector<Face_pair> true_pairs(const Face_soup& a, const Face_soup& b);
 
 }  // namespace lodestone

@@ -7,16 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "support/touching_triangles.h"
+#include "support/random_triangles.h"
 
 namespace lodestone {
 
-using Triangle_pair = std::pair<Triangle, Triangle>;
-
 /// Pairs of many kinds in the cube [0, 1]^3, or not far from it, which mostly touch, just miss each other or just meet.
-class Hard_pairs {
+class Hard_pairs : Random_triangles {
  public:
-  explicit Hard_pairs(std::uint64_t seed) : random_(seed) {}
+  explicit Hard_pairs(std::uint64_t seed) : Random_triangles(seed) {}
 
   struct Kind {
     const char* name;
@@ -36,17 +34,8 @@ class Hard_pairs {
   }
 
  private:
-  double uniform() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   /// 0, or from 10^-17 to 1; of either sign.
   double small() { return random_() % 4 == 0 ? 0 : (random_() % 2 == 0 ? 1 : -1) * std::pow(10, -17 * uniform()); }
-  Point point() {
-    const double x = uniform(), y = uniform(), z = uniform();
-    return {x, y, z};
-  }
-  Triangle triangle() { return {point(), point(), point()}; }
-  static Point plus(const Point& p, const Point& q, double factor) {
-    return {p.x() + factor * q.x(), p.y() + factor * q.y(), p.z() + factor * q.z()};
-  }
   static Point between(const Point& p, const Point& q, double t) { return plus(plus(p, p, -t), q, t); }
   Point beside(const Point& p) { return {p.x() + small(), p.y() + small(), p.z() + small()}; }
   /// A point of the triangle up to rounding, often on an edge or a corner.
@@ -55,11 +44,6 @@ class Hard_pairs {
     return between(between(t[0], t[1], u), t[2], v);
   }
 
-  Triangle_pair anywhere() { return {triangle(), triangle()}; }
-  Triangle_pair touching() {
-    const auto [a, b] = nearly_touching(random_);
-    return {as_triangle(a, 0x1p-23), as_triangle(b, 0x1p-23)};
-  }
   Triangle_pair touching_a_segment() {
     const auto [a, b] = nearly_touching_a_segment(random_);
     return {as_triangle(a, 0x1p-27), as_triangle(b, 0x1p-27)};
@@ -71,11 +55,6 @@ class Hard_pairs {
     if (random_() % 2 == 0) b[0] = on(a);
     return {a, b};
   }
-  Triangle_pair on_a_lattice() {
-    const int size = 2 + static_cast<int>(random_() % 6);
-    const auto a = random_triangle(random_, size), b = random_triangle(random_, size);
-    return {as_triangle(a, 0.125), as_triangle(b, 0.125)};
-  }
   Triangle_pair slivers() {
     const auto sliver = [&](const Point& through) {
       const Point end = point();
@@ -84,13 +63,7 @@ class Hard_pairs {
     const Point through = point();
     return {sliver(through), sliver(through)};
   }
-  Triangle_pair segments_and_points() {
-    auto [a, b] = random_() % 2 == 0 ? on_a_lattice() : coplanar();
-    a[1] = a[0];
-    if (random_() % 2 == 0) a[2] = a[0];
-    if (random_() % 2 == 0) b[2] = b[random_() % 2];
-    return {a, b};
-  }
+  Triangle_pair segments_and_points() { return collapsed(random_() % 2 == 0 ? on_a_lattice() : coplanar()); }
   Triangle_pair with_corners_in_common() {
     auto [a, b] = random_() % 2 == 0 ? anywhere() : coplanar();
     for (std::uint64_t common = 1 + random_() % 3; common-- > 0;) b[common] = a[random_() % 3];
@@ -107,8 +80,6 @@ class Hard_pairs {
     const Point p = on(a);
     return {a, {beside(p), beside(p), beside(p)}};
   }
-
-  std::mt19937_64 random_;
 };
 
 }  // namespace lodestone

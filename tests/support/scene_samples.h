@@ -11,7 +11,7 @@
 namespace lodestone::test {
 
 /// The corner of the unit cube at the origin, as a closed tetrahedron, moved by `x` along the x-axis.
-inline std::string tetrahedron(int x = 0) {
+inline std::string tetrahedron_off(int x = 0) {
   const std::string here = std::to_string(x);
   const std::string next = std::to_string(x + 1);
   return "OFF\n4 4 0\n" + here + " 0 0\n" + next + " 0 0\n" + here + " 1 0\n" + here +

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lodestone/triangles/triangle_intersection.h"
+#include "support/number_vectors.h"
 
 namespace lodestone {
 
@@ -20,129 +21,37 @@ using Integer_triangle = std::array<Integer_point, 3>;
 using Wide = __int128;
 using Wide_vector = std::array<Wide, 3>;
 
-inline Wide_vector minus(const Wide_vector& p, const Wide_vector& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+Wide determinant(const Wide_vector& p, const Wide_vector& q, const Wide_vector& r);
 
-inline Wide_vector cross(const Wide_vector& p, const Wide_vector& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
+bool is_zero(const Wide_vector& p);
 
-inline Wide dot(const Wide_vector& p, const Wide_vector& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-
-inline Wide determinant(const Wide_vector& p, const Wide_vector& q, const Wide_vector& r) {
-  return dot(p, cross(q, r));
-}
-
-inline bool is_zero(const Wide_vector& p) { return p[0] == 0 && p[1] == 0 && p[2] == 0; }
-
-inline bool same_sign(std::initializer_list<Wide> values) {
-  bool above = true, below = true;
-  for (const Wide value : values) {
-    above &= value >= 0;
-    below &= value <= 0;
-  }
-  return above || below;
-}
+bool same_sign(std::initializer_list<Wide> values);
 
 /// Whether the origin lies between p and q, on the triangle p q r, in the tetrahedron p q r s. For affinely dependent
 /// points the answer is 'no': the origin then lies in the hull of fewer of them.
-inline bool origin_in(const Wide_vector& p, const Wide_vector& q) { return is_zero(cross(p, q)) && dot(p, q) <= 0; }
+bool origin_in(const Wide_vector& p, const Wide_vector& q);
 
-inline bool origin_in(const Wide_vector& p, const Wide_vector& q, const Wide_vector& r) {
-  const Wide_vector normal = cross(minus(q, p), minus(r, p));
-  return !is_zero(normal) && dot(normal, p) == 0 &&
-         same_sign({dot(normal, cross(p, q)), dot(normal, cross(q, r)), dot(normal, cross(r, p))});
-}
+bool origin_in(const Wide_vector& p, const Wide_vector& q, const Wide_vector& r);
 
-inline bool origin_in(const Wide_vector& p, const Wide_vector& q, const Wide_vector& r, const Wide_vector& s) {
-  const Wide_vector a = minus(q, p), b = minus(r, p), c = minus(s, p);
-  return determinant(a, b, c) != 0 &&
-         same_sign({determinant(q, r, s), -determinant(p, r, s), determinant(p, q, s), -determinant(p, q, r)});
-}
+bool origin_in(const Wide_vector& p, const Wide_vector& q, const Wide_vector& r, const Wide_vector& s);
 
 /// Whether two triangles, segments or points have a common point: exactly when the origin lies in the convex hull of
 /// the nine differences of their corners, that is in the hull of at most four of them (Caratheodory).
-inline bool have_common_point(const Integer_triangle& a, const Integer_triangle& b) {
-  std::vector<Wide_vector> d;
-  for (const auto& p : a)
-    for (const auto& q : b) d.push_back({Wide(p[0]) - q[0], Wide(p[1]) - q[1], Wide(p[2]) - q[2]});
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    if (is_zero(d[i])) return true;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (origin_in(d[i], d[j])) return true;
-      for (std::size_t k = 0; k < j; ++k) {
-        if (origin_in(d[i], d[j], d[k])) return true;
-        for (std::size_t l = 0; l < k; ++l)
-          if (origin_in(d[i], d[j], d[k], d[l])) return true;
-      }
-    }
-  }
-  return false;
-}
+bool have_common_point(const Integer_triangle& a, const Integer_triangle& b);
 
-inline bool is_degenerate(const Integer_triangle& t) {
-  const auto wide = [](const Integer_point& p) { return Wide_vector{p[0], p[1], p[2]}; };
-  return is_zero(cross(minus(wide(t[1]), wide(t[0])), minus(wide(t[2]), wide(t[0]))));
-}
+bool is_degenerate(const Integer_triangle& t);
 
-inline Triangle as_triangle(const Integer_triangle& t, double scale = 1, double offset = 0) {
-  const auto point = [&](const Integer_point& p) {
-    const auto place = [&](int axis) { return scale * static_cast<double>(p[axis]) + offset; };
-    return Point(place(0), place(1), place(2));
-  };
-  return {point(t[0]), point(t[1]), point(t[2])};
-}
+Triangle as_triangle(const Integer_triangle& t, double scale = 1, double offset = 0);
 
-inline std::string text(const Integer_triangle& t) {
-  std::ostringstream out;
-  for (const auto& p : t) out << '(' << p[0] << ' ' << p[1] << ' ' << p[2] << ')';
-  return out.str();
-}
+std::string text(const Integer_triangle& t);
 
 /// Corners with coordinates from 0 to size - 1.
-inline Integer_triangle random_triangle(std::mt19937_64& random, int size) {
-  Integer_triangle t{};
-  for (auto& corner : t)
-    for (auto& x : corner) x = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(size));
-  return t;
-}
+Integer_triangle random_triangle(std::mt19937_64& random, int size);
 
 /// Two triangles; a corner of the second lies on the first, or misses it by one unit of some 10^7.
-inline std::pair<Integer_triangle, Integer_triangle> nearly_touching(std::mt19937_64& random) {
-  const auto a0 = random_triangle(random, 1 << 13);
-  Integer_triangle a{};
-  for (int i = 0; i < 3; ++i)
-    for (int axis = 0; axis < 3; ++axis) a[i][axis] = a0[i][axis] * 1024;
-  // Weights in 1024ths, often at an edge or a corner.
-  const auto weight = [&](std::int64_t most) {
-    const auto kind = random() % 4;
-    return kind == 0   ? 0
-           : kind == 1 ? most
-                       : static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(most + 1));
-  };
-  const std::int64_t s = weight(1024), t = weight(1024 - s);
-  Integer_triangle b{};
-  for (int axis = 0; axis < 3; ++axis) b[0][axis] = a0[0][axis] * (1024 - s - t) + a0[1][axis] * s + a0[2][axis] * t;
-  if (random() % 2 == 0) b[0][random() % 3] += random() % 2 == 0 ? 1 : -1;
-  for (int i = 1; i < 3; ++i)
-    for (auto& x : b[i]) x = static_cast<std::int64_t>(random() % (1U << 23));
-  return {a, b};
-}
+std::pair<Integer_triangle, Integer_triangle> nearly_touching(std::mt19937_64& random);
 
 /// A zero-area triangle that takes products beyond 53 bits to recognise, and one that meets it or just misses it.
-inline std::pair<Integer_triangle, Integer_triangle> nearly_touching_a_segment(std::mt19937_64& random) {
-  const auto below = [&](std::uint64_t limit) { return static_cast<std::int64_t>(random() % limit); };
-  Integer_point start{}, along{};
-  for (int axis = 0; axis < 3; ++axis) start[axis] = below(1 << 13), along[axis] = below(1 << 13);
-  const auto on_line = [&](std::int64_t steps) {
-    return Integer_point{start[0] + steps * along[0], start[1] + steps * along[1], start[2] + steps * along[2]};
-  };
-  const Integer_triangle a{on_line(below(1 << 14)), on_line(below(1 << 14)), on_line(below(1 << 14))};
-  Integer_triangle b{on_line(below(1 << 14)), {}, {}};
-  if (random() % 3 == 0) b[0][random() % 3] += 1;
-  for (int i = 1; i < 3; ++i)
-    for (auto& x : b[i]) x = below(1 << 27);
-  if (random() % 3 == 0) b[1] = on_line(below(1 << 14)), b[2] = on_line(below(1 << 14));
-  return {a, b};
-}
+std::pair<Integer_triangle, Integer_triangle> nearly_touching_a_segment(std::mt19937_64& random);
 
 }  // namespace lodestone

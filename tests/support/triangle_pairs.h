@@ -9,76 +9,65 @@
 #include <vector>
 
 #include "lodestone/triangles/triangle_intersection.h"
-#include "support/touching_triangles.h"
+#include "support/random_triangles.h"
 
 namespace lodestone {
-
-inline Point plus(const Point& p, const Point& q, double factor) {
-  return {p.x() + factor * q.x(), p.y() + factor * q.y(), p.z() + factor * q.z()};
-}
 
 inline Triangle moved(Triangle t, double scale, const Point& offset) {
   for (auto& corner : t) corner = plus(offset, corner, scale);
   return t;
 }
 
-/// Pairs of many kinds, in the cube [0, 1]^3 or not far from it.
-class Triangle_pairs {
- public:
-  using Pair = std::pair<Triangle, Triangle>;
+inline Triangle scaled(const Triangle& t, double factor) { return moved(t, factor, {0, 0, 0}); }
 
-  explicit Triangle_pairs(std::uint64_t seed) : random_(seed) {}
+/// Pairs of many kinds, in the cube [0, 1]^3 or not far from it.
+class Triangle_pairs : Random_triangles {
+ public:
+  explicit Triangle_pairs(std::uint64_t seed) : Random_triangles(seed) {}
 
   struct Kind {
     const char* name;
-    Pair (Triangle_pairs::*make)();
+    Triangle_pair (Triangle_pairs::*make)();
   };
   static const std::vector<Kind> kinds;
 
  private:
-  double uniform() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   /// From 10^-14 to 1.
   double small() { return std::pow(10, -14 * uniform()); }
-  Point point() {
-    const double x = uniform(), y = uniform(), z = uniform();
-    return {x, y, z};
-  }
-  Triangle triangle() { return {point(), point(), point()}; }
   Triangle sliver() {
     const Point p = point(), q = point(), along = plus(q, p, -1);
     return {p, q, plus(plus(p, along, 2 * uniform()), point(), small())};
   }
 
-  Pair anywhere() { return {triangle(), triangle()}; }
-  Pair far_apart() { return {triangle(), moved(triangle(), 1, {1000 * uniform(), 1000 * uniform(), 2000})}; }
-  Pair nearly_parallel() {
+  Triangle_pair far_apart() { return {triangle(), moved(triangle(), 1, {1000 * uniform(), 1000 * uniform(), 2000})}; }
+  Triangle_pair nearly_parallel() {
     const Triangle a = triangle();
     Triangle b = moved(a, 1 + uniform(), plus(point(), point(), -1));
     for (auto& corner : b) corner = plus(corner, point(), small());
     return {a, b};
   }
-  Pair slivers() { return {sliver(), sliver()}; }
-  Pair sliver_near_its_like() {
+  Triangle_pair slivers() { return {sliver(), sliver()}; }
+  Triangle_pair sliver_near_its_like() {
     const Triangle a = sliver();
     return {a, {plus(a[0], point(), small()), plus(a[1], point(), small()), plus(a[2], point(), small())}};
   }
-  Pair just_above() {
+  Triangle_pair just_above() {
     const Triangle a = triangle();
     const Point on = plus(plus(a[0], plus(a[1], a[0], -1), 0.3), plus(a[2], a[0], -1), 0.3);
     return {a, {plus(on, point(), small()), plus(on, point(), 1), plus(on, point(), 1)}};
   }
-  Pair edges_just_apart() {
+  Triangle_pair edges_just_apart() {
     const Triangle a = triangle();
     const Point on = plus(a[0], plus(a[1], a[0], -1), uniform()), away = plus(point(), point(), -1);
     const Point start = plus(plus(on, point(), small()), away, uniform());
     return {a, {start, plus(start, away, -1 - uniform()), plus(start, point(), 3)}};
   }
-  Pair coplanar() {
+  Triangle_pair coplanar() {
     const Point u = point(), v = point();
     const auto flat = [&] { return plus(moved({u, u, u}, uniform(), {0, 0, 0})[0], v, 2 * uniform()); };
     return {{flat(), flat(), flat()}, moved({flat(), flat(), flat()}, 1, {uniform(), 0, 0})};
   }
-  Pair of_grids_apart() {
+  Triangle_pair of_grids_apart() {
     const auto cell = [&](double z) {
       const double x = static_cast<double>(random_() % 3), y = static_cast<double>(random_() % 3);
       const auto turned = [&](double i, double j) {
@@ -89,32 +78,15 @@ class Triangle_pairs {
     };
     return {cell(0), cell(small())};
   }
-  Pair touching() {
-    const auto [a, b] = nearly_touching(random_);
-    return {as_triangle(a, 0x1p-23), as_triangle(b, 0x1p-23)};
-  }
-  Pair on_a_lattice() {
-    const int size = 2 + static_cast<int>(random_() % 6);
-    const auto a = random_triangle(random_, size), b = random_triangle(random_, size);
-    return {as_triangle(a, 0.125), as_triangle(b, 0.125)};
-  }
-  Pair segments_and_points() {
-    auto [a, b] = random_() % 2 == 0 ? on_a_lattice() : nearly_parallel();
-    a[1] = a[0];
-    if (random_() % 2 == 0) a[2] = a[0];
-    if (random_() % 2 == 0) b[2] = b[random_() % 2];
-    return {a, b};
-  }
-  Pair of_unlike_size() {
+  Triangle_pair segments_and_points() { return collapsed(random_() % 2 == 0 ? on_a_lattice() : nearly_parallel()); }
+  Triangle_pair of_unlike_size() {
     const Triangle a = triangle();
     return {a, moved(triangle(), small(), plus(a[random_() % 3], point(), small()))};
   }
-  Pair off_the_origin() {
+  Triangle_pair off_the_origin() {
     const auto [a, b] = random_() % 2 == 0 ? just_above() : nearly_parallel();
     return {moved(a, 0.01, {0x1p20, 0x1p20, -0x1p20}), moved(b, 0.01, {0x1p20, 0x1p20, -0x1p20})};
   }
-
-  std::mt19937_64 random_;
 };
 
 inline const std::vector<Triangle_pairs::Kind> Triangle_pairs::kinds{

@@ -5,12 +5,12 @@
 
 #include "support/guarded_coordinates.h"
 #include "support/instruction_sets.h"
+#include "support/special_numbers.h"
 #include "support/tree_checks.h"
 
 namespace lodestone {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most = std::numeric_limits<double>::max();
 
 TEST(Region_tree_refit, parts_in_any_order_give_the_same_boxes) {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/intersections.h>
 
 #include <gtest/gtest.h>
@@ -19,67 +18,30 @@
 #include <vector>
 
 #include "lodestone/triangles/neighbour_check.h"
+#include "support/cgal_self_intersections.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
 
 /// The common vertices of two faces, each once.
-inline std::vector<std::uint32_t> common_vertices(const Corners& a, const Corners& b) {
-  std::vector<std::uint32_t> common;
-  for (const auto v : a)
-    if (std::ranges::count(b, v) > 0 && std::ranges::count(common, v) == 0) common.push_back(v);
-  return common;
-}
+std::vector<std::uint32_t> common_vertices(const Corners& a, const Corners& b);
 
-/// What CGAL reports: pairs of different faces that share a vertex, sorted, and how many pairs of a face with itself.
-struct Reported_by_cgal {
-  std::vector<Face_pair> pairs;
-  std::size_t faces_without_area = 0;
-};
-
-inline Reported_by_cgal reported_by_cgal(const Surface_mesh& mesh, std::span<const Corners> faces) {
-  std::vector<std::pair<Surface_mesh::Face_index, Surface_mesh::Face_index>> all;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(all));
-  Reported_by_cgal reported;
-  for (const auto& [f, g] : all) {
-    const std::uint32_t a = std::min(f, g), b = std::max(f, g);
-    if (a == b)
-      ++reported.faces_without_area;
-    else if (!common_vertices(faces[a], faces[b]).empty())
-      reported.pairs.push_back({a, b});
-  }
-  std::ranges::sort(reported.pairs);
-  return reported;
-}
+/// What CGAL reports, pairs of faces that share a vertex only.
+Cgal_self_intersections reported_by_cgal(const Surface_mesh& mesh, std::span<const Corners> faces);
 
 namespace by_definition {
 
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Shape = std::variant<Exact::Point_3, Exact::Segment_3, Exact::Triangle_3>;
 
-inline Exact::Point_3 point(const Positions& positions, std::uint32_t v) {
-  return {positions(v, 0), positions(v, 1), positions(v, 2)};
-}
+Exact::Point_3 point(const Positions& positions, std::uint32_t v);
 
-inline Shape hull(const Exact::Point_3& a, const Exact::Point_3& b) {
-  if (a == b) return a;
-  return Exact::Segment_3(a, b);
-}
+Shape hull(const Exact::Point_3& a, const Exact::Point_3& b);
 
 /// A face as a set of points.
-inline Shape face_shape(const Positions& positions, const Corners& corners) {
-  const auto a = point(positions, corners[0]), b = point(positions, corners[1]), c = point(positions, corners[2]);
-  if (!CGAL::collinear(a, b, c)) return Exact::Triangle_3(a, b, c);
-  const auto [low, high] = std::minmax({a, b, c});  // lexicographic: the ends, for collinear points
-  return hull(low, high);
-}
+Shape face_shape(const Positions& positions, const Corners& corners);
 
-inline bool contains(const Shape& shape, const Exact::Point_3& p) {
-  if (const auto* q = std::get_if<Exact::Point_3>(&shape)) return *q == p;
-  const auto& s = std::get<Exact::Segment_3>(shape);
-  return CGAL::collinear(s.source(), p, s.target()) &&
-         CGAL::collinear_are_ordered_along_line(s.source(), p, s.target());
-}
+bool contains(const Shape& shape, const Exact::Point_3& p);
 
 /// The corners of the intersection. Three and more: it has an area.
 struct Corners_of_intersection {
@@ -99,28 +61,10 @@ struct Corners_of_intersection {
 
 /// Whether two faces have a common point outside their common vertices and edges. Their intersection is convex, so an
 /// intersection without area lies on a common edge if its corners do.
-inline bool faces_intersect(const Positions& positions, const Corners& a, const Corners& b) {
-  const auto meeting = std::visit(Corners_of_intersection(), face_shape(positions, a), face_shape(positions, b));
-  if (meeting.size() > 2) return true;
-  const auto common = common_vertices(a, b);
-  const auto allowed = [&](const Exact::Point_3& p) {
-    for (const auto v : common)
-      for (const auto w : common)
-        if (contains(hull(point(positions, v), point(positions, w)), p)) return true;
-    return false;
-  };
-  return !std::ranges::all_of(meeting, allowed);
-}
+bool faces_intersect(const Positions& positions, const Corners& a, const Corners& b);
 
 /// All intersecting pairs of faces that share a vertex, sorted.
-inline std::vector<Face_pair> adjacent_pairs(const Positions& positions, std::span<const Corners> faces) {
-  std::vector<Face_pair> pairs;
-  for (std::uint32_t a = 0; a < faces.size(); ++a)
-    for (std::uint32_t b = a + 1; b < faces.size(); ++b)
-      if (!common_vertices(faces[a], faces[b]).empty() && faces_intersect(positions, faces[a], faces[b]))
-        pairs.push_back({a, b});
-  return pairs;
-}
+std::vector<Face_pair> adjacent_pairs(const Positions& positions, std::span<const Corners> faces);
 
 }  // namespace by_definition
 
@@ -130,49 +74,14 @@ struct Neighbour_answer {
   std::size_t exact_tests = 0;
 };
 
-inline Neighbour_answer answer(const Positions& positions, std::span<const Corners> faces) {
-  const auto vertex_count = static_cast<std::uint32_t>(positions.rows());
-  const Vertex_fans fans(vertex_count, faces);
-  Neighbour_check check;
-  Neighbour_answer result;
-  check.check(fans, faces, {positions.data(), static_cast<std::size_t>(positions.size())}, 0, vertex_count,
-              result.pairs);
-  result.exact_tests = check.exact_tests();
-  std::ranges::sort(result.pairs);
-  return result;
-}
+Neighbour_answer answer(const Positions& positions, std::span<const Corners> faces);
 
-inline Neighbour_answer answer(const Surface_mesh& mesh) {
-  const Numbered_mesh numbered(mesh);
-  return answer(numbered.positions, numbered.faces);
-}
+Neighbour_answer answer(const Surface_mesh& mesh);
 
 /// Compares a mesh without zero-area faces with CGAL; returns the number of pairs.
-inline std::size_t expect_equal_to_cgal(const Surface_mesh& mesh) {
-  const Numbered_mesh numbered(mesh);
-  const auto expected = reported_by_cgal(mesh, numbered.faces);
-  EXPECT_EQ(expected.faces_without_area, 0U);
-  EXPECT_EQ(answer(numbered.positions, numbered.faces).pairs, expected.pairs);
-  return expected.pairs.size();
-}
-
-/// Moves every vertex at random, along the first `axes` axes.
-inline void crumple(Surface_mesh& mesh, double distance, std::uint64_t seed, int axes = 3) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> step(0, distance);
-  deform(mesh, [&](const Point& p) {
-    const double x = step(random), y = step(random), z = step(random);
-    return Point(p.x() + x, p.y() + (axes > 1 ? y : 0), p.z() + (axes > 2 ? z : 0));
-  });
-}
+std::size_t expect_equal_to_cgal(const Surface_mesh& mesh);
 
 /// Rotates a mesh by an angle at which every coordinate is rounded.
-inline void turn(Surface_mesh& mesh) {
-  const Eigen::Matrix3d rotation(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
-  deform(mesh, [&](const Point& p) {
-    const Eigen::Vector3d q = rotation * coordinates(p);
-    return Point(q.x(), q.y(), q.z());
-  });
-}
+void turn(Surface_mesh& mesh);
 
 }  // namespace lodestone

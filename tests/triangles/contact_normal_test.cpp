@@ -11,16 +11,12 @@
 #include "support/distance_oracle.h"
 #include "support/test_meshes.h"
 #include "support/touching_triangles.h"
+#include "support/triangle_pairs.h"
 
 namespace lodestone {
 namespace {
 
 const Triangle floor_tile = as_triangle({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}});  // looks up
-
-Triangle scaled(Triangle t, double factor) {
-  for (auto& p : t) p = Point(factor * p.x(), factor * p.y(), factor * p.z());
-  return t;
-}
 
 Eigen::Vector3d vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
 

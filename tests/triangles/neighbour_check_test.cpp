@@ -48,7 +48,7 @@ TEST(Neighbour_check, equals_cgal_on_tiny_huge_and_far_away_surfaces) {
     scale(mesh, 0x1p-20);
     shift(mesh, 0, 0x1p20, 0);  // few digits are left: many vertices round to a lattice
     const Numbered_mesh numbered(mesh);
-    if (reported_by_cgal(mesh, numbered.faces).faces_without_area == 0) found += expect_equal_to_cgal(mesh);
+    if (reported_by_cgal(mesh, numbered.faces).zero_area_faces == 0) found += expect_equal_to_cgal(mesh);
   }
   EXPECT_GT(found, 3000U);
 }
@@ -181,7 +181,7 @@ TEST(Neighbour_check, treats_zero_area_faces_as_segments_and_points) {
     std::erase_if(with_area, [&](const Face_pair& pair) { return !has_area(pair.a) || !has_area(pair.b); });
     EXPECT_EQ(with_area, reported.pairs) << trial;
     found += pairs.size() - with_area.size();
-    without_area += reported.faces_without_area;
+    without_area += reported.zero_area_faces;
   }
   EXPECT_GT(found, 20U);
   EXPECT_GT(without_area, 100U);

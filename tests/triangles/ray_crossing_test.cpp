@@ -10,35 +10,20 @@
 
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/mesh/is_closed.h"
+#include "support/face_soup.h"
 #include "support/test_meshes.h"
 #include "support/touching_triangles.h"
 
 namespace lodestone {
 namespace {
 
-/// Faces and coordinates, which need not form a half-edge mesh.
-struct Soup {
-  std::vector<Corners> faces;
-  std::vector<double> positions;
+/// Adds a vertex; gives its index.
+std::uint32_t add(Face_soup& soup, const Point& p) {
+  soup.coordinates.insert(soup.coordinates.end(), {p.x(), p.y(), p.z()});
+  return soup.vertex_count() - 1;
+}
 
-  Soup() = default;
-  explicit Soup(const Surface_mesh& mesh) {
-    const Numbered_mesh numbered(mesh);
-    faces.assign(numbered.faces.begin(), numbered.faces.end());
-    positions.assign(numbered.positions.data(), numbered.positions.data() + numbered.positions.size());
-  }
-
-  std::uint32_t vertices() const { return static_cast<std::uint32_t>(positions.size() / 3); }
-  std::uint32_t add(const Point& p) {
-    positions.insert(positions.end(), {p.x(), p.y(), p.z()});
-    return vertices() - 1;
-  }
-  Point point(std::uint32_t vertex) const {
-    return {positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]};
-  }
-};
-
-Point placed(const Point& p, double scale, double offset) {
+Point placed_point(const Point& p, double scale, double offset) {
   return {scale * p.x() + offset, scale * p.y() + offset, scale * p.z() + offset};
 }
 
@@ -46,10 +31,8 @@ Point placed(const Point& p, double scale, double offset) {
 const std::vector<std::pair<double, double>> places{{1, 0},        {0x1p-300, 0}, {0x1p300, 0}, {0x1p-1060, 0},
                                                     {0x1p1010, 0}, {1, 0x1p20},   {1, -0x1p20}};
 
-bool inside(const Soup& soup, const Point& p, double scale = 1, double offset = 0) {
-  std::vector<double> positions;
-  for (const double x : soup.positions) positions.push_back(scale * x + offset);
-  return point_inside(placed(p, scale, offset), soup.faces, positions);
+bool inside(const Face_soup& soup, const Point& p, double scale = 1, double offset = 0) {
+  return point_inside(placed_point(p, scale, offset), soup.faces, placed(soup, scale, offset).coordinates);
 }
 
 /// Points that share coordinates with vertices, lie above them, above edges and anywhere.
@@ -72,8 +55,8 @@ std::vector<Point> awkward_points(const Surface_mesh& mesh, std::mt19937_64& ran
 
 void expect_equal_to_cgal(const Surface_mesh& mesh, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  const Soup soup(mesh);
-  EXPECT_TRUE(is_closed(soup.vertices(), soup.faces));
+  const Face_soup soup(mesh);
+  EXPECT_TRUE(is_closed(soup.vertex_count(), soup.faces));
   const CGAL::Side_of_triangle_mesh<Surface_mesh, Kernel> side(mesh);
   std::size_t within = 0, beyond = 0;
   for (const auto& p : awkward_points(mesh, random, 150)) {
@@ -98,7 +81,7 @@ TEST(Point_inside, equals_cgal_far_from_the_origin) {
   auto mesh = potato(6);
   shift(mesh, 0x1p20, -0x1p20, 0x1p20);
   std::mt19937_64 random(3);
-  const Soup soup(mesh);
+  const Face_soup soup(mesh);
   const CGAL::Side_of_triangle_mesh<Surface_mesh, Kernel> side(mesh);
   std::size_t within = 0;
   for (auto p : awkward_points(potato(6), random, 100)) {
@@ -122,7 +105,7 @@ TEST(Point_inside, equals_cgal_on_several_components_and_on_nested_shells) {
 }
 
 TEST(Point_inside, is_right_for_points_on_the_lattice_of_a_cube) {
-  const Soup soup(cube(4));
+  const Face_soup soup(cube(4));
   for (int i = -1; i <= 9; ++i)
     for (int j = -1; j <= 9; ++j)
       for (int k = -1; k <= 9; ++k) {
@@ -137,7 +120,7 @@ TEST(Point_inside, is_right_for_points_on_the_lattice_of_a_cube) {
 TEST(Point_inside, is_right_for_points_on_the_lattice_of_an_octahedron) {
   const auto lattice = [](const std::array<int, 3>& p) { return Point(p[0], p[1], p[2]); };
   for (const int parts : {1, 3}) {
-    const Soup soup(octahedral(parts, lattice));
+    const Face_soup soup(octahedral(parts, lattice));
     for (int i = -8; i <= 8; ++i)
       for (int j = -8; j <= 8; ++j)
         for (int k = -8; k <= 8; ++k) {
@@ -152,26 +135,26 @@ TEST(Point_inside, is_right_for_points_on_the_lattice_of_an_octahedron) {
 
 /// A cube with zero-area faces: some closed in themselves, and one that fills the slit between an edge and its two
 /// halves.
-Soup cube_with_degenerate_faces() {
-  Soup soup(cube(2));
+Face_soup cube_with_degenerate_faces() {
+  Face_soup soup(cube(2));
   const auto first = soup.faces.front();
   const auto halved = std::ranges::find_if(soup.faces, [&](const Corners& face) {
     const Point p = soup.point(face[0]), q = soup.point(face[1]);
     return p.x() != q.x() && p.y() == q.y() && p.z() == q.z();
   });
   const auto [a, b, c] = *halved;
-  const auto middle = soup.add(CGAL::midpoint(soup.point(a), soup.point(b)));
+  const auto middle = add(soup, CGAL::midpoint(soup.point(a), soup.point(b)));
   *halved = {a, middle, c};
   soup.faces.insert(soup.faces.end(), {{middle, b, c}, {a, b, middle}});
   soup.faces.insert(soup.faces.end(), {{a, a, c}, {b, b, b}, {c, a, c}, first, first});
-  const auto on_top = soup.add(soup.point(c));
+  const auto on_top = add(soup, soup.point(c));
   soup.faces.insert(soup.faces.end(), {{a, c, on_top}, {c, on_top, a}});
   return soup;
 }
 
 TEST(Point_inside, is_right_in_a_cube_with_zero_area_faces) {
-  const Soup soup = cube_with_degenerate_faces();
-  EXPECT_TRUE(is_closed(soup.vertices(), soup.faces));
+  const Face_soup soup = cube_with_degenerate_faces();
+  EXPECT_TRUE(is_closed(soup.vertex_count(), soup.faces));
   for (int i = -1; i <= 9; ++i)
     for (int j = -1; j <= 9; ++j)
       for (int k = -1; k <= 9; ++k) {
@@ -189,7 +172,7 @@ TEST(Point_inside, counts_modulo_two_the_lattice_tetrahedra_that_contain_the_poi
   std::size_t within = 0, checked = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const int size = 4 + trial % 6;
-    Soup soup;
+    Face_soup soup;
     bool expected = false, on_surface = false;
     Integer_point p = random_triangle(random, (size + 1) / 2)[0];
     for (auto& x : p) x += size / 4;
@@ -199,14 +182,14 @@ TEST(Point_inside, counts_modulo_two_the_lattice_tetrahedra_that_contain_the_poi
       const auto from_p = [&](int i) { return minus(wide(corner[i]), wide(p)); };
       expected ^= origin_in(from_p(0), from_p(1), from_p(2), from_p(3));
       std::array<std::uint32_t, 4> v{};
-      for (int i = 0; i < 4; ++i) v[i] = soup.add(as_triangle({corner[i], corner[i], corner[i]})[0]);
+      for (int i = 0; i < 4; ++i) v[i] = add(soup, as_triangle({corner[i], corner[i], corner[i]})[0]);
       for (int i = 0; i < 4; ++i) {
         const int j = (i + 1) % 4, k = (i + 2) % 4;
         soup.faces.push_back({v[i], v[j], v[k]});
         on_surface |= have_common_point({p, p, p}, {corner[i], corner[j], corner[k]});
       }
     }
-    ASSERT_TRUE(is_closed(soup.vertices(), soup.faces));
+    ASSERT_TRUE(is_closed(soup.vertex_count(), soup.faces));
     if (on_surface) continue;
     ++checked;
     within += expected ? 1 : 0;
@@ -290,12 +273,12 @@ TEST(Is_closed, ignores_faces_with_a_repeated_vertex) {
 }
 
 TEST(Is_closed, is_false_for_a_mesh_without_one_of_its_faces) {
-  const Soup soup(potato(4));
-  EXPECT_TRUE(is_closed(soup.vertices(), soup.faces));
+  const Face_soup soup(potato(4));
+  EXPECT_TRUE(is_closed(soup.vertex_count(), soup.faces));
   for (std::size_t missing = 0; missing < soup.faces.size(); ++missing) {
     auto faces = soup.faces;
     faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(missing));
-    EXPECT_FALSE(is_closed(soup.vertices(), faces));
+    EXPECT_FALSE(is_closed(soup.vertex_count(), faces));
   }
   const Numbered_mesh flat(grid(4, 4));
   EXPECT_FALSE(is_closed(flat.numbering.vertex_count(), flat.faces));

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "support/distance_oracle.h"
+#include "support/special_numbers.h"
 #include "support/triangle_pairs.h"
 
 namespace lodestone {
@@ -28,8 +29,6 @@ void for_pairs(int of_each_kind, const Check& check) {
       if (testing::Test::HasFatalFailure()) return;
     }
 }
-
-Triangle scaled(Triangle t, double factor) { return moved(t, factor, {0, 0, 0}); }
 
 double greatest_coordinate(const Triangle& a, const Triangle& b) {
   double most = 0;
@@ -146,19 +145,19 @@ struct Exactly_apart {
   int distance;
 };
 
-const Integer_triangle base{{{0, 0, 0}, {12, 0, 0}, {0, 12, 0}}};
+const Integer_triangle large_base{{{0, 0, 0}, {12, 0, 0}, {0, 12, 0}}};
 
 const std::vector<Exactly_apart> exactly_apart{
-    {"corner to corner", base, {{{-3, -4, 0}, {-9, -4, 0}, {-3, -9, 1}}}, 5},
-    {"corner to corner in space", base, {{{-2, -3, 6}, {-3, -4, 9}, {-4, -3, 9}}}, 7},
-    {"corner to edge", base, {{{5, -3, 4}, {4, -6, 8}, {6, -6, 8}}}, 5},
-    {"corner to face", base, {{{3, 3, 5}, {2, 2, 9}, {4, 5, 9}}}, 5},
-    {"edge to face", base, {{{2, 2, 5}, {4, 3, 5}, {4, 5, 9}}}, 5},
-    {"parallel faces", base, {{{1, 1, 5}, {14, 1, 5}, {1, 14, 5}}}, 5},
-    {"parallel edges", base, {{{1, -3, 4}, {9, -3, 4}, {4, -9, 9}}}, 5},
-    {"crossing edges", base, {{{5, -7, 1}, {5, 1, 7}, {5, -7, 9}}}, 5},
+    {"corner to corner", large_base, {{{-3, -4, 0}, {-9, -4, 0}, {-3, -9, 1}}}, 5},
+    {"corner to corner in space", large_base, {{{-2, -3, 6}, {-3, -4, 9}, {-4, -3, 9}}}, 7},
+    {"corner to edge", large_base, {{{5, -3, 4}, {4, -6, 8}, {6, -6, 8}}}, 5},
+    {"corner to face", large_base, {{{3, 3, 5}, {2, 2, 9}, {4, 5, 9}}}, 5},
+    {"edge to face", large_base, {{{2, 2, 5}, {4, 3, 5}, {4, 5, 9}}}, 5},
+    {"parallel faces", large_base, {{{1, 1, 5}, {14, 1, 5}, {1, 14, 5}}}, 5},
+    {"parallel edges", large_base, {{{1, -3, 4}, {9, -3, 4}, {4, -9, 9}}}, 5},
+    {"crossing edges", large_base, {{{5, -7, 1}, {5, 1, 7}, {5, -7, 9}}}, 5},
     {"edges at right angles", {{{-9, 0, 0}, {9, 0, 0}, {0, 0, -9}}}, {{{0, -9, 5}, {0, 9, 5}, {0, 0, 9}}}, 5},
-    {"coplanar", base, {{{-5, 1, 0}, {-5, 3, 0}, {-9, 2, 0}}}, 5},
+    {"coplanar", large_base, {{{-5, 1, 0}, {-5, 3, 0}, {-9, 2, 0}}}, 5},
     {"segments", {{{-9, 0, 0}, {9, 0, 0}, {1, 0, 0}}}, {{{1, -9, 5}, {1, 9, 5}, {1, 3, 5}}}, 5},
     {"points", {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}, {{{1, 4, 5}, {1, 4, 5}, {1, 4, 5}}}, 5},
 };
@@ -179,10 +178,9 @@ TEST(Triangles_nearer_than, is_strict) {
 }
 
 TEST(Triangles_nearer_than, means_an_intersection_at_distances_of_zero_and_less) {
-  const auto a = as_triangle(base);
+  const auto a = as_triangle(large_base);
   const auto touching = as_triangle({{{1, 1, 0}, {1, 1, 9}, {2, 1, 9}}});
   const auto above = as_triangle({{{1, 1, 1}, {1, 1, 9}, {2, 1, 9}}});
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double distance : {0.0, -1.0, -infinity}) {
     EXPECT_TRUE(triangles_nearer_than(a, touching, distance));
     EXPECT_FALSE(triangles_nearer_than(a, above, distance));

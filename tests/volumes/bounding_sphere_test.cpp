@@ -13,13 +13,14 @@
 #include "support/guarded_coordinates.h"
 #include "support/instruction_sets.h"
 #include "support/leaves.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
 
 static_assert(Bounding_volume<Bounding_sphere>);
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::max();
+constexpr double most = std::numeric_limits<double>::max();
 
 double smallest_radius(const Leaf& leaf) {
   using Kernel = CGAL::Simple_cartesian<double>;

@@ -11,6 +11,7 @@
 #include "support/guarded_coordinates.h"
 #include "support/instruction_sets.h"
 #include "support/leaves.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
@@ -221,7 +222,6 @@ TEST(Spherical_shell, is_the_same_for_every_instruction_set_and_never_reads_past
 }
 
 TEST(Spherical_shell, never_separates_on_overflow_underflow_or_nan) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto unit = volume_of<Spherical_shell>(grid(8, 8, [](const auto& p) { return onto_sphere(p, 1); }));
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
     for (auto leaf : {grid(8, 8, [](const auto& p) { return p; }), strip({Eigen::Vector3d(1, 2, 3)})})

@@ -11,15 +11,11 @@
 
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/errors.h"
+#include "support/read_file.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
 namespace {
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 std::ptrdiff_t files_in(const std::filesystem::path& folder) {
   using Iterator = std::filesystem::directory_iterator;
@@ -47,7 +43,7 @@ TEST(Atomic_file, appears_with_all_its_bytes_at_the_commit) {
   file.write(std::string_view("t\0wo", 4));
   EXPECT_FALSE(exists(target));
   file.commit();
-  EXPECT_EQ(bytes_of(target), std::string("one t\0wo", 8));
+  EXPECT_EQ(read_bytes(target), std::string("one t\0wo", 8));
   EXPECT_EQ(files_in(folder.path()), 1);
 }
 
@@ -62,14 +58,14 @@ TEST(Atomic_file, may_be_longer_than_any_buffer) {
   }
   EXPECT_FALSE(exists(folder.path() / "result"));
   file.commit();
-  EXPECT_TRUE(bytes_of(folder.path() / "result") == all);
+  EXPECT_TRUE(read_bytes(folder.path() / "result") == all);
 }
 
 TEST(Atomic_file, may_be_empty) {
   const Temporary_folder folder;
   Atomic_file(folder.path() / "result").commit();
   EXPECT_TRUE(exists(folder.path() / "result"));
-  EXPECT_EQ(bytes_of(folder.path() / "result"), "");
+  EXPECT_EQ(read_bytes(folder.path() / "result"), "");
 }
 
 TEST(Atomic_file, leaves_nothing_without_a_commit) {
@@ -85,7 +81,7 @@ TEST(Atomic_file, keeps_an_existing_file_without_a_commit) {
   const Temporary_folder folder;
   const auto target = folder.write("result", "old");
   { Atomic_file(target).write("new"); }
-  EXPECT_EQ(bytes_of(target), "old");
+  EXPECT_EQ(read_bytes(target), "old");
   EXPECT_EQ(files_in(folder.path()), 1);
 }
 
@@ -95,7 +91,7 @@ TEST(Atomic_file, replaces_an_existing_file) {
   Atomic_file file(target);
   file.write("new");
   file.commit();
-  EXPECT_EQ(bytes_of(target), "new");
+  EXPECT_EQ(read_bytes(target), "new");
   EXPECT_EQ(files_in(folder.path()), 1);
 }
 
@@ -106,8 +102,8 @@ TEST(Atomic_file, replaces_a_link_not_its_target) {
   Atomic_file file(folder.path() / "result");
   file.write("new");
   file.commit();
-  EXPECT_EQ(bytes_of(elsewhere), "mine");
-  EXPECT_EQ(bytes_of(folder.path() / "result"), "new");
+  EXPECT_EQ(read_bytes(elsewhere), "mine");
+  EXPECT_EQ(read_bytes(folder.path() / "result"), "new");
 }
 
 TEST(Atomic_file, creates_the_folders_it_needs) {
@@ -116,7 +112,7 @@ TEST(Atomic_file, creates_the_folders_it_needs) {
   Atomic_file file(target);
   file.write("new");
   file.commit();
-  EXPECT_EQ(bytes_of(target), "new");
+  EXPECT_EQ(read_bytes(target), "new");
 }
 
 TEST(Atomic_file, refuses_a_folder_as_target_and_a_file_as_folder) {
@@ -128,7 +124,7 @@ TEST(Atomic_file, refuses_a_folder_as_target_and_a_file_as_folder) {
   expect_refused(file / "result", file);
   expect_refused("/proc/lodestone/result", "/proc/lodestone");
   expect_refused("", "");
-  EXPECT_EQ(bytes_of(file), "mine");
+  EXPECT_EQ(read_bytes(file), "mine");
 }
 
 /// In a separate process with a file-size limit of 1000 bytes.
@@ -152,7 +148,7 @@ TEST(Atomic_file, a_full_disk_is_an_error_and_leaves_nothing) {
   const auto target = folder.write("result", "old");
   for (const std::size_t size : {1001, 3'000'000}) {
     EXPECT_EXIT(write_on_full_disk(target, size), testing::ExitedWithCode(1), "");
-    EXPECT_EQ(bytes_of(target), "old");
+    EXPECT_EQ(read_bytes(target), "old");
     EXPECT_EQ(files_in(folder.path()), 1);
   }
   EXPECT_EXIT(write_on_full_disk(target, 1000), testing::ExitedWithCode(0), "");

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "io/motion/damaged_animations.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/mesh/errors.h"
@@ -32,25 +34,8 @@ std::vector<Json::json_pointer> all_places(const Json& document) {
   return result;
 }
 
-class Gltf_damage : public testing::Test {
+class Gltf_damage : public Damaged_animations {
  protected:
-  /// Reads the file and its first and last frame. Anything but success and a typed error of one line is a failure.
-  void read(const std::filesystem::path& file) {
-    try {
-      const auto animation = read_animation(file);
-      std::vector<Point> positions(animation.vertices);
-      for (const std::size_t frame : {std::size_t{0}, animation.motion.frames - 1})
-        animation.motion.pose(frame, positions);
-      EXPECT_TRUE(mesh_of(positions, animation.faces, file.string()).mesh.is_valid(false));
-      ++good;
-    } catch (const Error& error) {
-      const std::string message = error.what();
-      EXPECT_TRUE(message.starts_with(file.string())) << message;
-      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-      EXPECT_EQ(message.find("tinygltf"), std::string::npos) << "the guard has not seen it: " << message;
-      ++bad;
-    }
-  }
   void expect_error(const std::string& content, const std::string& part) const {
     const auto file = folder.write("a.gltf", content);
     try {
@@ -67,20 +52,19 @@ class Gltf_damage : public testing::Test {
     sample.json[Json::json_pointer(pointer)] = value;
     expect_error(sample.gltf(), part);
   }
-
-  Temporary_folder folder;
-  std::size_t good = 0, bad = 0;
 };
 
 TEST_F(Gltf_damage, a_file_truncated_at_any_byte_is_an_error) {
   const auto whole = rich_gltf().glb();
-  for (std::size_t length = 0; length < whole.size(); ++length) read(folder.write("a.glb", whole.substr(0, length)));
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    read_all(folder.write("a.glb", whole.substr(0, length)));
   EXPECT_EQ(good, 0U);
   const auto text = rich_gltf().gltf();
-  for (std::size_t length = 0; length < text.size(); length += 3) read(folder.write("a.gltf", text.substr(0, length)));
+  for (std::size_t length = 0; length < text.size(); length += 3)
+    read_all(folder.write("a.gltf", text.substr(0, length)));
   EXPECT_EQ(good, 0U);
-  read(folder.write("a.glb", whole));
-  read(folder.write("a.gltf", text));
+  read_all(folder.write("a.glb", whole));
+  read_all(folder.write("a.gltf", text));
   EXPECT_EQ(good, 2U);
 }
 
@@ -90,7 +74,7 @@ TEST_F(Gltf_damage, any_wrong_byte_gives_a_mesh_or_an_error) {
     for (const unsigned flip : {0x01U, 0x80U, 0xffU}) {
       auto bytes = whole;
       bytes[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ flip);
-      read(folder.write("a.glb", bytes));
+      read_all(folder.write("a.glb", bytes));
     }
   EXPECT_GT(good, 500U);
   EXPECT_GT(bad, 500U);
@@ -103,11 +87,11 @@ TEST_F(Gltf_damage, any_replaced_value_gives_a_mesh_or_an_error) {
       1e300, 0.5, "", "x", nullptr, true, Json::array(), Json::object(), Json::array({0}), Json::array({1, 1})};
   const auto places = all_places(sample.json);
   for (const auto& place : places) {
-    read(folder.write("a.gltf", sample.gltf()));
+    read_all(folder.write("a.gltf", sample.gltf()));
     for (const auto& other : others) {
       auto changed = sample;
       changed.json[place] = other;
-      read(folder.write("a.gltf", changed.gltf()));
+      read_all(folder.write("a.gltf", changed.gltf()));
     }
     auto without = sample;
     auto& parent = without.json[place.parent_pointer()];
@@ -115,7 +99,7 @@ TEST_F(Gltf_damage, any_replaced_value_gives_a_mesh_or_an_error) {
       parent.erase(place.back());
     else
       parent.erase(static_cast<Json::size_type>(std::stoul(place.back())));
-    read(folder.write("a.gltf", without.gltf()));
+    read_all(folder.write("a.gltf", without.gltf()));
   }
   EXPECT_GT(good, places.size());  // complete files, and some for which a value is optional or arbitrary
   EXPECT_GT(bad, 1000U);
@@ -124,8 +108,8 @@ TEST_F(Gltf_damage, any_replaced_value_gives_a_mesh_or_an_error) {
 TEST_F(Gltf_damage, random_damage_gives_a_mesh_or_an_error) {
   Vandal vandal;
   for (int round = 0; round < 1500; ++round) {
-    read(folder.write("a.glb", vandal.damaged(rich_gltf().glb())));
-    read(folder.write("a.gltf", vandal.damaged(rich_gltf().gltf())));
+    read_all(folder.write("a.glb", vandal.damaged(rich_gltf().glb())));
+    read_all(folder.write("a.gltf", vandal.damaged(rich_gltf().gltf())));
   }
   EXPECT_GT(bad, 1000U);
 }

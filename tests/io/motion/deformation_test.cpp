@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
 
 using Vector = Kernel::Vector_3;
 using Points = std::vector<Point>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Corners and middle of a 4 x 2 x 6 box around (10, 0, 0).
 const Points box = [] {
@@ -256,8 +257,6 @@ std::string message_of(const Deformation& deformation) {
   }
   return "no error";
 }
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Deformation, refuses_numbers_that_are_not_finite) {
   EXPECT_EQ(message_of(Wobble{.amplitude = infinity}), "amplitude is inf, must be finite");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/motion/damaged_animations.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/mesh/errors.h"
@@ -51,7 +52,7 @@ std::string square_md3() {
 
 std::vector<Point> square_at(double t) { return {{t, 0, 0}, {t + 1, 0, 0}, {t + 1, 1, 1.5 * t}, {t, 1, 0}}; }
 
-class Game_models : public testing::Test {
+class Game_models : public Damaged_animations {
  protected:
   void expect_error(const std::string& name, const std::string& bytes, const std::string& rest) const {
     const auto file = folder.write(name, bytes);
@@ -62,24 +63,6 @@ class Game_models : public testing::Test {
       EXPECT_EQ(std::string(error.what()).substr(0, file.string().size() + rest.size()), file.string() + rest);
     }
   }
-  /// Reads everything; success or a typed error of one line.
-  void read_all(const std::filesystem::path& file) {
-    try {
-      const auto animation = read_animation(file);
-      std::vector<Point> positions(animation.vertices);
-      for (const std::size_t frame : {std::size_t{0}, animation.motion.frames - 1})
-        animation.motion.pose(frame, positions);
-      EXPECT_TRUE(mesh_of(positions, animation.faces, file.string()).mesh.is_valid(false));
-      ++good;
-    } catch (const Error& error) {
-      EXPECT_TRUE(std::string(error.what()).starts_with(file.string())) << error.what();
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      ++bad;
-    }
-  }
-
-  Temporary_folder folder;
-  std::size_t good = 0, bad = 0;
 };
 
 TEST_F(Game_models, of_quake_ii_are_read) {

@@ -16,6 +16,7 @@
 #include "lodestone/io/motion/point_cache.h"
 #include "lodestone/mesh/errors.h"
 #include "support/mesh_samples.h"
+#include "support/read_file.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
@@ -113,14 +114,13 @@ TEST_F(Animation_output, gltf_of_one_frame_is_read_back_as_one_frame) {
 
 TEST_F(Animation_output, gltf_shows_regions_as_colours) {
   write_animation(folder.path() / "a.gltf", square, {.regions = {0, 0, 1, 1, 2}});
-  const auto json = nlohmann::json::parse(std::ifstream(folder.path() / "a.gltf"));
+  const auto json = read_json(folder.path() / "a.gltf");
   const auto& colours =
       json["accessors"][json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"].get<std::size_t>()];
   EXPECT_EQ(colours["count"], 5);
   EXPECT_EQ(colours["componentType"], 5121);
   const auto at = json["bufferViews"][colours["bufferView"].get<std::size_t>()]["byteOffset"].get<std::size_t>();
-  std::ifstream in(folder.path() / "a.bin", std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = read_bytes(folder.path() / "a.bin");
   const auto colour = [&](std::size_t v) { return bytes.substr(at + 4 * v, 4); };
   EXPECT_EQ(colour(0), colour(1));
   EXPECT_EQ(colour(2), colour(3));

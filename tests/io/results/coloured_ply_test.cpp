@@ -15,6 +15,7 @@
 #include "lodestone/io/results/coloured_ply.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/mesh/errors.h"
+#include "support/read_file.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
@@ -28,8 +29,7 @@ struct Written_vertex {
 };
 
 std::vector<Written_vertex> written_vertices(const std::filesystem::path& file, std::size_t count) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string bytes = read_bytes(file);
   auto at = bytes.find("end_header\n") + 11;
   const auto take = [&](void* value, std::size_t size) {
     std::memcpy(value, bytes.substr(at, size).data(), size);

@@ -10,10 +10,12 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "lodestone/mesh/errors.h"
 #include "support/page_decoder.h"
+#include "support/read_file.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
@@ -314,8 +316,7 @@ class Page_writing : public testing::Test {
     const std::size_t bytes = write_page(file, page_template, title, data);
     file.commit();
     EXPECT_EQ(bytes, file_size(target));
-    std::ifstream in(target, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    return read_bytes(target);
   }
 
   Temporary_folder folder;

@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
-#include "support/read_vtk.h"
+#include "support/read_file.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {

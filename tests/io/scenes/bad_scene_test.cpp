@@ -17,15 +17,15 @@ namespace {
 
 using test::read;
 using test::Temporary_folder;
-using test::tetrahedron;
+using test::tetrahedron_off;
 using test::with_object;
 
 /// What the reader says about a scene, without the folder's name; meshes a.off and frame_1.off to frame_3.off are
 /// there.
 std::string error_of(std::string_view text) {
   const Temporary_folder folder;
-  folder.write("a.off", tetrahedron());
-  for (int i = 1; i <= 3; ++i) folder.write("frame_" + std::to_string(i) + ".off", tetrahedron(i));
+  folder.write("a.off", tetrahedron_off());
+  for (int i = 1; i <= 3; ++i) folder.write("frame_" + std::to_string(i) + ".off", tetrahedron_off(i));
   try {
     read(folder, text);
   } catch (const Bad_scene& error) {
@@ -233,21 +233,21 @@ TEST(Bad_scene_file, paths_that_leave_the_folder_are_refused) {
 
 TEST(Bad_scene_file, an_absolute_path_is_refused_even_to_a_file_inside_the_folder) {
   const Temporary_folder folder;
-  const auto mesh = folder.write("a.off", tetrahedron());
+  const auto mesh = folder.write("a.off", tetrahedron_off());
   EXPECT_THROW(read(folder, with_object(R"("mesh": ")" + mesh.string() + R"(")")), Bad_scene);
 }
 
 TEST(Bad_scene_file, a_sibling_folder_whose_name_starts_with_the_folder_s_is_refused) {
   const Temporary_folder folder;
   for (const auto* name : {"scenes", "scenes_secret"}) create_directory(folder.path() / name);
-  folder.write("scenes_secret/a.off", tetrahedron());
+  folder.write("scenes_secret/a.off", tetrahedron_off());
   const auto scene = folder.write("scenes/scene.json", with_object(R"("mesh": "../scenes_secret/a.off")"));
   EXPECT_THROW(read_scene(scene), Bad_scene);
 }
 
 TEST(Bad_scene_file, links_that_lead_outside_are_refused) {
   const Temporary_folder outside;
-  outside.write("a.off", tetrahedron());
+  outside.write("a.off", tetrahedron_off());
   const Temporary_folder folder;
   std::filesystem::create_symlink(outside.path() / "a.off", folder.path() / "file.off");
   std::filesystem::create_directory_symlink(outside.path(), folder.path() / "folder");

@@ -20,7 +20,7 @@ namespace {
 
 using test::read;
 using test::Temporary_folder;
-using test::tetrahedron;
+using test::tetrahedron_off;
 using test::with_object;
 
 Point corner(const Scene_object& object, std::size_t i) {
@@ -29,7 +29,7 @@ Point corner(const Scene_object& object, std::size_t i) {
 
 TEST(Read_scene, a_minimal_scene_has_one_frame_and_the_file_s_name) {
   const Temporary_folder folder;
-  folder.write("a.off", tetrahedron());
+  folder.write("a.off", tetrahedron_off());
   Scene scene = read(folder, with_object(R"("mesh": "a.off")"));
   EXPECT_EQ(scene.name, "scene");
   EXPECT_EQ(scene.description, "");
@@ -79,7 +79,7 @@ TEST(Read_scene, makes_every_shape) {
 
 TEST(Read_scene, scales_then_rotates_then_translates) {
   const Temporary_folder folder;
-  folder.write("a.off", tetrahedron());
+  folder.write("a.off", tetrahedron_off());
   Scene scene = read(folder, with_object(R"("mesh": "a.off", "place": {"translate": [5, 0, 0],
     "rotate": {"axis": [0, 0, 9], "degrees": 90}, "scale": [2, 3, 4]})"));
   Scene_object& object = scene.objects[0];
@@ -94,7 +94,7 @@ TEST(Read_scene, scales_then_rotates_then_translates) {
 
 TEST(Read_scene, rotates_counter_clockwise_about_any_axis) {
   const Temporary_folder folder;
-  folder.write("a.off", tetrahedron());
+  folder.write("a.off", tetrahedron_off());
   const Scene scene =
       read(folder, with_object(R"("mesh": "a.off", "place": {"rotate": {"axis": [1, 1, 1], "degrees": 120}})"));
   // A third of a turn about the diagonal sends x to y, y to z and z to x.
@@ -146,7 +146,7 @@ TEST(Read_scene, accepts_a_sequence_as_a_list_or_a_pattern_and_gets_its_length) 
        {R"(["m/007.off", "m/008.off", "m/009.off"])", R"({"pattern": "m/###.off", "first": 7, "last": 9})"}) {
     const Temporary_folder folder;
     create_directory(folder.path() / "m");
-    for (int i = 7; i <= 9; ++i) folder.write("m/00" + std::to_string(i) + ".off", tetrahedron(i));
+    for (int i = 7; i <= 9; ++i) folder.write("m/00" + std::to_string(i) + ".off", tetrahedron_off(i));
     Scene scene = read(folder, with_object(R"("mesh": "m/007.off", "motion": {"sequence": )" + sequence + "}"));
     EXPECT_EQ(scene.frames, 3U);
     pose(scene.objects[0], 2);
@@ -158,7 +158,7 @@ TEST(Read_scene, accepts_a_sequence_as_a_list_or_a_pattern_and_gets_its_length) 
 
 TEST(Read_scene, lasts_as_long_as_the_shortest_motion_that_ends) {
   const Temporary_folder folder;
-  for (int i = 1; i <= 3; ++i) folder.write("frame_" + std::to_string(i) + ".off", tetrahedron(i));
+  for (int i = 1; i <= 3; ++i) folder.write("frame_" + std::to_string(i) + ".off", tetrahedron_off(i));
   const Scene scene = read(folder, R"({"objects": [
     {"name": "a", "mesh": "frame_1.off", "motion": {"sequence": {"pattern": "frame_#.off", "first": 1, "last": 3}}},
     {"name": "b", "mesh": "frame_1.off", "motion": {"sequence": {"pattern": "frame_#.off", "first": 2, "last": 3}}},
@@ -169,7 +169,7 @@ TEST(Read_scene, lasts_as_long_as_the_shortest_motion_that_ends) {
 
 TEST(Read_scene, places_the_positions_of_files) {
   const Temporary_folder folder;
-  for (int i = 1; i <= 3; ++i) folder.write("frame_" + std::to_string(i) + ".off", tetrahedron(i));
+  for (int i = 1; i <= 3; ++i) folder.write("frame_" + std::to_string(i) + ".off", tetrahedron_off(i));
   Scene scene = read(folder, with_object(R"("mesh": "frame_1.off", "place": {"scale": 2, "translate": [0, 1, 0]},
     "motion": {"sequence": {"pattern": "frame_#.off", "first": 1, "last": 3}})"));
   pose(scene.objects[0], 2);
@@ -179,7 +179,7 @@ TEST(Read_scene, places_the_positions_of_files) {
 TEST(Read_scene, follows_links_that_stay_inside) {
   const Temporary_folder folder;
   create_directory(folder.path() / "meshes");
-  folder.write("meshes/a.off", tetrahedron());
+  folder.write("meshes/a.off", tetrahedron_off());
   std::filesystem::create_symlink("meshes/a.off", folder.path() / "link.off");
   EXPECT_EQ(read(folder, with_object(R"("mesh": "link.off")")).objects.size(), 1U);
   EXPECT_EQ(read(folder, with_object(R"("mesh": "meshes/../meshes/a.off")")).objects.size(), 1U);
@@ -187,7 +187,7 @@ TEST(Read_scene, follows_links_that_stay_inside) {
 
 TEST(Read_scene, is_found_from_inside_its_folder) {
   const Temporary_folder folder;
-  folder.write("a.off", tetrahedron());
+  folder.write("a.off", tetrahedron_off());
   folder.write("scene.json", with_object(R"("mesh": "a.off")"));
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
@@ -197,7 +197,7 @@ TEST(Read_scene, is_found_from_inside_its_folder) {
 
 TEST(Still_object, never_moves) {
   const Temporary_folder folder;
-  Scene_object object = still_object("it", folder.write("a.off", tetrahedron(3)));
+  Scene_object object = still_object("it", folder.write("a.off", tetrahedron_off(3)));
   EXPECT_EQ(object.name, "it");
   EXPECT_EQ(object.motion.frames, 0U);
   pose(object, 99);
@@ -206,7 +206,7 @@ TEST(Still_object, never_moves) {
 
 TEST(Pose, leaves_the_mesh_unchanged_if_a_coordinate_is_not_finite) {
   const Temporary_folder folder;
-  Scene_object object = still_object("it", folder.write("a.off", tetrahedron()));
+  Scene_object object = still_object("it", folder.write("a.off", tetrahedron_off()));
   object.motion.pose = [](std::size_t, std::span<Point> positions) {
     for (Point& p : positions) p = Point(7, 7, 7);
     positions[2] = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
@@ -222,7 +222,7 @@ TEST(Pose, leaves_the_mesh_unchanged_if_a_coordinate_is_not_finite) {
 
 TEST(Pose, moves_each_mesh_vertex_to_the_position_of_its_file_vertex) {
   const Temporary_folder folder;
-  Scene_object object = still_object("it", folder.write("a.off", tetrahedron()));
+  Scene_object object = still_object("it", folder.write("a.off", tetrahedron_off()));
   object.file_vertex = {3, 3, 0, 1};
   object.file_vertices = 6;
   object.motion.pose = [](std::size_t, std::span<Point> positions) {

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 
 const fs::path data = LODESTONE_DATA;
 
-Json read_json(const fs::path& file) { return Json::parse(std::ifstream(file)); }
+using test::read_json;
 
 /// Checks documents against docs/scene.schema.json.
 class Scene_schema {

@@ -13,12 +13,13 @@
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 long euler_characteristic(const Surface_mesh& mesh) {
   return long(mesh.number_of_vertices()) - long(mesh.number_of_edges()) + long(mesh.number_of_faces());
@@ -287,7 +288,6 @@ TEST(Shapes, refuse_more_than_the_face_limit_before_they_build) {
 }
 
 TEST(Torus_knot, refuses_common_divisors_and_lengths_that_are_not_positive) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   EXPECT_THROW(torus_knot({.p = 2, .q = 4}), Bad_argument);
   EXPECT_THROW(torus_knot({.p = 2, .q = 0}), Bad_argument);
   EXPECT_THROW(torus_knot({.radius = 0}), Bad_argument);
