@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time of a frame in mode `particles`: relaxation and confirmation, and the oracle on the same frames.
+// Time of a frame in mode `particles`: relaxation and confirmation, and exhaustive checking on the same frames.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -19,9 +19,9 @@ using Clock = std::chrono::steady_clock;
 /// Frames of one scene with N particles per object. Posing the meshes is not timed.
 ///
 /// Reported time: relaxation, candidates and confirmation, per frame. `median_us` is the median over the frames,
-/// `oracle_median_us` that of exhaustive checking on the same frames, `hops` the steps of all particles per frame,
+/// `exhaustive_median_us` that of exhaustive checking on the same frames, `hops` the steps of all particles per frame,
 /// `us_per_iteration` the time of all relaxations over the number of their iterations.
-void particles(benchmark::State& state, const std::string& scene_name, bool with_oracle) {
+void particles(benchmark::State& state, const std::string& scene_name, bool with_exhaustive) {
   Frame_player player(scene_name);
   Detector<Surface_mesh> detector(
       {.particles = static_cast<std::size_t>(state.range(0)), .contacts = Contact_query::yes_no});
@@ -29,7 +29,7 @@ void particles(benchmark::State& state, const std::string& scene_name, bool with
   player.next();
   detector.detect();
 
-  std::vector<double> frame_seconds, relaxation_seconds, oracle_seconds;
+  std::vector<double> frame_seconds, relaxation_seconds, exhaustive_seconds;
   double hops = 0, iterations = 0, colliding = 0;
   for (auto _ : state) {
     player.next();
@@ -42,11 +42,11 @@ void particles(benchmark::State& state, const std::string& scene_name, bool with
     hops += static_cast<double>(frame.statistics.moves);
     iterations += static_cast<double>(frame.statistics.iterations);
     colliding += frame.collides() ? 1 : 0;
-    if (!with_oracle) continue;
+    if (!with_exhaustive) continue;
     const auto start = Clock::now();
     benchmark::DoNotOptimize(
         exhaustive_face_pairs(player.scene().objects[0].mesh, player.scene().objects[1].mesh).size());
-    oracle_seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    exhaustive_seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
   }
   const double frames = static_cast<double>(frame_seconds.size());
   const double frame_median = median(frame_seconds);
@@ -58,9 +58,9 @@ void particles(benchmark::State& state, const std::string& scene_name, bool with
   state.counters["us_per_iteration"] = 1e6 * relaxation / iterations;
   state.counters["colliding"] = colliding / frames;
   state.counters["triangles"] = static_cast<double>(player.scene().objects[0].mesh.number_of_faces());
-  if (!with_oracle) return;
-  state.counters["oracle_median_us"] = 1e6 * median(oracle_seconds);
-  state.counters["oracle_ratio"] = median(oracle_seconds) / frame_median;
+  if (!with_exhaustive) return;
+  state.counters["exhaustive_median_us"] = 1e6 * median(exhaustive_seconds);
+  state.counters["exhaustive_ratio"] = median(exhaustive_seconds) / frame_median;
 }
 
 BENCHMARK_CAPTURE(particles, paper_pair, "teapot_sphere_1", true)

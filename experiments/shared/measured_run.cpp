@@ -53,7 +53,7 @@ class Scene_run {
 
   void play(std::size_t frame, Measured_run& run) {
     for (auto& object : scene_.objects) pose(object, frame);
-    const auto truth = find_truth(frame > 0 ? &run.oracle_seconds : nullptr);
+    const auto truth = find_truth(frame > 0 ? &run.exhaustive_seconds : nullptr);
     for (std::size_t turn = 0; turn < detectors_.size(); ++turn) {
       // Each frame starts with another setting, because the first one finds the positions outside the caches.
       const std::size_t s = (frame + turn) % detectors_.size();

@@ -20,10 +20,10 @@ enum class Truth_source {
 /// Times of the truth and of all settings, on the same frames in the same process.
 struct Measured_run {
   std::vector<Measurement> measurements;
-  std::vector<double> oracle_seconds;  ///< exhaustive exact checking, per frame, all pairs together
+  std::vector<double> exhaustive_seconds;  ///< exhaustive exact checking, per frame, all pairs together
 };
 
-/// Plays the scenes one after the other. In every frame the oracle and all settings answer in turn.
+/// Plays the scenes one after the other. In every frame exhaustive checking and all settings answer in turn.
 ///
 /// The first frame of a scene is scored but not timed, because detectors partition surfaces and build trees in it.
 ///

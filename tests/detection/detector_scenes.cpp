@@ -18,6 +18,20 @@ std::size_t expect_true(const Frame& frame, const Owned_meshes& scene) {
   return colliding;
 }
 
+void expect_sums_of_pairs(const Frame& frame) {
+  std::size_t candidates = 0, next = 0;
+  for (const auto& pair : frame.pairs) {
+    candidates += pair.candidates;
+    EXPECT_EQ(pair.first_contact, next);
+    next += pair.contacts;
+  }
+  EXPECT_EQ(next, frame.face_pairs.size());
+  EXPECT_EQ(frame.statistics.candidates, candidates);
+  EXPECT_EQ(frame.statistics.object_candidates, frame.pairs.size());
+  EXPECT_EQ(frame.statistics.contacts, frame.face_pairs.size());
+  EXPECT_GE(frame.statistics.exact_tests, frame.statistics.contacts);
+}
+
 Owned_meshes two_spheres(double distance, int parts) { return {sphere(parts), sphere(parts, 1, {distance, 0.1, 0.2})}; }
 
 void expect_equal(const Frame& a, const Frame& b) {

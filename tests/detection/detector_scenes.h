@@ -22,6 +22,9 @@ inline const Detector_options all_contacts{.particles = 32, .contacts = Contact_
 /// Every pair of the frame against exhaustive checking; gives the number of pairs that collide.
 std::size_t expect_true(const Frame& frame, const Owned_meshes& scene);
 
+/// The statistics of a frame are the sums over its pairs, whose contacts follow one another.
+void expect_sums_of_pairs(const Frame& frame);
+
 Owned_meshes two_spheres(double distance, int parts = 12);
 
 template <class Detector_type>
