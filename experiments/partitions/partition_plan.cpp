@@ -155,7 +155,8 @@ Scene partition_scene(const Partition_mesh& mesh, std::uint64_t seed) {
   }
   const double phase = static_cast<double>(draw(random, 1000)) / 1000;
 
-  Scene scene{.name = std::string(mesh.name), .description = {}, .objects = {}};
+  Scene scene;
+  scene.name = mesh.name;
   scene.frames = static_cast<std::size_t>(frames_per_visit) * visits;
   scene.objects.push_back(
       object_of("mesh", std::move(surface), {Wobble{.amplitude = 0.06, .waves = 1, .period = 48, .phase = phase}}));

@@ -205,5 +205,13 @@ TEST(Experiments, have_a_name_and_a_question_each) {
   }
 }
 
+TEST(Experiment_command, states_how_to_build_the_experiments_if_they_are_missing) {
+  const Temporary_folder folder;
+  const auto alone = folder.path() / "lodestone";
+  std::filesystem::copy_file(LODESTONE_PROGRAM, alone);
+  expect_error(run_program({"experiment", "modes"}, {.program = alone.string()}), 2,
+               "'scripts/build release lodestone_experiments' makes it");
+}
+
 }  // namespace
 }  // namespace lodestone::test

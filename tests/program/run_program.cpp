@@ -15,7 +15,7 @@
 
 namespace lodestone::test {
 
-Command_line::Command_line(const std::vector<std::string>& arguments) : words_{LODESTONE_PROGRAM} {
+Command_line::Command_line(const std::vector<std::string>& arguments, const std::string& program) : words_{program} {
   words_.insert(words_.end(), arguments.begin(), arguments.end());
   pointers_.reserve(words_.size() + 1);
   for (auto& word : words_) pointers_.push_back(word.data());
@@ -24,7 +24,7 @@ Command_line::Command_line(const std::vector<std::string>& arguments) : words_{L
 
 Running_program::Running_program(const std::vector<std::string>& arguments, const Program_options& options)
     : deadline_(std::chrono::steady_clock::now() + options.limit) {
-  Command_line command(arguments);
+  Command_line command(arguments, options.program);
 
   std::array<int, 2> out{}, err{};
   if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0)

@@ -19,7 +19,7 @@ namespace lodestone::test {
 /// The program's name and arguments as `exec` wants them.
 class Command_line {
  public:
-  explicit Command_line(const std::vector<std::string>& arguments);
+  explicit Command_line(const std::vector<std::string>& arguments, const std::string& program = LODESTONE_PROGRAM);
   Command_line(const Command_line&) = delete;
   Command_line& operator=(const Command_line&) = delete;
 
@@ -39,6 +39,7 @@ struct Program_result {
 };
 
 struct Program_options {
+  std::string program = LODESTONE_PROGRAM;
   std::chrono::seconds limit{60};       ///< a run that takes longer is killed
   rlim_t largest_file = RLIM_INFINITY;  ///< bytes; writing more fails as a full disk does
   std::string standard_output = {};     ///< file for the standard output; empty: captured
