@@ -32,7 +32,7 @@ Leaf_pairs visited(Tree_walk<Volume>& walk, std::size_t budget = no_budget) {
 TEST(Tree_walk, visits_each_candidate_leaf_pair_once) {
   std::mt19937_64 random(1);
   const auto objects = small_objects();
-  std::size_t most = 0;
+  std::size_t most_pairs = 0;
   for (std::size_t i = 0; i < objects.size(); ++i)
     for (const double margin : {0.0, 0.1, 10.0}) {
       const Posed_object a(posed_at_random(objects[i].second, 0.7, random), 8);
@@ -42,7 +42,7 @@ TEST(Tree_walk, visits_each_candidate_leaf_pair_once) {
       for (std::uint32_t p = 0; p < s.leaf_count(); ++p)
         for (std::uint32_t q = 0; q < t.leaf_count(); ++q)
           if (near(s.volume(s.leaf_node(p)), t.volume(t.leaf_node(q)), margin)) expected.emplace_back(p, q);
-      most = std::max(most, expected.size());
+      most_pairs = std::max(most_pairs, expected.size());
       Tree_walk<Aabb> walk;
       for_instruction_sets([&] {
         walk.begin(s, t, margin);
@@ -51,7 +51,7 @@ TEST(Tree_walk, visits_each_candidate_leaf_pair_once) {
         EXPECT_EQ(pairs, expected);
       });
     }
-  EXPECT_GT(most, std::size_t{bunch_leaves} * bunch_leaves) << "more than are compared at a time";
+  EXPECT_GT(most_pairs, std::size_t{bunch_leaves} * bunch_leaves) << "more than are compared at a time";
 }
 
 TEST(Tree_walk, self_walk_visits_each_candidate_leaf_pair_once_and_each_leaf_with_itself) {
