@@ -32,7 +32,8 @@ constexpr Chosen_scene chosen_scenes[] = {{"teapot_sphere_1"},
 std::vector<Setting> mode_settings() {
   std::vector<Setting> settings;
   for (const std::size_t particles : {12, 32, 64, 128})
-    settings.push_back({fmt::format("particles, {}", particles), {.particles = particles, .growth = 1.25}});
+    settings.push_back(
+        {fmt::format("particles, {}", particles), {.mode = Mode::particles, .particles = particles, .growth = 1.25}});
   settings.push_back({"exact", {.mode = Mode::exact}});
   return settings;
 }

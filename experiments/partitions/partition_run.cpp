@@ -94,9 +94,11 @@ Row parameters(const Partition_run& run, const Numbered& surface) {
 
 /// What the particles find in the scene, beside those of `lbg`, in turn in every frame.
 Row in_use(const Partition_run& run, Scene scene, const Any_strategy& strategy) {
-  const Detector_options options{.particles = run.regions, .partition = run.variant.options, .growth = 1.25};
-  const Setting settings[] = {{.name = run.variant.name, .options = options, .strategy = strategy},
-                              {.name = "lbg", .options = {.particles = run.regions, .growth = 1.25}}};
+  const Detector_options options{
+      .mode = Mode::particles, .particles = run.regions, .partition = run.variant.options, .growth = 1.25};
+  const Setting settings[] = {
+      {.name = run.variant.name, .options = options, .strategy = strategy},
+      {.name = "lbg", .options = {.mode = Mode::particles, .particles = run.regions, .growth = 1.25}}};
   const auto measured = measure(
       {&scene, 1}, settings, [](std::size_t, std::size_t) {}, Truth_source::exact_mode);
   const auto& m = measured.measurements[0];

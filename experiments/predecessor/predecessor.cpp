@@ -16,7 +16,7 @@ constexpr int seeds = 5;
 std::vector<Setting> both_methods() {
   std::vector<Setting> settings;
   for (const std::size_t particles : {4, 12, 32}) {
-    settings.push_back({fmt::format("regions, {}", particles), {.particles = particles}});
+    settings.push_back({fmt::format("regions, {}", particles), {.mode = Mode::particles, .particles = particles}});
     for (std::uint64_t seed = 1; seed <= seeds; ++seed)
       settings.push_back({fmt::format("scattered, {}, seed {}", particles, seed),
                           {.mode = Mode::senin, .particles = particles, .senin = {.seed = seed}}});

@@ -216,7 +216,8 @@ std::string detection_against_particles(const Experiment_context& context, Steps
   const std::vector<std::size_t> counts{8, 16, 32, 64, 128};
   std::vector<Setting> settings;
   settings.reserve(counts.size());
-  for (const auto particles : counts) settings.push_back({std::to_string(particles), {.particles = particles}});
+  for (const auto particles : counts)
+    settings.push_back({std::to_string(particles), {.mode = Mode::particles, .particles = particles}});
   const auto run = measure(scenes, settings, [&](auto, auto) { context.progress(0, 1); });
   steps.next();
 

@@ -23,10 +23,10 @@ std::vector<Setting> paper_settings() {
   for (const std::size_t particles : {12, 32, 64})
     for (const double distance : {1.0, 2.0, 4.0})
       settings.push_back({fmt::format("{} particles, {} mu", particles, distance),
-                          {.particles = particles, .collision_distance = distance}});
+                          {.mode = Mode::particles, .particles = particles, .collision_distance = distance}});
   for (const std::size_t particles : {12, 32, 64})
     settings.push_back({fmt::format("{} particles, 1 mu, growth 1.25", particles),
-                        {.particles = particles, .collision_distance = 1, .growth = 1.25}});
+                        {.mode = Mode::particles, .particles = particles, .collision_distance = 1, .growth = 1.25}});
   return settings;
 }
 
@@ -58,8 +58,8 @@ Text_table time_table(const Measured_run& run) {
                fmt::format("{} mu", m.setting.options.collision_distance),
                fmt::format("{} A*", m.setting.options.growth), stage(&Stage_times::repartition),
                stage(&Stage_times::broad_phase), stage(&Stage_times::relaxation), stage(&Stage_times::candidates),
-               stage(&Stage_times::confirmation), fmt::format("{:.1f}", total), fmt::format("{:.0f}", exhaustive / total),
-               fmt::format("{:.1f}", mean_total_microseconds(m)),
+               stage(&Stage_times::confirmation), fmt::format("{:.1f}", total),
+               fmt::format("{:.0f}", exhaustive / total), fmt::format("{:.1f}", mean_total_microseconds(m)),
                fmt::format("{:.1f}", mean_count(m, &Frame_statistics::iterations)),
                fmt::format("{:.0f}", mean_count(m, &Frame_statistics::exact_tests)),
                fmt::format("{:.1f}", 300 * mean_count(m, &Frame_statistics::repartitions))});
@@ -82,7 +82,8 @@ std::string run_teapot_sphere(const Experiment_context& context) {
   report += quality_table(run).text();
   report += "\nThe paper claims more than 90 % accuracy.\n\n";
   report += fmt::format(
-      "Medians over the frames in microseconds, one core; exhaustive checking takes {:.0f}. The mean, unlike the medians, "
+      "Medians over the frames in microseconds, one core; exhaustive checking takes {:.0f}. The mean, unlike the "
+      "medians, "
       "includes the repartitions:\n\n",
       1e6 * median(run.exhaustive_seconds));
   report += time_table(run).text();
@@ -90,7 +91,8 @@ std::string run_teapot_sphere(const Experiment_context& context) {
       "\nThe paper claims 29 frames per second, which is 34483 microseconds per frame, including display, on a machine "
       "of 2006.\n";
 
-  nlohmann::ordered_json json{{"exhaustive_median_microseconds", 1e6 * median(run.exhaustive_seconds)}, {"settings", {}}};
+  nlohmann::ordered_json json{{"exhaustive_median_microseconds", 1e6 * median(run.exhaustive_seconds)},
+                              {"settings", {}}};
   for (const auto& m : run.measurements) json["settings"].push_back(to_json(m));
   write_json(context.out, "teapot_sphere", json);
   return report;

@@ -20,7 +20,7 @@ using Own_points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::con
 
 /// Finds collisions between many deforming meshes, frame after frame.
 ///
-///     Detector<Surface_mesh> detector({.mode = Mode::exact});
+///     Detector<Surface_mesh> detector;
 ///     const auto teapot = detector.add(teapot_mesh), sphere = detector.add(sphere_mesh);
 ///     while (simulate(teapot_mesh, sphere_mesh)) {
 ///       detector.update();

@@ -20,8 +20,8 @@ struct Collisions {
 
 /// Finds collisions between two meshes with one call.
 ///
-/// Whatever is reported is true, by exact predicates. In mode `particles`, the default, a collision can be missed; in
-/// mode `exact` none is. Faces are numbered in the order of `faces(mesh)`. To follow meshes that move, keep a
+/// Whatever is reported is true, by exact predicates. Mode `exact`, the default, misses nothing; mode `particles` may
+/// miss a collision. Faces are numbered in the order of `faces(mesh)`. To follow meshes that move, keep a
 /// `Detector`: most of the time goes into the partition, which it makes once. Only what is between the two counts:
 /// `self_collision` changes nothing.
 ///

@@ -13,6 +13,14 @@ void require(bool holds, const char* requirement) {
   if (!holds) throw Bad_argument(requirement);
 }
 
+/// Mode `exact` must not ignore silently what only particles have.
+bool has_defaults_of_particles(const Detector_options& options) {
+  const Detector_options defaults;
+  return options.collision_distance == defaults.collision_distance &&
+         options.distance_measure == defaults.distance_measure && options.candidates == defaults.candidates &&
+         options.growth == defaults.growth;
+}
+
 }  // namespace
 
 void check(const Detector_options& options) {
@@ -28,6 +36,8 @@ void check(const Detector_options& options) {
   require(exact.tree.leaf_faces >= 2 && exact.tree.leaf_faces <= 128, "a leaf must hold at most 2 to 128 faces");
   require(options.mode == Mode::exact || (exact.tolerance == 0 && !exact.self_collision && !exact.containment),
           "a distance other than 0, self-collision and containment need the mode exact");
+  require(options.mode != Mode::exact || has_defaults_of_particles(options),
+          "the collision distance, its measure, the choice of candidates and the growth limit need the mode particles");
 }
 
 }  // namespace lodestone

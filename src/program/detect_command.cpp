@@ -2,19 +2,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
 #include "lodestone/io/files/atomic_file.h"
-#include "lodestone/io/results/text_table.h"
 #include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/queries/exhaustive.h"
 #include "program/commands.h"
+#include "program/detect_summary.h"
 #include "program/exit_codes.h"
 #include "program/frame_log.h"
-#include "program/measurement.h"
 #include "program/page_log.h"
 #include "program/paraview_log.h"
 #include "program/printable.h"
@@ -44,15 +42,6 @@ Scene load(const std::vector<std::filesystem::path>& inputs, bool self_collision
   return scene;
 }
 
-/// The results of the run for one object pair.
-struct Pair_summary {
-  std::size_t colliding_frames = 0;
-  std::size_t face_pairs = 0;        ///< over all frames
-  std::size_t capped_frames = 0;     ///< in which face pairs were dropped at the limit
-  std::size_t contained_frames = 0;  ///< in which one object is inside the other
-  Score score = {};
-};
-
 /// The page also shows the candidates, which are listed outside the timed stages.
 Detector_options detector_options(const Detect_command& command) {
   Detector_options options = command.options;
@@ -75,24 +64,23 @@ class Run {
       detector_.add(object.mesh, options);
     }
     for (const auto& pair : scene_.ignored) detector_.ignore(pair.a, pair.b);
-    measurement_.setting.options = command.options;
+    summary_.measurement.setting.options = command.options;
     if (!command.html.empty()) page_.emplace(command, scene_, detector_);
     if (!command.paraview.empty()) paraview_.emplace(command.paraview, scene_.frames);
   }
 
   std::size_t frames() const { return scene_.frames; }
   std::string play(std::size_t frame);
-  nlohmann::ordered_json summary() const;
-  void print() const;
+  nlohmann::ordered_json summary() const { return summary_json(subject(), summary_); }
+  void print() const { print_summary(subject(), summary_); }
   /// Null if no page was requested.
   Page_log* page() { return page_ ? &*page_ : nullptr; }
   Paraview_log* paraview() { return paraview_ ? &*paraview_ : nullptr; }
-  /// Whether the truth about a pair is known. It is not known for self-collisions.
-  bool has_truth(Object_pair pair) const { return command_.truth && pair.a != pair.b; }
   /// Whether a false contact was reported, or mode exact missed one.
   bool contradicts_truth() const { return contradicted_ || (missed_ && command_.options.mode == Mode::exact); }
 
  private:
+  Run_subject subject() const { return {command_, scene_, detector_}; }
   std::optional<std::vector<Pair_truth>> find_truth() const;
   void compare(const Frame& result, const std::vector<Pair_truth>& truth);
   std::optional<bool> any_truth(const std::optional<std::vector<Pair_truth>>& truth) const;
@@ -101,8 +89,7 @@ class Run {
   Scene scene_;
   Scene_detector detector_;
   std::vector<std::string> names_;
-  std::map<Object_pair, Pair_summary> pairs_;
-  Measurement measurement_;
+  Run_summary summary_;
   std::optional<Page_log> page_;
   std::optional<Paraview_log> paraview_;
   bool contradicted_ = false, missed_ = false;
@@ -112,17 +99,11 @@ std::string Run::play(std::size_t frame) {
   for (auto& object : scene_.objects) pose(object, frame);
   detector_.update();
   const Frame& result = detector_.detect();
-  for (const auto& pair : result.pairs) {
-    Pair_summary& summary = pairs_[{pair.a, pair.b}];
-    summary.colliding_frames += pair.collides ? 1 : 0;
-    summary.face_pairs += pair.contacts;
-    summary.capped_frames += pair.capped ? 1 : 0;
-    summary.contained_frames += pair.containment != Containment::none ? 1 : 0;
-  }
+  // The first frame builds, and finds all positions outside the caches.
+  summary_.add(result, frame > 0 || scene_.frames == 1);
   if (paraview_) paraview_->add(frame, scene_, result);
   const auto truth = find_truth();
   if (truth) compare(result, *truth);
-  if (frame > 0 || scene_.frames == 1) measurement_.frames.push_back(result.statistics);
   std::string line = frame_line(frame, names_, result, command_.options, truth);
   if (page_) page_->add(frame, result, line, any_truth(truth));
   return line;
@@ -150,7 +131,7 @@ void Run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {
         std::ranges::find_if(result.pairs, [&](const auto& p) { return p.a == real.a && p.b == real.b; });
     const bool listed = found != result.pairs.end();
     const bool seen = listed && found->collides;
-    pairs_[{real.a, real.b}].score.add({real.a, real.b}, !real.faces.empty(), seen);
+    summary_.pairs[{real.a, real.b}].score.add({real.a, real.b}, !real.faces.empty(), seen);
     missed_ |= !real.faces.empty() && !seen;
     if (!listed) continue;
     contradicted_ |= found->collides && real.faces.empty();
@@ -158,81 +139,6 @@ void Run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {
     if (command_.options.contacts == Contact_query::all && !found->capped)
       missed_ |= found->contacts != real.faces.size();
   }
-}
-
-nlohmann::ordered_json Run::summary() const {
-  nlohmann::ordered_json json{{"scene", scene_.name},
-                              {"frames", scene_.frames},
-                              {"mode", name_of(command_.options.mode)},
-                              {"strategy", command_.partition.name},
-                              {"objects", nlohmann::ordered_json::array()},
-                              {"pairs", nlohmann::ordered_json::array()}};
-  const bool exact = command_.options.mode == Mode::exact;
-  for (Object_id o = 0; o < names_.size(); ++o) {
-    json["objects"].push_back({{"name", names_[o]},
-                               {"vertices", scene_.objects[o].mesh.number_of_vertices()},
-                               {"faces", scene_.objects[o].mesh.number_of_faces()}});
-    if (exact)
-      json["objects"].back()["leaves"] = detector_.tree(o).leaf_count();
-    else
-      json["objects"].back()["particles"] = detector_.object(o).particles().at.size();
-  }
-  for (const auto& [pair, summary] : pairs_) {
-    nlohmann::ordered_json entry{{"a", names_[pair.a]},
-                                 {"b", names_[pair.b]},
-                                 {"colliding_frames", summary.colliding_frames},
-                                 {"face_pairs", summary.face_pairs}};
-    if (summary.capped_frames > 0) entry["capped_frames"] = summary.capped_frames;
-    if (command_.options.exact.containment) entry["contained_frames"] = summary.contained_frames;
-    if (has_truth(pair)) {
-      Score score = summary.score;
-      score.finish();
-      entry["truth"] = {{"colliding_frames", score.positives()},  {"recall", score.recall()},
-                        {"precision", score.precision()},         {"accuracy", score.accuracy()},
-                        {"collisions", score.collisions()},       {"never_seen", score.never_seen()},
-                        {"mean_delay_frames", score.mean_delay()}};
-    }
-    json["pairs"].push_back(std::move(entry));
-  }
-  const auto measured = to_json(measurement_);
-  for (const char* key : {"mean_iterations", "mean_moves", "mean_candidates", "mean_exact_tests", "mean_repartitions",
-                          "median_microseconds"})
-    if (measured.contains(key)) json[key] = measured[key];
-  return json;
-}
-
-void Run::print() const {
-  const bool containment = command_.options.exact.containment;
-  std::size_t capped = 0;
-  std::vector<std::string> header{"object a", "object b", "frames",
-                                  command_.options.exact.tolerance > 0 ? "near" : "colliding"};
-  if (containment) header.emplace_back("one inside");
-  if (command_.truth) header.insert(header.end(), {"truly", "recall", "precision", "accuracy"});
-  Text_table table(header);
-  for (const auto& [pair, summary] : pairs_) {
-    capped += summary.capped_frames;
-    if (summary.colliding_frames == 0 && summary.contained_frames == 0 && summary.score.positives() == 0 &&
-        names_.size() > 4)
-      continue;
-    std::vector<std::string> row{names_[pair.a], names_[pair.b], std::to_string(scene_.frames),
-                                 std::to_string(summary.colliding_frames)};
-    if (containment) row.push_back(std::to_string(summary.contained_frames));
-    if (command_.truth && !has_truth(pair))
-      row.insert(row.end(), {"-", "-", "-", "-"});
-    else if (command_.truth)
-      row.insert(row.end(),
-                 {std::to_string(summary.score.positives()), fmt::format("{:.3f}", summary.score.recall()),
-                  fmt::format("{:.3f}", summary.score.precision()), fmt::format("{:.3f}", summary.score.accuracy())});
-    table.add(std::move(row));
-  }
-  fmt::print("{}: {} objects, {} frames\n\n{}", scene_.name, names_.size(), scene_.frames, table.text());
-  if (names_.size() > 4) fmt::print("Pairs that never collide are omitted.\n");
-  if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
-  const bool exact = command_.options.mode == Mode::exact;
-  fmt::print("\n{:.1f} microseconds per frame (median), {:.1f} {}, {:.1f} exact tests (mean)\n",
-             median_total_microseconds(measurement_),
-             mean_count(measurement_, exact ? &Frame_statistics::candidates : &Frame_statistics::iterations),
-             exact ? "pairs of leaves" : "iterations", mean_count(measurement_, &Frame_statistics::exact_tests));
 }
 
 /// Writes all files to disk before the first appears.

@@ -87,12 +87,13 @@ void add_detect(CLI::App& program, Detect_command& command) {
       ->required()
       ->type_name("FILE");
   app.add_option("--mode", options.mode,
-                 "particles: one per region, may miss; exact: every face, misses nothing; senin: the predecessor")
+                 "exact: every face, misses nothing; particles: one per region, may miss; senin: the predecessor")
       ->transform(one_of<Mode>({{"particles", Mode::particles}, {"senin", Mode::senin}, {"exact", Mode::exact}}))
       ->type_name("MODE")
-      ->default_str("particles");
+      ->default_str("exact");
   app.add_option("--particles", options.particles,
-                 "Particles per object; 0: the number of objects that can touch it at once, at least 12")
+                 "Particles per object; 0: the number of objects that can touch it at once, at least 12. Mode exact: "
+                 "regions at the top of its tree; 0: 12")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
   app.add_option("--contacts", options.contacts, "What to report of a colliding pair: yes_no, first, all")
@@ -108,15 +109,18 @@ void add_detect(CLI::App& program, Detect_command& command) {
   app.add_flag("--normals", options.contact_normals,
                "Also report the direction that separates two faces, and how far to move");
   app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
-  app.add_option("--collision-distance", options.collision_distance,
-                 "Particles nearer than this make their regions a candidate; in mean edge lengths")
+  app.add_option(
+         "--collision-distance", options.collision_distance,
+         "Mode particles or senin: particles nearer than this make their regions a candidate; in mean edge lengths")
       ->capture_default_str();
-  app.add_option("--candidates", options.candidates, "Which of these candidates to check: all, closest")
+  app.add_option("--candidates", options.candidates,
+                 "Mode particles or senin: which of these candidates to check: all, closest")
       ->transform(one_of<Candidate_choice>({{"all", Candidate_choice::all}, {"closest", Candidate_choice::closest}}))
       ->type_name("WHICH")
       ->default_str("all");
-  app.add_option("--growth", options.growth,
-                 "Repartition when a region exceeds this multiple of the largest initial area; inf: never")
+  app.add_option(
+         "--growth", options.growth,
+         "Mode particles: repartition when a region exceeds this multiple of the largest initial area; inf: never")
       ->capture_default_str();
   add_exact_options(app, options.exact);
   add_threads(app, options.exact.threads,

@@ -10,6 +10,7 @@
 
 #include "program/frame_log.h"
 #include "program/meeting_points.h"
+#include "program/missed_frames.h"
 
 namespace lodestone {
 
@@ -26,7 +27,8 @@ Detector_options exact_question(const Detector_options& options) {
 
 Page_head head_of(const Detect_command& command, const Scene& scene, std::size_t frame_step) {
   const Mode mode = command.options.mode;
-  Page_head head{.title = scene.name, .mode = std::string(name_of(mode)), .frame_step = frame_step};
+  Page_head head{
+      .title = scene.name, .mode = std::string(name_of(mode)), .frame_step = frame_step, .note = missing_note(mode)};
   if (mode != Mode::senin) head.strategy = command.partition.name;
   return head;
 }

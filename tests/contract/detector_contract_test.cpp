@@ -70,7 +70,7 @@ TYPED_TEST(Mode_contract, frames_equal_those_on_a_surface_mesh_and_report_only_t
 
 TYPED_TEST(Mode_contract, regions_and_particles_are_in_the_maps_of_the_mesh) {
   auto a = converted<TypeParam>(sphere(6)), b = converted<TypeParam>(shifted_sphere());
-  Detector<TypeParam> detector({.particles = 12});
+  Detector<TypeParam> detector({.mode = Mode::particles, .particles = 12});
   detector.add(a), detector.add(b);
   for (int frame = 0; frame < 3; ++frame) {
     detector.detect();
@@ -90,7 +90,7 @@ TYPED_TEST(Mode_contract, regions_and_particles_are_in_the_maps_of_the_mesh) {
 
 TYPED_TEST(Mode_contract, an_object_that_grows_is_repartitioned) {
   auto a = converted<TypeParam>(sphere(6)), b = converted<TypeParam>(sphere(6, 1, {9, 0, 0}));
-  Detector<TypeParam> detector({.least_particles = 1});
+  Detector<TypeParam> detector({.mode = Mode::particles, .least_particles = 1});
   detector.add(a), detector.add(b);
   detector.detect();
   EXPECT_EQ(detector.object(0).particles().at.size(), 2U);
@@ -106,7 +106,7 @@ TYPED_TEST(Mode_contract, find_collisions_gives_the_same_faces) {
   auto b = shifted_sphere();
   shift(b, -0.5);
   b = as_float(b);
-  const Detector_options options{.particles = 24, .contacts = Contact_query::all};
+  const Detector_options options{.mode = Mode::particles, .particles = 24, .contacts = Contact_query::all};
   const auto expected = find_collisions(a, b, options);
   const auto collisions = find_collisions(converted<TypeParam>(a), converted<TypeParam>(b), options);
   EXPECT_TRUE(collisions.collide);

@@ -61,7 +61,8 @@ TEST(Candidates, listed_are_all_particle_pairs_below_the_collision_distance_in_t
 
 TEST(Candidates, of_the_closest_choice_is_the_nearest_of_each_pair) {
   Owned_meshes scene = three_spheres();
-  Detector<Surface_mesh> detector({.particles = 40, .candidates = Candidate_choice::closest, .list_candidates = true});
+  Detector<Surface_mesh> detector(
+      {.mode = Mode::particles, .particles = 40, .candidates = Candidate_choice::closest, .list_candidates = true});
   add_all(detector, scene);
   const Frame& found = detector.detect();
   std::vector<Candidate_regions> expected;
@@ -72,7 +73,8 @@ TEST(Candidates, of_the_closest_choice_is_the_nearest_of_each_pair) {
 
 TEST(Candidates, are_listed_only_when_asked_for_and_change_nothing_else) {
   Owned_meshes scene = three_spheres(), same_scene = three_spheres();
-  Detector<Surface_mesh> silent({.particles = 40}), listing({.particles = 40, .list_candidates = true});
+  Detector<Surface_mesh> silent({.mode = Mode::particles, .particles = 40}),
+      listing({.mode = Mode::particles, .particles = 40, .list_candidates = true});
   add_all(silent, scene);
   add_all(listing, same_scene);
   for (int frame = 0; frame < 3; ++frame) {
@@ -85,7 +87,7 @@ TEST(Candidates, are_listed_only_when_asked_for_and_change_nothing_else) {
 
 TEST(Candidates, there_are_none_where_objects_are_far_apart_nor_in_mode_exact) {
   Owned_meshes far = two_spheres(9);
-  Detector<Surface_mesh> particles({.particles = 40, .list_candidates = true});
+  Detector<Surface_mesh> particles({.mode = Mode::particles, .particles = 40, .list_candidates = true});
   add_all(particles, far);
   EXPECT_TRUE(particles.detect().candidates.empty());
   Owned_meshes near = two_spheres(1.5);
@@ -97,7 +99,7 @@ TEST(Candidates, there_are_none_where_objects_are_far_apart_nor_in_mode_exact) {
 
 TEST(Candidates, of_the_last_frame_are_gone_in_the_next) {
   Owned_meshes scene = two_spheres(1.8);
-  Detector<Surface_mesh> detector({.particles = 40, .list_candidates = true});
+  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 40, .list_candidates = true});
   add_all(detector, scene);
   EXPECT_FALSE(detector.detect().candidates.empty());
   for (const auto v : scene[1].vertices()) scene[1].point(v) = scene[1].point(v) + Kernel::Vector_3(9, 0, 0);

@@ -13,14 +13,14 @@ namespace {
 
 TEST(Detector, options_out_of_range_are_refused) {
   for (const double bad : {0.0, -1.0, infinity, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(Detector<Surface_mesh>({.collision_distance = bad}), Bad_argument) << bad;
+    EXPECT_THROW(Detector<Surface_mesh>({.mode = Mode::particles, .collision_distance = bad}), Bad_argument) << bad;
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(Detector<Surface_mesh>({.growth = bad}), Bad_argument) << bad;
+    EXPECT_THROW(Detector<Surface_mesh>({.mode = Mode::particles, .growth = bad}), Bad_argument) << bad;
 }
 
 TEST(Detector, a_mesh_added_twice_is_refused) {
   auto mesh = sphere(3);
-  Detector<Surface_mesh> detector;
+  Detector<Surface_mesh> detector({.mode = Mode::particles});
   detector.add(mesh);
   EXPECT_THROW(detector.add(mesh), Bad_argument);
   EXPECT_THROW(detector.add(std::as_const(mesh)), Bad_argument);
@@ -28,7 +28,7 @@ TEST(Detector, a_mesh_added_twice_is_refused) {
 }
 
 TEST(Detector, an_unknown_object_is_refused) {
-  Detector<Surface_mesh> detector;
+  Detector<Surface_mesh> detector({.mode = Mode::particles});
   EXPECT_THROW(detector.update(0), Bad_argument);
   auto mesh = sphere(3);
   detector.add(mesh);
@@ -37,7 +37,7 @@ TEST(Detector, an_unknown_object_is_refused) {
 }
 
 TEST(Detector, a_mesh_without_faces_or_with_a_quadrilateral_is_refused) {
-  Detector<Surface_mesh> detector;
+  Detector<Surface_mesh> detector({.mode = Mode::particles});
   Surface_mesh empty, quadrilateral;
   EXPECT_THROW(detector.add(empty), Bad_mesh);
   std::vector<Surface_mesh::Vertex_index> corners;
@@ -77,7 +77,8 @@ TEST(Detector, a_coordinate_that_is_not_finite_is_refused_in_any_frame_that_read
 
 TEST(Detector, a_corner_of_a_candidate_region_that_is_not_finite_is_refused) {
   auto scene = two_spheres(1.8);
-  Detector<Surface_mesh> detector({.particles = 1, .collision_distance = 50, .contacts = Contact_query::all});
+  Detector<Surface_mesh> detector(
+      {.mode = Mode::particles, .particles = 1, .collision_distance = 50, .contacts = Contact_query::all});
   add_all(detector, scene);
   detector.detect();
   // Far from the particle, but in its region.

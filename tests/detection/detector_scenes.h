@@ -17,7 +17,7 @@ namespace lodestone {
 using Owned_meshes = std::deque<Surface_mesh>;
 inline constexpr std::array modes{Mode::particles, Mode::senin};
 
-inline const Detector_options all_contacts{.particles = 32, .contacts = Contact_query::all};
+inline const Detector_options all_contacts{.mode = Mode::particles, .particles = 32, .contacts = Contact_query::all};
 
 /// Every pair of the frame against exhaustive checking; gives the number of pairs that collide.
 std::size_t expect_true(const Frame& frame, const Owned_meshes& scene);

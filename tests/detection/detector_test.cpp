@@ -34,7 +34,7 @@ TEST(Detector, reports_only_faces_that_intersect_in_both_modes) {
 
 TEST(Detector, is_right_in_more_than_nine_of_ten_frames_of_two_spheres) {
   auto scene = two_spheres(2.6);
-  Detector<Surface_mesh> detector({.particles = 32});
+  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 32});
   add_all(detector, scene);
   int right = 0;
   for (int frame = 0; frame < 100; ++frame) {
@@ -120,7 +120,7 @@ TEST(Detector, far_objects_cost_no_more_reads_than_the_particles) {
   auto scene = two_spheres(1000, 80);
   ASSERT_GE(num_faces(scene[0]), 50000U);
   std::size_t reads = 0;
-  Counting_detector detector({.particles = 32});
+  Counting_detector detector({.mode = Mode::particles, .particles = 32});
   for (auto& mesh : scene) detector.add(mesh, Counting_points{&mesh, &reads});
   detector.detect();
   reads = 0;
@@ -135,7 +135,7 @@ TEST(Detector, far_objects_cost_no_more_reads_than_the_particles) {
 TEST(Detector, a_frame_reads_only_where_particles_look_and_in_candidate_regions) {
   auto scene = two_spheres(2.02, 80);
   std::size_t reads = 0;
-  Counting_detector detector({.particles = 64, .contacts = Contact_query::all});
+  Counting_detector detector({.mode = Mode::particles, .particles = 64, .contacts = Contact_query::all});
   for (auto& mesh : scene) detector.add(mesh, Counting_points{&mesh, &reads});
   detector.detect();
   std::size_t largest_patch = 0, most_reads = 0;
@@ -157,7 +157,7 @@ TEST(Detector, a_frame_reads_only_where_particles_look_and_in_candidate_regions)
 
 TEST(Detector, particles_stay_where_they_have_walked) {
   auto scene = two_spheres(2.1);
-  Detector<Surface_mesh> detector({.particles = 16});
+  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 16});
   add_all(detector, scene);
   const std::size_t first = detector.detect().statistics.moves;
   ASSERT_GT(first, 10U);
@@ -209,7 +209,7 @@ void expect_maps_of(const Detector<Surface_mesh>& detector, Object_id object, co
 
 TEST(Detector, regions_and_particles_are_on_the_mesh_before_and_after_walking) {
   auto scene = two_spheres(100);
-  Detector<Surface_mesh> detector({.particles = 16});
+  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 16});
   add_all(detector, scene);
   detector.detect();  // too far apart to walk
   for (const Object_id object : {0U, 1U}) expect_maps_of(detector, object, scene[object]);
@@ -251,7 +251,7 @@ TEST(Detector, contact_points_lie_on_both_faces) {
 TEST(Detector, a_query_tells_no_more_than_was_asked) {
   for (const auto query : {Contact_query::yes_no, Contact_query::first, Contact_query::all}) {
     auto scene = two_spheres(1.8);
-    Detector<Surface_mesh> detector({.particles = 32, .contacts = query});
+    Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 32, .contacts = query});
     add_all(detector, scene);
     const Frame& frame = detector.detect();
     ASSERT_TRUE(frame.collides());
@@ -282,7 +282,8 @@ TEST(Detector, a_larger_collision_distance_makes_more_candidates) {
   std::size_t before = 0;
   for (const double distance : {0.5, 2.0, 8.0}) {
     auto scene = two_spheres(1.9);
-    Detector<Surface_mesh> detector({.particles = 32, .collision_distance = distance, .contacts = Contact_query::all});
+    Detector<Surface_mesh> detector(
+        {.mode = Mode::particles, .particles = 32, .collision_distance = distance, .contacts = Contact_query::all});
     add_all(detector, scene);
     const std::size_t candidates = detector.detect().statistics.candidates;
     EXPECT_GE(candidates, before);
@@ -313,7 +314,7 @@ TEST(Detector, statistics_agree_with_the_frame) {
 
 TEST(Detector, objects_may_have_particles_of_their_own_number) {
   auto scene = two_spheres(3);
-  Detector<Surface_mesh> detector({.particles = 9});
+  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 9});
   detector.add(scene[0], {.particles = 5});
   detector.add(scene[1]);
   detector.detect();
@@ -331,7 +332,7 @@ TEST(Detector, objects_may_join_between_frames) {
 }
 
 TEST(Detector, without_objects_finds_nothing) {
-  Detector<Surface_mesh> detector;
+  Detector<Surface_mesh> detector({.mode = Mode::particles});
   EXPECT_FALSE(detector.detect().collides());
   EXPECT_EQ(detector.detect().number, 2U);
 }

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "support/exact_truth.h"
 #include "support/special_numbers.h"
@@ -55,6 +58,38 @@ TEST(Exact_options, of_the_mode_exact_alone_are_refused_by_the_others) {
     EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .exact = {.self_collision = true}}), Bad_argument);
     EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .exact = {.containment = true}}), Bad_argument);
     EXPECT_NO_THROW(Detector<Surface_mesh>({.mode = mode}));
+  }
+}
+
+TEST(Exact_options, of_particles_alone_are_refused_by_the_mode_exact) {
+  const std::vector<Detector_options> of_particles{
+      {.mode = Mode::exact, .collision_distance = 2},
+      {.mode = Mode::exact, .distance_measure = Distance_measure::all_vertices},
+      {.mode = Mode::exact, .candidates = Candidate_choice::closest},
+      {.mode = Mode::exact, .growth = infinity}};
+  for (auto options : of_particles) {
+    try {
+      const Exact_detector detector(options);
+      ADD_FAILURE() << "an option that the mode exact ignores";
+    } catch (const Bad_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("mode particles"), std::string::npos) << error.what();
+    }
+    options.mode = Mode::particles;
+    EXPECT_NO_THROW(const Exact_detector detector(options));
+  }
+}
+
+TEST(Exact_options, particles_are_the_regions_of_an_object) {
+  auto mesh = sphere(8);
+  for (const std::size_t particles : {1, 5, 40}) {
+    Surface_mesh copy = mesh;
+    Exact_detector detector({.mode = Mode::exact, .particles = particles});
+    detector.add(copy);
+    detector.detect();
+    const auto& regions = detector.maps(0).region();
+    std::set<Region_index> seen;
+    for (const auto v : copy.vertices()) seen.insert(regions[v]);
+    EXPECT_EQ(seen.size(), particles);
   }
 }
 

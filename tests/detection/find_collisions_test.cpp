@@ -22,7 +22,7 @@ TEST(Find_collisions, reports_faces_that_intersect_and_no_others) {
     auto b = potato(8, 2);
     shift(b, offset(random), offset(random), offset(random));
     const auto truth = exhaustive_face_pairs(a, b);
-    const auto collisions = find_collisions(a, b);
+    const auto collisions = find_collisions(a, b, {.mode = Mode::particles});
     EXPECT_EQ(collisions.collide, !collisions.faces.empty());
     EXPECT_TRUE(std::ranges::is_sorted(collisions.faces));
     EXPECT_TRUE(std::ranges::includes(truth, collisions.faces));
@@ -33,6 +33,18 @@ TEST(Find_collisions, reports_faces_that_intersect_and_no_others) {
   }
   EXPECT_GT(positive, 5U);
   EXPECT_GT(found, 0U);
+}
+
+TEST(Find_collisions, misses_nothing_without_options) {
+  const auto a = potato(8);
+  for (const double x : {-1.9, -1.2, 0.4, 1.1, 1.8}) {
+    auto b = potato(8, 2);
+    shift(b, x, 0.2, -0.1);
+    const auto truth = exhaustive_face_pairs(a, b);
+    const auto collisions = find_collisions(a, b);
+    EXPECT_EQ(collisions.collide, !truth.empty()) << x;
+    EXPECT_EQ(collisions.faces, truth) << x;
+  }
 }
 
 TEST(Find_collisions, in_mode_exact_gives_all_face_pairs_between_the_two_and_no_others) {
@@ -63,7 +75,7 @@ TEST(Find_collisions, in_mode_exact_sees_that_one_mesh_lies_inside_the_other) {
 TEST(Find_collisions, of_meshes_far_apart_finds_nothing) {
   auto b = sphere(6);
   shift(b, 500);
-  const auto collisions = find_collisions(sphere(6), b);
+  const auto collisions = find_collisions(sphere(6), b, {.mode = Mode::particles});
   EXPECT_FALSE(collisions.collide);
   EXPECT_TRUE(collisions.faces.empty());
 }
@@ -72,8 +84,8 @@ TEST(Find_collisions, with_regions_that_hold_everything_is_exhaustive) {
   auto b = potato(6, 2);
   shift(b, 1.5);
   const auto a = potato(6);
-  const auto collisions =
-      find_collisions(a, b, {.particles = 1, .collision_distance = 1000, .contacts = Contact_query::all});
+  const auto collisions = find_collisions(
+      a, b, {.mode = Mode::particles, .particles = 1, .collision_distance = 1000, .contacts = Contact_query::all});
   EXPECT_EQ(collisions.faces, exhaustive_face_pairs(a, b));
   EXPECT_FALSE(collisions.faces.empty());
 }
@@ -81,8 +93,8 @@ TEST(Find_collisions, with_regions_that_hold_everything_is_exhaustive) {
 TEST(Find_collisions, gives_points_if_asked) {
   auto b = sphere(8);
   shift(b, 1.5, 0.1);
-  const auto collisions =
-      find_collisions(sphere(8), b, {.particles = 24, .contacts = Contact_query::all, .contact_points = true});
+  const auto collisions = find_collisions(
+      sphere(8), b, {.mode = Mode::particles, .particles = 24, .contacts = Contact_query::all, .contact_points = true});
   ASSERT_FALSE(collisions.faces.empty());
   EXPECT_EQ(collisions.points.size(), collisions.faces.size());
 }
@@ -90,7 +102,7 @@ TEST(Find_collisions, gives_points_if_asked) {
 TEST(Find_collisions, leaves_the_meshes_as_they_are) {
   const auto a = sphere(4), b = sphere(4, 1, {1.5, 0, 0});
   const auto before = a.properties<Surface_mesh::Vertex_index>();
-  find_collisions(a, b);
+  for (const auto mode : {Mode::exact, Mode::particles}) find_collisions(a, b, {.mode = mode});
   EXPECT_EQ(a.properties<Surface_mesh::Vertex_index>(), before);
 }
 
@@ -98,10 +110,12 @@ TEST(Find_collisions, refuses_bad_input) {
   const auto mesh = sphere(3);
   auto broken = sphere(3);
   broken.point(Surface_mesh::Vertex_index(0)) = Point(std::numeric_limits<double>::infinity(), 0, 0);
-  EXPECT_THROW(find_collisions(mesh, mesh), Bad_argument);
-  EXPECT_THROW(find_collisions(mesh, Surface_mesh()), Bad_mesh);
-  EXPECT_THROW(find_collisions(mesh, broken), Bad_mesh);
-  EXPECT_THROW(find_collisions(mesh, sphere(2), {.collision_distance = -1}), Bad_argument);
+  for (const auto mode : {Mode::exact, Mode::particles}) {
+    EXPECT_THROW(find_collisions(mesh, mesh, {.mode = mode}), Bad_argument);
+    EXPECT_THROW(find_collisions(mesh, Surface_mesh(), {.mode = mode}), Bad_mesh);
+    EXPECT_THROW(find_collisions(mesh, broken, {.mode = mode}), Bad_mesh);
+  }
+  EXPECT_THROW(find_collisions(mesh, sphere(2), {.mode = Mode::particles, .collision_distance = -1}), Bad_argument);
 }
 
 }  // namespace

@@ -59,9 +59,9 @@ Pairs exhaustive_pairs(const Surface_mesh& a, const Surface_mesh& b) {
 
 class Detect : public testing::Test {
  protected:
-  /// Runs `detect` with these inputs and options, results to `out`.
+  /// Runs `detect` with these inputs and options, by particles unless the options name a mode; results to `out`.
   Program_result detect(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "detect");
+    arguments = detect_by_particles(std::move(arguments));
     arguments.insert(arguments.end(), {"--out", out.string()});
     return run_program(arguments);
   }

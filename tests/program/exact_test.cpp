@@ -148,8 +148,8 @@ TEST_F(Exact, options_of_another_mode_are_refused_in_one_line) {
   const auto scene = write_bodies();
   for (const auto& wrong : std::vector<std::vector<std::string>>{{"--within", "1"}, {"--self"}, {"--containment"}}) {
     auto arguments = wrong;
-    arguments.insert(arguments.begin(), {"detect", scene});
-    const auto result = run_program(arguments);
+    arguments.insert(arguments.begin(), scene);
+    const auto result = run_program(detect_by_particles(arguments));
     EXPECT_NE(result.exit_code, 0);
     EXPECT_NE(result.err.find("mode exact"), std::string::npos) << result.err;
   }
@@ -178,7 +178,7 @@ TEST_F(Exact, skips_pairs_that_the_scene_ignores) {
                                       {"name": "c", "mesh": "a.off"}])";
   const auto scene = write("three.json", "{" + std::string(objects) + R"(, "ignore": [["c", "a"], ["b", "b"]]})");
   for (const bool particles : {false, true}) {
-    expect_success(particles ? run_program({"detect", scene, "--truth", "--out", out.string()})
+    expect_success(particles ? run_program(detect_by_particles({scene, "--truth", "--out", out.string()}))
                              : detect(scene, {"--truth"}));
     const auto pairs = frames().at(0)["pairs"];
     ASSERT_EQ(pairs.size(), 2U) << pairs;

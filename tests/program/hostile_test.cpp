@@ -55,7 +55,7 @@ class Hostile_input : public testing::Test {
 
   /// The program must refuse its inputs: exit code 3, one line that contains `part`, no result.
   void expect_refused(const std::vector<std::string>& inputs, const std::string& part) const {
-    std::vector<std::string> arguments{"detect", "--out", out.string()};
+    std::vector<std::string> arguments{"detect", "--mode", "particles", "--out", out.string()};
     arguments.insert(arguments.end(), inputs.begin(), inputs.end());
     expect_error(run_program(arguments, {.limit = std::chrono::seconds(20)}), 3, part);
     EXPECT_EQ(content_of(out), std::set<std::string>{});
@@ -165,8 +165,8 @@ TEST_F(Hostile_input, integer_coordinates_are_read_correctly) {
       "whole.ply",
       changed(changed(changed(square_ply(), "float x", "int x"), "float y", "short y"), "float z", "uchar z"));
   const auto needle = folder.write("needle.off", "OFF\n3 1 0\n0.7 0.2 -1\n0.7 0.2 1\n0.8 0.2 1\n3 0 1 2\n");
-  expect_success(
-      run_program({"detect", file.string(), needle.string(), "--collision-distance", "9", "--out", out.string()}));
+  expect_success(run_program(
+      detect_by_particles({file.string(), needle.string(), "--collision-distance", "9", "--out", out.string()})));
   EXPECT_EQ(read_json_lines(out / "frames.jsonl").at(0)["pairs"].at(0)["faces"], nlohmann::json({{0, 0}}));
 }
 
@@ -222,7 +222,7 @@ TEST_F(Hostile_input, the_frames_before_a_bad_one_can_be_used) {
   folder.write("bad.pc2", square_cache(50, not_a_number));
   const auto file = folder.write("scene.json", R"({"frames": 49, "objects": [{"name": "good", "mesh": "good.off"},
     {"name": "bad", "mesh": "good.off", "motion": {"pc2": "bad.pc2"}}]})");
-  expect_success(run_program({"detect", file.string(), "--out", out.string()}));
+  expect_success(run_program(detect_by_particles({file.string(), "--out", out.string()})));
   EXPECT_EQ(read_json_lines(out / "frames.jsonl").size(), 49U);
 }
 
@@ -348,12 +348,12 @@ TEST_F(Hostile_input, an_invalid_distance_is_refused) {
   for (const auto* option : {"--collision-distance", "--growth"})
     for (const auto* value : {"nan", "-nan", "0", "-1", "-inf", "far"}) {
       SCOPED_TRACE(std::string(option) + " " + value);
-      const auto result = run_program({"detect", good, good, option, value, "--out", out.string()});
+      const auto result = run_program(detect_by_particles({good, good, option, value, "--out", out.string()}));
       expect_error(result, 2, "");
       EXPECT_LT(result.err.size(), 150U) << result.err;
       EXPECT_EQ(content_of(out), std::set<std::string>{});
     }
-  expect_error(run_program({"detect", good, good, "--collision-distance", "inf"}), 2, "finite");
+  expect_error(run_program(detect_by_particles({good, good, "--collision-distance", "inf"})), 2, "finite");
 }
 
 TEST_F(Hostile_input, an_invalid_option_value_is_refused_with_the_valid_ones) {

@@ -52,10 +52,11 @@ class Html : public testing::Test {
     expect_success(run_program(arguments));
     return Decoded_page(data_of(read_bytes(page)));
   }
+  /// A run by particles unless the options name a mode.
   Decoded_page detect(const std::vector<std::string>& options = {}) const {
-    std::vector<std::string> arguments{"detect", bodies_file()};
+    std::vector<std::string> arguments{bodies_file()};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    return page_of(arguments);
+    return page_of(detect_by_particles(arguments));
   }
 
   Temporary_folder folder;
@@ -89,7 +90,7 @@ TEST_F(Html, numbers_equal_those_of_the_results_byte_for_byte) {
 TEST_F(Html, the_results_equal_those_of_a_run_without_a_page_for_all_contacts) {
   detect({"--out", out.string()});
   const auto with = read_bytes(out / "frames.jsonl");
-  expect_success(run_program({"detect", bodies_file(), "--contacts", "all", "--out", out.string()}));
+  expect_success(run_program(detect_by_particles({bodies_file(), "--contacts", "all", "--out", out.string()})));
   EXPECT_EQ(read_bytes(out / "frames.jsonl"), with);
 }
 
@@ -229,6 +230,14 @@ TEST_F(Html, contacts_of_mode_exact_equal_exhaustive_checking_and_lie_on_both_fa
   EXPECT_GT(found, 10U);
 }
 
+TEST_F(Html, notes_that_the_mode_may_miss_collisions) {
+  for (const auto* mode : {"particles", "senin"}) {
+    const auto note = detect({"--mode", mode}).header["note"].get<std::string>();
+    EXPECT_NE(note.find("may miss collisions"), std::string::npos) << note;
+  }
+  EXPECT_EQ(detect({"--mode", "exact"}).header["note"], nullptr);
+}
+
 TEST_F(Html, contacts_are_those_that_were_requested) {
   EXPECT_EQ(detect({"--contacts", "yes_no"}).header["contacts"], nullptr);
   const auto first = detect({"--contacts", "first"}).json_section("contacts");
@@ -286,8 +295,12 @@ TEST_F(Html, the_truth_equals_exhaustive_checking_in_every_mode) {
 
 TEST_F(Html, nearest_is_the_distance_of_the_two_nearest_objects) {
   // Each reaches from a face in the plane x = 0 to a tip at x = 1, and is moved along the x-axis.
-  const std::vector<std::string> arguments{"detect", write("a.off", tetrahedron_off()),
-                                           write("b.off", tetrahedron_off(7)), write("c.off", tetrahedron_off(3)),
+  const std::vector<std::string> arguments{"detect",
+                                           "--mode",
+                                           "particles",
+                                           write("a.off", tetrahedron_off()),
+                                           write("b.off", tetrahedron_off(7)),
+                                           write("c.off", tetrahedron_off(3)),
                                            write("d.off", tetrahedron_off(9))};
   const auto stages = page_of(arguments).json_section("stages");
   EXPECT_DOUBLE_EQ(stages.at(0)["nearest"].get<double>(), 1);  // from the tip of b to d
@@ -331,16 +344,18 @@ TEST_F(Html, has_no_more_frames_than_requested) {
 }
 
 TEST_F(Html, reports_what_was_written) {
-  const auto all = run_program({"detect", bodies_file(), "--html", page.string()});
+  const auto all = run_program({"detect", "--mode", "particles", bodies_file(), "--html", page.string()});
   EXPECT_NE(all.out.find("page: " + page.string() + ", "), std::string::npos) << all.out;
   EXPECT_EQ(all.out.find("--html-frames"), std::string::npos) << all.out;
-  const auto some = run_program({"detect", bodies_file(), "--html", page.string(), "--html-frames", "5"});
+  const auto some =
+      run_program({"detect", "--mode", "particles", bodies_file(), "--html", page.string(), "--html-frames", "5"});
   EXPECT_NE(some.out.find("5 of 10 frames: one of every 2 (see --html-frames)\n"), std::string::npos) << some.out;
-  EXPECT_EQ(run_program({"detect", bodies_file(), "--html", page.string(), "--quiet"}).out, "");
+  EXPECT_EQ(run_program({"detect", "--mode", "particles", bodies_file(), "--html", page.string(), "--quiet"}).out, "");
 }
 
 TEST_F(Html, of_the_paper_s_pair_is_small) {
-  const auto shown = page_of({"detect", LODESTONE_DATA "/scenes/teapot_sphere_1.json", "--particles", "32"});
+  const auto shown =
+      page_of({"detect", LODESTONE_DATA "/scenes/teapot_sphere_1.json", "--mode", "particles", "--particles", "32"});
   EXPECT_EQ(shown.header["frames"], 300);
   EXPECT_EQ(shown.header["frame_step"], 1);
   EXPECT_LT(file_size(page), 15'000'000U);
@@ -423,7 +438,7 @@ TEST_F(Html, a_name_that_does_not_end_in_html_is_refused) {
   const auto mesh = write("square.off", square_off);
   for (const std::string& target : {mesh, (folder.path() / "page").string(), (folder.path() / "a.json").string()}) {
     expect_error(run_program({"partition", mesh, "--html", target}), 2, ".html");
-    expect_error(run_program({"detect", mesh, mesh, "--html", target}), 2, ".html");
+    expect_error(run_program({"detect", "--mode", "particles", mesh, mesh, "--html", target}), 2, ".html");
     expect_error(run_program({"experiment", "collision_distance", "--out", out.string(), "--html", target}), 2,
                  ".html");
   }
@@ -436,22 +451,25 @@ TEST_F(Html, a_page_with_the_path_of_another_result_is_refused) {
   const auto there = folder.path() / "here" / ".." / "page.html", here = folder.path() / "page.html";
   create_directory(folder.path() / "here");
   expect_error(run_program({"partition", mesh, "--html", here.string(), "--json", there.string()}), 2, "the same file");
-  expect_error(run_program({"detect", mesh, mesh, "--html", here.string(), "--out", there.string()}), 2,
-               "the same file");
+  expect_error(
+      run_program({"detect", "--mode", "particles", mesh, mesh, "--html", here.string(), "--out", there.string()}), 2,
+      "the same file");
   EXPECT_EQ(content_of(folder.path()), (std::set<std::string>{"here", "square.off"}));
 }
 
 TEST_F(Html, a_limit_of_frames_needs_a_page) {
-  expect_error(run_program({"detect", bodies_file(), "--html-frames", "5"}), 2, "--html");
-  expect_error(run_program({"detect", bodies_file(), "--html", page.string(), "--html-frames", "-1"}), 2,
-               "--html-frames");
+  expect_error(run_program({"detect", "--mode", "particles", bodies_file(), "--html-frames", "5"}), 2, "--html");
+  expect_error(
+      run_program({"detect", "--mode", "particles", bodies_file(), "--html", page.string(), "--html-frames", "-1"}), 2,
+      "--html-frames");
 }
 
 TEST_F(Html, a_path_that_cannot_be_written_is_an_error_before_the_run) {
   const auto file = folder.write("file", "mine");
   const auto mesh = write("square.off", square_off);
   for (const std::string& target : {(file / "page.html").string(), std::string("/proc/lodestone/page.html")}) {
-    expect_error(run_program({"detect", bodies_file(), "--out", out.string(), "--html", target}), 4, "");
+    expect_error(run_program({"detect", "--mode", "particles", bodies_file(), "--out", out.string(), "--html", target}),
+                 4, "");
     expect_error(run_program({"partition", mesh, "--html", target}), 4, "");
     expect_error(run_program({"experiment", "modes", "--out", out.string(), "--html", target}), 4, "");
   }
@@ -465,7 +483,7 @@ TEST_F(Html, a_full_disk_leaves_nothing) {
   ASSERT_GT(size, file_size(out / "frames.jsonl"));
   remove_all(out);
   remove(page);
-  expect_error(run_program({"detect", input, "--out", out.string(), "--html", page.string()},
+  expect_error(run_program({"detect", "--mode", "particles", input, "--out", out.string(), "--html", page.string()},
                            {.largest_file = static_cast<rlim_t>(size / 2)}),
                4, "page.html");
   EXPECT_EQ(content_of(out), std::set<std::string>{});
@@ -477,7 +495,7 @@ TEST_F(Html, a_bad_input_keeps_the_old_page) {
   const auto old = read_bytes(page);
   const auto bad = write("bad.off", "OFF\n");
   expect_error(run_program({"partition", bad, "--html", page.string()}), 3, "bad.off");
-  expect_error(run_program({"detect", bad, bad, "--html", page.string()}), 3, "bad.off");
+  expect_error(run_program({"detect", "--mode", "particles", bad, bad, "--html", page.string()}), 3, "bad.off");
   EXPECT_TRUE(read_bytes(page) == old);
   EXPECT_EQ(content_of(page.parent_path()), std::set<std::string>{"page.html"});
 }
@@ -487,7 +505,8 @@ TEST(Html_without_a_viewer, is_an_error_that_states_the_reason) {
   const Temporary_folder folder;
   const auto mesh = folder.write("square.off", square_off).string(), page = (folder.path() / "page.html").string();
   expect_error(run_program({"partition", mesh, "--html", page}), 4, "without the viewer, because ");
-  expect_error(run_program({"detect", mesh, mesh, "--html", page}), 4, "without the viewer, because ");
+  expect_error(run_program({"detect", "--mode", "particles", mesh, mesh, "--html", page}), 4,
+               "without the viewer, because ");
   EXPECT_EQ(content_of(folder.path()), std::set<std::string>{"square.off"});
 }
 

@@ -44,19 +44,21 @@ class Program_output : public testing::Test {
 };
 
 TEST_F(Program_output, a_full_disk_is_an_error_and_leaves_nothing) {
-  expect_error(run_program({"detect", scene(20'000), "--out", out.string()}, {.largest_file = 500'000}), 4,
-               "frames.jsonl");
+  expect_error(
+      run_program({"detect", "--mode", "particles", scene(20'000), "--out", out.string()}, {.largest_file = 500'000}),
+      4, "frames.jsonl");
   EXPECT_EQ(content_of(out), std::set<std::string>{});
 }
 
 TEST_F(Program_output, a_disk_that_is_full_at_the_last_byte_is_an_error) {
   const auto input = scene(200);
-  expect_success(run_program({"detect", input, "--out", out.string()}));
+  expect_success(run_program({"detect", "--mode", "particles", input, "--out", out.string()}));
   const auto size = file_size(out / "frames.jsonl");
   remove_all(out);
-  expect_error(run_program({"detect", input, "--out", out.string()}, {.largest_file = size - 1}), 4, "frames.jsonl");
+  expect_error(run_program({"detect", "--mode", "particles", input, "--out", out.string()}, {.largest_file = size - 1}),
+               4, "frames.jsonl");
   EXPECT_EQ(content_of(out), std::set<std::string>{});
-  expect_success(run_program({"detect", input, "--out", out.string()}, {.largest_file = size}));
+  expect_success(run_program({"detect", "--mode", "particles", input, "--out", out.string()}, {.largest_file = size}));
 }
 
 TEST_F(Program_output, a_partition_on_a_full_disk_leaves_nothing) {
@@ -72,21 +74,22 @@ TEST_F(Program_output, a_partition_on_a_full_disk_leaves_nothing) {
 
 TEST_F(Program_output, old_results_survive_a_full_disk) {
   leave_old_results();
-  expect_error(run_program({"detect", scene(20'000), "--out", out.string()}, {.largest_file = 500'000}), 4,
-               "frames.jsonl");
+  expect_error(
+      run_program({"detect", "--mode", "particles", scene(20'000), "--out", out.string()}, {.largest_file = 500'000}),
+      4, "frames.jsonl");
   expect_old_results();
 }
 
 TEST_F(Program_output, old_results_survive_a_bad_input) {
   leave_old_results();
   folder.write("b.off", "OFF\n");
-  expect_error(run_program({"detect", scene(3), "--out", out.string()}), 3, "b.off");
+  expect_error(run_program({"detect", "--mode", "particles", scene(3), "--out", out.string()}), 3, "b.off");
   expect_old_results();
 }
 
 TEST_F(Program_output, old_results_are_replaced_by_a_run_that_succeeds) {
   leave_old_results();
-  expect_success(run_program({"detect", scene(3), "--out", out.string()}));
+  expect_success(run_program({"detect", "--mode", "particles", scene(3), "--out", out.string()}));
   EXPECT_EQ(content_of(out), (std::set<std::string>{"frames.jsonl", "summary.json"}));
   EXPECT_EQ(read_json_lines(out / "frames.jsonl").size(), 3U);
   EXPECT_EQ(read_json(out / "summary.json")["frames"], 3);
@@ -95,7 +98,7 @@ TEST_F(Program_output, old_results_are_replaced_by_a_run_that_succeeds) {
 TEST_F(Program_output, a_folder_that_is_a_file_is_an_error) {
   const auto file = folder.write("file", "mine");
   for (const auto& target : {file, file / "below"}) {
-    expect_error(run_program({"detect", scene(3), "--out", target.string()}), 4, "file");
+    expect_error(run_program({"detect", "--mode", "particles", scene(3), "--out", target.string()}), 4, "file");
     EXPECT_EQ(read_bytes(file), "mine");
   }
 }
@@ -103,7 +106,7 @@ TEST_F(Program_output, a_folder_that_is_a_file_is_an_error) {
 TEST_F(Program_output, a_folder_in_place_of_a_result_is_an_error) {
   for (const auto* name : {"frames.jsonl", "summary.json"}) {
     create_directories(out / name);
-    expect_error(run_program({"detect", scene(3), "--out", out.string()}), 4, name);
+    expect_error(run_program({"detect", "--mode", "particles", scene(3), "--out", out.string()}), 4, name);
     EXPECT_EQ(content_of(out), std::set<std::string>{name});
     remove_all(out);
   }
@@ -114,13 +117,14 @@ TEST_F(Program_output, a_folder_that_cannot_be_created_is_an_error) {
   for (const auto& target : {std::string("/proc/lodestone"), std::string("/dev/null"), std::string(300, 'x'),
                              std::string(5000, 'x'), (folder.path() / "circle").string()}) {
     SCOPED_TRACE(target);
-    expect_error(run_program({"detect", scene(3), "--out", target}), 4, target);
+    expect_error(run_program({"detect", "--mode", "particles", scene(3), "--out", target}), 4, target);
   }
 }
 
 TEST_F(Program_output, a_full_standard_output_is_an_error) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  expect_error(run_program({"detect", scene(3)}, {.standard_output = "/dev/full"}), 4, "standard output");
+  expect_error(run_program({"detect", "--mode", "particles", scene(3)}, {.standard_output = "/dev/full"}), 4,
+               "standard output");
   expect_error(run_program({"partition", (folder.path() / "a.off").string()}, {.standard_output = "/dev/full"}), 4,
                "standard output");
 }
@@ -132,7 +136,7 @@ TEST_F(Program_output, a_signal_ends_the_run_and_leaves_no_partial_file) {
       SCOPED_TRACE(signal);
       remove_all(out);
       if (old) leave_old_results();
-      Running_program program({"detect", input, "--truth", "--out", out.string()});
+      Running_program program({"detect", "--mode", "particles", input, "--truth", "--out", out.string()});
       const std::size_t before = old ? 2 : 0;
       for (int i = 0; i < 2000 && content_of(out).size() == before; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -150,7 +154,7 @@ TEST_F(Program_output, a_second_signal_ends_even_a_frame_that_takes_very_long) {
   const auto input = folder.write("long.json", R"({"objects": [
     {"name": "a", "shape": {"icosphere": {"frequency": 60}}, "particles": 30000},
     {"name": "b", "shape": {"icosphere": {"frequency": 60}}, "particles": 30000}]})");
-  Running_program program({"detect", input.string()}, {.limit = std::chrono::seconds(20)});
+  Running_program program({"detect", "--mode", "particles", input.string()}, {.limit = std::chrono::seconds(20)});
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   program.send(SIGINT);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));

@@ -29,10 +29,11 @@ class Paraview : public testing::Test {
         [{"frame": 0, "at": [3, 0, 0]}, {"frame": 2, "at": [0.25, 0, 0]}]}}]}},
       {"name": "still", "mesh": "a.off"}]})");
   }
+  /// A run by particles unless the options name a mode.
   void detect(const std::vector<std::string>& options) const {
-    std::vector<std::string> arguments{"detect", scene.string(), "--paraview", out.string(), "--quiet"};
+    std::vector<std::string> arguments{scene.string(), "--paraview", out.string(), "--quiet"};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    expect_success(run_program(arguments));
+    expect_success(run_program(detect_by_particles(arguments)));
   }
   std::filesystem::path frame(const std::string& name) const { return out / "frames" / (name + ".vtp"); }
 
@@ -124,14 +125,16 @@ TEST_F(Paraview, a_run_that_fails_leaves_nothing) {
                               std::string(48, '\xff'));
   scene = folder.write("bad.json", R"({"objects": [{"name": "a", "mesh": "a.off"},
     {"name": "b", "mesh": "a.off", "motion": {"pc2": "bad.pc2"}}]})");
-  expect_error(run_program({"detect", scene.string(), "--paraview", out.string()}), 3, "frame 1");
+  expect_error(run_program({"detect", "--mode", "particles", scene.string(), "--paraview", out.string()}), 3,
+               "frame 1");
   EXPECT_EQ(content_of(out), std::set<std::string>{});
 }
 
 TEST_F(Paraview, a_folder_that_cannot_be_created_is_an_error) {
   const auto file = folder.write("file", "");
-  expect_error(run_program({"detect", scene.string(), "--paraview", (file / "out").string()}), 4, "file");
-  expect_error(run_program({"detect", scene.string(), "--paraview", ""}), 2, "");
+  expect_error(run_program({"detect", "--mode", "particles", scene.string(), "--paraview", (file / "out").string()}), 4,
+               "file");
+  expect_error(run_program({"detect", "--mode", "particles", scene.string(), "--paraview", ""}), 2, "");
 }
 
 }  // namespace

@@ -87,6 +87,13 @@ void Running_program::read_until_closed(Program_result& result) const {
   }
 }
 
+std::vector<std::string> detect_by_particles(std::vector<std::string> arguments) {
+  if (std::ranges::find(arguments, "--mode") == arguments.end())
+    arguments.insert(arguments.end(), {"--mode", "particles"});
+  arguments.insert(arguments.begin(), "detect");
+  return arguments;
+}
+
 Program_result run_program(const std::vector<std::string>& arguments, const Program_options& options) {
   return Running_program(arguments, options).wait();
 }

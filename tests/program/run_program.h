@@ -64,6 +64,9 @@ class Running_program {
   std::array<int, 2> streams_{};
 };
 
+/// `detect` with these inputs and options, and with `--mode particles` unless they name a mode.
+std::vector<std::string> detect_by_particles(std::vector<std::string> arguments);
+
 Program_result run_program(const std::vector<std::string>& arguments, const Program_options& options = {});
 
 /// Names of all entries of a folder; empty if there is no such folder.

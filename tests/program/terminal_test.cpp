@@ -86,7 +86,7 @@ class Terminal : public testing::Test {
 };
 
 TEST_F(Terminal, shows_a_progress_bar_and_erases_it_at_the_end) {
-  const auto session = run_on_terminal({"detect", scene});
+  const auto session = run_on_terminal({"detect", "--mode", "particles", scene});
   EXPECT_EQ(session.exit_code, 0);
   EXPECT_NE(session.bytes.find("detect ["), std::string::npos) << session.bytes;
   EXPECT_NE(session.bytes.find("1/500"), std::string::npos);
@@ -102,7 +102,7 @@ TEST_F(Terminal, shows_an_error_without_the_bar) {
   folder.write("f2.off", "broken");
   const auto file = folder.write("broken.json", R"({"objects": [{"name": "a", "mesh": "a.off",
     "motion": {"sequence": {"pattern": "f#.off", "first": 0, "last": 2}}}]})");
-  const auto session = run_on_terminal({"detect", file.string()});
+  const auto session = run_on_terminal({"detect", "--mode", "particles", file.string()});
   EXPECT_EQ(session.exit_code, 3);
   EXPECT_NE(session.bytes.find("detect ["), std::string::npos);
   const auto screen = screen_of(session.bytes);
@@ -110,10 +110,12 @@ TEST_F(Terminal, shows_an_error_without_the_bar) {
   EXPECT_EQ(screen.find("detect ["), std::string::npos) << screen;
 }
 
-TEST_F(Terminal, shows_nothing_when_quiet) { EXPECT_EQ(run_on_terminal({"detect", scene, "--quiet"}).bytes, ""); }
+TEST_F(Terminal, shows_nothing_when_quiet) {
+  EXPECT_EQ(run_on_terminal({"detect", "--mode", "particles", scene, "--quiet"}).bytes, "");
+}
 
 TEST_F(Terminal, without_a_terminal_there_is_no_bar_and_no_control_sequence) {
-  const auto result = run_program({"detect", scene});
+  const auto result = run_program({"detect", "--mode", "particles", scene});
   expect_success(result);
   EXPECT_EQ(result.out.find('\x1b'), std::string::npos);
   EXPECT_EQ(result.out.find('\r'), std::string::npos);

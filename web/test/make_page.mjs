@@ -43,6 +43,8 @@ const own_plot = {
   },
 };
 
+export const particles_note = 'Mode particles may miss collisions: it missed some.';
+
 /**
  * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact'} kind
  * @returns {{bytes: Buffer, lines: string[], log: object[]}} the container, its lines of frames.jsonl, and the
@@ -52,7 +54,7 @@ export function make_container(kind) {
   const writer = new Container_writer();
   const title = `Example & test: ${kind}`;
   const empty = {
-    title, mode: null, strategy: null, frames: 0, first_frame: 0, frame_step: 1, frames_per_second: 30, objects: [],
+    title, mode: null, strategy: null, frames: 0, first_frame: 0, frame_step: 1, frames_per_second: 30, note: null, objects: [],
     numbers: null, stages: null, candidates: null, contacts: null, plots: [], report: null,
   };
   if (kind === 'experiment') return { bytes: writer.finish({ ...empty, kind, plots: [own_plot], report }), lines: [], log: [] };
@@ -66,6 +68,7 @@ export function make_container(kind) {
     kind: still ? 'partition' : 'detect',
     mode: still ? null : exact ? 'exact' : 'particles',
     strategy: exact ? null : 'lbg',
+    note: still || exact ? null : particles_note,
     frames,
     objects: shown.map((object, i) => add_object(writer, object, i, exact)),
   };

@@ -8,7 +8,7 @@ import { after, afterEach, before, describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { start_browser } from '../src/browser.mjs';
 import { viewer_template } from '../src/viewer_template.mjs';
-import { make_container } from './make_page.mjs';
+import { make_container, particles_note } from './make_page.mjs';
 import { fill } from './write_container.mjs';
 
 const laptop = { viewport: { width: 1280, height: 800 } };
@@ -136,6 +136,14 @@ describe('the viewer', () => {
       assert.equal(await page.textContent('#outcome'), outcome);
     }
     await page.waitForFunction(() => document.getElementById('spoken').textContent.startsWith('Frame 39'));
+  });
+
+  test('a mode that may miss collisions says so on the page', async () => {
+    for (const options of [laptop, phone]) {
+      const page = await open_kind('small', options);
+      assert.ok(await page.isVisible('#note'));
+      assert.equal(await page.textContent('#note'), particles_note);
+    }
   });
 
   test('every layer and every object can be hidden and changed, by click and by hook', async () => {
@@ -299,6 +307,7 @@ describe('the viewer', () => {
     assert.deepEqual(await layers_of(still), ['surfaces', 'regions', 'wireframe', 'particles']);
     assert.match(await still.textContent('#objects'), /32 regions/);
     const exact = await open_kind('exact');
+    assert.ok(!(await exact.isVisible('#note')));
     assert.deepEqual(await layers_of(exact), ['surfaces', 'wireframe', 'faces']);
     assert.ok(await exact.isVisible('#number-leaf_tests'));
     const report = await open_kind('experiment');

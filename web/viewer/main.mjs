@@ -46,6 +46,9 @@ function show_title({ header, objects }) {
   if (header.frame_step > 1) facts.push(`one of ${header.frame_step} shown`);
   if (objects.length > 2) facts.push(`${objects.length} objects`);
   by_id('subtitle').textContent = facts.join(' · ');
+  by_id('note').textContent = header.note ?? '';
+  by_id('note').hidden = !header.note;
+  document.body.classList.toggle('noted', Boolean(header.note));
 }
 
 /** Everything about frames: picture, panel, timeline, numbers. */

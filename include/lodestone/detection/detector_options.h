@@ -44,22 +44,22 @@ struct Exact_options {
 };
 
 struct Detector_options {
-  Mode mode = Mode::particles;
-  /// Per object; 0: as many as the rule of `particle_count` asks for. In mode `exact` the regions at the top of a tree;
-  /// 0: `least_particles`.
+  Mode mode = Mode::exact;
+  /// In mode `exact` the regions at the top of an object's tree; 0: `least_particles`. In other modes the particles of
+  /// an object; 0: as many as the rule of `particle_count` asks for.
   std::size_t particles = 0;
-  std::size_t least_particles = 12;  ///< but at least so many; 1: the rule alone, which can ask for very few
-  Particle_count_options particle_count = {};
+  std::size_t least_particles = 12;            ///< but at least so many; 1: the rule alone, which can ask for very few
+  Particle_count_options particle_count = {};  ///< the rule; mode `exact` has none
   Partition_options partition = {};
-  double collision_distance = 1;  ///< in multiples of mu, the larger of the two objects'; > 0
-  Distance_measure distance_measure = Distance_measure::adjacent_vertices;
-  Candidate_choice candidates = Candidate_choice::all;
+  double collision_distance = 1;  ///< of particles, in multiples of mu, the larger of the two objects'; > 0
+  Distance_measure distance_measure = Distance_measure::adjacent_vertices;  ///< of particles: which mean mu is
+  Candidate_choice candidates = Candidate_choice::all;                      ///< of particles
   Contact_query contacts = Contact_query::all;
   bool contact_points = false;   ///< where faces meet; not with yes_no
   bool contact_normals = false;  ///< which way, how deep; not with yes_no
   bool list_candidates = false;  ///< also `Frame::candidates`; in mode `exact` there are none
   std::size_t most_contacts = std::numeric_limits<std::size_t>::max();  ///< listed per object pair; >= 1
-  double growth = 1;  ///< repartition when a region exceeds so many times A*; > 0; infinity: never
+  double growth = 1;  ///< mode `particles`: repartition when a region exceeds so many times A*; > 0; infinity: never
   Senin_options senin = {};
   Exact_options exact = {};
 };
@@ -76,8 +76,9 @@ struct Object_options {
   std::vector<std::uint32_t> file_vertex = {};
 };
 
-/// Options of another mode are ignored, but for those of the mode `exact` that ask for more than others can answer.
-/// @throws Bad_argument  an option out of its range
+/// @throws Bad_argument  an option out of its range; mode `exact`, and another value than the default for the collision
+///                       distance, its measure, the choice of candidates or the growth limit; another mode, and a
+///                       tolerance, self-collision or containment
 void check(const Detector_options& options);
 
 }  // namespace lodestone

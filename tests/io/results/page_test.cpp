@@ -136,7 +136,8 @@ Page full_page() {
              .strategy = "lbg",
              .first_frame = 4,
              .frame_step = 2,
-             .frames_per_second = 25});
+             .frames_per_second = 25,
+             .note = "of \"all\" frames"});
   page.add_object("first", 5, {{0, 1, 2}, {2, 3, 4}});
   page.add_object("second", 4, tetrahedron_faces);
   const auto first = moving_points(5, 3), second = moving_points(4, 3);
@@ -167,6 +168,7 @@ TEST(Page, all_parts_of_a_page_come_back) {
   EXPECT_EQ(header["first_frame"], 4);
   EXPECT_EQ(header["frame_step"], 2);
   EXPECT_EQ(header["frames_per_second"], 25);
+  EXPECT_EQ(header["note"], "of \"all\" frames");
   EXPECT_EQ(header["plots"], Json::array());
   EXPECT_EQ(header["report"], nullptr);
   ASSERT_EQ(header["objects"].size(), 2U);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "lodestone/io/scenes/scene_file.h"
+#include "lodestone/mesh/pairs.h"
+#include "program/commands.h"
+#include "program/measurement.h"
+#include "program/page_log.h"
+
+namespace lodestone {
+
+/// The results of a run of `detect` for one object pair.
+struct Pair_summary {
+  std::size_t colliding_frames = 0;
+  std::size_t face_pairs = 0;        ///< over all frames
+  std::size_t capped_frames = 0;     ///< in which face pairs were dropped at the limit
+  std::size_t contained_frames = 0;  ///< in which one object is inside the other
+  Score score = {};
+
+  void add(const Pair_result& pair);
+};
+
+/// The results of a run of `detect` over its frames.
+struct Run_summary {
+  std::map<Object_pair, Pair_summary> pairs;
+  Measurement measurement;
+
+  /// @param timed  whether the frame counts in the means and medians
+  void add(const Frame& frame, bool timed);
+};
+
+/// What a run is about.
+struct Run_subject {
+  const Detect_command& command;
+  const Scene& scene;
+  const Scene_detector& detector;
+
+  /// Whether the truth about a pair is known. It is not known for self-collisions.
+  bool has_truth(Object_pair pair) const { return command.truth && pair.a != pair.b; }
+};
+
+/// The content of `summary.json`.
+nlohmann::ordered_json summary_json(const Run_subject& subject, const Run_summary& summary);
+
+/// Prints the table of the run, its times, and what its mode may have missed.
+void print_summary(const Run_subject& subject, const Run_summary& summary);
+
+}  // namespace lodestone

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lodestone/detection/detector_options.h"
+
+namespace lodestone {
+
+/// The colliding frames that a mode missed in a published experiment.
+struct Missed_frames {
+  double least = 0;        ///< share of the colliding frames, where it missed the fewest
+  double most = 0;         ///< where it missed the most
+  const char* experiment;  ///< which measured it: a folder of experiments/
+};
+
+/// How many colliding frames a mode may be expected to miss; none for the mode `exact`, which misses nothing.
+std::optional<Missed_frames> expected_misses(Mode mode);
+
+/// What a user must know of the answers of a mode, in plain sentences; none for the mode `exact`.
+std::optional<std::string> missing_note(Mode mode);
+
+}  // namespace lodestone

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which mode answers, and what the program says about a mode that may miss collisions.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "program/run_program.h"
+#include "support/mesh_samples.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream row(line);
+  for (std::string cell; std::getline(row, cell, '|');) {
+    const auto begin = cell.find_first_not_of(' ');
+    cells.push_back(begin == std::string::npos ? "" : cell.substr(begin, cell.find_last_not_of(' ') + 1 - begin));
+  }
+  return cells;
+}
+
+/// The least and the most that a method missed in the published table of an experiment: one minus the recall.
+/// @param method     how the cell of a row with the method begins
+/// @param particles  what the next cell must be; empty: the next cell is the recall
+std::pair<double, double> missed_share(const std::string& experiment, const std::string& method,
+                                       const std::set<std::string>& particles) {
+  std::pair<double, double> share{1, 0};
+  std::istringstream report(read_bytes(LODESTONE_TESTS "/../experiments/" + experiment + "/README.md"));
+  for (std::string line; std::getline(report, line);) {
+    const auto cells = cells_of(line);
+    const auto at = std::ranges::find_if(cells, [&](const auto& cell) { return cell.starts_with(method); });
+    if (cells.size() < 6 || at == cells.end()) continue;
+    if (!particles.empty() && !particles.contains(at[1])) continue;
+    const double missed = 1 - std::stod(at[particles.empty() ? 1 : 2]);
+    share = {std::min(share.first, missed), std::max(share.second, missed)};
+  }
+  return share;
+}
+
+/// A square, and a triangle that cuts it far from all its vertices.
+class Program_mode : public testing::Test {
+ protected:
+  Program_result detect(const std::vector<std::string>& options) const {
+    std::vector<std::string> arguments{"detect", folder.write("square.off", square_off).string(),
+                                       folder.write("needle.off", needle_off).string(), "--out", out.string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_program(arguments);
+  }
+  Json summary() const { return read_json(out / "summary.json"); }
+  Json frame() const { return read_json_lines(out / "frames.jsonl").at(0); }
+
+  static constexpr const char* needle_off = "OFF\n3 1 0\n0.7 0.2 -1\n0.7 0.2 1\n0.8 0.2 1\n3 0 1 2\n";
+  Temporary_folder folder;
+  std::filesystem::path out = folder.path() / "out";
+};
+
+TEST_F(Program_mode, is_the_one_that_misses_nothing_unless_another_is_named) {
+  const auto result = detect({});
+  expect_success(result);
+  EXPECT_EQ(frame()["pairs"].at(0)["collides"], true);
+  EXPECT_EQ(summary()["mode"], "exact");
+  EXPECT_EQ(summary()["may_miss"], nullptr);
+  EXPECT_EQ(result.out.find("may miss"), std::string::npos) << result.out;
+  expect_success(detect({"--mode", "particles", "--collision-distance", "0.001"}));
+  EXPECT_EQ(frame()["pairs"].at(0)["collides"], false);
+}
+
+TEST_F(Program_mode, that_may_miss_collisions_says_so_with_the_published_figures) {
+  const std::map<std::string, std::pair<double, double>> published{
+      {"particles", missed_share("modes", "particles, ", {})},
+      {"senin", missed_share("predecessor", "scattered", {"12", "32"})}};
+  for (const auto& [mode, share] : published) {
+    SCOPED_TRACE(mode);
+    const auto result = detect({"--mode", mode});
+    expect_success(result);
+    EXPECT_NE(result.out.find("Mode " + mode + " may miss collisions"), std::string::npos) << result.out;
+    const auto figures =
+        fmt::format("missed {:.0f} to {:.0f} % of the colliding frames", 100 * share.first, 100 * share.second);
+    EXPECT_NE(result.out.find(figures), std::string::npos) << figures << " in:\n" << result.out;
+    const Json may_miss = summary()["may_miss"];
+    EXPECT_NEAR(may_miss["least_share"].get<double>(), share.first, 0.005);
+    EXPECT_NEAR(may_miss["most_share"].get<double>(), share.second, 0.005);
+    EXPECT_EQ(detect({"--mode", mode, "--quiet"}).out, "");
+  }
+}
+
+TEST_F(Program_mode, exact_refuses_the_options_of_particles) {
+  const std::map<std::string, std::string> options{
+      {"--collision-distance", "9"}, {"--candidates", "closest"}, {"--growth", "inf"}};
+  for (const auto& [option, value] : options) {
+    SCOPED_TRACE(option);
+    expect_error(detect({option, value}), 2, "mode particles");
+    expect_error(detect({option, value, "--mode", "exact"}), 2, "mode particles");
+    expect_success(detect({option, value, "--mode", "particles"}));
+  }
+}
+
+TEST_F(Program_mode, exact_takes_particles_as_regions) {
+  expect_success(detect({"--particles", "2"}));
+  EXPECT_EQ(summary()["mode"], "exact");
+  EXPECT_EQ(frame()["pairs"].at(0)["collides"], true);
+}
+
+}  // namespace
+}  // namespace lodestone::test
