@@ -33,7 +33,7 @@ void add_rows(Text_table& table, const std::string& scene, std::span<const Measu
       score.add(m.score);
       lowest = std::min(lowest, m.score.recall());
       highest = std::max(highest, m.score.recall());
-      microseconds += median_total_microseconds(m) / static_cast<double>(runs.size());
+      microseconds += median_microseconds_without_build(m) / static_cast<double>(runs.size());
     }
     table.add({scene, method, std::to_string(runs[0].setting.options.particles), fmt::format("{:.3f}", score.recall()),
                fmt::format("{:.3f}", lowest), fmt::format("{:.3f}", highest), fmt::format("{:.3f}", score.precision()),

@@ -53,13 +53,13 @@ Text_table time_table(const Measured_run& run) {
                     "repartitions / 300"});
   for (const auto& m : run.measurements) {
     const auto stage = [&](double Stage_times::*s) { return fmt::format("{:.1f}", median_microseconds(m, s)); };
-    const double total = median_total_microseconds(m);
+    const double total = median_microseconds_without_build(m);
     table.add({fmt::format("{}", m.setting.options.particles),
                fmt::format("{} mu", m.setting.options.collision_distance),
                fmt::format("{} A*", m.setting.options.growth), stage(&Stage_times::repartition),
                stage(&Stage_times::broad_phase), stage(&Stage_times::relaxation), stage(&Stage_times::candidates),
                stage(&Stage_times::confirmation), fmt::format("{:.1f}", total),
-               fmt::format("{:.0f}", exhaustive / total), fmt::format("{:.1f}", mean_total_microseconds(m)),
+               fmt::format("{:.0f}", exhaustive / total), fmt::format("{:.1f}", mean_microseconds_without_build(m)),
                fmt::format("{:.1f}", mean_count(m, &Frame_statistics::iterations)),
                fmt::format("{:.0f}", mean_count(m, &Frame_statistics::exact_tests)),
                fmt::format("{:.1f}", 300 * mean_count(m, &Frame_statistics::repartitions))});

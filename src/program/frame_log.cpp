@@ -53,11 +53,12 @@ Json statistics_json(const Frame_statistics& statistics, Mode mode) {
     return {{"leaf_tests", statistics.candidates},
             {"exact_tests", statistics.exact_tests},
             {"contacts", statistics.contacts},
+            {"builds", statistics.builds},
             {"rebuilds", statistics.repartitions}};
-  return {{"iterations", statistics.iterations},    {"moves", statistics.moves},
-          {"relaxed", statistics.relaxed},          {"candidates", statistics.candidates},
-          {"exact_tests", statistics.exact_tests},  {"contacts", statistics.contacts},
-          {"repartitions", statistics.repartitions}};
+  return {{"iterations", statistics.iterations},   {"moves", statistics.moves},
+          {"relaxed", statistics.relaxed},         {"candidates", statistics.candidates},
+          {"exact_tests", statistics.exact_tests}, {"contacts", statistics.contacts},
+          {"builds", statistics.builds},           {"repartitions", statistics.repartitions}};
 }
 
 }  // namespace

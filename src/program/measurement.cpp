@@ -22,15 +22,15 @@ double median_microseconds(const Measurement& measurement, double Stage_times::*
   return median(std::move(values));
 }
 
-double median_total_microseconds(const Measurement& measurement) {
+double median_microseconds_without_build(const Measurement& measurement) {
   std::vector<double> values;
-  for (const auto& frame : measurement.frames) values.push_back(1e6 * frame.seconds.total());
+  for (const auto& frame : measurement.frames) values.push_back(1e6 * frame.seconds.without_build());
   return median(std::move(values));
 }
 
-double mean_total_microseconds(const Measurement& measurement) {
+double mean_microseconds_without_build(const Measurement& measurement) {
   double sum = 0;
-  for (const auto& frame : measurement.frames) sum += 1e6 * frame.seconds.total();
+  for (const auto& frame : measurement.frames) sum += 1e6 * frame.seconds.without_build();
   return measurement.frames.empty() ? 0 : sum / static_cast<double>(measurement.frames.size());
 }
 
@@ -72,8 +72,8 @@ nlohmann::ordered_json to_json(const Measurement& m) {
         {"relaxation", stage(&Stage_times::relaxation)},
         {"candidates", stage(&Stage_times::candidates)},
         {"confirmation", stage(&Stage_times::confirmation)},
-        {"total", median_total_microseconds(m)}}},
-      {"mean_total_microseconds", mean_total_microseconds(m)},
+        {"without_build", median_microseconds_without_build(m)}}},
+      {"mean_microseconds_without_build", mean_microseconds_without_build(m)},
   };
 }
 

@@ -35,9 +35,10 @@ struct Measurement {
 double median(std::vector<double> values);
 /// Median over the frames of one time, such as `&Stage_times::relaxation`, in microseconds.
 double median_microseconds(const Measurement& measurement, double Stage_times::*stage);
-double median_total_microseconds(const Measurement& measurement);
-/// Mean over the frames, in microseconds. Repartitions, which are rare and slow, show only in the mean.
-double mean_total_microseconds(const Measurement& measurement);
+/// Median over the frames of all stages but `build`, which objects pay once, in microseconds.
+double median_microseconds_without_build(const Measurement& measurement);
+/// The mean of the same. Repartitions, which are rare and slow, show only in the mean.
+double mean_microseconds_without_build(const Measurement& measurement);
 /// Mean over the frames of one count, such as `&Frame_statistics::iterations`.
 double mean_count(const Measurement& measurement, std::size_t Frame_statistics::*count);
 

@@ -62,9 +62,13 @@ void add_contacts(std::vector<Page_contact>& contacts, const Page_contact& faces
 
 Json microseconds(const Stage_times& seconds) {
   const auto rounded = [](double s) { return std::round(1e8 * s) / 100; };
-  return {{"repartition", rounded(seconds.repartition)}, {"refit", rounded(seconds.refit)},
-          {"broad_phase", rounded(seconds.broad_phase)}, {"relaxation", rounded(seconds.relaxation)},
-          {"candidates", rounded(seconds.candidates)},   {"confirmation", rounded(seconds.confirmation)}};
+  return {{"build", rounded(seconds.build)},
+          {"repartition", rounded(seconds.repartition)},
+          {"refit", rounded(seconds.refit)},
+          {"broad_phase", rounded(seconds.broad_phase)},
+          {"relaxation", rounded(seconds.relaxation)},
+          {"candidates", rounded(seconds.candidates)},
+          {"confirmation", rounded(seconds.confirmation)}};
 }
 
 }  // namespace

@@ -50,6 +50,8 @@ std::size_t rebuilds_while_mixing(double loosest) {
     const Frame& result = detector.detect();
     EXPECT_EQ(expect_exhaustive(result, {&soup, &body}), 1U);
     rebuilds += result.statistics.repartitions;
+    EXPECT_EQ(result.statistics.builds, frame == 0 ? 2U : 0U);
+    EXPECT_EQ(result.statistics.seconds.repartition > 0, result.statistics.repartitions > 0);
   }
   return rebuilds;
 }

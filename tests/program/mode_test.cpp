@@ -106,6 +106,22 @@ TEST_F(Program_mode, exact_refuses_the_options_of_particles) {
   }
 }
 
+TEST_F(Program_mode, tells_the_time_to_build_apart_from_that_of_a_frame) {
+  for (const auto* mode : {"particles", "senin", "exact"}) {
+    SCOPED_TRACE(mode);
+    const auto result = detect({"--mode", mode});
+    expect_success(result);
+    EXPECT_NE(result.out.find("microseconds per frame (median, all stages but build)"), std::string::npos);
+    EXPECT_NE(result.out.find("milliseconds to build 2 objects"), std::string::npos) << result.out;
+    EXPECT_GT(summary()["build_microseconds"], 0);
+    const Json median = summary()["median_microseconds"];
+    double sum = 0;
+    for (const auto& [stage, time] : median.items()) sum += stage == "without_build" ? 0 : time.get<double>();
+    EXPECT_NEAR(median["without_build"].get<double>(), sum, 1e-6 * sum);
+    EXPECT_EQ(frame()["statistics"]["builds"], 2);
+  }
+}
+
 TEST_F(Program_mode, exact_takes_particles_as_regions) {
   expect_success(detect({"--particles", "2"}));
   EXPECT_EQ(summary()["mode"], "exact");

@@ -101,7 +101,7 @@ function add_object(writer, object, i, exact) {
 /** In the format of src/program/frame_log.cpp. */
 function line_of({ moves, iterations, candidates, contacts, positive, found }, frame, exact) {
   const faces = contacts.map(([, face_a, , face_b]) => [face_a, face_b]).sort((p, q) => p[0] - q[0] || p[1] - q[1]);
-  const counts = { exact_tests: 4 * candidates.length, contacts: contacts.length };
+  const counts = { exact_tests: 4 * candidates.length, contacts: contacts.length, builds: frame === 0 ? 2 : 0 };
   const statistics = exact
     ? { leaf_tests: candidates.length, ...counts, rebuilds: 0 }
     : { iterations, moves, relaxed: iterations < 3, candidates: candidates.length, ...counts, repartitions: 0 };
@@ -112,7 +112,7 @@ function line_of({ moves, iterations, candidates, contacts, positive, found }, f
 function stage_of({ candidates, iterations, positive, found, nearest }, frame) {
   const noise = (i) => 0.8 + 0.4 * ((Math.imul(frame * 8 + i + 1, 2654435761) >>> 8) / 2 ** 24);
   const times = {
-    repartition: frame % 60 === 30 ? 900 : 1, refit: 0, broad_phase: 0.2, relaxation: 4 + 3 * iterations, candidates: 0.8,
+    build: frame === 0 ? 5000 : 0, repartition: frame % 60 === 30 ? 900 : 1, refit: 0, broad_phase: 0.2, relaxation: 4 + 3 * iterations, candidates: 0.8,
     confirmation: 2.2 * candidates.length,
   };
   const microseconds = Object.fromEntries(Object.entries(times).map(([name, time], i) => [name, Number((time * noise(i)).toFixed(3))]));

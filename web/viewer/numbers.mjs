@@ -5,11 +5,11 @@ import { set_text } from './panel.mjs';
 
 const names = {
   iterations: 'Iterations', moves: 'Moves', relaxed: 'Relaxed', candidates: 'Candidates', exact_tests: 'Exact tests', contacts: 'Contacts',
-  repartitions: 'Repartitions', leaf_tests: 'Leaf tests', rebuilds: 'Rebuilds',
+  builds: 'Builds', repartitions: 'Repartitions', leaf_tests: 'Leaf tests', rebuilds: 'Rebuilds',
 };
 
 export const stage_names = {
-  repartition: 'Repartition', refit: 'Refit', broad_phase: 'Broad phase', relaxation: 'Relaxation', candidates: 'Candidates',
+  build: 'Build', repartition: 'Repartition', refit: 'Refit', broad_phase: 'Broad phase', relaxation: 'Relaxation', candidates: 'Candidates',
   confirmation: 'Confirmation',
 };
 
@@ -48,7 +48,9 @@ class Rows {
 export function make_numbers(page) {
   const statistics = new Rows(by_id('statistics'), figure_row);
   const pairs = new Rows(by_id('pairs'), pair_row);
-  const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(({ microseconds }) => Object.values(microseconds)));
+  // Building, which is in the first frame alone, would make all other bars short.
+  const every_frame = ({ microseconds: { build, ...others } }) => Object.values(others);
+  const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(every_frame));
   const used = Object.keys(stage_names).filter((key) => page.stages?.some(({ microseconds }) => microseconds[key] > 0));
   const stages = new Rows(by_id('stage-times'), (key) => stage_row(key, most));
   return (frame) => {

@@ -49,7 +49,8 @@ class Exact_detection final : public Detection<Mesh, Points> {
 
   void add(const Mesh& mesh, Points points, const Object_options& options) override {
     check_no_visitor();
-    objects_.push_back(std::make_unique<Object>(mesh, points, options));
+    timed(since_last_frame_.seconds.build,
+          [&] { objects_.push_back(std::make_unique<Object>(mesh, points, options)); });
   }
   void write_maps(Object_id object, Mesh& mesh) override { objects_[object]->maps.emplace(mesh); }
 
@@ -63,7 +64,7 @@ class Exact_detection final : public Detection<Mesh, Points> {
   /// Reads the faces of the mesh anew.
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override {
     check_no_visitor();
-    objects_[object]->rebuild(file_vertex);
+    timed(since_last_frame_.seconds.build, [&] { objects_[object]->rebuild(file_vertex); });
   }
 
   const Frame& detect(const Collision_filter& filter) override;
@@ -100,8 +101,10 @@ class Exact_detection final : public Detection<Mesh, Points> {
   }
   void build(Object_id id, Coordinates coordinates);
   void refresh(std::span<const Object_id> ids);
+  void build_new(std::span<const Object_id> ids);
+  void refit_built(std::span<const Object_id> ids);
+  void rebuild_loose(std::span<const Object_id> ids);
   void start_frame(std::span<const Object_id> ids);
-  const Frame& finish_frame();
   void find_candidates(const Collision_filter& filter);
   void check(Object_pair pair);
   Containment containment(Object_pair pair, bool found);
@@ -112,8 +115,8 @@ class Exact_detection final : public Detection<Mesh, Points> {
   Basic_contact_search<Volume> search_;
   std::vector<std::unique_ptr<Object>> objects_;
   Frame_builder frame_;
-  std::size_t rebuilds_ = 0;  ///< since the last frame: other calls rebuild too
-  bool visited_ = false;      ///< a visitor is being shown face pairs
+  Frame_statistics since_last_frame_;  ///< what other calls have to tell the next frame: they build and rebuild too
+  bool visited_ = false;               ///< a visitor is being shown face pairs
 
   // Memory of the stages, kept from frame to frame.
   std::vector<Object_id> all_;
@@ -146,7 +149,7 @@ const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Colli
   timed(frame_.seconds().confirmation, [&] {
     for (const auto pair : candidates_) check(pair);
   });
-  return finish_frame();
+  return frame_.finish();
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
@@ -154,7 +157,7 @@ const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Colli
   const Object_id ids[] = {pair.a, pair.b};
   start_frame(std::span(ids).first(pair.a == pair.b ? 1 : 2));
   if (filter.may_collide(pair.a, pair.b)) timed(frame_.seconds().confirmation, [&] { check(pair); });
-  return finish_frame();
+  return frame_.finish();
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
@@ -176,16 +179,10 @@ bool Exact_detection<Mesh, Strategy, Points, Volume>::contains(Object_id outer, 
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::start_frame(std::span<const Object_id> ids) {
-  check_no_visitor();
-  frame_.start();
+  since_last_frame_.seconds.refit = 0;  // that of other calls is no part of the frame
+  refresh(ids);
+  frame_.start(std::exchange(since_last_frame_, {}));
   candidates_.clear();
-  timed(frame_.seconds().refit, [&] { refresh(ids); });
-}
-
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::finish_frame() {
-  frame_.statistics().repartitions = std::exchange(rebuilds_, 0);
-  return frame_.finish();
 }
 
 /// Divides the surface into regions, and builds a tree over them.
@@ -206,30 +203,51 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::build(Object_id id, Coordi
   if (object.maps) object.maps->write(numbering, partition.labels, partition.particles);
 }
 
-/// Everything that depends on positions: trees of new objects are built, others refitted, and built anew where their
-/// leaves have become too loose.
+/// Everything that depends on positions.
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::refresh(std::span<const Object_id> ids) {
   check_no_visitor();
+  // Refitted first: a tree that is built now holds the current positions.
+  timed(since_last_frame_.seconds.refit, [&] { refit_built(ids); });
+  build_new(ids);
+  rebuild_loose(ids);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::refit_built(std::span<const Object_id> ids) {
   surfaces_.clear();
   coordinates_.clear();
   for (const auto id : ids) {
-    const Coordinates coordinates = objects_[id]->read(id);
-    if (!objects_[id]->built) {
-      build(id, coordinates);
-      continue;
-    }
+    if (!objects_[id]->built) continue;
     surfaces_.push_back(&objects_[id]->surface);
-    coordinates_.push_back(coordinates);
+    coordinates_.push_back(objects_[id]->read(id));
   }
   refit<Volume>(surfaces_, coordinates_, workers_);
   for (const auto id : ids) {
     const Surface& surface = objects_[id]->surface;
+    if (!objects_[id]->built) continue;
     if (!surface.finite()) check_finite(surface.coordinates(), id);
     check_finite(surface.coordinates(), objects_[id]->unused(), id);
+  }
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::build_new(std::span<const Object_id> ids) {
+  for (const auto id : ids) {
+    if (objects_[id]->built) continue;
+    timed(since_last_frame_.seconds.build, [&] { build(id, objects_[id]->read(id)); });
+    ++since_last_frame_.builds;
+  }
+}
+
+/// New trees for objects whose leaves have grown too much in comparison with the whole.
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_detection<Mesh, Strategy, Points, Volume>::rebuild_loose(std::span<const Object_id> ids) {
+  for (const auto id : ids) {
+    const Surface& surface = objects_[id]->surface;
     if (!surface.looser_than(options_.exact.loosest)) continue;
-    build(id, surface.coordinates());
-    ++rebuilds_;
+    timed(since_last_frame_.seconds.repartition, [&] { build(id, surface.coordinates()); });
+    ++since_last_frame_.repartitions;
   }
 }
 

@@ -14,15 +14,23 @@ namespace lodestone {
 /// Number of an object within its detector, from 0 in the order of `add`.
 using Object_id = std::uint32_t;
 
-/// Seconds spent in each stage of one frame.
+/// Seconds spent in each stage of one frame, and before it since the frame before.
+///
+/// An object is built once, in its first frame, and again after the caller's `rebuild`. What its motion asks for later
+/// counts as `repartition`: a new partition of an object that has outgrown A*, a new tree for one that has become
+/// loose.
 struct Stage_times {
-  double repartition = 0;   ///< growth checks and repartitions of the updates since the frame before
-  double refit = 0;         ///< reading all positions, fitting all volumes, rebuilding what has become loose
+  double build = 0;         ///< numbering, partition and tree of objects that are new, or that the caller rebuilt
+  double repartition = 0;   ///< growth checks and repartitions; in mode exact rebuilding loose trees
+  double refit = 0;         ///< mode exact: reading all positions, fitting all volumes
   double broad_phase = 0;   ///< reading the particles, near object pairs
   double relaxation = 0;    ///< particles walking
   double candidates = 0;    ///< particle pairs below the collision distance
   double confirmation = 0;  ///< exact checks of candidate regions; in mode exact with the walk that finds them
-  double total() const { return repartition + refit + broad_phase + relaxation + candidates + confirmation; }
+
+  /// All stages but `build`: what a frame takes once its objects stand.
+  double without_build() const { return repartition + refit + broad_phase + relaxation + candidates + confirmation; }
+  double total() const { return build + without_build(); }
 };
 
 struct Frame_statistics {
@@ -34,7 +42,8 @@ struct Frame_statistics {
   std::size_t candidates = 0;         ///< candidate region pairs; in mode exact pairs of leaves
   std::size_t exact_tests = 0;        ///< face pairs given to the exact test
   std::size_t contacts = 0;           ///< intersecting face pairs found, each once
-  std::size_t repartitions = 0;       ///< objects repartitioned since the frame before; in mode exact trees rebuilt
+  std::size_t builds = 0;             ///< objects built: see Stage_times
+  std::size_t repartitions = 0;  ///< objects repartitioned since the frame before; in mode exact loose trees rebuilt
 };
 
 /// Whether one object lies inside the other: their surfaces are apart, and every piece of it is enclosed.

@@ -36,7 +36,8 @@ class Particle_detection final : public Detection<Mesh, Points> {
 
   void add(const Mesh& mesh, Points points, const Object_options& options) override {
     const auto id = static_cast<Object_id>(objects_.size());
-    objects_.push_back(std::make_unique<Object>(id, mesh, points, options));
+    timed(since_last_frame_.seconds.build,
+          [&] { objects_.push_back(std::make_unique<Object>(id, mesh, points, options)); });
   }
   /// Keeps the property maps of a mesh up to date from the next partition on.
   void write_maps(Object_id object, Mesh& mesh) override { objects_[object]->maps.emplace(mesh); }
@@ -79,7 +80,7 @@ class Particle_detection final : public Detection<Mesh, Points> {
   Strategy strategy_;
   std::vector<std::unique_ptr<Object>> objects_;
   Frame_builder frame_;
-  Frame_statistics since_last_frame_;  ///< what `update` has to tell the next frame
+  Frame_statistics since_last_frame_;  ///< what other calls have to tell the next frame
 
   // Memory of the stages, kept from frame to frame.
   std::vector<Box> boxes_;
@@ -108,11 +109,13 @@ void Particle_detection<Mesh, Strategy, Points>::update(Object_id id) {
 
 template <Triangle_mesh Mesh, class Strategy, class Points>
 void Particle_detection<Mesh, Strategy, Points>::rebuild(Object_id id, std::span<const std::uint32_t> /*file_vertex*/) {
-  const Object& old = *objects_[id];
-  auto anew = std::make_unique<Object>(id, *old.mesh, old.points, old.options);
-  anew->maps = old.maps;
-  if (anew->maps) anew->maps->renew();
-  objects_[id] = std::move(anew);
+  timed(since_last_frame_.seconds.build, [&] {
+    const Object& old = *objects_[id];
+    auto anew = std::make_unique<Object>(id, *old.mesh, old.points, old.options);
+    anew->maps = old.maps;
+    if (anew->maps) anew->maps->renew();
+    objects_[id] = std::move(anew);
+  });
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points>
@@ -136,9 +139,12 @@ void Particle_detection<Mesh, Strategy, Points>::prepare() {
   for (auto& object : objects_)
     if (!object->prepared) fresh.push_back(object.get());
   if (fresh.empty()) return;
-  for (Object* object : fresh) object->radius = object->particle_object.bounding_sphere().radius;
-  for (Object* object : fresh) partition(*object);
-  make_room();
+  timed(since_last_frame_.seconds.build, [&] {
+    for (Object* object : fresh) object->radius = object->particle_object.bounding_sphere().radius;
+    for (Object* object : fresh) partition(*object);
+    make_room();
+  });
+  since_last_frame_.builds += fresh.size();
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points>
