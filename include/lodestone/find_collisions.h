@@ -9,8 +9,9 @@ namespace lodestone {
 
 /// What `find_collisions` found.
 struct Collisions {
-  bool collide = false;
-  std::vector<Face_pair> faces;             ///< intersecting faces of a and b, sorted
+  bool collide = false;          ///< the surfaces intersect
+  bool near = false;             ///< faces are nearer than the tolerance, or intersect; false without one
+  std::vector<Face_pair> faces;  ///< faces of a and b that intersect, or are nearer than the tolerance; sorted
   std::vector<Intersection_points> points;  ///< parallel to `faces`: where they meet; empty unless asked for
   std::vector<Contact_normal> normals;      ///< parallel to `faces`; empty unless asked for
   bool capped = false;                      ///< there are more face pairs than `Detector_options::most_contacts`
@@ -33,6 +34,7 @@ Collisions find_collisions(const Mesh& a, const Mesh& b, const Detector_options&
   const Object_id first = detector.add(a), second = detector.add(b);
   const Frame& frame = options.mode == Mode::exact ? detector.detect(first, second) : detector.detect();
   return {.collide = frame.collides(),
+          .near = frame.near(),
           .faces = frame.face_pairs,
           .points = frame.contact_points,
           .normals = frame.contact_normals,

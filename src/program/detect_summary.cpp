@@ -38,6 +38,7 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
             {"b", subject.scene.objects[pair.b].name},
             {"colliding_frames", summary.colliding_frames},
             {"face_pairs", summary.face_pairs}};
+  if (subject.command.options.exact.tolerance > 0 && pair.a != pair.b) json["near_frames"] = summary.near_frames;
   if (summary.capped_frames > 0) json["capped_frames"] = summary.capped_frames;
   if (subject.command.options.exact.containment) json["contained_frames"] = summary.contained_frames;
   if (subject.has_truth(pair)) json["truth"] = truth_json(summary.score);
@@ -52,12 +53,13 @@ Json misses_json(Mode mode) {
 }
 
 bool is_empty(const Pair_summary& summary) {
-  return summary.colliding_frames == 0 && summary.contained_frames == 0 && summary.score.positives() == 0;
+  return summary.colliding_frames == 0 && summary.near_frames == 0 && summary.contained_frames == 0 &&
+         summary.score.positives() == 0;
 }
 
 std::vector<std::string> table_header(const Detect_command& command) {
-  std::vector<std::string> header{"object a", "object b", "frames",
-                                  command.options.exact.tolerance > 0 ? "near" : "colliding"};
+  std::vector<std::string> header{"object a", "object b", "frames", "colliding"};
+  if (command.options.exact.tolerance > 0) header.emplace_back("near");
   if (command.options.exact.containment) header.emplace_back("one inside");
   if (command.truth) header.insert(header.end(), {"truly", "recall", "precision", "accuracy"});
   return header;
@@ -67,6 +69,8 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
   const auto& scene = subject.scene;
   std::vector<std::string> row{scene.objects[pair.a].name, scene.objects[pair.b].name, std::to_string(scene.frames),
                                std::to_string(summary.colliding_frames)};
+  if (subject.command.options.exact.tolerance > 0)
+    row.push_back(pair.a == pair.b ? "-" : std::to_string(summary.near_frames));
   if (subject.command.options.exact.containment) row.push_back(std::to_string(summary.contained_frames));
   if (subject.has_truth(pair))
     row.insert(row.end(),
@@ -86,7 +90,7 @@ void print_table(const Run_subject& subject, const Run_summary& summary) {
     if (!many || !is_empty(results)) table.add(table_row(subject, pair, results));
   }
   fmt::print("{}", table.text());
-  if (many) fmt::print("Pairs that never collide are omitted.\n");
+  if (many) fmt::print("Pairs of which nothing was found are omitted.\n");
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
 }
 
@@ -105,6 +109,7 @@ void print_times(const Run_subject& subject, const Run_summary& summary) {
 
 void Pair_summary::add(const Pair_result& pair) {
   colliding_frames += pair.collides ? 1 : 0;
+  near_frames += pair.near ? 1 : 0;
   face_pairs += pair.contacts;
   capped_frames += pair.capped ? 1 : 0;
   contained_frames += pair.containment != Containment::none ? 1 : 0;

@@ -32,6 +32,7 @@ Json normals_json(std::span<const Contact_normal> normals) {
 Json pair_json(const std::vector<std::string>& names, const Frame& frame, const Pair_result& pair,
                const Detector_options& options) {
   Json json{{"a", names[pair.a]}, {"b", names[pair.b]}, {"collides", pair.collides}};
+  if (options.exact.tolerance > 0 && pair.a != pair.b) json["near"] = pair.near;
   if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(names, pair);
   if (pair.capped) json["capped"] = true;
   if (options.contacts != Contact_query::yes_no) {

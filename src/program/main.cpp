@@ -69,7 +69,7 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
 
 void add_exact_options(CLI::App& app, Exact_options& options) {
   app.add_option("--within", options.tolerance,
-                 "Mode exact: report face pairs nearer than this; 0: those that intersect")
+                 "Mode exact: report face pairs nearer than this, and which objects are near; 0: faces that intersect")
       ->capture_default_str();
   app.add_flag("--self", options.self_collision, "Mode exact: also report an object's faces that intersect each other");
   app.add_flag("--containment", options.containment, "Mode exact: also report objects that lie inside others");

@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 /// The options of the run with mode exact, which misses nothing.
 Detector_options exact_question(const Detector_options& options) {
   Detector_options asked{.mode = Mode::exact, .contacts = Contact_query::yes_no, .exact = options.exact};
+  asked.exact.tolerance = 0;
   asked.exact.containment = false;
   return asked;
 }
@@ -129,10 +130,11 @@ std::vector<Page_contact> Page_log::contacts(const Frame& result) const {
 
 std::string Page_log::stages(const Frame& result, std::optional<bool> truth) {
   const bool positive = truth ? *truth : exact_.detect().collides();
-  const auto distance = positive && command_.options.exact.tolerance == 0 ? std::optional(0.0) : nearest();
+  const auto distance = positive && !command_.options.exact.self_collision ? std::optional(0.0) : nearest();
   Json json{{"microseconds", microseconds(result.statistics.seconds)},
             {"positive", positive},
             {"found", result.collides()},
+            {"near", command_.options.exact.tolerance > 0 ? Json(result.near()) : Json()},
             {"nearest", distance ? Json(*distance) : Json()}};
   return json.dump();
 }

@@ -170,7 +170,7 @@ TYPED_TEST_P(Detector_volume_contract, pairs_within_a_tolerance_are_found) {
       const Frame& result = detector.detect();
       for (Object_id a = 0; a < meshes.size(); ++a)
         for (Object_id b = a + 1; b < meshes.size(); ++b)
-          expect_contacts(result, a, b, near_face_pairs(meshes[a], meshes[b], tolerance));
+          expect_near_contacts(result, a, b, meshes[a], meshes[b], tolerance);
       found += result.face_pairs.size();
       next_frame(meshes, frame);
     }

@@ -110,8 +110,9 @@ TEST(Containment, holds_where_the_surfaces_are_nearer_than_the_tolerance_without
     Exact_detector detector(options);
     add_all(detector, {&outer, &inner, &far});
     const Frame& frame = detector.detect();
-    EXPECT_TRUE(result_of(frame, 0, 1)->collides);  // near
-    EXPECT_FALSE(result_of(frame, 0, 2)->collides);
+    EXPECT_TRUE(result_of(frame, 0, 1)->near);
+    EXPECT_FALSE(result_of(frame, 0, 1)->collides);
+    EXPECT_FALSE(result_of(frame, 0, 2)->near);
   }
 }
 

@@ -21,9 +21,8 @@ TEST(Exact_tolerance, lists_the_faces_that_are_nearer_than_it) {
       shift(b, 3.9 * unit);
       std::size_t near = 0, apart = 0;
       for (int frame = 0; frame < 4; ++frame) {
-        const auto truth = near_face_pairs(a, b, tolerance * unit);
-        expect_contacts(detector.detect(), 0, 1, truth);
-        (truth.empty() ? apart : near) += 1;
+        const auto contacts = expect_near_contacts(detector.detect(), 0, 1, a, b, tolerance * unit);
+        (contacts == 0 ? apart : near) += 1;
         shift(b, -0.35 * unit);
       }
       EXPECT_GT(near, 0U);
@@ -41,8 +40,9 @@ TEST(Exact_tolerance, does_not_list_faces_at_just_this_distance) {
     Exact_detector detector({.mode = Mode::exact, .exact = {.tolerance = tolerance}});
     add_all(detector, {&a, &b});
     const Frame& frame = detector.detect();
-    EXPECT_EQ(frame.collides(), tolerance > 0.25);
-    expect_contacts(frame, 0, 1, near_face_pairs(a, b, tolerance));
+    EXPECT_EQ(frame.near(), tolerance > 0.25);
+    EXPECT_FALSE(frame.collides());
+    expect_near_contacts(frame, 0, 1, a, b, tolerance);
   }
 }
 
@@ -56,12 +56,38 @@ TEST(Exact_tolerance, reaches_across_many_objects) {
   std::size_t near = 0;
   for (Object_id a = 0; a < 12; ++a)
     for (Object_id b = a + 1; b < 12; ++b) {
-      const auto truth = near_face_pairs(*meshes[a], *meshes[b], 0.3);
-      expect_contacts(frame, a, b, truth);
-      near += truth.empty() ? 0 : 1;
+      near += expect_near_contacts(frame, a, b, *meshes[a], *meshes[b], 0.3) > 0 ? 1 : 0;
     }
   EXPECT_GT(near, 8U);
   EXPECT_LT(near, 12U * 11 / 2);
+}
+
+TEST(Exact_tolerance, near_objects_are_told_from_colliding_ones_by_every_query) {
+  const auto still = sphere(6), touching = sphere(6, 1, {1.9, 0, 0}), beside = sphere(6, 1, {0, 2.2, 0}),
+             far = sphere(6, 1, {0, 0, 9});
+  for (const auto query : {Contact_query::yes_no, Contact_query::first, Contact_query::all})
+    for (const std::size_t most : {std::size_t{1}, std::numeric_limits<std::size_t>::max()}) {
+      Exact_detector detector(
+          {.mode = Mode::exact, .contacts = query, .most_contacts = most, .exact = {.tolerance = 0.3}});
+      add_all(detector, {&still, &touching, &beside, &far});
+      const Frame& frame = detector.detect();
+      EXPECT_TRUE(frame.near() && frame.collides());
+      EXPECT_TRUE(result_of(frame, 0, 1)->collides);
+      EXPECT_TRUE(result_of(frame, 0, 1)->near);
+      EXPECT_FALSE(result_of(frame, 0, 2)->collides);
+      EXPECT_TRUE(result_of(frame, 0, 2)->near);
+      for (const auto& pair : frame.pairs) EXPECT_NE(pair.b, 3U);
+      EXPECT_FALSE(detector.detect(0, 2).collides());
+      EXPECT_TRUE(detector.detect(0, 2).near());
+    }
+}
+
+TEST(Exact_tolerance, of_zero_makes_nothing_near) {
+  const auto a = sphere(6), b = sphere(6, 1, {1.9, 0, 0});
+  Exact_detector detector({.mode = Mode::exact});
+  add_all(detector, {&a, &b});
+  EXPECT_TRUE(detector.detect().collides());
+  EXPECT_FALSE(detector.detect().near());
 }
 
 double distance(const Point& p, const Triangle& t) {

@@ -50,6 +50,7 @@ TEST(Exact_options, at_the_ends_of_their_ranges_are_taken) {
   Exact_detector detector({.mode = Mode::exact, .exact = {.tolerance = std::numeric_limits<double>::max()}});
   add_all(detector, {&a, &b});
   EXPECT_EQ(detector.detect().face_pairs.size(), num_faces(a) * num_faces(b));
+  EXPECT_TRUE(detector.detect().near());
 }
 
 TEST(Exact_options, of_the_mode_exact_alone_are_refused_by_the_others) {

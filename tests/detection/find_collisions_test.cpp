@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "lodestone/queries/exhaustive.h"
-#include "support/test_meshes.h"
+#include "support/exact_truth.h"
 
 namespace lodestone {
 namespace {
@@ -70,6 +69,17 @@ TEST(Find_collisions, in_mode_exact_sees_that_one_mesh_lies_inside_the_other) {
   const auto collisions = find_collisions(sphere(6), small, {.mode = Mode::exact, .exact = {.containment = true}});
   EXPECT_FALSE(collisions.collide);
   EXPECT_EQ(collisions.containment, Containment::b_in_a);
+}
+
+TEST(Find_collisions, tells_near_from_colliding) {
+  const auto a = cube(2);
+  auto b = cube(2);
+  shift(b, 1.25);
+  const auto near = find_collisions(a, b, {.exact = {.tolerance = 0.3}});
+  EXPECT_TRUE(near.near);
+  EXPECT_FALSE(near.collide);
+  EXPECT_EQ(near.faces, near_face_pairs(a, b, 0.3));
+  EXPECT_FALSE(find_collisions(a, b).near);
 }
 
 TEST(Find_collisions, of_meshes_far_apart_finds_nothing) {

@@ -53,6 +53,13 @@ TEST(Frame, collides_when_any_of_its_pairs_does) {
   EXPECT_FALSE(frame.collides());
 }
 
+TEST(Frame, is_near_when_any_of_its_pairs_is) {
+  Frame frame = frame_of_three_pairs();
+  EXPECT_FALSE(frame.near());
+  frame.pairs[1].near = true;
+  EXPECT_TRUE(frame.near());
+}
+
 TEST(Frame, without_pairs_does_not_collide) { EXPECT_FALSE(Frame{}.collides()); }
 
 TEST(Stage_times, total_is_the_sum_of_every_stage) {

@@ -120,9 +120,16 @@ TEST_F(Exact, reports_faces_within_a_distance_with_their_nearest_points_and_dire
   const auto scene = write("two.json", R"({"objects": [{"name": "low", "mesh": "low.off"},
                                                        {"name": "high", "mesh": "high.off"}]})");
   expect_success(detect(scene, {"--within", "0.5"}));
-  for (const auto& pair : frames().at(0)["pairs"]) EXPECT_EQ(pair["collides"], false);
-  expect_success(detect(scene, {"--within", "0.500001", "--points", "--normals"}));
+  for (const auto& pair : frames().at(0)["pairs"]) EXPECT_EQ(pair["near"], false);
+  const auto result = detect(scene, {"--within", "0.500001", "--points", "--normals"});
+  expect_success(result);
   const auto pair = frames().at(0)["pairs"][0];
+  EXPECT_EQ(pair["near"], true);
+  EXPECT_EQ(pair["collides"], false);
+  const auto summary = read_json(out / "summary.json")["pairs"][0];
+  EXPECT_EQ(summary["near_frames"], 1);
+  EXPECT_EQ(summary["colliding_frames"], 0);
+  EXPECT_NE(result.out.find("| colliding | near |"), std::string::npos) << result.out;
   EXPECT_EQ(pair["faces"], Json::array({{0, 0}}));
   ASSERT_EQ(pair["points"][0].size(), 2U);
   EXPECT_EQ(pair["points"][0][0][2], 0.0);
@@ -153,9 +160,32 @@ TEST_F(Exact, options_of_another_mode_are_refused_in_one_line) {
     EXPECT_NE(result.exit_code, 0);
     EXPECT_NE(result.err.find("mode exact"), std::string::npos) << result.err;
   }
-  const auto result = detect(scene, {"--truth", "--within", "1"});
-  EXPECT_NE(result.exit_code, 0);
-  EXPECT_NE(result.err.find("--truth"), std::string::npos) << result.err;
+}
+
+TEST_F(Exact, compares_collisions_with_the_truth_also_within_a_distance) {
+  const auto scene = write_bodies();
+  for (const auto* contacts : {"yes_no", "all"}) {
+    expect_success(detect(scene, {"--truth", "--within", "0.5", "--contacts", contacts}));
+    std::size_t colliding = 0, only_near = 0;
+    for (const auto& frame : frames())
+      for (const auto& pair : frame["pairs"]) {
+        EXPECT_EQ(pair["collides"], pair["truth"]);
+        if (pair["collides"]) {
+          EXPECT_EQ(pair["near"], true);
+        }
+        colliding += pair["collides"] ? 1 : 0;
+        only_near += pair["near"] && !pair["collides"] ? 1 : 0;
+      }
+    EXPECT_GT(colliding, 2U);
+    EXPECT_GT(only_near, 0U);
+    for (const auto& pair : read_json(out / "summary.json")["pairs"]) EXPECT_EQ(pair["truth"]["accuracy"], 1.0);
+  }
+}
+
+TEST_F(Exact, names_nothing_near_without_a_distance) {
+  expect_success(detect(write_bodies(), {}));
+  for (const auto& frame : frames())
+    for (const auto& pair : frame["pairs"]) EXPECT_FALSE(pair.contains("near"));
 }
 
 TEST_F(Exact, finds_self_collisions_of_a_single_mesh) {

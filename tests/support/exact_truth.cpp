@@ -22,7 +22,21 @@ void expect_contacts(const Frame& frame, Object_id a, Object_id b, const std::ve
   const auto* result = result_of(frame, a, b);
   if (result == nullptr) return;
   EXPECT_EQ(result->collides, !truth.empty()) << where;
+  EXPECT_FALSE(result->near) << where;
   EXPECT_FALSE(result->capped) << where;
+}
+
+std::size_t expect_near_contacts(const Frame& frame, Object_id a, Object_id b, const Surface_mesh& mesh_a,
+                                 const Surface_mesh& mesh_b, double tolerance) {
+  const std::string where = std::to_string(a) + " and " + std::to_string(b) + ", frame " + std::to_string(frame.number);
+  const auto truth = near_face_pairs(mesh_a, mesh_b, tolerance);
+  EXPECT_EQ(contacts_of(frame, a, b), truth) << where;
+  const auto* result = result_of(frame, a, b);
+  if (result == nullptr) return truth.size();
+  EXPECT_EQ(result->near, !truth.empty()) << where;
+  EXPECT_EQ(result->collides, !exhaustive_face_pairs(mesh_a, mesh_b).empty()) << where;
+  EXPECT_FALSE(result->capped) << where;
+  return truth.size();
 }
 
 std::size_t expect_exhaustive(const Frame& frame, const Meshes& meshes) {
@@ -88,13 +102,13 @@ void expect_same_frame(const Frame& a, const Frame& b) {
   }
   ASSERT_EQ(a.pairs.size(), b.pairs.size());
   const auto fields = [](const Pair_result& pair) {
-    return std::make_tuple(pair.a, pair.b, pair.collides, pair.candidates, pair.first_contact, pair.contacts,
+    return std::make_tuple(pair.a, pair.b, pair.collides, pair.near, pair.candidates, pair.first_contact, pair.contacts,
                            pair.capped, pair.containment);
   };
   for (std::size_t i = 0; i < a.pairs.size(); ++i) EXPECT_EQ(fields(a.pairs[i]), fields(b.pairs[i])) << i;
   const auto counts = [](const Frame_statistics& s) {
-    return std::make_tuple(s.object_candidates, s.iterations, s.moves, s.relaxed, s.candidates, s.exact_tests, s.contacts,
-                           s.repartitions);
+    return std::make_tuple(s.object_candidates, s.iterations, s.moves, s.relaxed, s.candidates, s.exact_tests,
+                           s.contacts, s.repartitions);
   };
   EXPECT_EQ(counts(a.statistics), counts(b.statistics));
 }

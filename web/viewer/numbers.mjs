@@ -86,7 +86,7 @@ function pair_row(name) {
   const set = (pair) => {
     const missed = pair.truth && !pair.collides;
     const faces = pair.faces ? `, ${pair.faces.length}${pair.capped ? ' or more' : ''} face ${pair.faces.length === 1 ? 'pair' : 'pairs'}` : '';
-    set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.inside ? `${pair.inside} inside` : 'apart or not found');
+    set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.near ? `near${faces}` : pair.inside ? `${pair.inside} inside` : 'apart or not found');
     state.className = `state ${pair.collides ? 'confirmed' : missed ? 'missed' : ''}`;
   };
   return { nodes: [element('li', {}, element('span', { className: 'name', textContent: name }), state)], set };

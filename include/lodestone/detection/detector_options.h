@@ -35,7 +35,8 @@ constexpr std::string_view name_of(Mode mode) {
 /// What only the mode `exact` is asked.
 struct Exact_options {
   double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect.
-                                ///< Between two objects: pairs within one are reported if they intersect
+                                ///< Between two objects: pairs within one are reported if they intersect. A frame tells
+                                ///< apart what is near and what collides, which can take a second yes or no
   bool self_collision = false;  ///< also report pairs of faces of one object
   bool containment = false;     ///< also tell objects that lie inside others
   std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,11 +10,9 @@
 
 #include "lodestone/detection/broad_phase.h"
 #include "lodestone/detection/detection.h"
-#include "lodestone/detection/exact_object.h"
+#include "lodestone/detection/exact_objects.h"
 #include "lodestone/detection/frame_builder.h"
-#include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/mesh/stopwatch.h"
-#include "lodestone/partition/partition.h"
 #include "lodestone/queries/closest_faces.h"
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/containment.h"
@@ -34,37 +30,35 @@ class Exact_detection final : public Detection<Mesh, Points> {
   /// What a refusal tells a user who asks another mode for this one's answers.
   static constexpr const char* needed = "this needs the mode exact";
 
-  using Object = Exact_object<Mesh, Points, Volume>;
   using Surface = Basic_tree_surface<Volume>;
 
   Exact_detection(const Detector_options& options, Strategy strategy)
       : options_(options),
-        strategy_(std::move(strategy)),
         workers_(options.exact.threads),
         search_(workers_),
+        objects_(options, std::move(strategy), workers_),
         frame_(options) {}
-  // The search refers to the workers.
+  // The search and the objects refer to the workers.
   Exact_detection(const Exact_detection&) = delete;
   Exact_detection& operator=(const Exact_detection&) = delete;
 
   void add(const Mesh& mesh, Points points, const Object_options& options) override {
     check_no_visitor();
-    timed(since_last_frame_.seconds.build,
-          [&] { objects_.push_back(std::make_unique<Object>(mesh, points, options)); });
+    objects_.add(mesh, std::move(points), options);
   }
-  void write_maps(Object_id object, Mesh& mesh) override { objects_[object]->maps.emplace(mesh); }
+  void write_maps(Object_id object, Mesh& mesh) override { objects_[object].maps.emplace(mesh); }
 
   /// The mesh is where positions come from.
   void update(Object_id object) override {
     check_no_visitor();
-    objects_[object]->given.reset();
+    objects_[object].given.reset();
   }
   /// These are its positions until the next update.
   void update(Object_id object, const Eigen::Ref<const Positions>& positions);
   /// Reads the faces of the mesh anew.
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override {
     check_no_visitor();
-    timed(since_last_frame_.seconds.build, [&] { objects_[object]->rebuild(file_vertex); });
+    objects_.rebuild(object, file_vertex);
   }
 
   const Frame& detect(const Collision_filter& filter) override;
@@ -74,14 +68,14 @@ class Exact_detection final : public Detection<Mesh, Points> {
     const Object_id ids[] = {pair.a, pair.b};
     refresh(ids);
     const Visiting visiting(visited_);
-    return visit_contacts(objects_[pair.a]->surface.view(), objects_[pair.b]->surface.view(), options_.exact.tolerance,
+    return visit_contacts(objects_.surface(pair.a).view(), objects_.surface(pair.b).view(), options_.exact.tolerance,
                           std::forward<Visitor>(visitor));
   }
   Closest_faces closest(Object_pair pair);
   bool contains(Object_id outer, Object_id inner);
 
-  const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_[object]->surface.tree(); }
-  const std::optional<Region_maps<Mesh>>& maps(Object_id object) const override { return objects_[object]->maps; }
+  const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_.surface(object).tree(); }
+  const std::optional<Region_maps<Mesh>>& maps(Object_id object) const override { return objects_[object].maps; }
 
  private:
   /// While a visitor is shown face pairs.
@@ -99,29 +93,26 @@ class Exact_detection final : public Detection<Mesh, Points> {
   void check_no_visitor() const {
     if (visited_) throw Bad_argument("a visitor called the detector that shows it face pairs");
   }
-  void build(Object_id id, Coordinates coordinates);
-  void refresh(std::span<const Object_id> ids);
-  void build_new(std::span<const Object_id> ids);
-  void refit_built(std::span<const Object_id> ids);
-  void rebuild_loose(std::span<const Object_id> ids);
+  void refresh(std::span<const Object_id> ids) {
+    check_no_visitor();
+    objects_.refresh(ids);
+  }
   void start_frame(std::span<const Object_id> ids);
   void find_candidates(const Collision_filter& filter);
   void check(Object_pair pair);
-  Containment containment(Object_pair pair, bool found);
+  void find_contacts(Pair_result& result);
+  Contact_summary search(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
+  Containment containment(const Pair_result& pair);
 
   Detector_options options_;
-  Strategy strategy_;
   Workers workers_;
   Basic_contact_search<Volume> search_;
-  std::vector<std::unique_ptr<Object>> objects_;
+  Exact_objects<Mesh, Strategy, Points, Volume> objects_;
   Frame_builder frame_;
-  Frame_statistics since_last_frame_;  ///< what other calls have to tell the next frame: they build and rebuild too
-  bool visited_ = false;               ///< a visitor is being shown face pairs
+  bool visited_ = false;  ///< a visitor is being shown face pairs
 
   // Memory of the stages, kept from frame to frame.
   std::vector<Object_id> all_;
-  std::vector<Surface*> surfaces_;
-  std::vector<Coordinates> coordinates_;
   std::vector<Box> boxes_;
   std::vector<double> reach_;
   Broad_phase broad_phase_;
@@ -132,7 +123,7 @@ template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volu
 void Exact_detection<Mesh, Strategy, Points, Volume>::update(Object_id id,
                                                              const Eigen::Ref<const Positions>& positions) {
   check_no_visitor();
-  Object& object = *objects_[id];
+  auto& object = objects_[id];
   if (positions.rows() != object.numbering().vertex_count())
     throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(object.numbering().vertex_count()) +
                    " vertices, but got " + std::to_string(positions.rows()) + " positions");
@@ -164,7 +155,7 @@ template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volu
 Closest_faces Exact_detection<Mesh, Strategy, Points, Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
-  return closest_faces(objects_[pair.a]->surface.view(), objects_[pair.b]->surface.view());
+  return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
@@ -172,89 +163,23 @@ bool Exact_detection<Mesh, Strategy, Points, Volume>::contains(Object_id outer, 
   const Object_id ids[] = {outer, inner};
   refresh(ids);
   std::vector<Face_pair> none;
-  const auto& out = objects_[outer]->surface;
-  const auto& in = objects_[inner]->surface;
+  const auto& out = objects_.surface(outer);
+  const auto& in = objects_.surface(inner);
   return encloses(out, in) && !search_.between(out, in, {.query = Contact_query::yes_no}, none).found;
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::start_frame(std::span<const Object_id> ids) {
-  since_last_frame_.seconds.refit = 0;  // that of other calls is no part of the frame
   refresh(ids);
-  frame_.start(std::exchange(since_last_frame_, {}));
+  frame_.start(objects_.take_work());
   candidates_.clear();
-}
-
-/// Divides the surface into regions, and builds a tree over them.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::build(Object_id id, Coordinates coordinates) {
-  Object& object = *objects_[id];
-  check_finite(coordinates, id);
-  const auto& numbering = object.numbering();
-  const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
-  const Positions positions = scaled_positions(coordinates);
-  std::size_t regions = options_.least_particles;
-  if (options_.particles > 0) regions = options_.particles;
-  if (object.particles > 0) regions = object.particles;
-  const auto partition = partition_numbered(Partition_input<Mesh>{object.mesh(), numbering, graph, positions},
-                                            std::max<std::size_t>(1, regions), strategy_, options_.partition);
-  object.surface.build(partition.labels, coordinates, options_.exact.tree);
-  object.built = true;
-  if (object.maps) object.maps->write(numbering, partition.labels, partition.particles);
-}
-
-/// Everything that depends on positions.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::refresh(std::span<const Object_id> ids) {
-  check_no_visitor();
-  // Refitted first: a tree that is built now holds the current positions.
-  timed(since_last_frame_.seconds.refit, [&] { refit_built(ids); });
-  build_new(ids);
-  rebuild_loose(ids);
-}
-
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::refit_built(std::span<const Object_id> ids) {
-  surfaces_.clear();
-  coordinates_.clear();
-  for (const auto id : ids) {
-    if (!objects_[id]->built) continue;
-    surfaces_.push_back(&objects_[id]->surface);
-    coordinates_.push_back(objects_[id]->read(id));
-  }
-  refit<Volume>(surfaces_, coordinates_, workers_);
-  for (const auto id : ids) {
-    const Surface& surface = objects_[id]->surface;
-    if (!objects_[id]->built) continue;
-    if (!surface.finite()) check_finite(surface.coordinates(), id);
-    check_finite(surface.coordinates(), objects_[id]->unused(), id);
-  }
-}
-
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::build_new(std::span<const Object_id> ids) {
-  for (const auto id : ids) {
-    if (objects_[id]->built) continue;
-    timed(since_last_frame_.seconds.build, [&] { build(id, objects_[id]->read(id)); });
-    ++since_last_frame_.builds;
-  }
-}
-
-/// New trees for objects whose leaves have grown too much in comparison with the whole.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::rebuild_loose(std::span<const Object_id> ids) {
-  for (const auto id : ids) {
-    const Surface& surface = objects_[id]->surface;
-    if (!surface.looser_than(options_.exact.loosest)) continue;
-    timed(since_last_frame_.seconds.repartition, [&] { build(id, surface.coordinates()); });
-    ++since_last_frame_.repartitions;
-  }
 }
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::find_candidates(const Collision_filter& filter) {
   boxes_.clear();
-  for (const auto& object : objects_) boxes_.push_back(to_box(object->surface.tree().volume(0).bounds()));
+  for (Object_id id = 0; id < objects_.size(); ++id)
+    boxes_.push_back(to_box(objects_.surface(id).tree().volume(0).bounds()));
   reach_.assign(objects_.size(), options_.exact.tolerance);
   for (const auto pair : broad_phase_.find(boxes_, reach_))
     if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
@@ -266,37 +191,53 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::find_candidates(const Coll
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::check(Object_pair pair) {
-  const Surface& a = objects_[pair.a]->surface;
-  const Surface& b = objects_[pair.b]->surface;
-  const Contact_request request{
-      .query = options_.contacts, .tolerance = options_.exact.tolerance, .most = options_.most_contacts};
   Pair_result result = frame_.start_pair(pair);
-  const Contact_summary summary = pair.a == pair.b ? search_.within(a, request, frame_.face_pairs())
-                                                   : search_.between(a, b, request, frame_.face_pairs());
-  result.collides = summary.found;
-  result.capped = summary.capped;
-  result.candidates = summary.leaf_tests;
-  if (options_.exact.containment && pair.a != pair.b) result.containment = containment(pair, summary.found);
-  frame_.statistics().candidates += summary.leaf_tests;
-  frame_.statistics().exact_tests += summary.exact_tests;
+  find_contacts(result);
+  if (options_.exact.containment && pair.a != pair.b) result.containment = containment(result);
   frame_.end_pair(result, [this](Object_id id, std::uint32_t face) {
-    const Surface& surface = objects_[id]->surface;
+    const Surface& surface = objects_.surface(id);
     return face_triangle(surface.corners()[face],
                          [&](auto vertex) { return surface.coordinates().data() + 3 * std::size_t{vertex}; });
   });
 }
 
+/// What is near may collide or not: a second search tells.
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-Containment Exact_detection<Mesh, Strategy, Points, Volume>::containment(Object_pair pair, bool found) {
-  const Surface& a = objects_[pair.a]->surface;
-  const Surface& b = objects_[pair.b]->surface;
-  const bool a_in_b = encloses(b, a);
-  if (!a_in_b && !encloses(a, b)) return Containment::none;
-  // What was found may be near without intersecting.
+void Exact_detection<Mesh, Strategy, Points, Volume>::find_contacts(Pair_result& result) {
+  const Object_pair pair{result.a, result.b};
+  const bool with_tolerance = options_.exact.tolerance > 0 && pair.a != pair.b;
+  const std::size_t candidates = frame_.statistics().candidates;
+  const Contact_summary contacts =
+      search(pair, {.query = options_.contacts, .tolerance = options_.exact.tolerance, .most = options_.most_contacts},
+             frame_.face_pairs());
+  result.capped = contacts.capped;
+  result.near = with_tolerance && contacts.found;
   std::vector<Face_pair> none;
-  if (found && (options_.exact.tolerance == 0 || search_.between(a, b, {.query = Contact_query::yes_no}, none).found))
-    return Containment::none;
-  return a_in_b ? Containment::a_in_b : Containment::b_in_a;
+  result.collides = contacts.found && (!with_tolerance || search(pair, {.query = Contact_query::yes_no}, none).found);
+  result.candidates = frame_.statistics().candidates - candidates;
+}
+
+/// Searches within one object if both are the same, and counts the tests.
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+Contact_summary Exact_detection<Mesh, Strategy, Points, Volume>::search(Object_pair pair,
+                                                                        const Contact_request& request,
+                                                                        std::vector<Face_pair>& found) {
+  const Surface& a = objects_.surface(pair.a);
+  const Surface& b = objects_.surface(pair.b);
+  const Contact_summary summary =
+      pair.a == pair.b ? search_.within(a, request, found) : search_.between(a, b, request, found);
+  frame_.statistics().candidates += summary.leaf_tests;
+  frame_.statistics().exact_tests += summary.exact_tests;
+  return summary;
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+Containment Exact_detection<Mesh, Strategy, Points, Volume>::containment(const Pair_result& pair) {
+  if (pair.collides) return Containment::none;
+  const Surface& a = objects_.surface(pair.a);
+  const Surface& b = objects_.surface(pair.b);
+  if (encloses(b, a)) return Containment::a_in_b;
+  return encloses(a, b) ? Containment::b_in_a : Containment::none;
 }
 
 }  // namespace lodestone

@@ -23,7 +23,7 @@ struct Stage_times {
   double build = 0;         ///< numbering, partition and tree of objects that are new, or that the caller rebuilt
   double repartition = 0;   ///< growth checks and repartitions; in mode exact rebuilding loose trees
   double refit = 0;         ///< mode exact: reading all positions, fitting all volumes
-  double broad_phase = 0;   ///< reading the particles, near object pairs
+  double broad_phase = 0;   ///< reading the particles, candidate object pairs
   double relaxation = 0;    ///< particles walking
   double candidates = 0;    ///< particle pairs below the collision distance
   double confirmation = 0;  ///< exact checks of candidate regions; in mode exact with the walk that finds them
@@ -41,7 +41,7 @@ struct Frame_statistics {
   bool relaxed = true;                ///< false: the relaxation was stopped by R_max
   std::size_t candidates = 0;         ///< candidate region pairs; in mode exact pairs of leaves
   std::size_t exact_tests = 0;        ///< face pairs given to the exact test
-  std::size_t contacts = 0;           ///< intersecting face pairs found, each once
+  std::size_t contacts = 0;           ///< face pairs found that intersect, or are nearer than the tolerance, each once
   std::size_t builds = 0;             ///< objects built: see Stage_times
   std::size_t repartitions = 0;  ///< objects repartitioned since the frame before; in mode exact loose trees rebuilt
 };
@@ -49,11 +49,13 @@ struct Frame_statistics {
 /// Whether one object lies inside the other: their surfaces are apart, and every piece of it is enclosed.
 enum class Containment { none, a_in_b, b_in_a };
 
-/// What was found for one near object pair, a < b; or, with a = b, within one object.
+/// What was found for one candidate object pair, a < b; or, with a = b, within one object.
 struct Pair_result {
   Object_id a = 0;
   Object_id b = 0;
-  bool collides = false;          ///< something was found: that intersects, or is nearer than the tolerance
+  bool collides = false;          ///< two faces intersect
+  bool near = false;              ///< two faces are nearer than the tolerance, or intersect; false without a tolerance,
+                                  ///< and within one object
   std::size_t candidates = 0;     ///< candidate region pairs
   std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
   std::size_t contacts = 0;
@@ -75,7 +77,7 @@ struct Candidate_regions {
 struct Frame {
   std::uint64_t number = 0;           ///< 1 for the first
   std::vector<Pair_result> pairs;     ///< by (a, b)
-  std::vector<Face_pair> face_pairs;  ///< of all pairs one after the other, sorted within a pair
+  std::vector<Face_pair> face_pairs;  ///< contacts of all pairs one after the other, sorted within a pair
   /// Parallel to `face_pairs`; empty unless asked for. Faces that are near but apart: the nearest point of each.
   std::vector<Intersection_points> contact_points;
   /// Parallel to `face_pairs`; empty unless asked for. A negative depth tells faces that are near but apart.
@@ -91,6 +93,11 @@ struct Frame {
   bool collides() const {
     for (const auto& pair : pairs)
       if (pair.collides) return true;
+    return false;
+  }
+  bool near() const {
+    for (const auto& pair : pairs)
+      if (pair.near) return true;
     return false;
   }
   /// Whether `face_pairs` lacks some that were cut off by `Detector_options::most_contacts`.

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "lodestone/detection/exact_object.h"
+#include "lodestone/detection/frame.h"
+#include "lodestone/mesh/scaled_positions.h"
+#include "lodestone/mesh/stopwatch.h"
+#include "lodestone/partition/partition.h"
+
+namespace lodestone {
+
+/// The objects of the mode `exact`, whose trees follow their meshes: built once, refitted in every frame, rebuilt where
+/// they have become loose.
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+class Exact_objects {
+ public:
+  using Object = Exact_object<Mesh, Points, Volume>;
+  using Surface = Basic_tree_surface<Volume>;
+
+  /// @param workers  must outlive this
+  Exact_objects(const Detector_options& options, Strategy strategy, Workers& workers)
+      : options_(options), strategy_(std::move(strategy)), workers_(workers) {}
+
+  /// @throws Bad_mesh, Bad_argument  nothing has been added
+  void add(const Mesh& mesh, Points points, const Object_options& options) {
+    timed(work_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(mesh, points, options)); });
+  }
+  /// Reads the faces of the mesh anew.
+  /// @throws Bad_mesh, Bad_argument  the object stays as it was
+  void rebuild(Object_id id, std::span<const std::uint32_t> file_vertex) {
+    timed(work_.seconds.build, [&] { objects_[id]->rebuild(file_vertex); });
+  }
+
+  Object_id size() const { return static_cast<Object_id>(objects_.size()); }
+  Object& operator[](Object_id id) { return *objects_[id]; }
+  const Object& operator[](Object_id id) const { return *objects_[id]; }
+  const Surface& surface(Object_id id) const { return objects_[id]->surface; }
+
+  /// Brings everything that depends on positions to where the vertices of these objects are now.
+  /// @throws Bad_mesh  a coordinate is not finite; a mesh has changed since it was numbered
+  void refresh(std::span<const Object_id> ids);
+
+  /// What has been done since the last call of this: times, builds, repartitions. Of the refits, only the last counts.
+  Frame_statistics take_work() { return std::exchange(work_, {}); }
+
+ private:
+  void refit_built(std::span<const Object_id> ids);
+  void build_new(std::span<const Object_id> ids);
+  void rebuild_loose(std::span<const Object_id> ids);
+  void build(Object_id id, Coordinates coordinates);
+
+  Detector_options options_;
+  Strategy strategy_;
+  Workers& workers_;
+  std::vector<std::unique_ptr<Object>> objects_;
+  Frame_statistics work_;
+
+  // Memory, kept from frame to frame.
+  std::vector<Surface*> surfaces_;
+  std::vector<Coordinates> coordinates_;
+};
+
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_objects<Mesh, Strategy, Points, Volume>::refresh(std::span<const Object_id> ids) {
+  work_.seconds.refit = 0;
+  // Refitted first: a tree that is built now holds the current positions.
+  timed(work_.seconds.refit, [&] { refit_built(ids); });
+  build_new(ids);
+  rebuild_loose(ids);
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_objects<Mesh, Strategy, Points, Volume>::refit_built(std::span<const Object_id> ids) {
+  surfaces_.clear();
+  coordinates_.clear();
+  for (const auto id : ids) {
+    if (!objects_[id]->built) continue;
+    surfaces_.push_back(&objects_[id]->surface);
+    coordinates_.push_back(objects_[id]->read(id));
+  }
+  refit<Volume>(surfaces_, coordinates_, workers_);
+  for (const auto id : ids) {
+    if (!objects_[id]->built) continue;
+    if (!surface(id).finite()) check_finite(surface(id).coordinates(), id);
+    check_finite(surface(id).coordinates(), objects_[id]->unused(), id);
+  }
+}
+
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_objects<Mesh, Strategy, Points, Volume>::build_new(std::span<const Object_id> ids) {
+  for (const auto id : ids) {
+    if (objects_[id]->built) continue;
+    timed(work_.seconds.build, [&] { build(id, objects_[id]->read(id)); });
+    ++work_.builds;
+  }
+}
+
+/// New trees for objects whose leaves have grown too much in comparison with the whole.
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_objects<Mesh, Strategy, Points, Volume>::rebuild_loose(std::span<const Object_id> ids) {
+  for (const auto id : ids) {
+    if (!surface(id).looser_than(options_.exact.loosest)) continue;
+    timed(work_.seconds.repartition, [&] { build(id, surface(id).coordinates()); });
+    ++work_.repartitions;
+  }
+}
+
+/// Divides the surface into regions, and builds a tree over them.
+template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+void Exact_objects<Mesh, Strategy, Points, Volume>::build(Object_id id, Coordinates coordinates) {
+  Object& object = *objects_[id];
+  check_finite(coordinates, id);
+  const auto& numbering = object.numbering();
+  const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
+  const Positions positions = scaled_positions(coordinates);
+  std::size_t regions = options_.least_particles;
+  if (options_.particles > 0) regions = options_.particles;
+  if (object.particles > 0) regions = object.particles;
+  const auto partition = partition_numbered(Partition_input<Mesh>{object.mesh(), numbering, graph, positions},
+                                            std::max<std::size_t>(1, regions), strategy_, options_.partition);
+  object.surface.build(partition.labels, coordinates, options_.exact.tree);
+  object.built = true;
+  if (object.maps) object.maps->write(numbering, partition.labels, partition.particles);
+}
+
+}  // namespace lodestone
