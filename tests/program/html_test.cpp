@@ -295,13 +295,13 @@ TEST_F(Html, the_truth_equals_exhaustive_checking_in_every_mode) {
 }
 
 TEST_F(Html, near_is_not_found) {
-  const auto stages = page_of({"detect", write("a.off", tetrahedron_off()), write("b.off", tetrahedron_off(1.5)),
-                               "--mode", "exact", "--within", "0.75"})
+  const auto stages = page_of({"detect", write("a.off", tetrahedron_off()), write("b.off", tetrahedron_off(2)),
+                               "--mode", "exact", "--within", "1.5"})
                           .json_section("stages");
   EXPECT_EQ(stages.at(0)["near"], true);
   EXPECT_EQ(stages.at(0)["found"], false);
   EXPECT_EQ(stages.at(0)["positive"], false);
-  EXPECT_DOUBLE_EQ(stages.at(0)["nearest"].get<double>(), 0.5);
+  EXPECT_DOUBLE_EQ(stages.at(0)["nearest"].get<double>(), 1);
   EXPECT_EQ(detect().json_section("stages").at(0)["near"], nullptr);
 }
 

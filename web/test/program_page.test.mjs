@@ -30,7 +30,7 @@ test('a run of 300 frames is a small page that shows the numbers of frames.jsonl
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'program-page-'));
   const file = path.join(folder, 'run.html');
   const scene = path.join(root, 'data/scenes/teapot_sphere_1.json');
-  execFileSync(program, ['detect', scene, '--particles', '32', '--html', file, '--out', folder, '--quiet']);
+  execFileSync(program, ['detect', scene, '--mode', 'particles', '--particles', '32', '--html', file, '--out', folder, '--quiet']);
   assert.ok(fs.statSync(file).size < 15e6);
   const lines = fs.readFileSync(path.join(folder, 'frames.jsonl'), 'utf8').trimEnd().split('\n').map((line) => JSON.parse(line));
   assert.equal(lines.length, 300);
