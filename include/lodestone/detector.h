@@ -27,8 +27,8 @@ using Own_points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::con
 ///       for (const auto& pair : detector.detect().pairs) ...
 ///     }
 ///
-/// The caller keeps the meshes and moves their vertices. The meshes must outlive the detector, and must be neither
-/// moved nor assigned to. The caller calls `rebuild` after any change of a mesh's faces, and after any removal of its
+/// The caller keeps the meshes and moves their vertices. The meshes must outlive the detector, or the removal of their
+/// objects, and must be neither moved nor assigned to. The caller calls `rebuild` after any change of a mesh's faces, and after any removal of its
 /// maps `v:region` and `v:particle`, for instance by `clear`.
 ///
 /// The mode decides how much of a mesh a frame reads, and what it may miss: see `Particle_detection` and
@@ -80,7 +80,8 @@ class Detector {
   void update(Object_id object) { detection_->update(checked(object)); }
   /// The same for all objects.
   void update() {
-    for (Object_id object = 0; object < size(); ++object) update(object);
+    for (Object_id object = 0; object < size(); ++object)
+      if (has(object)) update(object);
   }
   /// Gives an object the positions that it has until its next update, in place of those of its mesh. Mode `exact`. The
   /// positions are copied: O(V).
@@ -99,6 +100,17 @@ class Detector {
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex = {}) {
     detection_->rebuild(checked(object), file_vertex);
   }
+
+  /// Removes an object. The others keep their ids, and no object is given this one again. Afterwards the detector refers
+  /// to its mesh no more; `v:region` and `v:particle` stay on it as they are. O(ignored pairs).
+  /// @throws Bad_argument  no such object, a call of a visitor
+  void remove(Object_id object) {
+    detection_->remove(checked(object));
+    filter_.remove(object);
+    meshes_[object] = nullptr;
+  }
+  /// Whether there is an object with this id: it has been added, and not removed.
+  bool has(Object_id object) const { return object < meshes_.size() && meshes_[object] != nullptr; }
 
   /// Excludes a pair of objects, or includes it again with `ignored` = false; a = b: collisions of a with itself.
   /// @throws Bad_argument  no such object
@@ -142,6 +154,7 @@ class Detector {
     return exact.contains(outer, inner);
   }
 
+  /// Number of objects added, removed ones included: every id is below it.
   std::size_t size() const { return meshes_.size(); }
   /// The state of one object in a mode with particles: regions, particles, patches. Valid until it is rebuilt.
   /// @throws Bad_argument  no such object, another mode
@@ -165,8 +178,9 @@ class Detector {
   using By_particles = Particle_detection<Mesh, Strategy, Points>;
 
   Object_id checked(Object_id object) const {
-    if (object >= meshes_.size()) throw Bad_argument("there is no object " + std::to_string(object));
-    return object;
+    if (has(object)) return object;
+    if (object < meshes_.size()) throw Bad_argument("object " + std::to_string(object) + " has been removed");
+    throw Bad_argument("there is no object " + std::to_string(object));
   }
   /// The mode, for a question about objects that only `Model` answers.
   /// @throws Bad_argument  no such object, another mode
@@ -179,7 +193,7 @@ class Detector {
 
   std::unique_ptr<Detection<Mesh, Points>> detection_;
   Collision_filter filter_;
-  std::vector<const Mesh*> meshes_;
+  std::vector<const Mesh*> meshes_;  ///< null: the object has been removed
 };
 
 // The library holds the detectors of a Surface_mesh: a file that uses one does not compile the modes again.

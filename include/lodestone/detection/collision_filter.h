@@ -14,6 +14,11 @@ namespace lodestone {
 class Collision_filter {
  public:
   void add(const Object_options& object) { objects_.push_back({object.groups, object.meets}); }
+  /// Leaves out all pairs of an object from now on. O(ignored pairs).
+  void remove(std::uint32_t object) {
+    objects_[object] = {.groups = 0, .meets = 0};
+    std::erase_if(ignored_, [object](const Object_pair& pair) { return pair.a == object || pair.b == object; });
+  }
   /// Leaves out a pair, or takes it in again. O(log ignored pairs).
   void ignore(Object_pair pair, bool ignored) {
     if (ignored)

@@ -12,7 +12,7 @@
 
 namespace lodestone {
 
-/// What a Detector asks of a mode. The models own the objects; `Object_id`s are checked by the caller.
+/// What a Detector asks of a mode. The models own the objects. The caller checks ids: none is that of a removed object.
 ///
 /// What only one model can answer is no part of this interface: the Detector asks that model itself. A new mode is one
 /// more model, and one more line in `make_detection`.
@@ -21,7 +21,7 @@ class Detection {
  public:
   virtual ~Detection() = default;
 
-  /// Adds an object, whose id is the number of objects before.
+  /// Adds an object, whose id is the number of objects added before.
   /// @throws Bad_mesh, Bad_argument  nothing has been added
   virtual void add(const Mesh& mesh, Points points, const Object_options& options) = 0;
   /// Keeps the property maps of an object's mesh up to date from the next partition on.
@@ -35,7 +35,12 @@ class Detection {
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
   virtual void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) = 0;
 
+  /// Forgets an object, and refers to its mesh no more.
+  /// @throws Bad_argument  a visitor is being shown face pairs; the object stays
+  virtual void remove(Object_id object) = 0;
+
   /// Finds the collisions between all objects where their vertices are now.
+  /// @param filter  lets no pair of a removed object pass
   /// @return valid until the next call
   virtual const Frame& detect(const Collision_filter& filter) = 0;
 };

@@ -61,6 +61,11 @@ class Exact_detection final : public Detection<Mesh, Points> {
     objects_.rebuild(object, file_vertex);
   }
 
+  void remove(Object_id object) override {
+    check_no_visitor();
+    objects_.remove(object);
+  }
+
   const Frame& detect(const Collision_filter& filter) override;
   const Frame& detect(const Collision_filter& filter, Object_pair pair);
   template <Contact_visitor Visitor>
@@ -112,7 +117,7 @@ class Exact_detection final : public Detection<Mesh, Points> {
   bool visited_ = false;  ///< a visitor is being shown face pairs
 
   // Memory of the stages, kept from frame to frame.
-  std::vector<Object_id> all_;
+  std::vector<Object_id> all_;  ///< but removed ones
   std::vector<Box> boxes_;
   std::vector<double> reach_;
   Broad_phase broad_phase_;
@@ -134,7 +139,9 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::update(Object_id id,
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Collision_filter& filter) {
-  for (auto id = static_cast<Object_id>(all_.size()); id < objects_.size(); ++id) all_.push_back(id);
+  all_.clear();
+  for (Object_id id = 0; id < objects_.size(); ++id)
+    if (objects_.has(id)) all_.push_back(id);
   start_frame(all_);
   timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
   timed(frame_.seconds().confirmation, [&] {
@@ -177,14 +184,13 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::start_frame(std::span<cons
 
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_detection<Mesh, Strategy, Points, Volume>::find_candidates(const Collision_filter& filter) {
-  boxes_.clear();
-  for (Object_id id = 0; id < objects_.size(); ++id)
-    boxes_.push_back(to_box(objects_.surface(id).tree().volume(0).bounds()));
+  boxes_.assign(objects_.size(), {});  // that of a removed object stays empty
+  for (const auto id : all_) boxes_[id] = to_box(objects_.surface(id).tree().volume(0).bounds());
   reach_.assign(objects_.size(), options_.exact.tolerance);
   for (const auto pair : broad_phase_.find(boxes_, reach_))
     if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
   if (!options_.exact.self_collision) return;
-  for (Object_id id = 0; id < objects_.size(); ++id)
+  for (const auto id : all_)
     if (filter.may_collide(id, id)) candidates_.push_back({id, id});
   std::ranges::sort(candidates_);
 }

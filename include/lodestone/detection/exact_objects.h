@@ -37,7 +37,12 @@ class Exact_objects {
     timed(work_.seconds.build, [&] { objects_[id]->rebuild(file_vertex); });
   }
 
+  void remove(Object_id id) { objects_[id].reset(); }
+
+  /// Objects added, removed ones included.
   Object_id size() const { return static_cast<Object_id>(objects_.size()); }
+  /// Whether an object has not been removed. All other calls are about such objects.
+  bool has(Object_id id) const { return objects_[id] != nullptr; }
   Object& operator[](Object_id id) { return *objects_[id]; }
   const Object& operator[](Object_id id) const { return *objects_[id]; }
   const Surface& surface(Object_id id) const { return objects_[id]->surface; }

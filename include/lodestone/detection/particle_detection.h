@@ -46,6 +46,7 @@ class Particle_detection final : public Detection<Mesh, Points> {
   void update(Object_id object) override;
   /// Reads the faces of the mesh anew.
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override;
+  void remove(Object_id object) override { objects_[object].reset(); }
   const Frame& detect(const Collision_filter& filter) override;
 
   const Particle_object<Mesh, Points>& object(Object_id object) const { return objects_[object]->particle_object; }
@@ -78,7 +79,7 @@ class Particle_detection final : public Detection<Mesh, Points> {
 
   Detector_options options_;
   Strategy strategy_;
-  std::vector<std::unique_ptr<Object>> objects_;
+  std::vector<std::unique_ptr<Object>> objects_;  ///< null: removed
   Frame_builder frame_;
   Frame_statistics since_last_frame_;  ///< what other calls have to tell the next frame
 
@@ -137,7 +138,7 @@ template <Triangle_mesh Mesh, class Strategy, class Points>
 void Particle_detection<Mesh, Strategy, Points>::prepare() {
   std::vector<Object*> fresh;
   for (auto& object : objects_)
-    if (!object->prepared) fresh.push_back(object.get());
+    if (object && !object->prepared) fresh.push_back(object.get());
   if (fresh.empty()) return;
   timed(since_last_frame_.seconds.build, [&] {
     for (Object* object : fresh) object->radius = object->particle_object.bounding_sphere().radius;
@@ -168,7 +169,8 @@ std::size_t Particle_detection<Mesh, Strategy, Points>::particles_of(const Objec
   if (object.options.particles > 0) return object.options.particles;
   if (options_.particles > 0) return options_.particles;
   std::vector<double> radii;
-  for (const auto& other : objects_) radii.push_back(other->radius);
+  for (const auto& other : objects_)
+    if (other) radii.push_back(other->radius);
   const auto& rule = options_.particle_count;
   const std::size_t by_rule = particle_count(object.particle_object.sphere_collection(rule), radii, rule);
   return std::min(std::max(by_rule, options_.least_particles), rule.most_particles);
@@ -180,7 +182,8 @@ void Particle_detection<Mesh, Strategy, Points>::make_room() {
   std::vector<std::size_t> counts;
   std::size_t faces = 0, vertices = 0;
   for (const auto& object : objects_) {
-    counts.push_back(object->particle_object.particles().at.size());
+    counts.push_back(object ? object->particle_object.particles().at.size() : 0);
+    if (!object) continue;
     for (const auto& patch : object->particle_object.patches()) {
       faces = std::max(faces, patch.faces.size());
       vertices = std::max(vertices, patch.vertices.size());
@@ -203,13 +206,15 @@ void Particle_detection<Mesh, Strategy, Points>::make_room() {
 template <Triangle_mesh Mesh, class Strategy, class Points>
 void Particle_detection<Mesh, Strategy, Points>::find_candidates(const Collision_filter& filter) {
   for (std::size_t o = 0; o < objects_.size(); ++o) {
+    boxes_[o].setEmpty();
+    reach_[o] = 0;
+    opponents_[o].clear();
+    if (!objects_[o]) continue;
     auto& particle_object = objects_[o]->particle_object;
     particle_object.read_particles();
-    boxes_[o].setEmpty();
     for (const auto& position : particle_object.particles().positions) boxes_[o].extend(position);
     reach_[o] = std::max(particle_object.particles().effective_radius,
                          options_.collision_distance * particle_object.particles().collision_distance);
-    opponents_[o].clear();
   }
   object_candidates_.clear();
   for (const auto& [a, b] : broad_phase_.find(boxes_, reach_)) {
@@ -225,6 +230,10 @@ void Particle_detection<Mesh, Strategy, Points>::walk() {
   if (object_candidates_.empty()) return;
   walking_.clear();
   for (std::size_t o = 0; o < objects_.size(); ++o) {
+    if (!objects_[o]) {
+      walking_.emplace_back();  // without opponents
+      continue;
+    }
     auto& particle_object = objects_[o]->particle_object;
     walking_.push_back({.particles = &particle_object.particles(),
                         .steps = &particle_object.steps(),
@@ -239,7 +248,7 @@ void Particle_detection<Mesh, Strategy, Points>::walk() {
   frame_.statistics().relaxed = relaxation.relaxed;
   if (relaxation.moves == 0) return;
   for (auto& object : objects_)
-    if (object->maps)
+    if (object && object->maps)
       object->maps->move_particles(object->particle_object.numbering(), object->particle_object.particles().at);
 }
 
