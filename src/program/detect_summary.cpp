@@ -81,7 +81,7 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
   return row;
 }
 
-void print_table(const Run_subject& subject, const Run_summary& summary) {
+void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   const bool many = subject.scene.objects.size() > 4;
   Text_table table(table_header(subject.command));
   std::size_t capped = 0;
@@ -144,7 +144,7 @@ Json summary_json(const Run_subject& subject, const Run_summary& summary) {
 
 void print_summary(const Run_subject& subject, const Run_summary& summary) {
   fmt::print("{}: {} objects, {} frames\n\n", subject.scene.name, subject.scene.objects.size(), subject.scene.frames);
-  print_table(subject, summary);
+  print_pairs(subject, summary);
   fmt::print("\n");
   print_times(subject, summary);
   if (const auto note = missing_note(subject.command.options.mode)) fmt::print("{}\n", *note);

@@ -77,7 +77,7 @@ TEST_P(Removal_in_mode, lets_go_of_the_mesh) {
   const Object_id object = detector.add(*mesh);
   detector.detect();
   detector.remove(object);
-  EXPECT_TRUE(mesh->property_map<Surface_mesh::Vertex_index, Region_index>("v:region").second);
+  EXPECT_TRUE((mesh->property_map<Surface_mesh::Vertex_index, Region_index>("v:region").second));
   mesh->clear();
   mesh.reset();
   detector.update();
