@@ -39,9 +39,9 @@ Corner_differences<Number> corner_differences(const Triangle& a, const Triangle&
   return d;
 }
 
-/// Differences times 2^-exponent, such that the largest absolute coordinate of `between` is in [1, 2), or at least
-/// 2^-74 if it was below 2^-1000. So products of a few differences neither overflow nor lose digits that count. Each
-/// coordinate has a relative error of at most 2^-53, or an absolute error below 2^-1070.
+/// Differences times 2^-exponent, such that the largest absolute coordinate of `between` is between 2^-74 and 2^16. So
+/// products of a few differences neither overflow nor lose digits that count. Each coordinate has a relative error of at
+/// most 2^-53, or an absolute error below 2^-1070.
 struct Scaled_differences {
   Corner_differences<double> vectors;
   int exponent = 0;
@@ -61,9 +61,8 @@ inline Scaled_differences scaled_differences(const Triangle& a, const Triangle& 
     scaled.exponent = 1;
     size = greatest(scaled.vectors);
   }
-  if (size == 0) return scaled;
-  // Without the limit the factor could overflow. The smallest size that the limit leaves, 2^-74, is no danger to
-  // products.
+  if (size == 0 || (size > 0x1p-16 && size < 0x1p16)) return scaled;
+  // Without the limit the factor could overflow. The smallest size that the limit leaves is 2^-74.
   const int shift = std::max(std::ilogb(size), -1000);
   const double factor = std::ldexp(1.0, -shift);
   for (auto& row : scaled.vectors.between)

@@ -11,8 +11,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <type_traits>
 #include <variant>
 #include <vector>
+
+#include "triangles/crossing_segment.h"
 
 namespace lodestone {
 
@@ -60,11 +64,20 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 
 Exact::Point_3 exact(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
-Point rounded(const Exact::Point_3& p) {
-  // Without exact() a lazy number converts to the midpoint of its interval, which may be off in the last digits.
-  p.exact();
-  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+/// The nearest double. CGAL's own conversion may be off in the last digits.
+double nearest(const Exact::FT& number) {
+  const auto& x = number.exact();
+  using Number = std::remove_cvref_t<decltype(x)>;
+  double best = CGAL::to_double(x);
+  const auto is_nearer = [&](double other) {
+    return std::isfinite(other) && CGAL::abs(Number(x - Number(other))) < CGAL::abs(Number(x - Number(best)));
+  };
+  for (const double end : {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()})
+    while (is_nearer(std::nextafter(best, end))) best = std::nextafter(best, end);
+  return best;
 }
+
+Point rounded(const Exact::Point_3& p) { return {nearest(p.x()), nearest(p.y()), nearest(p.z())}; }
 
 struct Collect_points {
   Intersection_points& points;
@@ -72,6 +85,7 @@ struct Collect_points {
   void operator()(const Exact::Point_3& p) const { points.push_back(rounded(p)); }
   void operator()(const Exact::Segment_3& s) const {
     for (const auto& end : {s.source(), s.target()}) points.push_back(rounded(end));
+    std::ranges::sort(points);
   }
   void operator()(const Exact::Triangle_3& t) const {
     for (int i = 0; i < 3; ++i) points.push_back(rounded(t[i]));
@@ -146,6 +160,10 @@ bool triangles_intersect_given(const Triangle_corners& a, const Triangle_corners
 
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b) {
   Intersection_points points;
+  if (const auto ends = crossing_segment(a, b)) {
+    points.assign(ends->begin(), ends->end());
+    return points;
+  }
   std::visit(Shapes_intersection{points}, shape<Exact>(exact(a[0]), exact(a[1]), exact(a[2])),
              shape<Exact>(exact(b[0]), exact(b[1]), exact(b[2])));
   return points;

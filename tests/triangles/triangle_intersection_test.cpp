@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/triangles/triangle_intersection.h"
 
+#include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <vector>
 
+#include "support/exact_point.h"
+#include "support/instruction_sets.h"
 #include "support/touching_triangles.h"
 
 namespace lodestone {
@@ -246,6 +251,118 @@ TEST(Triangle_intersection, of_coplanar_triangles_is_the_polygon_in_both) {
   EXPECT_EQ(inner.size(), 3U);
   const auto edge = triangle_intersection(as_triangle(base), as_triangle({{{4, 0, 0}, {0, 4, 0}, {4, 4, 0}}}));
   EXPECT_EQ(edge.size(), 2U);
+}
+
+/// The corners of the intersection of two triangles that have an area, in rational numbers.
+std::vector<Exact_point> exact_corners(const Triangle& a, const Triangle& b) {
+  using Exact_kernel = CGAL::Simple_cartesian<Rational>;
+  const auto exact = [](const Triangle& t) {
+    return Exact_kernel::Triangle_3(exact_point(t[0]), exact_point(t[1]), exact_point(t[2]));
+  };
+  const auto shape = CGAL::intersection(exact(a), exact(b));
+  if (!shape) return {};
+  if (const auto* point = boost::get<Exact_point>(&*shape)) return {*point};
+  if (const auto* segment = boost::get<Exact_kernel::Segment_3>(&*shape)) return {segment->source(), segment->target()};
+  if (const auto* triangle = boost::get<Exact_kernel::Triangle_3>(&*shape))
+    return {triangle->vertex(0), triangle->vertex(1), triangle->vertex(2)};
+  return boost::get<std::vector<Exact_point>>(*shape);
+}
+
+bool is_nearest(double rounded, const Rational& exact) {
+  const auto error = [&](double x) { return CGAL::abs(Rational(exact - Rational(x))); };
+  const double infinity = std::numeric_limits<double>::infinity();
+  return error(rounded) <= error(std::nextafter(rounded, -infinity)) &&
+         error(rounded) <= error(std::nextafter(rounded, infinity));
+}
+
+/// The corners as sets: each computed one is nearest to an exact one, and the reverse.
+bool are_nearest(const Intersection_points& points, const std::vector<Exact_point>& exact) {
+  const auto match = [](const Point& p, const Exact_point& q) {
+    return is_nearest(p.x(), q.x()) && is_nearest(p.y(), q.y()) && is_nearest(p.z(), q.z());
+  };
+  return std::ranges::all_of(
+             points, [&](const Point& p) { return std::ranges::any_of(exact, [&](auto& q) { return match(p, q); }); }) &&
+         std::ranges::all_of(
+             exact, [&](auto& q) { return std::ranges::any_of(points, [&](const Point& p) { return match(p, q); }); });
+}
+
+/// A triangle with corners in a box of the given sizes around a point.
+Triangle triangle_in_box(std::mt19937_64& random, const std::array<double, 3>& sizes, const Point& centre) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto corner = [&] {
+    return Point(centre.x() + sizes[0] * unit(random), centre.y() + sizes[1] * unit(random),
+                 centre.z() + sizes[2] * unit(random));
+  };
+  return {corner(), corner(), corner()};
+}
+
+TEST(Triangle_intersection, has_the_nearest_doubles_to_the_exact_corners) {
+  struct Case {
+    const char* name;
+    std::array<double, 3> sizes_a, sizes_b;
+    Point centre;
+  };
+  const std::vector<Case> cases{
+      {"of like size", {1, 1, 1}, {1, 1, 1}, Point(0, 0, 0)},
+      {"far from the origin", {1, 1, 1}, {1, 1, 1}, Point(1e6, -3e3, 7)},
+      {"nearly parallel", {1, 1, 1e-9}, {1, 1, 1e-9}, Point(0, 0, 1)},
+      {"nearly parallel, in a plane but for the last digits", {1, 1, 1e-15}, {1, 1, 1e-15}, Point(0, 0, 1)},
+      {"one flat along an axis", {1, 1, 0}, {1, 1, 1}, Point(0.1, 0.2, 0)},
+      {"one much smaller", {1e5, 1e5, 0.5}, {1, 1, 1}, Point(0, 0, 0)},
+      {"thin", {1, 1e-12, 1e-6}, {1e-12, 1, 1e-6}, Point(0, 0, 0)},
+      {"tiny", {0x1p-400, 0x1p-400, 0x1p-400}, {0x1p-400, 0x1p-400, 0x1p-400}, Point(0, 0, 0)},
+      {"subnormal", {0x1p-1060, 0x1p-1060, 0x1p-1060}, {0x1p-1060, 0x1p-1060, 0x1p-1060}, Point(0, 0, 0)},
+      {"huge", {0x1p900, 0x1p900, 0x1p900}, {0x1p900, 0x1p900, 0x1p900}, Point(0, 0, 0)},
+      {"tiny across huge", {0x1p260, 0x1p260, 0}, {0x1p-260, 0x1p-260, 0x1p-260}, Point(0, 0, 0)},
+  };
+  std::mt19937_64 random(8);
+  for (const auto& c : cases) {
+    std::size_t found = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+      const Triangle a = triangle_in_box(random, c.sizes_a, c.centre), b = triangle_in_box(random, c.sizes_b, c.centre);
+      if (CGAL::collinear(a[0], a[1], a[2]) || CGAL::collinear(b[0], b[1], b[2])) continue;
+      const auto exact = exact_corners(a, b);
+      found += exact.empty() ? 0 : 1;
+      const auto points = triangle_intersection(a, b);
+      ASSERT_TRUE(are_nearest(points, exact)) << c.name << ", trial " << trial;
+      ASSERT_EQ(points, triangle_intersection(b, a)) << c.name << ", trial " << trial;
+    }
+    EXPECT_GT(found, 0U) << c.name;
+  }
+}
+
+TEST(Triangle_intersection, is_the_same_for_each_instruction_set) {
+  std::mt19937_64 random(10);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Triangle a = triangle_in_box(random, {1, 1, 1}, Point(0, 0, 5));
+    const Triangle b = triangle_in_box(random, {1, 1, 1}, Point(0, 0, 5));
+    std::vector<Intersection_points> found;
+    for_instruction_sets([&] { found.push_back(triangle_intersection(a, b)); });
+    for (const auto& points : found) ASSERT_EQ(points, found[0]);
+  }
+}
+
+TEST(Triangle_intersection, has_the_nearest_doubles_where_most_pairs_are_degenerate) {
+  std::mt19937_64 random(9);
+  for (int trial = 0; trial < 5000; ++trial) {
+    const auto ia = random_triangle(random, 2 + trial % 4), ib = random_triangle(random, 2 + trial % 4);
+    if (is_degenerate(ia) || is_degenerate(ib)) continue;
+    const auto a = as_triangle(ia, 1 / 3.0), b = as_triangle(ib, 1 / 3.0);
+    ASSERT_TRUE(are_nearest(triangle_intersection(a, b), exact_corners(a, b))) << text(ia) << " and " << text(ib);
+  }
+}
+
+TEST(Triangle_intersection, of_a_segment_has_its_ends_in_lexicographic_order_for_any_order_of_corners) {
+  Triangle a = as_triangle(base), b{Point(1, 1, 0.25), Point(1, 5, -1), Point(1, 5, 1)};
+  const auto expected = triangle_intersection(a, b);
+  ASSERT_EQ(expected.size(), 2U);
+  EXPECT_LT(expected[0], expected[1]);
+  std::ranges::sort(a);
+  do {
+    std::ranges::sort(b);
+    do EXPECT_EQ(triangle_intersection(a, b), expected);
+    while (std::ranges::next_permutation(b).found);
+  } while (std::ranges::next_permutation(a).found);
 }
 
 TEST(Triangle_intersection, is_rounded_to_a_neighbouring_double) {

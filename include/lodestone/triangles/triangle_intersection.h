@@ -39,12 +39,15 @@ bool triangles_intersect(const Triangle& a, const Triangle& b);
 /// read.
 bool triangles_intersect_given(const Triangle_corners& a, const Triangle_corners& b, Crossing likely);
 
-/// Corners of the intersection of two triangles: one point, the two ends of a segment, or the corners of the polygon in
-/// which two coplanar triangles overlap (at most 6).
+/// Corners of the intersection of two triangles: one point, the two ends of a segment in lexicographic order, or the
+/// corners of the polygon in which two coplanar triangles overlap (at most 6).
 using Intersection_points = boost::container::static_vector<Point, 6>;
 
-/// The intersection of two triangles. Computed with exact constructions and rounded to double once, at the end. Empty
-/// if they have no point in common.
+/// The intersection of two triangles. Each coordinate is the nearest double to that of the exact intersection. Empty if
+/// they have no point in common.
+///
+/// Two triangles that cross cost about as much as twice the test whether they do. Exact numbers are needed where a corner
+/// or an edge of one touches the other, for coplanar triangles, and where rounding is in doubt: some 0.1 ms.
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b);
 
 }  // namespace lodestone

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "triangles/crossing_segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "triangles/crossing_kernel.h"
+
+namespace lodestone {
+
+namespace {
+
+/// On which side of the plane through p, q and r points lie. Exact: what doubles cannot tell is left to CGAL.
+class Side_test {
+ public:
+  Side_test(const Point& p, const Point& q, const Point& r) : p_(p), q_(q), r_(r) {
+    const auto u = q - p, v = r - p;
+    normal_ = CGAL::cross_product(u, v);
+    size_ = size(u) * size(v);
+  }
+
+  CGAL::Orientation operator()(const Point& s) const {
+    const auto w = s - p_;
+    const double height = normal_ * w;
+    // Shewchuk (1997): the error is below (7 + 56 e) e times the sum of the six products, each at most `size_` |w|.
+    const double bound = 0x1p-47 * size_ * size(w);
+    constexpr double tiny = 0x1p-900, huge = 0x1p900;
+    if (std::abs(height) > bound && size_ > tiny && bound > tiny && bound < huge && size_ < huge)
+      return height > 0 ? CGAL::POSITIVE : CGAL::NEGATIVE;
+    return CGAL::orientation(p_, q_, r_, s);
+  }
+
+ private:
+  static double size(const Kernel::Vector_3& v) { return std::max({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())}); }
+
+  const Point &p_, &q_, &r_;
+  Kernel::Vector_3 normal_;
+  double size_;  ///< product of the largest coordinates of q - p and r - p
+};
+
+/// The corners of a triangle of which one is on one side of a plane, and the two others on the other.
+struct Split_corners {
+  const Point* lone;
+  std::array<const Point*, 2> others;
+};
+
+/// @return none unless the plane of the other triangle passes between the corners
+std::optional<Split_corners> split(const Triangle& t, const Triangle& other) {
+  const Side_test side_of(other[0], other[1], other[2]);
+  const std::array side{side_of(t[0]), side_of(t[1]), side_of(t[2])};
+  if (side[0] == CGAL::ZERO || side[1] == CGAL::ZERO || side[2] == CGAL::ZERO) return {};
+  if (side[0] == side[1] && side[0] == side[2]) return {};
+  const std::size_t lone = side[0] == side[1] ? 2 : side[0] == side[2] ? 1 : 0;
+  return Split_corners{&t[lone], {&t[(lone + 1) % 3], &t[(lone + 2) % 3]}};
+}
+
+}  // namespace
+
+std::optional<std::array<Point, 2>> crossing_segment(const Triangle& a, const Triangle& b) {
+  const auto corners_a = split(a, b), corners_b = corners_a ? split(b, a) : std::nullopt;
+  if (!corners_b) return {};
+  // The edges from a lone corner cross the line in which the planes meet: those of a at P0 and P1, those of b at Q0 and
+  // Q1. Of i and j, ordered[i][j] tells on which side of Qj Pi lies.
+  std::array<std::array<CGAL::Orientation, 2>, 2> ordered;
+  for (std::size_t j = 0; j < 2; ++j) {
+    const Side_test side_of(*corners_a->lone, *corners_b->lone, *corners_b->others[j]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      ordered[i][j] = side_of(*corners_a->others[i]);
+      if (ordered[i][j] == CGAL::ZERO) return {};
+    }
+  }
+
+  // The segment ends where one of P0 and P1 lies between Q0 and Q1, or the reverse.
+  kernel::Edges_and_planes edges;
+  std::size_t count = 0;
+  const auto add = [&](const Split_corners& corners, std::size_t other, const Triangle& plane) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int corner = 0; corner < 3; ++corner) edges.plane[corner][axis][count] = plane[corner][axis];
+      edges.from[axis][count] = (*corners.lone)[axis];
+      edges.to[axis][count] = (*corners.others[other])[axis];
+    }
+    ++count;
+  };
+  for (std::size_t i = 0; i < 2; ++i)
+    if (ordered[i][0] != ordered[i][1]) add(*corners_a, i, b);
+  for (std::size_t j = 0; j < 2; ++j)
+    if (ordered[0][j] != ordered[1][j]) add(*corners_b, j, a);
+  if (count == 0) return {};  // the triangles are apart
+
+  kernel::Crossing_points points;
+  kernel::crossing_points(edges, points);
+  if (!points.proven) return {};
+  const auto& [x, y, z] = points.coordinates;
+  const Point first(x[0], y[0], z[0]), last(x[1], y[1], z[1]);
+  return last < first ? std::array{last, first} : std::array{first, last};
+}
+
+}  // namespace lodestone
