@@ -57,13 +57,10 @@ class Scene_run {
     for (std::size_t turn = 0; turn < detectors_.size(); ++turn) {
       // Each frame starts with another setting, because the first one finds the positions outside the caches.
       const std::size_t s = (frame + turn) % detectors_.size();
-      const Lap_timer timer;
       detectors_[s].update();
       const Frame& answer = detectors_[s].detect();
-      if (frame == 0)
-        run.measurements[s].preparation_seconds += timer.seconds();
-      else
-        run.measurements[s].frames.push_back(answer.statistics);
+      run.measurements[s].build_seconds += answer.statistics.seconds.build;
+      if (frame > 0) run.measurements[s].frames.push_back(answer.statistics);
       for (std::size_t p = 0; p < pairs_.size(); ++p) scores_[s].add(pairs_[p], truth[p], answered(answer, pairs_[p]));
     }
   }

@@ -25,7 +25,7 @@ struct Measured_run {
 
 /// Plays the scenes one after the other. In every frame exhaustive checking and all settings answer in turn.
 ///
-/// The first frame of a scene is scored but not timed, because detectors partition surfaces and build trees in it.
+/// The first frame of a scene is scored; of its times only `build` counts.
 ///
 /// @param truth  `exact_mode` for large scenes, where exhaustive checking would take longer than all else together
 Measured_run measure(std::span<Scene> scenes, std::span<const Setting> settings,

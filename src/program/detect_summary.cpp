@@ -101,7 +101,7 @@ void print_times(const Run_subject& subject, const Run_summary& summary) {
              median_microseconds_without_build(measurement),
              mean_count(measurement, exact ? &Frame_statistics::candidates : &Frame_statistics::iterations),
              exact ? "pairs of leaves" : "iterations", mean_count(measurement, &Frame_statistics::exact_tests));
-  fmt::print("{:.1f} milliseconds to build {} objects: numbering, {}\n", 1e3 * summary.build_seconds, summary.builds,
+  fmt::print("{:.1f} milliseconds to build {} objects: numbering, {}\n", 1e3 * measurement.build_seconds, summary.builds,
              exact ? "partition, tree" : "partition");
 }
 
@@ -119,7 +119,7 @@ void Run_summary::add(const Frame& frame, bool timed) {
   for (const auto& pair : frame.pairs) pairs[{pair.a, pair.b}].add(pair);
   if (timed) measurement.frames.push_back(frame.statistics);
   builds += frame.statistics.builds;
-  build_seconds += frame.statistics.seconds.build;
+  measurement.build_seconds += frame.statistics.seconds.build;
 }
 
 Json summary_json(const Run_subject& subject, const Run_summary& summary) {
@@ -138,7 +138,7 @@ Json summary_json(const Run_subject& subject, const Run_summary& summary) {
   for (const char* key : {"mean_iterations", "mean_moves", "mean_candidates", "mean_exact_tests", "mean_repartitions",
                           "median_microseconds"})
     json[key] = measured[key];
-  json["build_microseconds"] = 1e6 * summary.build_seconds;
+  json["build_microseconds"] = 1e6 * summary.measurement.build_seconds;
   return json;
 }
 

@@ -30,10 +30,9 @@ struct Pair_summary {
 struct Run_summary {
   std::map<Object_pair, Pair_summary> pairs;
   Measurement measurement;
-  std::size_t builds = 0;    ///< objects built, in all frames
-  double build_seconds = 0;  ///< over all frames
+  std::size_t builds = 0;  ///< objects built, in all frames
 
-  /// @param timed  whether the frame counts in the means and medians
+  /// @param timed  whether the frame counts in the means and medians; building always counts
   void add(const Frame& frame, bool timed);
 };
 

@@ -64,7 +64,7 @@ nlohmann::ordered_json to_json(const Measurement& m) {
       {"mean_exact_tests", mean_count(m, &Frame_statistics::exact_tests)},
       {"mean_repartitions", mean_count(m, &Frame_statistics::repartitions)},
       {"particles_at_end", m.particles},
-      {"preparation_seconds", m.preparation_seconds},
+      {"build_seconds", m.build_seconds},
       {"median_microseconds",
        {{"repartition", stage(&Stage_times::repartition)},
         {"refit", stage(&Stage_times::refit)},

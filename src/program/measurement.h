@@ -29,7 +29,7 @@ struct Measurement {
   std::vector<double> accuracies = {};        ///< per scene
   std::vector<Frame_statistics> frames = {};  ///< per frame of all scenes
   std::vector<std::size_t> particles = {};    ///< per object of the last scene, at its end
-  double preparation_seconds = 0;             ///< partition of all objects, summed over all scenes
+  double build_seconds = 0;                   ///< of all objects, summed over all frames
 };
 
 double median(std::vector<double> values);
