@@ -2,6 +2,7 @@
 // What counts as building an object, in every mode.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "detection/detector_scenes.h"
@@ -48,14 +49,20 @@ TEST_P(Build_in_mode, happens_again_after_a_rebuild) {
 }
 
 TEST_P(Build_in_mode, leaves_nothing_out_of_the_times) {
-  auto scene = two_spheres(1.8, 60);
-  const auto start = std::chrono::steady_clock::now();
-  add_all(detector, scene);
-  const Stage_times seconds = detector.detect().statistics.seconds;
-  const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  EXPECT_LE(seconds.total(), passed);
-  EXPECT_GT(seconds.total(), 0.5 * passed);
-  EXPECT_GT(seconds.build, seconds.without_build());
+  using Clock = std::chrono::steady_clock;
+  double most = 0;  // of some attempts, since the machine may be busy
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    auto scene = two_spheres(1.8, 60);
+    Detector<Surface_mesh> timed_detector({.mode = GetParam(), .particles = 24});
+    const auto start = Clock::now();
+    add_all(timed_detector, scene);
+    const Stage_times seconds = timed_detector.detect().statistics.seconds;
+    const double passed = std::chrono::duration<double>(Clock::now() - start).count();
+    EXPECT_LE(seconds.total(), passed);
+    EXPECT_GT(seconds.build, seconds.without_build());
+    most = std::max(most, seconds.total() / passed);
+  }
+  EXPECT_GT(most, 0.9);
 }
 
 TEST(Build, by_another_query_counts_in_the_next_frame) {
