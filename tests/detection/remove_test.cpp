@@ -2,6 +2,7 @@
 // What remains when an object is removed, in every mode.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -149,6 +150,22 @@ TEST(Removal, is_refused_to_a_visitor) {
   EXPECT_THROW(detector.visit(0, 1, remove), Bad_argument);
   EXPECT_TRUE(detector.has(0));
   EXPECT_TRUE(detector.detect().collides());
+}
+
+TEST(Removal, leaves_nothing_near_however_large_the_tolerance) {
+  auto scene = two_spheres(5);
+  auto third = sphere(4, 1, {0, 9, 0});
+  Detector<Surface_mesh> detector({.mode = Mode::exact,
+                                   .contacts = Contact_query::yes_no,
+                                   .exact = {.tolerance = std::numeric_limits<double>::max()}});
+  add_all(detector, scene);
+  detector.add(third);
+  EXPECT_EQ(detector.detect().pairs.size(), 3U);
+  detector.remove(1);
+  const Frame& frame = detector.detect();
+  ASSERT_EQ(frame.pairs.size(), 1U);
+  EXPECT_EQ(frame.pairs[0].b, 2U);
+  EXPECT_TRUE(frame.near());
 }
 
 TEST(Removal, in_self_collision_leaves_the_object_out) {
