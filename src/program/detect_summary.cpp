@@ -94,6 +94,11 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
 }
 
+const char* building_of(Mode mode) {
+  if (mode == Mode::exact) return "numbering, partition, tree";
+  return mode == Mode::senin ? "numbering, particles" : "numbering, partition";
+}
+
 void print_times(const Run_subject& subject, const Run_summary& summary) {
   const bool exact = subject.command.options.mode == Mode::exact;
   const Measurement& measurement = summary.measurement;
@@ -101,8 +106,8 @@ void print_times(const Run_subject& subject, const Run_summary& summary) {
              median_microseconds_without_build(measurement),
              mean_count(measurement, exact ? &Frame_statistics::candidates : &Frame_statistics::iterations),
              exact ? "pairs of leaves" : "iterations", mean_count(measurement, &Frame_statistics::exact_tests));
-  fmt::print("{:.1f} milliseconds to build {} objects: numbering, {}\n", 1e3 * measurement.build_seconds, summary.builds,
-             exact ? "partition, tree" : "partition");
+  fmt::print("{:.1f} milliseconds to build {} objects: {}\n", 1e3 * measurement.build_seconds, summary.builds,
+             building_of(subject.command.options.mode));
 }
 
 }  // namespace
