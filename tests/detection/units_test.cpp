@@ -46,7 +46,7 @@ TEST_P(Units, powers_of_two_change_nothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(modes, Units, testing::Values(Mode::particles, Mode::senin, Mode::exact),
-                         [](const auto& info) { return info.param == Mode::exact ? "exact" : info.param == Mode::senin ? "senin" : "particles"; });
+                         [](const auto& mode) { return mode.param == Mode::exact ? "exact" : mode.param == Mode::senin ? "senin" : "particles"; });
 
 }  // namespace
 }  // namespace lodestone
