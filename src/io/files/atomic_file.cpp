@@ -22,10 +22,7 @@ Atomic_file::Atomic_file(std::filesystem::path target) : target_(std::move(targe
   std::error_code error;
   if (target_.filename().empty() || std::filesystem::is_directory(target_, error))
     throw Bad_output(target_.string() + ": is a folder, expected a file name");
-  if (target_.has_parent_path()) {
-    std::filesystem::create_directories(target_.parent_path(), error);
-    if (error) throw Bad_output(target_.parent_path().string() + ": cannot create the folder: " + error.message());
-  }
+  if (target_.has_parent_path()) made_folders_.emplace(target_.parent_path());
   // O_EXCL: never opens an existing file or link, which another user may have put there.
   for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
     temporary_ = target_;

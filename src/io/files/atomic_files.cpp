@@ -12,11 +12,8 @@ namespace lodestone {
 
 namespace fs = std::filesystem;
 
-Atomic_files::Atomic_files(fs::path folder) : folder_(std::move(folder)) {
-  if (folder_.empty()) folder_ = ".";
+Atomic_files::Atomic_files(const fs::path& folder) : folder_(folder.empty() ? "." : folder), made_folders_(folder_) {
   std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) throw Bad_output(folder_.string() + ": cannot create the folder: " + error.message());
   bool made = false;
   for (int attempt = 0; !made && attempt < 100; ++attempt) {
     hidden_ = folder_ / (".new." + std::to_string(::getpid()) + "." + std::to_string(attempt));

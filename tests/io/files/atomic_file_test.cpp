@@ -47,6 +47,24 @@ TEST(Atomic_file, appears_with_all_its_bytes_at_the_commit) {
   EXPECT_EQ(files_in(folder.path()), 1);
 }
 
+TEST(Atomic_file, that_is_not_committed_leaves_no_folder_that_it_made) {
+  const Temporary_folder folder;
+  const auto inner = folder.path() / "a" / "b";
+  { const Atomic_file file(inner / "result"), beside(inner / "other"), above(folder.path() / "a" / "third"); }
+  EXPECT_FALSE(exists(folder.path() / "a"));
+
+  create_directory(folder.path() / "a");
+  { const Atomic_file file(inner / "result"); }
+  EXPECT_TRUE(exists(folder.path() / "a")) << "it was there before";
+  EXPECT_FALSE(exists(inner));
+
+  {
+    const Atomic_file file(inner / "result");
+    std::ofstream(inner / "foreign") << 1;
+  }
+  EXPECT_TRUE(exists(inner / "foreign"));
+}
+
 TEST(Atomic_file, may_be_longer_than_any_buffer) {
   const Temporary_folder folder;
   std::string all;

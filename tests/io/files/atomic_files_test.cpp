@@ -81,5 +81,13 @@ TEST_F(Atomic_files_test, are_refused_in_an_impossible_folder_or_over_a_folder) 
   EXPECT_THROW(files.commit(), Bad_output);
 }
 
+TEST_F(Atomic_files_test, that_are_not_committed_leave_no_folder_that_they_made) {
+  {
+    Atomic_files files(folder.path() / "a" / "b");
+    write(files.add("one"), "1");
+  }
+  EXPECT_FALSE(exists(folder.path() / "a"));
+}
+
 }  // namespace
 }  // namespace lodestone::test

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "lodestone/io/files/made_folders.h"
 
 namespace lodestone {
 
@@ -33,6 +36,7 @@ class Atomic_file {
   [[noreturn]] void fail(const char* action) const;
 
   std::filesystem::path target_, temporary_;
+  std::optional<Made_folders> made_folders_;
   std::string buffer_;
   int descriptor_ = -1;
 };

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "lodestone/io/files/made_folders.h"
+
 namespace lodestone {
 
 /// Files of one folder that appear together once all of them are written, such as one file per frame. Until `commit`
@@ -12,7 +14,7 @@ class Atomic_files {
  public:
   /// Creates the folder if it is missing.
   /// @throws Bad_output  the folder cannot be created
-  explicit Atomic_files(std::filesystem::path folder);
+  explicit Atomic_files(const std::filesystem::path& folder);
   Atomic_files(const Atomic_files&) = delete;
   Atomic_files& operator=(const Atomic_files&) = delete;
   /// Without `commit` nothing is left behind.
@@ -26,6 +28,7 @@ class Atomic_files {
 
  private:
   std::filesystem::path folder_, hidden_;
+  Made_folders made_folders_;
   std::vector<std::filesystem::path> names_;
 };
 

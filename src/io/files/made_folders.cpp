@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/files/made_folders.h"
+
+#include <algorithm>
+#include <ranges>
+#include <system_error>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+Made_folders::Made_folders(const std::filesystem::path& folder) {
+  std::error_code error;
+  auto missing = std::filesystem::absolute(folder, error).lexically_normal();
+  while (!error && !std::filesystem::exists(missing, error) && missing.has_relative_path()) {
+    if (!missing.filename().empty()) folders_.push_back(missing);
+    missing = missing.parent_path();
+  }
+  std::ranges::reverse(folders_);
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Bad_output(folder.string() + ": cannot create the folder: " + error.message());
+}
+
+Made_folders::~Made_folders() {
+  std::error_code ignored;
+  for (const auto& folder : std::views::reverse(folders_))
+    if (std::filesystem::is_directory(folder, ignored)) std::filesystem::remove(folder, ignored);  // if it is empty
+}
+
+}  // namespace lodestone
