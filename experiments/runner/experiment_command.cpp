@@ -4,10 +4,10 @@
 #include <charconv>
 #include <optional>
 
+#include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "program/exit_codes.h"
 #include "program/page_file.h"
-#include "program/printable.h"
 #include "program/progress.h"
 #include "runner/experiment_command.h"
 #include "runner/experiment_plots.h"

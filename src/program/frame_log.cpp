@@ -17,9 +17,9 @@ Json points_json(const Intersection_points& points) {
 }
 
 /// The name of the object that is inside the other, or null.
-Json inside_json(const std::vector<std::string>& names, const Pair_result& pair) {
+Json inside_json(const std::vector<Scene_object>& objects, const Pair_result& pair) {
   if (pair.containment == Containment::none) return nullptr;
-  return names[pair.containment == Containment::a_in_b ? pair.a : pair.b];
+  return objects[pair.containment == Containment::a_in_b ? pair.a : pair.b].name;
 }
 
 Json normals_json(std::span<const Contact_normal> normals) {
@@ -29,15 +29,17 @@ Json normals_json(std::span<const Contact_normal> normals) {
   return json;
 }
 
-Json pair_json(const std::vector<std::string>& names, const Frame& frame, const Pair_result& pair,
+Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, const Pair_result& pair,
                const Detector_options& options) {
-  Json json{{"a", names[pair.a]}, {"b", names[pair.b]}, {"collides", pair.collides}};
+  const auto &a = objects[pair.a], &b = objects[pair.b];
+  Json json{{"a", a.name}, {"b", b.name}, {"collides", pair.collides}};
   if (options.exact.tolerance > 0 && pair.a != pair.b) json["near"] = pair.near;
-  if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(names, pair);
+  if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(objects, pair);
   if (pair.capped) json["capped"] = true;
   if (options.contacts != Contact_query::yes_no) {
     json["faces"] = Json::array();
-    for (const auto& [a, b] : frame.contacts(pair)) json["faces"].push_back({a, b});
+    for (const auto& [face_a, face_b] : frame.contacts(pair))
+      json["faces"].push_back({a.file_face[face_a], b.file_face[face_b]});
   }
   if (options.contact_normals)
     json["normals"] = normals_json(std::span(frame.contact_normals).subspan(pair.first_contact, pair.contacts));
@@ -68,10 +70,10 @@ std::string json_text(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string frame_line(std::size_t frame, const std::vector<std::string>& names, const Frame& result,
+std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objects, const Frame& result,
                        const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth) {
   Json pairs = Json::array();
-  for (const auto& pair : result.pairs) pairs.push_back(pair_json(names, result, pair, options));
+  for (const auto& pair : result.pairs) pairs.push_back(pair_json(objects, result, pair, options));
   if (truth) {
     for (const auto& real : *truth) {
       const auto listed =
@@ -79,7 +81,8 @@ std::string frame_line(std::size_t frame, const std::vector<std::string>& names,
       if (listed != result.pairs.end())
         pairs[static_cast<std::size_t>(listed - result.pairs.begin())]["truth"] = !real.faces.empty();
       else if (!real.faces.empty())
-        pairs.push_back({{"a", names[real.a]}, {"b", names[real.b]}, {"collides", false}, {"truth", true}});
+        pairs.push_back(
+            {{"a", objects[real.a].name}, {"b", objects[real.b].name}, {"collides", false}, {"truth", true}});
     }
   }
   const Json line{

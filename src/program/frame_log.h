@@ -8,6 +8,7 @@
 
 #include "lodestone/detection/detector_options.h"
 #include "lodestone/detection/frame.h"
+#include "lodestone/io/scenes/scene_file.h"
 
 namespace lodestone {
 
@@ -25,10 +26,10 @@ std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
 /// One line of `frames.jsonl`, line break included.
 ///
 /// @param frame  frame of the scene, from 0
-/// @param names  of the objects
+/// @param objects  of the scene; faces are listed by their index in the file, once per triangle that they were cut into
 /// @param options  of the detector that gave the result; they determine which keys are written
 /// @param truth  of all pairs; adds the key `truth` to each pair, and adds pairs that collide but were not reported
-std::string frame_line(std::size_t frame, const std::vector<std::string>& names, const Frame& result,
+std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objects, const Frame& result,
                        const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth);
 
 }  // namespace lodestone

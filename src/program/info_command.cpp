@@ -5,15 +5,16 @@
 #include <span>
 #include <vector>
 
+#include "io/files/small_text.h"
+#include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/io/results/surface_report.h"
 #include "lodestone/io/results/text_table.h"
-#include "lodestone/io/scenes/scene_file.h"
+#include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/queries/contact_search.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
 #include "program/frame_log.h"
-#include "program/printable.h"
 #include "program/progress.h"
 
 namespace lodestone {
@@ -30,6 +31,7 @@ struct Object_report {
   std::string name;
   std::size_t frames = 0;                      ///< 0: any number
   std::size_t vertices = 0;                    ///< of the file
+  File_faces faces = {};                       ///< of the file
   std::optional<Surface_report> surface = {};  ///< missing for a point cache without its mesh
   Box box = {};                                ///< for a point cache without its mesh: of all vertices, used or not
   std::size_t self_intersections = 0;
@@ -67,31 +69,22 @@ Object_report report_of(const std::string& name, const Animation& animation) {
     return report;
   }
   report.surface = inspect_surface(points, animation.faces);
+  report.faces = count_file_faces(animation.file_face);
   count_self_intersections(points, animation.faces, report);
   return report;
 }
 
-/// The faces of a scene's object as file vertices, so that copies of a vertex count as one.
+/// Uses file vertices, so that copies of a vertex count as one.
 Object_report report_of(Scene_object& object) {
-  Object_report report{.name = object.name, .frames = object.motion.frames, .vertices = object.file_vertices};
-  pose(object, 0);
-  std::vector<Point> points(object.file_vertices);
-  object.motion.pose(0, points);
-  std::vector<Corners> faces;
-  for (const auto f : object.mesh.faces()) {
-    Corners& corners = faces.emplace_back();
-    std::size_t corner = 0;
-    for (const auto v : object.mesh.vertices_around_face(object.mesh.halfedge(f)))
-      corners[corner++] = object.file_vertex[v];
-  }
-  report.surface = inspect_surface(points, faces);
-  count_self_intersections(points, faces, report);
+  pose(object, 0);  // refuses coordinates that are not finite
+  auto report = report_of(object.name, animation_of(object, 1));
+  report.frames = object.motion.frames;
   return report;
 }
 
 Info look_at(const Info_command& command) {
   if (command.file.extension() == ".json") {
-    Scene scene = read_scene(command.file);
+    Scene scene = read_scene(command.file, {.allow_outside = command.allow_outside});
     Info info{.kind = "scene", .frames = scene.frames};
     for (auto& object : scene.objects) {
       info.objects.push_back(report_of(object));
@@ -120,8 +113,9 @@ Json to_json(const Object_report& report) {
     return json;
   }
   const auto& surface = *report.surface;
-  json.update({{"faces", surface.faces},
-               {"components", surface.components},
+  json["faces"] = report.faces.count;
+  json["triangles"] = surface.faces;
+  json.update({{"components", surface.components},
                {"closed", surface.closed},
                {"border_edges", surface.border_edges},
                {"non_manifold_edges", surface.non_manifold_edges},
@@ -153,7 +147,11 @@ void print(const Object_report& report, const std::string& kind) {
     return;
   }
   const auto& surface = *report.surface;
-  add("faces", surface.faces);
+  add("faces", report.faces.count);
+  if (report.faces.cut > 0) {
+    add("faces of more than three corners", report.faces.cut);
+    add("triangles", surface.faces);
+  }
   add("components", surface.components);
   table.add({"surface", surface.closed ? "closed" : "open"});
   add("border edges", surface.border_edges);

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "io/files/small_text.h"
 #include "lodestone/mesh/errors.h"
-#include "program/printable.h"
 #include "program/viewer.h"
 
 namespace lodestone {

@@ -63,7 +63,7 @@ Vtp_data meshes_of(const Scene& scene, const Frame& result) {
       for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
         corners.push_back(first + static_cast<std::uint32_t>(v));
       object_of_face.push_back(o);
-      face.push_back(f);
+      face.push_back(scene.objects[o].file_face[f]);
     }
     contact.insert(contact.end(), touched[o].begin(), touched[o].end());
   }
@@ -112,7 +112,8 @@ Vtp_data contacts_of(const Scene& scene, const Frame& result) {
         cell.push_back(static_cast<std::uint32_t>(data.points.size()));
         data.points.push_back(point);
       }
-      const std::array<std::uint32_t, 4> source{pair.a, pair.b, a, b};
+      const std::array<std::uint32_t, 4> source{pair.a, pair.b, scene.objects[pair.a].file_face[a],
+                                                scene.objects[pair.b].file_face[b]};
       for (std::size_t i = 0; i < source.size(); ++i) kind.sources[i].push_back(source[i]);
     }
   constexpr std::array names{"object_a", "object_b", "face_a", "face_b"};

@@ -7,9 +7,9 @@
 #include <new>
 #include <system_error>
 
+#include "io/files/small_text.h"
 #include "lodestone/mesh/errors.h"
 #include "program/exit_codes.h"
-#include "program/printable.h"
 #include "program/progress.h"
 
 namespace lodestone {

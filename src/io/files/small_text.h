@@ -12,4 +12,12 @@ inline std::string lower_case(std::string text) {
   return text;
 }
 
+/// `text` on one line that is safe for a terminal: control characters, which file names may contain, become question
+/// marks.
+inline std::string printable(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
 }  // namespace lodestone

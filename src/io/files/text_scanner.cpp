@@ -34,21 +34,38 @@ std::errc parse(std::string_view word, Number& value) {
 }  // namespace
 
 bool Text_scanner::next_line() {
-  const auto text = file_->view();
-  while (next_ < text.size()) {
-    ++line_number_;
-    line_ = text.substr(next_, longest_line);
-    line_ = line_.substr(0, line_.find('\n'));
-    if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is not text");
-    next_ = std::min(next_ + line_.size() + 1, text.size());
-    if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
-    if (line_.find_first_not_of(blanks) != std::string_view::npos) return true;
-  }
+  while (continued_) read_line();  // what the caller has not read of the last one
+  while (read_line())
+    if (continued_ || line_.find_first_not_of(blanks) != std::string_view::npos) return true;
   line_ = {};
   return false;
 }
 
+bool Text_scanner::read_line() {
+  const auto text = file_->view();
+  continued_ = false;
+  if (next_ >= text.size()) return false;
+  ++line_number_;
+  line_ = text.substr(next_, longest_line);
+  line_ = line_.substr(0, line_.find('\n'));
+  if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is not text");
+  next_ = std::min(next_ + line_.size() + 1, text.size());
+  if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
+  continued_ = cut_continuation();
+  return true;
+}
+
+bool Text_scanner::cut_continuation() {
+  if (continuation_ == '\0') return false;
+  const auto last = line_.find_last_not_of(blanks);
+  if (last == std::string_view::npos || line_[last] != continuation_) return false;
+  line_ = line_.substr(0, last);
+  return true;
+}
+
 std::string_view Text_scanner::next_word() {
+  while (continued_ && line_.find_first_not_of(blanks) == std::string_view::npos)
+    if (!read_line()) line_ = {};
   const auto begin = std::min(line_.find_first_not_of(blanks), line_.size());
   const auto end = std::min(line_.find_first_of(blanks, begin), line_.size());
   const auto word = line_.substr(begin, end - begin);

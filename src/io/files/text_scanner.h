@@ -11,19 +11,25 @@ namespace lodestone {
 
 /// Reads a text file line by line and word by word, and keeps the line number for error messages.
 ///
-/// Words are separated by blanks; a line ends with LF or CR LF.
+/// Words are separated by blanks; a line ends with LF or CR LF. Where the format has them, a line that ends with the
+/// continuation character goes on in the next line.
 class Text_scanner {
  public:
-  /// @param comment  character that starts a comment to the end of the line; 0: none
-  explicit Text_scanner(const File_bytes& file, char comment = '\0') : file_(&file), comment_(comment) {}
+  /// @param comment       character that starts a comment to the end of the line; 0: none
+  /// @param continuation  character at the end of a line that goes on in the next one; 0: none
+  explicit Text_scanner(const File_bytes& file, char comment = '\0', char continuation = '\0')
+      : file_(&file), comment_(comment), continuation_(continuation) {}
 
-  /// Moves to the next line with a word; false at the end of the file.
+  /// Moves to the next line with a word; false at the end of the file. Continued lines count as one line.
   bool next_line();
   /// Next word of the current line; empty at the end of the line.
   std::string_view next_word();
   /// Next word of the current line or a later one; empty at the end of the file.
   std::string_view next_word_of_file();
-  void skip_rest_of_line() { line_ = {}; }
+  void skip_rest_of_line() {
+    line_ = {};
+    continued_ = false;
+  }
 
   /// Offset in bytes of the first unread line.
   std::size_t offset() const { return next_; }
@@ -41,11 +47,17 @@ class Text_scanner {
   [[noreturn]] void fail(std::string_view cause) const;
 
  private:
+  bool read_line();
+  /// Cuts the continuation character off the current line.
+  /// @return whether there was one
+  bool cut_continuation();
+
   const File_bytes* file_;
-  char comment_;
+  char comment_, continuation_;
   std::size_t next_ = 0;         // offset of the next line
   std::size_t line_number_ = 0;  // from 1; 0 before the first line
   std::string_view line_;        // the unread rest of the current line
+  bool continued_ = false;       // the current line goes on in the next one
 };
 
 }  // namespace lodestone

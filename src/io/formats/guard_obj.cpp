@@ -12,11 +12,36 @@
 namespace lodestone {
 namespace {
 
+struct Skipped_statement {
+  std::string_view keyword;
+  const char* holds;  ///< for a report of what is not read; empty: nothing that anybody would miss
+};
+
 /// Legal statements that do not affect the triangles. Free-form curves and surfaces are not among them, because
 /// skipping those would lose part of the shape.
-constexpr std::array<std::string_view, 21> skipped_statements = {
-    "vt",     "vn",     "vp",    "g",        "o",        "s",   "mg",         "l",         "p",     "usemtl", "mtllib",
-    "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech", "stech"};
+constexpr std::array<Skipped_statement, 21> skipped_statements = {{
+    {"vt", "texture coordinates"},
+    {"vn", "normals"},
+    {"vp", ""},
+    {"g", "groups"},
+    {"o", "groups"},
+    {"s", ""},
+    {"mg", ""},
+    {"l", "lines"},
+    {"p", "points"},
+    {"usemtl", "materials"},
+    {"mtllib", "materials"},
+    {"usemap", "materials"},
+    {"maplib", "materials"},
+    {"bevel", ""},
+    {"c_interp", ""},
+    {"d_interp", ""},
+    {"lod", ""},
+    {"shadow_obj", ""},
+    {"trace_obj", ""},
+    {"ctech", ""},
+    {"stech", ""},
+}};
 
 /// The largest vertex number found, from 1, and its location. Checked at the end of the file, since a face may refer to
 /// vertices that follow it.
@@ -49,9 +74,17 @@ void copy_face(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& farthest
     mesh.corners.add_corner(vertex - 1);
     fmt::format_to(std::back_inserter(mesh.plain), " {}", vertex);
   }
-  if (corners != 3) text.fail(not_a_triangle(mesh.faces, corners));
+  if (corners < 3) text.fail(wrong_corners(mesh.faces, corners, "3 or more"));
+  mesh.corners.add_corner(corners);
   mesh.plain += '\n';
   ++mesh.faces;
+}
+
+void skip_statement(const Text_scanner& text, std::string_view keyword, Guarded_mesh& mesh) {
+  const auto statement = std::ranges::find(skipped_statements, keyword, &Skipped_statement::keyword);
+  if (statement == skipped_statements.end())
+    text.fail(fmt::format("expected a statement of a polygon mesh, found {}", in_quotes(keyword)));
+  if (*statement->holds != '\0') mesh.not_read.insert(statement->holds);
 }
 
 void copy_statement(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& farthest) {
@@ -62,15 +95,15 @@ void copy_statement(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& far
     ++mesh.vertices;
   } else if (keyword == "f") {
     copy_face(text, mesh, farthest);
-  } else if (std::ranges::find(skipped_statements, keyword) == skipped_statements.end()) {
-    text.fail(fmt::format("expected a statement of a polygon mesh, found {}", in_quotes(keyword)));
+  } else if (!keyword.empty()) {
+    skip_statement(text, keyword, mesh);
   }
 }
 
 }  // namespace
 
 Guarded_mesh guard_obj(const File_bytes& file, std::size_t max_faces) {
-  Text_scanner text(file, '#');
+  Text_scanner text(file, '#', '\\');
   Guarded_mesh mesh;
   Farthest_corner farthest{0, text};
   while (text.next_line()) {

@@ -1,25 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <array>
+#include <iterator>
+
 #include "io/formats/mesh_guard.h"
 
 namespace lodestone {
 namespace {
 
-/// Vertex lines may have texture coordinates (ST), a colour (C) and a normal (N), which are skipped.
-bool is_off_keyword(std::string_view word) {
-  for (const std::string_view prefix : {"ST", "C", "N"})
-    if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
+struct Off_prefix {
+  std::string_view text;
+  const char* holds;
+};
+/// What vertex lines may have beside the position.
+constexpr std::array<Off_prefix, 3> prefixes = {{{"ST", "texture coordinates"}, {"C", "colours"}, {"N", "normals"}}};
+
+/// Reads a keyword such as `OFF` or `CNOFF`.
+bool is_off_keyword(std::string_view word, Guarded_mesh& mesh) {
+  for (const auto& prefix : prefixes)
+    if (word.starts_with(prefix.text)) {
+      word.remove_prefix(prefix.text.size());
+      mesh.not_read.insert(prefix.holds);
+    }
   return word == "OFF";
+}
+
+/// Some files of ModelNet have no blank between the keyword and the number of vertices: `OFF490926 662096 0`.
+bool is_off_with_count(std::string_view word) {
+  return word.starts_with("OFF") && word.size() > 3 && word.find_first_not_of("0123456789", 3) == word.npos;
 }
 
 /// Reads the keyword and the counts, which may be on one line or on two. The number of edges is ignored.
 void read_header(Text_scanner& text, std::size_t max_faces, Guarded_mesh& mesh) {
   text.next_line();
   const auto keyword = text.next_word();
-  if (!is_off_keyword(keyword))
+  const bool with_count = is_off_with_count(keyword);
+  if (!with_count && !is_off_keyword(keyword, mesh))
     text.fail(fmt::format("expected OFF, COFF, NOFF or alike, found {}", in_quotes(keyword)));
-  auto word = text.next_word_of_file();
+  const auto word = with_count ? keyword.substr(3) : text.next_word_of_file();
   if (word == "BINARY") text.fail("binary OFF is not supported, only text");
   mesh.vertices = text.count(word);
   mesh.faces = text.count(text.next_word());
@@ -34,9 +53,9 @@ void read_header(Text_scanner& text, std::size_t max_faces, Guarded_mesh& mesh) 
 
 void copy_face(Text_scanner& text, std::size_t face, Guarded_mesh& mesh) {
   const auto corners = text.count(text.next_word());
-  if (corners != 3) text.fail(not_a_triangle(face, corners));
-  mesh.plain += '3';
-  for (int corner = 0; corner < 3; ++corner) {
+  if (corners < 3) text.fail(wrong_corners(face, corners, "3 or more"));
+  fmt::format_to(std::back_inserter(mesh.plain), "{}", corners);
+  for (std::size_t corner = 0; corner < corners; ++corner) {
     const auto word = text.next_word();
     if (word.empty()) text.fail(fmt::format("face {} (counted from 0) ends after {} corners", face, corner));
     const auto vertex = text.count(word);
@@ -45,7 +64,9 @@ void copy_face(Text_scanner& text, std::size_t face, Guarded_mesh& mesh) {
     mesh.corners.add_corner(vertex);
     (mesh.plain += ' ').append(word);
   }
+  mesh.corners.add_corner(corners);
   mesh.plain += '\n';
+  if (!text.next_word().empty()) mesh.not_read.insert("colours");
 }
 
 }  // namespace

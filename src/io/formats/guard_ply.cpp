@@ -48,6 +48,25 @@ const Ply_element& only_element(const Ply_header& header, bool (*wanted)(const P
   return *std::ranges::find_if(header.elements, wanted);
 }
 
+/// What a skipped property of vertices or faces holds, by the usual names.
+const char* content_of(std::string_view name) {
+  constexpr std::array colours{"red", "green", "blue", "alpha"};
+  constexpr std::array normals{"nx", "ny", "nz"};
+  constexpr std::array textures{"s", "t", "u", "v", "texture_u", "texture_v", "texcoord", "texnumber"};
+  const auto is_among = [&](const auto& names) { return std::ranges::find(names, name) != names.end(); };
+  if (is_among(colours)) return "colours";
+  if (is_among(normals)) return "normals";
+  return is_among(textures) ? "texture coordinates" : "other properties";
+}
+
+void list_skipped(const Ply_element& element, Guarded_mesh& mesh) {
+  for (const auto& property : element.properties) {
+    const bool is_axis = property.name == "x" || property.name == "y" || property.name == "z";
+    const bool is_read = is_vertices(element) ? is_axis : is_corners(property);
+    if (!is_read) mesh.not_read.insert(content_of(property.name));
+  }
+}
+
 /// Checks the header on its own, and reads the counts from it.
 void check_header(const Ply_header& header, const Text_scanner& text, std::size_t max_faces, Guarded_mesh& mesh) {
   const auto& vertices = only_element(header, is_vertices, "vertex", text);
@@ -56,6 +75,8 @@ void check_header(const Ply_header& header, const Text_scanner& text, std::size_
   check_faces(faces, text);
   if (vertices.count == 0 || faces.count == 0) text.fail("the file holds no face");
   if (faces.count > max_faces) text.fail(too_many_faces(faces.count, max_faces));
+  list_skipped(vertices, mesh);
+  list_skipped(faces, mesh);
   mesh.vertices = vertices.count;
   mesh.faces = faces.count;
 }
@@ -104,15 +125,16 @@ void copy_vertex(Values& values, const Ply_element& element, Guarded_mesh& mesh,
 template <class Values>
 void copy_corners(Values& values, std::size_t face, const Ply_property& list, Guarded_mesh& mesh, Plain_body& body) {
   const auto corners = next_integer(values, *list.count_type, "a number of corners");
-  if (corners != 3) values.fail(not_a_triangle(face, corners));
-  body.faces += '\3';
-  for (int corner = 0; corner < 3; ++corner) {
+  if (corners < 3) values.fail(wrong_corners(face, corners, "3 or more"));
+  append(body.faces, static_cast<std::uint32_t>(corners));
+  for (std::size_t corner = 0; corner < corners; ++corner) {
     const auto vertex = next_integer(values, list.type, "the number of a vertex");
     if (vertex >= mesh.vertices)
       values.fail(fmt::format("face refers to vertex {} of {} (counted from 0)", vertex, mesh.vertices));
     mesh.corners.add_corner(vertex);
     append(body.faces, static_cast<std::uint32_t>(vertex));
   }
+  mesh.corners.add_corner(corners);
 }
 
 template <class Values>
@@ -140,7 +162,7 @@ void copy_elements(Values values, const Ply_header& header, Guarded_mesh& mesh) 
   mesh.plain = fmt::format(
       "ply\nformat binary_little_endian 1.0\n"
       "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-      "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+      "element face {}\nproperty list uint uint vertex_indices\nend_header\n",
       mesh.vertices, mesh.faces);
   mesh.plain.append(body.vertices).append(body.faces);
 }

@@ -38,7 +38,7 @@ void copy_facet(Text_scanner& text, Guarded_mesh& mesh) {
     copy_coordinates(text, mesh);
   }
   need_keyword(text, word, "endloop");
-  if (corners != 3) text.fail(not_a_triangle(mesh.faces, corners));
+  if (corners != 3) text.fail(wrong_corners(mesh.faces, corners, "3"));
   need_keyword(text, text.next_word_of_file(), "endfacet");
   mesh.plain += "endfacet\n";
   ++mesh.faces;

@@ -13,8 +13,8 @@ std::string too_many_faces(std::size_t faces, std::size_t max_faces) {
   return fmt::format("{} faces or more, where at most {} are allowed", faces, max_faces);
 }
 
-std::string not_a_triangle(std::size_t face, std::size_t corners) {
-  return fmt::format("face {} (counted from 0) has {} corners, expected 3", face, corners);
+std::string wrong_corners(std::size_t face, std::size_t corners, std::string_view expected) {
+  return fmt::format("face {} (counted from 0) has {} corners, expected {}", face, corners, expected);
 }
 
 void copy_coordinates(Text_scanner& text, Guarded_mesh& mesh) {

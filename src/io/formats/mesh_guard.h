@@ -4,7 +4,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
+#include <string_view>
 
 #include "io/files/file_bytes.h"
 #include "io/files/text_scanner.h"
@@ -37,8 +39,9 @@ struct Guarded_mesh {
   std::string plain;         ///< the copy for CGAL's reader
   std::size_t vertices = 0;  ///< 0 for STL, whose vertices are known only after welding
   std::size_t faces = 0;
-  Checksum coordinates;  ///< of the vertices in order; STL: of every corner of every face
-  Checksum corners;      ///< vertex indices, face by face; nothing for STL
+  Checksum coordinates;            ///< of the vertices in order; STL: of every corner of every face
+  Checksum corners;                ///< per face, the vertex indices of its corners and their number; nothing for STL
+  std::set<std::string> not_read;  ///< what else the file holds, such as `texture coordinates`
 };
 
 /// @param max_faces  the face limit
@@ -52,8 +55,8 @@ Guarded_mesh guard_stl(const File_bytes& file, std::size_t max_faces);
 std::string too_short_for(std::size_t count, const std::string& things, std::size_t bytes_left);
 /// Error text for a file with too many faces.
 std::string too_many_faces(std::size_t faces, std::size_t max_faces);
-/// Error text for a face that is not a triangle.
-std::string not_a_triangle(std::size_t face, std::size_t corners);
+/// Error text for a face of fewer than three corners, or of more than three where the format has triangles only.
+std::string wrong_corners(std::size_t face, std::size_t corners, std::string_view expected);
 
 /// Checks the next three coordinates of the current line and adds them to the plain copy, with a line end.
 void copy_coordinates(Text_scanner& text, Guarded_mesh& mesh);

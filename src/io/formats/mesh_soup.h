@@ -2,16 +2,28 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
 
-/// Points and triangles in the order of the file: vertex and face indices are those of the file, from 0.
+/// Points and faces in the order of the file: vertex and face indices are those of the file, from 0.
+struct Polygon_soup {
+  std::vector<Point> points;
+  std::vector<std::vector<std::size_t>> faces;  ///< of three corners or more
+  std::set<std::string> not_read = {};          ///< what else the file holds, such as `texture coordinates`
+};
+
+/// The same surface in triangles. Those of one face of the file are consecutive.
 struct Mesh_soup {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> faces;
+  std::vector<std::uint32_t> file_face;  ///< per triangle: its face in the file; never decreases
+  std::set<std::string> not_read = {};
 };
 
 /// The faces of a soup in compact form.

@@ -95,7 +95,7 @@ Bytes read_start(const fs::path& file, std::size_t length, const Json_value& uri
   return bytes;
 }
 
-Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder) {
+Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder, Gltf_document& document) {
   const auto text = uri.text();
   if (tinygltf::IsDataURI(text)) {
     if (text.size() < length)
@@ -112,6 +112,7 @@ Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder
   const bool is_printable = std::ranges::none_of(name, [](unsigned char c) { return c < ' ' || c == 0x7f; });
   if (!is_printable || name.find(':') != name.npos || !is_inside(folder, name))
     uri.fail(fmt::format("{} is not a file inside the folder of the glTF file", in_quotes(name)));
+  document.files.push_back(folder / name);
   return read_start(folder / name, length, uri);
 }
 
@@ -119,7 +120,7 @@ Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder
 
 Gltf_document read_gltf_document(const fs::path& file) {
   const File_bytes bytes(file);
-  Gltf_document document{.name = bytes.name()};
+  Gltf_document document{.name = bytes.name(), .files = {file}};
   if (bytes.view().starts_with(glb_magic))
     read_binary_gltf(bytes, document);
   else
@@ -134,7 +135,7 @@ std::vector<Bytes> read_gltf_buffers(Gltf_document& document, const fs::path& fo
   for (const auto& buffer : root.list("buffers", most_buffers)) {
     const auto length = buffer.at("byteLength").count(1, std::size_t{1} << 40U);
     if (const auto uri = buffer.find("uri")) {
-      buffers.push_back(from_uri(*uri, length, folder));
+      buffers.push_back(from_uri(*uri, length, folder, document));
       continue;
     }
     if (!buffers.empty() || !document.has_binary) buffer.fail("has neither a URI nor a binary chunk");

@@ -446,6 +446,20 @@ std::size_t Guard::numbers_per_key(const Json_value& target, const std::string& 
   return targets;
 }
 
+/// What the vertices and the file hold beside positions and their motion. `document` has passed the guard.
+std::set<std::string> content_not_read(const Json& document) {
+  std::set<std::string> result;
+  if (document.contains("materials")) result.insert("materials");
+  for (const auto& mesh : document.value("meshes", Json::array()))
+    for (const auto& primitive : mesh.value("primitives", Json::array())) {
+      const auto attributes = primitive.value("attributes", Json::object());
+      if (attributes.contains("TEXCOORD_0")) result.insert("texture coordinates");
+      if (attributes.contains("COLOR_0")) result.insert("colours");
+      if (attributes.contains("NORMAL")) result.insert("normals");
+    }
+  return result;
+}
+
 }  // namespace
 
 Guarded_gltf guard_gltf(const std::filesystem::path& file) {
@@ -453,7 +467,10 @@ Guarded_gltf guard_gltf(const std::filesystem::path& file) {
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   auto buffers = read_gltf_buffers(document, folder);
   auto plain = Guard(document, buffers).plain();
-  return {.plain = std::move(plain), .buffers = std::move(buffers)};
+  return {.plain = std::move(plain),
+          .buffers = std::move(buffers),
+          .files = std::move(document.files),
+          .not_read = content_not_read(document.json)};
 }
 
 }  // namespace lodestone

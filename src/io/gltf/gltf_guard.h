@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Gltf_document {
   nlohmann::json json = {};  ///< an object
   bool has_binary = false;
   Bytes binary = {};
+  std::vector<std::filesystem::path> files = {};  ///< that it is read from
 };
 
 /// Splits a `.gltf` or `.glb` file, told apart by its first bytes.
@@ -36,6 +38,8 @@ std::vector<Bytes> read_gltf_buffers(Gltf_document& document, const std::filesys
 struct Guarded_gltf {
   std::string plain = {};  ///< JSON for tinygltf: only what Lodestone uses. Buffer i has the URI `i`
   std::vector<Bytes> buffers = {};
+  std::vector<std::filesystem::path> files = {};  ///< that it is read from
+  std::set<std::string> not_read = {};            ///< what else the file holds, such as `texture coordinates`
 };
 
 /// Checks every size, index and reference: sizes against the file's contents, indices against counts, types of

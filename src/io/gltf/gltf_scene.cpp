@@ -354,6 +354,8 @@ std::shared_ptr<const Gltf_scene> read_gltf_scene(const std::filesystem::path& f
     read_skins(model, *scene);
     read_parts(model, options, *scene);
     read_animations(model, *scene);
+    scene->files = std::move(guarded.files);
+    scene->not_read = std::move(guarded.not_read);
     return scene;
   } catch (const Bad_scene& error) {
     throw Bad_mesh(error.what());
@@ -365,8 +367,9 @@ bool is_gltf(const std::filesystem::path& file) {
   return extension == ".gltf" || extension == ".glb";
 }
 
-Mesh_soup soup_of(const Gltf_scene& scene) {
-  Mesh_soup soup;
+Polygon_soup soup_of(const Gltf_scene& scene) {
+  Polygon_soup soup;
+  soup.not_read = scene.not_read;
   soup.points.resize(scene.vertices);
   try {
     pose_gltf(scene, nullptr, 0, soup.points);

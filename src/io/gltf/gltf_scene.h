@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -90,7 +91,9 @@ struct Gltf_scene {
   std::vector<Gltf_skin> skins = {};
   std::vector<Gltf_part> parts = {};
   std::vector<Gltf_animation> animations = {};
-  std::size_t vertices = 0;  ///< of all parts
+  std::size_t vertices = 0;                       ///< of all parts
+  std::vector<std::filesystem::path> files = {};  ///< that it is read from
+  std::set<std::string> not_read = {};            ///< what else the file holds, such as `texture coordinates`
 };
 
 /// Whether the file's extension is that of glTF.
@@ -107,6 +110,6 @@ std::shared_ptr<const Gltf_scene> read_gltf_scene(const std::filesystem::path& f
 void pose_gltf(const Gltf_scene& scene, const Gltf_animation* animation, double time, std::span<Point> positions);
 
 /// The triangles of all parts, with vertices at rest.
-Mesh_soup soup_of(const Gltf_scene& scene);
+Polygon_soup soup_of(const Gltf_scene& scene);
 
 }  // namespace lodestone

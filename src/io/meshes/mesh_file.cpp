@@ -71,7 +71,10 @@ Mesh_file mesh_of(const Mesh_soup& soup, const std::string& name) {
   PMP::orient_polygon_soup(tracked.points, tracked.faces,
                            CGAL::parameters::visitor(Copy_recorder(tracked.file_vertex)));
 
-  Mesh_file result{.mesh = {}, .file_vertex = std::move(tracked.file_vertex), .file_vertices = soup.points.size()};
+  Mesh_file result{.mesh = {},
+                   .file_vertex = std::move(tracked.file_vertex),
+                   .file_vertices = soup.points.size(),
+                   .file_face = soup.file_face};
   PMP::polygon_soup_to_polygon_mesh(tracked.points, tracked.faces, result.mesh);
   if (num_faces(result.mesh) != soup.faces.size() || num_vertices(result.mesh) != result.file_vertex.size())
     throw Bad_mesh(fmt::format("{}: only {} of {} faces fit into a half-edge mesh", name, num_faces(result.mesh),
@@ -80,9 +83,12 @@ Mesh_file mesh_of(const Mesh_soup& soup, const std::string& name) {
 }
 
 Mesh_file mesh_of(std::span<const Point> points, std::span<const Corners> faces, const std::string& name) {
-  Mesh_soup soup{.points = {points.begin(), points.end()}, .faces = {}};
+  Mesh_soup soup{.points = {points.begin(), points.end()}, .faces = {}, .file_face = {}};
   soup.faces.reserve(faces.size());
-  for (const auto& face : faces) soup.faces.emplace_back(face.begin(), face.end());
+  for (const auto& face : faces) {
+    soup.file_face.push_back(static_cast<std::uint32_t>(soup.faces.size()));
+    soup.faces.emplace_back(face.begin(), face.end());
+  }
   return mesh_of(soup, name);
 }
 

@@ -12,6 +12,9 @@ namespace lodestone {
 /// Reads a mesh file of any format through its guard and CGAL's reader. Equal corners of an STL file are welded, and
 /// its points are in order of first appearance.
 /// @throws Bad_mesh  as `read_mesh`
+Polygon_soup read_polygon_soup(const std::filesystem::path& file, const Mesh_file_options& options = {});
+
+/// The same in triangles.
 Mesh_soup read_mesh_soup(const std::filesystem::path& file, const Mesh_file_options& options = {});
 
 /// As `mesh_of` for points and faces.

@@ -3,8 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+#include <system_error>
+#include <utility>
+
 #include "io/files/small_text.h"
 #include "io/meshes/read_mesh_soup.h"
+#include "io/meshes/triangulated_soup.h"
 #include "io/motion/game_motion.h"
 #include "io/motion/gltf_motion.h"
 #include "lodestone/io/files/numbered_files.h"
@@ -17,40 +22,59 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void set_surface(Animation& animation, Mesh_soup soup) {
+  animation.vertices = soup.points.size();
+  animation.faces = corners_of(soup);
+  animation.file_face = std::move(soup.file_face);
+  animation.not_read = std::move(soup.not_read);
+}
+
+/// The motion of vertices that stay where they are, for one frame.
+Motion rest(std::vector<Point> points) {
+  Motion motion = deform(std::move(points), {});
+  motion.frames = 1;
+  return motion;
+}
+
 Animation still(const fs::path& file) {
+  Animation result{.kind = "mesh", .files = {file}};
   Mesh_soup soup = read_mesh_soup(file);
-  Animation result{.kind = "mesh", .vertices = soup.points.size(), .faces = corners_of(soup)};
-  result.motion = deform(std::move(soup.points), {});
-  result.motion.frames = 1;
+  result.motion = rest(soup.points);
+  set_surface(result, std::move(soup));
   return result;
 }
 
 Animation gltf(const fs::path& file, const Animation_options& options) {
   auto scene = read_gltf_scene(file);
-  auto soup = soup_of(*scene);
-  Animation result{.kind = "gltf", .vertices = scene->vertices, .faces = corners_of(soup)};
+  Animation result{.kind = "gltf", .files = scene->files};
+  auto soup = triangulated(soup_of(*scene));
   if (scene->animations.empty()) {
-    result.motion = deform(std::move(soup.points), {});
-    result.motion.frames = 1;
-    return result;
+    result.motion = rest(soup.points);
+  } else {
+    result.frames_per_second = options.frames_per_second;
+    result.motion = motion_of(std::move(scene), {options.frames_per_second, options.animation});
   }
-  result.frames_per_second = options.frames_per_second;
-  result.motion = motion_of(std::move(scene), {options.frames_per_second, options.animation});
+  set_surface(result, std::move(soup));
   return result;
 }
 
 Animation game_model(const fs::path& file) {
   auto model = read_game_model(file);
-  return {.kind = model->is_md2 ? "md2" : "md3",
-          .vertices = model->vertices,
-          .faces = model->faces,
-          .motion = motion_of(std::move(model))};
+  Animation result{.kind = model->is_md2 ? "md2" : "md3",
+                   .vertices = model->vertices,
+                   .faces = model->faces,
+                   .not_read = {"texture coordinates"},
+                   .files = {file}};
+  result.file_face.resize(result.faces.size());
+  std::iota(result.file_face.begin(), result.file_face.end(), 0U);
+  result.motion = motion_of(std::move(model));
+  return result;
 }
 
 Animation sequence(const fs::path& pattern) {
   auto files = find_numbered_files(pattern);
-  const auto first = read_mesh_soup(files.front());
-  Animation result{.kind = "sequence", .vertices = first.points.size(), .faces = corners_of(first)};
+  Animation result{.kind = "sequence", .files = files};
+  set_surface(result, read_mesh_soup(files.front()));
   result.motion = read_mesh_sequence(std::move(files), result.vertices);
   return result;
 }
@@ -59,22 +83,36 @@ Animation cache(const fs::path& file, const fs::path& mesh) {
   const auto header = read_point_cache_header(file);
   Animation result{.kind = header.format == Cache_format::pc2 ? "pc2" : "mdd",
                    .vertices = header.vertices,
-                   .frames_per_second = header.frames_per_second};
+                   .frames_per_second = header.frames_per_second,
+                   .files = {file}};
   if (!mesh.empty()) {
-    const auto soup = read_mesh_soup(mesh);
-    result.vertices = soup.points.size();
-    result.faces = corners_of(soup);
+    set_surface(result, read_mesh_soup(mesh));
+    result.files.push_back(mesh);
   }
   const auto read = header.format == Cache_format::pc2 ? read_point_cache : read_mdd_cache;
   result.motion = read(file, result.vertices);
   return result;
 }
 
+bool is_cache(const fs::path& file) {
+  const auto extension = lower_case(file.extension().string());
+  return extension == ".pc2" || extension == ".mdd";
+}
+
 }  // namespace
 
+std::optional<Mesh_and_cache> mesh_and_cache(const fs::path& input) {
+  const std::string text = input.string();
+  std::error_code ignored;
+  if (!is_cache(input) || fs::exists(input, ignored)) return std::nullopt;
+  const auto plus = text.rfind('+');
+  if (plus == 0 || plus == text.npos) return std::nullopt;
+  return Mesh_and_cache{.mesh = text.substr(0, plus), .cache = text.substr(plus + 1)};
+}
+
 Animation read_animation(const fs::path& input, const Animation_options& options) {
-  const auto extension = lower_case(input.extension().string());
-  if (extension == ".pc2" || extension == ".mdd") return cache(input, options.mesh);
+  if (const auto parts = mesh_and_cache(input); parts && options.mesh.empty()) return cache(parts->cache, parts->mesh);
+  if (is_cache(input)) return cache(input, options.mesh);
   if (!options.mesh.empty())
     throw Bad_argument(fmt::format("{}: only a point cache needs a mesh beside it", input.string()));
   if (is_pattern(input)) return sequence(input);

@@ -15,11 +15,12 @@
 namespace lodestone {
 namespace {
 
-using Faces = std::vector<Corners>;
+using Faces = std::vector<std::vector<std::size_t>>;
 
-Mesh_soup read_frame(const std::filesystem::path& file) {
+/// Faces as the file lists them: the triangles of a polygon depend on its shape, which changes from frame to frame.
+Polygon_soup read_frame(const std::filesystem::path& file) {
   try {
-    return read_mesh_soup(file);
+    return read_polygon_soup(file);
   } catch (const Bad_mesh& error) {
     throw Bad_motion(error.what());
   }
@@ -28,17 +29,17 @@ Mesh_soup read_frame(const std::filesystem::path& file) {
 /// The properties of the first frame that all others must share.
 struct First_frame {
   std::filesystem::path file;
-  Faces corners;
+  Faces faces;
 };
 
-void check_same_faces(const std::filesystem::path& file, const Faces& corners, const First_frame& first) {
-  if (corners.size() != first.corners.size())
-    throw Bad_motion(fmt::format("{}: the mesh has {} faces, {} has {}", file.string(), corners.size(),
-                                 first.file.string(), first.corners.size()));
-  const auto differing = std::ranges::mismatch(corners, first.corners).in1;
-  if (differing != corners.end())
+void check_same_faces(const std::filesystem::path& file, const Faces& faces, const First_frame& first) {
+  if (faces.size() != first.faces.size())
+    throw Bad_motion(fmt::format("{}: the mesh has {} faces, {} has {}", file.string(), faces.size(),
+                                 first.file.string(), first.faces.size()));
+  const auto differing = std::ranges::mismatch(faces, first.faces).in1;
+  if (differing != faces.end())
     throw Bad_motion(fmt::format("{}: face {} (counted from 0) has other corners than in {}", file.string(),
-                                 differing - corners.begin(), first.file.string()));
+                                 differing - faces.begin(), first.file.string()));
 }
 
 void check_vertices(const std::filesystem::path& file, std::size_t found, std::size_t expected) {
@@ -57,9 +58,9 @@ void check_files(const std::vector<std::filesystem::path>& files) {
 
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices) {
   check_files(files);
-  const auto soup = read_frame(files.front());
+  auto soup = read_frame(files.front());
   check_vertices(files.front(), soup.points.size(), vertices);
-  const auto first = std::make_shared<const First_frame>(First_frame{files.front(), corners_of(soup)});
+  const auto first = std::make_shared<const First_frame>(First_frame{files.front(), std::move(soup.faces)});
 
   const auto frames = files.size();
   const auto pose = [files = std::move(files), first, vertices](std::size_t frame, std::span<Point> positions) {
@@ -69,7 +70,7 @@ Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t 
     const auto posed = read_frame(files[frame]);
     check_vertices(files[frame], posed.points.size(), vertices);
     check_vertices(files[frame], posed.points.size(), positions.size());
-    check_same_faces(files[frame], corners_of(posed), *first);
+    check_same_faces(files[frame], posed.faces, *first);
     std::ranges::copy(posed.points, positions.begin());
   };
   return {.frames = frames, .pose = pose};

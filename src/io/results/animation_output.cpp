@@ -127,6 +127,31 @@ std::string ply_text(std::span<const Point> points, std::span<const Corners> fac
   return bytes;
 }
 
+float as_float(double coordinate) {
+  const auto value = static_cast<float>(coordinate);
+  if (!std::isfinite(value)) throw Bad_motion(fmt::format("{} is too large for a float", coordinate));
+  return value;
+}
+
+/// Binary, with normals of zero: a reader computes them from the corners.
+std::string stl_bytes(std::span<const Point> points, std::span<const Corners> faces) {
+  std::string bytes(80, '\0');
+  append(bytes, static_cast<std::uint32_t>(faces.size()));
+  for (const auto& face : faces) {
+    bytes.append(3 * sizeof(float), '\0');
+    for (const auto corner : face)
+      for (int axis = 0; axis < 3; ++axis) append(bytes, as_float(points[corner][axis]));
+    append(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+std::string mesh_bytes(const std::string& extension, std::span<const Point> points, std::span<const Corners> faces) {
+  if (extension == ".off") return off_text(points, faces);
+  if (extension == ".obj") return obj_text(points, faces);
+  return extension == ".stl" ? stl_bytes(points, faces) : ply_text(points, faces);
+}
+
 void write_meshes(const fs::path& output, const std::string& extension, Animation_frames frames,
                   std::span<const Corners> faces) {
   const bool numbered = is_pattern(output);
@@ -137,9 +162,7 @@ void write_meshes(const fs::path& output, const std::string& extension, Animatio
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto points = frames.positions(i);
     Atomic_file out(files.add((numbered ? numbered_file(output, i) : output).filename()));
-    out.write(extension == ".off"   ? off_text(points, faces)
-              : extension == ".obj" ? obj_text(points, faces)
-                                    : ply_text(points, faces));
+    out.write(mesh_bytes(extension, points, faces));
     out.commit();
   }
   files.commit();
@@ -147,18 +170,28 @@ void write_meshes(const fs::path& output, const std::string& extension, Animatio
 
 }  // namespace
 
+std::vector<fs::path> files_of(const fs::path& output, std::size_t frames) {
+  std::vector<fs::path> files;
+  if (is_pattern(output))
+    for (std::size_t i = 0; i < frames; ++i) files.push_back(numbered_file(output, i));
+  else
+    files.push_back(output);
+  if (lower_case(output.extension().string()) == ".gltf") files.push_back(fs::path(output).replace_extension(".bin"));
+  return files;
+}
+
 void write_animation(const fs::path& output, const Animation& animation, const Animation_output_options& options) {
   if (!(options.frames_per_second > 0) || !std::isfinite(options.frames_per_second))
     throw Bad_argument(
         fmt::format("{} frames per second: expected a positive and finite number", options.frames_per_second));
   const auto extension = lower_case(output.extension().string());
-  const bool is_mesh = extension == ".off" || extension == ".obj" || extension == ".ply";
+  const bool is_mesh = extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
   if (extension == ".pc2" || extension == ".mdd")
     return write_cache(output, extension == ".pc2" ? Cache_format::pc2 : Cache_format::mdd, {animation, options},
                        animation.vertices, options.frames_per_second);
   if (!is_mesh && !is_gltf(output))
-    throw Bad_argument(
-        fmt::format("{}: animations are written as .pc2, .mdd, .gltf, .glb, .obj, .off or .ply", output.string()));
+    throw Bad_argument(fmt::format("{}: animations are written as .pc2, .mdd, .gltf, .glb, .obj, .off, .ply or .stl",
+                                   output.string()));
   if (animation.faces.empty())
     throw Bad_argument(
         fmt::format("{}: needs faces, which a point cache does not have: give its mesh", output.string()));

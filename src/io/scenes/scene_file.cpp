@@ -11,10 +11,9 @@
 #include <span>
 #include <utility>
 
-#include "io/files/inside_folder.h"
 #include "io/files/json_reader.h"
 #include "io/scenes/scene_fields.h"
-#include "lodestone/io/files/numbered_files.h"
+#include "io/scenes/scene_folder.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/mesh/errors.h"
@@ -26,68 +25,13 @@ namespace {
 
 using detail::in_quotes;
 using detail::Json_value;
+using detail::most_scene_frames;
+using detail::Scene_folder;
 using Placement = std::optional<Kernel::Aff_transformation_3>;
 
 constexpr std::size_t most_objects = 10'000;
 constexpr std::size_t most_ignored = 100'000;
-constexpr std::size_t most_scene_frames = 1'000'000;
 constexpr std::size_t most_particles = 100'000;
-
-// ---- Files ----
-
-/// The file that `value` names, inside `folder` after symbolic links are resolved.
-std::filesystem::path path_of(const std::string& name, const Json_value& value, const std::filesystem::path& folder) {
-  std::error_code error;
-  const bool inside = is_inside(folder, name, error);
-  if (error) value.fail(fmt::format("{} cannot be followed: {}", in_quotes(name), error.message()));
-  if (!inside) value.fail(fmt::format("{} is not inside the scene's folder", in_quotes(name)));
-  return folder / name;
-}
-
-std::filesystem::path read_path(const Json_value& value, const std::filesystem::path& folder) {
-  return path_of(value.text(), value, folder);
-}
-
-/// `pattern` with its run of # replaced by `number`, zero-padded to the length of the run.
-std::string numbered(std::string pattern, std::size_t number) {
-  const auto first = pattern.find('#');
-  const auto length = pattern.find_last_of('#') + 1 - first;
-  return pattern.replace(first, length, fmt::format("{:0{}}", number, length));
-}
-
-/// {"pattern": "walk_####.obj", "first": 1, "last": 40}.
-std::vector<std::filesystem::path> read_numbered_files(const Json_value& value, const std::filesystem::path& folder) {
-  value.expect_keys({"pattern", "first", "last"});
-  const Json_value pattern = value.at("pattern");
-  const std::string name = pattern.text();
-  const auto run = name.find('#');
-  if (run == name.npos || name.find('#', name.find_first_not_of('#', run)) != name.npos)
-    pattern.fail(fmt::format("{} must have one run of # for the number", in_quotes(name)));
-  const std::size_t first = value.at("first").count(0, most_scene_frames);
-  const std::size_t last = value.at("last").count(first, most_scene_frames);
-
-  std::vector<std::filesystem::path> files;
-  for (std::size_t i = first; i <= last; ++i) files.push_back(path_of(numbered(name, i), pattern, folder));
-  return files;
-}
-
-/// "walk_*.obj": all matching files.
-std::vector<std::filesystem::path> read_found_files(const Json_value& value, const std::filesystem::path& folder) {
-  const std::string pattern = value.text();
-  path_of(pattern, value, folder);
-  std::vector<std::filesystem::path> files;
-  for (const auto& file : value.checked([&] { return find_numbered_files(folder / pattern); }))
-    files.push_back(path_of((std::filesystem::path(pattern).parent_path() / file.filename()).string(), value, folder));
-  return files;
-}
-
-std::vector<std::filesystem::path> read_sequence(const Json_value& value, const std::filesystem::path& folder) {
-  if (value.is_string()) return read_found_files(value, folder);
-  if (!value.is_array()) return read_numbered_files(value, folder);
-  std::vector<std::filesystem::path> files;
-  for (const Json_value& element : value.elements(most_scene_frames)) files.push_back(read_path(element, folder));
-  return files;
-}
 
 // ---- Meshes ----
 
@@ -96,6 +40,7 @@ Scene_object object_of(Mesh_file&& file) {
   object.mesh = std::move(file.mesh);
   object.file_vertex = std::move(file.file_vertex);
   object.file_vertices = file.file_vertices;
+  object.file_face = std::move(file.file_face);
   return object;
 }
 
@@ -104,13 +49,15 @@ Scene_object object_of(Surface_mesh&& shape) {
   object.file_vertices = shape.number_of_vertices();
   object.file_vertex.resize(object.file_vertices);
   std::iota(object.file_vertex.begin(), object.file_vertex.end(), 0U);
+  object.file_face.resize(shape.number_of_faces());
+  std::iota(object.file_face.begin(), object.file_face.end(), 0U);
   object.mesh = std::move(shape);
   return object;
 }
 
-Scene_object read_rest(const Json_value& value, const std::filesystem::path& folder) {
+Scene_object read_rest(const Json_value& value, Scene_folder& folder) {
   if (value.exactly_one_of({"mesh", "shape"}) == "shape") return object_of(detail::read_shape(value.at("shape")));
-  return object_of(read_mesh(read_path(value.at("mesh"), folder)));
+  return object_of(read_mesh(folder.file(value.at("mesh"))));
 }
 
 /// Positions in file order. Vertices that no face uses are not in the mesh: they get the position of the first vertex,
@@ -143,8 +90,8 @@ Motion placed(Motion motion, const Placement& placement) {
 }
 
 /// "walk.glb", or {"file": "walk.glb", "animation": "walk", "frames_per_second": 60}.
-Motion read_gltf(const Json_value& value, std::size_t vertices, const std::filesystem::path& folder) {
-  if (value.is_string()) return read_gltf_motion(read_path(value, folder), vertices);
+Motion read_gltf(const Json_value& value, std::size_t vertices, Scene_folder& folder) {
+  if (value.is_string()) return read_gltf_motion(folder.file(value), vertices);
   value.expect_keys({"file", "animation", "frames_per_second"});
   Gltf_motion_options options;
   if (const auto animation = value.find("animation")) {
@@ -155,25 +102,25 @@ Motion read_gltf(const Json_value& value, std::size_t vertices, const std::files
   }
   options.frames_per_second = value.number("frames_per_second", options.frames_per_second);
   if (!(options.frames_per_second > 0)) value.at("frames_per_second").fail("expected a number > 0");
-  return read_gltf_motion(read_path(value.at("file"), folder), vertices, options);
+  return read_gltf_motion(folder.file(value.at("file")), vertices, options);
 }
 
 /// Deformations start from the mesh after its placement; positions from files are transformed as they are read.
 Motion read_motion(const Json_value& value, const Scene_object& object, const Placement& placement,
-                   const std::filesystem::path& folder) {
+                   Scene_folder& folder) {
   const std::string kind = value.expect_one_key({"pc2", "mdd", "gltf", "keyframes", "sequence", "deform"});
   const Json_value source = value.at(kind);
   if (kind == "deform") return deform(rest_positions(object), detail::read_deformations(source));
-  if (kind == "pc2") return placed(read_point_cache(read_path(source, folder), object.file_vertices), placement);
-  if (kind == "mdd") return placed(read_mdd_cache(read_path(source, folder), object.file_vertices), placement);
+  if (kind == "pc2") return placed(read_point_cache(folder.file(source), object.file_vertices), placement);
+  if (kind == "mdd") return placed(read_mdd_cache(folder.file(source), object.file_vertices), placement);
   if (kind == "gltf") return placed(read_gltf(source, object.file_vertices, folder), placement);
-  if (kind == "keyframes") return placed(read_game_motion(read_path(source, folder), object.file_vertices), placement);
-  return placed(read_mesh_sequence(read_sequence(source, folder), object.file_vertices), placement);
+  if (kind == "keyframes") return placed(read_game_motion(folder.file(source), object.file_vertices), placement);
+  return placed(read_mesh_sequence(folder.sequence(source), object.file_vertices), placement);
 }
 
 // ---- Objects and scene ----
 
-Scene_object read_object(const Json_value& value, const std::filesystem::path& folder) {
+Scene_object read_object(const Json_value& value, Scene_folder& folder) {
   value.expect_keys({"name", "mesh", "shape", "place", "motion", "particles", "scattered_side"});
   const std::string name = value.at("name").text();
   Scene_object object = read_rest(value, folder);
@@ -188,10 +135,11 @@ Scene_object read_object(const Json_value& value, const std::filesystem::path& f
   }
   const auto motion = value.find("motion");
   object.motion = motion ? read_motion(*motion, object, placement, folder) : deform(rest_positions(object), {});
+  object.files = folder.take_found();
   return object;
 }
 
-std::vector<Scene_object> read_objects(const Json_value& value, const std::filesystem::path& folder) {
+std::vector<Scene_object> read_objects(const Json_value& value, Scene_folder& folder) {
   std::vector<Scene_object> objects;
   std::set<std::string> names;
   for (const Json_value& element : value.elements(most_objects)) {
@@ -254,11 +202,11 @@ std::size_t read_frames(const Json_value& scene, const std::vector<Scene_object>
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file) {
+Scene read_scene(const std::filesystem::path& file, const Scene_options& options) {
   const detail::Json document = detail::parse_json(file);
   const Json_value value(document, file.string());
   value.expect_keys({"name", "description", "frames", "objects", "ignore"});
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  Scene_folder folder(file.has_parent_path() ? file.parent_path() : ".", options.allow_outside);
 
   Scene scene;
   const auto name = value.find("name");
@@ -268,13 +216,6 @@ Scene read_scene(const std::filesystem::path& file) {
   scene.ignored = read_ignored(value, scene.objects);
   scene.frames = read_frames(value, scene.objects);
   return scene;
-}
-
-Scene_object still_object(std::string name, const std::filesystem::path& mesh_file) {
-  Scene_object object = object_of(read_mesh(mesh_file));
-  object.name = std::move(name);
-  object.motion = deform(rest_positions(object), {});
-  return object;
 }
 
 void pose(Scene_object& object, std::size_t frame) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lodestone/io/motion/deformation.h"
+#include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/mesh/errors.h"
 #include "support/scene_samples.h"
@@ -195,18 +196,18 @@ TEST(Read_scene, is_found_from_inside_its_folder) {
   std::filesystem::current_path(before);
 }
 
-TEST(Still_object, never_moves) {
+TEST(Read_object, of_a_mesh_never_moves) {
   const Temporary_folder folder;
-  Scene_object object = still_object("it", folder.write("a.off", tetrahedron_off(3)));
+  Scene_object object = read_object("it", folder.write("a.off", tetrahedron_off(3)));
   EXPECT_EQ(object.name, "it");
-  EXPECT_EQ(object.motion.frames, 0U);
+  EXPECT_EQ(object.motion.frames, 1U);
   pose(object, 99);
   EXPECT_EQ(corner(object, 1), Point(4, 0, 0));
 }
 
 TEST(Pose, leaves_the_mesh_unchanged_if_a_coordinate_is_not_finite) {
   const Temporary_folder folder;
-  Scene_object object = still_object("it", folder.write("a.off", tetrahedron_off()));
+  Scene_object object = read_object("it", folder.write("a.off", tetrahedron_off()));
   object.motion.pose = [](std::size_t, std::span<Point> positions) {
     for (Point& p : positions) p = Point(7, 7, 7);
     positions[2] = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
@@ -222,7 +223,7 @@ TEST(Pose, leaves_the_mesh_unchanged_if_a_coordinate_is_not_finite) {
 
 TEST(Pose, moves_each_mesh_vertex_to_the_position_of_its_file_vertex) {
   const Temporary_folder folder;
-  Scene_object object = still_object("it", folder.write("a.off", tetrahedron_off()));
+  Scene_object object = read_object("it", folder.write("a.off", tetrahedron_off()));
   object.file_vertex = {3, 3, 0, 1};
   object.file_vertices = 6;
   object.motion.pose = [](std::size_t, std::span<Point> positions) {

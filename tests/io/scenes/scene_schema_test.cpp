@@ -23,6 +23,7 @@
 #include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/mesh/errors.h"
 #include "support/gltf_samples.h"
+#include "support/read_file.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone {

@@ -14,7 +14,11 @@
 
 namespace lodestone {
 
-/// A mesh as read from a file. Faces keep their indices: face i of the mesh is face i of the file.
+/// A mesh of triangles as read from a file. Triangles are in the order of the file's faces.
+///
+/// A face of more than three corners is cut into triangles, which `file_face` maps to it. A quad is cut along the
+/// diagonal that suits its shape, a larger face by a Delaunay triangulation inside its outline, so that faces may be
+/// concave and need not be planar. A face without area, or whose outline touches or crosses itself, is cut into a fan.
 ///
 /// A half-edge mesh cannot represent everything a file can. The reader duplicates a vertex that is on a non-manifold
 /// edge, or that one face names twice. It drops vertices that no face uses. `file_vertex` maps mesh vertices to file
@@ -25,16 +29,17 @@ struct Mesh_file {
   Surface_mesh mesh;
   std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its index in the file
   std::size_t file_vertices = 0;           ///< number of vertices in the file
+  std::vector<std::uint32_t> file_face;    ///< per mesh face: its face in the file; never decreases
 };
 
-/// Reads a triangle mesh, in the format of the file's extension: OFF, OBJ, PLY (ascii, binary), STL (ascii, binary),
+/// Reads a mesh, in the format of the file's extension: OFF, OBJ, PLY (ascii, binary), STL (ascii, binary),
 /// glTF 2.0 (.gltf, .glb; at rest), MD2 or MD3 (first frame).
 ///
 /// The file is checked before CGAL's reader sees it: header counts against the file's size, indices against counts,
-/// finite coordinates, triangles only, the face limit. Zero-area faces, faces that name a vertex twice, non-manifold
-/// edges, duplicate vertices, several components and open borders are legal. Binary OFF and free-form surfaces in OBJ
-/// are refused. Cost: linear in the file's size, except at a vertex with very many faces, which CGAL circles once per
-/// face.
+/// finite coordinates, three corners or more per face, the face limit. Zero-area faces, faces that name a vertex twice,
+/// non-manifold edges, duplicate vertices, several components and open borders are legal. Binary OFF and free-form
+/// surfaces in OBJ are refused. Cost: linear in the file's size, except at a vertex with very many faces, which CGAL
+/// circles once per face.
 ///
 /// @throws Bad_mesh  with file, line (text formats) or byte (binary formats), and cause
 Mesh_file read_mesh(const std::filesystem::path& file, const Mesh_file_options& options = {});

@@ -22,18 +22,22 @@ struct Animation_output_options {
 ///
 /// - a point cache: `.pc2`, `.mdd`
 /// - glTF: `.gltf` (with a `.bin` beside it), `.glb`
-/// - mesh files: `.obj`, `.off`, `.ply`; a pattern of numbered files, counted from 0, or the name of a single frame
+/// - mesh files: `.obj`, `.off`, `.ply`, `.stl` (binary); a pattern of numbered files, counted from 0, or the name of a
+/// single frame
 ///
 /// Frames are processed one at a time. The output appears whole or not at all.
 ///
 /// Vertices and faces keep their order. A glTF file has the first frame, a morph target per further frame, and an
-/// animation that shows the frames in order with linear interpolation; at most 2048 frames. glTF and point caches store
-/// floats, mesh files doubles.
+/// animation that shows the frames in order with linear interpolation; at most 2048 frames. glTF, STL and point caches
+/// store floats, other mesh files doubles.
 ///
 /// @throws Bad_motion    a frame is broken, a coordinate is too large for a float
 /// @throws Bad_argument  an extension not listed, no faces where the format needs them, too many frames for the format
 /// @throws Bad_output
 void write_animation(const std::filesystem::path& output, const Animation& animation,
                      const Animation_output_options& options = {});
+
+/// The files that `write_animation` writes for so many frames.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& output, std::size_t frames);
 
 }  // namespace lodestone

@@ -21,11 +21,14 @@ struct Scene_object {
   Surface_mesh mesh;                       ///< at rest, until `pose` moves it
   std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its index in the positions of `motion`
   std::size_t file_vertices = 0;           ///< number of those positions
+  std::vector<std::uint32_t> file_face;    ///< per mesh face: its face in the file, as in Mesh_file
   Motion motion;                           ///< also set for an object that never moves
   std::size_t particles = 0;               ///< 0: automatic
 
   /// Where the particles of the predecessor start: only on the part of the surface farthest in this direction.
   std::optional<Kernel::Vector_3> scattered_side;
+
+  std::vector<std::filesystem::path> files;  ///< that the mesh and its motion are read from; some may be patterns
 };
 
 struct Scene {
@@ -39,20 +42,20 @@ struct Scene {
   bool ignores(Object_pair pair) const { return std::ranges::binary_search(ignored, pair); }
 };
 
+struct Scene_options {
+  bool allow_outside = false;  ///< whether the scene may name files outside its folder
+};
+
 /// Reads a scene: JSON as described by docs/scene.schema.json.
 ///
 /// Meshes are read or made at once; `pose` reads frames of point caches and mesh sequences on demand. Paths are
-/// relative to the scene's folder; a path that leaves it is refused.
+/// relative to the scene's folder; a path that leaves it is refused unless `allow_outside`.
 ///
 /// @throws Bad_scene  a violation of the schema, with a JSON pointer, such as
 ///                    `scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, keyframes,
 ///                    sequence, deform)`; a syntax error, with line and column
 /// @throws Bad_mesh, Bad_motion  a file that the scene names is missing or broken
-Scene read_scene(const std::filesystem::path& file);
-
-/// An object from a mesh file, which never moves.
-/// @throws Bad_mesh
-Scene_object still_object(std::string name, const std::filesystem::path& mesh_file);
+Scene read_scene(const std::filesystem::path& file, const Scene_options& options = {});
 
 /// Moves the object's mesh to its positions in `frame`, counted from 0.
 /// @throws Bad_motion  a non-finite coordinate, a broken frame, a frame past the end; the mesh is then unchanged

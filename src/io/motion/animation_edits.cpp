@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/motion/animation_edits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "lodestone/mesh/errors.h"
+#include "mesh/is_finite.h"
+
+namespace lodestone {
+namespace {
+
+constexpr std::size_t most_subdivided_faces = 50'000'000;
+
+using Edge_ends = std::pair<std::uint32_t, std::uint32_t>;
+
+void need_faces(const Animation& animation) {
+  if (animation.faces.empty()) throw Bad_argument("a point cache has no faces: give its mesh");
+}
+
+/// A motion that computes its vertices from the `count` vertices of `motion`.
+template <class Compute>
+Motion computed(Motion motion, std::size_t count, Compute compute) {
+  return {.frames = motion.frames,
+          .pose = [inner = std::move(motion.pose), count, compute](std::size_t frame, std::span<Point> positions) {
+            std::vector<Point> original(count);
+            inner(frame, original);
+            compute(original, positions);
+          }};
+}
+
+/// Kept vertices by the cube of a grid that they lie in.
+class Kept_vertices {
+ public:
+  explicit Kept_vertices(double distance) : distance_(distance) {}
+
+  /// The first kept vertex within the distance.
+  std::optional<std::uint32_t> near(const Point& point) const {
+    std::optional<std::uint32_t> first;
+    for_each_neighbour(cube_of(point), [&](const std::vector<Kept>& cube) {
+      for (const auto& [at, index] : cube)
+        if (CGAL::squared_distance(at, point) <= distance_ * distance_ && (!first || index < *first)) first = index;
+    });
+    return first;
+  }
+  std::uint32_t add(const Point& point) {
+    cubes_[cube_of(point)].push_back({point, count_});
+    return count_++;
+  }
+
+ private:
+  using Cube = std::array<double, 3>;
+  struct Kept {
+    Point at;
+    std::uint32_t index;
+  };
+
+  /// With a distance of 0, every position is a cube of its own.
+  Cube cube_of(const Point& p) const {
+    if (distance_ == 0) return {p.x(), p.y(), p.z()};
+    return {std::floor(p.x() / distance_), std::floor(p.y() / distance_), std::floor(p.z() / distance_)};
+  }
+
+  template <class Visit>
+  void for_each_neighbour(const Cube& cube, const Visit& visit) const {
+    const int reach = distance_ == 0 ? 0 : 1;
+    for (int x = -reach; x <= reach; ++x)
+      for (int y = -reach; y <= reach; ++y)
+        for (int z = -reach; z <= reach; ++z)
+          if (const auto found = cubes_.find({cube[0] + x, cube[1] + y, cube[2] + z}); found != cubes_.end())
+            visit(found->second);
+  }
+
+  double distance_;
+  std::uint32_t count_ = 0;
+  std::map<Cube, std::vector<Kept>> cubes_;
+};
+
+void drop_degenerate_faces(Animation& animation) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < animation.faces.size(); ++f) {
+    const auto [a, b, c] = animation.faces[f];
+    if (a == b || b == c || c == a) continue;
+    animation.faces[kept] = animation.faces[f];
+    animation.file_face[kept++] = animation.file_face[f];
+  }
+  if (kept == 0) throw Bad_argument("welding leaves no face");
+  animation.faces.resize(kept);
+  animation.file_face.resize(kept);
+}
+
+Animation subdivided_once(Animation animation) {
+  const auto count = static_cast<std::uint32_t>(animation.vertices);
+  std::map<Edge_ends, std::uint32_t> middles;
+  auto edges = std::make_shared<std::vector<Edge_ends>>();
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto ends = std::minmax(a, b);
+    const auto [entry, is_new] = middles.try_emplace(ends, count + static_cast<std::uint32_t>(edges->size()));
+    if (is_new) edges->push_back(ends);
+    return entry->second;
+  };
+  std::vector<Corners> faces;
+  std::vector<std::uint32_t> file_face;
+  for (std::size_t f = 0; f < animation.faces.size(); ++f) {
+    const auto [a, b, c] = animation.faces[f];
+    const auto ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    faces.insert(faces.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    file_face.insert(file_face.end(), 4, animation.file_face[f]);
+  }
+  animation.faces = std::move(faces);
+  animation.file_face = std::move(file_face);
+  animation.vertices = count + edges->size();
+  animation.motion = computed(std::move(animation.motion), count,
+                              [edges](const std::vector<Point>& original, std::span<Point> positions) {
+                                auto next = std::ranges::copy(original, positions.begin()).out;
+                                for (const auto& [a, b] : *edges) *next++ = CGAL::midpoint(original[a], original[b]);
+                              });
+  return animation;
+}
+
+}  // namespace
+
+Animation scaled(Animation animation, double factor) {
+  if (!(factor > 0) || !std::isfinite(factor))
+    throw Bad_argument(fmt::format("the scale is {}, must be > 0 and finite", factor));
+  animation.motion =
+      computed(std::move(animation.motion), animation.vertices,
+               [factor](const std::vector<Point>& original, std::span<Point> positions) {
+                 for (std::size_t v = 0; v < original.size(); ++v) {
+                   positions[v] = CGAL::ORIGIN + factor * (original[v] - CGAL::ORIGIN);
+                   if (!is_finite(positions[v]))
+                     throw Bad_motion(fmt::format("vertex {} is not finite after scaling by {}", v, factor));
+                 }
+               });
+  return animation;
+}
+
+Animation welded(Animation animation, double distance) {
+  if (!(distance >= 0) || !std::isfinite(distance))
+    throw Bad_argument(fmt::format("the distance to weld is {}, must be >= 0 and finite", distance));
+  need_faces(animation);
+  std::vector<Point> points(animation.vertices);
+  animation.motion.pose(0, points);
+  Kept_vertices kept(distance);
+  auto sources = std::make_shared<std::vector<std::uint32_t>>();  // per kept vertex: its index before
+  std::vector<std::uint32_t> target(points.size());
+  for (std::uint32_t v = 0; v < points.size(); ++v) {
+    if (const auto near = kept.near(points[v])) {
+      target[v] = *near;
+    } else {
+      target[v] = kept.add(points[v]);
+      sources->push_back(v);
+    }
+  }
+  for (auto& face : animation.faces)
+    for (auto& corner : face) corner = target[corner];
+  drop_degenerate_faces(animation);
+  animation.motion = computed(std::move(animation.motion), animation.vertices,
+                              [sources](const std::vector<Point>& original, std::span<Point> positions) {
+                                for (std::size_t v = 0; v < sources->size(); ++v)
+                                  positions[v] = original[(*sources)[v]];
+                              });
+  animation.vertices = sources->size();
+  return animation;
+}
+
+Animation subdivided(Animation animation, std::size_t times) {
+  if (times > 0) need_faces(animation);
+  for (; times > 0; --times) {
+    if (animation.faces.size() > most_subdivided_faces / 4)
+      throw Bad_argument(fmt::format("subdivision gives more than {} faces", most_subdivided_faces));
+    animation = subdivided_once(std::move(animation));
+  }
+  return animation;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/scenes/given_objects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "io/files/json_reader.h"
+#include "io/files/small_text.h"
+#include "io/scenes/scene_fields.h"
+#include "lodestone/io/files/numbered_files.h"
+#include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/motion/deformation.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace {
+
+/// The file's name without folder, extension and the number of a pattern: `seq/cloth_###.obj` is `cloth`. Names are
+/// shown in tables and messages, so control characters are replaced.
+std::string name_of(const std::filesystem::path& input) {
+  const auto parts = mesh_and_cache(input);
+  const auto file = parts ? parts->mesh : input;
+  std::string name = printable(file.stem().string());
+  if (!is_pattern(file)) return name;
+  std::erase_if(name, [](char c) { return c == '*' || c == '#'; });
+  const auto last = name.find_last_not_of("_-. ");
+  return last == name.npos ? "sequence" : name.substr(0, last + 1);
+}
+
+void hold_last_pose(Motion& motion) {
+  motion.pose = [inner = std::move(motion.pose), last = motion.frames - 1](
+                    std::size_t frame, std::span<Point> positions) { inner(std::min(frame, last), positions); };
+}
+
+}  // namespace
+
+Scene_object read_object(std::string name, const std::filesystem::path& input) {
+  auto animation = read_animation(input);
+  if (animation.faces.empty())
+    throw Bad_argument(
+        fmt::format("{0}: a point cache has no faces: give its mesh beside it, as MESH+{0}", input.string()));
+  std::vector<Point> points(animation.vertices);
+  animation.motion.pose(0, points);
+  auto file = mesh_of(points, animation.faces, input.string());
+  Scene_object object;
+  object.name = std::move(name);
+  object.mesh = std::move(file.mesh);
+  object.file_vertex = std::move(file.file_vertex);
+  object.file_vertices = file.file_vertices;
+  object.file_face = std::move(animation.file_face);
+  object.motion = std::move(animation.motion);
+  object.files = std::move(animation.files);
+  return object;
+}
+
+Scene_object shape_object(const std::string& shape) {
+  const auto document =
+      shape.starts_with('{') ? detail::parse_json_text(shape, "shape") : detail::Json{{shape, detail::Json::object()}};
+  Scene_object object;
+  object.mesh = detail::read_shape({document, "shape"});
+  object.file_vertices = object.mesh.number_of_vertices();
+  object.file_vertex.resize(object.file_vertices);
+  std::iota(object.file_vertex.begin(), object.file_vertex.end(), 0U);
+  object.file_face.resize(object.mesh.number_of_faces());
+  std::iota(object.file_face.begin(), object.file_face.end(), 0U);
+  object.motion = deform({object.mesh.points().begin(), object.mesh.points().end()}, {});
+  return object;
+}
+
+Scene scene_of(std::span<const std::filesystem::path> inputs) {
+  Scene scene;
+  scene.name = "meshes";
+  std::set<std::string> taken;
+  for (const auto& input : inputs) {
+    const std::string wanted = name_of(input);
+    std::string name = wanted;
+    for (std::size_t use = 2; !taken.insert(name).second; ++use) name = fmt::format("{}_{}", wanted, use);
+    scene.objects.push_back(read_object(std::move(name), input));
+    scene.frames = std::max(scene.frames, scene.objects.back().motion.frames);
+  }
+  for (auto& object : scene.objects)
+    if (object.motion.frames < scene.frames) hold_last_pose(object.motion);
+  return scene;
+}
+
+Animation animation_of(const Scene_object& object, std::size_t frames) {
+  Animation animation{.kind = "object", .vertices = object.file_vertices, .faces = {}};
+  for (const auto f : object.mesh.faces()) {
+    Corners& corners = animation.faces.emplace_back();
+    std::size_t corner = 0;
+    for (const auto v : object.mesh.vertices_around_face(object.mesh.halfedge(f)))
+      corners[corner++] = object.file_vertex[v];
+  }
+  animation.file_face = object.file_face;
+  animation.motion = object.motion;
+  if (animation.motion.frames == 0) animation.motion.frames = frames;
+  animation.files = object.files;
+  return animation;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <set>
+#include <span>
+#include <string>
+
+#include "io/files/small_text.h"
+#include "lodestone/io/meshes/file_faces.h"
+
+/// What a user should know about an input that was accepted: one line each on the standard error output.
+namespace lodestone {
+
+inline void note(const std::string& text) { fmt::print(stderr, "lodestone: {}\n", printable(text)); }
+
+/// Faces that were cut into triangles.
+/// @param name  of the file or object
+inline void note_cut_faces(const std::string& name, std::span<const std::uint32_t> file_face) {
+  const auto faces = count_file_faces(file_face);
+  if (faces.cut > 0)
+    note(fmt::format("{}: {} of {} faces have more than three corners: cut into triangles, {} in all", name, faces.cut,
+                     faces.count, file_face.size()));
+}
+
+/// Contents of a file that a conversion does not keep.
+inline void note_not_kept(const std::string& name, const std::set<std::string>& contents) {
+  if (!contents.empty()) note(fmt::format("{}: not kept: {}", name, fmt::join(contents, ", ")));
+}
+
+}  // namespace lodestone

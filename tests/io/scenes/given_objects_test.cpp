@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/scenes/given_objects.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lodestone/mesh/errors.h"
+#include "support/gltf_samples.h"
+#include "support/mesh_samples.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+class Given_objects : public testing::Test {
+ protected:
+  std::filesystem::path path(const std::string& name) const { return folder.path() / name; }
+  void write_sequence(int frames) const {
+    for (int frame = 0; frame < frames; ++frame)
+      folder.write("s_" + std::to_string(frame) + ".off", tetrahedron_off(frame));
+  }
+  static Point first_vertex(Scene_object& object, std::size_t frame) {
+    pose(object, frame);
+    return object.mesh.point(Surface_mesh::Vertex_index(0));
+  }
+
+  Temporary_folder folder;
+};
+
+TEST_F(Given_objects, a_scene_is_as_long_as_the_longest_motion_and_shorter_ones_hold_their_last_pose) {
+  write_sequence(5);
+  folder.write("t1.off", tetrahedron_off(10));
+  folder.write("t2.off", tetrahedron_off(11));
+  folder.write("still.off", tetrahedron_off());
+  const std::vector<std::filesystem::path> inputs{path("s_*.off"), path("t#.off"), path("still.off")};
+  Scene scene = scene_of(inputs);
+  EXPECT_EQ(scene.frames, 5U);
+  for (std::size_t frame = 0; frame < 5; ++frame) {
+    EXPECT_EQ(first_vertex(scene.objects[0], frame), Point(double(frame), 0, 0));
+    EXPECT_EQ(first_vertex(scene.objects[1], frame), Point(frame == 0 ? 10 : 11, 0, 0));
+    EXPECT_EQ(first_vertex(scene.objects[2], frame), Point(0, 0, 0));
+  }
+}
+
+TEST_F(Given_objects, are_named_after_their_files) {
+  write_sequence(2);
+  folder.write("a.off", tetrahedron_off());
+  folder.write("a.obj", square_obj);
+  folder.write("12.off", tetrahedron_off());
+  const std::vector<std::filesystem::path> inputs{path("s_*.off"), path("a.off"), path("a.obj"), path("##.off")};
+  const auto scene = scene_of(inputs);
+  std::vector<std::string> names;
+  for (const auto& object : scene.objects) names.push_back(object.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"s", "a", "a_2", "sequence"}));
+}
+
+TEST_F(Given_objects, gltf_plays_its_first_animation) {
+  folder.write("a.glb", rich_gltf().glb());
+  EXPECT_EQ(scene_of(std::vector{path("a.glb")}).frames, 61U);
+}
+
+TEST_F(Given_objects, a_mesh_is_joined_to_its_point_cache_by_a_plus) {
+  folder.write("a.off", square_off);
+  folder.write("a.pc2", std::string("POINTCACHE2\0", 12) + packed<std::int32_t>({1, 4}) + packed<float>({0, 1}) +
+                            packed<std::int32_t>({2}) + packed<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}) +
+                            packed<float>({7, 0, 0, 8, 0, 0, 8, 1, 0, 7, 1, 0}));
+  Scene scene = scene_of(std::vector{path("a.off+") += path("a.pc2")});
+  EXPECT_EQ(scene.frames, 2U);
+  EXPECT_EQ(scene.objects[0].name, "a");
+  EXPECT_EQ(first_vertex(scene.objects[0], 1), Point(7, 0, 0));
+  EXPECT_THROW(scene_of(std::vector{path("a.pc2")}), Bad_argument);
+}
+
+TEST_F(Given_objects, a_file_whose_name_has_a_plus_is_that_file) {
+  folder.write("a+b.off", square_off);
+  EXPECT_EQ(scene_of(std::vector{path("a+b.off")}).objects[0].name, "a+b");
+}
+
+TEST_F(Given_objects, an_object_of_a_scene_becomes_an_animation_of_its_file) {
+  folder.write("a.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4 5\n");
+  const auto scene = read(folder, R"({"frames": 3, "objects": [{"name": "a", "mesh": "a.obj", "motion": {"deform":
+      [{"travel": {"path": "linear", "way_points": [{"frame": 0, "at": [0, 0, 0]}, {"frame": 2, "at": [4, 0, 0]}]}}]}}]})");
+  const auto animation = animation_of(scene.objects[0], scene.frames);
+  EXPECT_EQ(animation.motion.frames, 3U);
+  EXPECT_EQ(animation.vertices, 5U);
+  EXPECT_EQ(animation.faces, (std::vector<Corners>{{1, 2, 3}, {1, 3, 4}}));
+  EXPECT_EQ(animation.file_face, (std::vector<std::uint32_t>{0, 0}));
+  std::vector<Point> positions(5);
+  animation.motion.pose(1, positions);
+  EXPECT_EQ(positions[1], Point(2, 0, 0));
+}
+
+TEST_F(Given_objects, shapes_are_given_by_name_or_as_in_a_scene) {
+  EXPECT_EQ(shape_object("teapot").mesh.number_of_faces(), 5680U);
+  EXPECT_EQ(shape_object(R"({"icosphere": {"frequency": 3}})").mesh.number_of_faces(), 180U);
+  for (const auto* wrong : {"icosphere", "kettle", "{", ""}) EXPECT_THROW(shape_object(wrong), Bad_scene) << wrong;
+}
+
+TEST_F(Given_objects, a_scene_may_name_files_outside_its_folder_if_allowed) {
+  create_directory(path("scenes"));
+  folder.write("a.off", tetrahedron_off());
+  const auto file = folder.write("scenes/scene.json", R"({"objects": [{"name": "a", "mesh": "../a.off"}]})");
+  EXPECT_THROW(read_scene(file), Bad_scene);
+  EXPECT_EQ(read_scene(file, {.allow_outside = true}).objects.size(), 1U);
+}
+
+}  // namespace
+}  // namespace lodestone::test
