@@ -2,6 +2,7 @@
 #include "partitions/partition_plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -101,6 +102,13 @@ bool fits(const Partition_variant& variant, const Partition_mesh& mesh) {
   return mesh.make().number_of_vertices() <= entry->most_vertices;
 }
 
+template <class Named_list>
+std::string joined_names(const Named_list& list) {
+  std::vector<std::string> names;
+  for (const auto& named : list) names.emplace_back(named.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 std::string Partition_run::id() const {
@@ -128,7 +136,9 @@ std::vector<Partition_run> partition_plan(const std::vector<std::string>& only) 
   for (const auto& name : only)
     if (std::ranges::find(chosen_variants, name, &Partition_variant::name) == chosen_variants.end() &&
         std::ranges::find(chosen_meshes, name, &Partition_mesh::name) == chosen_meshes.end())
-      throw Bad_argument("there is neither a mesh nor a variant '" + name + "'");
+      throw Bad_argument(
+          fmt::format("there is neither a mesh nor a variant '{}'; the meshes are {}; the variants are {}", name,
+                      joined_names(meshes), joined_names(variants)));
   if (chosen_variants.empty()) chosen_variants = variants;
   if (chosen_meshes.empty()) chosen_meshes.assign(meshes.begin(), meshes.end());
 

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "lodestone/mesh/errors.h"
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/run_reported.h"
@@ -45,6 +51,25 @@ void add_options(CLI::App& app, Experiment_command& command) {
   app.footer(list + "\n\n" + exit_code::help);
 }
 
+/// Options that only some experiments read, and which these are.
+struct Special_option {
+  const char* name;
+  std::vector<std::string> experiments;
+};
+
+const std::vector<Special_option> special_options{{"--only", {"peers", "every_frame", "volumes", "partitions"}},
+                                                  {"--jobs", {"partitions"}},
+                                                  {"--shard", {"partitions"}},
+                                                  {"--merge", {"partitions"}}};
+
+/// @throws Bad_argument  an option that the experiment would ignore
+void refuse_options_of_other_experiments(const CLI::App& app, const std::string& experiment) {
+  for (const auto& [name, takers] : special_options)
+    if (app.count(name) > 0 && std::ranges::find(takers, experiment) == takers.end())
+      throw Bad_argument(
+          fmt::format("the experiment {} ignores {}, which is for {}", experiment, name, fmt::join(takers, ", ")));
+}
+
 int run_experiment(int argc, char** argv) {
   CLI::App app("Run one of the experiments");
   app.name("lodestone experiment");
@@ -52,6 +77,7 @@ int run_experiment(int argc, char** argv) {
   command.scenes = LODESTONE_SCENES;
   add_options(app, command);
   if (const auto done = parse(app, argc, argv)) return *done;
+  refuse_options_of_other_experiments(app, command.name);
   return run(command);
 }
 

@@ -2,11 +2,14 @@
 #include "shared/race_figures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "lodestone/mesh/errors.h"
 #include "shared/measured_run.h"
@@ -19,13 +22,25 @@ constexpr std::array default_scenes{"teapot_sphere_1",  "spheres_5k",       "sph
                                     "spheres_500k",     "spheres_2m",       "torus_knots_20k",
                                     "torus_knots_200k", "cloth_sphere_80k", "bodies_20_5k"};
 
+/// The scene files of a folder without their extension, sorted.
+std::vector<std::string> names_of_scenes(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
 /// @throws Bad_scene  a name that no scene has
 std::vector<std::string> scene_names(const Experiment_context& context) {
   std::vector<std::string> names = context.only;
   if (names.empty()) names.assign(default_scenes.begin(), default_scenes.end());
   for (const auto& name : names)
     if (!exists(context.scenes / (name + ".json")))
-      throw Bad_scene(fmt::format("{}: there is no such scene", (context.scenes / (name + ".json")).string()));
+      throw Bad_scene(fmt::format("{}: there is no such scene; the scenes are {}",
+                                  (context.scenes / (name + ".json")).string(),
+                                  fmt::join(names_of_scenes(context.scenes), ", ")));
   return names;
 }
 

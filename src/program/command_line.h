@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "io/files/small_text.h"
 #include "program/exit_codes.h"
-#include "program/printable.h"
+#include "program/suggestion.h"
 
 /// What the command lines of the program and of the experiments share; in a header, since each program reads its
 /// command line in one source file, and CLI11 takes long to compile.
@@ -25,6 +29,42 @@ inline CLI::Option* add_html(CLI::App& app, std::filesystem::path& html, const c
   return app.add_option("--html", html, what)->type_name("FILE")->check(not_empty());
 }
 
+/// The sub-command of this name; null if there is none.
+inline const CLI::App* find_command(const CLI::App& program, const std::string& name) {
+  for (const auto* command : program.get_subcommands(nullptr))
+    if (command->get_name() == name) return command;
+  return nullptr;
+}
+
+inline std::string did_you_mean(const std::string& word, const std::vector<std::string>& words) {
+  const auto meant = suggestion_for(word, words);
+  return meant.empty() ? "" : fmt::format("; did you mean {}?", meant);
+}
+
+/// A complaint about the first option that `app` does not have; empty if there is none.
+inline std::string unknown_option(const CLI::App& app, std::span<char* const> words) {
+  std::vector<std::string> known;
+  for (const auto* option : app.get_options())
+    for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+  for (const std::string word : words) {
+    const auto name = word.substr(0, word.find('='));
+    if (name == "--") return {};
+    if (name.starts_with("--") && std::ranges::find(known, name) == known.end())
+      return fmt::format("there is no option {}{}", name, did_you_mean(name, known));
+  }
+  return {};
+}
+
+/// A complaint about a misspelt command or option; empty if there is none.
+inline std::string unknown_word(const CLI::App& program, std::span<char* const> words) {
+  std::vector<std::string> commands;
+  for (const auto* command : program.get_subcommands(nullptr)) commands.push_back(command->get_name());
+  if (commands.empty() || words.empty() || *words[0] == '-') return unknown_option(program, words);
+  const auto* command = find_command(program, words[0]);
+  if (command != nullptr) return unknown_option(*command, words.subspan(1));
+  return fmt::format("there is no command {}{}", words[0], did_you_mean(words[0], commands));
+}
+
 /// Parses the command line. Prints help or version if asked for, else one line about what is wrong.
 /// @return the exit code, if there is nothing left to do
 inline std::optional<int> parse(CLI::App& program, int argc, char** argv) {
@@ -34,7 +74,9 @@ inline std::optional<int> parse(CLI::App& program, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     if (asked_for_help) return program.exit(error);
-    fmt::print(stderr, "lodestone: {} (see {} --help)\n", printable(error.what()), program.get_name());
+    auto complaint = unknown_word(program, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
+    if (complaint.empty()) complaint = error.what();
+    fmt::print(stderr, "lodestone: {} (see {} --help)\n", printable(complaint), program.get_name());
     return exit_code::bad_usage;
   }
 }

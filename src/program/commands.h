@@ -19,13 +19,17 @@ struct Strategy_choice {
 };
 
 struct Detect_command {
-  std::vector<std::filesystem::path> inputs;  ///< one scene (.json), or meshes, which do not move
+  std::vector<std::filesystem::path> inputs;  ///< one scene (.json), or meshes and animations
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
   bool truth = false;
   std::filesystem::path out, html, paraview;  ///< empty: not written
   std::size_t html_frames = 0;                ///< maximum number of frames on the page; 0: see page_frame_step
-  bool quiet = false;
+  bool quiet = false;                         ///< print one line in place of the table
+  bool json = false;                          ///< print the summary in place of the table
+  bool all_rows = false;                      ///< print a row for each pair, however many
+  bool exit_code = false;                     ///< the exit code tells whether anything collides
+  bool allow_outside = false;                 ///< whether a scene may name files outside its folder
 };
 
 struct Partition_command {
@@ -41,14 +45,20 @@ struct Info_command {
   std::filesystem::path file;
   std::filesystem::path mesh;  ///< of a point cache; may be empty
   bool json = false;
+  bool allow_outside = false;  ///< whether a scene may name files outside its folder
 };
 
 struct Convert_command {
-  std::filesystem::path input, output;
+  std::filesystem::path input;  ///< a file, `SCENE.json#OBJECT` or `shape:SHAPE`
+  std::filesystem::path output;
   std::filesystem::path mesh;  ///< of a point cache; may be empty
   std::string frames;          ///< first:last:step; empty: all
   double rate = 0;             ///< frames per second; 0: what the input says, else 30
   std::size_t regions = 0;     ///< 0: no colours
+  std::optional<double> weld;  ///< distance below which vertices are merged
+  std::size_t subdivisions = 0;
+  double scale = 1;
+  bool allow_outside = false;  ///< whether a scene may name files outside its folder
   bool quiet = false;
 };
 

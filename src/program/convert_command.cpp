@@ -1,70 +1,77 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <charconv>
+#include <algorithm>
+#include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "io/files/small_text.h"
 #include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/motion/animation_edits.h"
 #include "lodestone/io/results/animation_output.h"
+#include "lodestone/io/scenes/given_objects.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
-#include "program/printable.h"
+#include "program/frame_choice.h"
+#include "program/notes.h"
 #include "program/progress.h"
 
 namespace lodestone {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr double usual_rate = 30;
+constexpr std::string_view shape_prefix = "shape:", scene_mark = ".json";
 
-/// The frames of `first:last:step`, including the last; each part may be omitted.
-struct Frame_choice {
-  std::size_t first = 0;
-  std::size_t last = 0;
-  std::size_t step = 1;
-};
-
-std::size_t number(std::string_view text, std::size_t otherwise, const std::string& choice) {
-  if (text.empty()) return otherwise;
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw Bad_argument(fmt::format("--frames {}: expected FIRST:LAST:STEP", choice));
-  return value;
-}
-
-std::vector<std::string> split(const std::string& choice) {
-  std::vector<std::string> parts(1);
-  for (const char c : choice) {
-    if (c == ':')
-      parts.emplace_back();
-    else
-      parts.back() += c;
+/// An object of a scene. Without a name, the only one.
+Animation object_of_scene(const fs::path& file, const std::string& name, bool allow_outside) {
+  const Scene scene = read_scene(file, {.allow_outside = allow_outside});
+  const bool is_only = name.empty() && scene.objects.size() == 1;
+  const auto found = is_only ? scene.objects.begin() : std::ranges::find(scene.objects, name, &Scene_object::name);
+  if (found == scene.objects.end()) {
+    std::vector<std::string> names;
+    for (const auto& object : scene.objects) names.push_back(object.name);
+    throw Bad_argument(
+        fmt::format("{0}: name one object of the scene, as {0}#NAME: {1}", file.string(), fmt::join(names, ", ")));
   }
-  return parts;
+  auto animation = animation_of(*found, scene.frames);
+  animation.files.push_back(file);
+  return animation;
 }
 
-Frame_choice parse_frames(const std::string& choice, std::size_t frames) {
-  const auto parts = split(choice);
-  if (parts.size() > 3) throw Bad_argument(fmt::format("--frames {}: expected FIRST:LAST:STEP", choice));
-  const auto last = frames - 1;
-  Frame_choice result{.first = number(parts[0], 0, choice)};
-  result.last = parts.size() > 1 ? number(parts[1], last, choice) : choice.empty() ? last : result.first;
-  if (parts.size() > 2) result.step = number(parts[2], 1, choice);
-  if (result.step == 0 || result.first > result.last || result.last > last)
-    throw Bad_argument(fmt::format("--frames {}: the frames are 0 to {}", choice, last));
-  return result;
-}
-
-std::vector<std::size_t> list_of(const Frame_choice& choice) {
-  std::vector<std::size_t> frames;
-  for (auto frame = choice.first; frame <= choice.last; frame += choice.step) {
-    frames.push_back(frame);
-    if (choice.last - frame < choice.step) break;  // the sum might overflow
+Animation read_input(const Convert_command& command) {
+  const std::string text = command.input.string();
+  if (text.starts_with(shape_prefix)) return animation_of(shape_object(text.substr(shape_prefix.size())), 1);
+  if (const auto mark = text.find(std::string(scene_mark) + "#"); mark != text.npos) {
+    const auto end = mark + scene_mark.size();
+    return object_of_scene(text.substr(0, end), text.substr(end + 1), command.allow_outside);
   }
-  return frames;
+  if (command.input.extension() == scene_mark) return object_of_scene(command.input, "", command.allow_outside);
+  return read_animation(command.input,
+                        {.mesh = command.mesh, .frames_per_second = command.rate > 0 ? command.rate : usual_rate});
+}
+
+Animation edited(Animation animation, const Convert_command& command) {
+  if (command.weld) animation = welded(std::move(animation), *command.weld);
+  animation = subdivided(std::move(animation), command.subdivisions);
+  return command.scale == 1 ? animation : scaled(std::move(animation), command.scale);
+}
+
+/// Frames are read while others are written, so the output must not replace a file of the input.
+void check_input_is_kept(const Convert_command& command, const Animation& animation, std::size_t frames) {
+  std::error_code unknown;
+  std::set<fs::path> inputs;
+  for (const auto& file : animation.files) inputs.insert(fs::weakly_canonical(file, unknown));
+  for (const auto& file : files_of(command.output, frames))
+    if (inputs.contains(fs::weakly_canonical(file, unknown)))
+      throw Bad_argument(fmt::format(
+          "{}: is a file of the input, which is never overwritten: give another name for OUT", file.string()));
 }
 
 /// The region of each file vertex, for the positions of one frame; region 0 for vertices that no face uses.
@@ -79,27 +86,46 @@ std::vector<Region_index> regions_of(const Animation& animation, std::size_t fra
   return regions;
 }
 
-}  // namespace
+/// Formats with faces, and changes of faces, need the mesh of a point cache.
+void check_faces(const Animation& animation, const Convert_command& command) {
+  const auto extension = lower_case(command.output.extension().string());
+  const bool is_cache = extension == ".pc2" || extension == ".mdd";
+  const bool edits = command.weld || command.subdivisions > 0 || command.regions > 0;
+  if (animation.faces.empty() && (edits || !is_cache))
+    throw Bad_argument(
+        fmt::format("{}: a point cache has no faces: name its mesh with --mesh FILE", command.input.string()));
+}
 
-int run(const Convert_command& command) {
-  const auto animation = read_animation(
-      command.input, {.mesh = command.mesh, .frames_per_second = command.rate > 0 ? command.rate : usual_rate});
+Animation_output_options output_options(const Animation& animation, const Convert_command& command) {
   const auto choice = parse_frames(command.frames, animation.motion.frames);
   Animation_output_options options{.frames = list_of(choice)};
   const double own_rate = animation.frames_per_second > 0 ? animation.frames_per_second : usual_rate;
   options.frames_per_second = (command.rate > 0 ? command.rate : own_rate) / static_cast<double>(choice.step);
-  if (command.regions > 0) {
-    if (animation.faces.empty()) throw Bad_argument("--regions needs faces: give the mesh of the point cache");
-    options.regions = regions_of(animation, choice.first, command.regions);
-  }
+  if (command.regions > 0) options.regions = regions_of(animation, choice.first, command.regions);
+  return options;
+}
+
+void report(const Convert_command& command, const Animation& original, const Animation& animation, std::size_t frames) {
+  const auto name = command.input.filename().string();
+  note_cut_faces(name, original.file_face);
+  note_not_kept(name, original.not_read);
+  fmt::print("{}: {} frames of {} vertices\n", printable(command.output.string()), frames, animation.vertices);
+}
+
+}  // namespace
+
+int run(const Convert_command& command) {
+  const auto original = read_input(command);
+  check_faces(original, command);
+  const auto animation = edited(original, command);
+  auto options = output_options(animation, command);
+  check_input_is_kept(command, animation, options.frames.size());
   {
     Progress_bar progress("convert", command.quiet);
     options.progress = [&](std::size_t done, std::size_t of) { progress(done, of); };
     write_animation(command.output, animation, options);
   }
-  if (!command.quiet)
-    fmt::print("{}: {} frames of {} vertices\n", printable(command.output.string()), options.frames.size(),
-               animation.vertices);
+  if (!command.quiet) report(command, original, animation, options.frames.size());
   return exit_code::success;
 }
 

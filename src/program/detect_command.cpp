@@ -4,41 +4,36 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 
+#include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
-#include "lodestone/io/scenes/scene_file.h"
+#include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/queries/exhaustive.h"
 #include "program/commands.h"
 #include "program/detect_summary.h"
 #include "program/exit_codes.h"
 #include "program/frame_log.h"
+#include "program/notes.h"
 #include "program/page_log.h"
 #include "program/paraview_log.h"
-#include "program/printable.h"
 #include "program/progress.h"
 
 namespace lodestone {
 
 namespace {
 
-Scene load(const std::vector<std::filesystem::path>& inputs, bool self_collision) {
-  if (inputs.size() == 1) {
-    if (inputs[0].extension() == ".json") return read_scene(inputs[0]);
-    if (!self_collision)
-      throw Bad_argument(inputs[0].string() +
-                         ": one mesh alone has nothing to collide with; give a scene or two meshes, or --mode exact "
-                         "--self for collisions with itself");
-  }
-  Scene scene;
-  scene.name = "meshes";
-  std::set<std::string> taken;
-  for (const auto& file : inputs) {
-    const std::string stem = printable(file.stem().string());
-    std::string name = stem;
-    for (std::size_t use = 2; !taken.insert(name).second; ++use) name = fmt::format("{}_{}", stem, use);
-    scene.objects.push_back(still_object(std::move(name), file));
-  }
+bool is_scene(const std::filesystem::path& input) { return input.extension() == ".json"; }
+
+Scene load(const Detect_command& command) {
+  const auto& inputs = command.inputs;
+  if (inputs.size() == 1 && is_scene(inputs[0])) return read_scene(inputs[0], {.allow_outside = command.allow_outside});
+  for (const auto& input : inputs)
+    if (is_scene(input)) throw Bad_argument(input.string() + ": a scene must be the only input");
+  Scene scene = scene_of(inputs);
+  if (inputs.size() == 1 && !command.options.exact.self_collision)
+    throw Bad_argument(inputs[0].string() +
+                       ": one mesh alone has nothing to collide with; give a scene or two meshes, or --self for "
+                       "collisions with itself");
   return scene;
 }
 
@@ -54,10 +49,9 @@ class Run {
  public:
   explicit Run(const Detect_command& command)
       : command_(command),
-        scene_(load(command.inputs, command.options.exact.self_collision)),
+        scene_(load(command)),
         detector_(detector_options(command), make_strategy(command.partition.name, command.partition.settings)) {
     for (auto& object : scene_.objects) {
-      names_.push_back(object.name);
       Object_options options{.particles = command.options.particles > 0 ? 0 : object.particles};
       if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
       options.file_vertex = object.file_vertex;
@@ -73,6 +67,9 @@ class Run {
   std::string play(std::size_t frame);
   nlohmann::ordered_json summary() const { return summary_json(subject(), summary_); }
   void print() const { print_summary(subject(), summary_); }
+  std::string answer() const { return one_line_answer(subject(), summary_); }
+  bool finds_any() const { return summary_.finds_any(); }
+  const Scene& scene() const { return scene_; }
   /// Null if no page was requested.
   Page_log* page() { return page_ ? &*page_ : nullptr; }
   Paraview_log* paraview() { return paraview_ ? &*paraview_ : nullptr; }
@@ -88,7 +85,6 @@ class Run {
   const Detect_command& command_;
   Scene scene_;
   Scene_detector detector_;
-  std::vector<std::string> names_;
   Run_summary summary_;
   std::optional<Page_log> page_;
   std::optional<Paraview_log> paraview_;
@@ -100,11 +96,11 @@ std::string Run::play(std::size_t frame) {
   detector_.update();
   const Frame& result = detector_.detect();
   // The first frame builds, and finds all positions outside the caches.
-  summary_.add(result, frame > 0 || scene_.frames == 1);
+  summary_.add(frame, result, frame > 0 || scene_.frames == 1);
   if (paraview_) paraview_->add(frame, scene_, result);
   const auto truth = find_truth();
   if (truth) compare(result, *truth);
-  std::string line = frame_line(frame, names_, result, command_.options, truth);
+  std::string line = frame_line(frame, scene_.objects, result, command_.options, truth);
   if (page_) page_->add(frame, result, line, any_truth(truth));
   return line;
 }
@@ -160,6 +156,21 @@ void write_results(Run& scene_run, std::optional<Atomic_file>& frames, const Det
   if (scene_run.paraview() != nullptr) scene_run.paraview()->commit();
 }
 
+/// What the user reads on the terminal.
+void print_results(Run& scene_run, const Detect_command& command) {
+  if (command.json) return fmt::print("{}", json_text(scene_run.summary(), 2));
+  if (command.quiet) return fmt::print("{}", scene_run.answer());
+  for (const auto& object : scene_run.scene().objects) note_cut_faces(object.name, object.file_face);
+  scene_run.print();
+  if (!command.out.empty()) fmt::print("results: {}\n", printable(command.out.string()));
+  if (scene_run.page() != nullptr) fmt::print("{}", scene_run.page()->summary());
+}
+
+int exit_code_of(const Run& scene_run, const Detect_command& command) {
+  if (scene_run.contradicts_truth()) return exit_code::contradicts_truth;
+  return command.exit_code && scene_run.finds_any() ? exit_code::collides : exit_code::success;
+}
+
 }  // namespace
 
 int run(const Detect_command& command) {
@@ -167,7 +178,7 @@ int run(const Detect_command& command) {
   std::optional<Atomic_file> frames;
   if (!command.out.empty()) frames.emplace(command.out / "frames.jsonl");
   {
-    Progress_bar progress("detect", command.quiet);
+    Progress_bar progress("detect", command.quiet || command.json);
     for (std::size_t frame = 0; frame < scene_run.frames(); ++frame) {
       const auto line = scene_run.play(frame);
       if (frames) frames->write(line);
@@ -175,12 +186,8 @@ int run(const Detect_command& command) {
     }
   }
   write_results(scene_run, frames, command);
-  if (!command.quiet) {
-    scene_run.print();
-    if (frames) fmt::print("results: {}\n", printable(command.out.string()));
-    if (scene_run.page() != nullptr) fmt::print("{}", scene_run.page()->summary());
-  }
-  return scene_run.contradicts_truth() ? exit_code::contradicts_truth : exit_code::success;
+  print_results(scene_run, command);
+  return exit_code_of(scene_run, command);
 }
 
 }  // namespace lodestone

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/results/text_table.h"
 #include "program/missed_frames.h"
 
@@ -14,16 +16,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// More do not fit on a screen.
+constexpr std::size_t most_rows = 20;
+
 Json object_summary_json(const Run_subject& subject, Object_id id) {
   const auto& object = subject.scene.objects[id];
-  Json json{
-      {"name", object.name}, {"vertices", object.mesh.number_of_vertices()}, {"faces", object.mesh.number_of_faces()}};
+  Json json{{"name", object.name},
+            {"vertices", object.mesh.number_of_vertices()},
+            {"faces", count_file_faces(object.file_face).count},
+            {"triangles", object.mesh.number_of_faces()}};
   if (subject.command.options.mode == Mode::exact)
     json["leaves"] = subject.detector.tree(id).leaf_count();
   else
     json["particles"] = subject.detector.object(id).particles().at.size();
   return json;
 }
+
+Json frame_json(std::optional<std::size_t> frame) { return frame ? Json(*frame) : Json(); }
 
 Json truth_json(Score score) {
   score.finish();
@@ -37,6 +46,8 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
   Json json{{"a", subject.scene.objects[pair.a].name},
             {"b", subject.scene.objects[pair.b].name},
             {"colliding_frames", summary.colliding_frames},
+            {"first_colliding_frame", frame_json(summary.first_colliding)},
+            {"last_colliding_frame", frame_json(summary.last_colliding)},
             {"face_pairs", summary.face_pairs}};
   if (subject.command.options.exact.tolerance > 0 && pair.a != pair.b) json["near_frames"] = summary.near_frames;
   if (summary.capped_frames > 0) json["capped_frames"] = summary.capped_frames;
@@ -58,7 +69,7 @@ bool is_empty(const Pair_summary& summary) {
 }
 
 std::vector<std::string> table_header(const Detect_command& command) {
-  std::vector<std::string> header{"object a", "object b", "frames", "colliding"};
+  std::vector<std::string> header{"object a", "object b", "frames", "colliding", "first", "last"};
   if (command.options.exact.tolerance > 0) header.emplace_back("near");
   if (command.options.exact.containment) header.emplace_back("one inside");
   if (command.truth) header.insert(header.end(), {"truly", "recall", "precision", "accuracy"});
@@ -67,8 +78,10 @@ std::vector<std::string> table_header(const Detect_command& command) {
 
 std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair, const Pair_summary& summary) {
   const auto& scene = subject.scene;
-  std::vector<std::string> row{scene.objects[pair.a].name, scene.objects[pair.b].name, std::to_string(scene.frames),
-                               std::to_string(summary.colliding_frames)};
+  const auto text = [](std::optional<std::size_t> frame) { return frame ? std::to_string(*frame) : "-"; };
+  std::vector<std::string> row{scene.objects[pair.a].name,    scene.objects[pair.b].name,
+                               std::to_string(scene.frames),  std::to_string(summary.colliding_frames),
+                               text(summary.first_colliding), text(summary.last_colliding)};
   if (subject.command.options.exact.tolerance > 0)
     row.push_back(pair.a == pair.b ? "-" : std::to_string(summary.near_frames));
   if (subject.command.options.exact.containment) row.push_back(std::to_string(summary.contained_frames));
@@ -84,12 +97,15 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
 void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   const bool many = subject.scene.objects.size() > 4;
   Text_table table(table_header(subject.command));
-  std::size_t capped = 0;
+  std::size_t capped = 0, rows = 0;
+  const std::size_t row_limit = subject.command.all_rows ? summary.pairs.size() : most_rows;
   for (const auto& [pair, results] : summary.pairs) {
     capped += results.capped_frames;
-    if (!many || !is_empty(results)) table.add(table_row(subject, pair, results));
+    if (many && is_empty(results)) continue;
+    if (++rows <= row_limit) table.add(table_row(subject, pair, results));
   }
   fmt::print("{}", table.text());
+  if (rows > row_limit) fmt::print("{} more pairs are omitted: --all-rows prints them.\n", rows - row_limit);
   if (many) fmt::print("Pairs of which nothing was found are omitted.\n");
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
 }
@@ -112,19 +128,27 @@ void print_times(const Run_subject& subject, const Run_summary& summary) {
 
 }  // namespace
 
-void Pair_summary::add(const Pair_result& pair) {
-  colliding_frames += pair.collides ? 1 : 0;
+void Pair_summary::add(std::size_t frame, const Pair_result& pair) {
   near_frames += pair.near ? 1 : 0;
   face_pairs += pair.contacts;
   capped_frames += pair.capped ? 1 : 0;
   contained_frames += pair.containment != Containment::none ? 1 : 0;
+  if (!pair.collides) return;
+  ++colliding_frames;
+  if (!first_colliding) first_colliding = frame;
+  last_colliding = frame;
 }
 
-void Run_summary::add(const Frame& frame, bool timed) {
-  for (const auto& pair : frame.pairs) pairs[{pair.a, pair.b}].add(pair);
+void Run_summary::add(std::size_t number, const Frame& frame, bool timed) {
+  for (const auto& pair : frame.pairs) pairs[{pair.a, pair.b}].add(number, pair);
   if (timed) measurement.frames.push_back(frame.statistics);
   builds += frame.statistics.builds;
   measurement.build_seconds += frame.statistics.seconds.build;
+}
+
+bool Run_summary::finds_any() const {
+  return std::ranges::any_of(
+      pairs, [](const auto& pair) { return pair.second.colliding_frames > 0 || pair.second.near_frames > 0; });
 }
 
 Json summary_json(const Run_subject& subject, const Run_summary& summary) {
@@ -145,6 +169,23 @@ Json summary_json(const Run_subject& subject, const Run_summary& summary) {
     json[key] = measured[key];
   json["build_microseconds"] = 1e6 * summary.measurement.build_seconds;
   return json;
+}
+
+std::string one_line_answer(const Run_subject& subject, const Run_summary& summary) {
+  std::size_t colliding = 0, near = 0, first = subject.scene.frames, last = 0;
+  for (const auto& [pair, results] : summary.pairs) {
+    near += results.near_frames > 0 ? 1 : 0;
+    if (results.colliding_frames == 0) continue;
+    ++colliding;
+    first = std::min(first, *results.first_colliding);
+    last = std::max(last, *results.last_colliding);
+  }
+  auto text = fmt::format("{}: {} colliding {}", subject.scene.name, colliding, colliding == 1 ? "pair" : "pairs");
+  if (colliding > 0) text += fmt::format(", first in frame {}, last in frame {}", first, last);
+  text += fmt::format("{} {} {}", colliding > 0 ? " of" : " in", subject.scene.frames,
+                      subject.scene.frames == 1 ? "frame" : "frames");
+  if (subject.command.options.exact.tolerance > 0) text += fmt::format("; {} near", near);
+  return text + "\n";
 }
 
 void print_summary(const Run_subject& subject, const Run_summary& summary) {

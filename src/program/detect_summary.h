@@ -3,6 +3,7 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,11 @@ struct Pair_summary {
   std::size_t face_pairs = 0;        ///< over all frames
   std::size_t capped_frames = 0;     ///< in which face pairs were dropped at the limit
   std::size_t contained_frames = 0;  ///< in which one object is inside the other
+  std::optional<std::size_t> first_colliding = {}, last_colliding = {};  ///< frames
   Score score = {};
 
-  void add(const Pair_result& pair);
+  /// Adds the next frame.
+  void add(std::size_t frame, const Pair_result& pair);
 };
 
 /// The results of a run of `detect` over its frames.
@@ -32,8 +35,11 @@ struct Run_summary {
   Measurement measurement;
   std::size_t builds = 0;  ///< objects built, in all frames
 
-  /// @param timed  whether the frame counts in the means and medians; building always counts
-  void add(const Frame& frame, bool timed);
+  /// @param number  of the frame
+  /// @param timed   whether the frame counts in the means and medians; building always counts
+  void add(std::size_t number, const Frame& frame, bool timed);
+  /// Whether any pair collides, or is near, in any frame.
+  bool finds_any() const;
 };
 
 /// What a run is about.
@@ -48,6 +54,9 @@ struct Run_subject {
 
 /// The content of `summary.json`.
 nlohmann::ordered_json summary_json(const Run_subject& subject, const Run_summary& summary);
+
+/// One line: how many pairs collide, and when.
+std::string one_line_answer(const Run_subject& subject, const Run_summary& summary);
 
 /// Prints the table of the run, its times, and what its mode may have missed.
 void print_summary(const Run_subject& subject, const Run_summary& summary);

@@ -5,12 +5,14 @@
 #include <map>
 #include <vector>
 
+#include "io/files/small_text.h"
 #include "lodestone/mesh/errors.h"
 #include "program/command_line.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
-#include "program/printable.h"
+#include "program/mode_options.h"
 #include "program/run_reported.h"
+#include "program/standard_input.h"
 
 namespace lodestone {
 
@@ -75,15 +77,27 @@ void add_exact_options(CLI::App& app, Exact_options& options) {
   app.add_flag("--containment", options.containment, "Mode exact: also report objects that lie inside others");
 }
 
+void add_format(CLI::App& app, std::string& format) {
+  app.add_option("--format", format, "Format of the mesh on the standard input (-): off, obj, ply, stl, glb, md2, md3")
+      ->check(CLI::IsMember({"off", "obj", "ply", "stl", "glb", "md2", "md3"}).description(""))
+      ->type_name("NAME");
+}
+
+void add_allow_outside(CLI::App& app, bool& allow_outside) {
+  app.add_flag("--allow-outside", allow_outside, "A scene may name files outside its folder");
+}
+
 void add_threads(CLI::App& app, std::size_t& threads, const char* of) {
   app.add_option("--threads", threads, of)->check(CLI::Range(std::size_t{0}, std::size_t{1024}))->capture_default_str();
 }
 
-void add_detect(CLI::App& program, Detect_command& command) {
+void add_detect(CLI::App& program, Detect_command& command, std::string& format) {
   auto& app = *program.add_subcommand("detect", "Find collisions between meshes, or through all frames of a scene");
   auto& options = command.options;
-  app.add_option("INPUT", command.inputs,
-                 "A scene (.json), or two or more meshes (.off .obj .ply .stl .gltf .glb .md2 .md3); one with --self")
+  app.add_option(
+         "INPUT", command.inputs,
+         "A scene (.json), or two or more meshes or animations (.off .obj .ply .stl .gltf .glb .md2 .md3, a "
+         "pattern such as 'cloth_*.obj', MESH+CACHE with .pc2 or .mdd); one with --self; - is the standard input")
       ->required()
       ->type_name("FILE");
   app.add_option("--mode", options.mode,
@@ -138,11 +152,16 @@ void add_detect(CLI::App& program, Detect_command& command) {
   app.add_option("--paraview", command.paraview, "Folder for meshes.pvd, particles.pvd and contacts.pvd")
       ->type_name("DIR")
       ->check(not_empty());
-  app.add_flag("--quiet", command.quiet, "No progress bar, no table");
+  app.add_flag("--all-rows", command.all_rows, "Print all rows of the table, not only the first 20");
+  auto* const json = app.add_flag("--json", command.json, "Print the summary as JSON in place of the table");
+  app.add_flag("--quiet", command.quiet, "No progress bar, one line in place of the table")->excludes(json);
+  app.add_flag("--exit-code", command.exit_code, "Exit with 1 if anything collides");
+  add_allow_outside(app, command.allow_outside);
+  add_format(app, format);
   app.footer(strategy_list() + "\n\n" + exit_code::help);
 }
 
-void add_partition(CLI::App& program, Partition_command& command) {
+void add_partition(CLI::App& program, Partition_command& command, std::string& format) {
   auto& app = *program.add_subcommand("partition", "Divide a mesh into regions");
   app.add_option("MESH", command.mesh, "Mesh (.off .obj .ply .stl .gltf .glb .md2 .md3)")
       ->required()
@@ -154,24 +173,31 @@ void add_partition(CLI::App& program, Partition_command& command) {
   add_threads(app, command.strategy.settings.lbg.threads, "Maximum number of threads, for lbg; 0: all of the machine");
   app.add_flag("--keep-islands", command.options.keep_islands, "Do not repair regions that consist of several islands");
   app.add_option("--out", command.out, "Coloured mesh (.ply)")->type_name("FILE")->check(not_empty());
-  app.add_option("--json", command.json, "Statistics")->type_name("FILE")->check(not_empty());
+  app.add_option("--json", command.json, "Statistics, and the region of each vertex")
+      ->type_name("FILE")
+      ->check(not_empty());
   add_html(app, command.html, "Page (.html) that shows the regions");
   app.add_flag("--quiet", command.quiet, "No table");
+  add_format(app, format);
   app.footer(strategy_list() + "\n\n" + exit_code::help);
 }
 
-void add_info(CLI::App& program, Info_command& command) {
+void add_info(CLI::App& program, Info_command& command, std::string& format) {
   auto& app = *program.add_subcommand("info", "Report the contents of a file, and possible problems");
   app.add_option("FILE", command.file, "Mesh, pattern of meshes such as 'cloth_*.obj', point cache, glTF or scene")
       ->required()
       ->type_name("FILE");
   app.add_option("--mesh", command.mesh, "The mesh that a point cache moves")->type_name("FILE")->check(not_empty());
   app.add_flag("--json", command.json, "Print JSON");
+  add_allow_outside(app, command.allow_outside);
+  add_format(app, format);
 }
 
-void add_convert(CLI::App& program, Convert_command& command) {
-  auto& app = *program.add_subcommand("convert", "Convert between formats of animations");
-  app.add_option("IN", command.input, "Mesh, pattern such as 'cloth_*.obj', point cache (.pc2 .mdd), glTF")
+void add_convert(CLI::App& program, Convert_command& command, std::string& format) {
+  auto& app = *program.add_subcommand("convert", "Convert between formats of meshes and animations");
+  app.add_option("IN", command.input,
+                 "Mesh, pattern such as 'cloth_*.obj', point cache (.pc2 .mdd), glTF, SCENE.json#OBJECT, shape:teapot; "
+                 "- is the standard input")
       ->required()
       ->type_name("FILE");
   app.add_option("OUT", command.output, "Point cache, glTF (.gltf .glb), mesh or pattern such as 'out/cloth_####.ply'")
@@ -187,7 +213,14 @@ void add_convert(CLI::App& program, Convert_command& command) {
       ->default_str("what IN says, else 30");
   app.add_option("--regions", command.regions, "glTF: divide the surface into this many regions and colour them")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
+  app.add_option("--weld", command.weld, "Merge vertices that are at most so far apart in the first frame")
+      ->type_name("DISTANCE");
+  app.add_option("--subdivide", command.subdivisions, "Cut every triangle into four, so many times")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{12}));
+  app.add_option("--scale", command.scale, "Multiply all coordinates")->type_name("FACTOR");
   app.add_flag("--quiet", command.quiet, "No progress bar, no report");
+  add_allow_outside(app, command.allow_outside);
+  add_format(app, format);
 }
 
 int run_commands(int argc, char** argv) {
@@ -202,10 +235,11 @@ int run_commands(int argc, char** argv) {
   Partition_command partition;
   Info_command info;
   Convert_command convert;
-  add_detect(program, detect);
-  add_partition(program, partition);
-  add_info(program, info);
-  add_convert(program, convert);
+  std::string format;
+  add_detect(program, detect, format);
+  add_partition(program, partition, format);
+  add_info(program, info, format);
+  add_convert(program, convert, format);
   // Registered for the help only: the program of the experiments parses its arguments.
   program.add_subcommand("experiment", "Run one of the experiments, see lodestone experiment --help")
       ->prefix_command()
@@ -213,6 +247,12 @@ int run_commands(int argc, char** argv) {
 
   if (const auto done = parse(program, argc, argv)) return *done;
   int code = exit_code::success;
+  std::optional<Standard_input> standard_input;
+  std::vector<std::filesystem::path*> inputs{&partition.mesh, &info.file, &convert.input};
+  for (auto& input : detect.inputs) inputs.push_back(&input);
+  replace_standard_input(inputs, format, standard_input);
+  if (program.got_subcommand("detect"))
+    refuse_options_of_other_modes(*program.get_subcommand("detect"), detect.options.mode);
   detect.options.senin.seed = detect.partition.settings.seed;
   detect.partition.settings.lbg.threads = detect.options.exact.threads;
   // A page shows contacts, so it asks for all of them by default.

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
+#include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/results/coloured_ply.h"
 #include "lodestone/io/results/text_table.h"
@@ -15,8 +17,8 @@
 #include "program/exit_codes.h"
 #include "program/frame_log.h"
 #include "program/measures_json.h"
+#include "program/notes.h"
 #include "program/page_file.h"
-#include "program/printable.h"
 #include "program/progress.h"
 
 namespace lodestone {
@@ -49,6 +51,14 @@ Divided divide(Surface_mesh& mesh, const Partition_command& command) {
   return result;
 }
 
+/// Per vertex of the file: its region; null for a vertex that no face uses. Copies of a vertex that is not manifold can
+/// have several regions: the last one counts.
+Json labels_json(const Mesh_file& file, const Divided& divided) {
+  std::vector<Json> labels(file.file_vertices);
+  for (std::size_t v = 0; v < divided.labels.size(); ++v) labels[file.file_vertex[v]] = divided.labels[v];
+  return labels;
+}
+
 Json statistics(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
   const auto& statistics = divided.partition.statistics;
   Json particles = Json::array();
@@ -57,11 +67,13 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
           {"strategy", command.strategy.name},
           {"seed", command.strategy.settings.seed},
           {"vertices", file.mesh.number_of_vertices()},
-          {"faces", file.mesh.number_of_faces()},
+          {"faces", count_file_faces(file.file_face).count},
+          {"triangles", file.mesh.number_of_faces()},
           {"regions_wanted", command.regions},
           {"regions", divided.partition.regions},
           {"region_sizes", divided.sizes},
           {"particles", std::move(particles)},
+          {"labels", labels_json(file, divided)},
           {"iterations", statistics.iterations},
           {"distance_evaluations", statistics.distance_evaluations},
           {"pieces_before_repair", statistics.pieces_before_repair},
@@ -76,6 +88,7 @@ Page page_of(const Mesh_file& file, const Divided& divided, const Partition_comm
   const Mesh_numbering numbering(file.mesh);
   Json numbers = statistics(file, divided, command);
   numbers.erase("seconds");  // so that equal partitions give equal pages
+  numbers.erase("labels");   // the page has them
   Page page(
       {.kind = Page_kind::partition, .title = command.mesh.filename().string(), .strategy = command.strategy.name});
   page.set_regions(page.add_object(command.mesh.stem().string(), numbering.vertex_count(), numbering.corners()),
@@ -92,7 +105,7 @@ void print_table(const Mesh_file& file, const Divided& divided, const Partition_
   const auto [smallest, largest] = std::ranges::minmax(divided.sizes);
   Text_table table({printable(command.mesh.filename().string()), command.strategy.name});
   table.add({"vertices", std::to_string(file.mesh.number_of_vertices())});
-  table.add({"faces", std::to_string(file.mesh.number_of_faces())});
+  table.add({"faces", std::to_string(count_file_faces(file.file_face).count)});
   table.add({"regions", std::to_string(divided.partition.regions)});
   table.add({"smallest region (vertices)", std::to_string(smallest)});
   table.add({"largest region (vertices)", std::to_string(largest)});
@@ -133,6 +146,7 @@ int run(const Partition_command& command) {
   if (!command.out.empty()) write_coloured_ply(command.out, file.mesh, divided.labels);
   if (json) json->commit();
   if (page) page->commit();
+  if (!command.quiet) note_cut_faces(command.mesh.filename().string(), file.file_face);
   if (!command.quiet) print_table(file, divided, command);
   if (!command.quiet && page) fmt::print("\n{}\n", page->summary());
   return exit_code::success;

@@ -333,10 +333,10 @@ TEST_F(Detect, names_of_files_may_be_any_bytes) {
   EXPECT_EQ(result.out.find('\x1b'), std::string::npos);
 }
 
-TEST_F(Detect, quiet_prints_nothing) {
+TEST_F(Detect, quiet_prints_the_answer_alone) {
   const auto result = detect({write_meeting_tetrahedra({1}), "--quiet", "--truth"});
   expect_success(result);
-  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.out, "meeting: 1 colliding pair, first in frame 0, last in frame 0 of 1 frame\n");
   EXPECT_EQ(frames().size(), 1U);
 }
 

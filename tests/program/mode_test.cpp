@@ -92,7 +92,7 @@ TEST_F(Program_mode, that_may_miss_collisions_says_so_with_the_published_figures
     const Json may_miss = summary()["may_miss"];
     EXPECT_NEAR(may_miss["least_share"].get<double>(), share.first, 0.005);
     EXPECT_NEAR(may_miss["most_share"].get<double>(), share.second, 0.005);
-    EXPECT_EQ(detect({"--mode", mode, "--quiet"}).out, "");
+    EXPECT_EQ(detect({"--mode", mode, "--quiet"}).out.find("may miss"), std::string::npos);
   }
 }
 

@@ -35,6 +35,7 @@ Running_program::Running_program(const std::vector<std::string>& arguments, cons
         options.standard_output.empty() ? out[1] : ::open(options.standard_output.c_str(), O_WRONLY | O_CREAT, 0666);
     ::dup2(target, STDOUT_FILENO);
     ::dup2(err[1], STDERR_FILENO);
+    if (!options.standard_input.empty()) ::dup2(::open(options.standard_input.c_str(), O_RDONLY), STDIN_FILENO);
     const rlimit size{options.largest_file, options.largest_file};
     if (options.largest_file != RLIM_INFINITY) ::setrlimit(RLIMIT_FSIZE, &size);
     ::execv(command.data()[0], command.data());

@@ -43,6 +43,7 @@ struct Program_options {
   std::chrono::seconds limit{60};       ///< a run that takes longer is killed
   rlim_t largest_file = RLIM_INFINITY;  ///< bytes; writing more fails as a full disk does
   std::string standard_output = {};     ///< file for the standard output; empty: captured
+  std::string standard_input = {};      ///< file for the standard input; empty: that of the test
 };
 
 /// The program at work.

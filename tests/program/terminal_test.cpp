@@ -110,8 +110,11 @@ TEST_F(Terminal, shows_an_error_without_the_bar) {
   EXPECT_EQ(screen.find("detect ["), std::string::npos) << screen;
 }
 
-TEST_F(Terminal, shows_nothing_when_quiet) {
-  EXPECT_EQ(run_on_terminal({"detect", "--mode", "particles", scene, "--quiet"}).bytes, "");
+TEST_F(Terminal, shows_one_line_when_quiet) {
+  const auto bytes = run_on_terminal({"detect", "--mode", "particles", scene, "--quiet"}).bytes;
+  EXPECT_TRUE(bytes.starts_with("scene: 1 colliding pair, ")) << bytes;
+  EXPECT_EQ(bytes.find('
+'), bytes.size() - 1) << bytes;
 }
 
 TEST_F(Terminal, without_a_terminal_there_is_no_bar_and_no_control_sequence) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "lodestone/detection/detector_options.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+/// Refuses options of `detect` that the mode would ignore.
+/// @throws Bad_argument  names the option and the modes that take it
+inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
+  struct Mode_option {
+    const char* name;
+    std::vector<Mode> modes;
+  };
+  static const std::vector<Mode_option> options{
+      {"--within", {Mode::exact}},
+      {"--self", {Mode::exact}},
+      {"--containment", {Mode::exact}},
+      {"--collision-distance", {Mode::particles, Mode::senin}},
+      {"--candidates", {Mode::particles, Mode::senin}},
+      {"--growth", {Mode::particles}},
+      {"--strategy", {Mode::exact, Mode::particles}},
+      {"--normal-weight", {Mode::exact, Mode::particles}},
+      {"--split", {Mode::exact, Mode::particles}},
+      {"--epsilon", {Mode::exact, Mode::particles}},
+      {"--tolerance", {Mode::exact, Mode::particles}},
+  };
+  for (const auto& option : options) {
+    if (detect.count(option.name) == 0 || std::ranges::find(option.modes, mode) != option.modes.end()) continue;
+    std::vector<std::string_view> names;
+    for (const auto taker : option.modes) names.push_back(name_of(taker));
+    throw Bad_argument(fmt::format("{} needs --mode {}: the mode {} ignores it", option.name, fmt::join(names, " or "),
+                                   name_of(mode)));
+  }
+}
+
+}  // namespace lodestone

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program/standard_input.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace {
+
+std::filesystem::path make_temporary_folder() {
+  auto name = (std::filesystem::temp_directory_path() / "lodestone.XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr)
+    throw Bad_output(fmt::format("{}: cannot be created: {}", name, std::generic_category().message(errno)));
+  return name;
+}
+
+void copy_standard_input(Atomic_file& file) {
+  std::array<char, 1 << 16> bytes{};
+  for (;;) {
+    const auto count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+    if (count == 0) return;
+    if (count < 0 && errno != EINTR)
+      throw Bad_mesh(fmt::format("the standard input cannot be read: {}", std::generic_category().message(errno)));
+    if (count > 0) file.write({bytes.data(), static_cast<std::size_t>(count)});
+  }
+}
+
+}  // namespace
+
+Standard_input::Standard_input(const std::string& format)
+    : folder_(make_temporary_folder()), file_(folder_ / ("standard_input." + format)) {
+  Atomic_file file(file_);
+  copy_standard_input(file);
+  file.commit();
+}
+
+Standard_input::~Standard_input() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+void replace_standard_input(std::vector<std::filesystem::path*> inputs, const std::string& format,
+                            std::optional<Standard_input>& kept) {
+  std::erase_if(inputs, [](const auto* input) { return *input != "-"; });
+  if (inputs.empty() && format.empty()) return;
+  if (inputs.empty()) throw Bad_argument("--format is for a mesh on the standard input: give - as its name");
+  if (inputs.size() > 1) throw Bad_argument("the standard input (-) can be only one of the inputs");
+  if (format.empty()) throw Bad_argument("a mesh on the standard input (-) needs its format, such as --format obj");
+  kept.emplace(format);
+  *inputs.front() = kept->file();
+}
+
+}  // namespace lodestone

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "program/run_program.h"
+#include "support/gltf_samples.h"
+#include "support/mesh_samples.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Three unit squares in a row as quads, from x = 0 to 3, in the plane z = 0.
+const std::string three_quads =
+    "OFF\n8 3 0\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n3 0 0\n3 1 0\n4 0 2 3 1\n4 2 4 5 3\n4 4 6 7 5\n";
+/// A triangle that cuts the third of them, near its corner (3, 0).
+const std::string needle_off = "OFF\n3 1 0\n2.8 0.1 -1\n2.8 0.1 1\n2.9 0.1 1\n3 0 1 2\n";
+
+/// `detect` on files given without a scene.
+class Detect_files : public testing::Test {
+ protected:
+  Program_result detect(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "detect");
+    arguments.insert(arguments.end(), {"--mode", "exact", "--contacts", "all", "--out", out.string()});
+    return run_program(arguments);
+  }
+  std::vector<Json> frames() const { return read_json_lines(out / "frames.jsonl"); }
+  std::vector<bool> collisions() const {
+    std::vector<bool> result;
+    for (const auto& frame : frames()) {
+      bool any = false;
+      for (const auto& pair : frame["pairs"]) any |= pair["collides"].get<bool>();
+      result.push_back(any);
+    }
+    return result;
+  }
+  std::string write(const std::string& name, const std::string& bytes) const {
+    return folder.write(name, bytes).string();
+  }
+  std::string path(const std::string& name) const { return (folder.path() / name).string(); }
+
+  Temporary_folder folder;
+  std::filesystem::path out = folder.path() / "out";
+};
+
+TEST_F(Detect_files, faces_of_polygons_have_their_numbers_in_the_file) {
+  const auto result = detect({write("quads.off", three_quads), write("needle.off", needle_off)});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "lodestone: quads: 3 of 3 faces have more than three corners: cut into triangles, 6 in all\n");
+  EXPECT_EQ(frames().at(0)["pairs"].at(0)["faces"], Json({{2, 0}}));
+  const Json object = read_json(out / "summary.json")["objects"].at(0);
+  EXPECT_EQ(object["faces"], 3);
+  EXPECT_EQ(object["triangles"], 6);
+}
+
+TEST_F(Detect_files, a_polygon_is_listed_once_per_triangle_that_collides) {
+  // Cuts both triangles of the first quad.
+  const auto across = write("across.off", "OFF\n3 1 0\n0.1 0.5 -1\n0.1 0.5 1\n0.9 0.5 1\n3 0 1 2\n");
+  const auto wall = write("wall.off", "OFF\n4 1 0\n0.5 -1 -1\n0.5 2 -1\n0.5 2 1\n0.5 -1 1\n4 0 1 2 3\n");
+  detect({write("quads.off", three_quads), wall, across, "--points"});
+  for (const auto& pair : frames().at(0)["pairs"]) {
+    for (const auto& faces : pair["faces"]) EXPECT_EQ(faces, Json({0, 0}));
+    EXPECT_EQ(pair["points"].size(), pair["faces"].size());
+    EXPECT_GT(pair["faces"].size(), 1U);
+  }
+}
+
+TEST_F(Detect_files, info_and_partition_count_the_faces_of_the_file) {
+  const auto quads = write("quads.off", three_quads);
+  const auto info = run_program({"info", quads, "--json"});
+  expect_success(info);
+  const Json object = Json::parse(info.out)["objects"].at(0);
+  EXPECT_EQ(object["faces"], 3);
+  EXPECT_EQ(object["triangles"], 6);
+  EXPECT_NE(run_program({"info", quads}).out.find("faces of more than three corners"), std::string::npos);
+  EXPECT_EQ(run_program({"partition", quads, "--regions", "2", "--json", path("p.json")}).exit_code, 0);
+  EXPECT_EQ(read_json(path("p.json"))["faces"], 3);
+}
+
+TEST_F(Detect_files, a_numbered_sequence_is_played) {
+  for (int frame = 0; frame < 4; ++frame) write("b_" + std::to_string(frame) + ".off", tetrahedron_off(3 - frame));
+  expect_success(detect({path("b_*.off"), write("a.off", tetrahedron_off())}));
+  EXPECT_EQ(collisions(), (std::vector<bool>{false, false, true, true}));
+}
+
+TEST_F(Detect_files, a_point_cache_is_played_with_its_mesh) {
+  const auto mesh = write("a.off", tetrahedron_off());
+  auto bytes = std::string("POINTCACHE2\0", 12) + packed<std::int32_t>({1, 4}) + packed<float>({0, 1}) +
+               packed<std::int32_t>({3});
+  for (const double x : {5.0, 0.25, 5.0}) bytes += packed<float>({x, 0, 0, x + 1, 0, 0, x, 1, 0, x, 0, 1});
+  const auto cache = write("a.pc2", bytes);
+  expect_success(detect({mesh + "+" + cache, mesh}));
+  EXPECT_EQ(collisions(), (std::vector<bool>{false, true, false}));
+  expect_error(detect({cache, mesh}), 2, "MESH+");
+}
+
+TEST_F(Detect_files, an_animation_of_gltf_is_played_as_long_as_info_says) {
+  const auto file = write("a.glb", rich_gltf().glb());
+  expect_success(detect({file, write("still.off", tetrahedron_off(50))}));
+  const Json info = Json::parse(run_program({"info", file, "--json"}).out);
+  EXPECT_EQ(info["frames"], 61);
+  EXPECT_EQ(frames().size(), 61U);
+}
+
+TEST_F(Detect_files, outside_the_folder_of_the_scene_are_used_if_allowed) {
+  create_directory(folder.path() / "scenes");
+  write("a.off", tetrahedron_off());
+  const auto scene = write("scenes/scene.json", R"({"objects": [{"name": "a", "mesh": "../a.off"},
+                                                                 {"name": "b", "mesh": "../a.off"}]})");
+  expect_error(detect({scene}), 3, "not inside");
+  expect_success(detect({scene, "--allow-outside"}));
+  expect_success(run_program({"info", scene, "--allow-outside"}));
+  expect_success(run_program({"convert", scene + "#a", path("b.off"), "--allow-outside", "--quiet"}));
+}
+
+}  // namespace
+}  // namespace lodestone::test

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "program/run_program.h"
+#include "program/suggestion.h"
+#include "support/mesh_samples.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+class Messages : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder.path() / name).string(); }
+  static std::string complaint(const std::vector<std::string>& arguments) {
+    const auto result = run_program(arguments);
+    EXPECT_NE(result.exit_code, 0);
+    return result.err;
+  }
+
+  Temporary_folder folder;
+  const std::string mesh = folder.write("a.off", tetrahedron_off()).string();
+};
+
+TEST(Suggestion, is_the_nearest_word_if_it_is_near) {
+  const std::vector<std::string> words{"--contacts", "--candidates", "--containment", "--self", "--seed"};
+  EXPECT_EQ(suggestion_for("--contcts", words), "--contacts");
+  EXPECT_EQ(suggestion_for("--contact", words), "--contacts");
+  EXPECT_EQ(suggestion_for("--conatcts", words), "--contacts");
+  EXPECT_EQ(suggestion_for("--slef", words), "--self");
+  EXPECT_EQ(suggestion_for("--frobnicate", words), "");
+  EXPECT_EQ(suggestion_for("", words), "");
+}
+
+TEST(Suggestion, counts_swapped_neighbours_as_one_edit) {
+  EXPECT_EQ(edit_distance("abcd", "abdc"), 1U);
+  EXPECT_EQ(edit_distance("abcd", "abcd"), 0U);
+  EXPECT_EQ(edit_distance("", "abc"), 3U);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+}
+
+TEST_F(Messages, suggest_the_command_that_was_meant) {
+  expect_error(run_program({"detcet", mesh, mesh}), 2, "there is no command detcet; did you mean detect?");
+  expect_error(run_program({"frobnicate", mesh}), 2, "there is no command frobnicate (see");
+}
+
+TEST_F(Messages, suggest_the_option_that_was_meant) {
+  expect_error(run_program({"detect", mesh, mesh, "--contact", "all"}), 2,
+               "there is no option --contact; did you mean --contacts?");
+  expect_error(run_program({"detect", mesh, mesh, "--treads=2"}), 2, "no option --treads; did you mean --threads?");
+  expect_error(run_program({"convert", mesh, "--frame", "1"}), 2, "did you mean --frames?");
+  expect_error(run_program({"experiment", "modes", "--onyl", "x"}), 2, "did you mean --only?");
+}
+
+TEST_F(Messages, about_a_missing_or_unknown_file_do_not_speak_of_one_mesh_alone) {
+  const auto missing = complaint({"detect", path("scene.jsn")});
+  EXPECT_NE(missing.find("scene.jsn: there is no such file"), std::string::npos) << missing;
+  const auto unknown = complaint({"detect", folder.write("scene.jsn", "{}").string()});
+  EXPECT_NE(unknown.find("found extension '.jsn'"), std::string::npos) << unknown;
+  for (const auto& text : {missing, unknown}) EXPECT_EQ(text.find("alone"), std::string::npos) << text;
+  EXPECT_NE(complaint({"detect", mesh}).find("alone"), std::string::npos);
+  expect_error(run_program({"detect", folder.write("s.json", "{}").string(), mesh}), 2, "only input");
+}
+
+TEST_F(Messages, name_the_option_that_the_mode_ignores_and_the_modes_that_take_it) {
+  const auto detect = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"detect", mesh, mesh});
+    return run_program(options);
+  };
+  expect_error(detect({"--mode", "particles", "--self"}), 2, "--self needs --mode exact");
+  expect_error(detect({"--mode", "senin", "--within", "1"}), 2, "--within needs --mode exact");
+  expect_error(detect({"--mode", "exact", "--collision-distance", "2"}), 2,
+               "--collision-distance needs --mode particles or senin");
+  expect_error(detect({"--mode", "senin", "--growth", "2"}), 2, "--growth needs --mode particles");
+}
+
+TEST_F(Messages, of_convert_name_the_option_to_use) {
+  const auto cache =
+      folder.write("a.pc2", std::string("POINTCACHE2\0", 12) + packed<std::int32_t>({1, 1}) + packed<float>({0, 1}) +
+                                packed<std::int32_t>({1}) + packed<float>({0, 0, 0}));
+  expect_error(run_program({"convert", cache.string(), path("a.glb")}), 2, "--mesh");
+  for (int frame = 0; frame < 8; ++frame) folder.write("f" + std::to_string(frame) + ".off", square_off);
+  expect_error(run_program({"convert", path("f*.off"), path("b.pc2"), "--frames", "5:2"}), 2,
+               "--frames 5:2: the range is empty");
+  expect_error(run_program({"convert", path("f*.off"), path("b.pc2"), "--frames", "5:9"}), 2, "the frames are 0 to 7");
+}
+
+TEST_F(Messages, of_an_experiment_list_the_names_that_exist) {
+  folder.write("one.json", "{}");
+  folder.write("two.json", "{}");
+  expect_error(run_program({"experiment", "every_frame", "--scenes", folder.path().string(), "--only", "sphere",
+                            "--out", path("out")}),
+               3, "the scenes are one, two");
+  expect_error(run_program({"experiment", "partitions", "--only", "sphere", "--out", path("out")}), 2,
+               "the meshes are ");
+}
+
+TEST_F(Messages, name_the_experiments_that_take_an_option) {
+  expect_error(run_program({"experiment", "scaling", "--only", "sphere"}), 2, "the experiment scaling ignores --only");
+  expect_error(run_program({"experiment", "peers", "--jobs", "2"}), 2, "which is for partitions");
+}
+
+}  // namespace
+}  // namespace lodestone::test
