@@ -86,14 +86,21 @@ std::vector<Region_index> regions_of(const Animation& animation, std::size_t fra
   return regions;
 }
 
-/// Formats with faces, and changes of faces, need the mesh of a point cache.
-void check_faces(const Animation& animation, const Convert_command& command) {
+/// What needs faces: an option, or the format of the output; empty if nothing does.
+std::string use_of_faces(const Convert_command& command) {
+  if (command.regions > 0) return "--regions";
+  if (command.weld) return "--weld";
+  if (command.subdivisions > 0) return "--subdivide";
   const auto extension = lower_case(command.output.extension().string());
-  const bool is_cache = extension == ".pc2" || extension == ".mdd";
-  const bool edits = command.weld || command.subdivisions > 0 || command.regions > 0;
-  if (animation.faces.empty() && (edits || !is_cache))
+  return extension == ".pc2" || extension == ".mdd" ? "" : extension;
+}
+
+void check_faces(const Animation& animation, const Convert_command& command) {
+  const auto use = use_of_faces(command);
+  if (animation.faces.empty() && !use.empty())
     throw Bad_argument(
-        fmt::format("{}: a point cache has no faces: name its mesh with --mesh FILE", command.input.string()));
+        fmt::format("{}: {} needs faces, which a point cache does not have: name its mesh with --mesh FILE",
+                    command.input.string(), use));
 }
 
 Animation_output_options output_options(const Animation& animation, const Convert_command& command) {

@@ -129,7 +129,7 @@ TEST_F(Exact, reports_faces_within_a_distance_with_their_nearest_points_and_dire
   const auto summary = read_json(out / "summary.json")["pairs"][0];
   EXPECT_EQ(summary["near_frames"], 1);
   EXPECT_EQ(summary["colliding_frames"], 0);
-  EXPECT_NE(result.out.find("| colliding | near |"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("| colliding | first | last | near |"), std::string::npos) << result.out;
   EXPECT_EQ(pair["faces"], Json::array({{0, 0}}));
   ASSERT_EQ(pair["points"][0].size(), 2U);
   EXPECT_EQ(pair["points"][0][0][2], 0.0);

@@ -113,8 +113,7 @@ TEST_F(Terminal, shows_an_error_without_the_bar) {
 TEST_F(Terminal, shows_one_line_when_quiet) {
   const auto bytes = run_on_terminal({"detect", "--mode", "particles", scene, "--quiet"}).bytes;
   EXPECT_TRUE(bytes.starts_with("scene: 1 colliding pair, ")) << bytes;
-  EXPECT_EQ(bytes.find('
-'), bytes.size() - 1) << bytes;
+  EXPECT_EQ(bytes.find('\n'), bytes.size() - 1) << bytes;
 }
 
 TEST_F(Terminal, without_a_terminal_there_is_no_bar_and_no_control_sequence) {

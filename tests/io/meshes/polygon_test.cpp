@@ -28,9 +28,9 @@ std::string polygon_off(const Outline& outline) {
 }
 
 Kernel::Vector_3 doubled_area(const Surface_mesh& mesh, Surface_mesh::Face_index face) {
-  std::vector<Point> corners;
-  for (const auto v : mesh.vertices_around_face(mesh.halfedge(face))) corners.push_back(mesh.point(v));
-  return CGAL::cross_product(corners.at(1) - corners.at(0), corners.at(2) - corners.at(0));
+  std::vector<Point> p;
+  for (const auto v : mesh.vertices_around_face(mesh.halfedge(face))) p.push_back(mesh.point(v));
+  return CGAL::cross_product(p.at(1) - p.at(0), p.at(2) - p.at(0));
 }
 
 class Polygons : public testing::Test {
@@ -118,14 +118,14 @@ TEST_F(Polygons, corners_on_straight_sides_are_legal) {
 
 TEST_F(Polygons, a_face_may_have_more_corners_than_a_byte_counts) {
   Outline circle;
-  constexpr int corners = 1000;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::acos(-1) * i / corners;
+  constexpr int sides = 1000;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::acos(-1) * i / sides;
     circle.emplace_back(std::round(1e6 * std::cos(angle)), std::round(1e6 * std::sin(angle)), 0);
   }
   double doubled = 0;
-  for (int i = 0; i < corners; ++i) {
-    const auto &p = circle[i], &q = circle[(i + 1) % corners];
+  for (int i = 0; i < sides; ++i) {
+    const auto &p = circle[i], &q = circle[(i + 1) % sides];
     doubled += p.x() * q.y() - q.x() * p.y();
   }
   expect_tiled(circle, doubled / 2);

@@ -92,7 +92,9 @@ TEST(Page, positions_over_the_whole_range_of_doubles_come_back) {
   constexpr double most = std::numeric_limits<double>::max();
   Positions positions(3, 3);
   positions << -most, most, 0, most, -most, most / 3, most / 7, 1, -most / 5;
-  expect_positions({positions, -positions});
+  std::vector<Positions> frames(2, positions);
+  frames[1] *= -1;
+  expect_positions(frames);
 }
 
 TEST(Page, flat_and_still_objects_come_back_exactly_along_flat_axes) {
