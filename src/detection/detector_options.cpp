@@ -40,4 +40,9 @@ void check(const Detector_options& options) {
           "the collision distance, its measure, the choice of candidates and the growth limit need the mode particles");
 }
 
+std::string title_of(std::uint32_t object, const Object_options& options) {
+  const std::string id = "object " + std::to_string(object);
+  return options.name.empty() ? id : id + " (" + options.name + ")";
+}
+
 }  // namespace lodestone

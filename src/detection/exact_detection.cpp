@@ -5,22 +5,21 @@ namespace lodestone {
 
 namespace {
 
-[[noreturn]] void fail_not_finite(std::size_t vertex, std::uint32_t object) {
-  throw Bad_mesh("vertex " + std::to_string(vertex) + " of object " + std::to_string(object) +
-                 " has a coordinate that is not finite");
+[[noreturn]] void fail_not_finite(std::size_t vertex, const std::string& title) {
+  throw Bad_mesh("vertex " + std::to_string(vertex) + " of " + title + " has a coordinate that is not finite");
 }
 
 }  // namespace
 
-void check_finite(Coordinates coordinates, std::uint32_t object) {
+void check_finite(Coordinates coordinates, const std::string& title) {
   const auto wrong = std::ranges::find_if(coordinates, [](double x) { return !std::isfinite(x); });
-  if (wrong != coordinates.end()) fail_not_finite(static_cast<std::size_t>(wrong - coordinates.begin()) / 3, object);
+  if (wrong != coordinates.end()) fail_not_finite(static_cast<std::size_t>(wrong - coordinates.begin()) / 3, title);
 }
 
-void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, std::uint32_t object) {
+void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, const std::string& title) {
   for (const std::size_t v : vertices)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!std::isfinite(coordinates[3 * v + axis])) fail_not_finite(v, object);
+      if (!std::isfinite(coordinates[3 * v + axis])) fail_not_finite(v, title);
 }
 
 }  // namespace lodestone

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "detection/detector_scenes.h"
 #include "support/special_numbers.h"
@@ -90,6 +93,38 @@ TEST(Detector, a_corner_of_a_candidate_region_that_is_not_finite_is_refused) {
   }
   scene[1].point(Surface_mesh::Vertex_index(lost)) = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
   EXPECT_THROW(detector.detect(), Bad_mesh);
+}
+
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Bad_mesh& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Detector, a_bad_mesh_in_a_frame_is_named_by_id_and_name) {
+  for (const auto mode : {Mode::particles, Mode::senin, Mode::exact})
+    for (const std::string name : {"", "cloth"}) {
+      const std::string title = name.empty() ? "object 1" : "object 1 (cloth)";
+      auto scene = two_spheres(1.8);
+      Detector<Surface_mesh> detector({.mode = mode, .particles = 8});
+      detector.add(scene[0]);
+      detector.add(scene[1], {.name = name});
+      detector.detect();
+      const auto next_frame = [&] {
+        detector.update();
+        detector.detect();
+      };
+      const Surface_mesh original = scene[1];
+      deform(scene[1], [](const Point& p) { return Point(p.x(), infinity, p.z()); });
+      EXPECT_TRUE(message_of(next_frame).find(title) != std::string::npos) << message_of(next_frame);
+      for (const auto v : scene[1].vertices()) scene[1].point(v) = original.point(v);
+      scene[1].add_vertex(Point(0, 0, 0));
+      const std::string message = message_of(next_frame);
+      EXPECT_TRUE(message.find(title) != std::string::npos && message.find("rebuild()") != std::string::npos) << message;
+    }
 }
 
 template <class Mesh>

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -75,7 +76,11 @@ struct Object_options {
   /// as one, at the position of the first: a half-edge mesh must double vertices that are not manifold, and faces that
   /// share one would else touch as strangers. Empty: every vertex is one by itself.
   std::vector<std::uint32_t> file_vertex = {};
+  std::string name = {};  ///< for messages, beside the id
 };
+
+/// How messages name an object: `object 3`, or `object 3 (cloth)`.
+std::string title_of(std::uint32_t object, const Object_options& options);
 
 /// @throws Bad_argument  an option out of its range; mode `exact`, and another value than the default for the collision
 ///                       distance, its measure, the choice of candidates or the growth limit; another mode, and a

@@ -130,10 +130,10 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::update(Object_id id,
   check_no_visitor();
   auto& object = objects_[id];
   if (positions.rows() != object.numbering().vertex_count())
-    throw Bad_mesh("object " + std::to_string(id) + " has " + std::to_string(object.numbering().vertex_count()) +
+    throw Bad_mesh(object.title + " has " + std::to_string(object.numbering().vertex_count()) +
                    " vertices, but got " + std::to_string(positions.rows()) + " positions");
   Positions copy = positions;
-  check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, id);
+  check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, object.title);
   object.given = std::move(copy);
 }
 

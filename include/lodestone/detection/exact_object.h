@@ -17,20 +17,22 @@
 
 namespace lodestone {
 
-/// @throws Bad_mesh  one of the coordinates of object number `object` is not finite
-void check_finite(Coordinates coordinates, std::uint32_t object);
+/// @param title      names the object in the message
+/// @throws Bad_mesh  one of the coordinates is not finite
+void check_finite(Coordinates coordinates, const std::string& title);
 /// The same for the coordinates of some vertices.
-void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, std::uint32_t object);
+void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, const std::string& title);
 
 /// One object of the mode `exact`: its mesh, how positions are read, and its surface.
 template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
 class Exact_object {
  public:
-  Exact_object(const Mesh& mesh, Points points, const Object_options& options)
-      : particles(options.particles), mesh_(&mesh), reader_(std::move(points)), faces_(mesh, options.file_vertex) {
+  Exact_object(std::uint32_t id, const Mesh& mesh, Points points, const Object_options& options)
+      : title(title_of(id, options)), particles(options.particles), mesh_(&mesh), reader_(std::move(points)), faces_(mesh, options.file_vertex) {
     surface = Basic_tree_surface<Volume>(corners());
   }
 
+  const std::string title;              ///< names the object in messages
   const std::size_t particles;          ///< Object_options::particles
   Basic_tree_surface<Volume> surface;   ///< of `corners()`
   bool built = false;                   ///< whether the surface has a tree
@@ -45,8 +47,8 @@ class Exact_object {
   std::span<const std::uint32_t> unused() const { return faces_.unused; }
 
   /// Where the vertices are now.
-  /// @throws Bad_mesh  the mesh of object number `id` has changed since it was numbered
-  Coordinates read(std::uint32_t id);
+  /// @throws Bad_mesh  the mesh has changed since it was numbered
+  Coordinates read();
 
   /// Reads the faces of the mesh anew; given positions, which may be those of other vertices, are dropped.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
@@ -73,8 +75,8 @@ class Exact_object {
 };
 
 template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
-Coordinates Exact_object<Mesh, Points, Volume>::read(std::uint32_t id) {
-  check_connectivity(*mesh_, numbering(), [id] { return "object " + std::to_string(id); });
+Coordinates Exact_object<Mesh, Points, Volume>::read() {
+  check_connectivity(*mesh_, numbering(), [this] { return title; });
   if (given) return {given->data(), static_cast<std::size_t>(given->size())};
   return reader_.read(numbering());
 }

@@ -29,7 +29,7 @@ class Exact_objects {
 
   /// @throws Bad_mesh, Bad_argument  nothing has been added
   void add(const Mesh& mesh, Points points, const Object_options& options) {
-    timed(work_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(mesh, points, options)); });
+    timed(work_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(size(), mesh, points, options)); });
   }
   /// Reads the faces of the mesh anew.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
@@ -87,13 +87,13 @@ void Exact_objects<Mesh, Strategy, Points, Volume>::refit_built(std::span<const 
   for (const auto id : ids) {
     if (!objects_[id]->built) continue;
     surfaces_.push_back(&objects_[id]->surface);
-    coordinates_.push_back(objects_[id]->read(id));
+    coordinates_.push_back(objects_[id]->read());
   }
   refit<Volume>(surfaces_, coordinates_, workers_);
   for (const auto id : ids) {
     if (!objects_[id]->built) continue;
-    if (!surface(id).finite()) check_finite(surface(id).coordinates(), id);
-    check_finite(surface(id).coordinates(), objects_[id]->unused(), id);
+    if (!surface(id).finite()) check_finite(surface(id).coordinates(), objects_[id]->title);
+    check_finite(surface(id).coordinates(), objects_[id]->unused(), objects_[id]->title);
   }
 }
 
@@ -101,7 +101,7 @@ template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volu
 void Exact_objects<Mesh, Strategy, Points, Volume>::build_new(std::span<const Object_id> ids) {
   for (const auto id : ids) {
     if (objects_[id]->built) continue;
-    timed(work_.seconds.build, [&] { build(id, objects_[id]->read(id)); });
+    timed(work_.seconds.build, [&] { build(id, objects_[id]->read()); });
     ++work_.builds;
   }
 }
@@ -120,7 +120,7 @@ void Exact_objects<Mesh, Strategy, Points, Volume>::rebuild_loose(std::span<cons
 template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
 void Exact_objects<Mesh, Strategy, Points, Volume>::build(Object_id id, Coordinates coordinates) {
   Object& object = *objects_[id];
-  check_finite(coordinates, id);
+  check_finite(coordinates, object.title);
   const auto& numbering = object.numbering();
   const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
   const Positions positions = scaled_positions(coordinates);

@@ -65,9 +65,22 @@ class Particle_detection final : public Detection<Mesh, Points> {
 
     Object(Object_id i, const Mesh& m, Points p, const Object_options& o)
         : id(i), mesh(&m), points(p), options(o), particle_object(m, p) {}
+
+    /// Calls `work`, and names the object in the Bad_mesh that it may throw.
+    template <class Work>
+    decltype(auto) named(const Work& work) const {
+      try {
+        return work();
+      } catch (const Bad_mesh& error) {
+        throw Bad_mesh(title_of(id, options) + ": " + error.what());
+      }
+    }
   };
 
   void prepare();
+  void measure(Object& object) {
+    object.radius = object.named([&] { return object.particle_object.bounding_sphere().radius; });
+  }
   void partition(Object& object);
   std::size_t particles_of(const Object& object) const;
   void make_room();
@@ -100,8 +113,8 @@ void Particle_detection<Mesh, Strategy, Points>::update(Object_id id) {
   Object& object = *objects_[id];
   if (!object.prepared || options_.mode != Mode::particles) return;
   timed(since_last_frame_.seconds.repartition, [&] {
-    if (!object.particle_object.has_outgrown(options_.growth)) return;
-    object.radius = object.particle_object.bounding_sphere().radius;
+    if (!object.named([&] { return object.particle_object.has_outgrown(options_.growth); })) return;
+    measure(object);
     partition(object);
     make_room();
     ++since_last_frame_.repartitions;
@@ -141,7 +154,7 @@ void Particle_detection<Mesh, Strategy, Points>::prepare() {
     if (object && !object->prepared) fresh.push_back(object.get());
   if (fresh.empty()) return;
   timed(since_last_frame_.seconds.build, [&] {
-    for (Object* object : fresh) object->radius = object->particle_object.bounding_sphere().radius;
+    for (Object* object : fresh) measure(*object);
     for (Object* object : fresh) partition(*object);
     make_room();
   });
@@ -154,9 +167,13 @@ void Particle_detection<Mesh, Strategy, Points>::partition(Object& object) {
     Senin_options scattering = options_.senin;
     scattering.seed += object.id;  // objects of one shape must not start alike
     if (object.options.scattered_side) scattering.side = object.options.scattered_side;
-    object.particle_object.scatter(particles_of(object), scattering, options_.distance_measure);
+    object.named([&] {
+      object.particle_object.scatter(particles_of(object), scattering, options_.distance_measure);
+    });
   } else {
-    object.particle_object.partition(strategy_, particles_of(object), options_.partition, options_.distance_measure);
+    object.named([&] {
+      object.particle_object.partition(strategy_, particles_of(object), options_.partition, options_.distance_measure);
+    });
   }
   object.prepared = true;
   if (object.maps)
@@ -211,7 +228,7 @@ void Particle_detection<Mesh, Strategy, Points>::find_candidates(const Collision
     opponents_[o].clear();
     if (!objects_[o]) continue;
     auto& particle_object = objects_[o]->particle_object;
-    particle_object.read_particles();
+    objects_[o]->named([&] { particle_object.read_particles(); });
     for (const auto& position : particle_object.particles().positions) boxes_[o].extend(position);
     reach_[o] = std::max(particle_object.particles().effective_radius,
                          options_.collision_distance * particle_object.particles().collision_distance);
@@ -256,6 +273,12 @@ template <Triangle_mesh Mesh, class Strategy, class Points>
 void Particle_detection<Mesh, Strategy, Points>::check(Object_pair pair) {
   auto& a = objects_[pair.a]->particle_object;
   auto& b = objects_[pair.b]->particle_object;
+  const auto posed_patch = [&](Object_id id, std::size_t particle) -> const Posed_patch& {
+    Object& object = *objects_[id];
+    return object.named([&]() -> const Posed_patch& {
+      return object.particle_object.posed_patch(particle, frame_.number());
+    });
+  };
   Pair_result result = frame_.start_pair(pair);
   timed(frame_.seconds().candidates, [&] {
     const double distance =
@@ -270,8 +293,8 @@ void Particle_detection<Mesh, Strategy, Points>::check(Object_pair pair) {
   timed(frame_.seconds().confirmation, [&] {
     for (const auto& candidate : region_candidates_) {
       result.collides |=
-          confirmation_.confirm(a.posed_patch(candidate.a, frame_.number()),
-                                b.posed_patch(candidate.b, frame_.number()), options_.contacts, frame_.face_pairs());
+          confirmation_.confirm(posed_patch(pair.a, candidate.a), posed_patch(pair.b, candidate.b), options_.contacts,
+                                frame_.face_pairs());
       if (result.collides && options_.contacts != Contact_query::all) break;
     }
     sort_contacts(result);
