@@ -55,6 +55,7 @@ class Run {
       Object_options options{.particles = command.options.particles > 0 ? 0 : object.particles};
       if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
       options.file_vertex = object.file_vertex;
+      options.name = object.name;
       detector_.add(object.mesh, options);
     }
     for (const auto& pair : scene_.ignored) detector_.ignore(pair.a, pair.b);
