@@ -43,7 +43,8 @@ TEST_F(Detect_scripts, the_exit_code_tells_whether_anything_collides_if_asked) {
 }
 
 TEST_F(Detect_scripts, quiet_prints_one_line) {
-  EXPECT_EQ(detect({here, again, "--quiet"}).out, "meshes: 1 colliding pair, first in frame 0, last in frame 0 of 1 frame\n");
+  EXPECT_EQ(detect({here, again, "--quiet"}).out,
+            "meshes: 1 colliding pair, first in frame 0, last in frame 0 of 1 frame\n");
   EXPECT_EQ(detect({here, there, "--quiet"}).out, "meshes: 0 colliding pairs in 1 frame\n");
 }
 
