@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
@@ -68,20 +69,27 @@ TEST(Animation_edits, each_vertex_joins_the_first_kept_one_within_the_distance) 
   for (int i = 0; i < 400; ++i) points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
   constexpr double distance = 0.2;
   std::vector<Point> kept;
+  std::vector<std::uint32_t> target;
   for (const auto& p : points) {
-    bool joins = false;
-    for (const auto& q : kept) joins |= CGAL::squared_distance(p, q) <= distance * distance;
-    if (!joins) kept.push_back(p);
+    std::uint32_t first = 0;
+    while (first < kept.size() && CGAL::squared_distance(p, kept[first]) > distance * distance) ++first;
+    if (first == kept.size()) kept.push_back(p);
+    target.push_back(first);
   }
   Animation animation{.kind = "test", .vertices = points.size(), .faces = {}, .file_face = {}};
+  std::vector<Corners> expected;
   for (std::uint32_t v = 0; v < 400; ++v) {
     animation.faces.push_back({v, (v + 1) % 400, (v + 2) % 400});
     animation.file_face.push_back(v);
+    const Corners joined{target[v], target[(v + 1) % 400], target[(v + 2) % 400]};
+    if (std::set(joined.begin(), joined.end()).size() == 3) expected.push_back(joined);
   }
   animation.motion = {.frames = 1, .pose = [points](std::size_t, std::span<Point> positions) {
                         std::ranges::copy(points, positions.begin());
                       }};
-  EXPECT_EQ(positions_of(welded(animation, distance), 0), kept);
+  const auto result = welded(animation, distance);
+  EXPECT_EQ(positions_of(result, 0), kept);
+  EXPECT_EQ(result.faces, expected);
 }
 
 TEST(Animation_edits, subdividing_cuts_each_triangle_into_four_that_tile_it) {
