@@ -116,7 +116,8 @@ void report(const Convert_command& command, const Animation& original, const Ani
   const auto name = command.input.filename().string();
   note_cut_faces(name, original.file_face);
   note_not_kept(name, original.not_read);
-  fmt::print("{}: {} frames of {} vertices\n", printable(command.output.string()), frames, animation.vertices);
+  fmt::print("{}: {} of {} vertices\n", printable(command.output.string()), counted(frames, "frame"),
+             animation.vertices);
 }
 
 }  // namespace

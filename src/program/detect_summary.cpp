@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "io/files/small_text.h"
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/results/text_table.h"
 #include "program/missed_frames.h"
@@ -180,16 +181,16 @@ std::string one_line_answer(const Run_subject& subject, const Run_summary& summa
     first = std::min(first, *results.first_colliding);
     last = std::max(last, *results.last_colliding);
   }
-  auto text = fmt::format("{}: {} colliding {}", subject.scene.name, colliding, colliding == 1 ? "pair" : "pairs");
+  auto text = fmt::format("{}: {}", subject.scene.name, counted(colliding, "colliding pair"));
   if (colliding > 0) text += fmt::format(", first in frame {}, last in frame {}", first, last);
-  text += fmt::format("{} {} {}", colliding > 0 ? " of" : " in", subject.scene.frames,
-                      subject.scene.frames == 1 ? "frame" : "frames");
+  text += (colliding > 0 ? " of " : " in ") + counted(subject.scene.frames, "frame");
   if (subject.command.options.exact.tolerance > 0) text += fmt::format("; {} near", near);
   return text + "\n";
 }
 
 void print_summary(const Run_subject& subject, const Run_summary& summary) {
-  fmt::print("{}: {} objects, {} frames\n\n", subject.scene.name, subject.scene.objects.size(), subject.scene.frames);
+  fmt::print("{}: {}, {}\n\n", subject.scene.name, counted(subject.scene.objects.size(), "object"),
+             counted(subject.scene.frames, "frame"));
   print_pairs(subject, summary);
   fmt::print("\n");
   print_times(subject, summary);

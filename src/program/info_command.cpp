@@ -178,8 +178,8 @@ int run(const Info_command& command) {
     return exit_code::success;
   }
   if (info.kind == "scene")
-    fmt::print("{}: {} objects, {} frames\n\n", printable(command.file.filename().string()), info.objects.size(),
-               info.frames);
+    fmt::print("{}: {}, {}\n\n", printable(command.file.filename().string()), counted(info.objects.size(), "object"),
+               counted(info.frames, "frame"));
   for (std::size_t i = 0; i < info.objects.size(); ++i) {
     if (i > 0) fmt::print("\n");
     print(info.objects[i], info.kind == "scene" ? "object" : info.kind);
