@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 ///  - 2^-103 (|a| + |b|) for a + b and a - b,
 ///  - 2^-101 |a b| for a b,
 ///  - 2^-99 |a / b| for a / b.
-/// The operations are those of Knuth (1969) and Dekker (1971). They give the same bits on every instruction set.
+/// The operations are those of \cite knuth1969 and \cite dekker1971. They give the same bits on every instruction set.
 template <class Vector>
 struct Double_double {
   Vector high, low;

@@ -23,7 +23,7 @@ class Side_test {
   CGAL::Orientation operator()(const Point& s) const {
     const auto w = s - p_;
     const double height = normal_ * w;
-    // Shewchuk (1997): the error is below (7 + 56 e) e times the sum of the six products, each at most `size_` |w|.
+    // \cite shewchuk1997: the error is below (7 + 56 e) e times the sum of the six products, each at most `size_` |w|.
     const double bound = 0x1p-47 * size_ * size(w);
     constexpr double tiny = 0x1p-900, huge = 0x1p900;
     if (std::abs(height) > bound && size_ > tiny && bound > tiny && bound < huge && size_ < huge)

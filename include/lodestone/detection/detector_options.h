@@ -72,9 +72,9 @@ struct Object_options {
   std::optional<Eigen::Vector3d> scattered_side = {};  ///< Senin_options::side of this object
   std::uint32_t groups = 1;                            ///< bits: the groups that the object belongs to
   std::uint32_t meets = ~std::uint32_t{0};             ///< bits: the groups that it can collide with, its own included
-  /// Per vertex of the mesh: its number in the file, as `read_mesh` tells it. Mode `exact` takes vertices of one number
-  /// as one, at the position of the first: a half-edge mesh must double vertices that are not manifold, and faces that
-  /// share one would else touch as strangers. Empty: every vertex is one by itself.
+  /// Per vertex of the mesh: its index in the file, as `read_mesh` gives it. Mode `exact` treats vertices with the same
+  /// index as one, at the position of the first. A half-edge mesh stores a non-manifold vertex several times; without
+  /// this, faces that share it would count as touching. Empty: no vertices are merged.
   std::vector<std::uint32_t> file_vertex = {};
   std::string name = {};  ///< for messages, beside the id
 };
