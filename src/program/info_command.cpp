@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "io/files/small_text.h"
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/motion/animation.h"
+#include "lodestone/io/results/component_orientation.h"
 #include "lodestone/io/results/surface_report.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/io/scenes/given_objects.h"
@@ -26,14 +28,19 @@ using Json = nlohmann::ordered_json;
 /// More pairs than anyone reads. A surface folded onto itself can have billions.
 constexpr std::size_t most_intersections = 1'000'000;
 
-/// One object in its first frame.
+/// Components that `--json` lists, at most. A mesh without shared vertices has one per face.
+constexpr std::size_t most_components = 1000;
+
+/// One object in its first frame, and the space that it takes in all frames.
 struct Object_report {
   std::string name;
   std::size_t frames = 0;                      ///< 0: any number
   std::size_t vertices = 0;                    ///< of the file
   File_faces faces = {};                       ///< of the file
   std::optional<Surface_report> surface = {};  ///< missing for a point cache without its mesh
-  Box box = {};                                ///< for a point cache without its mesh: of all vertices, used or not
+  std::vector<Component_orientation> components = {};
+  Box box = {};  ///< of the vertices that faces use; for a point cache without its mesh: of all vertices
+  Box box_of_all_frames = {};
   std::size_t self_intersections = 0;
   bool capped = false;
 };
@@ -60,24 +67,50 @@ void count_self_intersections(std::span<const Point> points, std::span<const Cor
   report.self_intersections = found.size();
 }
 
+/// Of the vertices that faces use; of all vertices if there are no faces.
+Box box_of(std::span<const Point> points, std::span<const Corners> faces) {
+  Box box;
+  for (const auto& face : faces)
+    for (const auto vertex : face) box.extend(coordinates(points[vertex]));
+  if (faces.empty())
+    for (const Point& point : points) box.extend(coordinates(point));
+  return box;
+}
+
+void find_boxes(const Animation& animation, Object_report& report) {
+  std::vector<Point> points(animation.vertices);
+  for (std::size_t frame = 0; frame < animation.motion.frames; ++frame) {
+    animation.motion.pose(frame, points);
+    const Box box = box_of(points, animation.faces);
+    if (frame == 0) report.box = box;
+    report.box_of_all_frames.extend(box);
+    check_interrupt();
+  }
+}
+
 Object_report report_of(const std::string& name, const Animation& animation) {
   Object_report report{.name = name, .frames = animation.motion.frames, .vertices = animation.vertices};
+  find_boxes(animation, report);
+  if (animation.faces.empty()) return report;
   std::vector<Point> points(animation.vertices);
   animation.motion.pose(0, points);
-  if (animation.faces.empty()) {
-    for (const Point& point : points) report.box.extend(coordinates(point));
-    return report;
-  }
   report.surface = inspect_surface(points, animation.faces);
   report.faces = count_file_faces(animation.file_face);
+  report.components = component_orientations(points, animation.faces, animation.file_face);
   count_self_intersections(points, animation.faces, report);
   return report;
 }
 
 /// Uses file vertices, so that copies of a vertex count as one.
-Object_report report_of(Scene_object& object) {
-  pose(object, 0);  // refuses coordinates that are not finite
-  auto report = report_of(object.name, animation_of(object, 1));
+/// @param frames  of the scene
+Object_report report_of(Scene_object& object, std::size_t frames) {
+  auto animation = animation_of(object, frames);
+  animation.motion.frames = frames;
+  animation.motion.pose = [&object](std::size_t frame, std::span<Point> positions) {
+    pose(object, frame);  // refuses coordinates that are not finite
+    object.motion.pose(frame, positions);
+  };
+  auto report = report_of(object.name, animation);
   report.frames = object.motion.frames;
   return report;
 }
@@ -86,10 +119,7 @@ Info look_at(const Info_command& command) {
   if (command.file.extension() == ".json") {
     Scene scene = read_scene(command.file, {.allow_outside = command.allow_outside});
     Info info{.kind = "scene", .frames = scene.frames};
-    for (auto& object : scene.objects) {
-      info.objects.push_back(report_of(object));
-      check_interrupt();
-    }
+    for (auto& object : scene.objects) info.objects.push_back(report_of(object, scene.frames));
     return info;
   }
   const auto animation = read_animation(command.file, {.mesh = command.mesh});
@@ -97,6 +127,68 @@ Info look_at(const Info_command& command) {
           .frames_per_second = animation.frames_per_second,
           .frames = animation.motion.frames,
           .objects = {report_of(command.file.filename().string(), animation)}};
+}
+
+using Kind_count = std::pair<std::size_t, std::optional<Component_orientation>>;
+
+/// How many components are oriented so, and the first of them.
+Kind_count count_kind(std::span<const Component_orientation> components, Face_orientation kind) {
+  Kind_count found;
+  for (const auto& component : components) {
+    if (component.orientation != kind) continue;
+    if (found.first++ == 0) found.second = component;
+  }
+  return found;
+}
+
+Json orientation_json(std::span<const Component_orientation> components) {
+  Json json = Json::object();
+  for (const auto kind : face_orientations)
+    if (const auto count = count_kind(components, kind).first; count > 0) json[std::string(name_of(kind))] = count;
+  return json;
+}
+
+Json component_list_json(std::span<const Component_orientation> components) {
+  Json json = Json::array();
+  for (const auto& component : components.first(std::min(components.size(), most_components)))
+    json.push_back({{"first_face", component.first_face},
+                    {"faces", component.faces},
+                    {"orientation", name_of(component.orientation)}});
+  return json;
+}
+
+const char* words_of(Face_orientation orientation) {
+  switch (orientation) {
+    case Face_orientation::outward:
+      return "outward";
+    case Face_orientation::inward:
+      return "inward";
+    case Face_orientation::mixed:
+      return "partly outward and partly inward";
+    case Face_orientation::inconsistent:
+      return "inconsistent";
+    case Face_orientation::no_volume:
+      return "without volume";
+    case Face_orientation::open:
+      return "open and consistent";
+    case Face_orientation::open_inconsistent:
+      return "open and inconsistent";
+  }
+  return "";
+}
+
+/// `3 components outward, 1 inward (first face 1203)`; of one component its orientation alone.
+std::string orientation_text(std::span<const Component_orientation> components) {
+  if (components.size() == 1) return words_of(components[0].orientation);
+  std::string text;
+  for (const auto kind : face_orientations) {
+    const auto [count, first] = count_kind(components, kind);
+    if (!first) continue;
+    text += text.empty() ? counted(count, "component") : fmt::format(", {}", count);
+    text += fmt::format(" {}", words_of(kind));
+    if (kind != Face_orientation::outward) text += fmt::format(" (first face {})", first->first_face);
+  }
+  return text.empty() ? "none" : text;
 }
 
 Json box_json(const Box& box) {
@@ -108,8 +200,12 @@ Json box_json(const Box& box) {
 Json to_json(const Object_report& report) {
   Json json{{"name", report.name}, {"vertices", report.vertices}};
   if (report.frames > 0) json["frames"] = report.frames;
-  if (!report.surface) {
+  const auto add_boxes = [&] {
     json["box"] = box_json(report.box);
+    json["box_of_all_frames"] = box_json(report.box_of_all_frames);
+  };
+  if (!report.surface) {
+    add_boxes();
     return json;
   }
   const auto& surface = *report.surface;
@@ -124,28 +220,32 @@ Json to_json(const Object_report& report) {
                {"unused_vertices", surface.unused_vertices},
                {"self_intersections", report.self_intersections}});
   if (report.capped) json["self_intersections_capped"] = true;
-  json["box"] = box_json(surface.box);
+  json["orientation"] = orientation_json(report.components);
+  json["component_list"] = component_list_json(report.components);
+  if (report.components.size() > most_components) json["component_list_capped"] = true;
+  add_boxes();
   return json;
 }
 
+/// With all digits: the shortest texts that are read back as the same numbers.
 std::string box_text(const Box& box) {
   if (box.isEmpty()) return "none";
-  const auto corner = [](const Eigen::Vector3d& p) {
-    return fmt::format("({:.6g} {:.6g} {:.6g})", p.x(), p.y(), p.z());
-  };
+  const auto corner = [](const Eigen::Vector3d& p) { return fmt::format("({} {} {})", p.x(), p.y(), p.z()); };
   return corner(box.min()) + " to " + corner(box.max());
 }
 
-void print(const Object_report& report, const std::string& kind) {
+/// @param frames  that the boxes of all frames span
+void print(const Object_report& report, const std::string& kind, std::size_t frames) {
   Text_table table({printable(report.name), kind});
   const auto add = [&](const char* what, std::size_t count) { table.add({what, std::to_string(count)}); };
   if (report.frames > 0) add("frames", report.frames);
   add("vertices", report.vertices);
-  if (!report.surface) {
-    table.add({"box", box_text(report.box)});
+  const auto finish = [&] {
+    table.add({frames > 1 ? "box of the first frame" : "box", box_text(report.box)});
+    if (frames > 1) table.add({"box of all frames", box_text(report.box_of_all_frames)});
     fmt::print("{}", table.text());
-    return;
-  }
+  };
+  if (!report.surface) return finish();
   const auto& surface = *report.surface;
   add("faces", report.faces.count);
   if (report.faces.cut > 0) {
@@ -154,6 +254,7 @@ void print(const Object_report& report, const std::string& kind) {
   }
   add("components", surface.components);
   table.add({"surface", surface.closed ? "closed" : "open"});
+  table.add({"orientation", orientation_text(report.components)});
   add("border edges", surface.border_edges);
   add("non-manifold edges", surface.non_manifold_edges);
   add("degenerate faces", surface.degenerate_faces);
@@ -161,8 +262,7 @@ void print(const Object_report& report, const std::string& kind) {
   add("unused vertices", surface.unused_vertices);
   table.add({"self-intersections (face pairs)",
              fmt::format("{}{}", report.self_intersections, report.capped ? " or more" : "")});
-  table.add({"box", box_text(surface.box)});
-  fmt::print("{}", table.text());
+  finish();
 }
 
 }  // namespace
@@ -182,7 +282,7 @@ int run(const Info_command& command) {
                counted(info.frames, "frame"));
   for (std::size_t i = 0; i < info.objects.size(); ++i) {
     if (i > 0) fmt::print("\n");
-    print(info.objects[i], info.kind == "scene" ? "object" : info.kind);
+    print(info.objects[i], info.kind == "scene" ? "object" : info.kind, info.frames);
   }
   return exit_code::success;
 }

@@ -112,6 +112,63 @@ TEST_F(Info, reads_a_sequence_a_gltf_file_and_a_scene) {
   EXPECT_EQ(scene["objects"][1]["closed"], true);
 }
 
+/// An outward cube of quads, a tetrahedron that looks inward, and an open triangle.
+const std::string three_bodies =
+    "OFF\n15 11 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+    "5 0 0\n6 0 0\n5 1 0\n5 0 1\n9 0 0\n9 1 0\n9 0 1\n"
+    "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"
+    "3 8 9 10\n3 8 11 9\n3 9 11 10\n3 8 10 11\n3 12 13 14\n";
+
+TEST_F(Info, says_to_which_side_the_faces_of_each_component_look) {
+  const auto file = write("a.off", three_bodies);
+  const Json object = info({file})["objects"].at(0);
+  EXPECT_EQ(object["orientation"], Json({{"outward", 1}, {"inward", 1}, {"open", 1}}));
+  EXPECT_EQ(object["component_list"], Json::parse(R"([{"first_face": 0, "faces": 6, "orientation": "outward"},
+    {"first_face": 6, "faces": 4, "orientation": "inward"}, {"first_face": 10, "faces": 1, "orientation": "open"}])"));
+  EXPECT_FALSE(object.contains("component_list_capped"));
+  const auto table = run_program({"info", file});
+  EXPECT_NE(table.out.find("1 component outward, 1 inward (first face 6), 1 open and consistent (first face 10)"),
+            std::string::npos)
+      << table.out;
+  EXPECT_NE(run_program({"info", write("b.off", tetrahedron_off())}).out.find("| outward"), std::string::npos);
+}
+
+TEST_F(Info, of_a_surface_in_thousands_of_pieces_lists_a_thousand_of_them) {
+  std::string off = "OFF\n3003 1001 0\n", faces;
+  for (int i = 0; i < 1001; ++i) {
+    off += "0 0 " + std::to_string(i) + "\n1 0 0\n0 1 0\n";
+    faces += "3 " + std::to_string(3 * i) + " " + std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2) + "\n";
+  }
+  const Json object = info({write("a.off", off + faces)})["objects"].at(0);
+  EXPECT_EQ(object["orientation"], Json({{"open", 1001}}));
+  EXPECT_EQ(object["component_list"].size(), 1000U);
+  EXPECT_EQ(object["component_list_capped"], true);
+}
+
+TEST_F(Info, gives_the_box_with_all_its_digits) {
+  const auto file =
+      write("a.off", "OFF\n3 1 0\n0.1234567890123456 -1e-7 0\n123456.78901234567 0 0\n0.2 1 0\n3 0 1 2\n");
+  const auto table = run_program({"info", file}).out;
+  EXPECT_NE(table.find("(0.1234567890123456 -1e-07 0) to (123456.78901234567 1 0)"), std::string::npos) << table;
+}
+
+TEST_F(Info, gives_the_box_of_all_frames) {
+  write("f1.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n9 9 9\n3 0 1 2\n");
+  write("f2.off", "OFF\n4 1 0\n0 0 -2\n1 0 5\n0 0.5 0\n9 9 9\n3 0 1 2\n");
+  const auto pattern = (folder.path() / "f*.off").string();
+  const Json object = info({pattern})["objects"].at(0);
+  EXPECT_EQ(object["box"], Json({{0, 0, 0}, {1, 1, 0}}));
+  EXPECT_EQ(object["box_of_all_frames"], Json({{0, 0, -2}, {1, 1, 5}}));
+  const auto table = run_program({"info", pattern}).out;
+  for (const std::string part :
+       {"box of the first frame", "(0 0 0) to (1 1 0)", "box of all frames", "(0 0 -2) to (1 1 5)"})
+    EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+  const Json scene = info({write("scene.json", R"({"frames": 3, "objects": [{"name": "two",
+    "mesh": "f1.off", "motion": {"deform": [{"travel": {"way_points": [{"frame": 0, "at": [0, 0, 0]}, {"frame": 2, "at": [10, 0, 0]}]}}]}}]})")});
+  EXPECT_EQ(scene["objects"][0]["box"][1][0], 1);
+  EXPECT_EQ(scene["objects"][0]["box_of_all_frames"][1][0], 11);
+}
+
 TEST_F(Info, of_an_unreadable_file_is_an_error) {
   expect_error(run_program({"info", write("a.off", "rubbish")}), 3, "a.off:1: ");
   expect_error(run_program({"info", write("a.glb", "glTF")}), 3, "a.glb: byte 4");
