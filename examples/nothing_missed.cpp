@@ -23,7 +23,7 @@ struct Counter {
 int main() try {
   const Surface_mesh below = icosphere(20);
   Surface_mesh above = below;
-  Detector<Surface_mesh> detector({.mode = Mode::exact, .contact_normals = true});
+  Detector detector({.mode = Mode::exact, .contact_normals = true});
   const auto a = detector.add(above), b = detector.add(below);
 
   for (const double height : {2.5, 1.9, 1.0}) {

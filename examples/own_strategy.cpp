@@ -44,7 +44,7 @@ int main() try {
   show(knot, Slices{});
   show(knot, Lbg{});
 
-  Detector<Surface_mesh, Slices> detector({.mode = Mode::particles, .particles = 24}, Slices{.axis = 0});
+  Detector<Slices> detector({.mode = Mode::particles, .particles = 24}, Slices{.axis = 0});
   detector.add(knot);
   detector.add(sphere);
   const bool collide = detector.detect().collides();

@@ -38,7 +38,7 @@ bool near(const Float_box& a, const Float_box& b, double margin) { return near(a
 int main() try {
   const Surface_mesh below = icosphere(40);
   Surface_mesh above = below;
-  Detector<Surface_mesh> boxes({.mode = Mode::exact});
+  Detector boxes({.mode = Mode::exact});
   Volume_detector<Float_box> own({.mode = Mode::exact});
   for (const auto* mesh : {&std::as_const(above), &below}) boxes.add(*mesh), own.add(*mesh);
 

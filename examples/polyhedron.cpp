@@ -24,7 +24,7 @@ int main() try {
   Polyhedron knot = polyhedron(torus_knot());
   Polyhedron sphere = polyhedron(icosphere(10));
 
-  Detector<Polyhedron> detector({.mode = Mode::exact, .contacts = Contact_query::all});
+  Detector detector({.mode = Mode::exact, .contacts = Contact_query::all});
   const Object_id first = detector.add(knot);
   detector.add(sphere);
   bool met = false;
@@ -38,7 +38,7 @@ int main() try {
   }
 
   std::map<Region_index, std::size_t> sizes;
-  for (const auto v : vertices(knot)) ++sizes[get(detector.maps(first).region(), v)];
+  for (const auto v : vertices(knot)) ++sizes[get(detector.maps<Polyhedron>(first).region(), v)];
   std::printf("the knot has %zu vertices in %zu regions\n", num_vertices(knot), sizes.size());
   return met ? 0 : 1;
 } catch (const std::exception& error) {

@@ -15,7 +15,7 @@ int main() try {
   const Collisions now = find_collisions(knot, sphere);
   std::printf("at rest: %zu pairs of faces intersect\n", now.faces.size());
 
-  Detector<Surface_mesh> detector({.contacts = Contact_query::yes_no});
+  Detector detector({.contacts = Contact_query::yes_no});
   detector.add(knot);
   detector.add(sphere);
   for (int frame = 0; frame < 60; ++frame) {

@@ -3,10 +3,11 @@
 
 namespace lodestone {
 
-template class Particle_object<Surface_mesh, Own_points<Surface_mesh>>;
-template class Particle_detection<Surface_mesh, Lbg, Own_points<Surface_mesh>>;
-template class Exact_detection<Surface_mesh, Lbg, Own_points<Surface_mesh>, Aabb>;
-template Own_detection make_detection<Surface_mesh, Lbg, Own_points<Surface_mesh>, Aabb>(const Detector_options&, Lbg);
-template class Detector<Surface_mesh>;
+template class Exact_detection<Aabb>;
+template std::unique_ptr<Detection> make_detection<Aabb>(const Detector_options&);
+template class Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Lbg>;
+template class Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Any_strategy>;
+template class Detector<Lbg>;
+template class Detector<Any_strategy>;
 
 }  // namespace lodestone

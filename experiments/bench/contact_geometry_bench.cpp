@@ -20,7 +20,7 @@ namespace {
 /// `over_pairs` is the ratio of the last to the first.
 void contact_geometry(benchmark::State& state, const std::string& scene_name) {
   Frame_player player(scene_name);
-  std::deque<Detector<Surface_mesh>> detectors;
+  std::deque<Detector<>> detectors;
   for (const auto& [points, normals] : {std::pair{false, false}, {true, false}, {true, true}}) {
     detectors.emplace_back(Detector_options{.mode = Mode::exact,
                                             .contacts = Contact_query::all,

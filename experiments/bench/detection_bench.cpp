@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 /// `us_per_iteration` the time of all relaxations over the number of their iterations.
 void particles(benchmark::State& state, const std::string& scene_name, bool with_exhaustive) {
   Frame_player player(scene_name);
-  Detector<Surface_mesh> detector({.mode = Mode::particles,
+  Detector<> detector({.mode = Mode::particles,
                                    .particles = static_cast<std::size_t>(state.range(0)),
                                    .contacts = Contact_query::yes_no});
   for (auto& object : player.scene().objects) detector.add(std::as_const(object.mesh));

@@ -24,7 +24,7 @@ namespace {
 /// Reported time: the mean of all. Per instruction set: the median over the frames with contacts, in microseconds.
 void instruction_sets(benchmark::State& state, const std::string& scene_name, Contact_query query) {
   Frame_player player(scene_name);
-  Detector<Surface_mesh> detector({.mode = Mode::exact, .contacts = query});
+  Detector<> detector({.mode = Mode::exact, .contacts = query});
   for (auto& object : player.scene().objects) detector.add(std::as_const(object.mesh));
   detector.detect();
 

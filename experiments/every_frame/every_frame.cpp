@@ -18,7 +18,7 @@ namespace lodestone {
 
 namespace {
 
-using Exact_detector = Detector<Surface_mesh>;
+using Exact_detector = Detector<>;
 
 /// What was checked of one scene; the counts are sums over the frames.
 struct Checked {

@@ -70,13 +70,13 @@ class Lodestone_entrant : public Entrant {
   }
 
   /// The first call of `detect` builds the trees.
-  void build(Detector<Surface_mesh>& detector) {
+  void build(Detector<>& detector) {
     for (const auto& mesh : meshes_) detector.add(*mesh.mesh);
     detector.detect();
   }
 
   std::vector<Moving_mesh> meshes_;
-  Detector<Surface_mesh> any_, all_;
+  Detector<> any_, all_;
   Answer answer_;
   bool asks_all_ = false;
 };

@@ -90,7 +90,7 @@ void play(Loosening_motion& moving, std::span<Limit_figures> rows) {
     const Point& p = obstacle.point(v);
     obstacle.point(v) = Point(0.3 * p.x() + 0.5, 0.3 * p.y() + 0.5, 0.3 * p.z() + 0.2);
   }
-  std::vector<Detector<Surface_mesh>> detectors;
+  std::vector<Detector<>> detectors;
   for (const Limit_figures& row : rows) {
     detectors.emplace_back(Detector_options{.mode = Mode::exact, .exact = {.loosest = row.limit}});
     detectors.back().add(std::as_const(moving.mesh));

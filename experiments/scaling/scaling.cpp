@@ -199,9 +199,9 @@ std::string partition_against_regions(Steps& steps, Json& json) {
 
 /// Seconds of one growth check of an object, whether or not a region has grown.
 double growth_check_seconds(const Surface_mesh& mesh, std::size_t particles) {
-  Particle_object<Surface_mesh, Surface_mesh::Property_map<Surface_mesh::Vertex_index, Point>> object(mesh,
-                                                                                                      mesh.points());
-  object.partition(Lbg{}, particles, {}, Distance_measure::adjacent_vertices);
+  Particle_object object(std::make_unique<Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Lbg>>(
+      mesh, mesh.points(), std::make_shared<const Lbg>()));
+  object.partition(particles, {}, Distance_measure::adjacent_vertices);
   constexpr int checks = 1000;
   return seconds_of([&] {
            for (int check = 0; check < checks; ++check) object.has_outgrown(2);

@@ -55,7 +55,7 @@ Self_collision_figures measure_case(Folding_motion& moving) {
   const std::vector<Point> rest(moving.mesh.points().begin(), moving.mesh.points().end());
   const Motion motion = deform(rest, {moving.deformation});
   std::vector<Point> positions(rest.size());
-  Detector<Surface_mesh> detector({.mode = Mode::exact, .exact = {.self_collision = true}});
+  Detector<> detector({.mode = Mode::exact, .exact = {.self_collision = true}});
   detector.add(std::as_const(moving.mesh));
   detector.detect();
   Self_collision_figures figures;

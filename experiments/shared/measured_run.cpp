@@ -12,7 +12,7 @@ namespace lodestone {
 
 namespace {
 
-using Scene_detector = Detector<Surface_mesh, Any_strategy>;
+using Scene_detector = Detector<Any_strategy>;
 
 std::vector<Object_pair> all_pairs(const Scene& scene) {
   std::vector<Object_pair> pairs;

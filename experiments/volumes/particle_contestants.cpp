@@ -55,7 +55,7 @@ class Particle_entrant : public Entrant {
     figures_->repartitions += frame.statistics.repartitions;
   }
 
-  Detector<Surface_mesh> detector_;
+  Detector<> detector_;
   std::shared_ptr<Particle_figures> figures_;
   Answer answer_;
   bool jumps_ = false;

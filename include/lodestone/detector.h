@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,56 +21,63 @@ using Own_points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::con
 
 /// Finds collisions between many deforming meshes, frame after frame.
 ///
-///     Detector<Surface_mesh> detector;
+///     Detector detector;
 ///     const auto teapot = detector.add(teapot_mesh), sphere = detector.add(sphere_mesh);
 ///     while (simulate(teapot_mesh, sphere_mesh)) {
 ///       detector.update();
 ///       for (const auto& pair : detector.detect().pairs) ...
 ///     }
 ///
-/// The caller keeps the meshes and moves their vertices. The meshes must outlive the detector, or the removal of their
-/// objects, and must be neither moved nor assigned to. The caller calls `rebuild` after any change of a mesh's faces, and after any removal of its
-/// maps `v:region` and `v:particle`, for instance by `clear`.
+/// The caller keeps the meshes, of any types, and moves their vertices. The meshes must outlive the detector, or the
+/// removal of their objects, and must be neither moved nor assigned to. The caller calls `rebuild` after any change of a
+/// mesh's faces, and after any removal of its maps `v:region` and `v:particle`, for instance by `clear`.
 ///
 /// The mode decides how much of a mesh a frame reads, and what it may miss: see `Particle_detection` and
 /// `Exact_detection`. Every query re-reads the vertex positions, so results are never stale. One thread at a time may
 /// use a detector.
 ///
-/// @tparam Mesh      any model of Triangle_mesh
-/// @tparam Strategy  how surfaces are divided, see Partition_strategy
-/// @tparam Points    vertex point map
+/// @tparam Strategy  how surfaces are divided: a Partition_strategy for the type of each mesh
 /// @tparam Volume    of the trees in mode `exact`, see Bounding_volume
-template <Triangle_mesh Mesh, class Strategy = Lbg, class Points = Own_points<Mesh>, Bounding_volume Volume = Aabb>
+template <class Strategy = Lbg, Bounding_volume Volume = Aabb>
 class Detector {
  public:
   /// @throws Bad_argument  an option out of range
   explicit Detector(const Detector_options& options = {}, Strategy strategy = {})
-      : detection_(make_detection<Mesh, Strategy, Points, Volume>(options, std::move(strategy))) {}
+      : strategy_(std::make_shared<const Strategy>(std::move(strategy))), detection_(make_detection<Volume>(options)) {}
 
   /// Adds an object, and adds the maps `v:region` and `v:particle` to its mesh. Two detectors that share a mesh write
   /// to the same maps.
   /// @throws Bad_mesh      no face, a face that is not a triangle
   /// @throws Bad_argument  the mesh has been added before; mode `exact`: `file_vertex` does not have one entry per
   /// vertex
+  template <class Mesh>
+  requires(!std::is_const_v<Mesh> && Triangle_mesh<Mesh>)
   Object_id add(Mesh& mesh, const Object_options& options = {}) {
     const Object_id object = add(std::as_const(mesh), options);
-    detection_->write_maps(object, mesh);
+    static_cast<Watched_mesh_of<Mesh>&>(detection_->mesh(object)).add_maps(mesh);
     return object;
   }
   /// Adds an object whose mesh cannot be written to.
+  template <Triangle_mesh Mesh>
   Object_id add(const Mesh& mesh, const Object_options& options = {}) {
     if (std::ranges::find(meshes_, &mesh) != meshes_.end()) throw Bad_argument("the mesh has been added before");
     return add(mesh, CGAL::get_const_property_map(CGAL::vertex_point, mesh), options);
   }
-  /// Adds an object whose positions are read through `points`. One mesh may be added several times with other points.
+  /// Adds an object whose positions are read through `points`, a vertex point map. One mesh may be added several times
+  /// with other points.
+  template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
   Object_id add(const Mesh& mesh, Points points, const Object_options& options = {}) {
-    detection_->add(mesh, std::move(points), options);
+    detection_->add(
+        [&] { return std::make_unique<Typed_watched_mesh<Mesh, Points, Strategy>>(mesh, std::move(points), strategy_); },
+        options);
     filter_.add(options);
     meshes_.push_back(&mesh);
     return static_cast<Object_id>(meshes_.size() - 1);
   }
   /// Temporaries are rejected.
+  template <Triangle_mesh Mesh>
   Object_id add(const Mesh&& mesh, const Object_options& options = {}) = delete;
+  template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
   Object_id add(const Mesh&& mesh, Points points, const Object_options& options = {}) = delete;
 
   /// Tells the detector that the vertices of an object have moved. In mode `particles` an object whose regions have
@@ -91,6 +99,15 @@ class Detector {
   void update(Object_id object, const Eigen::Ref<const Positions>& positions) {
     ask<Exact>(object).update(object, positions);
   }
+  /// Places an object: from now on its vertices are at `placement` * p, for each position p of its mesh, or given by
+  /// `update`. Nothing is written to the mesh, and everything is as if these positions were. Another call replaces the
+  /// placement; the identity ends it. A placed object costs a pass over all its vertices in mode `exact`, and in mode
+  /// `particles` a product for each vertex that is read.
+  /// @throws Bad_argument  no such object; a coefficient that is not finite; the linear part is no rotation
+  void place(Object_id object, const Eigen::Isometry3d& placement) {
+    detection_->place(checked(object), make_rigid_motion(placement));
+  }
+
   /// Tells the detector that faces of an object's mesh have been added, removed or changed. The object is numbered,
   /// partitioned and built again, and has the positions of its mesh, as after `update(object)`. Without this call, the
   /// detector notices other numbers of vertices or faces, but not a flipped edge.
@@ -158,24 +175,27 @@ class Detector {
   std::size_t size() const { return meshes_.size(); }
   /// The state of one object in a mode with particles: regions, particles, patches. Valid until it is rebuilt.
   /// @throws Bad_argument  no such object, another mode
-  const Particle_object<Mesh, Points>& object(Object_id object) const {
-    return ask<By_particles>(object).object(object);
+  const Particle_object& object(Object_id object) const {
+    return ask<Particle_detection>(object).object(object);
   }
   /// The tree of one object in mode `exact`, empty before the first query. Its volumes are those of the last query that
   /// the object was part of. It holds no positions, so it cannot answer what depends on them.
   /// @throws Bad_argument  no such object, another mode
   const Basic_region_tree<Volume>& tree(Object_id object) const { return ask<Exact>(object).tree(object); }
   /// The property maps of an object. `rebuild` invalidates copies of them.
-  /// @throws Bad_argument  no such object, or one whose mesh could not be written to when it was added
+  /// @tparam Mesh          the type of its mesh
+  /// @throws Bad_argument  no such object, one of another type, or one whose mesh could not be written to when it was
+  ///                       added
+  template <Triangle_mesh Mesh = Surface_mesh>
   const Region_maps<Mesh>& maps(Object_id object) const {
-    const auto& maps = detection_->maps(checked(object));
-    if (!maps) throw Bad_argument("object " + std::to_string(object) + " carries no property maps");
-    return *maps;
+    const auto* mesh = dynamic_cast<const Watched_mesh_of<Mesh>*>(&detection_->mesh(checked(object)));
+    if (mesh == nullptr) throw Bad_argument("the mesh of object " + std::to_string(object) + " is of another type");
+    if (!mesh->maps()) throw Bad_argument("object " + std::to_string(object) + " carries no property maps");
+    return *mesh->maps();
   }
 
  private:
-  using Exact = Exact_detection<Mesh, Strategy, Points, Volume>;
-  using By_particles = Particle_detection<Mesh, Strategy, Points>;
+  using Exact = Exact_detection<Volume>;
 
   Object_id checked(Object_id object) const {
     if (has(object)) return object;
@@ -191,25 +211,22 @@ class Detector {
     throw Bad_argument(Model::needed);
   }
 
-  std::unique_ptr<Detection<Mesh, Points>> detection_;
+  std::shared_ptr<const Strategy> strategy_;
+  std::unique_ptr<Detection> detection_;
   Collision_filter filter_;
-  std::vector<const Mesh*> meshes_;  ///< null: the object has been removed
+  std::vector<const void*> meshes_;  ///< null: the object has been removed
 };
 
-// The library holds the detectors of a Surface_mesh: a file that uses one does not compile the modes again.
-using Own_detection = std::unique_ptr<Detection<Surface_mesh, Own_points<Surface_mesh>>>;
-extern template class Particle_object<Surface_mesh, Own_points<Surface_mesh>>;
-extern template class Particle_detection<Surface_mesh, Lbg, Own_points<Surface_mesh>>;
-extern template class Exact_detection<Surface_mesh, Lbg, Own_points<Surface_mesh>, Aabb>;
-extern template Own_detection make_detection<Surface_mesh, Lbg, Own_points<Surface_mesh>, Aabb>(const Detector_options&, Lbg);
-extern template class Detector<Surface_mesh>;
-extern template class Particle_detection<Surface_mesh, Any_strategy, Own_points<Surface_mesh>>;
-extern template class Exact_detection<Surface_mesh, Any_strategy, Own_points<Surface_mesh>, Aabb>;
-extern template Own_detection make_detection<Surface_mesh, Any_strategy, Own_points<Surface_mesh>, Aabb>(const Detector_options&, Any_strategy);
-extern template class Detector<Surface_mesh, Any_strategy>;
+// The library holds what a detector of Surface_mesh needs: a file that uses one does not compile it again.
+extern template class Exact_detection<Aabb>;
+extern template std::unique_ptr<Detection> make_detection<Aabb>(const Detector_options&);
+extern template class Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Lbg>;
+extern template class Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Any_strategy>;
+extern template class Detector<Lbg>;
+extern template class Detector<Any_strategy>;
 
 /// A detector in whose mode `exact` the trees have volumes of another kind.
-template <Bounding_volume Volume, Triangle_mesh Mesh = Surface_mesh, class Strategy = Lbg>
-using Volume_detector = Detector<Mesh, Strategy, Own_points<Mesh>, Volume>;
+template <Bounding_volume Volume, class Strategy = Lbg>
+using Volume_detector = Detector<Strategy, Volume>;
 
 }  // namespace lodestone

@@ -19,7 +19,7 @@ struct Collisions {
   Frame_statistics statistics = {};
 };
 
-/// Finds collisions between two meshes with one call.
+/// Finds collisions between two meshes, which may be of different types, with one call.
 ///
 /// Whatever is reported is true, by exact predicates. Mode `exact`, the default, misses nothing; mode `particles` may
 /// miss a collision. Faces are numbered in the order of `faces(mesh)`. To follow meshes that move, keep a
@@ -28,9 +28,9 @@ struct Collisions {
 ///
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
 /// @throws Bad_argument  an option out of range, or one mesh given twice
-template <Triangle_mesh Mesh>
-Collisions find_collisions(const Mesh& a, const Mesh& b, const Detector_options& options = {}) {
-  Detector<Mesh> detector(options);
+template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
+Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {}) {
+  Detector detector(options);
   const Object_id first = detector.add(a), second = detector.add(b);
   const Frame& frame = options.mode == Mode::exact ? detector.detect(first, second) : detector.detect();
   return {.collide = frame.collides(),

@@ -12,7 +12,7 @@
 
 namespace lodestone {
 
-using Scene_detector = Detector<Surface_mesh, Any_strategy>;
+using Scene_detector = Detector<Any_strategy>;
 
 /// Makes the page of a run of `detect`.
 ///

@@ -47,8 +47,8 @@ TYPED_TEST(Mode_contract, frames_equal_those_on_a_surface_mesh_and_report_only_t
     auto source_a = as_float(sphere(8)), source_b = shifted_sphere();
     auto a = converted<TypeParam>(source_a), b = converted<TypeParam>(source_b);
     const Detector_options options{.mode = mode, .particles = 24, .contacts = Contact_query::all};
-    Detector<Surface_mesh> expected(options);
-    Detector<TypeParam> detector(options);
+    Detector<> expected(options);
+    Detector<> detector(options);
     expected.add(source_a), expected.add(source_b);
     detector.add(a), detector.add(b);
     std::size_t contacts = 0;
@@ -70,14 +70,15 @@ TYPED_TEST(Mode_contract, frames_equal_those_on_a_surface_mesh_and_report_only_t
 
 TYPED_TEST(Mode_contract, regions_and_particles_are_in_the_maps_of_the_mesh) {
   auto a = converted<TypeParam>(sphere(6)), b = converted<TypeParam>(shifted_sphere());
-  Detector<TypeParam> detector({.mode = Mode::particles, .particles = 12});
+  const Mesh_numbering<TypeParam> numbering(a);
+  Detector<> detector({.mode = Mode::particles, .particles = 12});
   detector.add(a), detector.add(b);
   for (int frame = 0; frame < 3; ++frame) {
     detector.detect();
-    const auto& maps = detector.maps(0);
+    const auto& maps = detector.maps<TypeParam>(0);
     const auto& surface = detector.object(0);
     for (const auto v : vertices(a)) {
-      const auto index = surface.numbering().index(v);
+      const auto index = numbering.index(v);
       EXPECT_EQ(get(maps.region(), v), surface.labels()[index]);
       const auto& at = surface.particles().at;
       const bool here = std::ranges::find(at, index) != at.end();
@@ -90,7 +91,7 @@ TYPED_TEST(Mode_contract, regions_and_particles_are_in_the_maps_of_the_mesh) {
 
 TYPED_TEST(Mode_contract, an_object_that_grows_is_repartitioned) {
   auto a = converted<TypeParam>(sphere(6)), b = converted<TypeParam>(sphere(6, 1, {9, 0, 0}));
-  Detector<TypeParam> detector({.mode = Mode::particles, .least_particles = 1});
+  Detector<> detector({.mode = Mode::particles, .least_particles = 1});
   detector.add(a), detector.add(b);
   detector.detect();
   EXPECT_EQ(detector.object(0).particles().at.size(), 2U);
@@ -113,10 +114,47 @@ TYPED_TEST(Mode_contract, find_collisions_gives_the_same_faces) {
   EXPECT_EQ(collisions.faces, expected.faces);
 }
 
+TYPED_TEST(Mode_contract, a_detector_takes_meshes_of_two_types) {
+  for (const auto mode : {Mode::particles, Mode::senin, Mode::exact}) {
+    auto a = as_float(sphere(8)), source = shifted_sphere();
+    auto b = converted<TypeParam>(source);
+    Detector<> expected({.mode = mode, .particles = 24});
+    Detector<> detector({.mode = mode, .particles = 24});
+    expected.add(a), expected.add(source);
+    detector.add(a), detector.add(b);
+    std::size_t contacts = 0;
+    for (int frame = 0; frame < 10; ++frame) {
+      const Frame& found = detector.detect();
+      EXPECT_EQ(found.face_pairs, expected.detect().face_pairs);
+      contacts += found.face_pairs.size();
+      deform(source, left);
+      deform_any(b, left);
+      expected.update();
+      detector.update();
+    }
+    EXPECT_GT(contacts, 0U);
+    EXPECT_NO_THROW(detector.maps<Surface_mesh>(0));
+    EXPECT_NO_THROW(detector.maps<TypeParam>(1));
+    if constexpr (!std::is_same_v<TypeParam, Surface_mesh>) {
+      EXPECT_THROW(detector.maps<Surface_mesh>(1), Bad_argument);
+    }
+  }
+}
+
+TYPED_TEST(Mode_contract, find_collisions_takes_meshes_of_two_types) {
+  const auto a = as_float(sphere(8));
+  auto b = shifted_sphere();
+  shift(b, -0.5);
+  b = as_float(b);
+  const auto collisions = find_collisions(a, converted<TypeParam>(b));
+  EXPECT_EQ(collisions.faces, exhaustive_face_pairs(a, b));
+  EXPECT_TRUE(collisions.collide);
+}
+
 TYPED_TEST(Mode_contract, bad_meshes_are_refused) {
   TypeParam empty;
   for (const auto mode : modes) {
-    Detector<TypeParam> detector({.mode = mode});
+    Detector<> detector({.mode = mode});
     EXPECT_THROW(detector.add(empty), Bad_mesh);
   }
 }

@@ -93,7 +93,7 @@ template <class Mesh>
 std::size_t expect_equal_frames(Two_surfaces surfaces, Detector_options options) {
   options.mode = Mode::exact;
   auto a = converted<Mesh>(surfaces.a), b = converted<Mesh>(surfaces.b);
-  Detector<Mesh> detector(options);
+  Detector<> detector(options);
   Exact_detector expected(options);
   detector.add(a), detector.add(b);
   expected.add(surfaces.a), expected.add(surfaces.b);
@@ -165,7 +165,7 @@ TYPED_TEST(Exact_contract, self_collisions_equal_those_on_a_surface_mesh) {
   crumple(source, 0.05, 1);
   auto mesh = converted<TypeParam>(source);
   const Detector_options options{.mode = Mode::exact, .exact = {.self_collision = true}};
-  Detector<TypeParam> detector(options);
+  Detector<> detector(options);
   Exact_detector expected(options);
   detector.add(mesh), expected.add(source);
   const Frame& frame = detector.detect();
@@ -177,7 +177,7 @@ TYPED_TEST(Exact_contract, given_positions_are_in_the_order_of_the_mesh_s_vertic
   const auto source = potato(5);
   auto other = potato(5, 2);
   const auto a = converted<TypeParam>(source), b = converted<TypeParam>(other);
-  Detector<TypeParam> detector({.mode = Mode::exact});
+  Detector<> detector({.mode = Mode::exact});
   detector.add(a), detector.add(b);
   shift(other, 1.4, 0.2);
   detector.update(1, positions_of(other));
@@ -190,15 +190,15 @@ TYPED_TEST(Exact_contract, regions_are_in_the_maps_of_the_mesh_and_do_not_depend
   std::vector<Region_index> expected;
   for (const double unit : {1.0, 0x1p-300, 0x1p300, 0x1p1022}) {
     auto mesh = converted<TypeParam>(sphere(6, unit));
-    Detector<TypeParam> detector({.mode = Mode::exact, .particles = 12});
+    Detector<> detector({.mode = Mode::exact, .particles = 12});
     detector.add(mesh);
     detector.detect();
     std::vector<Region_index> labels;
     std::vector<std::size_t> vertices_of(12, 0), particles_of(12, 0);
     for (const auto v : vertices(mesh)) {
-      labels.push_back(get(detector.maps(0).region(), v));
+      labels.push_back(get(detector.maps<TypeParam>(0).region(), v));
       ++vertices_of.at(labels.back());
-      const auto particle = get(detector.maps(0).particle(), v);
+      const auto particle = get(detector.maps<TypeParam>(0).particle(), v);
       if (particle == no_particle) continue;
       EXPECT_EQ(particle, labels.back());
       ++particles_of.at(particle);
@@ -215,7 +215,7 @@ TYPED_TEST(Exact_contract, a_non_finite_coordinate_is_refused_only_in_its_frame)
   const auto other = sphere(4, 1, {1.5, 0, 0});
   auto a = converted<TypeParam>(source);
   const auto b = converted<TypeParam>(other);
-  Detector<TypeParam> detector({.mode = Mode::exact});
+  Detector<> detector({.mode = Mode::exact});
   detector.add(a), detector.add(b);
   const Positions good = positions_of(source);
   for (int round = 0; round < 2; ++round) {
@@ -230,7 +230,7 @@ TYPED_TEST(Exact_contract, a_non_finite_coordinate_is_refused_only_in_its_frame)
 
 TYPED_TEST(Exact_contract, empty_meshes_are_refused) {
   TypeParam empty;
-  Detector<TypeParam> detector({.mode = Mode::exact});
+  Detector<> detector({.mode = Mode::exact});
   EXPECT_THROW(detector.add(empty), Bad_mesh);
   EXPECT_THROW(detector.add(std::as_const(empty)), Bad_mesh);
 }

@@ -41,7 +41,7 @@ TEST(Candidates, listed_are_all_particle_pairs_below_the_collision_distance_in_t
   for (const Mode mode : modes)
     for (const auto contacts : {Contact_query::yes_no, Contact_query::first, Contact_query::all}) {
       Owned_meshes scene = three_spheres();
-      Detector<Surface_mesh> detector({.mode = mode, .particles = 40, .contacts = contacts, .list_candidates = true});
+      Detector<> detector({.mode = mode, .particles = 40, .contacts = contacts, .list_candidates = true});
       add_all(detector, scene);
       for (int frame = 0; frame < 3; ++frame) {
         const Frame& found = detector.detect();
@@ -61,7 +61,7 @@ TEST(Candidates, listed_are_all_particle_pairs_below_the_collision_distance_in_t
 
 TEST(Candidates, of_the_closest_choice_is_the_nearest_of_each_pair) {
   Owned_meshes scene = three_spheres();
-  Detector<Surface_mesh> detector(
+  Detector<> detector(
       {.mode = Mode::particles, .particles = 40, .candidates = Candidate_choice::closest, .list_candidates = true});
   add_all(detector, scene);
   const Frame& found = detector.detect();
@@ -73,7 +73,7 @@ TEST(Candidates, of_the_closest_choice_is_the_nearest_of_each_pair) {
 
 TEST(Candidates, are_listed_only_when_asked_for_and_change_nothing_else) {
   Owned_meshes scene = three_spheres(), same_scene = three_spheres();
-  Detector<Surface_mesh> silent({.mode = Mode::particles, .particles = 40}),
+  Detector<> silent({.mode = Mode::particles, .particles = 40}),
       listing({.mode = Mode::particles, .particles = 40, .list_candidates = true});
   add_all(silent, scene);
   add_all(listing, same_scene);
@@ -87,11 +87,11 @@ TEST(Candidates, are_listed_only_when_asked_for_and_change_nothing_else) {
 
 TEST(Candidates, there_are_none_where_objects_are_far_apart_nor_in_mode_exact) {
   Owned_meshes far = two_spheres(9);
-  Detector<Surface_mesh> particles({.mode = Mode::particles, .particles = 40, .list_candidates = true});
+  Detector<> particles({.mode = Mode::particles, .particles = 40, .list_candidates = true});
   add_all(particles, far);
   EXPECT_TRUE(particles.detect().candidates.empty());
   Owned_meshes near = two_spheres(1.5);
-  Detector<Surface_mesh> exact({.mode = Mode::exact, .list_candidates = true});
+  Detector<> exact({.mode = Mode::exact, .list_candidates = true});
   add_all(exact, near);
   EXPECT_TRUE(exact.detect().collides());
   EXPECT_TRUE(exact.detect().candidates.empty());
@@ -99,7 +99,7 @@ TEST(Candidates, there_are_none_where_objects_are_far_apart_nor_in_mode_exact) {
 
 TEST(Candidates, of_the_last_frame_are_gone_in_the_next) {
   Owned_meshes scene = two_spheres(1.8);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 40, .list_candidates = true});
+  Detector<> detector({.mode = Mode::particles, .particles = 40, .list_candidates = true});
   add_all(detector, scene);
   EXPECT_FALSE(detector.detect().candidates.empty());
   for (const auto v : scene[1].vertices()) scene[1].point(v) = scene[1].point(v) + Kernel::Vector_3(9, 0, 0);

@@ -16,14 +16,14 @@ namespace {
 
 TEST(Detector, options_out_of_range_are_refused) {
   for (const double bad : {0.0, -1.0, infinity, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(Detector<Surface_mesh>({.mode = Mode::particles, .collision_distance = bad}), Bad_argument) << bad;
+    EXPECT_THROW(Detector<>({.mode = Mode::particles, .collision_distance = bad}), Bad_argument) << bad;
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(Detector<Surface_mesh>({.mode = Mode::particles, .growth = bad}), Bad_argument) << bad;
+    EXPECT_THROW(Detector<>({.mode = Mode::particles, .growth = bad}), Bad_argument) << bad;
 }
 
 TEST(Detector, a_mesh_added_twice_is_refused) {
   auto mesh = sphere(3);
-  Detector<Surface_mesh> detector({.mode = Mode::particles});
+  Detector<> detector({.mode = Mode::particles});
   detector.add(mesh);
   EXPECT_THROW(detector.add(mesh), Bad_argument);
   EXPECT_THROW(detector.add(std::as_const(mesh)), Bad_argument);
@@ -31,7 +31,7 @@ TEST(Detector, a_mesh_added_twice_is_refused) {
 }
 
 TEST(Detector, an_unknown_object_is_refused) {
-  Detector<Surface_mesh> detector({.mode = Mode::particles});
+  Detector<> detector({.mode = Mode::particles});
   EXPECT_THROW(detector.update(0), Bad_argument);
   auto mesh = sphere(3);
   detector.add(mesh);
@@ -40,7 +40,7 @@ TEST(Detector, an_unknown_object_is_refused) {
 }
 
 TEST(Detector, a_mesh_without_faces_or_with_a_quadrilateral_is_refused) {
-  Detector<Surface_mesh> detector({.mode = Mode::particles});
+  Detector<> detector({.mode = Mode::particles});
   Surface_mesh empty, quadrilateral;
   EXPECT_THROW(detector.add(empty), Bad_mesh);
   std::vector<Surface_mesh::Vertex_index> corners;
@@ -55,7 +55,7 @@ TEST(Detector, a_coordinate_that_is_not_finite_is_refused_by_the_first_frame) {
   for (const auto mode : modes) {
     auto scene = two_spheres(2);
     scene[1].point(Surface_mesh::Vertex_index(7)) = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
-    Detector<Surface_mesh> detector({.mode = mode, .particles = 8});
+    Detector<> detector({.mode = mode, .particles = 8});
     add_all(detector, scene);
     EXPECT_THROW(detector.detect(), Bad_mesh);
   }
@@ -65,7 +65,7 @@ TEST(Detector, a_coordinate_that_is_not_finite_is_refused_in_any_frame_that_read
   for (const auto mode : modes)
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity}) {
       auto scene = two_spheres(1.8);
-      Detector<Surface_mesh> detector({.mode = mode, .particles = 8, .contacts = Contact_query::all});
+      Detector<> detector({.mode = mode, .particles = 8, .contacts = Contact_query::all});
       add_all(detector, scene);
       detector.detect();
       deform(scene[1], [&](const Point& p) { return Point(p.x(), bad, p.z()); });
@@ -80,7 +80,7 @@ TEST(Detector, a_coordinate_that_is_not_finite_is_refused_in_any_frame_that_read
 
 TEST(Detector, a_corner_of_a_candidate_region_that_is_not_finite_is_refused) {
   auto scene = two_spheres(1.8);
-  Detector<Surface_mesh> detector(
+  Detector<> detector(
       {.mode = Mode::particles, .particles = 1, .collision_distance = 50, .contacts = Contact_query::all});
   add_all(detector, scene);
   detector.detect();
@@ -109,7 +109,7 @@ TEST(Detector, a_bad_mesh_in_a_frame_is_named_by_id_and_name) {
     for (const std::string name : {"", "cloth"}) {
       const std::string title = name.empty() ? "object 1" : "object 1 (cloth)";
       auto scene = two_spheres(1.8);
-      Detector<Surface_mesh> detector({.mode = mode, .particles = 8});
+      Detector<> detector({.mode = mode, .particles = 8});
       detector.add(scene[0]);
       detector.add(scene[1], {.name = name});
       detector.detect();
@@ -128,7 +128,7 @@ TEST(Detector, a_bad_mesh_in_a_frame_is_named_by_id_and_name) {
 }
 
 template <class Mesh>
-concept Addable = requires(Detector<Surface_mesh>& detector, Mesh&& mesh) {
+concept Addable = requires(Detector<>& detector, Mesh&& mesh) {
   detector.add(std::forward<Mesh>(mesh));
 };
 

@@ -14,7 +14,7 @@ namespace {
 TEST(Detector, an_object_that_moves_without_growing_is_not_repartitioned) {
   Owned_meshes scene{potato(10), potato(10, 2)};
   shift(scene[1], 3);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 24});
+  Detector<> detector({.mode = Mode::particles, .particles = 24});
   add_all(detector, scene);
   std::size_t repartitions = 0;
   for (int frame = 0; frame < 40; ++frame) {
@@ -29,7 +29,7 @@ TEST(Detector, an_object_that_moves_without_growing_is_not_repartitioned) {
 
 TEST(Detector, an_object_that_shrinks_is_not_repartitioned) {
   auto scene = two_spheres(2.5);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 24});
+  Detector<> detector({.mode = Mode::particles, .particles = 24});
   add_all(detector, scene);
   for (int frame = 0; frame < 10; ++frame) {
     EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
@@ -40,7 +40,7 @@ TEST(Detector, an_object_that_shrinks_is_not_repartitioned) {
 
 TEST(Detector, an_inflating_object_is_repartitioned_with_its_particles_counted_afresh) {
   auto scene = two_spheres(9);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .least_particles = 1, .contacts = Contact_query::all});
+  Detector<> detector({.mode = Mode::particles, .least_particles = 1, .contacts = Contact_query::all});
   add_all(detector, scene);
   detector.detect();
   EXPECT_EQ(detector.object(0).particles().at.size(), 2U);  // two objects of one size
@@ -54,7 +54,7 @@ TEST(Detector, an_inflating_object_is_repartitioned_with_its_particles_counted_a
 
 TEST(Detector, an_object_that_inflates_slowly_stays_detectable) {
   auto scene = two_spheres(3);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 32, .contacts = Contact_query::all});
+  Detector<> detector({.mode = Mode::particles, .particles = 32, .contacts = Contact_query::all});
   add_all(detector, scene);
   std::size_t repartitions = 0, positive = 0, found = 0;
   for (int frame = 0; frame < 60; ++frame) {
@@ -73,7 +73,7 @@ TEST(Detector, an_object_that_inflates_slowly_stays_detectable) {
 TEST(Detector, an_object_that_starts_without_extent_is_repartitioned_when_it_unfolds) {
   auto scene = two_spheres(5);
   deform(scene[0], [](const Point&) { return Point(0, 0, 0); });
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 12});
+  Detector<> detector({.mode = Mode::particles, .particles = 12});
   add_all(detector, scene);
   EXPECT_NO_THROW(detector.detect());
   const auto round = sphere(12);
@@ -85,7 +85,7 @@ TEST(Detector, an_object_that_starts_without_extent_is_repartitioned_when_it_unf
 TEST(Detector, particles_are_counted_beside_objects_without_extent) {
   Owned_meshes scene{sphere(8), single_triangle(), sphere(8, 2, {5, 0, 0})};
   deform(scene[1], [](const Point&) { return Point(0, 0, 1); });
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .contacts = Contact_query::all});
+  Detector<> detector({.mode = Mode::particles, .contacts = Contact_query::all});
   add_all(detector, scene);
   expect_true(detector.detect(), scene);
   for (const Object_id object : {0U, 1U, 2U}) EXPECT_GE(detector.object(object).particles().at.size(), 1U);
@@ -93,7 +93,7 @@ TEST(Detector, particles_are_counted_beside_objects_without_extent) {
 
 TEST(Detector, repartitions_never_if_told_so) {
   auto scene = two_spheres(9);
-  Detector<Surface_mesh> detector(
+  Detector<> detector(
       {.mode = Mode::particles, .particles = 12, .growth = std::numeric_limits<double>::infinity()});
   add_all(detector, scene);
   detector.detect();

@@ -28,7 +28,7 @@ TEST(Detector_options, all_contacts_are_reported_unless_less_is_asked_for) {
 TEST(Detector_options, the_mode_that_misses_nothing_answers_unless_another_is_asked_for) {
   EXPECT_EQ(Detector_options{}.mode, Mode::exact);
   auto a = sphere(12), b = sphere(12, 1, {1.8, 0.1, 0.2});
-  Detector<Surface_mesh> detector;
+  Detector<> detector;
   detector.add(a), detector.add(b);
   const Frame& frame = detector.detect();
   EXPECT_EQ(frame.face_pairs, exhaustive_face_pairs(a, b));
@@ -36,11 +36,11 @@ TEST(Detector_options, the_mode_that_misses_nothing_answers_unless_another_is_as
 
 TEST(Detector_options, contact_points_need_contacts) {
   EXPECT_THROW(
-      Detector<Surface_mesh>({.mode = Mode::particles, .contacts = Contact_query::yes_no, .contact_points = true}),
+      Detector<>({.mode = Mode::particles, .contacts = Contact_query::yes_no, .contact_points = true}),
       Bad_argument);
   EXPECT_NO_THROW(
-      Detector<Surface_mesh>({.mode = Mode::particles, .contacts = Contact_query::first, .contact_points = true}));
-  EXPECT_NO_THROW(Detector<Surface_mesh>({.mode = Mode::particles, .contact_points = true}));
+      Detector<>({.mode = Mode::particles, .contacts = Contact_query::first, .contact_points = true}));
+  EXPECT_NO_THROW(Detector<>({.mode = Mode::particles, .contact_points = true}));
   const auto a = sphere(4), b = sphere(4, 1, {1, 0, 0});
   EXPECT_THROW(
       find_collisions(a, b, {.mode = Mode::particles, .contacts = Contact_query::yes_no, .contact_points = true}),
@@ -49,7 +49,7 @@ TEST(Detector_options, contact_points_need_contacts) {
 
 TEST(Detector, an_unknown_object_has_neither_state_nor_maps) {
   constexpr auto largest = std::numeric_limits<Object_id>::max();
-  Detector<Surface_mesh> detector({.mode = Mode::particles});
+  Detector<> detector({.mode = Mode::particles});
   auto mesh = sphere(3);
   for (const Object_id bad : {Object_id{0}, Object_id{1}, largest}) {
     EXPECT_THROW(detector.object(bad), Bad_argument);
@@ -65,7 +65,7 @@ TEST(Detector, an_unknown_object_has_neither_state_nor_maps) {
 }
 
 TEST(Detector, an_object_whose_mesh_cannot_be_written_to_has_no_maps) {
-  Detector<Surface_mesh> detector({.mode = Mode::particles});
+  Detector<> detector({.mode = Mode::particles});
   const auto mesh = sphere(3);
   const auto id = detector.add(mesh);
   EXPECT_THROW(detector.maps(id), Bad_argument);
@@ -91,7 +91,7 @@ struct Moved_points {
 TEST(Detector, one_constant_mesh_may_be_two_objects_with_point_maps_of_their_own) {
   const auto mesh = potato(8);
   const Moved_points here{.mesh = &mesh}, there{.mesh = &mesh, .x = 2.5};
-  Detector<Surface_mesh, Lbg, Moved_points> detector({.mode = Mode::particles, .particles = 32});
+  Detector<> detector({.mode = Mode::particles, .particles = 32});
   EXPECT_EQ(detector.add(mesh, here), 0U);
   EXPECT_EQ(detector.add(mesh, there), 1U);
   const Frame& frame = detector.detect();
@@ -105,7 +105,7 @@ TEST(Detector, one_constant_mesh_may_be_two_objects_with_point_maps_of_their_own
 
 TEST(Detector, one_mesh_may_not_carry_the_maps_of_two_objects) {
   auto mesh = sphere(3);
-  Detector<Surface_mesh> detector({.mode = Mode::particles});
+  Detector<> detector({.mode = Mode::particles});
   detector.add(mesh);
   EXPECT_THROW(detector.add(mesh), Bad_argument);
   EXPECT_EQ(detector.size(), 1U);
@@ -114,14 +114,14 @@ TEST(Detector, one_mesh_may_not_carry_the_maps_of_two_objects) {
 TEST(Detector_options, there_are_never_more_particles_by_rule_than_the_most) {
   for (const std::size_t most : {1, 4, 20}) {
     auto a = sphere(8), b = sphere(8, 1, {9, 0, 0});
-    Detector<Surface_mesh> detector(
+    Detector<> detector(
         {.mode = Mode::particles, .least_particles = 50, .particle_count = {.most_particles = most}});
     for (auto* mesh : {&a, &b}) detector.add(*mesh);
     detector.detect();
     for (const Object_id object : {0U, 1U}) EXPECT_EQ(detector.object(object).particles().at.size(), most);
   }
   auto a = sphere(8), b = sphere(8, 1, {9, 0, 0});
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .least_particles = 50});
+  Detector<> detector({.mode = Mode::particles, .least_particles = 50});
   for (auto* mesh : {&a, &b}) detector.add(*mesh);
   detector.detect();
   for (const Object_id object : {0U, 1U}) EXPECT_EQ(detector.object(object).particles().at.size(), 50U);
@@ -151,7 +151,7 @@ TEST(Detector, many_particles_that_are_far_apart_ask_for_little_memory) {
   const std::size_t particles = 3000;
   auto a = sphere(28), b = sphere(28, 1, {100, 0, 0});
   ASSERT_GE(num_vertices(a), particles);
-  Detector<Surface_mesh, By_number> detector(
+  Detector<By_number> detector(
       {.mode = Mode::particles, .particles = particles, .partition = {.keep_islands = true}});
   for (auto* mesh : {&a, &b}) detector.add(*mesh);
   const std::size_t before = address_space();

@@ -20,7 +20,7 @@ TEST(Detector, reports_only_faces_that_intersect_in_both_modes) {
     auto scene = two_spheres(2.5);
     auto options = all_contacts;
     options.mode = mode;
-    Detector<Surface_mesh> detector(options);
+    Detector<> detector(options);
     add_all(detector, scene);
     std::size_t found = 0;
     for (int frame = 0; frame < 30; ++frame) {
@@ -34,7 +34,7 @@ TEST(Detector, reports_only_faces_that_intersect_in_both_modes) {
 
 TEST(Detector, is_right_in_more_than_nine_of_ten_frames_of_two_spheres) {
   auto scene = two_spheres(2.6);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 32});
+  Detector<> detector({.mode = Mode::particles, .particles = 32});
   add_all(detector, scene);
   int right = 0;
   for (int frame = 0; frame < 100; ++frame) {
@@ -53,7 +53,7 @@ TEST(Detector, two_equal_detectors_give_equal_frames) {
     auto one = two_spheres(2.3), other = two_spheres(2.3);
     auto options = all_contacts;
     options.mode = mode;
-    Detector<Surface_mesh> first(options), second(options);
+    Detector<> first(options), second(options);
     add_all(first, one);
     add_all(second, other);
     for (int frame = 0; frame < 15; ++frame) {
@@ -74,7 +74,7 @@ TEST(Detector, does_not_depend_on_the_unit) {
   for (const double unit : {0x1p-100, 0x1p100}) {
     auto one = two_spheres(2.3), other = two_spheres(2.3);
     for (auto& mesh : other) scale(mesh, unit);
-    Detector<Surface_mesh> first(all_contacts), second(all_contacts);
+    Detector<> first(all_contacts), second(all_contacts);
     add_all(first, one);
     add_all(second, other);
     std::size_t contacts = 0;
@@ -98,7 +98,7 @@ TEST(Detector, follows_many_objects) {
   for (int i = 0; i < 24; ++i) scene.push_back(sphere(5, size(random), {place(random), place(random), place(random)}));
   auto options = all_contacts;
   options.particles = 12;
-  Detector<Surface_mesh> detector(options);
+  Detector<> detector(options);
   add_all(detector, scene);
   EXPECT_EQ(detector.size(), 24U);
   std::size_t found = 0;
@@ -114,7 +114,7 @@ TEST(Detector, follows_many_objects) {
 }
 
 /// A vertex point map that counts how often it is read.
-using Counting_detector = Detector<Surface_mesh, Lbg, Counting_points>;
+using Counting_detector = Detector<>;
 
 TEST(Detector, far_objects_cost_no_more_reads_than_the_particles) {
   auto scene = two_spheres(1000, 80);
@@ -157,7 +157,7 @@ TEST(Detector, a_frame_reads_only_where_particles_look_and_in_candidate_regions)
 
 TEST(Detector, particles_stay_where_they_have_walked) {
   auto scene = two_spheres(2.1);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 16});
+  Detector<> detector({.mode = Mode::particles, .particles = 16});
   add_all(detector, scene);
   const std::size_t first = detector.detect().statistics.moves;
   ASSERT_GT(first, 10U);
@@ -174,7 +174,7 @@ TEST(Detector, allocates_nothing_in_a_steady_scene) {
   auto scene = two_spheres(2.1);
   scene.push_back(sphere(8, 1, {40, 0, 0}));
   auto options = all_contacts;
-  Detector<Surface_mesh> detector(options);
+  Detector<> detector(options);
   add_all(detector, scene);
   std::size_t contacts = 0;
   const auto swing = [&](int frames) {
@@ -191,7 +191,7 @@ TEST(Detector, allocates_nothing_in_a_steady_scene) {
   EXPECT_GT(contacts, 0U);
 }
 
-void expect_maps_of(const Detector<Surface_mesh>& detector, Object_id object, const Surface_mesh& mesh) {
+void expect_maps_of(const Detector<>& detector, Object_id object, const Surface_mesh& mesh) {
   const auto region = mesh.property_map<Surface_mesh::Vertex_index, Region_index>("v:region");
   const auto particle = mesh.property_map<Surface_mesh::Vertex_index, Region_index>("v:particle");
   ASSERT_TRUE(region.second && particle.second);
@@ -209,7 +209,7 @@ void expect_maps_of(const Detector<Surface_mesh>& detector, Object_id object, co
 
 TEST(Detector, regions_and_particles_are_on_the_mesh_before_and_after_walking) {
   auto scene = two_spheres(100);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 16});
+  Detector<> detector({.mode = Mode::particles, .particles = 16});
   add_all(detector, scene);
   detector.detect();  // too far apart to walk
   for (const Object_id object : {0U, 1U}) expect_maps_of(detector, object, scene[object]);
@@ -229,7 +229,7 @@ TEST(Detector, contact_points_lie_on_both_faces) {
   auto scene = two_spheres(1.8);
   auto options = all_contacts;
   options.contact_points = true;
-  Detector<Surface_mesh> detector(options);
+  Detector<> detector(options);
   add_all(detector, scene);
   const Frame& frame = detector.detect();
   ASSERT_GT(frame.face_pairs.size(), 5U);
@@ -251,7 +251,7 @@ TEST(Detector, contact_points_lie_on_both_faces) {
 TEST(Detector, a_query_tells_no_more_than_was_asked) {
   for (const auto query : {Contact_query::yes_no, Contact_query::first, Contact_query::all}) {
     auto scene = two_spheres(1.8);
-    Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 32, .contacts = query});
+    Detector<> detector({.mode = Mode::particles, .particles = 32, .contacts = query});
     add_all(detector, scene);
     const Frame& frame = detector.detect();
     ASSERT_TRUE(frame.collides());
@@ -271,7 +271,7 @@ TEST(Detector, with_closest_only_one_pair_of_regions_is_checked) {
   auto options = all_contacts;
   options.candidates = Candidate_choice::closest;
   options.collision_distance = 3;
-  Detector<Surface_mesh> detector(options);
+  Detector<> detector(options);
   add_all(detector, scene);
   const Frame& frame = detector.detect();
   expect_true(frame, scene);
@@ -282,7 +282,7 @@ TEST(Detector, a_larger_collision_distance_makes_more_candidates) {
   std::size_t before = 0;
   for (const double distance : {0.5, 2.0, 8.0}) {
     auto scene = two_spheres(1.9);
-    Detector<Surface_mesh> detector(
+    Detector<> detector(
         {.mode = Mode::particles, .particles = 32, .collision_distance = distance, .contacts = Contact_query::all});
     add_all(detector, scene);
     const std::size_t candidates = detector.detect().statistics.candidates;
@@ -295,7 +295,7 @@ TEST(Detector, a_larger_collision_distance_makes_more_candidates) {
 TEST(Detector, statistics_agree_with_the_frame) {
   auto scene = two_spheres(2.2);
   scene.push_back(sphere(8, 0.7, {1, 1.5, 0}));
-  Detector<Surface_mesh> detector(all_contacts);
+  Detector<> detector(all_contacts);
   add_all(detector, scene);
   for (std::uint64_t number = 1; number < 8; ++number) {
     const Frame& frame = detector.detect();
@@ -314,7 +314,7 @@ TEST(Detector, statistics_agree_with_the_frame) {
 
 TEST(Detector, objects_may_have_particles_of_their_own_number) {
   auto scene = two_spheres(3);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 9});
+  Detector<> detector({.mode = Mode::particles, .particles = 9});
   detector.add(scene[0], {.particles = 5});
   detector.add(scene[1]);
   detector.detect();
@@ -324,7 +324,7 @@ TEST(Detector, objects_may_have_particles_of_their_own_number) {
 
 TEST(Detector, objects_may_join_between_frames) {
   auto scene = two_spheres(1.8);
-  Detector<Surface_mesh> detector(all_contacts);
+  Detector<> detector(all_contacts);
   detector.add(scene[0]);
   EXPECT_TRUE(detector.detect().pairs.empty());
   EXPECT_EQ(detector.add(scene[1]), 1U);
@@ -332,7 +332,7 @@ TEST(Detector, objects_may_join_between_frames) {
 }
 
 TEST(Detector, without_objects_finds_nothing) {
-  Detector<Surface_mesh> detector({.mode = Mode::particles});
+  Detector<> detector({.mode = Mode::particles});
   EXPECT_FALSE(detector.detect().collides());
   EXPECT_EQ(detector.detect().number, 2U);
 }

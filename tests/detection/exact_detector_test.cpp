@@ -177,7 +177,7 @@ TEST(Exact_detector, a_cap_counts_for_each_pair_of_objects) {
 TEST(Particle_detector, lists_at_most_so_many_contacts_and_says_when_there_are_more) {
   const auto a = sphere(10), b = sphere(10, 1, {0.8, 0.1, 0.2});
   const auto first_frame = [&](std::size_t most) {
-    Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 32, .most_contacts = most});
+    Detector<> detector({.mode = Mode::particles, .particles = 32, .most_contacts = most});
     add_all(detector, {&a, &b});
     return detector.detect();
   };

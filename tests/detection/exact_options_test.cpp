@@ -21,15 +21,15 @@ TEST(Exact_options, out_of_range_are_refused) {
   for (const std::size_t bad : {0, 1, 129, 1000000})
     EXPECT_THROW(Exact_detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = bad}}}), Bad_argument) << bad;
   for (const auto mode : {Mode::particles, Mode::senin, Mode::exact}) {
-    EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .most_contacts = 0}), Bad_argument);
-    EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .contacts = Contact_query::yes_no, .contact_points = true}),
+    EXPECT_THROW(Detector<>({.mode = mode, .most_contacts = 0}), Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .contact_points = true}),
                  Bad_argument);
-    EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .contacts = Contact_query::yes_no, .contact_normals = true}),
+    EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .contact_normals = true}),
                  Bad_argument);
     for (const double bad : {0.0, -1.0, infinity, not_a_number})
-      EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .collision_distance = bad}), Bad_argument);
+      EXPECT_THROW(Detector<>({.mode = mode, .collision_distance = bad}), Bad_argument);
     for (const double bad : {0.0, -1.0, not_a_number})
-      EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .growth = bad}), Bad_argument);
+      EXPECT_THROW(Detector<>({.mode = mode, .growth = bad}), Bad_argument);
   }
 }
 
@@ -55,10 +55,10 @@ TEST(Exact_options, at_the_ends_of_their_ranges_are_taken) {
 
 TEST(Exact_options, of_the_mode_exact_alone_are_refused_by_the_others) {
   for (const auto mode : {Mode::particles, Mode::senin}) {
-    EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .exact = {.tolerance = 0.1}}), Bad_argument);
-    EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .exact = {.self_collision = true}}), Bad_argument);
-    EXPECT_THROW(Detector<Surface_mesh>({.mode = mode, .exact = {.containment = true}}), Bad_argument);
-    EXPECT_NO_THROW(Detector<Surface_mesh>({.mode = mode}));
+    EXPECT_THROW(Detector<>({.mode = mode, .exact = {.tolerance = 0.1}}), Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .exact = {.self_collision = true}}), Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .exact = {.containment = true}}), Bad_argument);
+    EXPECT_NO_THROW(Detector<>({.mode = mode}));
   }
 }
 
@@ -97,7 +97,7 @@ TEST(Exact_options, particles_are_the_regions_of_an_object) {
 TEST(Exact_options, queries_of_the_mode_exact_are_refused_by_the_others) {
   for (const auto mode : {Mode::particles, Mode::senin}) {
     const auto a = sphere(4), b = sphere(4, 1, {1.5, 0, 0});
-    Detector<Surface_mesh> detector({.mode = mode});
+    Detector<> detector({.mode = mode});
     add_all(detector, {&a, &b});
     EXPECT_THROW(detector.detect(0, 1), Bad_argument);
     EXPECT_THROW(detector.detect(0, 0), Bad_argument);

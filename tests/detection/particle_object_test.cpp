@@ -19,12 +19,15 @@ namespace {
 struct Counted_object {
   Surface_mesh mesh;
   std::size_t reads = 0;
-  Particle_object<Surface_mesh, Counting_points> object;
+  Particle_object object;
 
-  explicit Counted_object(const Surface_mesh& shape) : mesh(shape), object(mesh, Counting_points{&mesh, &reads}) {}
+  explicit Counted_object(const Surface_mesh& shape)
+      : mesh(shape),
+        object(std::make_unique<Typed_watched_mesh<Surface_mesh, Counting_points, Lbg>>(
+            mesh, Counting_points{&mesh, &reads}, std::make_shared<const Lbg>())) {}
   Counted_object(const Surface_mesh& shape, std::size_t regions) : Counted_object(shape) { partition(regions); }
 
-  void partition(std::size_t regions) { object.partition(Lbg{}, regions, {}, Distance_measure::adjacent_vertices); }
+  void partition(std::size_t regions) { object.partition(regions, {}, Distance_measure::adjacent_vertices); }
   Eigen::Vector3d at(std::uint32_t vertex) const { return coordinates(mesh.point(Surface_mesh::Vertex_index(vertex))); }
 };
 
@@ -68,8 +71,8 @@ TEST(Particle_object, the_patch_of_a_region_holds_the_faces_with_a_corner_in_it)
   const auto& object = counted.object;
   for (Region_index region = 0; region < 12; ++region) {
     std::vector<std::uint32_t> faces;
-    for (std::uint32_t f = 0; f < object.numbering().corners().size(); ++f)
-      if (std::ranges::any_of(object.numbering().corners()[f], [&](auto v) { return object.labels()[v] == region; }))
+    for (std::uint32_t f = 0; f < object.corners().size(); ++f)
+      if (std::ranges::any_of(object.corners()[f], [&](auto v) { return object.labels()[v] == region; }))
         faces.push_back(f);
     EXPECT_EQ(object.patches()[region].faces, faces);
   }
@@ -323,7 +326,7 @@ TEST(Particle_object, a_single_particle_does_not_walk_to_other_components) {
   shift(other, 10);
   append(mesh, other);
   Counted_object counted(mesh);
-  counted.object.partition(Lbg{}, 1, {.keep_islands = true}, Distance_measure::adjacent_vertices);
+  counted.object.partition(1, {.keep_islands = true}, Distance_measure::adjacent_vertices);
   const auto at = counted.object.particles().at;
   ASSERT_EQ(at.size(), 1U);
   std::uint32_t farthest = 0;
@@ -344,12 +347,12 @@ TEST(Particle_object, two_single_particles_walk_towards_each_other) {
   shift(b.mesh, move.x(), move.y(), move.z());
   for (auto* counted : {&a, &b}) counted->object.read_particles();
 
-  using Walker = Walking_object<Point_reader<Surface_mesh, Counting_points>>;
+  using Walker = Walking_object<Live_positions>;
   const std::vector<std::uint32_t> near_a{1}, near_b{0};
   const auto walker = [](Counted_object& counted, std::span<const std::uint32_t> near) {
     return Walker{.particles = &counted.object.particles(),
                   .steps = &counted.object.steps(),
-                  .reader = &counted.object.reader(),
+                  .reader = &counted.object.positions(),
                   .opponents = near};
   };
   const std::vector<Walker> walkers{walker(a, near_a), walker(b, near_b)};

@@ -15,7 +15,7 @@ using Id_pairs = std::vector<std::pair<Object_id, Object_id>>;
 
 class Removal_in_mode : public testing::TestWithParam<Mode> {
  protected:
-  Detector<Surface_mesh> detector{{.mode = GetParam(), .particles = 32}};
+  Detector<> detector{{.mode = GetParam(), .particles = 32}};
   /// Each of these spheres meets its neighbours, and no other.
   Owned_meshes scene{sphere(8), sphere(8, 1, {1.8, 0.1, 0}), sphere(8, 1, {3.6, 0, 0.1}),
                      sphere(8, 1, {5.4, 0.1, 0.1})};
@@ -141,7 +141,7 @@ TEST_P(Removal_in_mode, ends_what_was_ignored_of_the_object_alone) {
 
 TEST(Removal, is_refused_to_a_visitor) {
   auto scene = two_spheres(1.5);
-  Detector<Surface_mesh> detector({.mode = Mode::exact});
+  Detector<> detector({.mode = Mode::exact});
   add_all(detector, scene);
   const auto remove = [&](Face_pair) {
     detector.remove(0);
@@ -155,7 +155,7 @@ TEST(Removal, is_refused_to_a_visitor) {
 TEST(Removal, leaves_nothing_near_however_large_the_tolerance) {
   auto scene = two_spheres(5);
   auto third = sphere(4, 1, {0, 9, 0});
-  Detector<Surface_mesh> detector({.mode = Mode::exact,
+  Detector<> detector({.mode = Mode::exact,
                                    .contacts = Contact_query::yes_no,
                                    .exact = {.tolerance = std::numeric_limits<double>::max()}});
   add_all(detector, scene);
@@ -171,7 +171,7 @@ TEST(Removal, leaves_nothing_near_however_large_the_tolerance) {
 TEST(Removal, in_self_collision_leaves_the_object_out) {
   auto folded = sphere(8), other = sphere(8, 1, {5, 0, 0});
   crumple(folded, 0.15, 1);
-  Detector<Surface_mesh> detector({.mode = Mode::exact, .exact = {.self_collision = true}});
+  Detector<> detector({.mode = Mode::exact, .exact = {.self_collision = true}});
   detector.add(other);
   detector.add(folded);
   EXPECT_TRUE(detector.detect().collides());

@@ -12,7 +12,7 @@ namespace {
 
 class Build_in_mode : public testing::TestWithParam<Mode> {
  protected:
-  Detector<Surface_mesh> detector{{.mode = GetParam(), .particles = 24}};
+  Detector<> detector{{.mode = GetParam(), .particles = 24}};
 
   void expect_built(const Frame& frame, std::size_t objects) {
     EXPECT_EQ(frame.statistics.builds, objects) << "frame " << frame.number;
@@ -53,7 +53,7 @@ TEST_P(Build_in_mode, leaves_nothing_out_of_the_times) {
   double most = 0;  // of some attempts, since the machine may be busy
   for (int attempt = 0; attempt < 3; ++attempt) {
     auto scene = two_spheres(1.8, 60);
-    Detector<Surface_mesh> timed_detector({.mode = GetParam(), .particles = 24});
+    Detector<> timed_detector({.mode = GetParam(), .particles = 24});
     const auto start = Clock::now();
     add_all(timed_detector, scene);
     const Stage_times seconds = timed_detector.detect().statistics.seconds;
@@ -67,7 +67,7 @@ TEST_P(Build_in_mode, leaves_nothing_out_of_the_times) {
 
 TEST(Build, by_another_query_counts_in_the_next_frame) {
   auto scene = two_spheres(2.5);
-  Detector<Surface_mesh> detector({.mode = Mode::exact});
+  Detector<> detector({.mode = Mode::exact});
   add_all(detector, scene);
   detector.closest(0, 1);
   EXPECT_EQ(detector.detect().statistics.builds, 2U);
@@ -76,7 +76,7 @@ TEST(Build, by_another_query_counts_in_the_next_frame) {
 
 TEST(Build, does_not_include_repartitions_of_what_has_grown) {
   auto scene = two_spheres(9);
-  Detector<Surface_mesh> detector({.mode = Mode::particles, .particles = 24});
+  Detector<> detector({.mode = Mode::particles, .particles = 24});
   add_all(detector, scene);
   detector.detect();
   scale(scene[0], 3);

@@ -17,7 +17,7 @@ std::vector<std::vector<Face_pair>> contacts(Mode mode, double factor) {
   Owned_meshes source{potato(20), potato(20, 2), sphere(14, 0.6, {0.4, 1.6, 0.3})};
   shift(source[1], 1.9, 0.2, 0.1);
   Owned_meshes scene = source;
-  Detector<Surface_mesh> detector({.mode = mode, .particles = 16, .contacts = Contact_query::all});
+  Detector<> detector({.mode = mode, .particles = 16, .contacts = Contact_query::all});
   add_all(detector, scene);
   std::vector<std::vector<Face_pair>> found;
   for (int frame = 0; frame < frames; ++frame) {
@@ -46,7 +46,7 @@ TEST_P(Units, powers_of_two_change_nothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(modes, Units, testing::Values(Mode::particles, Mode::senin, Mode::exact),
-                         [](const auto& mode) { return mode.param == Mode::exact ? "exact" : mode.param == Mode::senin ? "senin" : "particles"; });
+                         [](const auto& mode) { return std::string(name_of(mode.param)); });
 
 }  // namespace
 }  // namespace lodestone

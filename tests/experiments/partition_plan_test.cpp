@@ -50,7 +50,7 @@ TEST(Partition_scene, surfaces_meet_in_some_frames_and_not_in_others_for_any_see
     if (!mesh.name.ends_with("coarse")) continue;
     for (const auto seed : partition_seeds) {
       Scene scene = partition_scene(mesh, seed);
-      Detector<Surface_mesh> detector({.mode = Mode::exact});
+      Detector<> detector({.mode = Mode::exact});
       for (const auto& object : scene.objects) detector.add(object.mesh);
       std::size_t positive = 0;
       for (std::size_t frame = 0; frame < scene.frames; ++frame) {

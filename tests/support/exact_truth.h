@@ -19,7 +19,7 @@
 
 namespace lodestone {
 
-using Exact_detector = Detector<Surface_mesh>;
+using Exact_detector = Detector<>;
 inline const Detector_options self_collision{.mode = Mode::exact, .exact = {.self_collision = true}};
 
 /// Meshes of a detector, by object index.

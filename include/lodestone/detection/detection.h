@@ -8,7 +8,8 @@
 #include "lodestone/detection/collision_filter.h"
 #include "lodestone/detection/detector_options.h"
 #include "lodestone/detection/frame.h"
-#include "lodestone/mesh/region_maps.h"
+#include "lodestone/detection/watched_mesh.h"
+#include "lodestone/mesh/rigid_motion.h"
 
 namespace lodestone {
 
@@ -16,21 +17,20 @@ namespace lodestone {
 ///
 /// What only one model can answer is no part of this interface: the Detector asks that model itself. A new mode is one
 /// more model, and one more line in `make_detection`.
-template <Triangle_mesh Mesh, class Points>
 class Detection {
  public:
   virtual ~Detection() = default;
 
   /// Adds an object, whose id is the number of objects added before.
   /// @throws Bad_mesh, Bad_argument  nothing has been added
-  virtual void add(const Mesh& mesh, Points points, const Object_options& options) = 0;
-  /// Keeps the property maps of an object's mesh up to date from the next partition on.
-  virtual void write_maps(Object_id object, Mesh& mesh) = 0;
-  /// @return none if the maps are not kept
-  virtual const std::optional<Region_maps<Mesh>>& maps(Object_id object) const = 0;
+  virtual void add(const Watch_mesh& watch, const Object_options& options) = 0;
+  /// The mesh of an object. Its maps, if it has any, are up to date from the next partition on.
+  virtual Watched_mesh& mesh(Object_id object) = 0;
 
   /// Takes note that the vertices of an object have moved.
   virtual void update(Object_id object) = 0;
+  /// Places an object elsewhere from now on; none: where its mesh is.
+  virtual void place(Object_id object, const std::optional<Rigid_motion>& placement) = 0;
   /// Reads the faces of an object's mesh again.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
   virtual void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) = 0;

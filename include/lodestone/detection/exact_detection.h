@@ -24,29 +24,29 @@ namespace lodestone {
 ///
 /// Every call that answers first reads all positions of the objects that it is about and refits their trees: it cannot
 /// answer for where they were before.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-class Exact_detection final : public Detection<Mesh, Points> {
+template <Bounding_volume Volume>
+class Exact_detection final : public Detection {
  public:
   /// What a refusal tells a user who asks another mode for this one's answers.
   static constexpr const char* needed = "this needs the mode exact";
 
   using Surface = Basic_tree_surface<Volume>;
 
-  Exact_detection(const Detector_options& options, Strategy strategy)
+  explicit Exact_detection(const Detector_options& options)
       : options_(options),
         workers_(options.exact.threads),
         search_(workers_),
-        objects_(options, std::move(strategy), workers_),
+        objects_(options, workers_),
         frame_(options) {}
   // The search and the objects refer to the workers.
   Exact_detection(const Exact_detection&) = delete;
   Exact_detection& operator=(const Exact_detection&) = delete;
 
-  void add(const Mesh& mesh, Points points, const Object_options& options) override {
+  void add(const Watch_mesh& watch, const Object_options& options) override {
     check_no_visitor();
-    objects_.add(mesh, std::move(points), options);
+    objects_.add(watch, options);
   }
-  void write_maps(Object_id object, Mesh& mesh) override { objects_[object].maps.emplace(mesh); }
+  Watched_mesh& mesh(Object_id object) override { return objects_[object].mesh(); }
 
   /// The mesh is where positions come from.
   void update(Object_id object) override {
@@ -55,6 +55,10 @@ class Exact_detection final : public Detection<Mesh, Points> {
   }
   /// These are its positions until the next update.
   void update(Object_id object, const Eigen::Ref<const Positions>& positions);
+  void place(Object_id object, const std::optional<Rigid_motion>& placement) override {
+    check_no_visitor();
+    objects_[object].placement = placement;
+  }
   /// Reads the faces of the mesh anew.
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override {
     check_no_visitor();
@@ -80,7 +84,6 @@ class Exact_detection final : public Detection<Mesh, Points> {
   bool contains(Object_id outer, Object_id inner);
 
   const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_.surface(object).tree(); }
-  const std::optional<Region_maps<Mesh>>& maps(Object_id object) const override { return objects_[object].maps; }
 
  private:
   /// While a visitor is shown face pairs.
@@ -112,7 +115,7 @@ class Exact_detection final : public Detection<Mesh, Points> {
   Detector_options options_;
   Workers workers_;
   Basic_contact_search<Volume> search_;
-  Exact_objects<Mesh, Strategy, Points, Volume> objects_;
+  Exact_objects<Volume> objects_;
   Frame_builder frame_;
   bool visited_ = false;  ///< a visitor is being shown face pairs
 
@@ -124,21 +127,21 @@ class Exact_detection final : public Detection<Mesh, Points> {
   std::vector<Object_pair> candidates_;
 };
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::update(Object_id id,
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::update(Object_id id,
                                                              const Eigen::Ref<const Positions>& positions) {
   check_no_visitor();
   auto& object = objects_[id];
-  if (positions.rows() != object.numbering().vertex_count())
-    throw Bad_mesh(object.title + " has " + std::to_string(object.numbering().vertex_count()) +
+  if (positions.rows() != object.mesh().vertex_count())
+    throw Bad_mesh(object.title + " has " + std::to_string(object.mesh().vertex_count()) +
                    " vertices, but got " + std::to_string(positions.rows()) + " positions");
   Positions copy = positions;
   check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, object.title);
   object.given = std::move(copy);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Collision_filter& filter) {
+template <Bounding_volume Volume>
+const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter) {
   all_.clear();
   for (Object_id id = 0; id < objects_.size(); ++id)
     if (objects_.has(id)) all_.push_back(id);
@@ -150,23 +153,23 @@ const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Colli
   return frame_.finish();
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-const Frame& Exact_detection<Mesh, Strategy, Points, Volume>::detect(const Collision_filter& filter, Object_pair pair) {
+template <Bounding_volume Volume>
+const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter, Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   start_frame(std::span(ids).first(pair.a == pair.b ? 1 : 2));
   if (filter.may_collide(pair.a, pair.b)) timed(frame_.seconds().confirmation, [&] { check(pair); });
   return frame_.finish();
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-Closest_faces Exact_detection<Mesh, Strategy, Points, Volume>::closest(Object_pair pair) {
+template <Bounding_volume Volume>
+Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
   return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-bool Exact_detection<Mesh, Strategy, Points, Volume>::contains(Object_id outer, Object_id inner) {
+template <Bounding_volume Volume>
+bool Exact_detection<Volume>::contains(Object_id outer, Object_id inner) {
   const Object_id ids[] = {outer, inner};
   refresh(ids);
   std::vector<Face_pair> none;
@@ -175,15 +178,15 @@ bool Exact_detection<Mesh, Strategy, Points, Volume>::contains(Object_id outer, 
   return encloses(out, in) && !search_.between(out, in, {.query = Contact_query::yes_no}, none).found;
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::start_frame(std::span<const Object_id> ids) {
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::start_frame(std::span<const Object_id> ids) {
   refresh(ids);
   frame_.start(objects_.take_work());
   candidates_.clear();
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::find_candidates(const Collision_filter& filter) {
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::find_candidates(const Collision_filter& filter) {
   boxes_.assign(objects_.size(), {});  // that of a removed object stays empty
   for (const auto id : all_) boxes_[id] = to_box(objects_.surface(id).tree().volume(0).bounds());
   reach_.assign(objects_.size(), options_.exact.tolerance);
@@ -195,8 +198,8 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::find_candidates(const Coll
   std::ranges::sort(candidates_);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::check(Object_pair pair) {
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::check(Object_pair pair) {
   Pair_result result = frame_.start_pair(pair);
   find_contacts(result);
   if (options_.exact.containment && pair.a != pair.b) result.containment = containment(result);
@@ -208,8 +211,8 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::check(Object_pair pair) {
 }
 
 /// What is near may collide or not: a second search tells.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_detection<Mesh, Strategy, Points, Volume>::find_contacts(Pair_result& result) {
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::find_contacts(Pair_result& result) {
   const Object_pair pair{result.a, result.b};
   const bool with_tolerance = options_.exact.tolerance > 0 && pair.a != pair.b;
   const std::size_t candidates = frame_.statistics().candidates;
@@ -224,8 +227,8 @@ void Exact_detection<Mesh, Strategy, Points, Volume>::find_contacts(Pair_result&
 }
 
 /// Searches within one object if both are the same, and counts the tests.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-Contact_summary Exact_detection<Mesh, Strategy, Points, Volume>::search(Object_pair pair,
+template <Bounding_volume Volume>
+Contact_summary Exact_detection<Volume>::search(Object_pair pair,
                                                                         const Contact_request& request,
                                                                         std::vector<Face_pair>& found) {
   const Surface& a = objects_.surface(pair.a);
@@ -237,8 +240,8 @@ Contact_summary Exact_detection<Mesh, Strategy, Points, Volume>::search(Object_p
   return summary;
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-Containment Exact_detection<Mesh, Strategy, Points, Volume>::containment(const Pair_result& pair) {
+template <Bounding_volume Volume>
+Containment Exact_detection<Volume>::containment(const Pair_result& pair) {
   if (pair.collides) return Containment::none;
   const Surface& a = objects_.surface(pair.a);
   const Surface& b = objects_.surface(pair.b);

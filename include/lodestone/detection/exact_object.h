@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,10 +10,9 @@
 #include <vector>
 
 #include "lodestone/detection/detector_options.h"
-#include "lodestone/mesh/connectivity.h"
-#include "lodestone/mesh/coordinate_reader.h"
+#include "lodestone/detection/watched_mesh.h"
 #include "lodestone/mesh/joined_vertices.h"
-#include "lodestone/mesh/region_maps.h"
+#include "lodestone/mesh/rigid_motion.h"
 #include "lodestone/tree/tree_surface.h"
 
 namespace lodestone {
@@ -23,12 +23,12 @@ void check_finite(Coordinates coordinates, const std::string& title);
 /// The same for the coordinates of some vertices.
 void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, const std::string& title);
 
-/// One object of the mode `exact`: its mesh, how positions are read, and its surface.
-template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
+/// One object of the mode `exact`: its mesh, where that is placed, and its surface.
+template <Bounding_volume Volume>
 class Exact_object {
  public:
-  Exact_object(std::uint32_t id, const Mesh& mesh, Points points, const Object_options& options)
-      : title(title_of(id, options)), particles(options.particles), mesh_(&mesh), reader_(std::move(points)), faces_(mesh, options.file_vertex) {
+  Exact_object(std::uint32_t id, std::unique_ptr<Watched_mesh> mesh, const Object_options& options)
+      : title(title_of(id, options)), particles(options.particles), faces_(std::move(mesh), options.file_vertex) {
     surface = Basic_tree_surface<Volume>(corners());
   }
 
@@ -37,10 +37,9 @@ class Exact_object {
   Basic_tree_surface<Volume> surface;   ///< of `corners()`
   bool built = false;                   ///< whether the surface has a tree
   std::optional<Positions> given = {};  ///< positions that came through `update`
-  std::optional<Region_maps<Mesh>> maps = {};
+  std::optional<Rigid_motion> placement = {};
 
-  const Mesh& mesh() const { return *mesh_; }
-  const Mesh_numbering<Mesh>& numbering() const { return faces_.numbering; }
+  Watched_mesh& mesh() { return *faces_.mesh; }
   /// The faces of the surface, with doubled vertices as one.
   std::span<const Corners> corners() const { return faces_.corners(); }
   /// Vertices that the surface has no face at.
@@ -55,36 +54,35 @@ class Exact_object {
   void rebuild(std::span<const std::uint32_t> file_vertex);
 
  private:
-  /// What depends on the faces of the mesh alone.
+  /// The mesh, and what depends on its faces alone.
   struct Faces {
-    Faces(const Mesh& mesh, std::span<const std::uint32_t> file_vertex)
-        : numbering(mesh),
-          joined(join_vertices(numbering.corners(), numbering.vertex_count(), file_vertex)),
-          unused(unused_vertices(corners(), numbering.vertex_count())) {}
+    Faces(std::unique_ptr<Watched_mesh> watched, std::span<const std::uint32_t> file_vertex)
+        : mesh(std::move(watched)),
+          joined(join_vertices(mesh->corners(), mesh->vertex_count(), file_vertex)),
+          unused(unused_vertices(corners(), mesh->vertex_count())) {}
 
-    std::span<const Corners> corners() const { return joined.empty() ? numbering.corners() : joined; }
+    std::span<const Corners> corners() const { return joined.empty() ? mesh->corners() : joined; }
 
-    Mesh_numbering<Mesh> numbering;
+    std::unique_ptr<Watched_mesh> mesh;
     std::vector<Corners> joined;  ///< none if no vertex is doubled
     std::vector<std::uint32_t> unused;
   };
 
-  const Mesh* mesh_;
-  Coordinate_reader<Mesh, Points> reader_;
   Faces faces_;
+  std::vector<double> placed_;  ///< memory of `read`
 };
 
-template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
-Coordinates Exact_object<Mesh, Points, Volume>::read() {
-  check_connectivity(*mesh_, numbering(), [this] { return title; });
-  if (given) return {given->data(), static_cast<std::size_t>(given->size())};
-  return reader_.read(numbering());
+template <Bounding_volume Volume>
+Coordinates Exact_object<Volume>::read() {
+  mesh().check_connectivity(title);
+  const Coordinates unplaced =
+      given ? Coordinates(given->data(), static_cast<std::size_t>(given->size())) : mesh().read();
+  return placement ? (*placement)(unplaced, placed_) : unplaced;
 }
 
-template <Triangle_mesh Mesh, class Points, Bounding_volume Volume>
-void Exact_object<Mesh, Points, Volume>::rebuild(std::span<const std::uint32_t> file_vertex) {
-  Faces anew(*mesh_, file_vertex);
-  if (maps) maps->renew();
+template <Bounding_volume Volume>
+void Exact_object<Volume>::rebuild(std::span<const std::uint32_t> file_vertex) {
+  Faces anew(mesh().renumbered(), file_vertex);
   // From here on nothing can fail.
   faces_ = std::move(anew);
   surface = Basic_tree_surface<Volume>(corners());

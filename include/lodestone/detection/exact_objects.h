@@ -11,25 +11,23 @@
 #include "lodestone/detection/frame.h"
 #include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/mesh/stopwatch.h"
-#include "lodestone/partition/partition.h"
 
 namespace lodestone {
 
 /// The objects of the mode `exact`, whose trees follow their meshes: built once, refitted in every frame, rebuilt where
 /// they have become loose.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
+template <Bounding_volume Volume>
 class Exact_objects {
  public:
-  using Object = Exact_object<Mesh, Points, Volume>;
+  using Object = Exact_object<Volume>;
   using Surface = Basic_tree_surface<Volume>;
 
   /// @param workers  must outlive this
-  Exact_objects(const Detector_options& options, Strategy strategy, Workers& workers)
-      : options_(options), strategy_(std::move(strategy)), workers_(workers) {}
+  Exact_objects(const Detector_options& options, Workers& workers) : options_(options), workers_(workers) {}
 
   /// @throws Bad_mesh, Bad_argument  nothing has been added
-  void add(const Mesh& mesh, Points points, const Object_options& options) {
-    timed(work_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(size(), mesh, points, options)); });
+  void add(const Watch_mesh& watch, const Object_options& options) {
+    timed(work_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(size(), watch(), options)); });
   }
   /// Reads the faces of the mesh anew.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
@@ -61,7 +59,6 @@ class Exact_objects {
   void build(Object_id id, Coordinates coordinates);
 
   Detector_options options_;
-  Strategy strategy_;
   Workers& workers_;
   std::vector<std::unique_ptr<Object>> objects_;
   Frame_statistics work_;
@@ -71,8 +68,8 @@ class Exact_objects {
   std::vector<Coordinates> coordinates_;
 };
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_objects<Mesh, Strategy, Points, Volume>::refresh(std::span<const Object_id> ids) {
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   work_.seconds.refit = 0;
   // Refitted first: a tree that is built now holds the current positions.
   timed(work_.seconds.refit, [&] { refit_built(ids); });
@@ -80,8 +77,8 @@ void Exact_objects<Mesh, Strategy, Points, Volume>::refresh(std::span<const Obje
   rebuild_loose(ids);
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_objects<Mesh, Strategy, Points, Volume>::refit_built(std::span<const Object_id> ids) {
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::refit_built(std::span<const Object_id> ids) {
   surfaces_.clear();
   coordinates_.clear();
   for (const auto id : ids) {
@@ -97,8 +94,8 @@ void Exact_objects<Mesh, Strategy, Points, Volume>::refit_built(std::span<const 
   }
 }
 
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_objects<Mesh, Strategy, Points, Volume>::build_new(std::span<const Object_id> ids) {
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::build_new(std::span<const Object_id> ids) {
   for (const auto id : ids) {
     if (objects_[id]->built) continue;
     timed(work_.seconds.build, [&] { build(id, objects_[id]->read()); });
@@ -107,8 +104,8 @@ void Exact_objects<Mesh, Strategy, Points, Volume>::build_new(std::span<const Ob
 }
 
 /// New trees for objects whose leaves have grown too much in comparison with the whole.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_objects<Mesh, Strategy, Points, Volume>::rebuild_loose(std::span<const Object_id> ids) {
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
   for (const auto id : ids) {
     if (!surface(id).looser_than(options_.exact.loosest)) continue;
     timed(work_.seconds.repartition, [&] { build(id, surface(id).coordinates()); });
@@ -117,21 +114,20 @@ void Exact_objects<Mesh, Strategy, Points, Volume>::rebuild_loose(std::span<cons
 }
 
 /// Divides the surface into regions, and builds a tree over them.
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-void Exact_objects<Mesh, Strategy, Points, Volume>::build(Object_id id, Coordinates coordinates) {
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
   Object& object = *objects_[id];
   check_finite(coordinates, object.title);
-  const auto& numbering = object.numbering();
-  const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
+  const Vertex_graph graph = vertex_graph(object.mesh().vertex_count(), object.mesh().corners());
   const Positions positions = scaled_positions(coordinates);
   std::size_t regions = options_.least_particles;
   if (options_.particles > 0) regions = options_.particles;
   if (object.particles > 0) regions = object.particles;
-  const auto partition = partition_numbered(Partition_input<Mesh>{object.mesh(), numbering, graph, positions},
-                                            std::max<std::size_t>(1, regions), strategy_, options_.partition);
+  const auto partition =
+      object.mesh().partition(graph, positions, std::max<std::size_t>(1, regions), options_.partition);
   object.surface.build(partition.labels, coordinates, options_.exact.tree);
   object.built = true;
-  if (object.maps) object.maps->write(numbering, partition.labels, partition.particles);
+  object.mesh().write_maps(partition.labels, partition.particles);
 }
 
 }  // namespace lodestone

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 
 #include "lodestone/detection/exact_detection.h"
 #include "lodestone/detection/particle_detection.h"
@@ -11,15 +10,15 @@ namespace lodestone {
 
 /// The model of Detection for the mode that the options name: the only place that lists them.
 /// @throws Bad_argument  an option out of range
-template <Triangle_mesh Mesh, class Strategy, class Points, Bounding_volume Volume>
-std::unique_ptr<Detection<Mesh, Points>> make_detection(const Detector_options& options, Strategy strategy) {
+template <Bounding_volume Volume>
+std::unique_ptr<Detection> make_detection(const Detector_options& options) {
   check(options);
   switch (options.mode) {
     case Mode::particles:
     case Mode::senin:
-      return std::make_unique<Particle_detection<Mesh, Strategy, Points>>(options, std::move(strategy));
+      return std::make_unique<Particle_detection>(options);
     case Mode::exact:
-      return std::make_unique<Exact_detection<Mesh, Strategy, Points, Volume>>(options, std::move(strategy));
+      return std::make_unique<Exact_detection<Volume>>(options);
   }
   throw Bad_argument("there is no such mode");
 }

@@ -20,6 +20,8 @@ concept Contiguous_points = requires(const Points& points) {
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 class Coordinate_reader {
  public:
+  static constexpr bool in_memory = false;  ///< whether `read` refers to the memory of the mesh
+
   explicit Coordinate_reader(Points points) : points_(std::move(points)) {}
 
   /// @return valid until the next call. O(V)
@@ -40,6 +42,8 @@ class Coordinate_reader {
 template <class P, Contiguous_points Points>
 class Coordinate_reader<CGAL::Surface_mesh<P>, Points> {
  public:
+  static constexpr bool in_memory = true;
+
   explicit Coordinate_reader(Points points) : points_(std::move(points)) {}
 
   Coordinates read(const Mesh_numbering<CGAL::Surface_mesh<P>>& numbering) const {

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lodestone/mesh/connectivity.h"
+#include "lodestone/mesh/coordinate_reader.h"
+#include "lodestone/mesh/region_maps.h"
+#include "lodestone/partition/partition.h"
+
+namespace lodestone {
+
+/// What a detector asks of one of its meshes, whatever its type. The modes know no mesh types: they see each mesh
+/// through this interface, once per frame, and by index.
+class Watched_mesh {
+ public:
+  virtual ~Watched_mesh() = default;
+
+  virtual std::uint32_t vertex_count() const = 0;
+  /// Corners of every face, in the order of `faces(mesh)`.
+  virtual const std::vector<Corners>& corners() const = 0;
+  /// @param title      names the mesh in the message
+  /// @throws Bad_mesh  the mesh has another number of vertices or faces than when it was numbered, or removed elements
+  virtual void check_connectivity(const std::string& title) const = 0;
+
+  /// Where all vertices are now. O(1) where `in_memory`, otherwise O(V).
+  /// @return valid until the next call, and until the mesh changes
+  virtual Coordinates read() = 0;
+  /// Where one vertex is now.
+  virtual Eigen::Vector3d read(std::uint32_t vertex) const = 0;
+  /// Whether `read()` refers to the mesh's own memory, instead of copying.
+  virtual bool in_memory() const = 0;
+
+  /// Divides the surface into regions by the detector's strategy: see `partition_numbered`.
+  virtual Numbered_partition partition(const Vertex_graph& graph, const Positions& positions, std::size_t regions,
+                                       const Partition_options& options) const = 0;
+
+  /// Writes the maps `v:region` and `v:particle`, if the mesh has them. O(V).
+  virtual void write_maps(const std::vector<Region_index>& labels, const std::vector<std::uint32_t>& particles) = 0;
+  /// Moves the particles of `v:particle`, if the mesh has it. O(N).
+  virtual void move_particles(const std::vector<std::uint32_t>& particles) = 0;
+
+  /// The same mesh, its vertices and faces numbered anew, and its maps fetched again.
+  /// @throws Bad_mesh  see Mesh_numbering
+  virtual std::unique_ptr<Watched_mesh> renumbered() const = 0;
+};
+
+/// Makes a Watched_mesh. The time that this takes counts as `build`.
+using Watch_mesh = std::function<std::unique_ptr<Watched_mesh>()>;
+
+/// A mesh of a known type, with its property maps.
+template <Triangle_mesh Mesh>
+class Watched_mesh_of : public Watched_mesh {
+ public:
+  /// @param mesh       must outlive this
+  /// @throws Bad_mesh  see Mesh_numbering
+  explicit Watched_mesh_of(const Mesh& mesh) : mesh_(&mesh), numbering_(mesh) {}
+
+  std::uint32_t vertex_count() const override { return numbering_.vertex_count(); }
+  const std::vector<Corners>& corners() const override { return numbering_.corners(); }
+  void check_connectivity(const std::string& title) const override {
+    lodestone::check_connectivity(*mesh_, numbering_, [&] { return title; });
+  }
+
+  /// None: the mesh cannot be written to.
+  const std::optional<Region_maps<Mesh>>& maps() const { return maps_; }
+  /// Adds the maps to the mesh, which is the one that is watched.
+  void add_maps(Mesh& mesh) { maps_.emplace(mesh); }
+  void write_maps(const std::vector<Region_index>& labels, const std::vector<std::uint32_t>& particles) override {
+    if (maps_) maps_->write(numbering_, labels, particles);
+  }
+  void move_particles(const std::vector<std::uint32_t>& particles) override {
+    if (maps_) maps_->move_particles(numbering_, particles);
+  }
+
+ protected:
+  void renew_maps_of(const Watched_mesh_of& other) {
+    maps_ = other.maps_;
+    if (maps_) maps_->renew();
+  }
+
+  const Mesh* mesh_;
+  Mesh_numbering<Mesh> numbering_;
+  std::optional<Region_maps<Mesh>> maps_;
+};
+
+/// A mesh with a point map through which its positions are read, and the strategy that divides it.
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points, Partition_strategy<Mesh> Strategy>
+class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
+ public:
+  Typed_watched_mesh(const Mesh& mesh, Points points, std::shared_ptr<const Strategy> strategy)
+      : Watched_mesh_of<Mesh>(mesh),
+        points_(points),
+        all_points_(std::move(points)),
+        strategy_(std::move(strategy)) {}
+
+  Coordinates read() override { return all_points_.read(this->numbering_); }
+  Eigen::Vector3d read(std::uint32_t vertex) const override {
+    return coordinates(get(points_, this->numbering_.vertex(vertex)));
+  }
+  bool in_memory() const override { return Coordinate_reader<Mesh, Points>::in_memory; }
+
+  Numbered_partition partition(const Vertex_graph& graph, const Positions& positions, std::size_t regions,
+                               const Partition_options& options) const override {
+    return partition_numbered(Partition_input<Mesh>{*this->mesh_, this->numbering_, graph, positions}, regions,
+                              *strategy_, options);
+  }
+  std::unique_ptr<Watched_mesh> renumbered() const override {
+    auto anew = std::make_unique<Typed_watched_mesh>(*this->mesh_, points_, strategy_);
+    anew->renew_maps_of(*this);
+    return anew;
+  }
+
+ private:
+  Points points_;
+  Coordinate_reader<Mesh, Points> all_points_;
+  std::shared_ptr<const Strategy> strategy_;
+};
+
+}  // namespace lodestone

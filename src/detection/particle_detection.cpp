@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/detection/particle_detection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lodestone/mesh/stopwatch.h"
+
+namespace lodestone {
+
+void Particle_detection::add(const Watch_mesh& watch, const Object_options& options) {
+  const auto id = static_cast<Object_id>(objects_.size());
+  timed(since_last_frame_.seconds.build,
+        [&] { objects_.push_back(std::make_unique<Object>(id, watch(), options)); });
+}
+
+void Particle_detection::update(Object_id id) {
+  Object& object = *objects_[id];
+  if (!object.prepared || options_.mode != Mode::particles) return;
+  timed(since_last_frame_.seconds.repartition, [&] {
+    if (!object.named([&] { return object.particle_object.has_outgrown(options_.growth); })) return;
+    measure(object);
+    partition(object);
+    make_room();
+    ++since_last_frame_.repartitions;
+  });
+}
+
+void Particle_detection::rebuild(Object_id id, std::span<const std::uint32_t> /*file_vertex*/) {
+  timed(since_last_frame_.seconds.build, [&] {
+    const Object& old = *objects_[id];
+    auto anew = std::make_unique<Object>(id, old.particle_object.mesh().renumbered(), old.options);
+    anew->particle_object.place(old.particle_object.placement());
+    objects_[id] = std::move(anew);
+  });
+}
+
+const Frame& Particle_detection::detect(const Collision_filter& filter) {
+  prepare();
+  frame_.start(std::exchange(since_last_frame_, {}));
+  confirmation_.reset_count();
+
+  timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
+  timed(frame_.seconds().relaxation, [&] { walk(); });
+  for (const auto pair : object_candidates_) check(pair);
+
+  frame_.statistics().exact_tests = confirmation_.exact_tests();
+  return frame_.finish();
+}
+
+/// Partitions the objects that are new. The radii of all must be known first: particle counts depend on them.
+void Particle_detection::prepare() {
+  std::vector<Object*> fresh;
+  for (auto& object : objects_)
+    if (object && !object->prepared) fresh.push_back(object.get());
+  if (fresh.empty()) return;
+  timed(since_last_frame_.seconds.build, [&] {
+    for (Object* object : fresh) measure(*object);
+    for (Object* object : fresh) partition(*object);
+    make_room();
+  });
+  since_last_frame_.builds += fresh.size();
+}
+
+void Particle_detection::partition(Object& object) {
+  if (options_.mode == Mode::senin) {
+    Senin_options scattering = options_.senin;
+    scattering.seed += object.id;  // objects of one shape must not start alike
+    if (object.options.scattered_side) scattering.side = object.options.scattered_side;
+    object.named([&] {
+      object.particle_object.scatter(particles_of(object), scattering, options_.distance_measure);
+    });
+  } else {
+    object.named([&] {
+      object.particle_object.partition(particles_of(object), options_.partition, options_.distance_measure);
+    });
+  }
+  object.prepared = true;
+  object.particle_object.mesh().write_maps(object.particle_object.labels(), object.particle_object.particles().at);
+}
+
+std::size_t Particle_detection::particles_of(Object& object) {
+  if (object.options.particles > 0) return object.options.particles;
+  if (options_.particles > 0) return options_.particles;
+  std::vector<double> radii;
+  for (const auto& other : objects_)
+    if (other) radii.push_back(other->radius);
+  const auto& rule = options_.particle_count;
+  const std::size_t by_rule = particle_count(object.particle_object.sphere_collection(rule), radii, rule);
+  return std::min(std::max(by_rule, options_.least_particles), rule.most_particles);
+}
+
+/// Sizes the memory of all stages, so that frames need none.
+void Particle_detection::make_room() {
+  std::vector<std::size_t> counts;
+  std::size_t faces = 0, vertices = 0;
+  for (const auto& object : objects_) {
+    counts.push_back(object ? object->particle_object.particles().at.size() : 0);
+    if (!object) continue;
+    for (const auto& patch : object->particle_object.patches()) {
+      faces = std::max(faces, patch.faces.size());
+      vertices = std::max(vertices, patch.vertices.size());
+    }
+  }
+  const std::size_t most = counts.empty() ? 0 : *std::ranges::max_element(counts);
+  relaxation_.reserve(counts);
+  region_candidates_.reserve(std::min<std::size_t>(most * most, 1 << 16));
+  walking_.reserve(objects_.size());
+  confirmation_.reserve(faces, vertices);
+  broad_phase_.reserve(objects_.size());
+  object_candidates_.reserve(std::min<std::size_t>(objects_.size() * objects_.size() / 2, 100 * objects_.size()));
+  boxes_.resize(objects_.size());
+  reach_.resize(objects_.size());
+  opponents_.resize(objects_.size());
+  for (auto& list : opponents_) list.reserve(std::min<std::size_t>(objects_.size(), 1000));
+  frame_.reserve(std::min<std::size_t>(objects_.size() * objects_.size() / 2, 100 * objects_.size()), 1024);
+}
+
+void Particle_detection::find_candidates(const Collision_filter& filter) {
+  for (std::size_t o = 0; o < objects_.size(); ++o) {
+    boxes_[o].setEmpty();
+    reach_[o] = 0;
+    opponents_[o].clear();
+    if (!objects_[o]) continue;
+    auto& particle_object = objects_[o]->particle_object;
+    objects_[o]->named([&] { particle_object.read_particles(); });
+    for (const auto& position : particle_object.particles().positions) boxes_[o].extend(position);
+    reach_[o] = std::max(particle_object.particles().effective_radius,
+                         options_.collision_distance * particle_object.particles().collision_distance);
+  }
+  object_candidates_.clear();
+  for (const auto& [a, b] : broad_phase_.find(boxes_, reach_)) {
+    if (!filter.may_collide(a, b)) continue;
+    object_candidates_.push_back({a, b});
+    opponents_[a].push_back(b);
+    opponents_[b].push_back(a);
+  }
+}
+
+void Particle_detection::walk() {
+  if (object_candidates_.empty()) return;
+  walking_.clear();
+  for (std::size_t o = 0; o < objects_.size(); ++o) {
+    if (!objects_[o]) {
+      walking_.emplace_back();  // without opponents
+      continue;
+    }
+    auto& particle_object = objects_[o]->particle_object;
+    walking_.push_back({.particles = &particle_object.particles(),
+                        .steps = &particle_object.steps(),
+                        .reader = &particle_object.positions(),
+                        .opponents = opponents_[o],
+                        .siblings_repel = options_.mode == Mode::senin});
+  }
+  const Relaxation relaxation = relax(std::span<const Walking_object<Live_positions>>(walking_), relaxation_);
+  frame_.statistics().iterations = relaxation.iterations;
+  frame_.statistics().moves = relaxation.moves;
+  frame_.statistics().relaxed = relaxation.relaxed;
+  if (relaxation.moves == 0) return;
+  for (auto& object : objects_)
+    if (object) object->particle_object.mesh().move_particles(object->particle_object.particles().at);
+}
+
+void Particle_detection::check(Object_pair pair) {
+  auto& a = objects_[pair.a]->particle_object;
+  auto& b = objects_[pair.b]->particle_object;
+  const auto posed_patch = [&](Object_id id, std::size_t particle) -> const Posed_patch& {
+    Object& object = *objects_[id];
+    return object.named([&]() -> const Posed_patch& {
+      return object.particle_object.posed_patch(particle, frame_.number());
+    });
+  };
+  Pair_result result = frame_.start_pair(pair);
+  timed(frame_.seconds().candidates, [&] {
+    const double distance =
+        options_.collision_distance * std::max(a.particles().collision_distance, b.particles().collision_distance);
+    candidate_pairs(a.particles().positions, b.particles().positions, distance, options_.candidates,
+                    region_candidates_);
+  });
+  result.candidates = region_candidates_.size();
+  frame_.statistics().candidates += region_candidates_.size();
+  if (options_.list_candidates) list_candidates(pair);
+
+  timed(frame_.seconds().confirmation, [&] {
+    for (const auto& candidate : region_candidates_) {
+      result.collides |=
+          confirmation_.confirm(posed_patch(pair.a, candidate.a), posed_patch(pair.b, candidate.b), options_.contacts,
+                                frame_.face_pairs());
+      if (result.collides && options_.contacts != Contact_query::all) break;
+    }
+    sort_contacts(result);
+    frame_.end_pair(result, [this](Object_id object, std::uint32_t face) {
+      const auto& particle_object = objects_[object]->particle_object;
+      return face_triangle(particle_object.corners()[face], particle_object.positions());
+    });
+  });
+}
+
+void Particle_detection::list_candidates(Object_pair pair) {
+  for (const auto& candidate : region_candidates_)
+    frame_.candidates().push_back({.a = pair.a,
+                                   .region_a = candidate.a,
+                                   .b = pair.b,
+                                   .region_b = candidate.b,
+                                   .distance = std::sqrt(candidate.squared_distance)});
+}
+
+/// Sorts the face pairs found for one object pair, each once: faces at a seam are found in several regions.
+void Particle_detection::sort_contacts(Pair_result& result) {
+  const std::size_t first = result.first_contact;
+  auto& found = frame_.face_pairs();
+  if (options_.contacts == Contact_query::yes_no) found.resize(first);
+  const auto begin = found.begin() + static_cast<std::ptrdiff_t>(first);
+  std::sort(begin, found.end());
+  found.erase(std::unique(begin, found.end()), found.end());
+  result.capped = found.size() - first > options_.most_contacts;
+  if (result.capped) found.resize(first + options_.most_contacts);
+}
+
+}  // namespace lodestone
