@@ -18,7 +18,7 @@ bool has_defaults_of_particles(const Detector_options& options) {
   const Detector_options defaults;
   return options.collision_distance == defaults.collision_distance &&
          options.distance_measure == defaults.distance_measure && options.candidates == defaults.candidates &&
-         options.growth == defaults.growth;
+         options.growth == defaults.growth && options.close_seams == defaults.close_seams;
 }
 
 }  // namespace
@@ -37,7 +37,8 @@ void check(const Detector_options& options) {
   require(options.mode == Mode::exact || (exact.tolerance == 0 && !exact.self_collision && !exact.containment),
           "a distance other than 0, self-collision and containment need the mode exact");
   require(options.mode != Mode::exact || has_defaults_of_particles(options),
-          "the collision distance, its measure, the choice of candidates and the growth limit need the mode particles");
+          "the collision distance, its measure, the choice of candidates, open seams and the growth limit need the mode "
+          "particles");
 }
 
 std::string title_of(std::uint32_t object, const Object_options& options) {

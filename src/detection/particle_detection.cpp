@@ -56,6 +56,8 @@ void Particle_detection::prepare() {
     if (object && !object->prepared) fresh.push_back(object.get());
   if (fresh.empty()) return;
   timed(since_last_frame_.seconds.build, [&] {
+    if (options_.close_seams)
+      for (Object* object : fresh) object->named([&] { object->particle_object.close_seams(); });
     for (Object* object : fresh) measure(*object);
     for (Object* object : fresh) partition(*object);
     make_room();

@@ -24,9 +24,39 @@ Particle_object::Particle_object(std::unique_ptr<Watched_mesh> mesh)
       graph_(vertex_graph(mesh_->vertex_count(), corners())),
       open_border_(open_border(mesh_->vertex_count(), corners())) {}
 
+void Particle_object::close_seams() {
+  if (!mesh_->divides_by_index()) return;
+  seams_ = lodestone::close_seams(corners(), open_border_, checked_positions());
+  if (!seams_) return;
+  joined_corners_.reserve(corners().size());
+  for (const auto& [a, b, c] : corners())
+    joined_corners_.push_back({seams_->joined(a), seams_->joined(b), seams_->joined(c)});
+  graph_ = vertex_graph(mesh_->vertex_count(), joined_corners_);
+  open_border_ = open_border(mesh_->vertex_count(), joined_corners_);
+}
+
+/// The faces as what walks along the surface sees them.
+std::span<const Corners> Particle_object::walked_corners() const { return seams_ ? joined_corners_ : corners(); }
+
+/// With closed seams, the surface without the vertices that were joined to others is divided.
+Numbered_partition Particle_object::divide(const Positions& positions, std::size_t regions,
+                                           const Partition_options& options) const {
+  if (!seams_) return mesh_->partition({graph_, positions, corners()}, regions, options);
+  const auto& vertices = seams_->vertices;
+  const Positions joined_positions = positions(vertices, Eigen::all);
+  const Vertex_graph joined_graph = vertex_graph(static_cast<std::uint32_t>(vertices.size()), seams_->corners);
+  auto result = mesh_->partition({joined_graph, joined_positions, seams_->corners}, regions, options);
+  std::vector<Region_index> labels;
+  labels.reserve(seams_->index.size());
+  for (const auto vertex : seams_->index) labels.push_back(result.labels[vertex]);
+  result.labels = std::move(labels);
+  for (auto& particle : result.particles) particle = vertices[particle];
+  return result;
+}
+
 void Particle_object::partition(std::size_t regions, const Partition_options& options, Distance_measure measure) {
   const Positions positions = measured_positions(measure);
-  auto result = mesh_->partition(graph_, positions, regions, options);
+  auto result = divide(positions, regions, options);
   labels_ = std::move(result.labels);
   statistics_ = result.statistics;
   steps_ = Region_steps(graph_, labels_);
@@ -36,14 +66,13 @@ void Particle_object::partition(std::size_t regions, const Partition_options& op
   measure_extents();
 }
 
-void Particle_object::scatter(std::size_t particles, const Senin_options& options,
-                                            Distance_measure measure) {
+void Particle_object::scatter(std::size_t particles, const Senin_options& options, Distance_measure measure) {
   const Positions positions = measured_positions(measure);
   labels_.assign(mesh_->vertex_count(), 0);
   steps_ = Region_steps(graph_, labels_);
-  vertex_faces_.emplace(mesh_->vertex_count(), corners());
+  vertex_faces_.emplace(mesh_->vertex_count(), walked_corners());
   auto vertices = scatter_particles(graph_, positions, particles, options);
-  rings_ = options.rings > 0 ? options.rings : default_rings(mesh_->vertex_count(), vertices.size());
+  rings_ = options.rings > 0 ? options.rings : default_rings(mesh_->vertex_count() - joined_vertices(), vertices.size());
   patches_.assign(vertices.size(), {});
   patch_centres_.assign(vertices.size(), unreached);
   start_particles(std::move(vertices), positions);
@@ -118,7 +147,7 @@ const Posed_patch& Particle_object::posed_patch(std::size_t particle, std::uint6
 Eigen::Vector3d Particle_object::normal_at(const Home& home, Region_index region) const {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (const auto face : patches_[region].faces) {
-    const auto& [a, b, c] = corners()[face];
+    const auto& [a, b, c] = walked_corners()[face];
     if (a != home.vertex && b != home.vertex && c != home.vertex) continue;
     const Eigen::Vector3d origin = read_(a);
     normal += (read_(b) - origin).cross(read_(c) - origin);

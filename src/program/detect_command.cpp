@@ -71,6 +71,13 @@ class Run {
   std::string answer() const { return one_line_answer(subject(), summary_); }
   bool finds_any() const { return summary_.finds_any(); }
   const Scene& scene() const { return scene_; }
+  /// Tells at which objects particles walk across seams.
+  void note_seams() const {
+    if (command_.options.mode == Mode::exact) return;
+    for (Object_id id = 0; id < scene_.objects.size(); ++id)
+      note_joined_vertices(scene_.objects[id].name, detector_.object(id).joined_vertices(),
+                           scene_.objects[id].mesh.number_of_vertices());
+  }
   /// Null if no page was requested.
   Page_log* page() { return page_ ? &*page_ : nullptr; }
   Paraview_log* paraview() { return paraview_ ? &*paraview_ : nullptr; }
@@ -162,6 +169,7 @@ void print_results(Run& scene_run, const Detect_command& command) {
   if (command.json) return fmt::print("{}", json_text(scene_run.summary(), 2));
   if (command.quiet) return fmt::print("{}", scene_run.answer());
   for (const auto& object : scene_run.scene().objects) note_cut_faces(object.name, object.file_face);
+  scene_run.note_seams();
   scene_run.print();
   if (!command.out.empty()) fmt::print("results: {}\n", printable(command.out.string()));
   if (scene_run.page() != nullptr) fmt::print("{}", scene_run.page()->summary());

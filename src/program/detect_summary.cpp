@@ -26,10 +26,12 @@ Json object_summary_json(const Run_subject& subject, Object_id id) {
             {"vertices", object.mesh.number_of_vertices()},
             {"faces", count_file_faces(object.file_face).count},
             {"triangles", object.mesh.number_of_faces()}};
-  if (subject.command.options.mode == Mode::exact)
+  if (subject.command.options.mode == Mode::exact) {
     json["leaves"] = subject.detector.tree(id).leaf_count();
-  else
+  } else {
     json["particles"] = subject.detector.object(id).particles().at.size();
+    json["joined_vertices"] = subject.detector.object(id).joined_vertices();
+  }
   return json;
 }
 

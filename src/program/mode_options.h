@@ -28,6 +28,7 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
       {"--collision-distance", {Mode::particles, Mode::senin}},
       {"--candidates", {Mode::particles, Mode::senin}},
       {"--growth", {Mode::particles}},
+      {"--open-seams", {Mode::particles, Mode::senin}},
       {"--strategy", {Mode::exact, Mode::particles}},
       {"--normal-weight", {Mode::exact, Mode::particles}},
       {"--split", {Mode::exact, Mode::particles}},

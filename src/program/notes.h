@@ -27,6 +27,13 @@ inline void note_cut_faces(const std::string& name, std::span<const std::uint32_
                      faces.count, file_face.size()));
 }
 
+/// Vertices that lie on others along seams.
+inline void note_joined_vertices(const std::string& name, std::size_t joined, std::size_t vertices) {
+  if (joined > 0)
+    note(fmt::format("{}: {} of {} vertices lie on others along seams: particles walk across (--open-seams: they do not)",
+                     name, joined, vertices));
+}
+
 /// Contents of a file that a conversion does not keep.
 inline void note_not_kept(const std::string& name, const std::set<std::string>& contents) {
   if (!contents.empty()) note(fmt::format("{}: not kept: {}", name, fmt::join(contents, ", ")));

@@ -51,6 +51,22 @@ class Detect_files : public testing::Test {
   std::filesystem::path out = folder.path() / "out";
 };
 
+TEST_F(Detect_files, particles_cross_seams_and_the_program_says_so) {
+  // A square of two triangles that share no vertex.
+  const auto square = write("square.off", "OFF 6 2 0\n0 0 0\n1 0 0\n1 1 0\n0 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n");
+  const auto needle = write("needle.off", needle_off);
+  const auto joined = detect({square, needle, "--mode", "particles"});
+  EXPECT_EQ(joined.exit_code, 0);
+  EXPECT_EQ(joined.err,
+            "lodestone: square: 2 of 6 vertices lie on others along seams: particles walk across (--open-seams: they do "
+            "not)\n");
+  EXPECT_EQ(read_json(out / "summary.json")["objects"].at(0)["joined_vertices"], 2);
+  EXPECT_EQ(detect({square, needle, "--mode", "particles", "--open-seams"}).err, "");
+  EXPECT_EQ(read_json(out / "summary.json")["objects"].at(0)["joined_vertices"], 0);
+  EXPECT_EQ(detect({square, needle}).err, "");
+  EXPECT_EQ(detect({square, needle, "--open-seams"}).exit_code, 2);
+}
+
 TEST_F(Detect_files, faces_of_polygons_have_their_numbers_in_the_file) {
   const auto result = detect({write("quads.off", three_quads), write("needle.off", needle_off)});
   EXPECT_EQ(result.exit_code, 0);

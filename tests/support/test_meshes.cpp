@@ -125,4 +125,14 @@ std::vector<std::vector<std::size_t>> pieces_of(const Vertex_graph& graph, const
   return pieces;
 }
 
+Surface_mesh flat_shaded(const Surface_mesh& mesh) {
+  Surface_mesh apart;
+  for (const auto face : faces(mesh)) {
+    std::vector<Surface_mesh::Vertex_index> corners;
+    for (const auto v : vertices_around_face(halfedge(face, mesh), mesh)) corners.push_back(apart.add_vertex(mesh.point(v)));
+    apart.add_face(corners);
+  }
+  return apart;
+}
+
 }  // namespace lodestone

@@ -88,6 +88,9 @@ Surface_mesh as_float(Surface_mesh mesh);
 /// Adds a copy of `part` to `mesh` as separate components.
 void append(Surface_mesh& mesh, const Surface_mesh& part);
 
+/// The same faces, each with three vertices of its own: 3 f, 3 f + 1 and 3 f + 2.
+Surface_mesh flat_shaded(const Surface_mesh& mesh);
+
 /// A mesh by index, as the stages take it.
 struct Numbered_mesh {
   Mesh_numbering<Surface_mesh> numbering;

@@ -61,6 +61,9 @@ struct Detector_options {
   bool contact_normals = false;  ///< which way, how deep; not with yes_no
   bool list_candidates = false;  ///< also `Frame::candidates`; in mode `exact` there are none
   std::size_t most_contacts = std::numeric_limits<std::size_t>::max();  ///< listed per object pair; >= 1
+  /// Of particles: vertices on open borders that lie on each other when the object is built count as one for the
+  /// partition, and particles walk across them: see Closed_seams. Faces keep their corners.
+  bool close_seams = true;
   double growth = 1;  ///< mode `particles`: repartition when a region exceeds so many times A*; > 0; infinity: never
   Senin_options senin = {};
   Exact_options exact = {};
@@ -83,7 +86,7 @@ struct Object_options {
 std::string title_of(std::uint32_t object, const Object_options& options);
 
 /// @throws Bad_argument  an option out of its range; mode `exact`, and another value than the default for the collision
-///                       distance, its measure, the choice of candidates or the growth limit; another mode, and a
+///                       distance, its measure, the choice of candidates, open seams or the growth limit; another mode, and a
 ///                       tolerance, self-collision or containment
 void check(const Detector_options& options);
 

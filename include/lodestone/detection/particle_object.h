@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "lodestone/detection/live_positions.h"
 #include "lodestone/mesh/patch.h"
+#include "lodestone/mesh/seams.h"
 #include "lodestone/particles/collision_distance.h"
 #include "lodestone/particles/hop_metric.h"
 #include "lodestone/particles/relaxation.h"
@@ -28,6 +30,13 @@ class Particle_object {
 
   /// Places the object elsewhere from now on; none: where its mesh is.
   void place(const std::optional<Rigid_motion>& placement) { placement_ = placement; }
+
+  /// Closes the seams of the surface as it is now, for all that walks along it: partition, particles, paths. Does nothing
+  /// for a strategy that needs the mesh itself. Before the first partition.
+  /// @throws Bad_mesh  as `partition`
+  void close_seams();
+  /// Number of vertices that were joined to another one.
+  std::size_t joined_vertices() const { return seams_ ? seams_->joined_count() : 0; }
 
   /// Divides the surface as it is now into `regions` regions, and puts a particle in each. O(V) and more.
   /// @throws Bad_mesh  a coordinate is not finite or beyond 1e150, or edges are shorter than 1e-150 on average
@@ -49,7 +58,7 @@ class Particle_object {
 
   Sphere bounding_sphere() { return lodestone::bounding_sphere(checked_positions()); }
   std::vector<Sphere> sphere_collection(const Particle_count_options& options) {
-    return lodestone::sphere_collection(graph_, checked_positions(), corners(), options);
+    return lodestone::sphere_collection(graph_, checked_positions(), walked_corners(), options);
   }
 
   Watched_mesh& mesh() { return *mesh_; }
@@ -67,6 +76,8 @@ class Particle_object {
   const Particles& particles() const { return particles_; }
 
  private:
+  std::span<const Corners> walked_corners() const;
+  Numbered_partition divide(const Positions& positions, std::size_t regions, const Partition_options& options) const;
   void look();
   Positions checked_positions();
   Positions measured_positions(Distance_measure measure);
@@ -88,7 +99,9 @@ class Particle_object {
   std::optional<Rigid_motion> placement_;
   Live_positions read_;         ///< of the last `look`
   Position_function position_;  ///< `read_` for code that takes a function
-  Vertex_graph graph_;
+  std::optional<Closed_seams> seams_;
+  std::vector<Corners> joined_corners_;  ///< F, if seams are closed: vertices of the mesh, the joined ones for all
+  Vertex_graph graph_;                   ///< of `walked_corners()`, like everything else that is walked along
   std::vector<bool> open_border_;
 
   std::vector<Region_index> labels_;

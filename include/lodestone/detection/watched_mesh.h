@@ -37,8 +37,11 @@ class Watched_mesh {
   /// Whether `read()` refers to the mesh's own memory, instead of copying.
   virtual bool in_memory() const = 0;
 
-  /// Divides the surface into regions by the detector's strategy: see `partition_numbered`.
-  virtual Numbered_partition partition(const Vertex_graph& graph, const Positions& positions, std::size_t regions,
+  /// Whether the detector's strategy needs only a surface by index, which need not be that of the mesh.
+  virtual bool divides_by_index() const = 0;
+  /// Divides a surface into regions by the detector's strategy: see `partition_numbered`.
+  /// @param surface  that of the mesh; another one if `divides_by_index`
+  virtual Numbered_partition partition(const Numbered_surface& surface, std::size_t regions,
                                        const Partition_options& options) const = 0;
 
   /// Writes the maps `v:region` and `v:particle`, if the mesh has them. O(V).
@@ -106,10 +109,15 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
   }
   bool in_memory() const override { return Coordinate_reader<Mesh, Points>::in_memory; }
 
-  Numbered_partition partition(const Vertex_graph& graph, const Positions& positions, std::size_t regions,
+  bool divides_by_index() const override { return Labels_by_index<Strategy>; }
+  Numbered_partition partition(const Numbered_surface& surface, std::size_t regions,
                                const Partition_options& options) const override {
-    return partition_numbered(Partition_input<Mesh>{*this->mesh_, this->numbering_, graph, positions}, regions,
-                              *strategy_, options);
+    if constexpr (Labels_by_index<Strategy>)
+      return partition_numbered(surface, regions, *strategy_, options);
+    else
+      return partition_numbered(
+          Partition_input<Mesh>{*this->mesh_, this->numbering_, surface.graph, surface.positions}, regions, *strategy_,
+          options);
   }
   std::unique_ptr<Watched_mesh> renumbered() const override {
     auto anew = std::make_unique<Typed_watched_mesh>(*this->mesh_, points_, strategy_);

@@ -52,6 +52,12 @@ concept Partition_strategy = requires(const Strategy& strategy, const Partition_
   { strategy(input, regions) } -> std::same_as<Labelling>;
 };
 
+/// A strategy that needs no more than a surface by index.
+template <class Strategy>
+concept Labels_by_index = requires(const Strategy& strategy, const Numbered_surface& surface, std::size_t regions) {
+  { strategy.label(surface, regions) } -> std::same_as<Labelling>;
+};
+
 struct Partition_options {
   bool keep_islands = false;  ///< leave regions in several pieces, as the strategy made them
 };
@@ -98,6 +104,15 @@ Numbered_partition partition_numbered(const Partition_input<Mesh>& input, std::s
   if (regions == 0) throw Bad_argument("the number of regions must be at least 1");
   const auto wanted = std::min<std::size_t>(regions, input.numbering.vertex_count());
   return finish_partition(input.graph, input.positions, input.numbering.corners(), strategy(input, wanted), options);
+}
+
+/// The same for a surface by index.
+template <Labels_by_index Strategy>
+Numbered_partition partition_numbered(const Numbered_surface& surface, std::size_t regions, const Strategy& strategy,
+                                      const Partition_options& options = {}) {
+  if (regions == 0) throw Bad_argument("the number of regions must be at least 1");
+  const auto wanted = std::min<std::size_t>(regions, num_vertices(surface.graph));
+  return finish_partition(surface.graph, surface.positions, surface.faces, strategy.label(surface, wanted), options);
 }
 
 /// Divides a surface into regions and places one particle in each.

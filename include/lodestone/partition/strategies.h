@@ -25,10 +25,7 @@ class Any_strategy {
 
   Any_strategy() : Any_strategy(Lbg{}) {}
   /// @param strategy  one that needs no more than the surface by index
-  template <class Strategy>
-  requires requires(const Strategy& strategy, const Numbered_surface& surface) {
-    { strategy.label(surface, std::size_t{1}) } -> std::same_as<Labelling>;
-  }
+  template <Labels_by_index Strategy>
   explicit Any_strategy(Strategy strategy)
       : name(Strategy::name), label_([strategy = std::move(strategy)](const Numbered_surface& surface, std::size_t n) {
           return strategy.label(surface, n);
@@ -36,8 +33,9 @@ class Any_strategy {
 
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
-    return label_(input.surface(), regions);
+    return label(input.surface(), regions);
   }
+  Labelling label(const Numbered_surface& surface, std::size_t regions) const { return label_(surface, regions); }
 
   std::string_view name;
 
