@@ -15,10 +15,6 @@
 
 namespace lodestone {
 
-/// The vertex point map that a mesh has of its own.
-template <class Mesh>
-using Own_points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::const_type;
-
 /// Finds collisions between many deforming meshes, frame after frame.
 ///
 ///     Detector detector;

@@ -16,6 +16,10 @@
 
 namespace lodestone {
 
+/// The vertex point map that a mesh has of its own.
+template <class Mesh>
+using Own_points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::const_type;
+
 /// What a detector asks of one of its meshes, whatever its type. The modes know no mesh types: they see each mesh
 /// through this interface, once per frame, and by index.
 class Watched_mesh {
