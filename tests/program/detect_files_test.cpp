@@ -27,9 +27,9 @@ const std::string needle_off = "OFF\n3 1 0\n2.8 0.1 -1\n2.8 0.1 1\n2.9 0.1 1\n3 
 /// `detect` on files given without a scene.
 class Detect_files : public testing::Test {
  protected:
-  Program_result detect(std::vector<std::string> arguments) const {
+  Program_result detect(std::vector<std::string> arguments, const std::string& mode = "exact") const {
     arguments.insert(arguments.begin(), "detect");
-    arguments.insert(arguments.end(), {"--mode", "exact", "--contacts", "all", "--out", out.string()});
+    arguments.insert(arguments.end(), {"--mode", mode, "--contacts", "all", "--out", out.string()});
     return run_program(arguments);
   }
   std::vector<Json> frames() const { return read_json_lines(out / "frames.jsonl"); }
@@ -55,13 +55,13 @@ TEST_F(Detect_files, particles_cross_seams_and_the_program_says_so) {
   // A square of two triangles that share no vertex.
   const auto square = write("square.off", "OFF 6 2 0\n0 0 0\n1 0 0\n1 1 0\n0 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n");
   const auto needle = write("needle.off", needle_off);
-  const auto joined = detect({square, needle, "--mode", "particles"});
+  const auto joined = detect({square, needle}, "particles");
   EXPECT_EQ(joined.exit_code, 0);
   EXPECT_EQ(joined.err,
             "lodestone: square: 2 of 6 vertices lie on others along seams: particles walk across (--open-seams: they do "
             "not)\n");
   EXPECT_EQ(read_json(out / "summary.json")["objects"].at(0)["joined_vertices"], 2);
-  EXPECT_EQ(detect({square, needle, "--mode", "particles", "--open-seams"}).err, "");
+  EXPECT_EQ(detect({square, needle, "--open-seams"}, "particles").err, "");
   EXPECT_EQ(read_json(out / "summary.json")["objects"].at(0)["joined_vertices"], 0);
   EXPECT_EQ(detect({square, needle}).err, "");
   EXPECT_EQ(detect({square, needle, "--open-seams"}).exit_code, 2);

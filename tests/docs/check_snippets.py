@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks that the C++ of the README and the manual is compiled: each of its blocks must stand in snippets.cpp.
+
+Indentation does not count. Lines of #include may stand anywhere in the file.
+Usage: check_snippets.py REPOSITORY
+"""
+import pathlib
+import re
+import sys
+
+
+def lines_of(text):
+    return [line.strip() for line in text.splitlines() if line.strip()]
+
+
+def blocks_of(page):
+    text = page.read_text(encoding="utf-8")
+    return [(text.count("\n", 0, match.start()) + 1, match.group(1)) for match in re.finditer(r"```cpp\n(.*?)```", text, re.S)]
+
+
+def stands_in(block, source):
+    includes = [line for line in block if line.startswith("#include")]
+    code = [line for line in block if not line.startswith("#include")]
+    starts = range(len(source) - len(code) + 1)
+    return all(line in source for line in includes) and any(source[i : i + len(code)] == code for i in starts)
+
+
+def main():
+    repository = pathlib.Path(sys.argv[1])
+    source = lines_of((repository / "tests/docs/snippets.cpp").read_text(encoding="utf-8"))
+    pages = [repository / "README.md", repository / "docs/manual.md"]
+    blocks = [(page, line, text) for page in pages for line, text in blocks_of(page)]
+    if not blocks:
+        sys.exit("no C++ found in the README and the manual")
+    missing = [(page, line) for page, line, text in blocks if not stands_in(lines_of(text), source)]
+    for page, line in missing:
+        print(f"{page.relative_to(repository)}:{line}: this C++ is not in tests/docs/snippets.cpp")
+    sys.exit(1 if missing else 0)
+
+
+main()

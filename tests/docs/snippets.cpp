@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The C++ of the README and the manual, word for word: docs.snippets compares them. Here it is compiled and run.
+#include <gtest/gtest.h>
+#include <lodestone/detector.h>
+#include <lodestone/find_collisions.h>
+#include <lodestone/io/meshes/mesh_file.h>
+#include <lodestone/partition/lbg.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "support/temporary_folder.h"
+#include "support/test_meshes.h"
+
+namespace {
+
+using lodestone::Surface_mesh;
+
+std::size_t responses = 0, pushes = 0, moves = 0;
+
+void respond(std::uint32_t /*face_a*/, std::uint32_t /*face_b*/) { ++responses; }
+void push(const lodestone::Pair_result& pair, const lodestone::Face_pair& /*faces*/,
+          const lodestone::Intersection_points& points, const lodestone::Contact_normal& /*normal*/) {
+  EXPECT_TRUE(pair.collides || pair.near);
+  EXPECT_FALSE(points.empty());
+  ++pushes;
+}
+/// Moves the second towards the first, five times.
+bool move(Surface_mesh& /*cloth*/, Surface_mesh& body) {
+  lodestone::shift(body, -0.2);
+  return ++moves % 6 != 0;
+}
+
+/// Is the working folder while it lives.
+class Working_folder {
+ public:
+  explicit Working_folder(const std::filesystem::path& folder) { std::filesystem::current_path(folder); }
+  ~Working_folder() { std::filesystem::current_path(before_); }
+  Working_folder(const Working_folder&) = delete;
+
+ private:
+  std::filesystem::path before_ = std::filesystem::current_path();
+};
+
+class Snippets : public testing::Test {
+ protected:
+  void SetUp() override { responses = pushes = moves = 0; }
+
+  Surface_mesh cloth_mesh = lodestone::sphere(8), body_mesh = lodestone::sphere(6, 1, {2.6, 0.1, 0.2});
+  Surface_mesh mesh = lodestone::sphere(12), mesh_a = lodestone::sphere(8), mesh_b = lodestone::sphere(6, 1, {1.5, 0, 0});
+  const Surface_mesh &a = mesh_a, &b = mesh_b;
+};
+
+TEST_F(Snippets, of_the_readme) {
+  const auto found = lodestone::find_collisions(mesh_a, mesh_b);  // misses nothing
+  const auto by_particles =
+      lodestone::find_collisions(mesh_a, mesh_b, {.mode = lodestone::Mode::particles, .particles = 32});
+  EXPECT_TRUE(found.collide);
+  EXPECT_TRUE(std::ranges::includes(found.faces, by_particles.faces));
+}
+
+TEST_F(Snippets, of_one_call) {
+  const auto found = lodestone::find_collisions(a, b);
+  for (const auto& [face_a, face_b] : found.faces) respond(face_a, face_b);
+  EXPECT_EQ(responses, found.faces.size());
+  EXPECT_GT(responses, 0U);
+}
+
+TEST_F(Snippets, of_meshes_that_move) {
+  lodestone::Detector detector({.contacts = lodestone::Contact_query::first});
+  const auto cloth = detector.add(cloth_mesh), body = detector.add(body_mesh);
+  while (move(cloth_mesh, body_mesh)) {  // vertices only; connectivity stays
+    const lodestone::Frame& frame = detector.detect();
+    for (const auto& pair : frame.pairs)
+      if (pair.collides)
+        for (const auto& [face_a, face_b] : frame.contacts(pair)) respond(face_a, face_b);
+  }
+  EXPECT_LT(cloth, body);
+  EXPECT_GT(responses, 0U);
+}
+
+TEST_F(Snippets, of_particles) {
+  std::size_t colliding_frames = 0;
+  lodestone::Detector detector({.mode = lodestone::Mode::particles, .particles = 32});
+  detector.add(cloth_mesh), detector.add(body_mesh);
+  while (move(cloth_mesh, body_mesh)) {
+    detector.update();  // before each detect: repartitions what has grown
+    if (detector.detect().collides()) ++colliding_frames;
+  }
+  EXPECT_GT(colliding_frames, 0U);
+}
+
+TEST_F(Snippets, of_more_than_face_pairs) {
+  double least_distance = std::numeric_limits<double>::infinity();
+  lodestone::Detector detector({.contact_points = true,
+                                .contact_normals = true,
+                                .exact = {.tolerance = 0.001, .self_collision = true, .containment = true, .threads = 0}});
+  const auto cloth = detector.add(cloth_mesh), body = detector.add(body_mesh, {.groups = 2, .meets = 1});
+  while (move(cloth_mesh, body_mesh)) {
+    const lodestone::Frame& frame = detector.detect();  // reads the positions, refits, answers
+    for (const auto& pair : frame.pairs)                // a = b: the cloth with itself
+      for (std::size_t i = pair.first_contact; i < pair.first_contact + pair.contacts; ++i)
+        push(pair, frame.face_pairs[i], frame.contact_points[i], frame.contact_normals[i]);
+    least_distance = std::min(least_distance, detector.closest(cloth, body).points.distance);
+  }
+  EXPECT_GT(pushes, 0U);
+  EXPECT_EQ(least_distance, 0);
+}
+
+TEST_F(Snippets, of_vertices_that_a_file_has_once) {
+  const lodestone::test::Temporary_folder folder;
+  folder.write("two_boxes_on_an_edge.off", "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const Working_folder here(folder.path());
+  lodestone::Detector detector;
+  const lodestone::Mesh_file file = lodestone::read_mesh("two_boxes_on_an_edge.off");
+  detector.add(file.mesh, {.file_vertex = file.file_vertex});
+  EXPECT_FALSE(detector.detect().collides());
+}
+
+TEST_F(Snippets, of_the_partition_stage) {
+  using Mesh = lodestone::Surface_mesh;
+  auto regions = mesh.add_property_map<Mesh::Vertex_index, lodestone::Region_index>("v:region").first;
+  const auto partition = lodestone::lbg(mesh, 32, regions, {.features = {.normal_weight = 0.5}});
+  EXPECT_GT(partition.regions, 1U);
+
+  const auto curvature = mesh.add_property_map<Mesh::Vertex_index, double>("v:curvature", 1).first;
+  const lodestone::Lbg strategy{.extra_factors = lodestone::factors(mesh, curvature, 0.2)};
+  lodestone::partition(mesh, 32, regions, strategy);
+}
+
+}  // namespace
