@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -114,8 +115,8 @@ class Detector {
     detection_->rebuild(checked(object), file_vertex);
   }
 
-  /// Removes an object. The others keep their ids, and no object is given this one again. Afterwards the detector refers
-  /// to its mesh no more; `v:region` and `v:particle` stay on it as they are. O(ignored pairs).
+  /// Removes an object. The others keep their ids, and no object is given this one again. Afterwards the detector
+  /// refers to its mesh no more; `v:region` and `v:particle` stay on it as they are. O(ignored pairs).
   /// @throws Bad_argument  no such object, a call of a visitor
   void remove(Object_id object) {
     detection_->remove(checked(object));
@@ -165,6 +166,14 @@ class Detector {
     auto& exact = ask<Exact>(outer, inner);
     if (outer == inner) throw Bad_argument("whether object " + std::to_string(outer) + " contains itself");
     return exact.contains(outer, inner);
+  }
+  /// A short translation of a that parts it from b, or whose opposite parts b from a: afterwards they do not collide,
+  /// and neither lies inside the other, in mode `exact`: see `parting`. None if this holds already.
+  /// @throws Bad_argument, Bad_mesh  as `closest`
+  std::optional<Parting> parting(Object_id a, Object_id b) {
+    auto& exact = ask<Exact>(a, b);
+    if (a == b) throw Bad_argument("a translation that parts object " + std::to_string(a) + " and itself");
+    return exact.parting({a, b});
   }
 
   /// Number of objects added, removed ones included: every id is below it.

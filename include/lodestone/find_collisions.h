@@ -16,6 +16,8 @@ struct Collisions {
   std::vector<Contact_normal> normals;      ///< parallel to `faces`; empty unless asked for
   bool capped = false;                      ///< there are more face pairs than `Detector_options::most_contacts`
   Containment containment = Containment::none;
+  std::optional<Parting> parting = {};      ///< moves a; none unless asked for and needed
+  std::vector<Contact_patch> patches = {};  ///< of `faces`; empty unless asked for
   Frame_statistics statistics = {};
 };
 
@@ -40,6 +42,8 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
           .normals = frame.contact_normals,
           .capped = frame.capped(),
           .containment = frame.pairs.empty() ? Containment::none : frame.pairs.front().containment,
+          .parting = frame.pairs.empty() ? std::nullopt : frame.pairs.front().parting,
+          .patches = frame.patches,
           .statistics = frame.statistics};
 }
 

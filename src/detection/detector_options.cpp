@@ -21,6 +21,10 @@ bool has_defaults_of_particles(const Detector_options& options) {
          options.growth == defaults.growth && options.close_seams == defaults.close_seams;
 }
 
+bool has_defaults_of_exact(const Exact_options& exact) {
+  return exact.tolerance == 0 && !exact.self_collision && !exact.containment && !exact.parting && !exact.patches;
+}
+
 }  // namespace
 
 void check(const Detector_options& options) {
@@ -29,13 +33,14 @@ void check(const Detector_options& options) {
           "the collision distance must be finite and > 0");
   require(options.growth > 0, "the growth limit must be > 0");
   require(options.most_contacts > 0, "at least one contact must be allowed");
-  require(options.contacts != Contact_query::yes_no || (!options.contact_points && !options.contact_normals),
-          "contact points and normals need the contacts `first` or `all`");
+  require(options.contacts != Contact_query::yes_no ||
+              (!options.contact_points && !options.contact_normals && !exact.patches),
+          "contact points, normals and patches need the contacts `first` or `all`");
   require(exact.tolerance >= 0 && std::isfinite(exact.tolerance), "the tolerance must be finite and >= 0");
   require(exact.loosest > 1, "a tree must be allowed to become looser than it was built: the factor must be > 1");
   require(exact.tree.leaf_faces >= 2 && exact.tree.leaf_faces <= 128, "a leaf must hold at most 2 to 128 faces");
-  require(options.mode == Mode::exact || (exact.tolerance == 0 && !exact.self_collision && !exact.containment),
-          "a distance other than 0, self-collision and containment need the mode exact");
+  require(options.mode == Mode::exact || has_defaults_of_exact(exact),
+          "a distance other than 0, self-collision, containment, parting and contact patches need the mode exact");
   require(options.mode != Mode::exact || has_defaults_of_particles(options),
           "the collision distance, its measure, the choice of candidates, open seams and the growth limit need the mode "
           "particles");

@@ -55,6 +55,8 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
   if (subject.command.options.exact.tolerance > 0 && pair.a != pair.b) json["near_frames"] = summary.near_frames;
   if (summary.capped_frames > 0) json["capped_frames"] = summary.capped_frames;
   if (subject.command.options.exact.containment) json["contained_frames"] = summary.contained_frames;
+  if (subject.command.options.exact.parting && pair.a != pair.b)
+    json["longest_parting"] = summary.longest_parting ? Json(*summary.longest_parting) : Json();
   if (subject.has_truth(pair)) json["truth"] = truth_json(summary.score);
   return json;
 }
@@ -68,13 +70,14 @@ Json misses_json(Mode mode) {
 
 bool is_empty(const Pair_summary& summary) {
   return summary.colliding_frames == 0 && summary.near_frames == 0 && summary.contained_frames == 0 &&
-         summary.score.positives() == 0;
+         !summary.longest_parting && summary.score.positives() == 0;
 }
 
 std::vector<std::string> table_header(const Detect_command& command) {
   std::vector<std::string> header{"object a", "object b", "frames", "colliding", "first", "last"};
   if (command.options.exact.tolerance > 0) header.emplace_back("near");
   if (command.options.exact.containment) header.emplace_back("one inside");
+  if (command.options.exact.parting) header.emplace_back("parting");
   if (command.truth) header.insert(header.end(), {"truly", "recall", "precision", "accuracy"});
   return header;
 }
@@ -88,6 +91,8 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
   if (subject.command.options.exact.tolerance > 0)
     row.push_back(pair.a == pair.b ? "-" : std::to_string(summary.near_frames));
   if (subject.command.options.exact.containment) row.push_back(std::to_string(summary.contained_frames));
+  if (subject.command.options.exact.parting)
+    row.push_back(summary.longest_parting ? fmt::format("{:.3g}", *summary.longest_parting) : "-");
   if (subject.has_truth(pair))
     row.insert(row.end(),
                {std::to_string(summary.score.positives()), fmt::format("{:.3f}", summary.score.recall()),
@@ -136,6 +141,7 @@ void Pair_summary::add(std::size_t frame, const Pair_result& pair) {
   face_pairs += pair.contacts;
   capped_frames += pair.capped ? 1 : 0;
   contained_frames += pair.containment != Containment::none ? 1 : 0;
+  if (pair.parting) longest_parting = std::max(longest_parting.value_or(0), pair.parting->length);
   if (!pair.collides) return;
   ++colliding_frames;
   if (!first_colliding) first_colliding = frame;

@@ -16,6 +16,8 @@ Json points_json(const Intersection_points& points) {
   return json;
 }
 
+Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
 /// The name of the object that is inside the other, or null.
 Json inside_json(const std::vector<Scene_object>& objects, const Pair_result& pair) {
   if (pair.containment == Containment::none) return nullptr;
@@ -24,8 +26,23 @@ Json inside_json(const std::vector<Scene_object>& objects, const Pair_result& pa
 
 Json normals_json(std::span<const Contact_normal> normals) {
   Json json = Json::array();
-  for (const auto& [normal, depth] : normals)
-    json.push_back({{"normal", {normal.x(), normal.y(), normal.z()}}, {"depth", depth}});
+  for (const auto& [normal, depth] : normals) json.push_back({{"normal", vector_json(normal)}, {"depth", depth}});
+  return json;
+}
+
+Json parting_json(const std::optional<Parting>& parting) {
+  if (!parting) return nullptr;
+  return {{"translation", vector_json(parting->translation)}, {"length", parting->length}};
+}
+
+Json patches_json(std::span<const Contact_patch> patches) {
+  Json json = Json::array();
+  for (const auto& patch : patches)
+    json.push_back({{"point", vector_json(patch.point)},
+                    {"normal", vector_json(patch.normal)},
+                    {"depth", patch.depth},
+                    {"length", patch.length},
+                    {"contacts", patch.contacts}});
   return json;
 }
 
@@ -35,6 +52,7 @@ Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, con
   Json json{{"a", a.name}, {"b", b.name}, {"collides", pair.collides}};
   if (options.exact.tolerance > 0 && pair.a != pair.b) json["near"] = pair.near;
   if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(objects, pair);
+  if (options.exact.parting && pair.a != pair.b) json["parting"] = parting_json(pair.parting);
   if (pair.capped) json["capped"] = true;
   if (options.contacts != Contact_query::yes_no) {
     json["faces"] = Json::array();
@@ -43,6 +61,7 @@ Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, con
   }
   if (options.contact_normals)
     json["normals"] = normals_json(std::span(frame.contact_normals).subspan(pair.first_contact, pair.contacts));
+  if (options.exact.patches) json["patches"] = patches_json(frame.patches_of(pair));
   if (!options.contact_points) return json;
   json["points"] = Json::array();
   for (std::size_t i = 0; i < pair.contacts; ++i)

@@ -75,6 +75,11 @@ void add_exact_options(CLI::App& app, Exact_options& options) {
       ->capture_default_str();
   app.add_flag("--self", options.self_collision, "Mode exact: also report an object's faces that intersect each other");
   app.add_flag("--containment", options.containment, "Mode exact: also report objects that lie inside others");
+  app.add_flag("--parting", options.parting,
+               "Mode exact: also report how to move one of two objects so that they collide no more, and neither lies "
+               "inside the other");
+  app.add_flag("--patches", options.patches,
+               "Mode exact: also group the face pairs of an object pair by the connected places in which faces meet");
 }
 
 void add_format(CLI::App& app, std::string& format) {

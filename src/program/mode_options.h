@@ -25,6 +25,8 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
       {"--within", {Mode::exact}},
       {"--self", {Mode::exact}},
       {"--containment", {Mode::exact}},
+      {"--parting", {Mode::exact}},
+      {"--patches", {Mode::exact}},
       {"--collision-distance", {Mode::particles, Mode::senin}},
       {"--candidates", {Mode::particles, Mode::senin}},
       {"--growth", {Mode::particles}},

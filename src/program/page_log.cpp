@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 Detector_options exact_question(const Detector_options& options) {
   Detector_options asked{.mode = Mode::exact, .contacts = Contact_query::yes_no, .exact = options.exact};
   asked.exact.tolerance = 0;
-  asked.exact.containment = false;
+  asked.exact.containment = asked.exact.parting = asked.exact.patches = false;
   return asked;
 }
 

@@ -238,6 +238,25 @@ TYPED_TEST_P(Detector_volume_contract, objects_inside_others_are_found) {
   }
 }
 
+TYPED_TEST_P(Detector_volume_contract, translations_that_part_objects_are_those_of_boxes) {
+  auto meshes = several_surfaces();
+  meshes.push_back(sphere(3, 0.1, {1.2, 0.3, 0}));  // inside another
+  const Detector_options options{.mode = Mode::exact, .exact = {.parting = true, .tree = {.leaf_faces = 8}}};
+  Volume_detector<TypeParam> detector(options);
+  Exact_detector boxes({.mode = Mode::exact, .exact = {.parting = true}});
+  add_all(detector, all_of(meshes));
+  add_all(boxes, all_of(meshes));
+  const Frame &found = detector.detect(), &expected = boxes.detect();
+  std::size_t given = 0;
+  for (const auto& pair : expected.pairs) {
+    if (!pair.parting) continue;
+    ++given;
+    ASSERT_TRUE(result_of(found, pair.a, pair.b)->parting);
+    EXPECT_EQ(result_of(found, pair.a, pair.b)->parting->translation, pair.parting->translation);
+  }
+  EXPECT_GT(given, 4U);
+}
+
 TYPED_TEST_P(Detector_volume_contract, points_and_normals_of_contacts_are_those_of_boxes) {
   auto meshes = several_surfaces();
   const Detector_options options{.mode = Mode::exact, .contact_points = true, .contact_normals = true};
@@ -261,6 +280,7 @@ REGISTER_TYPED_TEST_SUITE_P(Detector_volume_contract,
                             all_pairs_are_found_in_any_unit_and_far_from_the_origin,
                             yes_or_no_and_first_contacts_agree_with_exhaustive_checking,
                             pairs_within_a_tolerance_are_found, self_collisions_are_found, the_closest_faces_are_found,
-                            objects_inside_others_are_found, points_and_normals_of_contacts_are_those_of_boxes);
+                            objects_inside_others_are_found, translations_that_part_objects_are_those_of_boxes,
+                            points_and_normals_of_contacts_are_those_of_boxes);
 
 }  // namespace lodestone

@@ -26,6 +26,8 @@ TEST(Exact_options, out_of_range_are_refused) {
                  Bad_argument);
     EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .contact_normals = true}),
                  Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .exact = {.patches = true}}),
+                 Bad_argument);
     for (const double bad : {0.0, -1.0, infinity, not_a_number})
       EXPECT_THROW(Detector<>({.mode = mode, .collision_distance = bad}), Bad_argument);
     for (const double bad : {0.0, -1.0, not_a_number})
@@ -58,6 +60,8 @@ TEST(Exact_options, of_the_mode_exact_alone_are_refused_by_the_others) {
     EXPECT_THROW(Detector<>({.mode = mode, .exact = {.tolerance = 0.1}}), Bad_argument);
     EXPECT_THROW(Detector<>({.mode = mode, .exact = {.self_collision = true}}), Bad_argument);
     EXPECT_THROW(Detector<>({.mode = mode, .exact = {.containment = true}}), Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .exact = {.parting = true}}), Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .exact = {.patches = true}}), Bad_argument);
     EXPECT_NO_THROW(Detector<>({.mode = mode}));
   }
 }
@@ -103,6 +107,7 @@ TEST(Exact_options, queries_of_the_mode_exact_are_refused_by_the_others) {
     EXPECT_THROW(detector.detect(0, 0), Bad_argument);
     EXPECT_THROW(detector.closest(0, 1), Bad_argument);
     EXPECT_THROW(detector.contains(0, 1), Bad_argument);
+    EXPECT_THROW(detector.parting(0, 1), Bad_argument);
     EXPECT_THROW(detector.update(0, positions_of(a)), Bad_argument);
     EXPECT_THROW(detector.tree(0), Bad_argument);
     EXPECT_NO_THROW(detector.detect());

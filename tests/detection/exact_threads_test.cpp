@@ -23,6 +23,7 @@ std::vector<Frame> frames(Detector_options options, std::size_t threads) {
   options.exact.threads = threads;
   options.exact.self_collision = true;
   options.exact.containment = true;
+  options.exact.parting = true;
   Exact_detector detector(options);
   add_all(detector, all_of(owned));
   std::vector<Frame> result;
@@ -49,6 +50,10 @@ TEST(Exact_threads, all_contacts_do_not_depend_on_their_number) { expect_the_sam
 
 TEST(Exact_threads, points_and_normals_do_not_depend_on_their_number) {
   expect_the_same_for_any_number_of_threads({.contact_points = true, .contact_normals = true, .most_contacts = 50});
+}
+
+TEST(Exact_threads, contact_patches_do_not_depend_on_their_number) {
+  expect_the_same_for_any_number_of_threads({.contact_points = true, .exact = {.patches = true}});
 }
 
 TEST(Exact_threads, yes_or_no_does_not_depend_on_their_number) {

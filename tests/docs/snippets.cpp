@@ -92,7 +92,7 @@ TEST_F(Snippets, of_particles) {
 }
 
 TEST_F(Snippets, of_more_than_face_pairs) {
-  double least_distance = std::numeric_limits<double>::infinity();
+  double least_distance = std::numeric_limits<double>::infinity(), longest_way_out = 0;
   lodestone::Detector detector({.contact_points = true,
                                 .contact_normals = true,
                                 .exact = {.tolerance = 0.001, .self_collision = true, .containment = true, .threads = 0}});
@@ -103,9 +103,11 @@ TEST_F(Snippets, of_more_than_face_pairs) {
       for (std::size_t i = pair.first_contact; i < pair.first_contact + pair.contacts; ++i)
         push(pair, frame.face_pairs[i], frame.contact_points[i], frame.contact_normals[i]);
     least_distance = std::min(least_distance, detector.closest(cloth, body).points.distance);
+    if (const auto way_out = detector.parting(cloth, body)) longest_way_out = std::max(longest_way_out, way_out->length);
   }
   EXPECT_GT(pushes, 0U);
   EXPECT_EQ(least_distance, 0);
+  EXPECT_GT(longest_way_out, 0);
 }
 
 TEST_F(Snippets, of_vertices_that_a_file_has_once) {

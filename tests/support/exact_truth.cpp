@@ -103,9 +103,20 @@ void expect_same_frame(const Frame& a, const Frame& b) {
   ASSERT_EQ(a.pairs.size(), b.pairs.size());
   const auto fields = [](const Pair_result& pair) {
     return std::make_tuple(pair.a, pair.b, pair.collides, pair.near, pair.candidates, pair.first_contact, pair.contacts,
-                           pair.capped, pair.containment);
+                           pair.capped, pair.containment, pair.first_patch, pair.patches);
   };
-  for (std::size_t i = 0; i < a.pairs.size(); ++i) EXPECT_EQ(fields(a.pairs[i]), fields(b.pairs[i])) << i;
+  for (std::size_t i = 0; i < a.pairs.size(); ++i) {
+    EXPECT_EQ(fields(a.pairs[i]), fields(b.pairs[i])) << i;
+    ASSERT_EQ(a.pairs[i].parting.has_value(), b.pairs[i].parting.has_value()) << i;
+    if (a.pairs[i].parting) {
+      EXPECT_EQ(a.pairs[i].parting->translation, b.pairs[i].parting->translation) << i;
+    }
+  }
+  ASSERT_EQ(a.patches.size(), b.patches.size());
+  for (std::size_t i = 0; i < a.patches.size(); ++i) {
+    EXPECT_EQ(a.patches[i].contacts, b.patches[i].contacts);
+    EXPECT_EQ(a.patches[i].normal, b.patches[i].normal);
+  }
   const auto counts = [](const Frame_statistics& s) {
     return std::make_tuple(s.object_candidates, s.iterations, s.moves, s.relaxed, s.candidates, s.exact_tests,
                            s.contacts, s.repartitions);

@@ -40,6 +40,9 @@ struct Exact_options {
                                 ///< apart what is near and what collides, which can take a second yes or no
   bool self_collision = false;  ///< also report pairs of faces of one object
   bool containment = false;     ///< also tell objects that lie inside others
+  bool parting = false;         ///< also give a translation that parts two objects which collide, or of which one lies
+                                ///< inside the other; tells containment too
+  bool patches = false;         ///< also group the contacts of a pair into contact patches; not with yes_no
   std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it
   double loosest = 2;           ///< rebuild an object's tree when its leaves are looser by this factor; > 1
   Region_tree_options tree = {};
@@ -86,8 +89,8 @@ struct Object_options {
 std::string title_of(std::uint32_t object, const Object_options& options);
 
 /// @throws Bad_argument  an option out of its range; mode `exact`, and another value than the default for the collision
-///                       distance, its measure, the choice of candidates, open seams or the growth limit; another mode, and a
-///                       tolerance, self-collision or containment
+///                       distance, its measure, the choice of candidates, open seams or the growth limit; another mode,
+///                       and a tolerance, self-collision, containment, parting or contact patches
 void check(const Detector_options& options);
 
 }  // namespace lodestone

@@ -16,6 +16,8 @@
 #include "lodestone/queries/closest_faces.h"
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/containment.h"
+#include "lodestone/queries/parting.h"
+#include "lodestone/queries/surface_triangle.h"
 #include "lodestone/volumes/to_box.h"
 
 namespace lodestone {
@@ -82,6 +84,7 @@ class Exact_detection final : public Detection {
   }
   Closest_faces closest(Object_pair pair);
   bool contains(Object_id outer, Object_id inner);
+  std::optional<Parting> parting(Object_pair pair);
 
   const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_.surface(object).tree(); }
 
@@ -108,7 +111,10 @@ class Exact_detection final : public Detection {
   void start_frame(std::span<const Object_id> ids);
   void find_candidates(const Collision_filter& filter);
   void check(Object_pair pair);
+  /// Below which the faces of a pair are contacts.
+  double tolerance(Object_pair pair) const { return pair.a == pair.b ? 0 : options_.exact.tolerance; }
   void find_contacts(Pair_result& result);
+  void find_way_out(Pair_result& result);
   Contact_summary search(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
   Containment containment(const Pair_result& pair);
 
@@ -169,6 +175,13 @@ Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
 }
 
 template <Bounding_volume Volume>
+std::optional<Parting> Exact_detection<Volume>::parting(Object_pair pair) {
+  const Object_id ids[] = {pair.a, pair.b};
+  refresh(ids);
+  return lodestone::parting(objects_.surface(pair.a), objects_.surface(pair.b));
+}
+
+template <Bounding_volume Volume>
 bool Exact_detection<Volume>::contains(Object_id outer, Object_id inner) {
   const Object_id ids[] = {outer, inner};
   refresh(ids);
@@ -202,22 +215,28 @@ template <Bounding_volume Volume>
 void Exact_detection<Volume>::check(Object_pair pair) {
   Pair_result result = frame_.start_pair(pair);
   find_contacts(result);
-  if (options_.exact.containment && pair.a != pair.b) result.containment = containment(result);
-  frame_.end_pair(result, [this](Object_id id, std::uint32_t face) {
-    const Surface& surface = objects_.surface(id);
-    return face_triangle(surface.corners()[face],
-                         [&](auto vertex) { return surface.coordinates().data() + 3 * std::size_t{vertex}; });
-  });
+  if (pair.a != pair.b) find_way_out(result);
+  frame_.end_pair(result,
+                  [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); });
+  frame_.add_patches(objects_.surface(pair.a), objects_.surface(pair.b), tolerance(pair));
+}
+
+/// Whether one object lies inside the other, and how to part the two.
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::find_way_out(Pair_result& result) {
+  if (options_.exact.containment || options_.exact.parting) result.containment = containment(result);
+  if (options_.exact.parting && (result.collides || result.containment != Containment::none))
+    result.parting = lodestone::parting(objects_.surface(result.a), objects_.surface(result.b));
 }
 
 /// What is near may collide or not: a second search tells.
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::find_contacts(Pair_result& result) {
   const Object_pair pair{result.a, result.b};
-  const bool with_tolerance = options_.exact.tolerance > 0 && pair.a != pair.b;
+  const bool with_tolerance = tolerance(pair) > 0;
   const std::size_t candidates = frame_.statistics().candidates;
   const Contact_summary contacts =
-      search(pair, {.query = options_.contacts, .tolerance = options_.exact.tolerance, .most = options_.most_contacts},
+      search(pair, {.query = options_.contacts, .tolerance = tolerance(pair), .most = options_.most_contacts},
              frame_.face_pairs());
   result.capped = contacts.capped;
   result.near = with_tolerance && contacts.found;

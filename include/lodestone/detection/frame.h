@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "lodestone/particles/confirmation.h"
+#include "lodestone/queries/contact_patches.h"
+#include "lodestone/queries/parting.h"
 #include "lodestone/triangles/contact_normal.h"
 #include "lodestone/triangles/triangle_intersection.h"
 
@@ -61,6 +64,9 @@ struct Pair_result {
   std::size_t contacts = 0;
   bool capped = false;  ///< there are more face pairs than `Detector_options::most_contacts`
   Containment containment = Containment::none;
+  std::optional<Parting> parting = {};  ///< `a` is moved; none unless asked for and needed
+  std::size_t first_patch = 0;          ///< place of the pair's contact patches in `Frame::patches`
+  std::size_t patches = 0;
 };
 
 /// Two regions whose particles came nearer than the collision distance, so that their faces were to be checked.
@@ -78,10 +84,15 @@ struct Frame {
   std::uint64_t number = 0;           ///< 1 for the first
   std::vector<Pair_result> pairs;     ///< by (a, b)
   std::vector<Face_pair> face_pairs;  ///< contacts of all pairs one after the other, sorted within a pair
-  /// Parallel to `face_pairs`; empty unless asked for. Faces that are near but apart: the nearest point of each.
+  /// Parallel to `face_pairs`; empty unless asked for, or patches are. Faces that are near but apart: the nearest point
+  /// of each.
   std::vector<Intersection_points> contact_points;
-  /// Parallel to `face_pairs`; empty unless asked for. A negative depth tells faces that are near but apart.
+  /// Parallel to `face_pairs`; empty unless asked for, or patches are. A negative depth tells faces that are near but
+  /// apart.
   std::vector<Contact_normal> contact_normals;
+  /// Contact patches of all pairs one after the other; empty unless asked for. Their contacts count from the first of
+  /// the pair.
+  std::vector<Contact_patch> patches = {};
   /// `Pair_result::candidates` of each pair, one pair after the other, nearest first within a pair; empty unless asked
   /// for. Once a face pair has answered the query, the farther ones of its pair are not checked any more.
   std::vector<Candidate_regions> candidates = {};
@@ -89,6 +100,9 @@ struct Frame {
 
   std::span<const Face_pair> contacts(const Pair_result& pair) const {
     return std::span(face_pairs).subspan(pair.first_contact, pair.contacts);
+  }
+  std::span<const Contact_patch> patches_of(const Pair_result& pair) const {
+    return std::span(patches).subspan(pair.first_patch, pair.patches);
   }
   bool collides() const {
     for (const auto& pair : pairs)

@@ -29,7 +29,7 @@ class Frame_builder {
   std::vector<Candidate_regions>& candidates() { return frame_.candidates; }
 
   Pair_result start_pair(Object_pair pair) const {
-    return {.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size()};
+    return {.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size(), .first_patch = frame_.patches.size()};
   }
   /// Ends a pair: counts its contacts, and computes their points and normals if the options ask for them.
   /// @param triangle_of  gives the triangle of an object's face: called with Object_id and face index
@@ -42,13 +42,18 @@ class Frame_builder {
     frame_.pairs.push_back(result);
   }
 
+  /// Groups the contacts of the last pair into contact patches, if the options ask for them.
+  /// @param a, b       surfaces of its objects
+  /// @param tolerance  below which faces are contacts
+  void add_patches(const Object_surface& a, const Object_surface& b, double tolerance);
+
   /// Ends the frame: sums up what the pairs hold.
   const Frame& finish();
 
  private:
   void add_geometry(const Triangle& a, const Triangle& b);
 
-  bool points_, normals_;
+  bool points_, normals_, patches_;
   bool contacts_may_be_apart_;  ///< a contact can be two faces that are near without intersecting
   Frame frame_;
 };

@@ -28,8 +28,8 @@ struct Contact_normal {
 ///
 /// The depth is how far a must move along the normal until the projections of both triangles onto it only touch: the
 /// maximum of normal . x over b, minus the minimum over a. It is zero if the normal is zero or the projections are
-/// apart. It separates these two triangles, not the bodies that they belong to. Its rounding error is some 10^-15 of
-/// their extent.
+/// apart. It separates these two triangles; `parting` separates the objects that they belong to. Its rounding error is
+/// some 10^-15 of their extent.
 ///
 /// The result is never NaN. The depth is finite for coordinates up to 10^307. `contact_normal(b, a)` is the opposite
 /// normal with the same depth, unless both faces point the same way.
