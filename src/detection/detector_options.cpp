@@ -22,7 +22,7 @@ bool has_defaults_of_particles(const Detector_options& options) {
 }
 
 bool has_defaults_of_exact(const Exact_options& exact) {
-  return exact.tolerance == 0 && !exact.self_collision && !exact.containment && !exact.parting && !exact.patches;
+  return exact.tolerance == 0 && exact.self_tolerance == 0 && !exact.self_collision && !exact.containment && !exact.parting && !exact.patches;
 }
 
 }  // namespace
@@ -37,6 +37,8 @@ void check(const Detector_options& options) {
               (!options.contact_points && !options.contact_normals && !exact.patches),
           "contact points, normals and patches need the contacts `first` or `all`");
   require(exact.tolerance >= 0 && std::isfinite(exact.tolerance), "the tolerance must be finite and >= 0");
+  require(exact.self_tolerance >= 0 && std::isfinite(exact.self_tolerance),
+          "the tolerance within one object must be finite and >= 0");
   require(exact.loosest > 1, "a tree must be allowed to become looser than it was built: the factor must be > 1");
   require(exact.tree.leaf_faces >= 2 && exact.tree.leaf_faces <= 128, "a leaf must hold at most 2 to 128 faces");
   require(options.mode == Mode::exact || has_defaults_of_exact(exact),

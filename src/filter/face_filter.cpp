@@ -92,8 +92,8 @@ void Face_filter::begin(const Layout_view& a, const Layout_view& b, double margi
   *request_ = filter_request(a.bounds, b.bounds, margin);
 }
 
-void Face_filter::begin_within(const Layout_view& tree) {
-  begin(tree, tree, 0);
+void Face_filter::begin_within(const Layout_view& tree, double margin) {
+  begin(tree, tree, margin);
   request_->one_mesh = true;
 }
 

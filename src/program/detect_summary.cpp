@@ -9,6 +9,7 @@
 #include "io/files/small_text.h"
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/results/text_table.h"
+#include "program/frame_log.h"
 #include "program/missed_frames.h"
 
 namespace lodestone {
@@ -52,7 +53,7 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
             {"first_colliding_frame", frame_json(summary.first_colliding)},
             {"last_colliding_frame", frame_json(summary.last_colliding)},
             {"face_pairs", summary.face_pairs}};
-  if (subject.command.options.exact.tolerance > 0 && pair.a != pair.b) json["near_frames"] = summary.near_frames;
+  if (tolerance_of(subject.command.options, pair) > 0) json["near_frames"] = summary.near_frames;
   if (summary.capped_frames > 0) json["capped_frames"] = summary.capped_frames;
   if (subject.command.options.exact.containment) json["contained_frames"] = summary.contained_frames;
   if (subject.command.options.exact.parting && pair.a != pair.b)
@@ -75,7 +76,7 @@ bool is_empty(const Pair_summary& summary) {
 
 std::vector<std::string> table_header(const Detect_command& command) {
   std::vector<std::string> header{"object a", "object b", "frames", "colliding", "first", "last"};
-  if (command.options.exact.tolerance > 0) header.emplace_back("near");
+  if (has_tolerance(command.options)) header.emplace_back("near");
   if (command.options.exact.containment) header.emplace_back("one inside");
   if (command.options.exact.parting) header.emplace_back("parting");
   if (command.truth) header.insert(header.end(), {"truly", "recall", "precision", "accuracy"});
@@ -88,8 +89,8 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
   std::vector<std::string> row{scene.objects[pair.a].name,    scene.objects[pair.b].name,
                                std::to_string(scene.frames),  std::to_string(summary.colliding_frames),
                                text(summary.first_colliding), text(summary.last_colliding)};
-  if (subject.command.options.exact.tolerance > 0)
-    row.push_back(pair.a == pair.b ? "-" : std::to_string(summary.near_frames));
+  if (has_tolerance(subject.command.options))
+    row.push_back(tolerance_of(subject.command.options, pair) > 0 ? std::to_string(summary.near_frames) : "-");
   if (subject.command.options.exact.containment) row.push_back(std::to_string(summary.contained_frames));
   if (subject.command.options.exact.parting)
     row.push_back(summary.longest_parting ? fmt::format("{:.3g}", *summary.longest_parting) : "-");
@@ -192,7 +193,7 @@ std::string one_line_answer(const Run_subject& subject, const Run_summary& summa
   auto text = fmt::format("{}: {}", subject.scene.name, counted(colliding, "colliding pair"));
   if (colliding > 0) text += fmt::format(", first in frame {}, last in frame {}", first, last);
   text += (colliding > 0 ? " of " : " in ") + counted(subject.scene.frames, "frame");
-  if (subject.command.options.exact.tolerance > 0) text += fmt::format("; {} near", near);
+  if (has_tolerance(subject.command.options)) text += fmt::format("; {} near", near);
   return text + "\n";
 }
 

@@ -50,7 +50,7 @@ Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, con
                const Detector_options& options) {
   const auto &a = objects[pair.a], &b = objects[pair.b];
   Json json{{"a", a.name}, {"b", b.name}, {"collides", pair.collides}};
-  if (options.exact.tolerance > 0 && pair.a != pair.b) json["near"] = pair.near;
+  if (tolerance_of(options, {pair.a, pair.b}) > 0) json["near"] = pair.near;
   if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(objects, pair);
   if (options.exact.parting && pair.a != pair.b) json["parting"] = parting_json(pair.parting);
   if (pair.capped) json["capped"] = true;

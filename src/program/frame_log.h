@@ -23,6 +23,15 @@ struct Pair_truth {
 /// @param indent  columns per level; negative: on one line
 std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
 
+/// Below which the faces of a pair are contacts.
+inline double tolerance_of(const Detector_options& options, Object_pair pair) {
+  return pair.a == pair.b ? options.exact.self_tolerance : options.exact.tolerance;
+}
+/// Whether any pair can be near without colliding.
+inline bool has_tolerance(const Detector_options& options) {
+  return options.exact.tolerance > 0 || options.exact.self_tolerance > 0;
+}
+
 /// One line of `frames.jsonl`, line break included.
 ///
 /// @param frame  frame of the scene, from 0

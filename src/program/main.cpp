@@ -73,7 +73,14 @@ void add_exact_options(CLI::App& app, Exact_options& options) {
   app.add_option("--within", options.tolerance,
                  "Mode exact: report face pairs nearer than this, and which objects are near; 0: faces that intersect")
       ->capture_default_str();
-  app.add_flag("--self", options.self_collision, "Mode exact: also report an object's faces that intersect each other");
+  auto* const self = app.add_flag("--self", options.self_collision,
+                                  "Mode exact: also report an object's faces that intersect each other");
+  app.add_option(
+         "--self-within", options.self_tolerance,
+         "Mode exact, with --self: also report an object's faces nearer than this, unless they share a vertex or "
+         "were nearer than twice this in the first frame; 0: faces that intersect")
+      ->needs(self)
+      ->capture_default_str();
   app.add_flag("--containment", options.containment, "Mode exact: also report objects that lie inside others");
   app.add_flag("--parting", options.parting,
                "Mode exact: also report how to move one of two objects so that they collide no more, and neither lies "

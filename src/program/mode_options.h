@@ -24,6 +24,7 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
   static const std::vector<Mode_option> options{
       {"--within", {Mode::exact}},
       {"--self", {Mode::exact}},
+      {"--self-within", {Mode::exact}},
       {"--containment", {Mode::exact}},
       {"--parting", {Mode::exact}},
       {"--patches", {Mode::exact}},

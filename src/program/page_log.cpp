@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 /// The options of the run with mode exact, which misses nothing.
 Detector_options exact_question(const Detector_options& options) {
   Detector_options asked{.mode = Mode::exact, .contacts = Contact_query::yes_no, .exact = options.exact};
-  asked.exact.tolerance = 0;
+  asked.exact.tolerance = asked.exact.self_tolerance = 0;
   asked.exact.containment = asked.exact.parting = asked.exact.patches = false;
   return asked;
 }
@@ -134,7 +134,7 @@ std::string Page_log::stages(const Frame& result, std::optional<bool> truth) {
   Json json{{"microseconds", microseconds(result.statistics.seconds)},
             {"positive", positive},
             {"found", result.collides()},
-            {"near", command_.options.exact.tolerance > 0 ? Json(result.near()) : Json()},
+            {"near", has_tolerance(command_.options) ? Json(result.near()) : Json()},
             {"nearest", distance ? Json(*distance) : Json()}};
   return json.dump();
 }

@@ -22,10 +22,8 @@ TEST(Exact_options, out_of_range_are_refused) {
     EXPECT_THROW(Exact_detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = bad}}}), Bad_argument) << bad;
   for (const auto mode : {Mode::particles, Mode::senin, Mode::exact}) {
     EXPECT_THROW(Detector<>({.mode = mode, .most_contacts = 0}), Bad_argument);
-    EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .contact_points = true}),
-                 Bad_argument);
-    EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .contact_normals = true}),
-                 Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .contact_points = true}), Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .contact_normals = true}), Bad_argument);
     EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .exact = {.patches = true}}),
                  Bad_argument);
     for (const double bad : {0.0, -1.0, infinity, not_a_number})

@@ -133,7 +133,7 @@ TEST(Face_filter, reads_nothing_past_the_last_vertex) {
             for (std::uint32_t s = 0; s < a.leaf_count(); ++s)
               for (std::uint32_t t = 0; t < b.leaf_count(); ++t) count += face_filter.face_candidates(s, t).size();
           }
-          face_filter.begin_within(posed_a);
+          face_filter.begin_within(posed_a, 0);
           for (std::uint32_t s = 0; s < a.leaf_count(); ++s)
             for (std::uint32_t t = s; t < a.leaf_count(); ++t) count += face_filter.face_candidates(s, t).size();
         });
@@ -244,7 +244,7 @@ std::size_t expect_pairs_within(const Posed_object& object) {
   std::vector<Face_pairs> answers;
   for_instruction_sets([&] {
     Face_filter face_filter;
-    face_filter.begin_within(posed);
+    face_filter.begin_within(posed, 0);
     Face_pairs found;
     for (std::uint32_t i = 0; i < leaves; ++i)
       for (std::uint32_t j = i; j < leaves; ++j)

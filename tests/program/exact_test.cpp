@@ -137,6 +137,27 @@ TEST_F(Exact, reports_faces_within_a_distance_with_their_nearest_points_and_dire
   EXPECT_EQ(pair["normals"].size(), 1U);
 }
 
+TEST_F(Exact, reports_faces_of_one_object_within_a_distance) {
+  // Two sheets of one object that come near to each other, and drift apart again.
+  const auto scene = write("cloth.json", R"({"frames": 3, "objects": [
+      {"name": "cloth", "shape": {"cloth": {"columns": 12, "rows": 12}},
+       "motion": {"deform": [{"bend": {"degrees": 350, "period": 4}}]}}]})");
+  const auto result = detect(scene, {"--self", "--self-within", "0.08", "--contacts", "all"});
+  expect_success(result);
+  std::vector<bool> near;
+  for (const auto& frame : frames()) {
+    ASSERT_EQ(frame["pairs"].size(), 1U);
+    near.push_back(frame["pairs"][0]["near"]);
+    EXPECT_EQ(frame["pairs"][0]["collides"], false);
+  }
+  EXPECT_EQ(near, (std::vector<bool>{false, true, false}));
+  EXPECT_EQ(read_json(out / "summary.json")["pairs"][0]["near_frames"], 1);
+  EXPECT_NE(result.out.find("| near |"), std::string::npos) << result.out;
+  const auto alone = detect(scene, {"--self-within", "0.08"});
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_NE(alone.err.find("--self"), std::string::npos) << alone.err;
+}
+
 TEST_F(Exact, reports_where_the_limit_dropped_contacts) {
   const auto scene = write_bodies();
   expect_success(detect(scene, {"--contacts", "all", "--most-contacts", "3"}));

@@ -88,11 +88,6 @@ TEST(Contact_search_within, equals_the_definition_for_any_faces) {
   EXPECT_GT(found, 10000U);
 }
 
-TEST(Contact_search_within, ignores_the_tolerance) {
-  const Posed_object object(crumpled(icosphere(5), 0.1, 1));
-  EXPECT_TRUE(search_within(object, {.tolerance = 0.5}) == search_within(object));
-}
-
 TEST(Contact_search_within, finds_the_same_with_any_number_of_workers) {
   std::vector<Surface_mesh> meshes{icosphere(25), cloth(80, 70),
                                    torus_knot({.tube = 0.5, .segments = 500, .sides = 15})};

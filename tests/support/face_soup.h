@@ -100,6 +100,8 @@ class Posed_object {
   const Tree_surface& object() const { return object_; }
   Tree_view view() const { return object_.view(); }
 
+  /// Takes the current pose as that at rest.
+  void keep_rest() { object_.keep_rest(); }
   /// Moves the vertices to those of `pose`.
   void move_to(const Face_soup& pose) {
     soup_.coordinates = pose.coordinates;

@@ -59,7 +59,7 @@ TEST(Tree_walk, self_walk_visits_each_candidate_leaf_pair_once_and_each_leaf_wit
     const Posed_object object(soup, 5);
     const Region_tree& tree = object.object().tree();
     Tree_walk<Aabb> walk;
-    walk.begin_within(tree);
+    walk.begin_within(tree, 0);
     auto pairs = visited(walk);
     for (auto& pair : pairs) pair = std::minmax({pair.first, pair.second});
     Leaf_pairs expected;
@@ -84,7 +84,7 @@ class Interrupted_walk : public testing::Test {
   void for_walks(const Check& check) {
     Tree_walk<Volume> walk;
     check(walk, [&] { walk.begin(a_, b_, 0.01); });
-    check(walk, [&] { walk.begin_within(b_); });
+    check(walk, [&] { walk.begin_within(b_, 0); });
   }
 
  private:

@@ -36,9 +36,12 @@ constexpr std::string_view name_of(Mode mode) {
 /// What only the mode `exact` is asked.
 struct Exact_options {
   double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect.
-                                ///< Between two objects: pairs within one are reported if they intersect. A frame tells
-                                ///< apart what is near and what collides, which can take a second yes or no
+                                ///< Between two objects. A frame tells apart what is near and what collides, which can
+                                ///< take a second yes or no
   bool self_collision = false;  ///< also report pairs of faces of one object
+  double self_tolerance = 0;    ///< the tolerance within one object, such as the thickness of cloth. Face pairs that share
+                                ///< a vertex, or that were nearer than twice this when the object was built, are reported
+                                ///< only if they intersect
   bool containment = false;     ///< also tell objects that lie inside others
   bool parting = false;         ///< also give a translation that parts two objects which collide, or of which one lies
                                 ///< inside the other; tells containment too
@@ -90,7 +93,7 @@ std::string title_of(std::uint32_t object, const Object_options& options);
 
 /// @throws Bad_argument  an option out of its range; mode `exact`, and another value than the default for the collision
 ///                       distance, its measure, the choice of candidates, open seams or the growth limit; another mode,
-///                       and a tolerance, self-collision, containment, parting or contact patches
+///                       and a tolerance of either kind, self-collision, containment, parting or contact patches
 void check(const Detector_options& options);
 
 }  // namespace lodestone

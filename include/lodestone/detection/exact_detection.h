@@ -112,7 +112,9 @@ class Exact_detection final : public Detection {
   void find_candidates(const Collision_filter& filter);
   void check(Object_pair pair);
   /// Below which the faces of a pair are contacts.
-  double tolerance(Object_pair pair) const { return pair.a == pair.b ? 0 : options_.exact.tolerance; }
+  double tolerance(Object_pair pair) const {
+    return pair.a == pair.b ? options_.exact.self_tolerance : options_.exact.tolerance;
+  }
   void find_contacts(Pair_result& result);
   void find_way_out(Pair_result& result);
   Contact_summary search(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
@@ -134,13 +136,12 @@ class Exact_detection final : public Detection {
 };
 
 template <Bounding_volume Volume>
-void Exact_detection<Volume>::update(Object_id id,
-                                                             const Eigen::Ref<const Positions>& positions) {
+void Exact_detection<Volume>::update(Object_id id, const Eigen::Ref<const Positions>& positions) {
   check_no_visitor();
   auto& object = objects_[id];
   if (positions.rows() != object.mesh().vertex_count())
-    throw Bad_mesh(object.title + " has " + std::to_string(object.mesh().vertex_count()) +
-                   " vertices, but got " + std::to_string(positions.rows()) + " positions");
+    throw Bad_mesh(object.title + " has " + std::to_string(object.mesh().vertex_count()) + " vertices, but got " +
+                   std::to_string(positions.rows()) + " positions");
   Positions copy = positions;
   check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, object.title);
   object.given = std::move(copy);
@@ -247,9 +248,8 @@ void Exact_detection<Volume>::find_contacts(Pair_result& result) {
 
 /// Searches within one object if both are the same, and counts the tests.
 template <Bounding_volume Volume>
-Contact_summary Exact_detection<Volume>::search(Object_pair pair,
-                                                                        const Contact_request& request,
-                                                                        std::vector<Face_pair>& found) {
+Contact_summary Exact_detection<Volume>::search(Object_pair pair, const Contact_request& request,
+                                                std::vector<Face_pair>& found) {
   const Surface& a = objects_.surface(pair.a);
   const Surface& b = objects_.surface(pair.b);
   const Contact_summary summary =

@@ -98,7 +98,10 @@ template <Bounding_volume Volume>
 void Exact_objects<Volume>::build_new(std::span<const Object_id> ids) {
   for (const auto id : ids) {
     if (objects_[id]->built) continue;
-    timed(work_.seconds.build, [&] { build(id, objects_[id]->read()); });
+    timed(work_.seconds.build, [&] {
+      build(id, objects_[id]->read());
+      if (options_.exact.self_tolerance > 0) objects_[id]->surface.keep_rest();
+    });
     ++work_.builds;
   }
 }

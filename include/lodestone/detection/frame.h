@@ -57,8 +57,8 @@ struct Pair_result {
   Object_id a = 0;
   Object_id b = 0;
   bool collides = false;          ///< two faces intersect
-  bool near = false;              ///< two faces are nearer than the tolerance, or intersect; false without a tolerance,
-                                  ///< and within one object
+  bool near = false;              ///< two faces are nearer than the tolerance, or intersect; false without a tolerance.
+                                  ///< Within one object faces that were near when it was built do not count
   std::size_t candidates = 0;     ///< candidate region pairs
   std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
   std::size_t contacts = 0;

@@ -34,8 +34,8 @@ class Face_filter {
   /// The vertices must not move until the next `begin`: what has been read of a leaf is kept.
   /// @param margin  >= 0; only pairs farther apart than this are discarded
   void begin(const Layout_view& a, const Layout_view& b, double margin);
-  /// The same for leaves of one tree, with margin 0. Pairs of faces that share a vertex are discarded too.
-  void begin_within(const Layout_view& tree);
+  /// The same for leaves of one tree. Pairs of faces that share a vertex are discarded too.
+  void begin_within(const Layout_view& tree, double margin);
 
   /// The face pairs of two leaves that are not proven apart; if the two are one leaf of one tree, each pair once.
   ///

@@ -23,6 +23,11 @@ class Object_surface {
   std::size_t vertex_count() const { return coordinates_.size() / 3; }
   Coordinates coordinates() const { return coordinates_; }
 
+  /// Where the vertices are at rest; empty unless kept.
+  Coordinates rest() const { return rest_; }
+  /// Takes the current positions as those at rest. O(V).
+  void keep_rest() { rest_.assign(coordinates_.begin(), coordinates_.end()); }
+
   /// The faces around each vertex. O(V + F) the first time.
   const Vertex_fans& fans() const;
   /// Whether each edge has an even number of faces, so that the surface has an inside. O(F log F) the first time.
@@ -35,6 +40,7 @@ class Object_surface {
 
  private:
   std::span<const Corners> corners_;
+  std::vector<double> rest_;
   mutable std::optional<Vertex_fans> fans_;
   mutable std::optional<bool> closed_;
   mutable std::vector<std::uint32_t> piece_vertices_;

@@ -66,10 +66,11 @@ class Basic_contact_search {
     neighbours_of_ = nullptr;
     return search(a.tree().leaf_count() + b.tree().leaf_count(), request, found);
   }
-  /// Appends the intersecting face pairs of one object, a < b, to `found`, sorted; none for the query `yes_no`. Faces
-  /// that share vertices count as `faces_intersect` says. The tolerance is ignored: neighbours are always near.
+  /// Appends the contacts within one object, face pairs a < b, to `found`, sorted; none for the query `yes_no`. Faces
+  /// that share vertices are contacts if they intersect, as `faces_intersect` says. Others also if they are nearer than
+  /// the tolerance, unless they have been nearer than twice the tolerance at rest (`Object_surface::rest`).
   Contact_summary within(const Surface& object, const Contact_request& request, std::vector<Face_pair>& found) {
-    for (Memory& memory : memory_) memory.walk.begin_within(object.view());
+    for (Memory& memory : memory_) memory.walk.begin_within(object.view(), request.tolerance, object.rest());
     object.fans();  // computed on first use, which must not be in several threads at once
     neighbours_of_ = &object;
     return search(object.tree().leaf_count(), request, found);

@@ -42,14 +42,18 @@ class Contact_walk {
   void begin(const View& a, const View& b, double distance) {
     a_ = a, b_ = b;
     distance_ = distance;
+    rest_ = {};
     filter_begun_ = false;
     walk_.begin(*a.tree, *b.tree, distance);
     exact_tests_ = 0;
   }
-  /// Self-walk: contacts are the face pairs a < b that intersect and share no vertex.
-  void begin_within(const View& view) {
-    begin(view, view, 0);
-    walk_.begin_within(*view.tree);
+  /// Self-walk: contacts are the face pairs a < b that share no vertex, and that intersect, or are nearer than
+  /// `distance` without having been near at rest: see `near_at_rest`.
+  /// @param rest  where the vertices are at rest; empty: no pair has been near
+  void begin_within(const View& view, double distance = 0, Coordinates rest = {}) {
+    begin(view, view, distance);
+    walk_.begin_within(*view.tree, distance);
+    if (distance > 0) rest_ = rest;
   }
   /// Starts anew in the same trees: only the contacts below one node pair will be visited. Resets the counts.
   void start(Node_pair from = root_pair) {
@@ -83,7 +87,7 @@ class Contact_walk {
   /// Not part of `begin`: of several walks that share a search, only those that run pay for it.
   void begin_filter() {
     if (walk_.self_walk())
-      filter_.begin_within(a_);
+      filter_.begin_within(a_, distance_);
     else
       filter_.begin(a_, b_, distance_);
     filter_begun_ = true;
@@ -97,8 +101,18 @@ class Contact_walk {
                          : triangles_intersect_given(a, b, likely);
   }
 
+  /// Whether two faces of one object were nearer than twice the distance at rest. With once the distance, faces that
+  /// have always been near would become contacts wherever the surface shrinks a little. Twice hides no fold: beside a
+  /// crease of less than 60 degrees there are points within the distance that were farther than twice that apart.
+  bool near_at_rest(std::uint32_t leaf_a, std::uint32_t leaf_b, const Face_candidate& candidate) const {
+    return triangles_nearer_than(triangle_of(leaf_triangle(a_.tree->leaf_faces(leaf_a, rest_), candidate.a)),
+                                 triangle_of(leaf_triangle(a_.tree->leaf_faces(leaf_b, rest_), candidate.b)),
+                                 2 * distance_);
+  }
+
   View a_, b_;
   double distance_ = 0;
+  Coordinates rest_ = {};  ///< empty: all contacts count
   Tree_walk<Volume> walk_;
   Face_filter filter_;
   /// Whether the filter has been told of the current trees. What it has read of their leaves holds until `begin`.
@@ -114,7 +128,10 @@ Visit Contact_walk<Volume>::visit_leaf_contacts(std::uint32_t leaf_a, std::uint3
   const auto indices_a = a_.tree->faces(leaf_a), indices_b = b_.tree->faces(leaf_b);
   for (const Face_candidate& candidate : filter_.face_candidates(leaf_a, leaf_b)) {
     ++exact_tests_;
-    if (!are_in_contact(leaf_triangle(faces_a, candidate.a), leaf_triangle(faces_b, candidate.b), candidate.crossing))
+    const Triangle_corners a = leaf_triangle(faces_a, candidate.a), b = leaf_triangle(faces_b, candidate.b);
+    if (!are_in_contact(a, b, candidate.crossing)) continue;
+    if (!rest_.empty() && near_at_rest(leaf_a, leaf_b, candidate) &&
+        !triangles_intersect(triangle_of(a), triangle_of(b)))
       continue;
     Face_pair contact{indices_a[candidate.a], indices_b[candidate.b]};
     if (walk_.self_walk() && contact.b < contact.a) std::swap(contact.a, contact.b);

@@ -45,9 +45,9 @@ class Tree_walk {
     self_walk_ = false;
     start();
   }
-  /// Self-walk: each pair of leaves once, in either order, and each leaf with itself. The margin is 0.
-  void begin_within(const Tree& tree) {
-    begin(tree, tree, 0);
+  /// Self-walk: each pair of leaves once, in either order, and each leaf with itself.
+  void begin_within(const Tree& tree, double margin) {
+    begin(tree, tree, margin);
     self_walk_ = true;
   }
   /// Starts anew in the same trees: what lies below one node pair is all that will be visited. Resets the count.
