@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/detection/frame_builder.h"
 
+#include <algorithm>
+
 #include "lodestone/triangles/triangle_distance.h"
 
 namespace lodestone {
@@ -43,15 +45,31 @@ const Frame& Frame_builder::finish() {
   return frame_;
 }
 
-void Frame_builder::add_geometry(const Triangle& a, const Triangle& b) {
-  if (contacts_may_be_apart_ && !triangles_intersect(a, b)) {
-    const Closest_points nearest = closest_points(a, b);
-    if (points_) frame_.contact_points.push_back({nearest.a, nearest.b});
-    if (normals_) frame_.contact_normals.push_back(gap_normal(nearest));
-    return;
+/// Contacts of intersecting faces together; those that are apart one by one, in their order.
+void Frame_builder::add_geometry() {
+  const auto add_intersecting = [this](std::span<const Triangle_pair> faces) {
+    if (points_) append_intersections(faces, frame_.contact_points);
+    if (normals_) append_contact_normals(faces, frame_.contact_normals);
+  };
+  std::span<const Triangle_pair> left = faces_;
+  while (!left.empty()) {
+    std::size_t intersecting = left.size();
+    if (contacts_may_be_apart_) {
+      const auto apart = [](const Triangle_pair& pair) { return !triangles_intersect(pair.a, pair.b); };
+      intersecting = static_cast<std::size_t>(std::ranges::find_if(left, apart) - left.begin());
+    }
+    add_intersecting(left.first(intersecting));
+    left = left.subspan(intersecting);
+    if (left.empty()) break;
+    add_gap(closest_points(left.front().a, left.front().b));
+    left = left.subspan(1);
   }
-  if (points_) frame_.contact_points.push_back(triangle_intersection(a, b));
-  if (normals_) frame_.contact_normals.push_back(contact_normal(a, b));
+  faces_.clear();
+}
+
+void Frame_builder::add_gap(const Closest_points& nearest) {
+  if (points_) frame_.contact_points.push_back({nearest.a, nearest.b});
+  if (normals_) frame_.contact_normals.push_back(gap_normal(nearest));
 }
 
 }  // namespace lodestone

@@ -3,6 +3,9 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
+#include <algorithm>
+
+#include "triangles/contact_normal_kernel.h"
 #include "triangles/corner_differences.h"
 
 namespace lodestone {
@@ -33,20 +36,48 @@ Eigen::Vector3d unit_normal(const std::array<Eigen::Vector3d, 3>& edges, const T
   return squared > thin * thin * bound && squared > 1e-280 ? n / std::sqrt(squared) : exact_normal(t);
 }
 
-}  // namespace
-
-Contact_normal contact_normal(const Triangle& a, const Triangle& b) {
+/// For triangles of any shape and size.
+Contact_normal careful_normal(const Triangle& a, const Triangle& b) {
   const auto& [differences, exponent] = scaled_differences(a, b);
   const Eigen::Vector3d normal_a = unit_normal(differences.edges_a, a), normal_b = unit_normal(differences.edges_b, b);
   if (normal_a.isZero(0) && normal_b.isZero(0)) return {};
   const Eigen::Vector3d outwards = normal_b - normal_a;
   Contact_normal contact;
-  contact.normal = outwards.norm() > 1e-8 ? outwards.normalized() : normal_b;
+  contact.normal = outwards.squaredNorm() > 1e-16 ? outwards.normalized() : normal_b;
   double depth = 0;
   for (const auto& row : differences.between)
     for (const auto& difference : row) depth = std::max(depth, -contact.normal.dot(difference));
   contact.depth = std::ldexp(depth, exponent);
   return contact;
+}
+
+void store(const Triangle& t, double (&corners)[3][3][kernel::most_normals], std::size_t pair) {
+  for (int corner = 0; corner < 3; ++corner)
+    for (int axis = 0; axis < 3; ++axis) corners[corner][axis][pair] = t[corner][axis];
+}
+
+}  // namespace
+
+Contact_normal contact_normal(const Triangle& a, const Triangle& b) {
+  const Triangle_pair pair{a, b};
+  std::vector<Contact_normal> one;
+  append_contact_normals({&pair, 1}, one);
+  return one.front();
+}
+
+void append_contact_normals(std::span<const Triangle_pair> pairs, std::vector<Contact_normal>& normals) {
+  kernel::Faces_in_contact faces;
+  kernel::Normals_and_depths result;
+  for (std::size_t first = 0; first < pairs.size(); first += faces.count) {
+    faces.count = std::min(kernel::most_normals, pairs.size() - first);
+    const auto batch = pairs.subspan(first, faces.count);
+    for (std::size_t i = 0; i < batch.size(); ++i) store(batch[i].a, faces.a, i), store(batch[i].b, faces.b, i);
+    kernel::contact_normals(faces, result);
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      normals.push_back(result.proven[i] ? Contact_normal{.normal = {result.normal[0][i], result.normal[1][i], result.normal[2][i]},
+                                                          .depth = result.depth[i]}
+                                         : careful_normal(batch[i].a, batch[i].b));
+  }
 }
 
 Contact_normal gap_normal(const Closest_points& nearest) {

@@ -49,10 +49,10 @@ struct Scaled_differences {
 
 inline Scaled_differences scaled_differences(const Triangle& a, const Triangle& b) {
   const auto greatest = [](const Corner_differences<double>& d) {
-    double most = 0;
+    Eigen::Array3d most = Eigen::Array3d::Zero();
     for (const auto& row : d.between)
-      for (const auto& difference : row) most = std::max(most, difference.cwiseAbs().maxCoeff());
-    return most;
+      for (const auto& difference : row) most = most.max(difference.array().abs());
+    return most.maxCoeff();
   };
   Scaled_differences scaled{corner_differences<double>(a, b, [](double x) { return x; })};
   double size = greatest(scaled.vectors);

@@ -17,7 +17,7 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// One edge and its plane per lane.
-using Edge_lanes = hn::CappedTag<double, 2>;
+using Edge_lanes = hn::CappedTag<double, most_edges>;
 using Edges = hn::Vec<Edge_lanes>;
 using Edge_mask = hn::Mask<Edge_lanes>;
 using Number = Double_double<Edges>;
@@ -25,7 +25,7 @@ using Difference = std::array<Number, 3>;
 
 HWY_INLINE Edges all(double x) { return hn::Set(Edge_lanes(), x); }
 
-HWY_INLINE std::array<Edges, 3> load(const double (&vector)[3][2], std::size_t lane) {
+HWY_INLINE std::array<Edges, 3> load(const double (&vector)[3][most_edges], std::size_t lane) {
   const Edge_lanes d;
   return {hn::LoadU(d, vector[0] + lane), hn::LoadU(d, vector[1] + lane), hn::LoadU(d, vector[2] + lane)};
 }
@@ -77,8 +77,7 @@ HWY_INLINE Edge_mask is_rounded(const Number& x, Edges error) {
 
 void crossing_points_kernel(const Edges_and_planes& edges, Crossing_points& points) {
   const Edge_lanes d;
-  points.proven = true;
-  for (std::size_t lane = 0; lane < 2; lane += hn::Lanes(d)) {
+  for (std::size_t lane = 0; lane < edges.count; lane += hn::Lanes(d)) {
     const std::array corners{load(edges.plane[0], lane), load(edges.plane[1], lane), load(edges.plane[2], lane)};
     const Difference u = corners[1] - corners[0], v = corners[2] - corners[0];
     const Plane plane{corners[0], cross(u, v), hn::Mul(size(u), size(v))};
@@ -103,7 +102,10 @@ void crossing_points_kernel(const Edges_and_planes& edges, Crossing_points& poin
       const Edges nearest = hn::IfThenElse(shared, corners[0][axis], coordinate.high);
       hn::StoreU(hn::Add(nearest, hn::Zero(d)), d, points.coordinates[axis] + lane);  // never -0
     }
-    points.proven = points.proven && hn::AllTrue(d, proven);
+    double one_if_proven[most_edges];
+    hn::StoreU(hn::IfThenElseZero(proven, all(1)), d, one_if_proven);
+    for (std::size_t edge_lane = 0; edge_lane < hn::Lanes(d); ++edge_lane)
+      points.proven[lane + edge_lane] = one_if_proven[edge_lane] != 0;
   }
 }
 

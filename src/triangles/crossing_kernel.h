@@ -2,20 +2,24 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace lodestone::kernel {
 
-/// Two edges, and for each a triangle whose plane it crosses. The last index is that of the edge, so that both fit in
-/// one vector.
+/// As many edges as the widest vectors hold.
+inline constexpr std::size_t most_edges = 8;
+
+/// Edges, and for each a triangle whose plane it crosses. The last index is that of the edge.
 struct Edges_and_planes {
-  double plane[3][3][2];  ///< [corner][axis]
-  double from[3][2], to[3][2];
+  std::size_t count = 0;                 ///< of edges; what follows them is ignored
+  double plane[3][3][most_edges] = {};   ///< [corner][axis]
+  double from[3][most_edges] = {}, to[3][most_edges] = {};
 };
 
 /// Where the edges cross the planes.
 struct Crossing_points {
-  double coordinates[3][2];
-  bool proven;  ///< all coordinates are the nearest doubles to the exact ones; else they mean nothing
+  double coordinates[3][most_edges];
+  std::array<bool, most_edges> proven;  ///< the coordinates are the nearest doubles to the exact ones; else they mean nothing
 };
 
 /// @param edges  the ends of each edge lie on different sides of its plane

@@ -55,45 +55,71 @@ std::optional<Split_corners> split(const Triangle& t, const Triangle& other) {
   return Split_corners{&t[lone], {&t[(lone + 1) % 3], &t[(lone + 2) % 3]}};
 }
 
-}  // namespace
-
-std::optional<std::array<Point, 2>> crossing_segment(const Triangle& a, const Triangle& b) {
-  const auto corners_a = split(a, b), corners_b = corners_a ? split(b, a) : std::nullopt;
-  if (!corners_b) return {};
-  // The edges from a lone corner cross the line in which the planes meet: those of a at P0 and P1, those of b at Q0 and
-  // Q1. Of i and j, ordered[i][j] tells on which side of Qj Pi lies.
-  std::array<std::array<CGAL::Orientation, 2>, 2> ordered;
-  for (std::size_t j = 0; j < 2; ++j) {
-    const Side_test side_of(*corners_a->lone, *corners_b->lone, *corners_b->others[j]);
-    for (std::size_t i = 0; i < 2; ++i) {
-      ordered[i][j] = side_of(*corners_a->others[i]);
-      if (ordered[i][j] == CGAL::ZERO) return {};
+/// The edges of two triangles that end the segment in which they cross.
+class Ending_edges {
+ public:
+  /// Appends the two edges of a pair.
+  /// @return false if they do not cross, or if a corner or edge of one touches the other; then nothing is appended
+  bool add(const Triangle& a, const Triangle& b) {
+    const auto corners_a = split(a, b), corners_b = corners_a ? split(b, a) : std::nullopt;
+    if (!corners_b) return false;
+    // The edges from a lone corner cross the line in which the planes meet: those of a at P0 and P1, those of b at Q0
+    // and Q1. Of i and j, ordered[i][j] tells on which side of Qj Pi lies.
+    std::array<std::array<CGAL::Orientation, 2>, 2> ordered;
+    for (std::size_t j = 0; j < 2; ++j) {
+      const Side_test side_of(*corners_a->lone, *corners_b->lone, *corners_b->others[j]);
+      for (std::size_t i = 0; i < 2; ++i) {
+        ordered[i][j] = side_of(*corners_a->others[i]);
+        if (ordered[i][j] == CGAL::ZERO) return false;
+      }
     }
+    // The segment ends where one of P0 and P1 lies between Q0 and Q1, or the reverse.
+    const std::size_t before = edges_.count;
+    for (std::size_t i = 0; i < 2; ++i)
+      if (ordered[i][0] != ordered[i][1]) add(*corners_a, i, b);
+    for (std::size_t j = 0; j < 2; ++j)
+      if (ordered[0][j] != ordered[1][j]) add(*corners_b, j, a);
+    return edges_.count > before;  // else the triangles are apart
   }
 
-  // The segment ends where one of P0 and P1 lies between Q0 and Q1, or the reverse.
-  kernel::Edges_and_planes edges;
-  std::size_t count = 0;
-  const auto add = [&](const Split_corners& corners, std::size_t other, const Triangle& plane) {
+  const kernel::Edges_and_planes& edges() const { return edges_; }
+
+ private:
+  void add(const Split_corners& corners, std::size_t other, const Triangle& plane) {
     for (int axis = 0; axis < 3; ++axis) {
-      for (int corner = 0; corner < 3; ++corner) edges.plane[corner][axis][count] = plane[corner][axis];
-      edges.from[axis][count] = (*corners.lone)[axis];
-      edges.to[axis][count] = (*corners.others[other])[axis];
+      for (int corner = 0; corner < 3; ++corner) edges_.plane[corner][axis][edges_.count] = plane[corner][axis];
+      edges_.from[axis][edges_.count] = (*corners.lone)[axis];
+      edges_.to[axis][edges_.count] = (*corners.others[other])[axis];
     }
-    ++count;
-  };
-  for (std::size_t i = 0; i < 2; ++i)
-    if (ordered[i][0] != ordered[i][1]) add(*corners_a, i, b);
-  for (std::size_t j = 0; j < 2; ++j)
-    if (ordered[0][j] != ordered[1][j]) add(*corners_b, j, a);
-  if (count == 0) return {};  // the triangles are apart
+    ++edges_.count;
+  }
+
+  kernel::Edges_and_planes edges_;
+};
+
+}  // namespace
+
+void crossing_segments(std::span<const Triangle_pair> pairs, std::span<std::optional<Crossing_segment>> segments) {
+  Ending_edges ending;
+  std::array<bool, most_crossing_pairs> cross{};
+  for (std::size_t pair = 0; pair < pairs.size(); ++pair) cross[pair] = ending.add(pairs[pair].a, pairs[pair].b);
 
   kernel::Crossing_points points;
-  kernel::crossing_points(edges, points);
-  if (!points.proven) return {};
-  const auto& [x, y, z] = points.coordinates;
-  const Point first(x[0], y[0], z[0]), last(x[1], y[1], z[1]);
-  return last < first ? std::array{last, first} : std::array{first, last};
+  kernel::crossing_points(ending.edges(), points);
+  const auto point = [&points](std::size_t edge) {
+    const auto& [x, y, z] = points.coordinates;
+    return Point(x[edge], y[edge], z[edge]);
+  };
+  std::size_t edge = 0;
+  for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
+    segments[pair].reset();
+    if (!cross[pair]) continue;
+    if (points.proven[edge] && points.proven[edge + 1]) {
+      const Point first = point(edge), last = point(edge + 1);
+      segments[pair] = last < first ? Crossing_segment{last, first} : Crossing_segment{first, last};
+    }
+    edge += 2;
+  }
 }
 
 }  // namespace lodestone

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -140,6 +141,11 @@ bool passes_through(const double* p, const double* q, const Triangle_corners& t)
          positive(1, 0, 3, 4) && positive(1, 0, 4, 2);
 }
 
+void intersect_exactly(const Triangle& a, const Triangle& b, Intersection_points& points) {
+  std::visit(Shapes_intersection{points}, shape<Exact>(exact(a[0]), exact(a[1]), exact(a[2])),
+             shape<Exact>(exact(b[0]), exact(b[1]), exact(b[2])));
+}
+
 }  // namespace
 
 bool triangles_intersect(const Triangle& a, const Triangle& b) {
@@ -159,14 +165,25 @@ bool triangles_intersect_given(const Triangle_corners& a, const Triangle_corners
 }
 
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b) {
-  Intersection_points points;
-  if (const auto ends = crossing_segment(a, b)) {
-    points.assign(ends->begin(), ends->end());
-    return points;
+  const Triangle_pair pair{a, b};
+  std::vector<Intersection_points> one;
+  append_intersections({&pair, 1}, one);
+  return one.front();
+}
+
+void append_intersections(std::span<const Triangle_pair> pairs, std::vector<Intersection_points>& intersections) {
+  std::array<std::optional<Crossing_segment>, most_crossing_pairs> segments;
+  for (std::size_t first = 0; first < pairs.size(); first += most_crossing_pairs) {
+    const auto batch = pairs.subspan(first, std::min(most_crossing_pairs, pairs.size() - first));
+    crossing_segments(batch, segments);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      Intersection_points& points = intersections.emplace_back();
+      if (segments[i])
+        points.assign(segments[i]->begin(), segments[i]->end());
+      else
+        intersect_exactly(batch[i].a, batch[i].b, points);
+    }
   }
-  std::visit(Shapes_intersection{points}, shape<Exact>(exact(a[0]), exact(a[1]), exact(a[2])),
-             shape<Exact>(exact(b[0]), exact(b[1]), exact(b[2])));
-  return points;
 }
 
 }  // namespace lodestone

@@ -52,7 +52,7 @@ TEST(Face_filter, discards_faces_that_a_normal_or_edge_of_one_of_them_separates)
   const auto pairs = apart_by(1e-9, random, 2000);
   for (const double scale : {0x1p-310, 0x1p310})
     for (std::size_t i = 0; i < pairs.size(); i += 2) {
-      a.set(0, placed(pairs[i].first, {scale, 0})), b.set(0, placed(pairs[i].second, {scale, 0}));
+      a.set(0, placed(pairs[i].a, {scale, 0})), b.set(0, placed(pairs[i].b, {scale, 0}));
       a.refit(), b.refit();
       ASSERT_TRUE(candidate_pairs(a.view(), b.view(), 0).empty()) << scale;
     }

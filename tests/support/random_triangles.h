@@ -4,13 +4,10 @@
 
 #include <cstdint>
 #include <random>
-#include <utility>
 
 #include "support/touching_triangles.h"
 
 namespace lodestone {
-
-using Triangle_pair = std::pair<Triangle, Triangle>;
 
 inline Point plus(const Point& p, const Point& q, double factor) {
   return {p.x() + factor * q.x(), p.y() + factor * q.y(), p.z() + factor * q.z()};

@@ -36,9 +36,13 @@ class Frame_builder {
   template <class Triangle_of>
   void end_pair(Pair_result result, Triangle_of triangle_of) {
     result.contacts = frame_.face_pairs.size() - result.first_contact;
-    if (points_ || normals_)
-      for (const auto& [face_a, face_b] : frame_.contacts(result))
-        add_geometry(triangle_of(result.a, face_a), triangle_of(result.b, face_b));
+    if (points_ || normals_) {
+      for (const auto& [face_a, face_b] : frame_.contacts(result)) {
+        faces_.push_back({triangle_of(result.a, face_a), triangle_of(result.b, face_b)});
+        if (faces_.size() == most_faces) add_geometry();
+      }
+      add_geometry();
+    }
     frame_.pairs.push_back(result);
   }
 
@@ -51,11 +55,16 @@ class Frame_builder {
   const Frame& finish();
 
  private:
-  void add_geometry(const Triangle& a, const Triangle& b);
+  /// So many contacts share a pass, which stays in the caches.
+  static constexpr std::size_t most_faces = 64;
+
+  void add_geometry();
+  void add_gap(const Closest_points& nearest);
 
   bool points_, normals_, patches_;
   bool contacts_may_be_apart_;  ///< a contact can be two faces that are near without intersecting
   Frame frame_;
+  std::vector<Triangle_pair> faces_;  ///< of contacts whose geometry is still to be added
 };
 
 }  // namespace lodestone

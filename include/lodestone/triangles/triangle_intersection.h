@@ -3,6 +3,8 @@
 
 #include <array>
 #include <boost/container/static_vector.hpp>
+#include <span>
+#include <vector>
 
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/triangles/crossing.h"
@@ -49,5 +51,12 @@ using Intersection_points = boost::container::static_vector<Point, 6>;
 /// Two triangles that cross cost about as much as twice the test whether they do. Exact numbers are needed where a corner
 /// or an edge of one touches the other, for coplanar triangles, and where rounding is in doubt: some 0.1 ms.
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b);
+
+struct Triangle_pair {
+  Triangle a, b;
+};
+
+/// Appends the intersection of each pair: faster than one after the other.
+void append_intersections(std::span<const Triangle_pair> pairs, std::vector<Intersection_points>& intersections);
 
 }  // namespace lodestone
