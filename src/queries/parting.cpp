@@ -16,13 +16,13 @@ namespace {
 /// The normal of all contacts together, then those of the contact patches.
 std::vector<Eigen::Vector3d> contact_normals(const Object_surface& a, const Object_surface& b,
                                              std::span<const Face_pair> contacts) {
+  std::vector<Triangle_pair> faces;
+  for (const Face_pair contact : contacts)
+    faces.push_back({surface_triangle(a, contact.a), surface_triangle(b, contact.b)});
   std::vector<Intersection_points> points;
   std::vector<Contact_normal> normals;
-  for (const Face_pair contact : contacts) {
-    const Triangle face_a = surface_triangle(a, contact.a), face_b = surface_triangle(b, contact.b);
-    points.push_back(triangle_intersection(face_a, face_b));
-    normals.push_back(contact_normal(face_a, face_b));
-  }
+  append_intersections(faces, points);
+  append_contact_normals(faces, normals);
   std::vector<Eigen::Vector3d> directions{Eigen::Vector3d::Zero()};
   for (const Contact_patch& patch : contact_patches(a, b, {contacts, points, normals}, 0)) {
     directions.front() += static_cast<double>(patch.contacts.size()) * patch.normal;
