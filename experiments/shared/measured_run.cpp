@@ -27,7 +27,9 @@ Scene_detector make_detector(const Scene& scene, const Setting& setting) {
   asked.contacts = Contact_query::yes_no;
   Scene_detector detector(asked, setting.strategy);
   for (const auto& object : scene.objects) {
-    Object_options options{.particles = setting.options.particles > 0 ? 0 : object.particles};
+    Object_options options{.particles = setting.options.particles > 0 ? 0 : object.particles,
+                           .groups = object.collision.groups,
+                           .meets = object.collision.meets};
     if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
     detector.add(std::as_const(object.mesh), options);
   }

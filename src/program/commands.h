@@ -19,10 +19,12 @@ struct Strategy_choice {
 };
 
 struct Detect_command {
-  std::vector<std::filesystem::path> inputs;  ///< one scene (.json), or meshes and animations
+  /// One scene (.json), or meshes, animations, `SCENE.json#OBJECT` and `shape:SHAPE`.
+  std::vector<std::filesystem::path> inputs;
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
   bool truth = false;
+  bool closest = false;                       ///< also find the closest faces of each object pair
   std::filesystem::path out, html, paraview;  ///< empty: not written
   std::size_t html_frames = 0;                ///< maximum number of frames on the page; 0: see page_frame_step
   bool quiet = false;                         ///< print one line in place of the table

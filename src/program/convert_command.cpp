@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -27,32 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double usual_rate = 30;
-constexpr std::string_view shape_prefix = "shape:", scene_mark = ".json";
-
-/// An object of a scene. Without a name, the only one.
-Animation object_of_scene(const fs::path& file, const std::string& name, bool allow_outside) {
-  const Scene scene = read_scene(file, {.allow_outside = allow_outside});
-  const bool is_only = name.empty() && scene.objects.size() == 1;
-  const auto found = is_only ? scene.objects.begin() : std::ranges::find(scene.objects, name, &Scene_object::name);
-  if (found == scene.objects.end()) {
-    std::vector<std::string> names;
-    for (const auto& object : scene.objects) names.push_back(object.name);
-    throw Bad_argument(
-        fmt::format("{0}: name one object of the scene, as {0}#NAME: {1}", file.string(), fmt::join(names, ", ")));
-  }
-  auto animation = animation_of(*found, scene.frames);
-  animation.files.push_back(file);
-  return animation;
-}
 
 Animation read_input(const Convert_command& command) {
-  const std::string text = command.input.string();
-  if (text.starts_with(shape_prefix)) return animation_of(shape_object(text.substr(shape_prefix.size())), 1);
-  if (const auto mark = text.find(std::string(scene_mark) + "#"); mark != text.npos) {
-    const auto end = mark + scene_mark.size();
-    return object_of_scene(text.substr(0, end), text.substr(end + 1), command.allow_outside);
-  }
-  if (command.input.extension() == scene_mark) return object_of_scene(command.input, "", command.allow_outside);
+  const Scene_options options{.allow_outside = command.allow_outside};
+  if (const auto object = named_object(command.input, options)) return animation_of(*object, 1);
+  if (command.input.extension() == ".json") return animation_of(object_of_scene(command.input, "", options), 1);
   return read_animation(command.input,
                         {.mesh = command.mesh, .frames_per_second = command.rate > 0 ? command.rate : usual_rate});
 }

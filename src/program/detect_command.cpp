@@ -29,7 +29,7 @@ Scene load(const Detect_command& command) {
   if (inputs.size() == 1 && is_scene(inputs[0])) return read_scene(inputs[0], {.allow_outside = command.allow_outside});
   for (const auto& input : inputs)
     if (is_scene(input)) throw Bad_argument(input.string() + ": a scene must be the only input");
-  Scene scene = scene_of(inputs);
+  Scene scene = scene_of(inputs, {.allow_outside = command.allow_outside});
   if (inputs.size() == 1 && !command.options.exact.self_collision)
     throw Bad_argument(inputs[0].string() +
                        ": one mesh alone has nothing to collide with; give a scene or two meshes, or --self for "
@@ -52,7 +52,9 @@ class Run {
         scene_(load(command)),
         detector_(detector_options(command), make_strategy(command.partition.name, command.partition.settings)) {
     for (auto& object : scene_.objects) {
-      Object_options options{.particles = command.options.particles > 0 ? 0 : object.particles};
+      Object_options options{.particles = command.options.particles > 0 ? 0 : object.particles,
+                             .groups = object.collision.groups,
+                             .meets = object.collision.meets};
       if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
       options.file_vertex = object.file_vertex;
       options.name = object.name;
@@ -86,7 +88,10 @@ class Run {
 
  private:
   Run_subject subject() const { return {command_, scene_, detector_}; }
+  template <class Visit>
+  void for_each_pair(const Visit& visit) const;
   std::optional<std::vector<Pair_truth>> find_truth() const;
+  std::optional<std::vector<Pair_closest>> find_closest();
   void compare(const Frame& result, const std::vector<Pair_truth>& truth);
   std::optional<bool> any_truth(const std::optional<std::vector<Pair_truth>>& truth) const;
 
@@ -108,7 +113,9 @@ std::string Run::play(std::size_t frame) {
   if (paraview_) paraview_->add(frame, scene_, result);
   const auto truth = find_truth();
   if (truth) compare(result, *truth);
-  std::string line = frame_line(frame, scene_.objects, result, command_.options, truth);
+  const auto closest = find_closest();
+  if (closest) summary_.add(frame, *closest);
+  std::string line = frame_line(frame, scene_.objects, result, command_.options, truth, closest);
   if (page_) page_->add(frame, result, line, any_truth(truth));
   return line;
 }
@@ -119,14 +126,28 @@ std::optional<bool> Run::any_truth(const std::optional<std::vector<Pair_truth>>&
   return std::ranges::any_of(*truth, [](const auto& pair) { return !pair.faces.empty(); });
 }
 
+/// Calls `visit` with each pair of two objects that may collide.
+template <class Visit>
+void Run::for_each_pair(const Visit& visit) const {
+  for (Object_id a = 0; a < scene_.objects.size(); ++a)
+    for (Object_id b = a + 1; b < scene_.objects.size(); ++b)
+      if (!scene_.ignores({a, b})) visit(a, b);
+}
+
 std::optional<std::vector<Pair_truth>> Run::find_truth() const {
   if (!command_.truth) return std::nullopt;
   std::vector<Pair_truth> truth;
-  for (Object_id a = 0; a < scene_.objects.size(); ++a)
-    for (Object_id b = a + 1; b < scene_.objects.size(); ++b)
-      if (!scene_.ignores({a, b}))
-        truth.push_back({a, b, exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh)});
+  for_each_pair([&](Object_id a, Object_id b) {
+    truth.push_back({a, b, exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh)});
+  });
   return truth;
+}
+
+std::optional<std::vector<Pair_closest>> Run::find_closest() {
+  if (!command_.closest) return std::nullopt;
+  std::vector<Pair_closest> closest;
+  for_each_pair([&](Object_id a, Object_id b) { closest.push_back({a, b, detector_.closest(a, b)}); });
+  return closest;
 }
 
 void Run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "io/files/small_text.h"
@@ -58,6 +59,10 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
   if (subject.command.options.exact.containment) json["contained_frames"] = summary.contained_frames;
   if (subject.command.options.exact.parting && pair.a != pair.b)
     json["longest_parting"] = summary.longest_parting ? Json(*summary.longest_parting) : Json();
+  if (const auto& least = summary.least_distance) {
+    json["least_distance"] = least->distance;
+    json["least_distance_frame"] = least->frame;
+  }
   if (subject.has_truth(pair)) json["truth"] = truth_json(summary.score);
   return json;
 }
@@ -71,7 +76,19 @@ Json misses_json(Mode mode) {
 
 bool is_empty(const Pair_summary& summary) {
   return summary.colliding_frames == 0 && summary.near_frames == 0 && summary.contained_frames == 0 &&
-         !summary.longest_parting && summary.score.positives() == 0;
+         !summary.longest_parting && !summary.least_distance && summary.score.positives() == 0;
+}
+
+/// The pair with the least distance in any frame; nothing without --closest.
+std::optional<Object_pair> closest_pair(const Run_summary& summary) {
+  std::optional<Object_pair> closest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [pair, results] : summary.pairs) {
+    if (!results.least_distance || results.least_distance->distance >= least) continue;
+    least = results.least_distance->distance;
+    closest = pair;
+  }
+  return closest;
 }
 
 std::vector<std::string> table_header(const Detect_command& command) {
@@ -79,6 +96,7 @@ std::vector<std::string> table_header(const Detect_command& command) {
   if (has_tolerance(command.options)) header.emplace_back("near");
   if (command.options.exact.containment) header.emplace_back("one inside");
   if (command.options.exact.parting) header.emplace_back("parting");
+  if (command.closest) header.insert(header.end(), {"least distance", "in frame"});
   if (command.truth) header.insert(header.end(), {"truly", "recall", "precision", "accuracy"});
   return header;
 }
@@ -94,6 +112,10 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
   if (subject.command.options.exact.containment) row.push_back(std::to_string(summary.contained_frames));
   if (subject.command.options.exact.parting)
     row.push_back(summary.longest_parting ? fmt::format("{:.3g}", *summary.longest_parting) : "-");
+  if (const auto& least = summary.least_distance)
+    row.insert(row.end(), {fmt::format("{:.6g}", least->distance), std::to_string(least->frame)});
+  else if (subject.command.closest)
+    row.insert(row.end(), {"-", "-"});
   if (subject.has_truth(pair))
     row.insert(row.end(),
                {std::to_string(summary.score.positives()), fmt::format("{:.3f}", summary.score.recall()),
@@ -156,6 +178,14 @@ void Run_summary::add(std::size_t number, const Frame& frame, bool timed) {
   measurement.build_seconds += frame.statistics.seconds.build;
 }
 
+void Run_summary::add(std::size_t number, std::span<const Pair_closest> closest) {
+  for (const auto& [a, b, found] : closest) {
+    auto& least = pairs[{a, b}].least_distance;
+    const double distance = found.points.distance;
+    if (!least || distance < least->distance) least = {.distance = distance, .frame = number};
+  }
+}
+
 bool Run_summary::finds_any() const {
   return std::ranges::any_of(
       pairs, [](const auto& pair) { return pair.second.colliding_frames > 0 || pair.second.near_frames > 0; });
@@ -194,6 +224,11 @@ std::string one_line_answer(const Run_subject& subject, const Run_summary& summa
   if (colliding > 0) text += fmt::format(", first in frame {}, last in frame {}", first, last);
   text += (colliding > 0 ? " of " : " in ") + counted(subject.scene.frames, "frame");
   if (has_tolerance(subject.command.options)) text += fmt::format("; {} near", near);
+  if (const auto pair = closest_pair(summary)) {
+    const auto& least = *summary.pairs.at(*pair).least_distance;
+    text += fmt::format("; least distance {} in frame {}, of {} and {}", least.distance, least.frame,
+                        subject.scene.objects[pair->a].name, subject.scene.objects[pair->b].name);
+  }
   return text + "\n";
 }
 

@@ -4,16 +4,24 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/mesh/pairs.h"
 #include "program/commands.h"
+#include "program/frame_log.h"
 #include "program/measurement.h"
 #include "program/page_log.h"
 
 namespace lodestone {
+
+/// The least distance of two objects over the frames of a run.
+struct Least_distance {
+  double distance = 0;    ///< in units of the coordinates
+  std::size_t frame = 0;  ///< the first with that distance
+};
 
 /// The results of a run of `detect` for one object pair.
 struct Pair_summary {
@@ -24,6 +32,7 @@ struct Pair_summary {
   std::size_t contained_frames = 0;            ///< in which one object is inside the other
   std::optional<double> longest_parting = {};  ///< of the translations that part the two
   std::optional<std::size_t> first_colliding = {}, last_colliding = {};  ///< frames
+  std::optional<Least_distance> least_distance = {};                     ///< with --closest
   Score score = {};
 
   /// Adds the next frame.
@@ -39,6 +48,7 @@ struct Run_summary {
   /// @param number  of the frame
   /// @param timed   whether the frame counts in the means and medians; building always counts
   void add(std::size_t number, const Frame& frame, bool timed);
+  void add(std::size_t number, std::span<const Pair_closest> closest);
   /// Whether any pair collides, or is near, in any frame.
   bool finds_any() const;
 };

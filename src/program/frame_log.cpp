@@ -69,6 +69,18 @@ Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, con
   return json;
 }
 
+Json closest_json(const std::vector<Scene_object>& objects, std::span<const Pair_closest> closest) {
+  const auto point = [](const Point& p) { return Json{p.x(), p.y(), p.z()}; };
+  Json json = Json::array();
+  for (const auto& [a, b, found] : closest)
+    json.push_back({{"a", objects[a].name},
+                    {"b", objects[b].name},
+                    {"distance", found.points.distance},
+                    {"faces", {objects[a].file_face[found.faces.a], objects[b].file_face[found.faces.b]}},
+                    {"points", {point(found.points.a), point(found.points.b)}}});
+  return json;
+}
+
 /// Only counts, since times differ from run to run.
 Json statistics_json(const Frame_statistics& statistics, Mode mode) {
   if (mode == Mode::exact)
@@ -90,7 +102,8 @@ std::string json_text(const nlohmann::ordered_json& json, int indent) {
 }
 
 std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objects, const Frame& result,
-                       const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth) {
+                       const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth,
+                       const std::optional<std::vector<Pair_closest>>& closest) {
   Json pairs = Json::array();
   for (const auto& pair : result.pairs) pairs.push_back(pair_json(objects, result, pair, options));
   if (truth) {
@@ -104,8 +117,9 @@ std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objec
             {{"a", objects[real.a].name}, {"b", objects[real.b].name}, {"collides", false}, {"truth", true}});
     }
   }
-  const Json line{
-      {"frame", frame}, {"pairs", std::move(pairs)}, {"statistics", statistics_json(result.statistics, options.mode)}};
+  Json line{{"frame", frame}, {"pairs", std::move(pairs)}};
+  if (closest) line["closest"] = closest_json(objects, *closest);
+  line["statistics"] = statistics_json(result.statistics, options.mode);
   return json_text(line);
 }
 

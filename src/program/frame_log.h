@@ -9,6 +9,7 @@
 #include "lodestone/detection/detector_options.h"
 #include "lodestone/detection/frame.h"
 #include "lodestone/io/scenes/scene_file.h"
+#include "lodestone/queries/closest_faces.h"
 
 namespace lodestone {
 
@@ -17,6 +18,13 @@ struct Pair_truth {
   Object_id a = 0;
   Object_id b = 0;
   std::vector<Face_pair> faces;  ///< all intersecting face pairs, sorted
+};
+
+/// Where one object pair is closest in one frame.
+struct Pair_closest {
+  Object_id a = 0;
+  Object_id b = 0;
+  Closest_faces found = {};
 };
 
 /// JSON and a line break. Invalid UTF-8, which file names may contain, becomes U+FFFD.
@@ -38,7 +46,9 @@ inline bool has_tolerance(const Detector_options& options) {
 /// @param objects  of the scene; faces are listed by their index in the file, once per triangle that they were cut into
 /// @param options  of the detector that gave the result; they determine which keys are written
 /// @param truth  of all pairs; adds the key `truth` to each pair, and adds pairs that collide but were not reported
+/// @param closest  of all pairs; adds the key `closest`, a list of its own, since `pairs` omits those far apart
 std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objects, const Frame& result,
-                       const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth);
+                       const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth,
+                       const std::optional<std::vector<Pair_closest>>& closest);
 
 }  // namespace lodestone

@@ -13,6 +13,7 @@
 #include "program/mode_options.h"
 #include "program/run_reported.h"
 #include "program/standard_input.h"
+#include "program/strategy_options.h"
 
 namespace lodestone {
 
@@ -109,7 +110,8 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   app.add_option(
          "INPUT", command.inputs,
          "A scene (.json), or two or more meshes or animations (.off .obj .ply .stl .gltf .glb .md2 .md3, a "
-         "pattern such as 'cloth_*.obj', MESH+CACHE with .pc2 or .mdd); one with --self; - is the standard input")
+         "pattern such as 'cloth_*.obj', MESH+CACHE with .pc2 or .mdd, SCENE.json#OBJECT, shape:teapot); one with "
+         "--self; - is the standard input")
       ->required()
       ->type_name("FILE");
   app.add_option("--mode", options.mode,
@@ -134,6 +136,8 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   app.add_flag("--points", options.contact_points, "Also report the points where two faces meet");
   app.add_flag("--normals", options.contact_normals,
                "Also report the direction that separates two faces, and how far to move");
+  app.add_flag("--closest", command.closest,
+               "Mode exact: also report the closest faces of each object pair, and their distance");
   app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
   app.add_option(
          "--collision-distance", options.collision_distance,
@@ -266,8 +270,13 @@ int run_commands(int argc, char** argv) {
   std::vector<std::filesystem::path*> inputs{&partition.mesh, &info.file, &convert.input};
   for (auto& input : detect.inputs) inputs.push_back(&input);
   replace_standard_input(inputs, format, standard_input);
-  if (program.got_subcommand("detect"))
-    refuse_options_of_other_modes(*program.get_subcommand("detect"), detect.options.mode);
+  if (program.got_subcommand("detect")) {
+    const auto& app = *program.get_subcommand("detect");
+    refuse_options_of_other_modes(app, detect.options.mode);
+    refuse_options_of_other_strategies(app, detect.partition.name, detect.options.mode != Mode::exact);
+  }
+  if (program.got_subcommand("partition"))
+    refuse_options_of_other_strategies(*program.get_subcommand("partition"), partition.strategy.name, true);
   detect.options.senin.seed = detect.partition.settings.seed;
   detect.partition.settings.lbg.threads = detect.options.exact.threads;
   // A page shows contacts, so it asks for all of them by default.

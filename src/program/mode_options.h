@@ -23,6 +23,7 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
   };
   static const std::vector<Mode_option> options{
       {"--within", {Mode::exact}},
+      {"--closest", {Mode::exact}},
       {"--self", {Mode::exact}},
       {"--self-within", {Mode::exact}},
       {"--containment", {Mode::exact}},
@@ -37,6 +38,7 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
       {"--split", {Mode::exact, Mode::particles}},
       {"--epsilon", {Mode::exact, Mode::particles}},
       {"--tolerance", {Mode::exact, Mode::particles}},
+      {"--threads", {Mode::exact, Mode::particles}},
   };
   for (const auto& option : options) {
     if (detect.count(option.name) == 0 || std::ranges::find(option.modes, mode) != option.modes.end()) continue;

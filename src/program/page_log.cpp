@@ -85,7 +85,8 @@ Page_log::Page_log(const Detect_command& command, const Scene& scene, const Scen
   for (const auto& object : scene.objects) {
     const Mesh_numbering<Surface_mesh> numbering(object.mesh);
     page_.add_object(object.name, numbering.vertex_count(), numbering.corners());
-    exact_.add(object.mesh, {.file_vertex = object.file_vertex});
+    exact_.add(object.mesh,
+               {.groups = object.collision.groups, .meets = object.collision.meets, .file_vertex = object.file_vertex});
   }
   for (const auto& pair : scene.ignored) exact_.ignore(pair.a, pair.b);
 }

@@ -126,6 +126,24 @@ TEST_F(Detect_files, an_animation_of_gltf_is_played_as_long_as_info_says) {
   EXPECT_EQ(frames().size(), 61U);
 }
 
+TEST_F(Detect_files, shapes_and_objects_of_scenes_are_inputs) {
+  write("a.off", tetrahedron_off());
+  const auto scene = write("scene.json", R"({"frames": 3, "objects": [{"name": "still", "mesh": "a.off"},
+    {"name": "comes", "mesh": "a.off", "motion": {"deform": [{"travel": {"path": "linear", "way_points":
+    [{"frame": 0, "at": [90, 0, 0]}, {"frame": 2, "at": [0, 0, 0]}]}}]}}]})");
+  expect_success(detect({scene + "#comes", R"(shape:{"icosphere": {"frequency": 2}})", "shape:teapot"}));
+  EXPECT_EQ(collisions().size(), 3U);
+  std::vector<std::string> names;
+  const Json summary = read_json(out / "summary.json");
+  for (const auto& object : summary["objects"]) names.push_back(object["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"comes", "icosphere", "teapot"}));
+  expect_success(detect({scene + "#comes", path("a.off")}));
+  EXPECT_EQ(collisions(), (std::vector<bool>{false, false, true}));
+  expect_error(detect({scene + "#gone", path("a.off")}), 2, "still, comes");
+  expect_error(detect({"shape:kettle", path("a.off")}), 3, "kettle");
+  expect_error(detect({"shape:teapot"}), 2, "one mesh alone");
+}
+
 TEST_F(Detect_files, outside_the_folder_of_the_scene_are_used_if_allowed) {
   create_directory(folder.path() / "scenes");
   write("a.off", tetrahedron_off());
@@ -133,6 +151,8 @@ TEST_F(Detect_files, outside_the_folder_of_the_scene_are_used_if_allowed) {
                                                                  {"name": "b", "mesh": "../a.off"}]})");
   expect_error(detect({scene}), 3, "not inside");
   expect_success(detect({scene, "--allow-outside"}));
+  expect_error(detect({scene + "#a", path("a.off")}), 3, "not inside");
+  expect_success(detect({scene + "#a", path("a.off"), "--allow-outside"}));
   expect_success(run_program({"info", scene, "--allow-outside"}));
   expect_success(run_program({"convert", scene + "#a", path("b.off"), "--allow-outside", "--quiet"}));
 }

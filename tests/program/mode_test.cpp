@@ -107,6 +107,37 @@ TEST_F(Program_mode, exact_refuses_the_options_of_particles) {
   }
 }
 
+TEST_F(Program_mode, senin_refuses_threads) {
+  expect_error(detect({"--mode", "senin", "--threads", "2"}), 2, "--threads needs --mode exact or particles");
+  expect_success(detect({"--mode", "particles", "--threads", "2"}));
+}
+
+TEST_F(Program_mode, options_of_other_strategies_are_refused) {
+  const std::map<std::string, std::string> options{
+      {"--normal-weight", "0.5"}, {"--split", "multiplicative"}, {"--epsilon", "0.01"}, {"--tolerance", "0.01"}};
+  for (const auto& [option, value] : options) {
+    SCOPED_TRACE(option);
+    const auto needs = option + " needs --strategy lbg";
+    expect_error(detect({option, value, "--strategy", "grid"}), 2, needs);
+    expect_error(
+        run_program({"partition", (folder.path() / "square.off").string(), option, value, "--strategy", "grid"}), 2,
+        needs);
+    expect_success(detect({option, value, "--strategy", "lbg"}));
+  }
+  expect_error(detect({"--split", "multiplicative", "--strategy", "kmeans++"}), 2, "the strategy kmeans++ ignores it");
+  expect_error(detect({"--normal-weight", "1", "--strategy", "lbg_position"}), 2, "--normal-weight");
+  expect_success(detect({"--normal-weight", "1", "--strategy", "kmeans++"}));
+}
+
+TEST_F(Program_mode, threads_are_refused_where_the_strategy_alone_would_use_them_and_does_not) {
+  expect_error(detect({"--threads", "2", "--strategy", "grid", "--mode", "particles"}), 2,
+               "--threads needs --strategy");
+  expect_success(detect({"--threads", "2", "--strategy", "grid"}));
+  const auto square = (folder.path() / "square.off").string();
+  expect_error(run_program({"partition", square, "--threads", "2", "--strategy", "grid"}), 2, "--threads");
+  expect_success(run_program({"partition", square, "--threads", "2"}));
+}
+
 TEST_F(Program_mode, tells_the_time_to_build_apart_from_that_of_a_frame) {
   for (const auto* mode : {"particles", "senin", "exact"}) {
     SCOPED_TRACE(mode);

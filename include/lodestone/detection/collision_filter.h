@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lodestone/detection/broad_phase.h"
+#include "lodestone/detection/collision_groups.h"
 #include "lodestone/detection/detector_options.h"
 
 namespace lodestone {
@@ -28,17 +29,14 @@ class Collision_filter {
   }
   /// Whether a face of a and a face of b, or two faces of a = b, may be reported.
   bool may_collide(std::uint32_t a, std::uint32_t b) const {
-    if ((objects_[a].groups & objects_[b].meets) == 0 || (objects_[b].groups & objects_[a].meets) == 0) return false;
+    if (!meet(objects_[a], objects_[b])) return false;
     return ignored_.empty() || !ignored_.contains(ordered({a, b}));
   }
 
  private:
-  struct Groups {
-    std::uint32_t groups, meets;
-  };
   static Object_pair ordered(Object_pair pair) { return {std::min(pair.a, pair.b), std::max(pair.a, pair.b)}; }
 
-  std::vector<Groups> objects_;
+  std::vector<Collision_groups> objects_;
   std::set<Object_pair> ignored_;
 };
 

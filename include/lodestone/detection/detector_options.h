@@ -76,11 +76,15 @@ struct Detector_options {
 };
 
 /// What one object has of its own.
+///
+/// Groups say which objects are checked against each other: two objects are if each belongs to a group that the other
+/// meets. So both must agree, and either can refuse. An object is checked against itself if it meets one of its own
+/// groups. By default every object belongs to the first group and meets all 32.
 struct Object_options {
   std::size_t particles = 0;                           ///< 0: as the detector's options say
   std::optional<Eigen::Vector3d> scattered_side = {};  ///< Senin_options::side of this object
-  std::uint32_t groups = 1;                            ///< bits: the groups that the object belongs to
-  std::uint32_t meets = ~std::uint32_t{0};             ///< bits: the groups that it can collide with, its own included
+  std::uint32_t groups = 1;                 ///< bits: the groups that the object belongs to; 0: it meets nothing
+  std::uint32_t meets = ~std::uint32_t{0};  ///< bits: the groups that it can collide with; its own too if listed
   /// Per vertex of the mesh: its index in the file, as `read_mesh` gives it. Mode `exact` treats vertices with the same
   /// index as one, at the position of the first. A half-edge mesh stores a non-manifold vertex several times; without
   /// this, faces that share it would count as touching. Empty: no vertices are merged.

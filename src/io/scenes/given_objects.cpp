@@ -2,10 +2,12 @@
 #include "lodestone/io/scenes/given_objects.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,6 +23,8 @@ namespace lodestone {
 
 namespace {
 
+constexpr std::string_view shape_prefix = "shape:", scene_mark = ".json#";
+
 /// The file's name without folder, extension and the number of a pattern: `seq/cloth_###.obj` is `cloth`. Names are
 /// shown in tables and messages, so control characters are replaced.
 std::string name_of(const std::filesystem::path& input) {
@@ -31,6 +35,12 @@ std::string name_of(const std::filesystem::path& input) {
   std::erase_if(name, [](char c) { return c == '*' || c == '#'; });
   const auto last = name.find_last_not_of("_-. ");
   return last == name.npos ? "sequence" : name.substr(0, last + 1);
+}
+
+/// Whatever the input is.
+Scene_object any_object(const std::filesystem::path& input, const Scene_options& options) {
+  auto named = named_object(input, options);
+  return named ? std::move(*named) : read_object(name_of(input), input);
 }
 
 void hold_last_pose(Motion& motion) {
@@ -63,6 +73,7 @@ Scene_object shape_object(const std::string& shape) {
   const auto document =
       shape.starts_with('{') ? detail::parse_json_text(shape, "shape") : detail::Json{{shape, detail::Json::object()}};
   Scene_object object;
+  object.name = document.is_object() && document.size() == 1 ? document.begin().key() : shape;
   object.mesh = detail::read_shape({document, "shape"});
   object.file_vertices = object.mesh.number_of_vertices();
   object.file_vertex.resize(object.file_vertices);
@@ -73,19 +84,43 @@ Scene_object shape_object(const std::string& shape) {
   return object;
 }
 
-Scene scene_of(std::span<const std::filesystem::path> inputs) {
+Scene_object object_of_scene(const std::filesystem::path& file, const std::string& name, const Scene_options& options) {
+  Scene scene = read_scene(file, options);
+  const bool is_only = name.empty() && scene.objects.size() == 1;
+  const auto found = is_only ? scene.objects.begin() : std::ranges::find(scene.objects, name, &Scene_object::name);
+  if (found == scene.objects.end()) {
+    std::vector<std::string> names;
+    for (const auto& object : scene.objects) names.push_back(object.name);
+    throw Bad_argument(
+        fmt::format("{0}: name one object of the scene, as {0}#NAME: {1}", file.string(), fmt::join(names, ", ")));
+  }
+  if (found->motion.frames == 0) found->motion.frames = scene.frames;
+  found->collision = {};
+  found->files.push_back(file);
+  return std::move(*found);
+}
+
+std::optional<Scene_object> named_object(const std::filesystem::path& input, const Scene_options& options) {
+  const std::string text = input.string();
+  if (text.starts_with(shape_prefix)) return shape_object(text.substr(shape_prefix.size()));
+  const auto mark = text.find(scene_mark);
+  if (mark == text.npos) return std::nullopt;
+  const auto name = mark + scene_mark.size();
+  return object_of_scene(text.substr(0, name - 1), text.substr(name), options);
+}
+
+Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_options& options) {
   Scene scene;
   scene.name = "meshes";
   std::set<std::string> taken;
   for (const auto& input : inputs) {
-    const std::string wanted = name_of(input);
-    std::string name = wanted;
-    for (std::size_t use = 2; !taken.insert(name).second; ++use) name = fmt::format("{}_{}", wanted, use);
-    scene.objects.push_back(read_object(std::move(name), input));
-    scene.frames = std::max(scene.frames, scene.objects.back().motion.frames);
+    auto& object = scene.objects.emplace_back(any_object(input, options));
+    const std::string wanted = object.name;
+    for (std::size_t use = 2; !taken.insert(object.name).second; ++use) object.name = fmt::format("{}_{}", wanted, use);
+    scene.frames = std::max(scene.frames, object.motion.frames);
   }
   for (auto& object : scene.objects)
-    if (object.motion.frames < scene.frames) hold_last_pose(object.motion);
+    if (object.motion.frames > 0 && object.motion.frames < scene.frames) hold_last_pose(object.motion);
   return scene;
 }
 

@@ -14,6 +14,7 @@
 #include "io/files/json_reader.h"
 #include "io/scenes/scene_fields.h"
 #include "io/scenes/scene_folder.h"
+#include "io/scenes/scene_groups.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/mesh/errors.h"
@@ -121,7 +122,7 @@ Motion read_motion(const Json_value& value, const Scene_object& object, const Pl
 // ---- Objects and scene ----
 
 Scene_object read_object(const Json_value& value, Scene_folder& folder) {
-  value.expect_keys({"name", "mesh", "shape", "place", "motion", "particles", "scattered_side"});
+  value.expect_keys({"name", "mesh", "shape", "place", "motion", "particles", "scattered_side", "groups", "meets"});
   const std::string name = value.at("name").text();
   Scene_object object = read_rest(value, folder);
   object.name = name;
@@ -148,6 +149,7 @@ std::vector<Scene_object> read_objects(const Json_value& value, Scene_folder& fo
     if (!names.insert(name).second)
       element.at("name").fail(fmt::format("{} is taken by an object above", in_quotes(name)));
   }
+  detail::read_groups(value, objects);
   return objects;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,10 +18,22 @@ namespace lodestone {
 /// @throws Bad_argument          a point cache without its mesh
 Scene_object read_object(std::string name, const std::filesystem::path& input);
 
-/// A scene of such objects, named after their files; equal names get a number. It has as many frames as the longest
-/// motion. An object whose motion is shorter keeps its last pose.
+/// An object that `input` names: `SCENE.json#OBJECT`, or `shape:SHAPE` as for `shape_object`. Nothing if `input` is of
+/// neither form. An object of a scene is alone: groups and ignored pairs are dropped.
+/// @throws Bad_scene, Bad_mesh, Bad_motion  as read_scene
+/// @throws Bad_argument                     the scene has no object of that name
+std::optional<Scene_object> named_object(const std::filesystem::path& input, const Scene_options& options = {});
+
+/// The object of that name; if `name` is empty, the only one. Its motion has as many frames as the scene if it does not
+/// end by itself.
+/// @throws Bad_scene, Bad_mesh, Bad_motion, Bad_argument  as named_object
+Scene_object object_of_scene(const std::filesystem::path& scene, const std::string& name,
+                             const Scene_options& options = {});
+
+/// A scene of inputs of `read_object` and `named_object`, named after their files, shapes and objects; equal names get
+/// a number. It has as many frames as the longest motion. An object whose motion is shorter keeps its last pose.
 /// @param inputs  at least one
-Scene scene_of(std::span<const std::filesystem::path> inputs);
+Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_options& options = {});
 
 /// A built-in shape, by its name if it has defaults for all its fields, else as a scene describes it: `teapot`,
 /// `{"icosphere": {"frequency": 8}}`.

@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "lodestone/detection/broad_phase.h"
+#include "lodestone/detection/collision_groups.h"
 #include "lodestone/io/motion/motion.h"
 #include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/pairs.h"
 
 namespace lodestone {
 
@@ -24,6 +25,7 @@ struct Scene_object {
   std::vector<std::uint32_t> file_face;    ///< per mesh face: its face in the file, as in Mesh_file
   Motion motion;                           ///< also set for an object that never moves
   std::size_t particles = 0;               ///< 0: automatic
+  Collision_groups collision = {};         ///< a bit per name of a group
 
   /// Where the particles of the predecessor start: only on the part of the surface farthest in this direction.
   std::optional<Kernel::Vector_3> scattered_side;
@@ -38,8 +40,11 @@ struct Scene {
   std::vector<Scene_object> objects;
   std::vector<Object_pair> ignored;  ///< object pairs to skip, a <= b, sorted; a = b: self-collisions of an object
 
+  /// Whether a pair is skipped: it is listed, or one of its objects does not meet the other.
   /// @param pair  a <= b
-  bool ignores(Object_pair pair) const { return std::ranges::binary_search(ignored, pair); }
+  bool ignores(Object_pair pair) const {
+    return !meet(objects[pair.a].collision, objects[pair.b].collision) || std::ranges::binary_search(ignored, pair);
+  }
 };
 
 struct Scene_options {
