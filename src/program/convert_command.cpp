@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 #include <system_error>
@@ -30,8 +31,8 @@ Animation read_input(const Convert_command& command) {
   const Scene_options options{.allow_outside = command.allow_outside};
   if (const auto object = named_object(command.input, options)) return animation_of(*object, 1);
   if (command.input.extension() == ".json") return animation_of(object_of_scene(command.input, "", options), 1);
-  return read_animation(command.input,
-                        {.mesh = command.mesh, .frames_per_second = command.rate > 0 ? command.rate : usual_rate});
+  const auto rate = command.rate > 0 ? std::optional(command.rate) : std::nullopt;
+  return read_animation(command.input, {.mesh = command.mesh, .frames_per_second = rate});
 }
 
 Animation edited(Animation animation, const Convert_command& command) {

@@ -51,8 +51,9 @@ Animation gltf(const fs::path& file, const Animation_options& options) {
   if (scene->animations.empty()) {
     result.motion = rest(soup.points);
   } else {
-    result.frames_per_second = options.frames_per_second;
-    result.motion = motion_of(std::move(scene), {options.frames_per_second, options.animation});
+    auto [motion, rate] = motion_of(std::move(scene), {options.frames_per_second, options.animation});
+    result.motion = std::move(motion);
+    result.frames_per_second = rate;
   }
   set_surface(result, std::move(soup));
   return result;

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "io/files/file_bytes.h"
 #include "lodestone/mesh/errors.h"
@@ -13,6 +15,10 @@ namespace lodestone {
 namespace {
 
 constexpr std::size_t most_sampled_frames = 1'000'000;
+constexpr double usual_rate = 30;
+
+/// Keys farther apart are not frames: the curves between them make the motion.
+constexpr double fewest_keys_per_second = 5;
 
 std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, std::string>& wanted) {
   const auto count = scene.animations.size();
@@ -28,6 +34,28 @@ std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, s
   throw Bad_motion(fmt::format("{}: there is no animation {}", scene.name, in_quotes(name)));
 }
 
+/// The times of all keys of all curves, if they follow each other at equal distances; else nothing.
+std::vector<double> uniform_keys(const Gltf_animation& animation) {
+  std::vector<double> times;
+  for (const auto& curve : animation.curves) times.insert(times.end(), curve.times.begin(), curve.times.end());
+  std::ranges::sort(times);
+  times.erase(std::ranges::unique(times).begin(), times.end());
+  if (times.size() < 2) return {};
+  const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  if (step * fewest_keys_per_second > 1 + 1e-6) return {};
+  // Times are floats, and some exporters add up rounded steps.
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (std::abs(times[i] - times.front() - static_cast<double>(i) * step) > 0.01 * step) return {};
+  return times;
+}
+
+/// Keys per second with six digits: the others come from the rounding of key times to floats.
+double rate_of(const std::vector<double>& keys) {
+  const double rate = static_cast<double>(keys.size() - 1) / (keys.back() - keys.front());
+  const double unit = std::pow(10, 5 - std::floor(std::log10(rate)));
+  return std::round(rate * unit) / unit;
+}
+
 std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate) {
   // The tolerance allows for an end that was rounded down to a float.
   const double frames = std::floor(animation.seconds * rate * (1 + 1e-6)) + 1;
@@ -39,13 +67,17 @@ std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, 
 
 }  // namespace
 
-Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options) {
-  const double rate = options.frames_per_second;
-  if (!(rate > 0) || !std::isfinite(rate))
-    throw Bad_argument(fmt::format("{} frames per second: expected a positive and finite number", rate));
+Gltf_motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options) {
+  const auto asked = options.frames_per_second;
+  if (asked && (!(*asked > 0) || !std::isfinite(*asked)))
+    throw Bad_argument(fmt::format("{} frames per second: expected a positive and finite number", *asked));
   const auto number = number_of(*scene, options.animation);
-  const auto frames = frames_of(*scene, scene->animations[number], rate);
-  const auto pose = [scene = std::move(scene), number, frames, rate](std::size_t frame, std::span<Point> positions) {
+  const auto& animation = scene->animations[number];
+  auto keys = asked ? std::vector<double>() : uniform_keys(animation);
+  const double rate = keys.empty() ? asked.value_or(usual_rate) : rate_of(keys);
+  const auto frames = keys.empty() ? frames_of(*scene, animation, rate) : keys.size();
+  const auto pose = [scene = std::move(scene), number, frames, rate, keys = std::move(keys)](
+                        std::size_t frame, std::span<Point> positions) {
     if (frame >= frames)
       throw Bad_motion(
           fmt::format("{}: frame {} (counted from 0) is requested, the animation has {}", scene->name, frame, frames));
@@ -53,10 +85,10 @@ Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_opti
       throw Bad_motion(fmt::format("{}: positions of {} vertices are requested, the file has {}", scene->name,
                                    positions.size(), scene->vertices));
     // Key times are floats. With the same rounding, a frame at a key gets the key's exact value.
-    const auto time = static_cast<float>(static_cast<double>(frame) / rate);
+    const double time = keys.empty() ? static_cast<float>(static_cast<double>(frame) / rate) : keys[frame];
     pose_gltf(*scene, &scene->animations[number], time, positions);
   };
-  return {.frames = frames, .pose = pose};
+  return {.motion = {.frames = frames, .pose = pose}, .frames_per_second = rate};
 }
 
 Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices, const Gltf_motion_options& options) {
@@ -68,7 +100,7 @@ Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices,
   }
   if (scene->vertices != vertices)
     throw Bad_motion(fmt::format("{}: the file has {} vertices, expected {}", scene->name, scene->vertices, vertices));
-  return motion_of(std::move(scene), options);
+  return motion_of(std::move(scene), options).motion;
 }
 
 }  // namespace lodestone

@@ -101,8 +101,10 @@ Motion read_gltf(const Json_value& value, std::size_t vertices, Scene_folder& fo
     else
       options.animation = animation->count(0, most_objects);
   }
-  options.frames_per_second = value.number("frames_per_second", options.frames_per_second);
-  if (!(options.frames_per_second > 0)) value.at("frames_per_second").fail("expected a number > 0");
+  if (const auto rate = value.find("frames_per_second")) {
+    options.frames_per_second = rate->number();
+    if (!(*options.frames_per_second > 0)) rate->fail("expected a number > 0");
+  }
   return read_gltf_motion(folder.file(value.at("file")), vertices, options);
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lodestone/io/meshes/mesh_file.h"
@@ -255,6 +256,31 @@ TEST_F(Gltf, the_last_frame_is_at_or_before_the_end_of_the_animation) {
   EXPECT_THROW(read_animation(file, {.frames_per_second = 1e6}), Bad_motion);
   for (const double rate : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")})
     EXPECT_THROW(read_animation(file, {.frames_per_second = rate}), Bad_argument);
+}
+
+TEST_F(Gltf, uniform_keys_are_frames) {
+  const auto frames_and_rate = [&](std::initializer_list<double> times, std::initializer_list<double> others) {
+    auto sample = square_gltf();
+    const auto curve = [&](const char* path, std::initializer_list<double> keys) {
+      std::string points;
+      for (std::size_t i = 0; i < 3 * keys.size(); ++i) points += packed<float>({1.0});
+      const auto values = sample.add_accessor(
+          {{"bufferView", sample.add_view(points)}, {"componentType", 5126}, {"count", keys.size()}, {"type", "VEC3"}});
+      sample.animate(0, path, sample.add_numbers(keys), values);
+    };
+    curve("scale", times);
+    curve("translation", others);
+    const auto animation = read_animation(write(sample));
+    return std::pair(animation.motion.frames, animation.frames_per_second);
+  };
+  using Frames_and_rate = std::pair<std::size_t, double>;
+  EXPECT_EQ(frames_and_rate({0, 0.1, 0.2, 0.3}, {0, 0.3}), Frames_and_rate(4, 10));
+  EXPECT_EQ(frames_and_rate({0.5, 0.6}, {0.7, 0.8}), Frames_and_rate(4, 10)) << "from the first key on";
+  EXPECT_EQ(frames_and_rate({0, 0.1, 0.2, 0.3}, {0, 0.25}), Frames_and_rate(10, 30)) << "curves differ";
+  EXPECT_EQ(frames_and_rate({0, 0.1, 0.4}, {0, 0.4}), Frames_and_rate(13, 30)) << "a hole";
+  EXPECT_EQ(frames_and_rate({0, 0.2, 0.4}, {0}), Frames_and_rate(3, 5));
+  EXPECT_EQ(frames_and_rate({0, 1, 2}, {0, 2}), Frames_and_rate(61, 30)) << "too few keys to be frames";
+  EXPECT_EQ(frames_and_rate({0}, {0}), Frames_and_rate(1, 30));
 }
 
 TEST_F(Gltf, animations_are_chosen_by_index_or_name) {

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -105,6 +106,37 @@ TEST_F(Animation_output, gltf_is_read_back_with_its_faces) {
   std::vector<Point> positions(5);
   finer.motion.pose(3, positions);
   EXPECT_LT(CGAL::squared_distance(positions[2], CGAL::midpoint(place(2, 1), place(2, 2))), 1e-10);
+}
+
+TEST_F(Animation_output, gltf_is_read_back_frame_by_frame_at_any_rate) {
+  for (const double rate : {12.5, 24.0, 24000.0 / 1001, 25.0, 30.0, 60.0, 120.0, 8.0})
+    for (const std::size_t frames : {2U, 3U, 5U, 97U, 1000U}) {
+      SCOPED_TRACE(testing::Message() << rate << " " << frames);
+      square.motion.frames = frames;
+      write_animation(folder.path() / "a.glb", square, {.frames_per_second = rate});
+      const auto found = read_animation(folder.path() / "a.glb");
+      EXPECT_NEAR(found.frames_per_second, rate, 1e-5 * rate);
+      std::vector<std::size_t> all(frames);
+      std::iota(all.begin(), all.end(), 0U);
+      expect_frames(found, all, 2e-6 + 1e-7 * static_cast<double>(frames * frames));
+    }
+}
+
+TEST_F(Animation_output, point_caches_come_back_through_gltf_with_the_same_frames_and_rate) {
+  for (const std::string cache : {"a.mdd", "a.pc2"})
+    for (const double rate : {12.5, 24.0, 25.0, 60.0}) {
+      SCOPED_TRACE(cache + " " + std::to_string(rate));
+      write_animation(folder.path() / cache, square, {.frames_per_second = rate});
+      auto read = read_animation(folder.path() / cache);
+      read.faces = square.faces;
+      const double own = read.frames_per_second > 0 ? read.frames_per_second : rate;
+      write_animation(folder.path() / "b.gltf", read, {.frames_per_second = own});
+      const auto through = read_animation(folder.path() / "b.gltf");
+      write_animation(folder.path() / "c.mdd", through, {.frames_per_second = through.frames_per_second});
+      const auto back = read_animation(folder.path() / "c.mdd");
+      expect_frames(back, {0, 1, 2, 3, 4}, 4e-6);
+      EXPECT_NEAR(back.frames_per_second, rate, 1e-5 * rate);
+    }
 }
 
 TEST_F(Animation_output, gltf_of_one_frame_is_read_back_as_one_frame) {

@@ -29,7 +29,7 @@ struct Animation {
 
 struct Animation_options {
   std::filesystem::path mesh = {};  ///< for a point cache: the mesh file that it moves; empty: positions only
-  double frames_per_second = 30;    ///< sampling rate of a glTF animation; > 0
+  std::optional<double> frames_per_second = {};  ///< of a glTF animation, as in Gltf_motion_options
   std::variant<std::size_t, std::string> animation = std::size_t{0};  ///< in a glTF file: its index or name
 };
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -46,14 +47,17 @@ Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices)
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices);
 
 struct Gltf_motion_options {
-  double frames_per_second = 30;  ///< sampling rate; > 0
+  /// Sampling rate, > 0. Not given: one frame per key, if all keys of all curves follow each other at equal distances,
+  /// up to rounding, and there are at least 5 per second; else 30.
+  std::optional<double> frames_per_second = {};
   /// Which animation of the file: its index or its name.
   std::variant<std::size_t, std::string> animation = std::size_t{0};
 };
 
 /// Motion from an animation of a glTF 2.0 file (.gltf, .glb): nodes, skins and morph targets. Frame t is sampled at
-/// t / frames_per_second seconds; the last frame is the last at or before the animation's end. The file is kept in
-/// memory, and `pose` computes frames on demand. Vertices have the indices that `read_mesh` gives those of the file.
+/// t / frames_per_second seconds, or at key t; the last frame is the last at or before the animation's end. The file is
+/// kept in memory, and `pose` computes frames on demand. Vertices have the indices that `read_mesh` gives those of the
+/// file.
 /// @param vertices  number of vertices the file must have
 /// @throws Bad_motion    a broken file, a wrong number of vertices, no such animation, more than a million frames
 /// @throws Bad_argument  the frame rate is not positive and finite
