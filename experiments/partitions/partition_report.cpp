@@ -30,7 +30,8 @@ struct Figure {
   std::string key;
   std::string over = {};  ///< empty: the figure itself
   double scale = 1;
-  bool is_time = false;  ///< over the meshes of a seed the median is taken, because times have outliers
+  bool is_time = false;         ///< over the meshes of a seed the median is taken, because times have outliers
+  std::string trials_key = {};  ///< for a proportion: how many trials it is of; empty: no proportion
 
   double of(const Json& row) const {
     const auto value = scale * row.at(key).get<double>();
@@ -63,7 +64,7 @@ const std::vector<Column>& partition_columns() {
 
 const std::vector<Column>& use_columns() {
   static const std::vector<Column> columns{
-      {"recall", {"recall", "recall"}, 3},
+      {"recall", {"recall", "recall", {}, 1, false, "positive"}, 3},
       {"delay (frames)", {"delay_frames", "delay_frames"}},
       {"iterations", {"iterations", "iterations"}, 1},
       {"candidates", {"candidates", "candidates"}, 1},
@@ -95,27 +96,45 @@ double mean(const std::vector<double>& values) {
 /// Mean or median over the rows of each seed, then the interval over the seeds.
 Interval summary(const By_seed& seeds, const Figure& figure) {
   std::vector<double> of_seeds;
+  double trials = 0;
   for (const auto& [seed, rows] : seeds) {
     std::vector<double> values;
-    for (const Json* row : rows) values.push_back(figure.of(*row));
+    for (const Json* row : rows) {
+      values.push_back(figure.of(*row));
+      if (!figure.trials_key.empty()) trials += row->at(figure.trials_key).get<double>();
+    }
     of_seeds.push_back(figure.is_time ? median(values) : mean(values));
   }
-  return confidence_interval(of_seeds);
+  return figure.trials_key.empty() ? mean_interval(of_seeds) : proportion_interval(of_seeds, trials);
 }
 
-/// The mean, with its interval unless that rounds to zero.
-std::string text_of(const Interval& interval, int decimals) {
+/// The mean, with half the width of its interval unless that rounds to zero.
+std::string text_of_mean(const Interval& interval, int decimals) {
   const std::string mean = fmt::format("{:.{}f}", interval.mean, decimals);
-  const std::string half = fmt::format("{:.{}f}", interval.half_width, decimals);
+  const std::string half = fmt::format("{:.{}f}", interval.high - interval.mean, decimals);
   const bool nothing = half.find_first_of("123456789") == std::string::npos;
   return nothing ? mean : mean + " +- " + half;
 }
 
-/// In the order of the registry.
+/// The mean, with the ends of its interval unless they are printed alike: of proportions, they lie on both sides of the
+/// mean at different distances.
+std::string text_of_proportion(const Interval& interval, int decimals) {
+  const auto text = [&](double value) { return fmt::format("{:.{}f}", value, decimals); };
+  if (text(interval.low) == text(interval.high)) return text(interval.mean);
+  return fmt::format("{} ({}..{})", text(interval.mean), text(interval.low), text(interval.high));
+}
+
+std::string text_of(const Interval& interval, const Column& column) {
+  return (column.figure.trials_key.empty() ? text_of_mean : text_of_proportion)(interval, column.decimals);
+}
+
+/// In the order of the registry, then those whose labels are given.
 std::vector<std::string> variants_of(const By_variant& sorted) {
   std::vector<std::string> names;
   for (const auto& variant : partition_variants())
     if (sorted.contains(variant.name)) names.push_back(variant.name);
+  for (const auto& [name, rows] : sorted)
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   return names;
 }
 
@@ -135,17 +154,16 @@ std::string columns_table(const By_variant& sorted, const std::vector<std::strin
     const auto seeds = sorted.at(variant).find(shown_regions);
     if (seeds == sorted.at(variant).end()) continue;
     std::vector<std::string> row{variant, std::to_string(seeds->second.begin()->second.size())};
-    for (const auto& column : columns) row.push_back(text_of(summary(seeds->second, column.figure), column.decimals));
+    for (const auto& column : columns) row.push_back(text_of(summary(seeds->second, column.figure), column));
     table.add(std::move(row));
   }
   return table.text();
 }
 
 /// A table of one figure against the number of regions.
-/// @param figure_of  gives the interval for a number of regions and the rows of a variant by seed
-template <class Figure_of>
-std::string regions_table(const By_variant& sorted, const std::vector<std::string>& variants, int decimals,
-                          Figure_of figure_of) {
+/// @param text_for  gives the text for a number of regions and the rows of a variant by seed
+template <class Text_for>
+std::string regions_table(const By_variant& sorted, const std::vector<std::string>& variants, Text_for text_for) {
   std::vector<std::string> header{"strategy"};
   for (const auto regions : partition_counts) header.push_back(fmt::format("{} regions", regions));
   Text_table table(header);
@@ -153,7 +171,7 @@ std::string regions_table(const By_variant& sorted, const std::vector<std::strin
     std::vector<std::string> row{variant};
     for (const auto regions : partition_counts) {
       const auto seeds = sorted.at(variant).find(regions);
-      row.push_back(seeds == sorted.at(variant).end() ? "-" : text_of(figure_of(regions, seeds->second), decimals));
+      row.push_back(seeds == sorted.at(variant).end() ? "-" : text_for(regions, seeds->second));
     }
     table.add(std::move(row));
   }
@@ -161,8 +179,9 @@ std::string regions_table(const By_variant& sorted, const std::vector<std::strin
 }
 
 std::string regions_table(const By_variant& sorted, const std::vector<std::string>& variants, const Column& column) {
-  return regions_table(sorted, variants, column.decimals,
-                       [&](std::size_t, const By_seed& seeds) { return summary(seeds, column.figure); });
+  return regions_table(sorted, variants, [&](std::size_t, const By_seed& seeds) {
+    return text_of(summary(seeds, column.figure), column);
+  });
 }
 
 /// Recall by mesh, number of regions and seed: of one scene.
@@ -181,7 +200,7 @@ Recall_by_scene recall_by_scene(const By_regions& by_regions) {
 std::string recall_difference_table(const By_variant& sorted, const std::vector<std::string>& variants) {
   if (!sorted.contains("lbg")) return {};
   const auto of_lbg = recall_by_scene(sorted.at("lbg"));
-  return regions_table(sorted, variants, 3, [&](std::size_t regions, const By_seed& seeds) {
+  return regions_table(sorted, variants, [&](std::size_t regions, const By_seed& seeds) {
     std::vector<double> of_seeds;
     for (const auto& [seed, rows] : seeds) {
       std::vector<double> differences;
@@ -190,7 +209,7 @@ std::string recall_difference_table(const By_variant& sorted, const std::vector<
           differences.push_back(row->at("recall").get<double>() - lbg->second);
       if (!differences.empty()) of_seeds.push_back(mean(differences));
     }
-    return of_seeds.empty() ? Interval{} : confidence_interval(of_seeds);
+    return of_seeds.empty() ? "-" : text_of_proportion(difference_interval(of_seeds), 3);
   });
 }
 
@@ -219,8 +238,8 @@ void add_figures(const By_variant& sorted, const std::string& mesh, Json& figure
                              {"mesh", mesh},
                              {"figure", column.figure.name},
                              {"mean", rounded(interval.mean)},
-                             {"low", rounded(interval.mean - interval.half_width)},
-                             {"high", rounded(interval.mean + interval.half_width)}});
+                             {"low", rounded(interval.low)},
+                             {"high", rounded(interval.high)}});
         }
     }
 }

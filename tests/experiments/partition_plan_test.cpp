@@ -104,11 +104,15 @@ TEST(Partition_report, averages_over_meshes_first_and_then_over_seeds) {
     const double mean = figure["mesh"] == "all" ? 0.55 : figure["mesh"] == "cloth_coarse" ? 0.4 : 0.7;
     EXPECT_NEAR(figure["mean"], mean, 1e-12);
     if (figure["mesh"] == "all") {
-      EXPECT_NEAR(figure["high"].get<double>() - mean, 12.706 * 0.25, 1e-3);
+      EXPECT_GE(figure["low"], 0);
+      EXPECT_LT(figure["low"], mean);
+      EXPECT_LE(figure["high"], 1);
+      EXPECT_GT(figure["high"], mean);
     }
   }
   EXPECT_EQ(found, 3U);
-  EXPECT_NE(partition_report(rows).find("| lbg      |      2 | 0.550"), std::string::npos) << partition_report(rows);
+  EXPECT_NE(partition_report(rows).find("| lbg      |      2 | 0.550 (0."), std::string::npos)
+      << partition_report(rows);
 }
 
 TEST(Partition_report, compares_recall_with_that_of_lbg_in_the_same_scene) {
@@ -128,7 +132,7 @@ TEST(Partition_report, compares_recall_with_that_of_lbg_in_the_same_scene) {
   const auto line =
       table.substr(table.find("| metis"), table.find('\n', table.find("| metis")) - table.find("| metis"));
   EXPECT_NE(line.find(" 0.125 |"), std::string::npos) << line;
-  EXPECT_EQ(line.find("+-"), std::string::npos) << line;
+  EXPECT_EQ(line.find(".."), std::string::npos) << line;
 }
 
 }  // namespace
