@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A custom partition strategy: slices of equal size along an axis. It is measured beside LBG and used by a detector,
-// which takes it as a template argument.
+// which takes it as a template argument. With two arguments, MESH and LABELS, the program writes the labels of a mesh
+// file for the experiment `partitions`.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <numeric>
 
 #include "lodestone/detector.h"
+#include "lodestone/io/meshes/label_file.h"
+#include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/partition/partition_measures.h"
 
@@ -38,7 +41,20 @@ void show(Surface_mesh mesh, const Strategy& strategy) {
               measures.size_balance);
 }
 
-int main() try {
+void label(const char* mesh_file, const char* label_file) {
+  Mesh_file file = read_mesh(mesh_file);
+  const auto regions = file.mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:region").first;
+  partition(file.mesh, 32, regions, Slices{});
+  std::vector<Region_index> labels(file.file_vertices);
+  for (const auto v : file.mesh.vertices()) labels[file.file_vertex[v]] = regions[v];
+  write_labels(label_file, labels);
+}
+
+int main(int argc, char** argv) try {
+  if (argc == 3) {
+    label(argv[1], argv[2]);
+    return 0;
+  }
   Surface_mesh knot = torus_knot();
   Surface_mesh sphere = icosphere(12);
   show(knot, Slices{});

@@ -13,6 +13,7 @@
 
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/errors.h"
+#include "partitions/hash.h"
 #include "partitions/partition_plan.h"
 #include "revision.h"
 
@@ -28,18 +29,6 @@ std::string processor() {
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
   return "unknown";
 }
-
-/// FNV-1a, 64 bits, of numbers as they lie in memory.
-class Hash {
- public:
-  void add(std::uint64_t word) {
-    for (int byte = 0; byte < 8; ++byte) value_ = (value_ ^ (word >> (8 * byte) & 0xff)) * 0x100000001b3;
-  }
-  std::string text() const { return fmt::format("{:016x}", value_); }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325;
-};
 
 std::string hash_of(const Surface_mesh& mesh) {
   Hash hash;

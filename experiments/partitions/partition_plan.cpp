@@ -11,6 +11,8 @@
 #include <random>
 
 #include "lodestone/io/motion/deformation.h"
+#include "lodestone/io/results/animation_output.h"
+#include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/mesh/errors.h"
 
@@ -97,7 +99,17 @@ void add_lbg_variants(std::vector<Partition_variant>& variants) {
   }
 }
 
+/// The numbers of regions into which a variant divides a mesh.
+std::vector<std::size_t> counts_of(const Partition_variant& variant, const Partition_mesh& mesh) {
+  if (variant.labels.empty()) return {std::begin(partition_counts), std::end(partition_counts)};
+  std::vector<std::size_t> counts;
+  for (const auto& labels : variant.labels)
+    if (labels.mesh == mesh.name) counts.push_back(labels.regions);
+  return counts;
+}
+
 bool fits(const Partition_variant& variant, const Partition_mesh& mesh) {
+  if (!variant.labels.empty()) return true;
   const auto entry = std::ranges::find(strategies(), variant.strategy, &Strategy_entry::name);
   return mesh.make().number_of_vertices() <= entry->most_vertices;
 }
@@ -112,7 +124,19 @@ std::string joined_names(const Named_list& list) {
 }  // namespace
 
 std::string Partition_run::id() const {
-  return fmt::format("{}/{}/N{}/seed{}", mesh.name, variant.name, regions, seed);
+  const auto* given = labels();
+  return fmt::format("{}/{}{}/N{}/seed{}", mesh.name, variant.name, given ? "." + given->hash : "", regions, seed);
+}
+
+const Given_labels* Partition_run::labels() const {
+  const auto found = std::ranges::find_if(
+      variant.labels, [&](const auto& given) { return given.mesh == mesh.name && given.regions == regions; });
+  return found == variant.labels.end() ? nullptr : &*found;
+}
+
+Any_strategy Partition_run::strategy() const {
+  if (const auto* given = labels()) return strategy_of(*given, variant.name);
+  return make_strategy(variant.strategy, variant.settings);
 }
 
 std::vector<Partition_variant> partition_variants() {
@@ -126,8 +150,10 @@ std::vector<Partition_variant> partition_variants() {
 
 std::span<const Partition_mesh> partition_meshes() { return meshes; }
 
-std::vector<Partition_run> partition_plan(const std::vector<std::string>& only) {
-  const auto variants = partition_variants();
+std::vector<Partition_run> partition_plan(const std::vector<std::string>& only,
+                                          const std::vector<Partition_variant>& given) {
+  auto variants = partition_variants();
+  variants.insert(variants.end(), given.begin(), given.end());
   const auto named = [&](std::string_view name) { return std::ranges::find(only, name) != only.end(); };
   std::vector<Partition_variant> chosen_variants;
   std::ranges::copy_if(variants, std::back_inserter(chosen_variants), named, &Partition_variant::name);
@@ -146,13 +172,18 @@ std::vector<Partition_run> partition_plan(const std::vector<std::string>& only) 
   for (const auto& mesh : chosen_meshes)
     for (const auto& variant : chosen_variants) {
       if (!fits(variant, mesh)) continue;
-      for (const auto regions : partition_counts)
+      for (const auto regions : counts_of(variant, mesh))
         for (const auto seed : partition_seeds) {
           plan.push_back({.variant = variant, .mesh = mesh, .regions = regions, .seed = seed});
           plan.back().variant.settings.seed = seed;
         }
     }
   return plan;
+}
+
+void write_partition_meshes(const std::filesystem::path& folder) {
+  for (const auto& mesh : meshes)
+    write_animation(folder / (std::string(mesh.name) + ".off"), animation_of(object_of("mesh", mesh.make(), {}), 1));
 }
 
 Scene partition_scene(const Partition_mesh& mesh, std::uint64_t seed) {

@@ -127,7 +127,7 @@ Row execute(const Partition_run& run) {
   const Surface_mesh& mesh = scene.objects[0].mesh;
   const Numbered surface(mesh);
   const Partition_input<Surface_mesh> input{mesh, surface.numbering, surface.graph, surface.positions};
-  const auto strategy = make_strategy(run.variant.strategy, run.variant.settings);
+  const auto strategy = run.strategy();
 
   Row row = parameters(run, surface);
   const auto divided = divide(input, run.regions, strategy, run.variant.options);

@@ -50,7 +50,11 @@ std::string said_of(const std::vector<std::string>& failures) {
 }  // namespace
 
 std::string run_partitions(const Experiment_context& context) {
-  const auto plan = partition_plan(context.only);
+  if (!context.write_meshes.empty()) {
+    write_partition_meshes(context.write_meshes);
+    return fmt::format("The meshes are in {}. Nothing was measured.\n", context.write_meshes.string());
+  }
+  const auto plan = partition_plan(context.only, read_given_labels(context.strategy_files));
   std::vector<std::string> ids;
   for (const auto& run : plan) ids.push_back(run.id());
 

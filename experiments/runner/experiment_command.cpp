@@ -55,7 +55,9 @@ int run(const Experiment_command& command) {
                               .jobs = command.jobs,
                               .shard = shard,
                               .shards = shards,
-                              .merge = command.merge});
+                              .merge = command.merge,
+                              .strategy_files = command.strategy_files,
+                              .write_meshes = command.write_meshes});
   }
   Atomic_file file(out / (command.name + ".md"));
   file.write(report);

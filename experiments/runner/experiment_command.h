@@ -14,7 +14,8 @@ struct Experiment_command {
   std::vector<std::string> only;  ///< see Experiment_context, as the others here
   std::size_t jobs = 1;
   std::string shard = "1/1";
-  std::vector<std::filesystem::path> merge;
+  std::vector<std::filesystem::path> merge, strategy_files;
+  std::filesystem::path write_meshes;
   std::filesystem::path html;  ///< empty: not written
   bool quiet = false;
 };

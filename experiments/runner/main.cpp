@@ -42,6 +42,15 @@ void add_options(CLI::App& app, Experiment_command& command) {
   app.add_option("--merge", command.merge, "Take over the rows of these folders first (partitions)")
       ->delimiter(',')
       ->type_name("DIR");
+  app.add_option("--strategy-file", command.strategy_files,
+                 "Labels made by another tool, such as 'labels/NAME/*.labels': they take part as strategy NAME "
+                 "(partitions)")
+      ->type_name("PATTERN")
+      ->check(not_empty());
+  app.add_option("--write-meshes", command.write_meshes,
+                 "Only write the meshes of the experiment into this folder, to be labelled (partitions)")
+      ->type_name("DIR")
+      ->check(not_empty());
   app.add_option("--out", command.out, "Folder for the figures")
       ->type_name("DIR")
       ->default_str("out/NAME")
@@ -60,7 +69,9 @@ struct Special_option {
 const std::vector<Special_option> special_options{{"--only", {"peers", "every_frame", "volumes", "partitions"}},
                                                   {"--jobs", {"partitions"}},
                                                   {"--shard", {"partitions"}},
-                                                  {"--merge", {"partitions"}}};
+                                                  {"--merge", {"partitions"}},
+                                                  {"--strategy-file", {"partitions"}},
+                                                  {"--write-meshes", {"partitions"}}};
 
 /// @throws Bad_argument  an option that the experiment would ignore
 void refuse_options_of_other_experiments(const CLI::App& app, const std::string& experiment) {

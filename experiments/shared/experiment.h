@@ -21,6 +21,10 @@ struct Experiment_context {
   std::size_t jobs = 1;                           ///< runs at a time
   std::size_t shard = 1, shards = 1;              ///< the part of the runs to make, and how many parts there are
   std::vector<std::filesystem::path> merge = {};  ///< folders whose rows are taken over first
+
+  // For `partitions` alone.
+  std::vector<std::filesystem::path> strategy_files = {};  ///< labels made by other tools: see read_given_labels
+  std::filesystem::path write_meshes = {};                 ///< only write the meshes into this folder; empty: measure
 };
 
 /// One question, and the run that answers it.

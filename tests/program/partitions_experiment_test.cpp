@@ -130,6 +130,34 @@ TEST_F(Partitions_experiment, rows_of_another_program_are_not_mixed_in) {
   expect_error(run_program(command("b", {"--merge", (folder.path() / "none").string()})), 2, "manifest.json");
 }
 
+TEST_F(Partitions_experiment, labels_of_another_tool_take_part) {
+  const auto meshes = folder.path() / "meshes";
+  const auto written = run_program(
+      {"experiment", "partitions", "--write-meshes", meshes.string(), "--out", (folder.path() / "none").string()});
+  expect_success(written);
+  EXPECT_EQ(content_of(meshes).size(), 8U);
+  // The labels as `partition --json` gives them.
+  const auto json = folder.path() / "p.json";
+  expect_success(run_program({"partition", (meshes / "cloth_coarse.off").string(), "--strategy", "grid", "--regions",
+                              "32", "--json", json.string(), "--quiet"}));
+  const auto statistics = read_json(json);
+  std::string labels;
+  for (const auto& label : statistics["labels"]) labels += label.dump() + "\n";
+  create_directories(folder.path() / "boxes");
+  folder.write("boxes/cloth_coarse.labels", labels);
+  const auto result =
+      run_program({"experiment", "partitions", "--only", "boxes", "--strategy-file",
+                   (folder.path() / "boxes" / "*.labels").string(), "--out", (folder.path() / "a").string()});
+  expect_success(result);
+  EXPECT_NE(result.out.find("5 runs."), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("| boxes    |      1 |"), std::string::npos) << result.out;
+  folder.write("boxes/cloth_coarse.labels", "0\nx\n");
+  expect_error(run_program({"experiment", "partitions", "--strategy-file", (folder.path() / "boxes").string(), "--out",
+                            (folder.path() / "b").string()}),
+               3, "cloth_coarse.labels:2: ");
+  expect_error(run_program({"experiment", "modes", "--strategy-file", "x"}), 2, "--strategy-file");
+}
+
 TEST_F(Partitions_experiment, bad_options_are_refused_in_one_line) {
   for (const std::string shard : {"0/2", "3/2", "1", "a/b", "1/2/3", "1/", "-1/2"})
     expect_error(run_program(command("a", {"--shard", shard})), 2, "--shard");
