@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* extension = ".labels";
+constexpr std::size_t usual_regions = 32;
 
 struct Given_labels_strategy {
   static constexpr std::string_view name = "labels";
@@ -57,26 +58,32 @@ std::string hash_of(const std::vector<Region_index>& labels) {
   return hash.text();
 }
 
-/// @param file  `MESH.labels` or `MESH.REGIONS.labels`
+Partition_mesh mesh_of(const fs::path& file, const std::string& name) {
+  const auto mesh = std::ranges::find(partition_meshes(), name, &Partition_mesh::name);
+  if (mesh != partition_meshes().end()) return *mesh;
+  std::vector<std::string_view> names;
+  for (const auto& known : partition_meshes()) names.push_back(known.name);
+  throw Bad_argument(
+      fmt::format("{}: there is no mesh '{}'; the meshes are {}", file.string(), name, fmt::join(names, ", ")));
+}
+
+/// @param text  the number in the name of the file; empty: there is none
+std::size_t regions_of(const fs::path& file, const std::string& text) {
+  if (text.empty()) return usual_regions;
+  for (const auto count : partition_counts)
+    if (text == std::to_string(count)) return count;
+  throw Bad_argument(fmt::format("{}: '{}' is no number of regions that the experiment compares: {}", file.string(),
+                                 text, fmt::join(partition_counts, ", ")));
+}
+
 Given_labels read_one(const fs::path& file) {
-  const std::string stem = file.stem().string(), mesh_name = stem.substr(0, stem.find('.'));
-  const auto mesh = std::ranges::find(partition_meshes(), mesh_name, &Partition_mesh::name);
-  if (mesh == partition_meshes().end()) {
-    std::vector<std::string_view> names;
-    for (const auto& known : partition_meshes()) names.push_back(known.name);
-    throw Bad_argument(
-        fmt::format("{}: there is no mesh '{}'; the meshes are {}", file.string(), mesh_name, fmt::join(names, ", ")));
-  }
-  auto labels = read_labels(file, mesh->make().number_of_vertices());
-  const std::size_t regions = std::size_t{std::ranges::max(labels)} + 1;
-  if (std::ranges::find(partition_counts, regions) == std::end(partition_counts))
-    throw Bad_argument(fmt::format("{}: has {} regions; the experiment compares {}", file.string(), regions,
-                                   fmt::join(partition_counts, ", ")));
-  if (stem != mesh_name && stem != fmt::format("{}.{}", mesh_name, regions))
-    throw Bad_argument(fmt::format("{}: has {} regions, so its name must be {}{} or {}.{}{}", file.string(), regions,
-                                   mesh_name, extension, mesh_name, regions, extension));
+  const std::string stem = file.stem().string();
+  const auto dot = stem.find('.');
+  const auto mesh = mesh_of(file, stem.substr(0, dot));
+  const auto regions = regions_of(file, dot == stem.npos ? "" : stem.substr(dot + 1));
+  auto labels = read_labels(file, mesh.make().number_of_vertices());
   const auto hash = hash_of(labels);
-  return {.mesh = mesh_name,
+  return {.mesh = std::string(mesh.name),
           .regions = regions,
           .hash = hash,
           .labels = std::make_shared<const std::vector<Region_index>>(std::move(labels))};
