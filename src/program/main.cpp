@@ -152,9 +152,10 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
          "--growth", options.growth,
          "Mode particles: repartition when a region exceeds this multiple of the largest initial area; inf: never")
       ->capture_default_str();
-  app.add_flag("!--open-seams", options.close_seams,
-               "Mode particles or senin: do not join the border vertices that lie on each other in the first frame; "
-               "particles then stop at seams");
+  app.add_flag_callback(
+      "--open-seams", [&options] { options.close_seams = false; },
+      "Mode particles or senin: do not join the border vertices that lie on each other in the first frame; particles "
+      "then stop at seams");
   add_exact_options(app, options.exact);
   add_threads(app, options.exact.threads,
               "Maximum number of threads, for mode exact and lbg partitions; 0: all of the machine");
