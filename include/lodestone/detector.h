@@ -33,10 +33,15 @@ namespace lodestone {
 /// `Exact_detection`. Every query re-reads the vertex positions, so results are never stale. One thread at a time may
 /// use a detector.
 ///
+/// As the type of a member, write `Detector<>`.
+///
 /// @tparam Strategy  how surfaces are divided: a Partition_strategy for the type of each mesh
 /// @tparam Volume    of the trees in mode `exact`, see Bounding_volume
 template <class Strategy = Lbg, Bounding_volume Volume = Aabb>
 class Detector {
+  static_assert(requires(const Strategy& s) { { s.name } -> std::convertible_to<std::string_view>; },
+                "the first template argument of Detector is the partition strategy, not the type of the meshes");
+
  public:
   /// @throws Bad_argument  an option out of range
   explicit Detector(const Detector_options& options = {}, Strategy strategy = {})
@@ -60,8 +65,8 @@ class Detector {
     if (std::ranges::find(meshes_, &mesh) != meshes_.end()) throw Bad_argument("the mesh has been added before");
     return add(mesh, CGAL::get_const_property_map(CGAL::vertex_point, mesh), options);
   }
-  /// Adds an object whose positions are read through `points`, a vertex point map. One mesh may be added several times
-  /// with other points.
+  /// Adds an object whose positions are read through `points`, a vertex point map, which must outlive the object. One
+  /// mesh may be added several times with other points; its property maps are not written.
   template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
   Object_id add(const Mesh& mesh, Points points, const Object_options& options = {}) {
     detection_->add(
@@ -189,8 +194,8 @@ class Detector {
   const Basic_region_tree<Volume>& tree(Object_id object) const { return ask<Exact>(object).tree(object); }
   /// The property maps of an object. `rebuild` invalidates copies of them.
   /// @tparam Mesh          the type of its mesh
-  /// @throws Bad_argument  no such object, one of another type, or one whose mesh could not be written to when it was
-  ///                       added
+  /// @throws Bad_argument  no such object, one of another type, or one whose mesh was added as const or with a point
+  ///                       map
   template <Triangle_mesh Mesh = Surface_mesh>
   const Region_maps<Mesh>& maps(Object_id object) const {
     const auto* mesh = dynamic_cast<const Watched_mesh_of<Mesh>*>(&detection_->mesh(checked(object)));

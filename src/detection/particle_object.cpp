@@ -26,13 +26,24 @@ Particle_object::Particle_object(std::unique_ptr<Watched_mesh> mesh)
 
 void Particle_object::close_seams() {
   if (!mesh_->divides_by_index()) return;
-  seams_ = lodestone::close_seams(corners(), open_border_, checked_positions());
-  if (!seams_) return;
-  joined_corners_.reserve(corners().size());
-  for (const auto& [a, b, c] : corners())
-    joined_corners_.push_back({seams_->joined(a), seams_->joined(b), seams_->joined(c)});
-  graph_ = vertex_graph(mesh_->vertex_count(), joined_corners_);
-  open_border_ = open_border(mesh_->vertex_count(), joined_corners_);
+  // A call that was followed by a failure, perhaps of another object, is repeated when positions may be others.
+  if (seams_) {
+    graph_ = vertex_graph(mesh_->vertex_count(), corners());
+    open_border_ = open_border(mesh_->vertex_count(), corners());
+    seams_.reset();
+  }
+  auto seams = lodestone::close_seams(corners(), open_border_, checked_positions());
+  if (!seams) return;
+  std::vector<Corners> joined;
+  joined.reserve(corners().size());
+  for (const auto& [a, b, c] : corners()) joined.push_back({seams->joined(a), seams->joined(b), seams->joined(c)});
+  auto graph = vertex_graph(mesh_->vertex_count(), joined);
+  auto border = open_border(mesh_->vertex_count(), joined);
+  // From here on nothing can fail.
+  graph_ = std::move(graph);
+  open_border_ = std::move(border);
+  joined_corners_ = std::move(joined);
+  seams_ = std::move(seams);
 }
 
 /// The faces as what walks along the surface sees them.

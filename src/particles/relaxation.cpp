@@ -10,10 +10,22 @@ void Relaxation_scratch::reserve(std::span<const std::size_t> particles) {
   siblings.reserve(particles.empty() ? 0 : *std::ranges::max_element(particles));
   next_at.resize(particles.size());
   next_positions.resize(particles.size());
+  rests.resize(particles.size());
+  moved.resize(particles.size());
+  moved_before.resize(particles.size());
   for (std::size_t object = 0; object < particles.size(); ++object) {
     next_at[object].resize(particles[object]);
     next_positions[object].resize(particles[object]);
+    rests[object].resize(particles[object]);
+    moved[object].reserve(particles[object]);
+    moved_before[object].reserve(particles[object]);
   }
+}
+
+void Relaxation_scratch::start() {
+  for (auto& object : rests) std::ranges::fill(object, Rest{});
+  for (auto* list : {&moved, &moved_before})
+    for (auto& object : *list) object.clear();
 }
 
 }  // namespace lodestone

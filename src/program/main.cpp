@@ -280,8 +280,8 @@ int run_commands(int argc, char** argv) {
     refuse_options_of_other_strategies(*program.get_subcommand("partition"), partition.strategy.name, true);
   detect.options.senin.seed = detect.partition.settings.seed;
   detect.partition.settings.lbg.threads = detect.options.exact.threads;
-  // A page shows contacts, so it asks for all of them by default.
-  if (!detect.html.empty() && program.get_subcommand("detect")->count("--contacts") == 0)
+  // Pages and patches show contacts, so they ask for all of them by default.
+  if ((!detect.html.empty() || detect.options.exact.patches) && program.get_subcommand("detect")->count("--contacts") == 0)
     detect.options.contacts = Contact_query::all;
   if (program.got_subcommand("detect"))
     code = run(detect);

@@ -2,6 +2,9 @@
 // Files whose triangles share no vertices, as flat-shaded exports have them.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <utility>
+
 #include "detection/detector_scenes.h"
 #include "lodestone/detector.h"
 #include "lodestone/mesh/seams.h"
@@ -119,6 +122,20 @@ TEST(Seams_of_an_object, every_vertex_has_the_region_of_those_that_it_is_joined_
     const auto region = get(detector.maps(0).region(), v);
     EXPECT_EQ(region_at.try_emplace(mesh.point(v), region).first->second, region);
   }
+}
+
+TEST(Seams_of_an_object, are_closed_as_in_a_fresh_detector_after_a_frame_that_failed) {
+  const Detector_options options{.mode = Mode::particles, .particles = 16};
+  Owned_meshes scene = two_spheres(1.8);
+  for (auto& mesh : scene) mesh = flat_shaded(mesh);
+  Detector detector(options), fresh(options);
+  add_all(detector, scene), add_all(fresh, scene);
+  auto& last = scene[1].point(Surface_mesh::Vertex_index(7));
+  const Point before = std::exchange(last, Point(std::numeric_limits<double>::quiet_NaN(), 0, 0));
+  EXPECT_THROW(detector.detect(), Bad_mesh);
+  last = before;
+  expect_equal(detector.detect(), fresh.detect());
+  for (const Object_id object : {0U, 1U}) EXPECT_EQ(detector.object(object).joined_vertices(), fresh.object(object).joined_vertices());
 }
 
 TEST(Seams_of_an_object, are_refused_to_stay_open_in_mode_exact) {

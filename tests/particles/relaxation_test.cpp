@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+#include <random>
+
 #include "support/count_allocations.h"
 #include "support/test_meshes.h"
 
@@ -11,7 +14,11 @@ namespace {
 
 struct Reader {
   const std::vector<Eigen::Vector3d>* points = nullptr;
-  Eigen::Vector3d operator()(std::uint32_t vertex) const { return (*points)[vertex]; }
+  std::size_t* reads = nullptr;  ///< counted if not null
+  Eigen::Vector3d operator()(std::uint32_t vertex) const {
+    if (reads != nullptr) ++*reads;
+    return (*points)[vertex];
+  }
 };
 
 /// One object with everything that a walk needs. Not movable, since it refers to itself.
@@ -60,7 +67,8 @@ struct Grid_walker : Walker {
 };
 
 /// Relaxes objects that all feel each other.
-Relaxation relax_all(const std::vector<Walker*>& walkers, bool siblings_repel = false) {
+using Relax = Relaxation (*)(std::span<const Walking_object<Reader>>, Relaxation_scratch&);
+Relaxation relax_all(const std::vector<Walker*>& walkers, bool siblings_repel = false, Relax run = relax<Reader>) {
   std::vector<std::vector<std::uint32_t>> near(walkers.size());
   std::vector<Walking_object<Reader>> objects;
   std::vector<std::size_t> counts;
@@ -76,7 +84,13 @@ Relaxation relax_all(const std::vector<Walker*>& walkers, bool siblings_repel = 
   }
   Relaxation_scratch scratch;
   scratch.reserve(counts);
-  return relax(std::span<const Walking_object<Reader>>(objects), scratch);
+  return run(std::span<const Walking_object<Reader>>(objects), scratch);
+}
+
+std::vector<Walker*> pointers(std::deque<Walker>& walkers) {
+  std::vector<Walker*> result;
+  for (auto& walker : walkers) result.push_back(&walker);
+  return result;
 }
 
 using At = std::vector<std::uint32_t>;
@@ -284,6 +298,80 @@ TEST(Relax, allocates_nothing_after_the_first_call) {
     EXPECT_EQ(allocations, before);
     EXPECT_GT(result.moves, 0U);
   }
+}
+
+/// Relaxation in which every particle compares its steps in every iteration.
+template <class Reader_type>
+Relaxation relax_without_rest(std::span<const Walking_object<Reader_type>> objects, Relaxation_scratch& scratch) {
+  Relaxation result;
+  std::size_t limit = 1;
+  for (const auto& object : objects) limit = std::max(limit, object.particles->hop_limit);
+  for (result.relaxed = false; !result.relaxed && result.iterations < limit; ++result.iterations) {
+    scratch.start();
+    result.relaxed = true;
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+      const std::size_t moving = internal::choose_steps(objects, o, scratch);
+      result.moves += moving;
+      result.relaxed &= 10 * moving < objects[o].particles->at.size();
+    }
+    for (std::size_t o = 0; o < objects.size(); ++o) internal::take_steps(*objects[o].particles, o, scratch);
+  }
+  return result;
+}
+
+/// Spheres near each other, with particles spread over each.
+std::deque<Walker> crowd(std::uint64_t seed, double effective_radius) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> place(0, 4);
+  std::deque<Walker> walkers;
+  for (int o = 0; o < 6; ++o) {
+    const Surface_mesh mesh = sphere(8, 1, {place(random), place(random), place(random)});
+    const Mesh_numbering<Surface_mesh> numbering(mesh);
+    std::vector<Eigen::Vector3d> points;
+    for (const auto v : mesh.vertices()) points.push_back(coordinates(mesh.point(v)));
+    std::vector<std::uint32_t> at;
+    for (int p = 0; p < 12; ++p) at.push_back(static_cast<std::uint32_t>(random() % points.size()));
+    const std::vector<Region_index> labels(points.size(), 0);
+    walkers.emplace_back(points, numbering.corners(), labels, at, 40, effective_radius);
+  }
+  return walkers;
+}
+
+TEST(Relaxation, leaves_particles_at_rest_alone_and_ends_as_if_it_did_not) {
+  std::size_t iterations = 0, unrelaxed = 0;
+  for (const bool siblings_repel : {false, true})
+    for (const double reach : {0.5, 1.5, 1000.0})
+      for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        auto resting = crowd(seed, reach), plain = crowd(seed, reach);
+        const Relaxation found = relax_all(pointers(resting), siblings_repel);
+        const Relaxation expected = relax_all(pointers(plain), siblings_repel, relax_without_rest<Reader>);
+        EXPECT_EQ(found.iterations, expected.iterations);
+        EXPECT_EQ(found.moves, expected.moves);
+        EXPECT_EQ(found.relaxed, expected.relaxed);
+        for (std::size_t o = 0; o < resting.size(); ++o) {
+          EXPECT_EQ(resting[o].particles.at, plain[o].particles.at);
+          EXPECT_EQ(resting[o].particles.positions, plain[o].particles.positions);
+        }
+        iterations += found.iterations;
+        unrelaxed += found.relaxed ? 0 : 1;
+      }
+  EXPECT_GT(iterations, 300U);
+  EXPECT_GT(unrelaxed, 5U);
+}
+
+TEST(Relaxation, compares_the_steps_of_a_particle_at_rest_once) {
+  // The first two follow each other along a line of ten hops; the last two rest beside each other, far away.
+  Grid_walker a(11, 2, 0), b(11, 2, 0);
+  for (auto& point : b.points) point.z() = 3;
+  b.particles.at = {10}, b.read();
+  Post c({500, 0, 0}, 1), d({500, 0.5, 0}, 1);
+  a.particles.effective_radius = b.particles.effective_radius = 100;
+  std::size_t reads = 0;
+  d.reader.reads = &reads;
+  const Relaxation relaxation = relax_all({&a, &b, &c, &d});
+  EXPECT_GE(relaxation.iterations, 4U);
+  // Once to compare them, once to measure how far they reach.
+  EXPECT_LE(reads, 2 * d.steps.from(0).size());
 }
 
 }  // namespace

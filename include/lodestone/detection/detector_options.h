@@ -39,9 +39,9 @@ struct Exact_options {
                                 ///< Between two objects. A frame tells apart what is near and what collides, which can
                                 ///< take a second yes or no
   bool self_collision = false;  ///< also report pairs of faces of one object
-  double self_tolerance = 0;    ///< the same within one object, such as the thickness of cloth. Face pairs that share a
-                                ///< vertex, or that were nearer than twice this when the object was built, are reported
-                                ///< only if they intersect
+  double self_tolerance = 0;    ///< the same within one object, where its self-collision is asked for: such as the
+                                ///< thickness of cloth. Face pairs that share a vertex, or that were nearer than twice
+                                ///< this when the object was built, are reported only if they intersect
   bool containment = false;     ///< also tell objects that lie inside others
   bool parting = false;         ///< also give a translation that parts two objects which collide, or of which one lies
                                 ///< inside the other; tells containment too

@@ -12,22 +12,22 @@ namespace lodestone {
 class Live_positions {
  public:
   Live_positions() = default;
-  /// Valid until the mesh gets other vertices. Both must outlive this.
+  /// Valid until the mesh gets other vertices. The mesh must outlive this.
   Live_positions(Watched_mesh& mesh, const std::optional<Rigid_motion>& placement)
       : memory_(mesh.in_memory() ? mesh.read().data() : nullptr),
         mesh_(&mesh),
-        placement_(placement ? &*placement : nullptr) {}
+        placement_(placement) {}
 
   Eigen::Vector3d operator()(std::uint32_t vertex) const {
     const Eigen::Vector3d position =
         memory_ != nullptr ? Eigen::Map<const Eigen::Vector3d>(memory_ + 3 * std::size_t{vertex}) : mesh_->read(vertex);
-    return placement_ == nullptr ? position : (*placement_)(position);
+    return placement_ ? (*placement_)(position) : position;
   }
 
  private:
   const double* memory_ = nullptr;  ///< null: read through the mesh, one vertex at a time
   const Watched_mesh* mesh_ = nullptr;
-  const Rigid_motion* placement_ = nullptr;  ///< null: where the mesh has them
+  std::optional<Rigid_motion> placement_;  ///< none: where the mesh has them
 };
 
 }  // namespace lodestone

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
@@ -47,15 +49,37 @@ struct Relaxation {
   bool relaxed = true;    ///< false: R_max stopped the iterations
 };
 
+/// What is known of a particle at rest: it stayed when its steps were last compared. The comparison need not be made
+/// again before an attractor moves whose force reaches one of these steps.
+struct Rest {
+  bool stayed = false;
+  double step_length = -1;  ///< from the particle to the farthest vertex in reach of a step; negative: not measured
+};
+
+/// The particles of an object that moved in an iteration.
+struct Moved_particles {
+  std::vector<std::uint32_t> which;         ///< ascending
+  std::vector<std::uint32_t> from;          ///< parallel to `which`: the vertex on which each was
+  std::vector<Eigen::Vector3d> from_there;  ///< its position
+
+  void reserve(std::size_t count) { which.reserve(count), from.reserve(count), from_there.reserve(count); }
+  void clear() { which.clear(), from.clear(), from_there.clear(); }
+};
+
 /// Working memory of the relaxation, kept so that a frame allocates nothing.
 struct Relaxation_scratch {
   Attractors attractors;
   Attractors siblings;
   std::vector<std::vector<std::uint32_t>> next_at;
   std::vector<std::vector<Eigen::Vector3d>> next_positions;
+  std::vector<std::vector<Rest>> rests;
+  std::vector<Moved_particles> moved;         ///< per object: in the last iteration
+  std::vector<Moved_particles> moved_before;  ///< in the one before
 
   /// Makes room for objects with so many particles each.
   void reserve(std::span<const std::size_t> particles);
+  /// Forgets who rested and who moved in the last frame.
+  void start();
 };
 
 namespace internal {
@@ -124,6 +148,107 @@ void gather_attractors(std::span<const Walking_object<Reader>> objects, const Wa
   add_all(scratch.siblings, *object.particles, object.particles->effective_radius);
 }
 
+/// From a particle to the farthest vertex in reach of a step.
+template <Position_reader Reader>
+double measure_step_length(const Walking_object<Reader>& object, std::size_t particle) {
+  double squared = 0;
+  for (const auto vertex : object.steps->from(object.particles->at[particle]))
+    squared = std::max(squared, ((*object.reader)(vertex) - object.particles->positions[particle]).squaredNorm());
+  return std::sqrt(squared);
+}
+
+/// Whether the force of a particle that has moved reaches a step of one at rest, from where it was or where it is.
+inline bool disturbs(const Moved_particles& moved, const Particles& movers, double reach, const Eigen::Vector3d& position,
+                     const Rest& rest) {
+  constexpr double rounding = 1 + 1e-9;
+  const double near = rounding * (reach + rest.step_length), squared = near * near;
+  // Not `<=`: what is not a number disturbs.
+  const auto is_near = [&](const Eigen::Vector3d& attractor) { return !((attractor - position).squaredNorm() > squared); };
+  for (std::size_t i = 0; i < moved.which.size(); ++i)
+    if (is_near(moved.from_there[i]) || is_near(movers.positions[moved.which[i]])) return true;
+  return false;
+}
+
+/// Whether a particle stays without another comparison of its steps.
+template <Position_reader Reader>
+bool rests(std::span<const Walking_object<Reader>> objects, std::size_t o, std::size_t particle,
+           Relaxation_scratch& scratch) {
+  Rest& rest = scratch.rests[o][particle];
+  if (!rest.stayed) return false;
+  const Particles& particles = *objects[o].particles;
+  const auto disturbed_by = [&](std::size_t other) {
+    if (scratch.moved[other].which.empty()) return false;
+    if (rest.step_length < 0) rest.step_length = measure_step_length(objects[o], particle);
+    const Particles& movers = *objects[other].particles;
+    return disturbs(scratch.moved[other], movers, std::max(particles.effective_radius, movers.effective_radius),
+                    particles.positions[particle], rest);
+  };
+  if (std::ranges::any_of(objects[o].opponents, disturbed_by)) return false;
+  return !objects[o].siblings_repel || !disturbed_by(o);
+}
+
+/// Chooses the next step of each particle of an object.
+/// @return number of particles that will move
+template <Position_reader Reader>
+std::size_t choose_steps(std::span<const Walking_object<Reader>> objects, std::size_t o, Relaxation_scratch& scratch) {
+  const Particles& particles = *objects[o].particles;
+  std::size_t moving = 0;
+  bool gathered = false;
+  for (std::size_t p = 0; p < particles.at.size(); ++p) {
+    scratch.next_at[o][p] = particles.at[p];
+    scratch.next_positions[o][p] = particles.positions[p];
+    if (rests(objects, o, p, scratch)) continue;
+    if (!std::exchange(gathered, true)) gather_attractors(objects, objects[o], scratch);
+    const Step step = best_step(objects[o], p, scratch);
+    const bool moves = step.vertex != particles.at[p];
+    scratch.rests[o][p] = {.stayed = !moves};
+    scratch.next_at[o][p] = step.vertex;
+    scratch.next_positions[o][p] = step.position;
+    moving += moves ? 1 : 0;
+  }
+  return moving;
+}
+
+/// Takes the steps, and notes who moved.
+inline void take_steps(Particles& particles, std::size_t o, Relaxation_scratch& scratch) {
+  Moved_particles& moved = scratch.moved[o];
+  std::swap(moved, scratch.moved_before[o]);
+  moved.clear();
+  for (std::uint32_t p = 0; p < particles.at.size(); ++p) {
+    if (scratch.next_at[o][p] == particles.at[p]) continue;
+    moved.which.push_back(p);
+    moved.from.push_back(particles.at[p]);
+    moved.from_there.push_back(particles.positions[p]);
+  }
+  particles.at.swap(scratch.next_at[o]);
+  particles.positions.swap(scratch.next_positions[o]);
+}
+
+/// Whether the last two iterations have led an object's particles back to where they were.
+inline bool has_swung_back(const Particles& particles, std::size_t o, const Relaxation_scratch& scratch) {
+  const Moved_particles &there = scratch.moved_before[o], &back = scratch.moved[o];
+  if (there.which != back.which) return false;
+  for (std::size_t i = 0; i < back.which.size(); ++i)
+    if (particles.at[back.which[i]] != there.from[i]) return false;
+  return true;
+}
+
+/// An iteration depends only on where the particles are. Once two iterations lead back to where they began, all others
+/// do nothing but repeat them. So only whether their number is odd matters.
+template <Position_reader Reader>
+void swing_to_the_end(std::span<const Walking_object<Reader>> objects, std::size_t iteration_limit, Relaxation& result,
+                      Relaxation_scratch& scratch) {
+  const std::size_t left = iteration_limit - result.iterations;
+  result.iterations = iteration_limit;
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    if (objects[o].opponents.empty()) continue;
+    result.moves += left * scratch.moved[o].which.size();
+    if (left % 2 == 0) continue;
+    objects[o].particles->at.swap(scratch.next_at[o]);
+    objects[o].particles->positions.swap(scratch.next_positions[o]);
+  }
+}
+
 }  // namespace internal
 
 /// Lets particles walk until they rest: the particle stage of \cite saenghaengtham2006.
@@ -135,8 +260,12 @@ void gather_attractors(std::span<const Walking_object<Reader>> objects, const Wa
 /// relaxed when fewer than R_min = N / 10 moved in each object; the paper has R_min "about ten times smaller than" N.
 /// R_max, the largest of all objects', limits the iterations; see `hop_diameter`.
 ///
-/// Cost per iteration O(d N N') for N particles that have d vertices in reach and feel N' others. Reads positions only
-/// of vertices in reach of a particle. Allocates nothing once the scratch has its size.
+/// A particle that stayed is left alone until the force of a particle that has moved reaches one of its steps: it would
+/// stay again. Particles that swing between two vertices are not followed to the last iteration.
+///
+/// Cost of the first iteration O(d N N') for N particles that have d vertices in reach and feel N' others. A later
+/// iteration costs that for the particles that moved or are disturbed, and O(N M) for the others, where M moved. Reads
+/// positions only of vertices in reach of a particle. Allocates nothing once the scratch has its size.
 ///
 /// @throws Bad_mesh  a coordinate that is read is not finite
 /// @param objects  the `positions` of their particles must be those of this frame; `at` and `positions` are updated
@@ -147,26 +276,25 @@ Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scr
   for (const auto& object : objects)
     if (!object.opponents.empty()) iteration_limit = std::max(iteration_limit, object.particles->hop_limit);
 
+  scratch.start();
   for (result.relaxed = false; !result.relaxed && result.iterations < iteration_limit; ++result.iterations) {
     result.relaxed = true;
     for (std::size_t o = 0; o < objects.size(); ++o) {
       if (objects[o].opponents.empty()) continue;
-      const std::size_t count = objects[o].particles->at.size();
-      internal::gather_attractors(objects, objects[o], scratch);
-      std::size_t moved = 0;
-      for (std::size_t p = 0; p < count; ++p) {
-        const auto step = internal::best_step(objects[o], p, scratch);
-        moved += step.vertex != objects[o].particles->at[p] ? 1 : 0;
-        scratch.next_at[o][p] = step.vertex;
-        scratch.next_positions[o][p] = step.position;
-      }
-      result.moves += moved;
-      result.relaxed &= 10 * moved < count;
+      const std::size_t moving = internal::choose_steps(objects, o, scratch);
+      result.moves += moving;
+      result.relaxed &= 10 * moving < objects[o].particles->at.size();
     }
+    bool swings = true;
     for (std::size_t o = 0; o < objects.size(); ++o) {
       if (objects[o].opponents.empty()) continue;
-      objects[o].particles->at.swap(scratch.next_at[o]);
-      objects[o].particles->positions.swap(scratch.next_positions[o]);
+      internal::take_steps(*objects[o].particles, o, scratch);
+      swings &= internal::has_swung_back(*objects[o].particles, o, scratch);
+    }
+    if (swings && !result.relaxed && result.iterations > 0) {
+      ++result.iterations;
+      internal::swing_to_the_end(objects, iteration_limit, result, scratch);
+      break;
     }
   }
   return result;

@@ -38,7 +38,8 @@ struct Parting {
 /// some 10^-13 of the size of the objects, and 10^-15 of their distance from the origin; more where they graze each
 /// other along the translation. The answer depends neither on the trees nor on their volumes.
 ///
-/// Costs some dozens of searches over the two trees, most of which end early, besides the search for all contacts.
+/// Costs some dozens of searches over the two trees, and two for each contact patch, most of which end early, besides
+/// the search for all contacts.
 /// @param surface_a, surface_b  that intersect, or one of which lies inside the other
 /// @param a, b                  of the two, with boxes
 /// @param contacts              all face pairs that intersect, sorted

@@ -76,6 +76,12 @@ Gltf_motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion
   auto keys = asked ? std::vector<double>() : uniform_keys(animation);
   const double rate = keys.empty() ? asked.value_or(usual_rate) : rate_of(keys);
   const auto frames = keys.empty() ? frames_of(*scene, animation, rate) : keys.size();
+  const double start = keys.empty() ? 0 : keys.front();
+  std::function<Motion(double)> resampled;
+  if (!asked)
+    resampled = [scene, number](double other) {
+      return motion_of(scene, {.frames_per_second = other, .animation = number}).motion;
+    };
   const auto pose = [scene = std::move(scene), number, frames, rate, keys = std::move(keys)](
                         std::size_t frame, std::span<Point> positions) {
     if (frame >= frames)
@@ -88,7 +94,12 @@ Gltf_motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion
     const double time = keys.empty() ? static_cast<float>(static_cast<double>(frame) / rate) : keys[frame];
     pose_gltf(*scene, &scene->animations[number], time, positions);
   };
-  return {.motion = {.frames = frames, .pose = pose}, .frames_per_second = rate};
+  return {.motion = {.frames = frames,
+                     .pose = pose,
+                     .frames_per_second = rate,
+                     .start = start,
+                     .resampled = std::move(resampled)},
+          .frames_per_second = rate};
 }
 
 Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices, const Gltf_motion_options& options) {

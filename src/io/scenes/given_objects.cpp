@@ -14,6 +14,7 @@
 #include "io/files/json_reader.h"
 #include "io/files/small_text.h"
 #include "io/scenes/scene_fields.h"
+#include "io/scenes/shared_clock.h"
 #include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/deformation.h"
@@ -94,7 +95,9 @@ Scene_object object_of_scene(const std::filesystem::path& file, const std::strin
     throw Bad_argument(
         fmt::format("{0}: name one object of the scene, as {0}#NAME: {1}", file.string(), fmt::join(names, ", ")));
   }
-  if (found->motion.frames == 0) found->motion.frames = scene.frames;
+  auto& motion = found->motion;
+  motion.frames = motion.frames == 0 ? scene.frames : std::min(motion.frames, scene.frames);
+  motion.resampled = {};  // the scene has chosen its frames
   found->collision = {};
   found->files.push_back(file);
   return std::move(*found);
@@ -117,8 +120,9 @@ Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_option
     auto& object = scene.objects.emplace_back(any_object(input, options));
     const std::string wanted = object.name;
     for (std::size_t use = 2; !taken.insert(object.name).second; ++use) object.name = fmt::format("{}_{}", wanted, use);
-    scene.frames = std::max(scene.frames, object.motion.frames);
   }
+  share_clock(scene.objects);
+  for (const auto& object : scene.objects) scene.frames = std::max(scene.frames, object.motion.frames);
   for (auto& object : scene.objects)
     if (object.motion.frames > 0 && object.motion.frames < scene.frames) hold_last_pose(object.motion);
   return scene;

@@ -15,6 +15,7 @@
 #include "io/scenes/scene_fields.h"
 #include "io/scenes/scene_folder.h"
 #include "io/scenes/scene_groups.h"
+#include "io/scenes/shared_clock.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/mesh/errors.h"
@@ -82,12 +83,16 @@ void place_mesh(Surface_mesh& mesh, const Json_value& value, const Placement& pl
 
 Motion placed(Motion motion, const Placement& placement) {
   if (!placement) return motion;
-  return {.frames = motion.frames,
-          .pose = [inner = std::move(motion.pose), transformation = *placement](std::size_t frame,
-                                                                                std::span<Point> positions) {
-            inner(frame, positions);
-            for (Point& p : positions) p = p.transform(transformation);
-          }};
+  motion.pose = [inner = std::move(motion.pose), transformation = *placement](std::size_t frame,
+                                                                              std::span<Point> positions) {
+    inner(frame, positions);
+    for (Point& p : positions) p = p.transform(transformation);
+  };
+  if (motion.resampled)
+    motion.resampled = [inner = std::move(motion.resampled), placement](double rate) {
+      return placed(inner(rate), placement);
+    };
+  return motion;
 }
 
 /// "walk.glb", or {"file": "walk.glb", "animation": "walk", "frames_per_second": 60}.
@@ -217,6 +222,7 @@ Scene read_scene(const std::filesystem::path& file, const Scene_options& options
   scene.name = name ? name->text() : file.stem().string();
   if (const auto description = value.find("description")) scene.description = description->text();
   scene.objects = read_objects(value.at("objects"), folder);
+  share_clock(scene.objects);
   scene.ignored = read_ignored(value, scene.objects);
   scene.frames = read_frames(value, scene.objects);
   return scene;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "lodestone/io/results/animation_output.h"
 #include "lodestone/mesh/errors.h"
 #include "support/gltf_samples.h"
 #include "support/mesh_samples.h"
@@ -58,6 +59,52 @@ TEST_F(Given_objects, are_named_after_their_files) {
   std::vector<std::string> names;
   for (const auto& object : scene.objects) names.push_back(object.name);
   EXPECT_EQ(names, (std::vector<std::string>{"s", "a", "a_2", "sequence"}));
+}
+
+/// A tetrahedron that moves along x by 10 in a second, with a key per frame.
+void write_mover(const std::filesystem::path& file, std::size_t frames_per_second) {
+  Animation animation{.kind = "test", .vertices = 4, .faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  animation.motion.frames = frames_per_second + 1;
+  animation.motion.pose = [frames_per_second](std::size_t frame, std::span<Point> positions) {
+    const double x = 10 * static_cast<double>(frame) / static_cast<double>(frames_per_second);
+    const Point corners[]{{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}, {x, 0, 1}};
+    std::ranges::copy(corners, positions.begin());
+  };
+  write_animation(file, animation, {.frames_per_second = static_cast<double>(frames_per_second)});
+}
+
+TEST_F(Given_objects, gltf_files_of_different_rates_run_by_one_clock) {
+  write_mover(path("fast.glb"), 60);
+  write_mover(path("slow.glb"), 24);
+  EXPECT_EQ(scene_of(std::vector{path("fast.glb")}).frames, 61U);
+  EXPECT_EQ(scene_of(std::vector{path("slow.glb"), path("slow.glb")}).frames, 25U);
+  folder.write("both.json", R"({"objects": [
+      {"name": "fast", "mesh": "fast.glb", "motion": {"gltf": "fast.glb"}, "place": {"translate": [0, 0, 0]}},
+      {"name": "slow", "mesh": "slow.glb", "motion": {"gltf": "slow.glb"}}]})");
+  for (Scene scene : {scene_of(std::vector{path("fast.glb"), path("slow.glb")}), read_scene(path("both.json"))}) {
+    EXPECT_EQ(scene.frames, 31U);
+    for (std::size_t frame = 0; frame < scene.frames; ++frame)
+      for (auto& object : scene.objects)
+        EXPECT_NEAR(first_vertex(object, frame).x(), 10 * static_cast<double>(frame) / 30, 1e-4);
+  }
+}
+
+TEST_F(Given_objects, gltf_follows_the_rate_that_a_scene_gives_another) {
+  write_mover(path("fast.glb"), 60);
+  write_mover(path("slow.glb"), 24);
+  folder.write("given.json", R"({"objects": [
+      {"name": "fast", "mesh": "fast.glb", "motion": {"gltf": {"file": "fast.glb", "frames_per_second": 10}}},
+      {"name": "slow", "mesh": "slow.glb", "motion": {"gltf": "slow.glb"}}]})");
+  Scene scene = read_scene(path("given.json"));
+  EXPECT_EQ(scene.frames, 11U);
+  for (auto& object : scene.objects) EXPECT_NEAR(first_vertex(object, 7).x(), 7, 1e-4);
+}
+
+TEST_F(Given_objects, an_object_of_a_scene_plays_no_longer_than_the_scene) {
+  write_mover(path("slow.glb"), 24);
+  folder.write("short.json",
+               R"({"frames": 5, "objects": [{"name": "a", "mesh": "slow.glb", "motion": {"gltf": "slow.glb"}}]})");
+  EXPECT_EQ(scene_of(std::vector<std::filesystem::path>{path("short.json").string() + "#a"}).frames, 5U);
 }
 
 TEST_F(Given_objects, gltf_plays_its_first_animation) {

@@ -21,6 +21,11 @@ struct Motion {
   /// Writes the positions of `frame` (counted from 0), one per vertex of the object's file or shape, in that order.
   /// @throws Bad_motion  the frame is broken or past the end
   std::function<void(std::size_t frame, std::span<Point> positions)> pose;
+
+  double frames_per_second = 0;  ///< 0: the frames have no times
+  double start = 0;              ///< time of the first frame in seconds, if they have
+  /// The same motion at another rate, > 0, if its reader chose the rate; empty if the caller did, or there is none.
+  std::function<Motion(double frames_per_second)> resampled = {};
 };
 
 /// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). `pose` reads each frame on demand, and several
@@ -47,8 +52,8 @@ Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices)
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices);
 
 struct Gltf_motion_options {
-  /// Sampling rate, > 0. Not given: one frame per key, if all keys of all curves follow each other at equal distances,
-  /// up to rounding, and there are at least 5 per second; else 30.
+  /// Sampling rate, > 0. Not given: one frame per key, from the first on, if the keys of all curves follow each other at
+  /// equal distances, up to rounding, and there are at least 5 per second; else 30.
   std::optional<double> frames_per_second = {};
   /// Which animation of the file: its index or its name.
   std::variant<std::size_t, std::string> animation = std::size_t{0};

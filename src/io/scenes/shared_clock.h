@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "lodestone/io/scenes/scene_file.h"
+
+namespace lodestone {
+
+/// Lets motions that have times run by one clock. If their rates or the times of their first frames differ, those whose
+/// reader chose the rate are sampled again from time 0 on: at the rate that the others were given, if that is one; else
+/// at the rate that all have; else at 30 frames per second.
+void share_clock(std::span<Scene_object> objects);
+
+}  // namespace lodestone
