@@ -233,6 +233,8 @@ void add_convert(CLI::App& program, Convert_command& command, std::string& forma
       ->default_str("what IN says, else 30");
   app.add_option("--regions", command.regions, "glTF: divide the surface into this many regions and colour them")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
+  app.add_flag_callback(
+      "--triangulate", [] {}, "Cut faces of more than three corners into triangles; done whether given or not");
   app.add_option("--weld", command.weld, "Merge vertices that are at most so far apart in the first frame")
       ->type_name("DISTANCE");
   app.add_option("--subdivide", command.subdivisions, "Cut every triangle into four, so many times")

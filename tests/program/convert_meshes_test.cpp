@@ -9,6 +9,7 @@
 #include "program/run_program.h"
 #include "support/gltf_samples.h"
 #include "support/mesh_samples.h"
+#include "support/read_file.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
 
@@ -49,6 +50,8 @@ TEST_F(Convert_meshes, polygons_are_written_as_triangles_and_said_so) {
   EXPECT_EQ(result.err,
             "lodestone: quad.off: 1 of 1 faces have more than three corners: cut into triangles, 2 in all\n");
   EXPECT_EQ(read_mesh(path("a.obj")).file_face.size(), 2U);
+  EXPECT_EQ(run_program({"convert", quad, path("b.obj"), "--triangulate"}).exit_code, 0);
+  EXPECT_EQ(read_bytes(path("b.obj")), read_bytes(path("a.obj")));
 }
 
 TEST_F(Convert_meshes, what_is_not_kept_is_listed) {
