@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The C++ of the README and the manual, word for word: docs.snippets compares them. Here it is compiled and run.
+// The C++ of README, manual and concept pages, word for word: docs.snippets compares them. Here it is compiled and run.
 #include <gtest/gtest.h>
 #include <lodestone/detector.h>
 #include <lodestone/find_collisions.h>
 #include <lodestone/io/meshes/mesh_file.h>
 #include <lodestone/partition/lbg.h>
+#include <lodestone/partition/partition_measures.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <numeric>
+#include <string_view>
 
 #include "support/temporary_folder.h"
 #include "support/test_meshes.h"
@@ -32,6 +35,24 @@ bool move(Surface_mesh& /*cloth*/, Surface_mesh& body) {
   return ++moves % 6 != 0;
 }
 
+struct Slices {
+  static constexpr std::string_view name = "slices";
+  lodestone::Labelling operator()(const lodestone::Partition_input<lodestone::Surface_mesh>& input,
+                                  std::size_t regions) const;
+};
+/// As many vertices in each region, from below upwards.
+lodestone::Labelling Slices::operator()(const lodestone::Partition_input<lodestone::Surface_mesh>& input,
+                                        std::size_t regions) const {
+  const auto vertices = static_cast<std::size_t>(input.positions.rows());
+  std::vector<std::uint32_t> order(vertices);
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t v) { return input.positions(v, 2); });
+  lodestone::Labelling labelling{.labels = std::vector<lodestone::Region_index>(vertices)};
+  for (std::size_t i = 0; i < vertices; ++i)
+    labelling.labels[order[i]] = static_cast<lodestone::Region_index>(i * regions / vertices);
+  return labelling;
+}
+
 /// Is the working folder while it lives.
 class Working_folder {
  public:
@@ -48,7 +69,8 @@ class Snippets : public testing::Test {
   void SetUp() override { responses = pushes = moves = 0; }
 
   Surface_mesh cloth_mesh = lodestone::sphere(8), body_mesh = lodestone::sphere(6, 1, {2.6, 0.1, 0.2});
-  Surface_mesh mesh = lodestone::sphere(12), mesh_a = lodestone::sphere(8), mesh_b = lodestone::sphere(6, 1, {1.5, 0, 0});
+  Surface_mesh mesh = lodestone::sphere(12), mesh_a = lodestone::sphere(8),
+               mesh_b = lodestone::sphere(6, 1, {1.5, 0, 0});
   const Surface_mesh &a = mesh_a, &b = mesh_b;
 };
 
@@ -93,9 +115,10 @@ TEST_F(Snippets, of_particles) {
 
 TEST_F(Snippets, of_more_than_face_pairs) {
   double least_distance = std::numeric_limits<double>::infinity(), longest_way_out = 0;
-  lodestone::Detector detector({.contact_points = true,
-                                .contact_normals = true,
-                                .exact = {.tolerance = 0.001, .self_collision = true, .containment = true, .threads = 0}});
+  lodestone::Detector detector(
+      {.contact_points = true,
+       .contact_normals = true,
+       .exact = {.tolerance = 0.001, .self_collision = true, .containment = true, .threads = 0}});
   const auto cloth = detector.add(cloth_mesh), body = detector.add(body_mesh, {.groups = 2, .meets = 1});
   while (move(cloth_mesh, body_mesh)) {
     const lodestone::Frame& frame = detector.detect();  // reads the positions, refits, answers
@@ -103,7 +126,8 @@ TEST_F(Snippets, of_more_than_face_pairs) {
       for (std::size_t i = pair.first_contact; i < pair.first_contact + pair.contacts; ++i)
         push(pair, frame.face_pairs[i], frame.contact_points[i], frame.contact_normals[i]);
     least_distance = std::min(least_distance, detector.closest(cloth, body).points.distance);
-    if (const auto way_out = detector.parting(cloth, body)) longest_way_out = std::max(longest_way_out, way_out->length);
+    if (const auto way_out = detector.parting(cloth, body))
+      longest_way_out = std::max(longest_way_out, way_out->length);
   }
   EXPECT_GT(pushes, 0U);
   EXPECT_EQ(least_distance, 0);
@@ -112,7 +136,8 @@ TEST_F(Snippets, of_more_than_face_pairs) {
 
 TEST_F(Snippets, of_vertices_that_a_file_has_once) {
   const lodestone::test::Temporary_folder folder;
-  folder.write("two_boxes_on_an_edge.off", "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  folder.write("two_boxes_on_an_edge.off",
+               "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   const Working_folder here(folder.path());
   lodestone::Detector detector;
   const lodestone::Mesh_file file = lodestone::read_mesh("two_boxes_on_an_edge.off");
@@ -129,6 +154,16 @@ TEST_F(Snippets, of_the_partition_stage) {
   const auto curvature = mesh.add_property_map<Mesh::Vertex_index, double>("v:curvature", 1).first;
   const lodestone::Lbg strategy{.extra_factors = lodestone::factors(mesh, curvature, 0.2)};
   lodestone::partition(mesh, 32, regions, strategy);
+}
+
+TEST_F(Snippets, of_a_strategy_of_ones_own) {
+  const auto region_map = mesh.add_property_map<Surface_mesh::Vertex_index, lodestone::Region_index>("v:region").first;
+  const auto divided = lodestone::partition(mesh, 32, region_map, Slices{});
+  const auto measures = lodestone::measure_partition(mesh, divided, region_map);
+  lodestone::Detector<Slices> detector({.mode = lodestone::Mode::particles, .particles = 32}, Slices{});
+  EXPECT_EQ(measures.regions, divided.regions);
+  detector.add(mesh_a), detector.add(mesh_b);
+  EXPECT_TRUE(detector.detect().collides());
 }
 
 }  // namespace
