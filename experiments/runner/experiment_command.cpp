@@ -59,6 +59,10 @@ int run(const Experiment_command& command) {
                               .strategy_files = command.strategy_files,
                               .write_meshes = command.write_meshes});
   }
+  if (!command.write_meshes.empty()) {  // nothing was measured: the report of an earlier run stays
+    if (!command.quiet) fmt::print("{}", report);
+    return exit_code::success;
+  }
   Atomic_file file(out / (command.name + ".md"));
   file.write(report);
   file.commit();

@@ -55,7 +55,8 @@ void add_options(CLI::App& app, Experiment_command& command) {
       ->type_name("DIR")
       ->default_str("out/NAME")
       ->check(not_empty());
-  add_html(app, command.html, "One page (.html) with the report and plots of the figures");
+  // With --write-meshes there is no report.
+  add_html(app, command.html, "One page (.html) with the report and plots of the figures")->excludes("--write-meshes");
   app.add_flag("--quiet", command.quiet, "No progress bar, no report on the terminal");
   app.footer(list + "\n\n" + exit_code::help);
 }

@@ -158,6 +158,18 @@ TEST_F(Partitions_experiment, labels_of_another_tool_take_part) {
   expect_error(run_program({"experiment", "modes", "--strategy-file", "x"}), 2, "--strategy-file");
 }
 
+TEST_F(Partitions_experiment, writing_the_meshes_leaves_the_report_of_an_earlier_run) {
+  create_directories(folder.path() / "a");
+  folder.write("a/partitions.md", "earlier");
+  const auto meshes = (folder.path() / "meshes").string();
+  const auto written = run_program(command("a", {"--write-meshes", meshes}));
+  expect_success(written);
+  EXPECT_EQ(written.out, "The meshes are in " + meshes + ". Nothing was measured.\n");
+  EXPECT_EQ(content_of(folder.path() / "a"), std::set<std::string>{"partitions.md"});
+  EXPECT_EQ(read_bytes(folder.path() / "a" / "partitions.md"), "earlier");
+  expect_error(run_program(command("a", {"--write-meshes", meshes, "--html", "page.html"})), 2, "--html");
+}
+
 TEST_F(Partitions_experiment, bad_options_are_refused_in_one_line) {
   for (const std::string shard : {"0/2", "3/2", "1", "a/b", "1/2/3", "1/", "-1/2"})
     expect_error(run_program(command("a", {"--shard", shard})), 2, "--shard");
