@@ -144,7 +144,8 @@ Kind_count count_kind(std::span<const Component_orientation> components, Face_or
 Json orientation_json(std::span<const Component_orientation> components) {
   Json json = Json::object();
   for (const auto kind : face_orientations)
-    if (const auto count = count_kind(components, kind).first; count > 0) json[std::string(name_of(kind))] = count;
+    if (const auto count = count_kind(components, kind).first; count > 0)
+      json[std::string(words_of(kind).name)] = count;
   return json;
 }
 
@@ -153,39 +154,19 @@ Json component_list_json(std::span<const Component_orientation> components) {
   for (const auto& component : components.first(std::min(components.size(), most_components)))
     json.push_back({{"first_face", component.first_face},
                     {"faces", component.faces},
-                    {"orientation", name_of(component.orientation)}});
+                    {"orientation", words_of(component.orientation).name}});
   return json;
-}
-
-const char* words_of(Face_orientation orientation) {
-  switch (orientation) {
-    case Face_orientation::outward:
-      return "outward";
-    case Face_orientation::inward:
-      return "inward";
-    case Face_orientation::mixed:
-      return "partly outward and partly inward";
-    case Face_orientation::inconsistent:
-      return "inconsistent";
-    case Face_orientation::no_volume:
-      return "without volume";
-    case Face_orientation::open:
-      return "open and consistent";
-    case Face_orientation::open_inconsistent:
-      return "open and inconsistent";
-  }
-  return "";
 }
 
 /// `3 components outward, 1 inward (first face 1203)`; of one component its orientation alone.
 std::string orientation_text(std::span<const Component_orientation> components) {
-  if (components.size() == 1) return words_of(components[0].orientation);
+  if (components.size() == 1) return std::string(words_of(components[0].orientation).phrase);
   std::string text;
   for (const auto kind : face_orientations) {
     const auto [count, first] = count_kind(components, kind);
     if (!first) continue;
     text += text.empty() ? counted(count, "component") : fmt::format(", {}", count);
-    text += fmt::format(" {}", words_of(kind));
+    text += fmt::format(" {}", words_of(kind).phrase);
     if (kind != Face_orientation::outward) text += fmt::format(" (first face {})", first->first_face);
   }
   return text.empty() ? "none" : text;

@@ -51,9 +51,8 @@ Animation gltf(const fs::path& file, const Animation_options& options) {
   if (scene->animations.empty()) {
     result.motion = rest(soup.points);
   } else {
-    auto [motion, rate] = motion_of(std::move(scene), {options.frames_per_second, options.animation});
-    result.motion = std::move(motion);
-    result.frames_per_second = rate;
+    result.motion = motion_of(std::move(scene), {options.frames_per_second, options.animation});
+    result.frames_per_second = result.motion.frames_per_second;
   }
   set_surface(result, std::move(soup));
   return result;

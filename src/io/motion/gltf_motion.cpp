@@ -67,7 +67,7 @@ std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, 
 
 }  // namespace
 
-Gltf_motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options) {
+Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options) {
   const auto asked = options.frames_per_second;
   if (asked && (!(*asked > 0) || !std::isfinite(*asked)))
     throw Bad_argument(fmt::format("{} frames per second: expected a positive and finite number", *asked));
@@ -80,7 +80,7 @@ Gltf_motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion
   std::function<Motion(double)> resampled;
   if (!asked)
     resampled = [scene, number](double other) {
-      return motion_of(scene, {.frames_per_second = other, .animation = number}).motion;
+      return motion_of(scene, {.frames_per_second = other, .animation = number});
     };
   const auto pose = [scene = std::move(scene), number, frames, rate, keys = std::move(keys)](
                         std::size_t frame, std::span<Point> positions) {
@@ -94,12 +94,7 @@ Gltf_motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion
     const double time = keys.empty() ? static_cast<float>(static_cast<double>(frame) / rate) : keys[frame];
     pose_gltf(*scene, &scene->animations[number], time, positions);
   };
-  return {.motion = {.frames = frames,
-                     .pose = pose,
-                     .frames_per_second = rate,
-                     .start = start,
-                     .resampled = std::move(resampled)},
-          .frames_per_second = rate};
+  return {.frames = frames, .pose = pose, .frames_per_second = rate, .start = start, .resampled = std::move(resampled)};
 }
 
 Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices, const Gltf_motion_options& options) {
@@ -111,7 +106,7 @@ Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices,
   }
   if (scene->vertices != vertices)
     throw Bad_motion(fmt::format("{}: the file has {} vertices, expected {}", scene->name, scene->vertices, vertices));
-  return motion_of(std::move(scene), options).motion;
+  return motion_of(std::move(scene), options);
 }
 
 }  // namespace lodestone

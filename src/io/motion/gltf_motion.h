@@ -8,12 +8,7 @@
 
 namespace lodestone {
 
-struct Gltf_motion {
-  Motion motion = {};
-  double frames_per_second = 0;
-};
-
 /// As `read_gltf_motion`, for a file that has already been read.
-Gltf_motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options);
+Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options);
 
 }  // namespace lodestone

@@ -208,22 +208,22 @@ void count_faces(std::vector<Component_orientation>& list, Face_sets& components
 
 }  // namespace
 
-std::string_view name_of(Face_orientation orientation) {
+Orientation_words words_of(Face_orientation orientation) {
   switch (orientation) {
     case Face_orientation::outward:
-      return "outward";
+      return {"outward", "outward"};
     case Face_orientation::inward:
-      return "inward";
+      return {"inward", "inward"};
     case Face_orientation::mixed:
-      return "mixed";
+      return {"mixed", "partly outward and partly inward"};
     case Face_orientation::inconsistent:
-      return "inconsistent";
+      return {"inconsistent", "inconsistent"};
     case Face_orientation::no_volume:
-      return "no_volume";
+      return {"no_volume", "without volume"};
     case Face_orientation::open:
-      return "open";
+      return {"open", "open and consistent"};
     case Face_orientation::open_inconsistent:
-      return "open_inconsistent";
+      return {"open_inconsistent", "open and inconsistent"};
   }
   return {};
 }

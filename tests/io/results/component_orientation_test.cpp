@@ -42,7 +42,7 @@ struct Bodies {
 std::string orientations(const Bodies& bodies) {
   std::string text;
   for (const auto& component : component_orientations(bodies.points, bodies.faces))
-    text += std::string(text.empty() ? "" : " ") + std::string(name_of(component.orientation));
+    text += std::string(text.empty() ? "" : " ") + std::string(words_of(component.orientation).name);
   return text;
 }
 

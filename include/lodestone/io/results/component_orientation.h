@@ -31,8 +31,13 @@ inline constexpr Face_orientation face_orientations[] = {
     Face_orientation::inconsistent,     Face_orientation::no_volume, Face_orientation::open,
     Face_orientation::open_inconsistent};
 
-/// The name as JSON has it: `open_inconsistent`.
-std::string_view name_of(Face_orientation orientation);
+/// How reports write an orientation.
+struct Orientation_words {
+  std::string_view name;    ///< as JSON has it: `open_inconsistent`
+  std::string_view phrase;  ///< as text has it: `open and inconsistent`
+};
+
+Orientation_words words_of(Face_orientation orientation);
 
 /// A set of faces connected through shared vertices.
 struct Component_orientation {
