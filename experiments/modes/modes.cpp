@@ -53,7 +53,7 @@ std::string run_modes(const Experiment_context& context) {
     for (const auto& object : scenes[0].objects) triangles += object.mesh.number_of_faces();
     const auto run = measure(
         scenes, settings, [&](std::size_t, std::size_t) { context.progress(played, std::size(chosen_scenes)); },
-        chosen.truth);
+        {.truth = chosen.truth});
     const double exact = median_microseconds_without_build(run.measurements.back());
     for (const auto& m : run.measurements) {
       const double median = median_microseconds_without_build(m);

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <random>
 
 #include "lodestone/io/motion/deformation.h"
@@ -15,6 +14,7 @@
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/mesh/errors.h"
+#include "shared/made_object.h"
 
 namespace lodestone {
 
@@ -54,19 +54,6 @@ constexpr auto meshes = std::to_array<Partition_mesh>({
     {"cloth_coarse", [] { return unit(cloth(32, 32)); }, [] { return icosphere(8); }},
     {"cloth_fine", [] { return unit(cloth(71, 71)); }, [] { return icosphere(16); }},
 });
-
-Scene_object object_of(std::string name, Surface_mesh mesh, std::vector<Deformation> deformations) {
-  Scene_object object;
-  object.name = std::move(name);
-  object.mesh = std::move(mesh);
-  object.file_vertices = object.mesh.number_of_vertices();
-  object.file_vertex.resize(object.file_vertices);
-  std::iota(object.file_vertex.begin(), object.file_vertex.end(), 0U);
-  std::vector<Point> rest;
-  for (const auto v : object.mesh.vertices()) rest.push_back(object.mesh.point(v));
-  object.motion = deform(std::move(rest), std::move(deformations));
-  return object;
-}
 
 constexpr double ball_radius = 0.5;
 constexpr double frames_per_visit = 40;
@@ -183,7 +170,7 @@ std::vector<Partition_run> partition_plan(const std::vector<std::string>& only,
 
 void write_partition_meshes(const std::filesystem::path& folder) {
   for (const auto& mesh : meshes)
-    write_animation(folder / (std::string(mesh.name) + ".off"), animation_of(object_of("mesh", mesh.make(), {}), 1));
+    write_animation(folder / (std::string(mesh.name) + ".off"), animation_of(made_object("mesh", mesh.make(), {}), 1));
 }
 
 Scene partition_scene(const Partition_mesh& mesh, std::uint64_t seed) {
@@ -200,10 +187,10 @@ Scene partition_scene(const Partition_mesh& mesh, std::uint64_t seed) {
   scene.name = mesh.name;
   scene.frames = static_cast<std::size_t>(frames_per_visit) * visits;
   scene.objects.push_back(
-      object_of("mesh", std::move(surface), {Wobble{.amplitude = 0.06, .waves = 1, .period = 48, .phase = phase}}));
+      made_object("mesh", std::move(surface), {Wobble{.amplitude = 0.06, .waves = 1, .period = 48, .phase = phase}}));
   Surface_mesh ball = mesh.make_ball();
   transform(ball, ball_radius, Eigen::Vector3d::Zero());
-  scene.objects.push_back(object_of("ball", std::move(ball), {Wobble{.period = 36}, std::move(travel)}));
+  scene.objects.push_back(made_object("ball", std::move(ball), {Wobble{.period = 36}, std::move(travel)}));
   return scene;
 }
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "lodestone/io/results/text_table.h"
-#include "partitions/interval.h"
 #include "partitions/partition_plan.h"
+#include "shared/interval.h"
 #include "shared/measured_run.h"
 
 namespace lodestone {

@@ -100,8 +100,8 @@ Row in_use(const Partition_run& run, Scene scene, const Any_strategy& strategy) 
   const Setting settings[] = {
       {.name = run.variant.name, .options = options, .strategy = strategy},
       {.name = "lbg", .options = {.mode = Mode::particles, .particles = run.regions, .growth = 1.25}}};
-  const auto measured = measure(
-      {&scene, 1}, settings, [](std::size_t, std::size_t) {}, Truth_source::exact_mode);
+  const auto measured =
+      measure({&scene, 1}, settings, [](std::size_t, std::size_t) {}, {.truth = Truth_source::exact_mode});
   const auto& m = measured.measurements[0];
   const auto& lbg = measured.measurements[1];
   return {{"frames", m.score.frames()},

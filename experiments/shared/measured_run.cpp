@@ -1,60 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shared/measured_run.h"
 
-#include <algorithm>
 #include <optional>
 
-#include "lodestone/detector.h"
 #include "lodestone/queries/exhaustive.h"
 #include "shared/lap_timer.h"
+#include "shared/scene_detector.h"
 
 namespace lodestone {
 
 namespace {
 
-using Scene_detector = Detector<Any_strategy>;
-
-std::vector<Object_pair> all_pairs(const Scene& scene) {
-  std::vector<Object_pair> pairs;
-  for (std::uint32_t b = 0; b < scene.objects.size(); ++b)
-    for (std::uint32_t a = 0; a < b; ++a)
-      if (!scene.ignores({a, b})) pairs.push_back({a, b});
-  return pairs;
-}
-
-Scene_detector make_detector(const Scene& scene, const Setting& setting) {
-  Detector_options asked = setting.options;
-  asked.contacts = Contact_query::yes_no;
-  Scene_detector detector(asked, setting.strategy);
-  for (const auto& object : scene.objects) {
-    Object_options options{.particles = setting.options.particles > 0 ? 0 : object.particles,
-                           .groups = object.collision.groups,
-                           .meets = object.collision.meets};
-    if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
-    detector.add(std::as_const(object.mesh), options);
+/// Whether each pair collides. Both lists are sorted by (a, b), so one pass is enough.
+std::vector<bool> answers(const Frame& frame, std::span<const Object_pair> pairs) {
+  std::vector<bool> collide;
+  collide.reserve(pairs.size());
+  auto found = frame.pairs.begin();
+  const auto place = [&] { return Object_pair{found->a, found->b}; };
+  for (const auto pair : pairs) {
+    while (found != frame.pairs.end() && place() < pair) ++found;
+    collide.push_back(found != frame.pairs.end() && place() == pair && found->collides);
   }
-  for (const auto& pair : scene.ignored) detector.ignore(pair.a, pair.b);
-  return detector;
+  return collide;
 }
 
-bool answered(const Frame& frame, Object_pair pair) {
-  return std::ranges::any_of(
-      frame.pairs, [&](const auto& found) { return found.a == pair.a && found.b == pair.b && found.collides; });
-}
-
-/// One scene, all settings.
-class Scene_run {
+/// One play of one scene by all settings.
+class Play {
  public:
-  Scene_run(Scene& scene, std::span<const Setting> settings, Truth_source truth)
-      : scene_(scene), pairs_(all_pairs(scene)) {
+  Play(Scene& scene, std::span<const Setting> settings, Truth_source truth)
+      : scene_(scene), pairs_(object_pairs(scene)) {
     if (truth == Truth_source::exact_mode)
-      exact_.emplace(make_detector(scene, {.name = "truth", .options = {.mode = Mode::exact}}));
-    for (const auto& setting : settings) detectors_.push_back(make_detector(scene, setting));
+      exact_.emplace(scene_detector(scene, {.name = "truth", .options = {.mode = Mode::exact}}, Contact_query::yes_no));
+    for (const auto& setting : settings) detectors_.push_back(scene_detector(scene, setting, Contact_query::yes_no));
     scores_.resize(settings.size());
   }
 
+  /// Builds the objects in the pose of a frame. That answer is not scored.
+  void build(std::size_t frame, Measured_run& run) {
+    pose_all(frame);
+    for (std::size_t s = 0; s < detectors_.size(); ++s)
+      run.measurements[s].build_seconds += detectors_[s].detect().statistics.seconds.build;
+  }
+
   void play(std::size_t frame, Measured_run& run) {
-    for (auto& object : scene_.objects) pose(object, frame);
+    pose_all(frame);
     const auto truth = find_truth(frame > 0 ? &run.exhaustive_seconds : nullptr);
     for (std::size_t turn = 0; turn < detectors_.size(); ++turn) {
       // Each frame starts with another setting, because the first one finds the positions outside the caches.
@@ -63,29 +52,35 @@ class Scene_run {
       const Frame& answer = detectors_[s].detect();
       run.measurements[s].build_seconds += answer.statistics.seconds.build;
       if (frame > 0) run.measurements[s].frames.push_back(answer.statistics);
-      for (std::size_t p = 0; p < pairs_.size(); ++p) scores_[s].add(pairs_[p], truth[p], answered(answer, pairs_[p]));
+      const auto collide = answers(answer, pairs_);
+      for (std::size_t p = 0; p < pairs_.size(); ++p) scores_[s].add(pairs_[p], truth[p], collide[p]);
     }
   }
 
   void finish(Measured_run& run) {
     for (std::size_t s = 0; s < detectors_.size(); ++s) {
+      auto& measurement = run.measurements[s];
       scores_[s].finish();
-      run.measurements[s].score.add(scores_[s]);
-      run.measurements[s].accuracies.push_back(scores_[s].accuracy());
-      run.measurements[s].particles.clear();
-      if (run.measurements[s].setting.options.mode == Mode::exact) continue;
+      measurement.score.add(scores_[s]);
+      measurement.accuracies.push_back(scores_[s].accuracy());
+      measurement.recalls.push_back(scores_[s].recall());
+      measurement.particles.clear();
+      if (measurement.setting.options.mode == Mode::exact) continue;
       for (Object_id o = 0; o < detectors_[s].size(); ++o)
-        run.measurements[s].particles.push_back(detectors_[s].object(o).particles().at.size());
+        measurement.particles.push_back(detectors_[s].object(o).particles().at.size());
     }
   }
 
  private:
+  void pose_all(std::size_t frame) {
+    for (auto& object : scene_.objects) pose(object, frame);
+  }
+
   std::vector<bool> find_truth(std::vector<double>* seconds) {
     std::vector<bool> truth;
     const Lap_timer timer;
     if (exact_) {
-      const Frame& answer = exact_->detect();
-      for (const auto pair : pairs_) truth.push_back(answered(answer, pair));
+      truth = answers(exact_->detect(), pairs_);
     } else {
       for (const auto& [a, b] : pairs_)
         truth.push_back(!exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh).empty());
@@ -96,28 +91,30 @@ class Scene_run {
 
   Scene& scene_;
   std::vector<Object_pair> pairs_;
-  std::vector<Scene_detector> detectors_;
+  std::vector<Detector<Any_strategy>> detectors_;
   std::vector<Score> scores_;
-  std::optional<Scene_detector> exact_;
+  std::optional<Detector<Any_strategy>> exact_;
 };
 
 }  // namespace
 
 Measured_run measure(std::span<Scene> scenes, std::span<const Setting> settings,
-                     const std::function<void(std::size_t, std::size_t)>& progress, Truth_source truth) {
+                     const std::function<void(std::size_t, std::size_t)>& progress, const Measure_options& options) {
   Measured_run run;
   for (const auto& setting : settings) run.measurements.push_back({.setting = setting});
   std::size_t frames = 0;
-  for (const auto& scene : scenes) frames += scene.frames;
+  for (const auto& scene : scenes) frames += options.plays * scene.frames;
   std::size_t done = 0;
-  for (auto& scene : scenes) {
-    Scene_run scene_run(scene, settings, truth);
-    for (std::size_t frame = 0; frame < scene.frames; ++frame) {
-      scene_run.play(frame, run);
-      progress(++done, frames);
+  for (auto& scene : scenes)
+    for (std::size_t i = 0; i < options.plays; ++i) {
+      Play play(scene, settings, options.truth);
+      if (const std::size_t built_in = i * scene.frames / options.plays; built_in > 0) play.build(built_in, run);
+      for (std::size_t frame = 0; frame < scene.frames; ++frame) {
+        play.play(frame, run);
+        progress(++done, frames);
+      }
+      play.finish(run);
     }
-    scene_run.finish(run);
-  }
   return run;
 }
 

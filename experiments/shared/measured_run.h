@@ -17,6 +17,15 @@ enum class Truth_source {
   exact_mode   ///< the mode `exact`, which gives the same answers: the experiment `every_frame` checks that
 };
 
+/// How scenes are measured.
+struct Measure_options {
+  /// `exact_mode` for large scenes, where exhaustive checking would take longer than all else together.
+  Truth_source truth = Truth_source::exhaustive;
+  /// Each scene is played so many times, with other partitions in each play: in play i of n, counted from 0, the
+  /// detectors build the objects in the pose of frame i F / n of F, and then answer in all frames. >= 1
+  std::size_t plays = 1;
+};
+
 /// Times of the truth and of all settings, on the same frames in the same process.
 struct Measured_run {
   std::vector<Measurement> measurements;
@@ -25,11 +34,11 @@ struct Measured_run {
 
 /// Plays the scenes one after the other. In every frame exhaustive checking and all settings answer in turn.
 ///
-/// The first frame of a scene is scored; of its times only `build` counts.
+/// The first frame of a play is scored; of its times only `build` counts.
 ///
-/// @param truth  `exact_mode` for large scenes, where exhaustive checking would take longer than all else together
+/// @param progress  called after each frame with the frames done and the frames of all plays; may throw to stop
 Measured_run measure(std::span<Scene> scenes, std::span<const Setting> settings,
-                     const std::function<void(std::size_t, std::size_t)>& progress,
-                     Truth_source truth = Truth_source::exhaustive);
+                     const std::function<void(std::size_t done, std::size_t of)>& progress,
+                     const Measure_options& options = {});
 
 }  // namespace lodestone

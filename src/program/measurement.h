@@ -26,7 +26,8 @@ struct Setting {
 struct Measurement {
   Setting setting;
   Score score = {};
-  std::vector<double> accuracies = {};        ///< per scene
+  std::vector<double> accuracies = {};        ///< per scene, or per play of one
+  std::vector<double> recalls = {};           ///< the same
   std::vector<Frame_statistics> frames = {};  ///< per frame of all scenes
   std::vector<std::size_t> particles = {};    ///< per object of the last scene, at its end
   double build_seconds = 0;                   ///< of all objects, summed over all frames

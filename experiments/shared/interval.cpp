@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "partitions/interval.h"
+#include "shared/interval.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
