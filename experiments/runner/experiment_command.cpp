@@ -45,10 +45,12 @@ int run(const Experiment_command& command) {
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, out);
   std::string report;
+  std::error_code no_such_folder;  // the experiment reports that
   {
     Progress_bar bar(command.name, command.quiet);
     const auto [shard, shards] = parts_of(command.shard);
     report = experiment->run({.scenes = command.scenes,
+                              .scenes_given = !equivalent(command.scenes, LODESTONE_SCENES, no_such_folder),
                               .out = out,
                               .progress = std::ref(bar),
                               .only = command.only,

@@ -25,12 +25,15 @@ void add_options(CLI::App& app, Experiment_command& command) {
     list += fmt::format("\n  {:<20} {}", experiment.name, experiment.question);
   }
   app.add_option("NAME", command.name, "Which one")->required()->check(CLI::IsMember(names).description(""));
-  app.add_option("--scenes", command.scenes, "Folder of the scene files")
+  app.add_option(
+         "--scenes", command.scenes,
+         "Folder of the scene files; modes plays all scenes of another folder than its own, and subfolders with "
+         "meshes NAME.off and their point caches NAME.pc2")
       ->type_name("DIR")
       ->default_str("data/scenes of the source");
-  app.add_option(
-         "--only", command.only,
-         "Scenes to play in place of all, by name (peers, every_frame, volumes); meshes and strategies (partitions)")
+  app.add_option("--only", command.only,
+                 "Scenes to play in place of all, by name (peers, every_frame, modes, volumes);"
+                 " meshes and strategies (partitions)")
       ->delimiter(',')
       ->type_name("NAME");
   app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")
@@ -67,12 +70,13 @@ struct Special_option {
   std::vector<std::string> experiments;
 };
 
-const std::vector<Special_option> special_options{{"--only", {"peers", "every_frame", "volumes", "partitions"}},
-                                                  {"--jobs", {"partitions"}},
-                                                  {"--shard", {"partitions"}},
-                                                  {"--merge", {"partitions"}},
-                                                  {"--strategy-file", {"partitions"}},
-                                                  {"--write-meshes", {"partitions"}}};
+const std::vector<Special_option> special_options{
+    {"--only", {"peers", "every_frame", "modes", "volumes", "partitions"}},
+    {"--jobs", {"partitions"}},
+    {"--shard", {"partitions"}},
+    {"--merge", {"partitions"}},
+    {"--strategy-file", {"partitions"}},
+    {"--write-meshes", {"partitions"}}};
 
 /// @throws Bad_argument  an option that the experiment would ignore
 void refuse_options_of_other_experiments(const CLI::App& app, const std::string& experiment) {

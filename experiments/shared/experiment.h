@@ -11,10 +11,12 @@ namespace lodestone {
 
 struct Experiment_context {
   std::filesystem::path scenes;                                    ///< folder of the scene files
+  bool scenes_given = false;                                       ///< it is not the project's own folder
   std::filesystem::path out;                                       ///< folder that receives all figures as JSON
   std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
-  /// Names of the scenes to play, or of meshes and strategies; empty: those of the published figures. Only `peers`,
-  /// `every_frame`, `volumes` and `partitions` read it. The other experiments always play all their scenes.
+  /// Names of the scenes to play, or of meshes and strategies; empty: those of the published
+  /// figures. Only `peers`, `every_frame`, `modes`, `volumes` and `partitions` read it. The other
+  /// experiments always play all their scenes.
   std::vector<std::string> only = {};
 
   // For experiments that are sweeps of many runs (`partitions`).

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modes/mode_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "lodestone/io/results/text_table.h"
+
+namespace lodestone {
+
+namespace {
+
+constexpr const char* not_measured = "-";
+
+bool is_exact(const Mode_figures& figures) { return figures.measurement.setting.options.mode == Mode::exact; }
+
+std::string recall_text(const Mode_figures& figures) {
+  const auto recall = recall_interval(figures);
+  return recall ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", recall->mean, recall->low, recall->high) : not_measured;
+}
+
+std::string face_pair_text(const Mode_figures& figures) {
+  const auto [found, all] = figures.face_pairs;
+  if (is_exact(figures) || all == 0) return not_measured;
+  return fmt::format("{:.3f}", static_cast<double>(found) / static_cast<double>(all));
+}
+
+/// What the curve of the plot joins: settings that differ only in the number of particles.
+std::string method_of(const Setting& setting) { return setting.name.substr(0, setting.name.rfind(',')); }
+
+/// One setting over all scenes.
+struct Setting_summary {
+  std::string setting;
+  Score score = {};
+  double recalls = 0;      ///< their sum
+  std::size_t scenes = 0;  ///< with a recall
+  double least_recall = 1;
+  std::string least_scene = not_measured;
+
+  void add(const Mode_figures& figures) {
+    score.add(figures.measurement.score);
+    const auto recall = recall_interval(figures);
+    if (!recall) return;
+    recalls += recall->mean;
+    if (scenes++ > 0 && recall->mean >= least_recall) return;
+    least_recall = recall->mean;
+    least_scene = figures.scene;
+  }
+};
+
+/// In the order of the first scene.
+std::vector<Setting_summary> summaries(std::span<const Mode_figures> rows) {
+  std::vector<Setting_summary> all;
+  for (const auto& row : rows) {
+    const auto& name = row.measurement.setting.name;
+    auto found = std::ranges::find(all, name, &Setting_summary::setting);
+    if (found == all.end()) found = all.insert(all.end(), {.setting = name});
+    found->add(row);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::optional<Interval> recall_interval(const Mode_figures& figures) {
+  const auto& m = figures.measurement;
+  if (figures.is_truth || m.score.positives() == 0) return std::nullopt;
+  return proportion_interval(m.recalls, static_cast<double>(m.score.positives()));
+}
+
+std::string table_of_scenes(std::span<const Mode_figures> rows) {
+  Text_table table({"scene", "triangles", "mode", "recall", "face pairs", "delay (frames)", "median (us)", "mean (us)",
+                    "exact / this (median)"});
+  for (const auto& row : rows) {
+    const auto& m = row.measurement;
+    const double median = median_microseconds_without_build(m);
+    const bool judged = recall_interval(row).has_value();
+    table.add({row.scene, std::to_string(row.triangles), m.setting.name, recall_text(row), face_pair_text(row),
+               judged ? fmt::format("{:.1f}", m.score.mean_delay()) : not_measured, fmt::format("{:.1f}", median),
+               fmt::format("{:.1f}", mean_microseconds_without_build(m)),
+               fmt::format("{:.2f}", row.exact_median / median)});
+  }
+  return table.text();
+}
+
+std::string table_of_settings(std::span<const Mode_figures> rows) {
+  Text_table table({"mode", "scenes", "mean recall", "least recall", "in scene", "false positives", "precision"});
+  for (const auto& summary : summaries(rows)) {
+    const auto text = [&](double recall) {
+      return summary.scenes > 0 ? fmt::format("{:.3f}", recall) : std::string(not_measured);
+    };
+    table.add({summary.setting, std::to_string(summary.scenes),
+               text(summary.recalls / static_cast<double>(summary.scenes)), text(summary.least_recall),
+               summary.least_scene, std::to_string(summary.score.false_positives()),
+               fmt::format("{:.3f}", summary.score.precision())});
+  }
+  return table.text();
+}
+
+nlohmann::ordered_json to_json(const Mode_figures& figures) {
+  auto json = to_json(figures.measurement);
+  json["scene"] = figures.scene;
+  json["triangles"] = figures.triangles;
+  json["method"] = method_of(figures.measurement.setting);
+  json["is_truth"] = figures.is_truth;
+  json["recall_per_play"] = figures.measurement.recalls;
+  if (const auto recall = recall_interval(figures)) {
+    json["recall_low"] = recall->low;
+    json["recall_high"] = recall->high;
+  }
+  json["face_pairs"] = figures.face_pairs.all;
+  json["face_pairs_found"] = figures.face_pairs.found;
+  return json;
+}
+
+}  // namespace lodestone

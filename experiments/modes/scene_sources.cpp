@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modes/scene_sources.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/files/small_text.h"
+#include "lodestone/io/scenes/given_objects.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// @throws Bad_scene  the folder cannot be read
+std::vector<fs::path> sorted_content(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> content;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    content.push_back(entry->path());
+  if (error) throw Bad_scene(fmt::format("{}: {}", folder.string(), error.message()));
+  std::ranges::sort(content);
+  return content;
+}
+
+bool is_scene_file(const fs::path& path) { return path.extension() == ".json" && is_regular_file(path); }
+
+/// The meshes of a folder with their point caches, as inputs `MESH+CACHE`.
+std::vector<fs::path> moving_meshes(const fs::path& folder) {
+  std::vector<fs::path> inputs;
+  for (const auto& mesh : sorted_content(folder)) {
+    const auto cache = fs::path(mesh).replace_extension(".pc2");
+    if (mesh.extension() == ".off" && is_regular_file(cache)) inputs.push_back(mesh.string() + '+' + cache.string());
+  }
+  return inputs;
+}
+
+bool holds_real_motion(const fs::path& folder) {
+  return is_directory(folder) && std::ranges::none_of(sorted_content(folder), is_scene_file) &&
+         !moving_meshes(folder).empty();
+}
+
+}  // namespace
+
+std::vector<fs::path> scene_sources(const fs::path& folder) {
+  std::vector<fs::path> sources;
+  for (const auto& path : sorted_content(folder))
+    if (is_scene_file(path) || holds_real_motion(path)) sources.push_back(path);
+  if (sources.empty())
+    throw Bad_scene(fmt::format(
+        "{}: nothing to play: expected scene files NAME.json, or subfolders with meshes NAME.off and their point "
+        "caches NAME.pc2",
+        folder.string()));
+  std::ranges::stable_sort(sources, {}, name_of_source);
+  return sources;
+}
+
+std::string name_of_source(const fs::path& source) {
+  return printable((is_directory(source) ? source.filename() : source.stem()).string());
+}
+
+Scene read_source(const fs::path& source) {
+  if (!is_directory(source)) return read_scene(source);
+  Scene scene = scene_of(moving_meshes(source));
+  scene.name = name_of_source(source);
+  return scene;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lodestone/io/scenes/scene_file.h"
+
+namespace lodestone {
+
+/// What a folder holds to play, in the order of their names:
+///  - each scene file `NAME.json`;
+///  - each subfolder that has at least one mesh `STEM.off` with its point cache `STEM.pc2`, and no scene file. Deeper
+///    folders are not searched.
+/// @throws Bad_scene  there is no such folder, or nothing in it to play
+std::vector<std::filesystem::path> scene_sources(const std::filesystem::path& folder);
+
+/// What results call a source before it is read: the file's name without its extension, or the name of the folder.
+std::string name_of_source(const std::filesystem::path& source);
+
+/// Reads a scene file, or makes a scene of a folder of point caches. That scene has the name of the folder, and an
+/// object for each stem in the order of the stems; meshes without a point cache are left out.
+/// @throws Bad_scene, Bad_mesh, Bad_motion  as read_scene and scene_of
+Scene read_source(const std::filesystem::path& source);
+
+}  // namespace lodestone

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modes/scene_sources.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lodestone/mesh/errors.h"
+#include "support/moving_mesh_files.h"
+#include "support/scene_samples.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+class Scene_sources : public testing::Test {
+ protected:
+  /// A subfolder for the files of one scene.
+  std::filesystem::path subfolder(const std::string& name) const {
+    const auto path = folder.path() / name;
+    create_directories(path);
+    return path;
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& source : scene_sources(folder.path())) names.push_back(name_of_source(source));
+    return names;
+  }
+
+  Temporary_folder folder;
+};
+
+TEST_F(Scene_sources, are_scene_files_and_folders_of_point_caches_in_the_order_of_their_names) {
+  folder.write("c.json", "{}");
+  folder.write("a.json", "{}");
+  folder.write("readme.txt", "");
+  write_moving_tetrahedron(subfolder("b") / "left", 2);
+  EXPECT_EQ(names(), (std::vector<std::string>{"a", "b", "c"}));
+}
+
+TEST_F(Scene_sources, a_subfolder_with_a_scene_file_is_not_searched) {
+  folder.write("a.json", "{}");
+  write_moving_tetrahedron(subfolder("b") / "left", 2);
+  folder.write("b/scene.json", "{}");
+  EXPECT_EQ(names(), std::vector<std::string>{"a"});
+}
+
+TEST_F(Scene_sources, a_subfolder_without_a_mesh_that_has_a_point_cache_of_its_name_is_skipped) {
+  folder.write("a.json", "{}");
+  write_moving_tetrahedron(subfolder("b") / "left", 2);
+  rename(folder.path() / "b/left.pc2", folder.path() / "b/right.pc2");
+  write_moving_tetrahedron(subfolder("deep/er") / "left", 2);
+  EXPECT_EQ(names(), std::vector<std::string>{"a"});
+}
+
+TEST_F(Scene_sources, a_folder_of_point_caches_is_a_scene_with_its_name_and_an_object_per_stem) {
+  const auto walk = subfolder("walk");
+  write_moving_tetrahedron(walk / "right", 3);
+  write_moving_tetrahedron(walk / "left", 2);
+  folder.write("walk/floor.off", tetrahedron_off());
+  const Scene scene = read_source(walk);
+  EXPECT_EQ(scene.name, "walk");
+  EXPECT_EQ(scene.frames, 3U);
+  ASSERT_EQ(scene.objects.size(), 2U);
+  EXPECT_EQ(scene.objects[0].name, "left");
+  EXPECT_EQ(scene.objects[1].name, "right");
+}
+
+TEST_F(Scene_sources, a_scene_file_is_read_with_the_name_that_it_gives) {
+  const auto file = folder.write("a.json", R"({"name": "dance", "objects": [{"name": "x", "shape": {"teapot": {}}}]})");
+  EXPECT_EQ(read_source(file).name, "dance");
+}
+
+TEST_F(Scene_sources, a_folder_without_scenes_is_refused_by_name) {
+  subfolder("empty");
+  for (const auto& path : {folder.path(), folder.path() / "missing"}) {
+    try {
+      scene_sources(path);
+      ADD_FAILURE() << path;
+    } catch (const Bad_scene& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with(path.string() + ": ")) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lodestone::test
