@@ -12,6 +12,7 @@ std::string run_predecessor(const Experiment_context& context);
 std::string run_collision_distance(const Experiment_context& context);
 std::string run_every_frame(const Experiment_context& context);
 std::string run_growth(const Experiment_context& context);
+std::string run_many_bodies(const Experiment_context& context);
 std::string run_modes(const Experiment_context& context);
 std::string run_partitions(const Experiment_context& context);
 std::string run_rebuild(const Experiment_context& context);
@@ -30,6 +31,7 @@ std::span<const Experiment> experiments() {
       {"every_frame", "Does the exact mode equal exhaustive checking in every frame of the scenes?", run_every_frame},
       {"growth", "Does repartitioning keep an inflating object detectable, and what does it cost?", run_growth},
       {"modes", "What does a frame cost in each mode, and what does it miss?", run_modes},
+      {"many_bodies", "How does the time of a frame grow with the number of bodies?", run_many_bodies},
       {"partitions", "Which partition strategy is best, by its measures and in use?", run_partitions},
       {"rebuild", "When does a tree of the mode exact become too loose, and does a rebuild pay?", run_rebuild},
       {"self_collision", "How fast is self-collision of a deforming mesh, beside CGAL?", run_self_collision},

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "program/run_program.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+TEST(Many_bodies_experiment, measures_the_scenes_of_the_given_numbers_of_bodies) {
+  const Temporary_folder folder;
+  const auto out = folder.path() / "out";
+  expect_success(run_program({"experiment", "many_bodies", "--only", "20", "--out", out.string()}));
+  EXPECT_EQ(content_of(out), (std::set<std::string>{"many_bodies.json", "many_bodies.md"}));
+  const auto figures = read_json(out / "many_bodies.json");
+  ASSERT_EQ(figures["rows"].size(), 2U);
+  for (const auto& row : figures["rows"]) {
+    EXPECT_EQ(row["bodies"], 20);
+    EXPECT_EQ(row["frames"], 60 * 190);
+    EXPECT_GT(row["meets_per_body"], 0.1);
+    EXPECT_EQ(row["precision"], 1.0);
+  }
+  EXPECT_FALSE(figures.contains("exponents"));
+}
+
+TEST(Many_bodies_experiment, refuses_another_number_of_bodies) {
+  expect_error(run_program({"experiment", "many_bodies", "--only", "21"}), 2,
+               "there are scenes of 20, 100, 500 and 2000 bodies, not of 21");
+}
+
+}  // namespace
+}  // namespace lodestone::test
