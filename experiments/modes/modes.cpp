@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "lodestone/mesh/errors.h"
 #include "modes/mode_report.h"
@@ -84,6 +85,13 @@ Playable playable(const std::vector<std::filesystem::path>& sources, const std::
   return result;
 }
 
+/// The name, with a number if an earlier scene has it: rows and curves of two scenes must not mix.
+std::string untaken(const std::string& wanted, std::set<std::string>& taken) {
+  std::string name = wanted;
+  for (std::size_t use = 2; !taken.insert(name).second; ++use) name = fmt::format("{}_{}", wanted, use);
+  return name;
+}
+
 /// One row per setting; `exact` is the last setting.
 /// @param progress  called with the share of the work that is done
 std::vector<Mode_figures> play(Scene scene, std::span<const Setting> settings,
@@ -92,14 +100,13 @@ std::vector<Mode_figures> play(Scene scene, std::span<const Setting> settings,
   for (const auto& object : scene.objects) triangles += object.mesh.number_of_faces();
   const auto truth =
       triangles <= most_triangles_for_exhaustive_truth ? Truth_source::exhaustive : Truth_source::exact_mode;
-  const auto share = [&](std::size_t first_play, std::size_t of_plays) {
-    return [=, &progress](std::size_t done, std::size_t of) {
-      const double played = static_cast<double>(done) / static_cast<double>(of);
-      progress((static_cast<double>(first_play) + played * static_cast<double>(of_plays)) / (plays + 1));
-    };
+  const auto show = [&](std::size_t frames) {  // of the timed plays, and of one for the face pairs
+    progress(static_cast<double>(frames) / static_cast<double>((plays + 1) * scene.frames));
   };
-  const auto run = measure({&scene, 1}, settings, share(0, plays), {.truth = truth, .plays = plays});
-  const auto face_pairs = count_face_pairs(scene, settings, share(plays, 1));
+  const auto run = measure({&scene, 1}, settings, [&](std::size_t done, std::size_t) { show(done); },
+                           {.truth = truth, .plays = plays});
+  const auto face_pairs =
+      count_face_pairs(scene, settings, [&](std::size_t done, std::size_t) { show(plays * scene.frames + done); });
 
   const double exact = median_microseconds_without_build(run.measurements.back());
   std::vector<Mode_figures> rows;
@@ -138,15 +145,19 @@ std::string run_modes(const Experiment_context& context) {
   const auto& sources = chosen.sources;
   const auto settings = mode_settings();
   constexpr std::size_t steps = 1000;  // per scene
+  std::set<std::string> taken;
   std::vector<Mode_figures> rows;
   nlohmann::ordered_json json;
-  for (std::size_t s = 0; s < sources.size(); ++s)
-    for (auto& row : play(read_source(sources[s]), settings, [&](double share) {
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    Scene scene = read_source(sources[s]);
+    scene.name = untaken(scene.name, taken);
+    for (auto& row : play(std::move(scene), settings, [&](double share) {
            context.progress(s * steps + static_cast<std::size_t>(share * steps), sources.size() * steps);
          })) {
       json.push_back(to_json(row));
       rows.push_back(std::move(row));
     }
+  }
   write_json(context.out, "modes", json);
   return report(rows, chosen.skipped);
 }

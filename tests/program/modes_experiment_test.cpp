@@ -22,7 +22,7 @@ class Modes_experiment : public testing::Test {
   void write_real_motion(const std::string& name) const {
     const auto path = folder.path() / name;
     create_directory(path);
-    write_moving_tetrahedron(path / "moving", 4, 3, -0.9F);
+    write_moving_tetrahedron(path / "moving", 4, 3, -0.9);
     write_moving_tetrahedron(path / "still", 4);
   }
   void write_spheres(const std::string& name, int frequency = 3) const {
@@ -94,6 +94,15 @@ TEST_F(Modes_experiment, the_mode_exact_is_the_truth_of_scenes_with_more_than_20
   const auto figures = read_json(out / "modes.json");
   for (const auto& row : figures)
     EXPECT_EQ(row["is_truth"], row["scene"] == "large" && row["mode"] == "exact") << row["setting"];
+}
+
+TEST_F(Modes_experiment, scenes_of_one_name_are_told_apart_by_a_number) {
+  write_real_motion("a");
+  write_spheres("a");
+  expect_success(run());
+  std::set<std::string> scenes;
+  for (const auto& row : read_json(out / "modes.json")) scenes.insert(row["scene"]);
+  EXPECT_EQ(scenes, (std::set<std::string>{"a", "a_2"}));
 }
 
 TEST_F(Modes_experiment, plays_the_named_scenes_only) {

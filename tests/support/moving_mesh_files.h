@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "support/mesh_samples.h"
 #include "support/scene_samples.h"
 
 /// Meshes with point caches, in a few lines.
@@ -14,21 +14,13 @@ namespace lodestone::test {
 
 /// Writes `PATH.off`, the tetrahedron of `tetrahedron_off(x)`, and `PATH.pc2`, in which it moves by `step` along the
 /// x-axis from frame to frame.
-inline void write_moving_tetrahedron(const std::filesystem::path& path, int frames, int x = 0, float step = 0) {
+inline void write_moving_tetrahedron(const std::filesystem::path& path, int frames, int x = 0, double step = 0) {
   std::ofstream(path.string() + ".off") << tetrahedron_off(x);
-  std::string bytes("POINTCACHE2\0", 12);
-  const auto append = [&](auto value) {
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    bytes.append(raw, sizeof value);
-  };
-  for (const std::int32_t value : {1, 4}) append(value);  // version, points
-  for (const float value : {0.0F, 1.0F}) append(value);   // first frame, distance of frames
-  append(std::int32_t{frames});
+  std::string bytes = std::string("POINTCACHE2\0", 12) + packed<std::int32_t>({1, 4}) + packed<float>({0, 1}) +
+                      packed<std::int32_t>({double(frames)});
   for (int frame = 0; frame < frames; ++frame) {
-    const float here = static_cast<float>(x) + step * static_cast<float>(frame);
-    for (const float value : {here, 0.0F, 0.0F, here + 1, 0.0F, 0.0F, here, 1.0F, 0.0F, here, 0.0F, 1.0F})
-      append(value);
+    const double here = x + step * frame;
+    bytes += packed<float>({here, 0, 0, here + 1, 0, 0, here, 1, 0, here, 0, 1});
   }
   std::ofstream(path.string() + ".pc2", std::ios::binary) << bytes;
 }

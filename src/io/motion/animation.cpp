@@ -99,13 +99,23 @@ bool is_cache(const fs::path& file) {
   return extension == ".pc2" || extension == ".mdd";
 }
 
+/// The + of `MESH+CACHE`. Names of folders and files may hold others: the cache begins behind it, where a file is. The
+/// last one if no file is found.
+std::size_t find_plus(const std::string& text) {
+  const auto last = text.rfind('+');
+  std::error_code ignored;
+  for (auto plus = last; plus != 0 && plus != text.npos; plus = text.rfind('+', plus - 1))
+    if (fs::is_regular_file(text.substr(plus + 1), ignored)) return plus;
+  return last;
+}
+
 }  // namespace
 
 std::optional<Mesh_and_cache> mesh_and_cache(const fs::path& input) {
   const std::string text = input.string();
   std::error_code ignored;
   if (!is_cache(input) || fs::exists(input, ignored)) return std::nullopt;
-  const auto plus = text.rfind('+');
+  const auto plus = find_plus(text);
   if (plus == 0 || plus == text.npos) return std::nullopt;
   return Mesh_and_cache{.mesh = text.substr(0, plus), .cache = text.substr(plus + 1)};
 }

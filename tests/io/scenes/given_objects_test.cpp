@@ -13,6 +13,7 @@
 #include "lodestone/mesh/errors.h"
 #include "support/gltf_samples.h"
 #include "support/mesh_samples.h"
+#include "support/moving_mesh_files.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
 
@@ -122,6 +123,15 @@ TEST_F(Given_objects, a_mesh_is_joined_to_its_point_cache_by_a_plus) {
   EXPECT_EQ(scene.objects[0].name, "a");
   EXPECT_EQ(first_vertex(scene.objects[0], 1), Point(7, 0, 0));
   EXPECT_THROW(scene_of(std::vector{path("a.pc2")}), Bad_argument);
+}
+
+TEST_F(Given_objects, a_mesh_is_joined_to_its_point_cache_in_folders_and_files_with_a_plus_in_their_names) {
+  const auto inner = path("c++");
+  create_directory(inner);
+  write_moving_tetrahedron(inner / "a+b", 2);
+  const Scene scene = scene_of(std::vector<std::filesystem::path>{inner / ("a+b.off+" + (inner / "a+b.pc2").string())});
+  EXPECT_EQ(scene.frames, 2U);
+  EXPECT_EQ(scene.objects[0].name, "a+b");
 }
 
 TEST_F(Given_objects, a_file_whose_name_has_a_plus_is_that_file) {
