@@ -8,7 +8,7 @@
 namespace lodestone {
 
 /// A scene of spheres and torus knots of 1280 to 4800 triangles, half of them each. They wobble, spin and drift on
-/// closed paths in a cube of side `side_of_crowd`. The same arguments give the same scene on every machine.
+/// closed paths in a cube of side `side_of_crowd`. The same arguments give the same scene.
 /// @param bodies  at least 3
 /// @param frames  how many of the 240 frames of a path are played
 Scene crowd(std::size_t bodies, std::size_t frames);

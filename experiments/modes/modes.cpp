@@ -45,6 +45,7 @@ std::vector<std::filesystem::path> named_sources(const std::filesystem::path& fo
     const auto found = std::ranges::find(all, name, name_of_source);
     if (found == all.end()) {
       std::vector<std::string> names;
+      names.reserve(all.size());
       for (const auto& source : all) names.push_back(name_of_source(source));
       throw Bad_scene(
           fmt::format("{}: there is no scene {}; the scenes are {}", folder.string(), name, fmt::join(names, ", ")));

@@ -94,9 +94,11 @@ Row parameters(const Partition_run& run, const Numbered& surface) {
 
 /// What the particles find in the scene, beside those of `lbg`, in turn in every frame.
 Row in_use(const Partition_run& run, Scene scene, const Any_strategy& strategy) {
-  const Detector_options options{
-      .mode = Mode::particles, .particles = run.regions, .partition = run.variant.options,
-      .close_seams = run.labels() == nullptr, .growth = 1.25};  // labels are those of the mesh as it is
+  const Detector_options options{.mode = Mode::particles,
+                                 .particles = run.regions,
+                                 .partition = run.variant.options,
+                                 .close_seams = run.labels() == nullptr,
+                                 .growth = 1.25};  // labels are those of the mesh as it is
   const Setting settings[] = {
       {.name = run.variant.name, .options = options, .strategy = strategy},
       {.name = "lbg", .options = {.mode = Mode::particles, .particles = run.regions, .growth = 1.25}}};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string_view>
 #include <vector>
 
 #include "lodestone/io/shapes/shapes.h"
@@ -63,6 +64,32 @@ TEST(Measure, scores_every_frame_of_every_play) {
     EXPECT_EQ(thrice.measurements[s].frames.size(), 3 * (frames - 1));
   }
   EXPECT_EQ(thrice.measurements[1].recalls[0], once.measurements[1].recalls[0]);
+}
+
+/// Notes where the first vertex is when an object is partitioned.
+struct Noting_lbg {
+  static constexpr std::string_view name = "noting lbg";
+  std::vector<double>* seen;
+
+  Labelling label(const Numbered_surface& surface, std::size_t regions) const {
+    seen->push_back(surface.positions(0, 0));
+    return Lbg{}.label(surface, regions);
+  }
+};
+
+TEST(Measure, each_play_has_partitions_made_in_the_pose_of_another_frame) {
+  Scene scene;
+  scene.frames = frames;
+  scene.objects.push_back(made_object("ahead", icosphere(2),
+                                      {Travel{.way_points = {{0, {0, 0, 0}}, {8, {8, 0, 0}}}, .path = Path::linear}}));
+  const double start = scene.objects[0].mesh.points().begin()->x();
+  std::vector<double> seen;
+  const Setting setting{.name = "noting",
+                        .options = {.mode = Mode::particles, .particles = 4},
+                        .strategy = Any_strategy(Noting_lbg{&seen})};
+  measure({&scene, 1}, {&setting, 1}, [](std::size_t, std::size_t) {}, {.plays = 3});
+  ASSERT_EQ(seen.size(), 3U);
+  for (std::size_t play = 0; play < 3; ++play) EXPECT_NEAR(seen[play], start + 3.0 * double(play), 1e-9);
 }
 
 TEST(Measure, reports_its_progress_over_the_frames_of_all_plays) {
