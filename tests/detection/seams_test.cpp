@@ -112,6 +112,18 @@ TEST(Seams_of_an_object, stay_open_for_a_strategy_that_needs_the_mesh) {
   EXPECT_EQ(detector.object(0).joined_vertices(), 0U);
 }
 
+TEST(Seams_of_an_object, scattered_particles_test_the_faces_on_all_sides_of_a_seam) {
+  Owned_meshes scene{flat_shaded(sphere(4)), flat_shaded(sphere(4, 1, {1.5, 0.1, 0}))};
+  // A particle at every vertex, and every pair of them a candidate: nothing is missed.
+  Detector detector({.mode = Mode::senin,
+                     .particles = num_vertices(scene[0]),
+                     .collision_distance = 1000,
+                     .contacts = Contact_query::all,
+                     .senin = {.rings = 1}});
+  add_all(detector, scene);
+  EXPECT_EQ(detector.detect().face_pairs, exhaustive_face_pairs(scene[0], scene[1]));
+}
+
 TEST(Seams_of_an_object, every_vertex_has_the_region_of_those_that_it_is_joined_to) {
   auto mesh = flat_shaded(sphere(6)), other = sphere(6, 1, {5, 0, 0});
   Detector detector({.mode = Mode::particles, .particles = 8});
@@ -135,7 +147,8 @@ TEST(Seams_of_an_object, are_closed_as_in_a_fresh_detector_after_a_frame_that_fa
   EXPECT_THROW(detector.detect(), Bad_mesh);
   last = before;
   expect_equal(detector.detect(), fresh.detect());
-  for (const Object_id object : {0U, 1U}) EXPECT_EQ(detector.object(object).joined_vertices(), fresh.object(object).joined_vertices());
+  for (const Object_id object : {0U, 1U})
+    EXPECT_EQ(detector.object(object).joined_vertices(), fresh.object(object).joined_vertices());
 }
 
 TEST(Seams_of_an_object, are_refused_to_stay_open_in_mode_exact) {

@@ -17,6 +17,7 @@
 #include "partitions/partition_report.h"
 #include "partitions/partition_run.h"
 #include "support/temporary_folder.h"
+#include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {
@@ -105,6 +106,16 @@ TEST_F(Given_labels_of, lbg_give_the_row_of_lbg) {
 TEST_F(Given_labels_of, the_mesh_are_not_applied_to_the_ball) {
   for (const auto& mesh : partition_meshes())
     EXPECT_NE(mesh.make().number_of_vertices(), mesh.make_ball().number_of_vertices()) << mesh.name;
+}
+
+TEST_F(Given_labels_of, the_mesh_leave_the_ball_to_lbg) {
+  const auto variants = read_given_labels({write("mine/cloth_coarse.labels", stripes("cloth_coarse", 32))});
+  const auto strategy = strategy_of(variants.at(0).labels.at(0), "mine");
+  const Surface_mesh own = mesh_of("cloth_coarse").make(), other = mesh_of("cloth_coarse").make_ball();
+  const Numbered_mesh mesh(own), ball(other);
+  EXPECT_EQ(strategy.label({mesh.graph, mesh.positions, mesh.faces}, 8).labels, stripes("cloth_coarse", 32));
+  const Numbered_surface surface{ball.graph, ball.positions, ball.faces};
+  EXPECT_EQ(strategy.label(surface, 8).labels, Lbg{}.label(surface, 8).labels);
 }
 
 TEST_F(Given_labels_of, other_content_are_other_runs) {

@@ -122,6 +122,18 @@ TEST(Contact_patches, of_two_spheres_are_one_circle) {
   EXPECT_GT(patch.depth, 0);
 }
 
+TEST(Contact_patches, have_the_middle_of_the_curve_as_their_point_however_its_faces_divide_it) {
+  // A wall from x = 0 to 4, in four faces: two meet the plate along 0.5 each, two along 1.5 each.
+  const Face_soup plate = moved(placed(single_triangle(), 100), -20, -20, 0);
+  Face_soup wall;
+  wall.coordinates = {0, 0, -1, 1, 0, -1, 4, 0, -1, 0, 0, 1, 1, 0, 1, 4, 0, 1};
+  wall.faces = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+  const Contact_patch patch = patched(wall, plate).patches.at(0);
+  EXPECT_EQ(patch.contacts.size(), 4U);
+  EXPECT_NEAR(patch.length, 4, 1e-12);
+  EXPECT_NEAR((patch.point - Eigen::Vector3d(2, 0, 0)).norm(), 0, 1e-12);
+}
+
 TEST(Contact_patches, of_waves_through_a_plane_are_one_per_crossing) {
   Face_soup plane(cloth(1, 1));
   deform(plane, [](const Point& p) { return Point(3 * p.x() - 1, 3 * p.y() - 1.1, 0.05); });

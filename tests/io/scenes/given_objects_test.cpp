@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,30 @@ TEST_F(Given_objects, gltf_files_of_different_rates_run_by_one_clock) {
   }
 }
 
+/// A square whose x is 10 t at these times t.
+std::string moving_square(std::initializer_list<double> times) {
+  Gltf_sample sample = square_gltf();
+  std::string positions;
+  for (const double t : times) positions += packed<float>({10 * t, 0, 0});
+  const auto values = sample.add_accessor(
+      {{"bufferView", sample.add_view(positions)}, {"componentType", 5126}, {"count", times.size()}, {"type", "VEC3"}});
+  sample.animate(0, "translation", sample.add_numbers(times), values);
+  return sample.glb();
+}
+
+TEST_F(Given_objects, gltf_files_of_one_rate_that_start_at_different_times_run_from_time_0_on) {
+  folder.write("early.glb", moving_square({0, 0.1, 0.2, 0.3}));
+  folder.write("late.glb", moving_square({0.2, 0.3}));
+  EXPECT_EQ(scene_of(std::vector{path("late.glb")}).frames, 2U);
+  Scene scene = scene_of(std::vector{path("early.glb"), path("late.glb")});
+  EXPECT_EQ(scene.frames, 4U);
+  const double early[]{0, 1, 2, 3}, late[]{2, 2, 2, 3};
+  for (std::size_t frame = 0; frame < scene.frames; ++frame) {
+    EXPECT_NEAR(first_vertex(scene.objects[0], frame).x(), early[frame], 1e-4);
+    EXPECT_NEAR(first_vertex(scene.objects[1], frame).x(), late[frame], 1e-4);
+  }
+}
+
 TEST_F(Given_objects, gltf_follows_the_rate_that_a_scene_gives_another) {
   write_mover(path("fast.glb"), 60);
   write_mover(path("slow.glb"), 24);
@@ -142,7 +167,8 @@ TEST_F(Given_objects, a_file_whose_name_has_a_plus_is_that_file) {
 TEST_F(Given_objects, an_object_of_a_scene_becomes_an_animation_of_its_file) {
   folder.write("a.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4 5\n");
   const auto scene = read(folder, R"({"frames": 3, "objects": [{"name": "a", "mesh": "a.obj", "motion": {"deform":
-      [{"travel": {"path": "linear", "way_points": [{"frame": 0, "at": [0, 0, 0]}, {"frame": 2, "at": [4, 0, 0]}]}}]}}]})");
+      [{"travel": {"path": "linear", "way_points": [{"frame": 0, "at": [0, 0, 0]},
+        {"frame": 2, "at": [4, 0, 0]}]}}]}}]})");
   const auto animation = animation_of(scene.objects[0], scene.frames);
   EXPECT_EQ(animation.motion.frames, 3U);
   EXPECT_EQ(animation.vertices, 5U);
