@@ -28,8 +28,7 @@ Any_strategy strategy_of(const Given_labels& labels, std::string_view name);
 /// NAME is a strategy of that name, for the meshes whose labels it has.
 /// @param given  folders, `FOLDER/*.labels`, or files
 /// @throws Bad_argument  no file, a file of no mesh, a name of the experiment's own strategies, a number of regions
-/// that
-///                       the experiment does not compare, two files for the same
+///                       that the experiment does not compare, two files for the same
 /// @throws Bad_mesh      as read_labels
 std::vector<Partition_variant> read_given_labels(const std::vector<std::filesystem::path>& given);
 

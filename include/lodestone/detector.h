@@ -26,8 +26,8 @@ namespace lodestone {
 ///     }
 ///
 /// The caller keeps the meshes, of any types, and moves their vertices. The meshes must outlive the detector, or the
-/// removal of their objects, and must be neither moved nor assigned to. The caller calls `rebuild` after any change of a
-/// mesh's faces, and after any removal of its maps `v:region` and `v:particle`, for instance by `clear`.
+/// removal of their objects, and must be neither moved nor assigned to. The caller calls `rebuild` after any change of
+/// a mesh's faces, and after any removal of its maps `v:region` and `v:particle`, for instance by `clear`.
 ///
 /// The mode decides how much of a mesh a frame reads, and what it may miss: see `Particle_detection` and
 /// `Exact_detection`. Every query re-reads the vertex positions, so results are never stale. One thread at a time may
@@ -70,7 +70,9 @@ class Detector {
   template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
   Object_id add(const Mesh& mesh, Points points, const Object_options& options = {}) {
     detection_->add(
-        [&] { return std::make_unique<Typed_watched_mesh<Mesh, Points, Strategy>>(mesh, std::move(points), strategy_); },
+        [&] {
+          return std::make_unique<Typed_watched_mesh<Mesh, Points, Strategy>>(mesh, std::move(points), strategy_);
+        },
         options);
     filter_.add(options);
     meshes_.push_back(&mesh);

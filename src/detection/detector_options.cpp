@@ -22,7 +22,8 @@ bool has_defaults_of_particles(const Detector_options& options) {
 }
 
 bool has_defaults_of_exact(const Exact_options& exact) {
-  return exact.tolerance == 0 && exact.self_tolerance == 0 && !exact.self_collision && !exact.containment && !exact.parting && !exact.patches;
+  return exact.tolerance == 0 && exact.self_tolerance == 0 && !exact.self_collision && !exact.containment &&
+         !exact.parting && !exact.patches;
 }
 
 }  // namespace
@@ -43,9 +44,10 @@ void check(const Detector_options& options) {
   require(exact.tree.leaf_faces >= 2 && exact.tree.leaf_faces <= 128, "a leaf must hold at most 2 to 128 faces");
   require(options.mode == Mode::exact || has_defaults_of_exact(exact),
           "a distance other than 0, self-collision, containment, parting and contact patches need the mode exact");
-  require(options.mode != Mode::exact || has_defaults_of_particles(options),
-          "the collision distance, its measure, the choice of candidates, open seams and the growth limit need the mode "
-          "particles");
+  require(
+      options.mode != Mode::exact || has_defaults_of_particles(options),
+      "the collision distance, its measure, the choice of candidates, open seams and the growth limit need the mode "
+      "particles");
 }
 
 std::string title_of(std::uint32_t object, const Object_options& options) {

@@ -83,7 +83,8 @@ void Particle_object::scatter(std::size_t particles, const Senin_options& option
   steps_ = Region_steps(graph_, labels_);
   vertex_faces_.emplace(mesh_->vertex_count(), walked_corners());
   auto vertices = scatter_particles(graph_, positions, particles, options);
-  rings_ = options.rings > 0 ? options.rings : default_rings(mesh_->vertex_count() - joined_vertices(), vertices.size());
+  rings_ =
+      options.rings > 0 ? options.rings : default_rings(mesh_->vertex_count() - joined_vertices(), vertices.size());
   patches_.assign(vertices.size(), {});
   patch_centres_.assign(vertices.size(), unreached);
   start_particles(std::move(vertices), positions);

@@ -283,7 +283,8 @@ int run_commands(int argc, char** argv) {
   detect.options.senin.seed = detect.partition.settings.seed;
   detect.partition.settings.lbg.threads = detect.options.exact.threads;
   // Pages and patches show contacts, so they ask for all of them by default.
-  if ((!detect.html.empty() || detect.options.exact.patches) && program.get_subcommand("detect")->count("--contacts") == 0)
+  if ((!detect.html.empty() || detect.options.exact.patches) &&
+      program.get_subcommand("detect")->count("--contacts") == 0)
     detect.options.contacts = Contact_query::all;
   if (program.got_subcommand("detect"))
     code = run(detect);

@@ -30,8 +30,9 @@ inline void note_cut_faces(const std::string& name, std::span<const std::uint32_
 /// Vertices that lie on others along seams.
 inline void note_joined_vertices(const std::string& name, std::size_t joined, std::size_t vertices) {
   if (joined > 0)
-    note(fmt::format("{}: {} of {} vertices lie on others along seams: particles walk across (--open-seams: they do not)",
-                     name, joined, vertices));
+    note(fmt::format(
+        "{}: {} of {} vertices lie on others along seams: particles walk across (--open-seams: they do not)", name,
+        joined, vertices));
 }
 
 /// Contents of a file that a conversion does not keep.

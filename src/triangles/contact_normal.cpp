@@ -74,9 +74,10 @@ void append_contact_normals(std::span<const Triangle_pair> pairs, std::vector<Co
     for (std::size_t i = 0; i < batch.size(); ++i) store(batch[i].a, faces.a, i), store(batch[i].b, faces.b, i);
     kernel::contact_normals(faces, result);
     for (std::size_t i = 0; i < batch.size(); ++i)
-      normals.push_back(result.proven[i] ? Contact_normal{.normal = {result.normal[0][i], result.normal[1][i], result.normal[2][i]},
-                                                          .depth = result.depth[i]}
-                                         : careful_normal(batch[i].a, batch[i].b));
+      normals.push_back(result.proven[i]
+                            ? Contact_normal{.normal = {result.normal[0][i], result.normal[1][i], result.normal[2][i]},
+                                             .depth = result.depth[i]}
+                            : careful_normal(batch[i].a, batch[i].b));
   }
 }
 

@@ -23,7 +23,8 @@ HWY_INLINE Numbers every(double x) { return hn::Set(Pair_lanes(), x); }
 HWY_INLINE Triangles load_triangles(const double (&corners)[3][3][most_normals], std::size_t lane) {
   Triangles t;
   for (std::size_t corner = 0; corner < 3; ++corner)
-    for (std::size_t axis = 0; axis < 3; ++axis) t[corner][axis] = hn::LoadU(Pair_lanes(), corners[corner][axis] + lane);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      t[corner][axis] = hn::LoadU(Pair_lanes(), corners[corner][axis] + lane);
   return t;
 }
 
@@ -31,14 +32,18 @@ HWY_INLINE Vectors subtract(const Vectors& p, const Vectors& q) {
   return {hn::Sub(p[0], q[0]), hn::Sub(p[1], q[1]), hn::Sub(p[2], q[2])};
 }
 
-HWY_INLINE Vectors divide(const Vectors& p, Numbers by) { return {hn::Div(p[0], by), hn::Div(p[1], by), hn::Div(p[2], by)}; }
+HWY_INLINE Vectors divide(const Vectors& p, Numbers by) {
+  return {hn::Div(p[0], by), hn::Div(p[1], by), hn::Div(p[2], by)};
+}
 
 HWY_INLINE Numbers dot(const Vectors& p, const Vectors& q) {
   return hn::Add(hn::Add(hn::Mul(p[0], q[0]), hn::Mul(p[1], q[1])), hn::Mul(p[2], q[2]));
 }
 
 HWY_INLINE Vectors cross_product(const Vectors& p, const Vectors& q) {
-  const auto component = [&](std::size_t i, std::size_t j) { return hn::Sub(hn::Mul(p[i], q[j]), hn::Mul(p[j], q[i])); };
+  const auto component = [&](std::size_t i, std::size_t j) {
+    return hn::Sub(hn::Mul(p[i], q[j]), hn::Mul(p[j], q[i]));
+  };
   return {component(1, 2), component(2, 0), component(0, 1)};
 }
 

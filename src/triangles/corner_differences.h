@@ -40,8 +40,8 @@ Corner_differences<Number> corner_differences(const Triangle& a, const Triangle&
 }
 
 /// Differences times 2^-exponent, such that the largest absolute coordinate of `between` is between 2^-74 and 2^16. So
-/// products of a few differences neither overflow nor lose digits that count. Each coordinate has a relative error of at
-/// most 2^-53, or an absolute error below 2^-1070.
+/// products of a few differences neither overflow nor lose digits that count. Each coordinate has a relative error of
+/// at most 2^-53, or an absolute error below 2^-1070.
 struct Scaled_differences {
   Corner_differences<double> vectors;
   int exponent = 0;

@@ -11,15 +11,16 @@ inline constexpr std::size_t most_edges = 8;
 
 /// Edges, and for each a triangle whose plane it crosses. The last index is that of the edge.
 struct Edges_and_planes {
-  std::size_t count = 0;                 ///< of edges; what follows them is ignored
-  double plane[3][3][most_edges] = {};   ///< [corner][axis]
+  std::size_t count = 0;                ///< of edges; what follows them is ignored
+  double plane[3][3][most_edges] = {};  ///< [corner][axis]
   double from[3][most_edges] = {}, to[3][most_edges] = {};
 };
 
 /// Where the edges cross the planes.
 struct Crossing_points {
   double coordinates[3][most_edges];
-  std::array<bool, most_edges> proven;  ///< the coordinates are the nearest doubles to the exact ones; else they mean nothing
+  /// Whether the coordinates are the nearest doubles to the exact ones; if not, they mean nothing.
+  std::array<bool, most_edges> proven;
 };
 
 /// @param edges  the ends of each edge lie on different sides of its plane

@@ -32,7 +32,9 @@ class Side_test {
   }
 
  private:
-  static double size(const Kernel::Vector_3& v) { return std::max({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())}); }
+  static double size(const Kernel::Vector_3& v) {
+    return std::max({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())});
+  }
 
   const Point &p_, &q_, &r_;
   Kernel::Vector_3 normal_;

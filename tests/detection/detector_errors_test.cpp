@@ -123,7 +123,8 @@ TEST(Detector, a_bad_mesh_in_a_frame_is_named_by_id_and_name) {
       for (const auto v : scene[1].vertices()) scene[1].point(v) = original.point(v);
       scene[1].add_vertex(Point(0, 0, 0));
       const std::string message = message_of(next_frame);
-      EXPECT_TRUE(message.find(title) != std::string::npos && message.find("rebuild()") != std::string::npos) << message;
+      EXPECT_TRUE(message.find(title) != std::string::npos && message.find("rebuild()") != std::string::npos)
+          << message;
     }
 }
 

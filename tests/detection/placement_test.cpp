@@ -32,7 +32,9 @@ Point moved(const Eigen::Isometry3d& motion, const Point& p) {
   return {q.x(), q.y(), q.z()};
 }
 
-Positions positions_of(const Surface_mesh& mesh) { return read_positions(Mesh_numbering<Surface_mesh>(mesh), mesh.points()); }
+Positions positions_of(const Surface_mesh& mesh) {
+  return read_positions(Mesh_numbering<Surface_mesh>(mesh), mesh.points());
+}
 
 class Placed : public testing::TestWithParam<Mode> {
  protected:

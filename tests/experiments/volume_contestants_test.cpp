@@ -81,7 +81,8 @@ class Volume_race : public testing::Test {
        "motion": {"deform": [{"wobble": {"amplitude": 0.05, "waves": 2, "period": 7}}]}},
       {"name": "right", "shape": {"icosphere": {"frequency": 14}},
        "motion": {"deform": [{"wobble": {"amplitude": 0.05, "waves": 1, "period": 5}},
-        {"travel": {"path": "linear", "way_points": [{"frame": 0, "at": [2.3, 0, 0]}, {"frame": 11, "at": [1.5, 0.2, 0]}]}}]}}]})"));
+        {"travel": {"path": "linear", "way_points": [{"frame": 0, "at": [2.3, 0, 0]},
+          {"frame": 11, "at": [1.5, 0.2, 0]}]}}]}}]})"));
     result = measure_volumes(scene, {.passes = 2}, [](double) {});
   }
   static void TearDownTestSuite() { result = {}; }

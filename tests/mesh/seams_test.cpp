@@ -52,7 +52,8 @@ TEST(Seams, borders_at_one_place_are_joined_and_others_are_not) {
 }
 
 TEST(Seams, the_two_zeros_are_the_same_place) {
-  const auto mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, -0.0, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {3, 4, 5}});
+  const auto mesh =
+      mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, -0.0, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {3, 4, 5}});
   const auto seams = closed(mesh);
   ASSERT_TRUE(seams);
   EXPECT_EQ(seams->joined(3), 0U);

@@ -72,7 +72,8 @@ TEST_F(Convert_meshes, what_is_not_kept_is_listed) {
 TEST_F(Convert_meshes, objects_of_scenes_are_converted_where_they_are_placed) {
   write("a.off", square_off);
   const auto scene = write("scene.json", R"({"objects": [
-      {"name": "square", "mesh": "a.off", "place": {"translate": [5, 0, 0]}}, {"name": "teapot", "shape": {"teapot": {}}}]})");
+      {"name": "square", "mesh": "a.off", "place": {"translate": [5, 0, 0]}},
+      {"name": "teapot", "shape": {"teapot": {}}}]})");
   const auto square = convert(scene + "#square", "square.obj");
   EXPECT_EQ(square.mesh.point(Surface_mesh::Vertex_index(0)), Point(5, 0, 0));
   EXPECT_EQ(convert(scene + "#teapot", "teapot.ply").mesh.number_of_faces(), 5680U);

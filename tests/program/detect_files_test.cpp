@@ -57,9 +57,10 @@ TEST_F(Detect_files, particles_cross_seams_and_the_program_says_so) {
   const auto needle = write("needle.off", needle_off);
   const auto joined = detect({square, needle}, "particles");
   EXPECT_EQ(joined.exit_code, 0);
-  EXPECT_EQ(joined.err,
-            "lodestone: square: 2 of 6 vertices lie on others along seams: particles walk across (--open-seams: they do "
-            "not)\n");
+  EXPECT_EQ(
+      joined.err,
+      "lodestone: square: 2 of 6 vertices lie on others along seams: particles walk across (--open-seams: they do "
+      "not)\n");
   EXPECT_EQ(read_json(out / "summary.json")["objects"].at(0)["joined_vertices"], 2);
   EXPECT_EQ(detect({square, needle, "--open-seams"}, "particles").err, "");
   EXPECT_EQ(read_json(out / "summary.json")["objects"].at(0)["joined_vertices"], 0);

@@ -164,7 +164,8 @@ TEST_F(Info, gives_the_box_of_all_frames) {
        {"box of the first frame", "(0 0 0) to (1 1 0)", "box of all frames", "(0 0 -2) to (1 1 5)"})
     EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
   const Json scene = info({write("scene.json", R"({"frames": 3, "objects": [{"name": "two",
-    "mesh": "f1.off", "motion": {"deform": [{"travel": {"way_points": [{"frame": 0, "at": [0, 0, 0]}, {"frame": 2, "at": [10, 0, 0]}]}}]}}]})")});
+    "mesh": "f1.off", "motion": {"deform": [{"travel": {"way_points": [{"frame": 0, "at": [0, 0, 0]},
+      {"frame": 2, "at": [10, 0, 0]}]}}]}}]})")});
   EXPECT_EQ(scene["objects"][0]["box"][1][0], 1);
   EXPECT_EQ(scene["objects"][0]["box_of_all_frames"][1][0], 11);
 }

@@ -129,7 +129,8 @@ Surface_mesh flat_shaded(const Surface_mesh& mesh) {
   Surface_mesh apart;
   for (const auto face : faces(mesh)) {
     std::vector<Surface_mesh::Vertex_index> corners;
-    for (const auto v : vertices_around_face(halfedge(face, mesh), mesh)) corners.push_back(apart.add_vertex(mesh.point(v)));
+    for (const auto v : vertices_around_face(halfedge(face, mesh), mesh))
+      corners.push_back(apart.add_vertex(mesh.point(v)));
     apart.add_face(corners);
   }
   return apart;

@@ -281,7 +281,8 @@ bool are_nearest(const Intersection_points& points, const std::vector<Exact_poin
     return is_nearest(p.x(), q.x()) && is_nearest(p.y(), q.y()) && is_nearest(p.z(), q.z());
   };
   return std::ranges::all_of(
-             points, [&](const Point& p) { return std::ranges::any_of(exact, [&](auto& q) { return match(p, q); }); }) &&
+             points,
+             [&](const Point& p) { return std::ranges::any_of(exact, [&](auto& q) { return match(p, q); }); }) &&
          std::ranges::all_of(
              exact, [&](auto& q) { return std::ranges::any_of(points, [&](const Point& p) { return match(p, q); }); });
 }

@@ -126,8 +126,8 @@ void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
   std::size_t regions = options_.least_particles;
   if (options_.particles > 0) regions = options_.particles;
   if (object.particles > 0) regions = object.particles;
-  const auto partition =
-      object.mesh().partition({graph, positions, object.mesh().corners()}, std::max<std::size_t>(1, regions), options_.partition);
+  const auto partition = object.mesh().partition({graph, positions, object.mesh().corners()},
+                                                 std::max<std::size_t>(1, regions), options_.partition);
   object.surface.build(partition.labels, coordinates, options_.exact.tree);
   object.built = true;
   object.mesh().write_maps(partition.labels, partition.particles);

@@ -31,8 +31,8 @@ class Particle_object {
   /// Places the object elsewhere from now on; none: where its mesh is.
   void place(const std::optional<Rigid_motion>& placement) { placement_ = placement; }
 
-  /// Closes the seams of the surface as it is now, for all that walks along it: partition, particles, paths. Does nothing
-  /// for a strategy that needs the mesh itself. Before the first partition.
+  /// Closes the seams of the surface as it is now, for all that walks along it: partition, particles, paths. Does
+  /// nothing for a strategy that needs the mesh itself. Before the first partition.
   /// @throws Bad_mesh  as `partition`
   void close_seams();
   /// Number of vertices that were joined to another one.

@@ -23,9 +23,8 @@ std::size_t hop_eccentricity(const Vertex_graph& graph, std::uint32_t source);
 /// Largest hop distance between two of the given vertices.
 ///
 /// For the particles of an object this is R_max of \cite saenghaengtham2006, the most steps that a particle can need to
-/// reach another: there, approximately the number of vertices along the shortest route between two particles, at its
-/// greatest.
-/// One breadth-first search per vertex: O(n (V + E)).
+/// reach another. The paper gives it approximately, by the number of vertices along the shortest route between two
+/// particles. One breadth-first search per vertex: O(n (V + E)).
 ///
 /// @param targets  n vertices of the graph
 /// @return hops (dimensionless); 0 for fewer than two vertices; pairs in different components do not count

@@ -158,12 +158,14 @@ double measure_step_length(const Walking_object<Reader>& object, std::size_t par
 }
 
 /// Whether the force of a particle that has moved reaches a step of one at rest, from where it was or where it is.
-inline bool disturbs(const Moved_particles& moved, const Particles& movers, double reach, const Eigen::Vector3d& position,
-                     const Rest& rest) {
+inline bool disturbs(const Moved_particles& moved, const Particles& movers, double reach,
+                     const Eigen::Vector3d& position, const Rest& rest) {
   constexpr double rounding = 1 + 1e-9;
   const double near = rounding * (reach + rest.step_length), squared = near * near;
   // Not `<=`: what is not a number disturbs.
-  const auto is_near = [&](const Eigen::Vector3d& attractor) { return !((attractor - position).squaredNorm() > squared); };
+  const auto is_near = [&](const Eigen::Vector3d& attractor) {
+    return !((attractor - position).squaredNorm() > squared);
+  };
   for (std::size_t i = 0; i < moved.which.size(); ++i)
     if (is_near(moved.from_there[i]) || is_near(movers.positions[moved.which[i]])) return true;
   return false;

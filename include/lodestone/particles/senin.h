@@ -13,7 +13,7 @@
 /// whole surface, repel those of the same object and attract those of other objects. Nothing is partitioned.
 ///
 /// Forces and movement are those of `relax()` with `siblings_repel` and every vertex in one region. What the
-/// description leaves open is settled such that the two methods differ in nothing else: if two particles are nearer
+/// description leaves open is settled such that the two methods differ in nothing else. So if two particles are nearer
 /// than the collision distance, the faces around both are tested, as many as a region would hold.
 namespace lodestone {
 

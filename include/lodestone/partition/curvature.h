@@ -18,10 +18,10 @@ struct Curvature_options {
 /// "Estimating differential quantities using polynomial fitting of osculating jets", 2005. The vertex normal tells the
 /// outer side. On a smooth surface the error falls with the length of the edges.
 ///
-/// The curvature is 0 where there is nothing to fit: at a vertex with fewer than five neighbours in its rings (isolated
-/// vertices, a single triangle), at a vertex without a normal, and where all neighbours lie on a line or in a point. If
-/// a vertex has more than 1000 vertices in its rings, the fit takes the first 1000 that a breadth-first search meets,
-/// those of lower index first. O(V n) for n vertices in the rings of one.
+/// The curvature is 0 where there is nothing to fit. That is so at a vertex with fewer than five neighbours in its
+/// rings (isolated vertices, a single triangle) and at a vertex without a normal. It is also so where all neighbours
+/// lie on a line or in a point. If a vertex has more than 1000 vertices in its rings, the fit takes the first 1000 that
+/// a breadth-first search meets, those of lower index first. O(V n) for n vertices in the rings of one.
 ///
 /// @throws Bad_argument  rings out of range
 std::vector<double> mean_curvatures(const Numbered_surface& surface, const Curvature_options& options = {});

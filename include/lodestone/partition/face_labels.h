@@ -16,7 +16,7 @@ inline constexpr Region_index no_region = std::numeric_limits<Region_index>::max
 ///
 /// A vertex gets the label with the largest area among its faces. Ties go to the label of more of its faces, then to
 /// the lowest label. A label that no vertex gets in this way takes one corner of its faces from a label that keeps
-/// another vertex: the corner around which it has the largest area; of several such corners the lowest vertex index. A
+/// another vertex. It takes the corner around which it has the largest area; of several, the lowest vertex index. A
 /// label is lost only if every corner of its faces is the last vertex of another label. A vertex whose faces have no
 /// label takes the label of the nearest vertex that has one, counted in edges. The label is 0 if no such vertex can be
 /// reached, and for vertices without edges. Cost O(V + F log F).

@@ -45,7 +45,7 @@ void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, 
 ///
 /// Two bounds avoid most distances. A vector keeps its label if the distance to its code vector is below half the
 /// distance between that code vector and the nearest other one. It also keeps its label if that distance is below a
-/// lower bound on the distance to the second nearest code vector; this bound is kept from iteration to iteration
+/// lower bound on the distance to the second nearest code vector. This bound is kept from iteration to iteration
 /// (Hamerly, "Making k-means even faster", SDM 2010). Otherwise only the code vectors within a ball around its own are
 /// tried, eight at a time (the exponion of Newling and Fleuret, "Fast k-means with accurate bounds", ICML 2016). Bounds
 /// are compared with a margin far above rounding error, and whatever they leave open is computed exactly as in the

@@ -30,8 +30,9 @@ struct Particle_count_options {
 /// Particles for objects of equal size: the kissing number of spheres, 12, or the number of objects if that is lower.
 std::size_t kissing_particle_count(std::size_t objects);
 
-/// Particles for a sphere of radius R beside objects no smaller than a sphere of radius r: how often the area of the
-/// small sphere's shadow, seen from the centre of the large one, fits into the area of the large one.
+/// Particles for a sphere of radius R beside objects no smaller than a sphere of radius r. The small sphere casts a
+/// shadow on the large one, seen from the centre of the large one. The count is how often the area of that shadow fits
+/// into the area of the large sphere.
 ///
 /// The shadow is a spherical cap of half-angle theta = asin(r / (R + r)). On a sphere of area A = 4 pi it has the area
 /// B = 2 pi (1 - cos theta). The count is floor(A / B), at least 1 \cite saenghaengtham2006. Equal spheres give 14, an

@@ -24,15 +24,18 @@ struct Parting {
 /// A short translation that parts two objects; mostly not the shortest there is.
 ///
 /// Moved along a direction by more than its clearance (`triangles/clearance.h`), each point of a lies ahead of every
-/// point of b that it is in line with. So no point is common. Neither object is inside the other: the line backwards
-/// from a point of b meets no point of a, and that forwards from a point of a meets no point of b, but each line out of
-/// a closed surface meets it. This holds for open surfaces as well.
+/// point of b that it is in line with. So no point is common. Neither object is inside the other, since each line out
+/// of a closed surface meets it: the line backwards from a point of b meets no point of a, and that forwards from a
+/// point of a meets no point of b. This holds for open surfaces as well.
 ///
 /// The clearance is the largest of those of all face pairs. It is computed along directions that suggest themselves:
-/// the normals of the contact patches, and their sum; the way between the centres of the boxes; for surfaces that do
-/// not intersect the way between the closest faces; the axes and the diagonals between them. From the best of them the
-/// search goes on to the normal of the plane in which the two touch last, then to directions beside it, as long as this
-/// helps. Of directions with the same length the first wins.
+/// - the normals of the contact patches, and their sum;
+/// - the way between the centres of the boxes;
+/// - for surfaces that do not intersect, the way between the closest faces;
+/// - the axes and the diagonals between them.
+///
+/// From the best of them the search goes on to the normal of the plane in which the two touch last, then to directions
+/// beside it, as long as this helps. Of directions with the same length the first wins.
 ///
 /// The translation also parts them if every moved coordinate is rounded to a double. It is longer than the clearance by
 /// some 10^-13 of the size of the objects, and 10^-15 of their distance from the origin; more where they graze each

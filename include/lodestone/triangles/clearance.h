@@ -11,7 +11,7 @@
 ///
 /// Two points are in line if a line along the direction passes through both. A set a has passed a set b if each point
 /// of a lies strictly ahead of each point of b that it is in line with. The clearance of a from b is the supremum of
-/// t with y - x = t direction, over the points x of a and y of b: moved by more than this along the direction, a has
+/// t with y - x = t direction, over the points x of a and y of b. Moved by more than this along the direction, a has
 /// passed b.
 namespace lodestone {
 

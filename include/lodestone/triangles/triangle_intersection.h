@@ -48,8 +48,8 @@ using Intersection_points = boost::container::static_vector<Point, 6>;
 /// The intersection of two triangles. Each coordinate is the nearest double to that of the exact intersection. Empty if
 /// they have no point in common.
 ///
-/// Two triangles that cross cost about as much as twice the test whether they do. Exact numbers are needed where a corner
-/// or an edge of one touches the other, for coplanar triangles, and where rounding is in doubt: some 0.1 ms.
+/// Two triangles that cross cost about as much as twice the test whether they do. Exact numbers are needed where a
+/// corner or an edge of one touches the other, for coplanar triangles, and where rounding is in doubt: some 0.1 ms.
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b);
 
 struct Triangle_pair {

@@ -8,8 +8,8 @@
 namespace lodestone {
 
 /// Lets motions that have times run by one clock. If their rates or the times of their first frames differ, those whose
-/// reader chose the rate are sampled again from time 0 on: at the rate that the others were given, if that is one; else
-/// at the rate that all have; else at 30 frames per second.
+/// reader chose the rate are sampled again from time 0 on. The new rate is the one that the others were given, if that
+/// is one; else the one that all have; else 30 frames per second.
 void share_clock(std::span<Scene_object> objects);
 
 }  // namespace lodestone

@@ -45,8 +45,8 @@ struct Bend {
   double phase = 0;                   ///< turns; finite
 };
 
-/// Rotates each point around the line through c along `axis`, by `degrees` swing(t) over the length of the rest shape
-/// along `axis`: the middle stays, and the two ends rotate by half of that angle in opposite directions.
+/// Rotates each point around the line through c along `axis`. The two ends of the rest shape along `axis` turn by
+/// `degrees` swing(t) against each other, each by half of that angle; the middle stays.
 struct Twist {
   Kernel::Vector_3 axis{0, 0, 1};  ///< not zero
   double degrees = 30;             ///< finite

@@ -52,8 +52,8 @@ Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices)
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices);
 
 struct Gltf_motion_options {
-  /// Sampling rate, > 0. Not given: one frame per key, from the first on, if the keys of all curves follow each other at
-  /// equal distances, up to rounding, and there are at least 5 per second; else 30.
+  /// Sampling rate, > 0. Not given: one frame per key, from the first on, if the keys of all curves follow each other
+  /// at equal distances, up to rounding, and there are at least 5 per second; else 30.
   std::optional<double> frames_per_second = {};
   /// Which animation of the file: its index or its name.
   std::variant<std::size_t, std::string> animation = std::size_t{0};

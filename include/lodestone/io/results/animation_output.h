@@ -27,9 +27,9 @@ struct Animation_output_options {
 ///
 /// Frames are processed one at a time. The output appears whole or not at all.
 ///
-/// Vertices and faces keep their order. A glTF file has the first frame, a morph target per further frame, and an
-/// animation that shows the frames in order with linear interpolation; at most 2048 frames. glTF, STL and point caches
-/// store floats, other mesh files doubles.
+/// Vertices and faces keep their order. A glTF file has the first frame, and a morph target per further frame; at most
+/// 2048 frames. Its animation shows the frames in order, with linear interpolation. glTF, STL and point caches store
+/// floats, other mesh files doubles.
 ///
 /// @throws Bad_motion    a frame is broken, a coordinate is too large for a float
 /// @throws Bad_argument  an extension not listed, no faces where the format needs them, too many frames for the format
