@@ -19,7 +19,7 @@ class Scene_sources : public testing::Test {
  protected:
   /// A subfolder for the files of one scene.
   std::filesystem::path subfolder(const std::string& name) const {
-    const auto path = folder.path() / name;
+    auto path = folder.path() / name;
     create_directories(path);
     return path;
   }
