@@ -19,12 +19,20 @@ void Particle_detection::update(Object_id id) {
   Object& object = *objects_[id];
   if (!object.prepared || options_.mode != Mode::particles) return;
   timed(since_last_frame_.seconds.repartition, [&] {
-    if (!object.named([&] { return object.particle_object.has_outgrown(options_.growth); })) return;
+    if (!object.named([&] { return has_outgrown(object.particle_object); })) return;
     measure(object);
     partition(object);
     make_room();
     ++since_last_frame_.repartitions;
   });
+}
+
+/// With meetings an eighth of the regions is checked, unless the object seems larger as a whole: radii grow with the
+/// stretch of the surface, so a region that has grown unnoticed for some frames costs little.
+bool Particle_detection::has_outgrown(Particle_object& object) {
+  if (!meets() || object.seems_larger(options_.growth, options_.opening_reach))
+    return object.has_outgrown(options_.growth);
+  return object.has_outgrown(options_.growth, (object.particles().at.size() + 7) / 8);
 }
 
 void Particle_detection::rebuild(Object_id id, std::span<const std::uint32_t> /*file_vertex*/) {
@@ -33,20 +41,77 @@ void Particle_detection::rebuild(Object_id id, std::span<const std::uint32_t> /*
     auto anew = std::make_unique<Object>(id, old.particle_object.mesh().renumbered(), old.options);
     anew->particle_object.place(old.particle_object.placement());
     objects_[id] = std::move(anew);
+    meeting_search_.forget(id);
   });
 }
 
 const Frame& Particle_detection::detect(const Collision_filter& filter) {
   prepare();
   frame_.start(std::exchange(since_last_frame_, {}));
-  confirmation_.reset_count();
+  if (meets())
+    detect_by_meetings(filter);
+  else
+    detect_as_published(filter);
+  return frame_.finish();
+}
 
+/// The method of \cite saenghaengtham2006, or its predecessor.
+void Particle_detection::detect_as_published(const Collision_filter& filter) {
+  confirmation_.reset_count();
   timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
   timed(frame_.seconds().relaxation, [&] { walk(); });
   for (const auto pair : object_candidates_) check(pair);
-
   frame_.statistics().exact_tests = confirmation_.exact_tests();
-  return frame_.finish();
+}
+
+void Particle_detection::detect_by_meetings(const Collision_filter& filter) {
+  meeting_search_.start_frame();
+  timed(frame_.seconds().broad_phase, [&] { find_near_objects(filter); });
+  if (options_.contacts != Contact_query::all)
+    timed(frame_.seconds().candidates, [&] {
+      for (auto& pair : met_pairs_) meeting_search_.revisit(pair);
+    });
+  for (auto& pair : met_pairs_) finish(pair);
+
+  const Meeting_counts& counts = meeting_search_.counts();
+  frame_.statistics().exact_tests = counts.exact_tests;
+  frame_.statistics().meetings = counts.meetings;
+  frame_.statistics().candidates = counts.openings;
+  frame_.statistics().vertices_read += counts.vertices_read;
+  for (auto& object : objects_)
+    if (object) frame_.statistics().vertices_read += object->particle_object.tree().vertices_read();
+}
+
+void Particle_detection::find_near_objects(const Collision_filter& filter) {
+  for (std::size_t o = 0; o < objects_.size(); ++o) {
+    boxes_[o].setEmpty();
+    reach_[o] = 0;
+    if (!objects_[o]) continue;
+    Object& object = *objects_[o];
+    object.named([&] { object.particle_object.read_regions(options_.opening_reach); });
+    boxes_[o] = object.particle_object.regions().box();
+  }
+  list_object_pairs(filter);
+  met_pairs_.clear();
+  for (const auto pair : object_candidates_)
+    met_pairs_.push_back(
+        {.ids = pair, .a = &objects_[pair.a]->particle_object, .b = &objects_[pair.b]->particle_object});
+}
+
+/// Ends the search for contacts of a pair, and reports it.
+void Particle_detection::finish(Met_pair& pair) {
+  timed(frame_.seconds().confirmation, [&] {
+    Pair_result result = frame_.start_pair(pair.ids);
+    if (options_.contacts == Contact_query::all) {
+      meeting_search_.find_all(pair, frame_.face_pairs());
+    } else {
+      if (!pair.met && meeting_search_.list_regions(pair)) meeting_search_.open(pair);
+      meeting_search_.remember(pair);
+      if (pair.met) frame_.face_pairs().push_back(pair.found.contact);
+    }
+    result.collides = pair.met;
+    end_pair(result);
+  });
 }
 
 /// Partitions the objects that are new. The radii of all must be known first: particle counts depend on them.
@@ -76,6 +141,7 @@ void Particle_detection::partition(Object& object) {
   } else {
     object.named([&] {
       object.particle_object.partition(particles_of(object), options_.partition, options_.distance_measure);
+      if (meets()) object.particle_object.prepare_meetings(options_.exact.tree);
     });
   }
   object.prepared = true;
@@ -123,7 +189,6 @@ void Particle_detection::find_candidates(const Collision_filter& filter) {
   for (std::size_t o = 0; o < objects_.size(); ++o) {
     boxes_[o].setEmpty();
     reach_[o] = 0;
-    opponents_[o].clear();
     if (!objects_[o]) continue;
     auto& particle_object = objects_[o]->particle_object;
     objects_[o]->named([&] { particle_object.read_particles(); });
@@ -131,7 +196,12 @@ void Particle_detection::find_candidates(const Collision_filter& filter) {
     reach_[o] = std::max(particle_object.particles().effective_radius,
                          options_.collision_distance * particle_object.particles().collision_distance);
   }
+  list_object_pairs(filter);
+}
+
+void Particle_detection::list_object_pairs(const Collision_filter& filter) {
   object_candidates_.clear();
+  for (auto& list : opponents_) list.clear();
   for (const auto& [a, b] : broad_phase_.find(boxes_, reach_)) {
     if (!filter.may_collide(a, b)) continue;
     object_candidates_.push_back({a, b});
@@ -191,11 +261,15 @@ void Particle_detection::check(Object_pair pair) {
                                 frame_.face_pairs());
       if (result.collides && options_.contacts != Contact_query::all) break;
     }
-    sort_contacts(result);
-    frame_.end_pair(result, [this](Object_id object, std::uint32_t face) {
-      const auto& particle_object = objects_[object]->particle_object;
-      return face_triangle(particle_object.corners()[face], particle_object.positions());
-    });
+    end_pair(result);
+  });
+}
+
+void Particle_detection::end_pair(Pair_result& result) {
+  sort_contacts(result);
+  frame_.end_pair(result, [this](Object_id object, std::uint32_t face) {
+    const auto& particle_object = objects_[object]->particle_object;
+    return face_triangle(particle_object.corners()[face], particle_object.positions());
   });
 }
 

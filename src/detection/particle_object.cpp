@@ -112,7 +112,14 @@ void Particle_object::start_particles(std::vector<std::uint32_t> vertices, const
 /// Checks that the mesh is the one that was numbered, and finds where its positions are now.
 void Particle_object::look() {
   mesh_->check_connectivity("the mesh");
-  read_ = Live_positions(*mesh_, placement_);
+  read_ = mesh_->in_memory()
+              ? Live_positions(mesh_->read().data(), placement_)
+              : Live_positions(
+                    mesh_.get(),
+                    [](const void* mesh, std::uint32_t vertex) {
+                      return static_cast<const Watched_mesh*>(mesh)->read(vertex);
+                    },
+                    placement_);
 }
 
 /// All positions. Distances are compared by their squares, which must neither overflow nor vanish.
@@ -145,9 +152,24 @@ void Particle_object::read_particles() {
   }
 }
 
+void Particle_object::prepare_meetings(const Region_tree_options& options) {
+  const Positions positions = checked_positions();
+  const Coordinates coordinates(positions.data(), static_cast<std::size_t>(positions.size()));
+  if (!vertex_faces_) vertex_faces_.emplace(mesh_->vertex_count(), walked_corners());
+  tree_ = Tree_on_demand(corners(), labels_, coordinates, options);
+  tree_.start_frame(read_);
+  regions_ = Region_anchors(tree_, corners(), labels_, coordinates);
+}
+
+void Particle_object::read_regions(double reach) {
+  look();
+  tree_.start_frame(read_);
+  regions_.read(tree_, reach);
+}
+
 const Posed_patch& Particle_object::posed_patch(std::size_t particle, std::uint64_t frame) {
   Posed_patch& posed = posed_[particle];
-  if (vertex_faces_ && patch_centres_[particle] != particles_.at[particle]) {
+  if (!patch_centres_.empty() && patch_centres_[particle] != particles_.at[particle]) {
     patch_centres_[particle] = particles_.at[particle];
     patches_[particle] = ring_patch(graph_, *vertex_faces_, corners(), particles_.at[particle], rings_);
     posed.frame = 0;
@@ -208,13 +230,20 @@ void Particle_object::measure_extents() {
   }
 }
 
-bool Particle_object::has_outgrown(double growth) {
+bool Particle_object::seems_larger(double growth, double reach) {
+  read_regions(reach);
+  return std::pow(tree_.stretch(), 2) > std::max(growth, 1.02);
+}
+
+bool Particle_object::has_outgrown(double growth, std::size_t most_regions) {
   look();
   // A surface that only moves keeps its lengths but for rounding.
   constexpr double rounding = 1 + 1e-9;
   if (largest_area_ == 0) return std::pow(longest_compass(), 2) > growth * rounding * std::pow(rest_compass_, 2);
   const double limit = growth * rounding * largest_area_;
-  for (Region_index region = 0; region < extents_.size(); ++region) {
+  for (std::size_t checked = 0; checked < std::min(most_regions, extents_.size()); ++checked) {
+    last_checked_ = last_checked_ + 1 < extents_.size() ? last_checked_ + 1 : 0;
+    const Region_index region = last_checked_;
     const double area = stretched_area(extents_[region], read_);
     if (!std::isfinite(area))
       throw Bad_mesh("region " + std::to_string(region) + " has a coordinate that is not finite");

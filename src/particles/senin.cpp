@@ -36,16 +36,6 @@ std::size_t default_rings(std::size_t vertices, std::size_t particles) {
   return rings;
 }
 
-Vertex_faces::Vertex_faces(std::uint32_t vertex_count, std::span<const Corners> corners)
-    : offsets_(vertex_count + std::size_t{1}, 0), faces_(3 * corners.size()) {
-  for (const auto& face : corners)
-    for (const auto corner : face) ++offsets_[corner + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) offsets_[v + 1] += offsets_[v];
-  auto next = offsets_;
-  for (std::uint32_t face = 0; face < corners.size(); ++face)
-    for (const auto corner : corners[face]) faces_[next[corner]++] = face;
-}
-
 Patch ring_patch(const Vertex_graph& graph, const Vertex_faces& vertex_faces, std::span<const Corners> corners,
                  std::uint32_t centre, std::size_t rings) {
   std::vector<std::uint32_t> reached{centre};

@@ -62,6 +62,16 @@ struct Detector_options {
   double collision_distance = 1;  ///< of particles, in multiples of mu, the larger of the two objects'; > 0
   Distance_measure distance_measure = Distance_measure::adjacent_vertices;  ///< of particles: which mean mu is
   Candidate_choice candidates = Candidate_choice::all;                      ///< of particles
+  /// Mode `particles`: so many pairs of particles of two objects walk towards each other after the relaxation, nearest
+  /// first, past the borders of their regions; what is around the place where they meet is checked, and remembered for
+  /// the next frame. 0: the published method, whose particles stay in their regions, and which checks whole regions.
+  std::size_t meetings = 4;
+  /// With meetings: most vertices that a frame reads per object pair to look below the regions; 0: regions are not
+  /// opened.
+  std::size_t opening_budget = 16384;
+  /// With meetings: two parts of surfaces are opened, or checked, if the distance of their anchors is at most so many
+  /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed.
+  double opening_reach = 1;
   Contact_query contacts = Contact_query::all;
   bool contact_points = false;   ///< where faces meet; not with yes_no
   bool contact_normals = false;  ///< which way, how deep; not with yes_no

@@ -11,6 +11,7 @@
 #include "lodestone/detection/broad_phase.h"
 #include "lodestone/detection/detection.h"
 #include "lodestone/detection/frame_builder.h"
+#include "lodestone/detection/meeting_search.h"
 #include "lodestone/detection/particle_object.h"
 #include "lodestone/particles/candidate_pairs.h"
 
@@ -28,7 +29,8 @@ class Particle_detection final : public Detection {
   /// What a refusal tells a user who asks another mode for this one's answers.
   static constexpr const char* needed = "this needs a mode with particles";
 
-  explicit Particle_detection(const Detector_options& options) : options_(options), frame_(options) {}
+  explicit Particle_detection(const Detector_options& options)
+      : options_(options), frame_(options), meeting_search_(options) {}
 
   void add(const Watch_mesh& watch, const Object_options& options) override;
   Watched_mesh& mesh(Object_id object) override { return objects_[object]->particle_object.mesh(); }
@@ -40,7 +42,10 @@ class Particle_detection final : public Detection {
   void update(Object_id object) override;
   /// Reads the faces of the mesh anew.
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override;
-  void remove(Object_id object) override { objects_[object].reset(); }
+  void remove(Object_id object) override {
+    objects_[object].reset();
+    meeting_search_.forget(object);
+  }
   const Frame& detect(const Collision_filter& filter) override;
 
   const Particle_object& object(Object_id object) const { return objects_[object]->particle_object; }
@@ -72,11 +77,19 @@ class Particle_detection final : public Detection {
     object.radius = object.named([&] { return object.particle_object.bounding_sphere().radius; });
   }
   void partition(Object& object);
+  bool has_outgrown(Particle_object& object);
   std::size_t particles_of(Object& object);
   void make_room();
+  bool meets() const { return options_.mode == Mode::particles && options_.meetings > 0; }
   void find_candidates(const Collision_filter& filter);
+  void list_object_pairs(const Collision_filter& filter);
   void walk();
   void check(Object_pair pair);
+  void find_near_objects(const Collision_filter& filter);
+  void detect_as_published(const Collision_filter& filter);
+  void detect_by_meetings(const Collision_filter& filter);
+  void finish(Met_pair& pair);
+  void end_pair(Pair_result& result);
   void list_candidates(Object_pair pair);
   void sort_contacts(Pair_result& result);
 
@@ -95,6 +108,8 @@ class Particle_detection final : public Detection {
   Relaxation_scratch relaxation_;
   std::vector<Candidate_pair> region_candidates_;
   Confirmation confirmation_;
+  Meeting_search meeting_search_;
+  std::vector<Met_pair> met_pairs_;
 };
 
 }  // namespace lodestone

@@ -2,21 +2,24 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "lodestone/detection/live_positions.h"
+#include "lodestone/mesh/live_positions.h"
 #include "lodestone/mesh/patch.h"
 #include "lodestone/mesh/seams.h"
 #include "lodestone/particles/collision_distance.h"
 #include "lodestone/particles/hop_metric.h"
 #include "lodestone/particles/relaxation.h"
 #include "lodestone/particles/senin.h"
+#include "lodestone/particles/walked_surface.h"
 #include "lodestone/partition/particle_count.h"
 #include "lodestone/partition/region_extents.h"
+#include "lodestone/tree/region_anchors.h"
 
 namespace lodestone {
 
@@ -49,9 +52,27 @@ class Particle_object {
   /// @throws Bad_mesh  a coordinate is not finite, or the number of vertices or faces has changed
   void read_particles();
 
+  /// Builds what meetings need: the tree below the regions, and the faces around each vertex. After `partition`.
+  /// O(F log F + V log V).
+  void prepare_meetings(const Region_tree_options& options);
+  /// Reads the anchors of the regions in this frame, after `prepare_meetings`.
+  /// @throws Bad_mesh  as `read_particles`
+  void read_regions(double reach);
+  const Region_anchors& regions() const { return regions_; }
+  /// The surface, for particles that may walk anywhere, after `prepare_meetings`.
+  Walked_surface walked_surface() const {
+    return {&graph_, &*vertex_faces_, walked_corners(), corners(), &read_};
+  }
+  /// The tree below the regions, after `prepare_meetings`.
+  Tree_on_demand& tree() { return tree_; }
+
   /// Whether a region's area exceeds `growth` times the largest of the time of the partition (A*). Follows a few
   /// samples per region; a region that seems to have grown is measured anew along shortest paths before it counts.
-  bool has_outgrown(double growth);
+  /// @param most_regions  so many regions are looked at, from where the last call ended
+  bool has_outgrown(double growth, std::size_t most_regions = std::numeric_limits<std::size_t>::max());
+  /// Whether the object seems larger as a whole than the growth limit allows: by how far the anchors of its regions
+  /// have spread. After `prepare_meetings`. O(N).
+  bool seems_larger(double growth, double reach);
 
   /// The faces that a particle stands for, at their positions in frame number `frame`.
   const Posed_patch& posed_patch(std::size_t particle, std::uint64_t frame);
@@ -113,10 +134,15 @@ class Particle_object {
 
   std::vector<Home> homes_;  ///< per region
   std::vector<Region_extent> extents_;
+  Region_index last_checked_ = 0;  ///< the last region whose growth was looked at
   double largest_area_ = 0;  ///< A*
   double rest_compass_ = 0;  ///< `longest_compass` at the time of the partition
 
-  std::optional<Vertex_faces> vertex_faces_;  ///< only for scattered particles
+  // Only for meetings.
+  Tree_on_demand tree_;
+  Region_anchors regions_;
+
+  std::optional<Vertex_faces> vertex_faces_;  ///< only for scattered particles and meetings
   std::vector<std::uint32_t> patch_centres_;  ///< only for scattered particles: the vertex each patch lies around
   std::size_t rings_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lodestone/mesh/patch.h"
+#include "lodestone/mesh/vertex_faces.h"
 #include "lodestone/mesh/vertex_graph.h"
 
 /// The predecessor, after Senin et al. 2003 as \cite saenghaengtham2006 describes it: particles are scattered over the
@@ -32,20 +33,6 @@ std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Po
 
 /// Hops around a particle within which about V / N vertices lie: 3 r (r + 1) + 1 of them on a surface of degree 6.
 std::size_t default_rings(std::size_t vertices, std::size_t particles);
-
-/// The faces at each vertex, by index.
-class Vertex_faces {
- public:
-  Vertex_faces() = default;
-  Vertex_faces(std::uint32_t vertex_count, std::span<const Corners> corners);
-  std::span<const std::uint32_t> at(std::uint32_t vertex) const {
-    return std::span(faces_).subspan(offsets_[vertex], offsets_[vertex + 1] - offsets_[vertex]);
-  }
-
- private:
-  std::vector<std::size_t> offsets_;
-  std::vector<std::uint32_t> faces_;
-};
 
 /// The faces with a corner at most `rings` hops from `centre`. The cost depends on the number of faces found, not on V.
 Patch ring_patch(const Vertex_graph& graph, const Vertex_faces& vertex_faces, std::span<const Corners> corners,

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/box.h"
+#include "lodestone/tree/tree_on_demand.h"
+
+namespace lodestone {
+
+/// Two regions that may touch, by their places in two lists of Region_anchors.
+struct Near_regions {
+  std::uint32_t a = 0, b = 0;
+  float order = 0;  ///< squared distance of the anchors, relative to the sum of the radii
+};
+
+/// Where the regions of one object are in a frame, as far as their anchors tell.
+///
+/// A region is a node of the tree: the faces that the tree groups with it. Regions without such faces are not listed.
+class Region_anchors {
+ public:
+  Region_anchors() = default;
+  /// O(F + nodes + V).
+  /// @param tree             must have read the positions at rest; the same one as in all other calls
+  /// @param corners, labels  those that the tree was made of, labels not empty
+  /// @param rest             3 V, the positions at rest
+  Region_anchors(Tree_on_demand& tree, std::span<const Corners> corners, std::span<const Region_index> labels,
+                 Coordinates rest);
+
+  /// Reads the anchors in the current frame of the tree, and tells it how far the surface is stretched: by how much
+  /// they have spread. O(regions).
+  /// @param reach      a region is taken to lie within so many times its radius of its anchor
+  /// @throws Bad_mesh  a coordinate is not finite
+  void read(Tree_on_demand& tree, double reach);
+
+  std::size_t size() const { return nodes_.size(); }
+  std::uint32_t node(std::uint32_t place) const { return nodes_[place]; }
+  Region_index region(std::uint32_t place) const { return regions_[place]; }
+  /// Encloses the surface, as far as the anchors tell.
+  const Box& box() const { return box_; }
+
+  /// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
+  friend void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
+
+ private:
+  Eigen::Vector3d mean(Tree_on_demand& tree) const;
+  double spread(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;
+  bool may_touch(std::uint32_t place, const Box& box) const;
+
+  std::vector<std::uint32_t> nodes_;   ///< ascending: neighbours in the list are mostly neighbours in space
+  std::vector<Region_index> regions_;  ///< parallel
+  std::vector<double> x_, y_, z_, radius_;  ///< parallel: anchors in this frame, radii with reach and stretch
+  Box box_;
+  double rest_spread_ = 0;  ///< root of the sum of squared distances from the mean, at rest
+  double rest_radius_ = 0;  ///< from the mean to the farthest vertex, at rest
+};
+
+void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
+
+}  // namespace lodestone

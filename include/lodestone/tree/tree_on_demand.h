@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/live_positions.h"
+#include "lodestone/tree/node_anchors.h"
+#include "lodestone/tree/tree_view.h"
+
+namespace lodestone {
+
+/// A tree over the faces of one object that reads positions only where it is looked at: one vertex per node, its
+/// anchor, and all vertices of the leaves that are posed. In a frame nothing is read twice.
+///
+/// A node is taken to lie within its radius of its anchor. That is a guess, right as long as the surface is nowhere
+/// stretched by more than `stretch()` since the tree was built.
+class Tree_on_demand {
+ public:
+  Tree_on_demand() = default;
+  /// O(F log F + V log V).
+  /// @param corners, labels, coordinates, options  as of Tree_layout; coordinates are those at rest
+  Tree_on_demand(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
+                 const Region_tree_options& options);
+
+  /// Forgets what was read. O(1).
+  void start_frame(const Live_positions& positions);
+
+  const Tree_layout& layout() const { return layout_; }
+  std::size_t vertex_count() const { return vertex_count_; }
+
+  /// Where the anchor of a node is.
+  /// @throws Bad_mesh  a coordinate is not finite
+  const Eigen::Vector3d& anchor(std::uint32_t n) {
+    Node& node = nodes_[n];
+    if (node.frame != frame_) read_anchor(node);
+    return node.position;
+  }
+  /// How far from its anchor the vertices of a node reach, if the surface is stretched by `stretch()`.
+  double radius(std::uint32_t n) const { return stretch_ * nodes_[n].radius; }
+
+  /// Reads the positions of a leaf's vertices, unless they have been read in this frame.
+  /// @return its box
+  /// @throws Bad_mesh  a coordinate is not finite
+  const Aabb& pose(std::uint32_t leaf) {
+    if (posed_[leaf] != frame_) read_leaf(leaf);
+    return boxes_[layout_.leaf_node(leaf)];
+  }
+  bool is_posed(std::uint32_t leaf) const { return posed_[leaf] == frame_; }
+  /// What has been posed. Only leaves that were posed in this frame may be read.
+  Layout_view view() const { return {&layout_, coordinates_, bounds_, boxes_}; }
+  /// Encloses all leaves that were posed in this frame, loosely.
+  const Aabb& bounds() const { return bounds_; }
+
+  /// How much longer than at rest the surface is taken to be; >= 1. Leaves that are posed raise it.
+  double stretch() const { return stretch_; }
+  /// Takes note of a distance between two vertices that are at most `at_rest` apart at rest.
+  void note_distance(double now, double at_rest) {
+    if (now > stretch_ * at_rest && at_rest > 0) stretch_ = now / at_rest;
+  }
+
+  /// Positions read in this frame.
+  std::size_t vertices_read() const { return vertices_read_; }
+
+ private:
+  /// All that a look at a node needs, in one place of the memory.
+  struct Node {
+    Eigen::Vector3d position;
+    double radius = 0;
+    std::uint64_t frame = 0;  ///< of the position
+    std::uint32_t vertex = 0;
+  };
+
+  Aabb guessed_bounds();
+  void read_anchor(Node& node);
+  void read_leaf(std::uint32_t leaf);
+  void copy_leaf(std::uint32_t leaf);
+
+  Tree_layout layout_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint64_t> posed_;  ///< per leaf: the frame in which it was last posed
+  std::vector<Aabb> boxes_;           ///< per node: only those of posed leaves mean something
+  std::size_t vertex_count_ = 0;
+  Coordinates coordinates_ = {};  ///< 3 V, of the mesh or `copied_`: only those of posed leaves may be read
+  std::vector<double> copied_;    ///< 3 V, where the positions do not lie in memory
+  Aabb bounds_ = {};
+  bool bounded_ = false;  ///< whether `bounds_` is of this frame
+  Live_positions positions_;
+  std::uint64_t frame_ = 0;
+  double stretch_ = 1;
+  std::size_t vertices_read_ = 0;
+};
+
+}  // namespace lodestone

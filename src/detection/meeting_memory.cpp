@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/detection/meeting_memory.h"
+
+#include <utility>
+
+namespace lodestone {
+
+void Meeting_memory::start_frame() {
+  std::swap(last_, current_);
+  current_.entries.clear();
+  current_.meetings.clear();
+  next_ = 0;
+}
+
+std::span<const Remembered_meeting> Meeting_memory::recall(Object_pair pair) {
+  while (next_ < last_.entries.size() && last_.entries[next_].pair < pair) ++next_;
+  if (next_ == last_.entries.size() || last_.entries[next_].pair != pair) return {};
+  return std::span(last_.meetings).subspan(last_.entries[next_].first, last_.entries[next_].count);
+}
+
+void Meeting_memory::keep(Object_pair pair, const Remembered_meeting& meeting) {
+  if (current_.entries.empty() || current_.entries.back().pair != pair)
+    current_.entries.push_back({pair, current_.meetings.size(), 0});
+  current_.meetings.push_back(meeting);
+  ++current_.entries.back().count;
+}
+
+void Meeting_memory::forget(std::uint32_t object) {
+  std::erase_if(current_.entries, [object](const Entry& entry) { return entry.pair.a == object || entry.pair.b == object; });
+}
+
+}  // namespace lodestone

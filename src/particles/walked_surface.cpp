@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/particles/walked_surface.h"
+
+#include <string>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+Read_face read_face(const Walked_surface& surface, std::uint32_t face) {
+  Read_face read{.face = face, .triangle = {}, .box = {}};
+  for (int corner = 0; corner < 3; ++corner) {
+    const std::uint32_t vertex = surface.faces[face][corner];
+    const Eigen::Vector3d position = surface.position(vertex);
+    if (!position.allFinite())
+      throw Bad_mesh("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
+    read.triangle[corner] = Point(position.x(), position.y(), position.z());
+    read.box.extend(position);
+  }
+  return read;
+}
+
+}  // namespace lodestone

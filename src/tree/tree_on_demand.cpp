@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/tree/tree_on_demand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "lodestone/mesh/errors.h"
+#include "lodestone/tree/region_tree.h"
+
+namespace lodestone {
+
+namespace {
+
+[[noreturn]] void fail_not_finite(std::uint32_t vertex) {
+  throw Bad_mesh("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
+}
+
+}  // namespace
+
+Tree_on_demand::Tree_on_demand(std::span<const Corners> corners, std::span<const Region_index> labels,
+                               Coordinates coordinates, const Region_tree_options& options)
+    : layout_(corners, labels, coordinates, options),
+      posed_(layout_.leaf_count()),
+      boxes_(layout_.node_count()),
+      vertex_count_(coordinates.size() / 3) {
+  nodes_.reserve(layout_.node_count());
+  for (const auto& anchor : find_anchors(layout_, coordinates))
+    nodes_.push_back({.position = Eigen::Vector3d::Zero(), .radius = anchor.radius, .vertex = anchor.vertex});
+}
+
+void Tree_on_demand::start_frame(const Live_positions& positions) {
+  positions_ = positions;
+  if (positions.memory() != nullptr) {
+    coordinates_ = {positions.memory(), 3 * vertex_count_};
+  } else {
+    copied_.resize(3 * vertex_count_);
+    coordinates_ = copied_;
+  }
+  ++frame_;
+  vertices_read_ = 0;
+  stretch_ = 1;
+  bounded_ = false;
+}
+
+/// Where all faces probably are: bounds that seldom have to grow.
+Aabb Tree_on_demand::guessed_bounds() {
+  const Eigen::Vector3d& middle = anchor(0);
+  Aabb bounds = {};
+  for (int axis = 0; axis < 3; ++axis) {
+    bounds.low[axis] = middle[axis] - 1.25 * radius(0);
+    bounds.high[axis] = middle[axis] + 1.25 * radius(0);
+  }
+  return bounds;
+}
+
+void Tree_on_demand::read_anchor(Node& node) {
+  node.position = positions_(node.vertex);
+  if (!node.position.allFinite()) fail_not_finite(node.vertex);
+  node.frame = frame_;
+  ++vertices_read_;
+}
+
+void Tree_on_demand::read_leaf(std::uint32_t leaf) {
+  const auto vertices = layout_.vertices(leaf);
+  if (positions_.memory() == nullptr) copy_leaf(leaf);
+  const Leaf_sums sums = fit_leaves(layout_, coordinates_, leaf, leaf + 1, std::span(boxes_));
+  // Finite coordinates can have a sum that overflows.
+  if (!std::isfinite(sums.coordinates))
+    for (const auto vertex : vertices)
+      if (!positions_(vertex).allFinite()) fail_not_finite(vertex);
+  posed_[leaf] = frame_;
+  vertices_read_ += vertices.size();
+  if (!std::exchange(bounded_, true)) bounds_ = guessed_bounds();
+  bounds_.enclose(bounds_, boxes_[layout_.leaf_node(leaf)]);
+}
+
+void Tree_on_demand::copy_leaf(std::uint32_t leaf) {
+  for (const auto vertex : layout_.vertices(leaf)) {
+    const Eigen::Vector3d position = positions_(vertex);
+    std::copy_n(position.data(), 3, copied_.data() + 3 * std::size_t{vertex});
+  }
+}
+
+}  // namespace lodestone
