@@ -21,6 +21,12 @@ bool has_defaults_of_particles(const Detector_options& options) {
          options.growth == defaults.growth && options.close_seams == defaults.close_seams;
 }
 
+bool has_defaults_of_meetings(const Detector_options& options) {
+  const Detector_options defaults;
+  return options.meetings == defaults.meetings && options.opening_budget == defaults.opening_budget &&
+         options.opening_reach == defaults.opening_reach;
+}
+
 bool has_defaults_of_exact(const Exact_options& exact) {
   return exact.tolerance == 0 && exact.self_tolerance == 0 && !exact.self_collision && !exact.containment &&
          !exact.parting && !exact.patches;
@@ -33,6 +39,10 @@ void check(const Detector_options& options) {
   require(options.collision_distance > 0 && std::isfinite(options.collision_distance),
           "the collision distance must be finite and > 0");
   require(options.growth > 0, "the growth limit must be > 0");
+  require(options.opening_reach > 0 && std::isfinite(options.opening_reach),
+          "the reach of openings must be finite and > 0");
+  require(options.mode == Mode::particles || has_defaults_of_meetings(options),
+          "meetings, their budget and their reach need the mode particles");
   require(options.most_contacts > 0, "at least one contact must be allowed");
   require(options.contacts != Contact_query::yes_no ||
               (!options.contact_points && !options.contact_normals && !exact.patches),

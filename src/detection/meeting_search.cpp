@@ -2,7 +2,6 @@
 #include "lodestone/detection/meeting_search.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace lodestone {
 
@@ -18,25 +17,27 @@ void Meeting_search::start_frame() {
   rings_.reset_counts();
   counts_ = {};
   near_regions_.clear();
+  seeds_.clear();
 }
 
-bool Meeting_search::list_regions(Met_pair& pair) {
-  pair.first_near = near_regions_.size();
-  list_near_regions(pair.a->regions(), pair.b->regions(), near_regions_);
-  pair.near_count = near_regions_.size() - pair.first_near;
-  return pair.near_count > 0;
-}
-
-bool Meeting_search::revisit(Met_pair& pair) {
-  for (const auto& meeting : memory_.recall(pair.ids)) {
-    if (still_meet(pair, meeting.contact)) {
-      pair.found = meeting;
-      pair.met = true;
-      return true;
-    }
-    if (meet_from(pair, meeting.at)) return true;
+void Meeting_search::look(Met_pair& pair) {
+  pair.first_seed = seeds_.size();
+  revisit(pair);
+  if (!decided(pair)) {
+    list_regions(pair);
+    if (pair.near_count > 0) open(pair);
   }
-  return false;
+}
+
+/// Looks where the particles met in the last frame: at the same two faces, then where a meeting from there leads to.
+void Meeting_search::revisit(Met_pair& pair) {
+  for (const auto& meeting : memory_.recall(pair.ids)) {
+    if (still_meet(pair, meeting.contact))
+      add_seed(pair, meeting);
+    else
+      meet_from(pair, meeting.at);
+    if (decided(pair)) return;
+  }
 }
 
 bool Meeting_search::still_meet(const Met_pair& pair, Face_pair contact) {
@@ -46,72 +47,106 @@ bool Meeting_search::still_meet(const Met_pair& pair, Face_pair contact) {
                              read_face(pair.b->walked_surface(), contact.b).triangle);
 }
 
-bool Meeting_search::meet_from(Met_pair& pair, Meeting start) {
+/// Lets two particles meet, and checks the faces around.
+void Meeting_search::meet_from(Met_pair& pair, Meeting start) {
   const Walked_surface a = pair.a->walked_surface(), b = pair.b->walked_surface();
   const Ended_meeting ended = meet(a, b, start, pair.a->particles().hop_limit + pair.b->particles().hop_limit);
   ++counts_.meetings;
   counts_.vertices_read += ended.vertices_read;
-  pair.met = rings_.check(a, b, ended.at, checked_rings, pair.found.contact);
-  pair.found.at = ended.at;
-  return pair.met;
+  Remembered_meeting meeting{.at = ended.at, .contact = {}};
+  if (rings_.check(a, b, ended.at, checked_rings, meeting.contact)) add_seed(pair, meeting);
 }
 
-void Meeting_search::begin_search(const Met_pair& pair) {
-  openings_.begin(pair.a->tree(), pair.b->tree(),
-                  {.all = options_.contacts == Contact_query::all,
-                   .reach = options_.opening_reach,
-                   .budget = options_.opening_budget});
+void Meeting_search::list_regions(Met_pair& pair) {
+  pair.first_near = near_regions_.size();
+  list_near_regions(pair.a->regions(), pair.b->regions(), near_regions_);
+  pair.near_count = near_regions_.size() - pair.first_near;
+}
+
+void Meeting_search::open(Met_pair& pair) {
+  openings_.begin(
+      pair.a->tree(), pair.b->tree(),
+      {.all = wants_all(), .reach = options_.opening_reach, .budget = options_.opening_budget});
   for (const auto& near : near_regions(pair))
     openings_.add_start({pair.a->regions().node(near.a), pair.b->regions().node(near.b)}, near.order);
-}
-
-bool Meeting_search::open(Met_pair& pair) {
-  begin_search(pair);
   opened_.clear();
-  pair.met = openings_.open(opened_);
+  openings_.open(opened_);
+  pair.out_of_budget = openings_.out_of_budget();
   counts_.openings += openings_.leaf_tests();
   counts_.exact_tests += openings_.exact_tests();
-  if (pair.met) pair.found = meeting_at(pair, opened_.front());
-  return pair.met;
-}
-
-/// The meeting of two particles that stand on faces in contact.
-Remembered_meeting Meeting_search::meeting_at(const Met_pair& pair, Face_pair contact) {
-  return {.at = {pair.a->walked_surface().walked[contact.a][0], pair.b->walked_surface().walked[contact.b][0]},
-          .contact = contact};
-}
-
-bool Meeting_search::find_all(Met_pair& pair, std::vector<Face_pair>& found) {
-  const std::size_t before = found.size();
-  opened_.clear();
-  curves_.begin(pair.a->walked_surface(), pair.b->walked_surface());
-  std::size_t kept = 0;
-  const auto follow = [&](const Remembered_meeting& meeting) {
-    const std::size_t first = found.size();
-    curves_.follow(meeting.contact, found);
-    if (found.size() > first && kept++ < options_.meetings) memory_.keep(pair.ids, meeting);
-  };
-  for (const auto& meeting : memory_.recall(pair.ids)) {
-    if (still_meet(pair, meeting.contact))
-      follow(meeting);
-    else if (meet_from(pair, meeting.at))
-      follow(pair.found);
+  for (const auto& contact : opened_) {
+    const Meeting corners{.a = pair.a->walked_surface().walked[contact.a][0],
+                          .b = pair.b->walked_surface().walked[contact.b][0]};
+    add_seed(pair, {.at = corners, .contact = contact});
   }
-  if (list_regions(pair)) open(pair);
-  for (const auto& contact : opened_) follow(meeting_at(pair, contact));
-  pair.met = found.size() > before;
+}
+
+void Meeting_search::meet_nearest(Met_pair& pair) {
+  const Particles &a = pair.a->particles(), &b = pair.b->particles();
+  nearest_.clear();
+  for (const auto& near : near_regions(pair)) {
+    const Region_index region_a = pair.a->regions().region(near.a), region_b = pair.b->regions().region(near.b);
+    nearest_.push_back({(a.positions[region_a] - b.positions[region_b]).squaredNorm(), region_a, region_b});
+  }
+  const std::size_t count = std::min(options_.meetings, nearest_.size());
+  std::ranges::partial_sort(nearest_, nearest_.begin() + static_cast<std::ptrdiff_t>(count), is_nearer);
+
+  // The seeds of a pair must stay next to each other.
+  const std::size_t old = pair.first_seed;
+  pair.first_seed = seeds_.size();
+  for (std::size_t seed = 0; seed < pair.seed_count; ++seed) seeds_.push_back(Remembered_meeting(seeds_[old + seed]));
+  for (std::size_t i = 0; i < count && !decided(pair); ++i)
+    meet_from(pair, {a.at[nearest_[i].a], b.at[nearest_[i].b]});
+}
+
+void Meeting_search::add_seed(Met_pair& pair, const Remembered_meeting& seed) {
+  seeds_.push_back(seed);
+  ++pair.seed_count;
+}
+
+void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found) {
+  if (pair.seed_count == 0) return;
+  if (!wants_all()) {
+    found.push_back(seeds(pair).front().contact);
+    remember(pair);
+  } else if (!pair.out_of_budget && options_.opening_reach >= 1) {
+    // All leaves that may touch have been compared, so their contacts are those of whole curves.
+    for (const auto& seed : seeds(pair)) found.push_back(seed.contact);
+    const std::size_t step = (pair.seed_count + options_.meetings - 1) / options_.meetings;
+    for (std::size_t seed = 0; seed < pair.seed_count; seed += step) memory_.keep(pair.ids, seeds(pair)[seed]);
+  } else {
+    follow_curves(pair, found);
+  }
+}
+
+/// Reports the curves on which the seeds lie, and remembers one seed of each.
+void Meeting_search::follow_curves(const Met_pair& pair, std::vector<Face_pair>& found) {
+  curves_.begin(pair.a->walked_surface(), pair.b->walked_surface());
+  std::size_t curves = 0;
+  for (const auto& seed : seeds(pair)) {
+    const std::size_t before = found.size();
+    curves_.follow(seed.contact, found);
+    if (found.size() > before && curves++ < options_.meetings) memory_.keep(pair.ids, seed);
+  }
   counts_.exact_tests += curves_.exact_tests();
   counts_.vertices_read += curves_.vertices_read();
-  return pair.met;
 }
 
+/// Remembers the contact that was found, and the meetings of the last frame: one of them may be of use once this one
+/// parts.
 void Meeting_search::remember(const Met_pair& pair) {
-  if (!pair.met) return;
-  memory_.keep(pair.ids, pair.found);
-  // The others of the last frame may be of use once this one parts.
+  const Remembered_meeting& found = seeds(pair).front();
+  memory_.keep(pair.ids, found);
   std::size_t kept = 1;
   for (const auto& meeting : memory_.recall(pair.ids))
-    if (meeting.contact != pair.found.contact && kept++ < options_.meetings) memory_.keep(pair.ids, meeting);
+    if (meeting.contact != found.contact && kept++ < options_.meetings) memory_.keep(pair.ids, meeting);
+}
+
+Meeting_counts Meeting_search::counts() const {
+  Meeting_counts counts = counts_;
+  counts.exact_tests += rings_.exact_tests();
+  counts.vertices_read += rings_.vertices_read();
+  return counts;
 }
 
 }  // namespace lodestone

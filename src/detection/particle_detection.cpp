@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "lodestone/mesh/stopwatch.h"
@@ -62,56 +63,6 @@ void Particle_detection::detect_as_published(const Collision_filter& filter) {
   timed(frame_.seconds().relaxation, [&] { walk(); });
   for (const auto pair : object_candidates_) check(pair);
   frame_.statistics().exact_tests = confirmation_.exact_tests();
-}
-
-void Particle_detection::detect_by_meetings(const Collision_filter& filter) {
-  meeting_search_.start_frame();
-  timed(frame_.seconds().broad_phase, [&] { find_near_objects(filter); });
-  if (options_.contacts != Contact_query::all)
-    timed(frame_.seconds().candidates, [&] {
-      for (auto& pair : met_pairs_) meeting_search_.revisit(pair);
-    });
-  for (auto& pair : met_pairs_) finish(pair);
-
-  const Meeting_counts& counts = meeting_search_.counts();
-  frame_.statistics().exact_tests = counts.exact_tests;
-  frame_.statistics().meetings = counts.meetings;
-  frame_.statistics().candidates = counts.openings;
-  frame_.statistics().vertices_read += counts.vertices_read;
-  for (auto& object : objects_)
-    if (object) frame_.statistics().vertices_read += object->particle_object.tree().vertices_read();
-}
-
-void Particle_detection::find_near_objects(const Collision_filter& filter) {
-  for (std::size_t o = 0; o < objects_.size(); ++o) {
-    boxes_[o].setEmpty();
-    reach_[o] = 0;
-    if (!objects_[o]) continue;
-    Object& object = *objects_[o];
-    object.named([&] { object.particle_object.read_regions(options_.opening_reach); });
-    boxes_[o] = object.particle_object.regions().box();
-  }
-  list_object_pairs(filter);
-  met_pairs_.clear();
-  for (const auto pair : object_candidates_)
-    met_pairs_.push_back(
-        {.ids = pair, .a = &objects_[pair.a]->particle_object, .b = &objects_[pair.b]->particle_object});
-}
-
-/// Ends the search for contacts of a pair, and reports it.
-void Particle_detection::finish(Met_pair& pair) {
-  timed(frame_.seconds().confirmation, [&] {
-    Pair_result result = frame_.start_pair(pair.ids);
-    if (options_.contacts == Contact_query::all) {
-      meeting_search_.find_all(pair, frame_.face_pairs());
-    } else {
-      if (!pair.met && meeting_search_.list_regions(pair)) meeting_search_.open(pair);
-      meeting_search_.remember(pair);
-      if (pair.met) frame_.face_pairs().push_back(pair.found.contact);
-    }
-    result.collides = pair.met;
-    end_pair(result);
-  });
 }
 
 /// Partitions the objects that are new. The radii of all must be known first: particle counts depend on them.
@@ -181,6 +132,7 @@ void Particle_detection::make_room() {
   boxes_.resize(objects_.size());
   reach_.resize(objects_.size());
   opponents_.resize(objects_.size());
+  pulls_.resize(objects_.size());
   for (auto& list : opponents_) list.reserve(std::min<std::size_t>(objects_.size(), 1000));
   frame_.reserve(std::min<std::size_t>(objects_.size() * objects_.size() / 2, 100 * objects_.size()), 1024);
 }
@@ -223,7 +175,8 @@ void Particle_detection::walk() {
                         .steps = &particle_object.steps(),
                         .reader = &particle_object.positions(),
                         .opponents = opponents_[o],
-                        .siblings_repel = options_.mode == Mode::senin});
+                        .siblings_repel = options_.mode == Mode::senin,
+                        .pulls = meets() ? std::optional(std::span<const Pull>(pulls_[o])) : std::nullopt});
   }
   const Relaxation relaxation = relax(std::span<const Walking_object<Live_positions>>(walking_), relaxation_);
   frame_.statistics().iterations = relaxation.iterations;

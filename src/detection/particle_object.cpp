@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "lodestone/mesh/errors.h"
 
@@ -165,6 +166,13 @@ void Particle_object::read_regions(double reach) {
   look();
   tree_.start_frame(read_);
   regions_.read(tree_, reach);
+}
+
+bool Particle_object::move_particle(std::uint32_t vertex) {
+  const Region_index region = labels_[vertex];
+  if (std::exchange(particles_.at[region], vertex) == vertex) return false;
+  particles_.positions[region] = read_(vertex);
+  return true;
 }
 
 const Posed_patch& Particle_object::posed_patch(std::size_t particle, std::uint64_t frame) {

@@ -2,7 +2,6 @@
 #include "lodestone/particles/candidate_pairs.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace lodestone {
 
@@ -15,14 +14,11 @@ void candidate_pairs(std::span<const Eigen::Vector3d> a, std::span<const Eigen::
       if (squared_distance < distance * distance)
         candidates.push_back({squared_distance, static_cast<Region_index>(i), static_cast<Region_index>(j)});
     }
-  const auto nearer = [](const Candidate_pair& p, const Candidate_pair& q) {
-    return std::tie(p.squared_distance, p.a, p.b) < std::tie(q.squared_distance, q.a, q.b);
-  };
   if (choice == Candidate_choice::closest && !candidates.empty()) {
-    candidates.front() = *std::ranges::min_element(candidates, nearer);
+    candidates.front() = *std::ranges::min_element(candidates, is_nearer);
     candidates.resize(1);
   }
-  std::ranges::sort(candidates, nearer);
+  std::ranges::sort(candidates, is_nearer);
 }
 
 }  // namespace lodestone

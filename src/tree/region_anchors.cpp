@@ -72,7 +72,7 @@ void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::ve
       const double x = a.x_[i] - b.x_[j], y = a.y_[i] - b.y_[j], z = a.z_[i] - b.z_[j];
       const double squared = x * x + y * y + z * z, radii = a.radius_[i] + b.radius_[j];
       if (squared > radii * radii) continue;
-      pairs.push_back({i, j, static_cast<float>(radii > 0 ? squared / (radii * radii) : 0)});
+      pairs.push_back({i, j, std::sqrt(squared), static_cast<float>(radii > 0 ? squared / (radii * radii) : 0)});
     }
   }
 }

@@ -44,7 +44,8 @@ struct Frame_statistics {
   bool relaxed = true;                ///< false: the relaxation was stopped by R_max
   std::size_t meetings = 0;           ///< pairs of particles that walked towards each other
   std::size_t vertices_read = 0;      ///< positions read, some more than once
-  std::size_t candidates = 0;         ///< candidate region pairs; with meetings and in mode exact pairs of leaves
+  std::size_t candidates = 0;         ///< candidate region pairs; in mode exact pairs of leaves
+  std::size_t openings = 0;           ///< pairs of leaves that were compared below opened regions
   std::size_t exact_tests = 0;        ///< face pairs given to the exact test
   std::size_t contacts = 0;           ///< face pairs found that intersect, or are nearer than the tolerance, each once
   std::size_t builds = 0;             ///< objects built: see Stage_times

@@ -22,52 +22,60 @@ struct Meeting_counts {
   std::size_t vertices_read = 0;  ///< by walks and checks; what trees read, they count themselves
 };
 
-/// The objects of one pair, and what is known of them in this frame.
+/// An object pair, and what the search knows of it in this frame.
 struct Met_pair {
   Object_pair ids;
   Particle_object* a = nullptr;
   Particle_object* b = nullptr;
   std::size_t first_near = 0, near_count = 0;  ///< of `Meeting_search::near_regions`
-  bool met = false;                            ///< `found` holds a contact
-  Remembered_meeting found = {};
+  std::size_t first_seed = 0, seed_count = 0;  ///< of `Meeting_search::seeds`
+  bool out_of_budget = false;                  ///< the regions could not all be opened
 };
 
-/// The search for contacts of object pairs in mode `particles`, from what is cheapest to what finds most: where
-/// particles met in the last frame; where the nearest particles meet; below the regions, which are opened.
+/// The search for contacts of object pairs in mode `particles`, from what is cheapest to what finds most:
+///  1. `look`: at the place where particles met in the last frame, then below the regions, which are opened;
+///  2. `meet_nearest`, where the budget has ended the openings, after the particles have walked;
+///  3. `report`: with the query `all`, where regions may have been left closed, along the curves of intersection on which
+///     the found contacts lie.
+///
+/// In each of these calls the pairs of a frame must come in ascending order.
 class Meeting_search {
  public:
   explicit Meeting_search(const Detector_options& options) : options_(options) {}
 
   void start_frame();
-  /// Looks where the particles of a pair met in the last frame. In ascending order of pairs.
-  /// @return whether there is a contact
-  bool revisit(Met_pair& pair);
-  /// Lists the regions of a pair that may touch.
-  /// @return whether there are any: otherwise the objects are taken to be apart
-  bool list_regions(Met_pair& pair);
+  void look(Met_pair& pair);
+  /// Lets the particles of near regions meet, and checks the faces around: the nearest first, as many as the options
+  /// allow.
+  void meet_nearest(Met_pair& pair);
+  /// Appends the contacts that answer the query to `found`, and remembers where they are for the next frame.
+  void report(const Met_pair& pair, std::vector<Face_pair>& found);
+
+  /// Whether the answer for a pair is known.
+  bool decided(const Met_pair& pair) const { return pair.seed_count > 0 && !wants_all(); }
+  /// The regions of a pair that may touch, if `look` had to list them.
   std::span<const Near_regions> near_regions(const Met_pair& pair) const {
     return std::span(near_regions_).subspan(pair.first_near, pair.near_count);
   }
-  /// Lets two particles meet, and checks the faces around.
-  /// @return whether there is a contact
-  bool meet_from(Met_pair& pair, Meeting start);
-  /// Opens the regions of a pair, which have been listed.
-  /// @return whether there is a contact
-  bool open(Met_pair& pair);
-  /// Finds all contacts of a pair, in ascending order of pairs, and lists its regions.
-  /// @return whether there are any
-  bool find_all(Met_pair& pair, std::vector<Face_pair>& found);
-  /// Remembers what was found of a pair without `find_all`. In ascending order of pairs.
-  void remember(const Met_pair& pair);
+  /// The contacts of a pair that were found so far, and where particles met there.
+  std::span<const Remembered_meeting> seeds(const Met_pair& pair) const {
+    return std::span(seeds_).subspan(pair.first_seed, pair.seed_count);
+  }
+  Meeting_counts counts() const;
+
   /// Forgets an object, which has been rebuilt or removed.
   void forget(Object_id object) { memory_.forget(object); }
 
-  const Meeting_counts& counts() const { return counts_; }
-
  private:
+  bool wants_all() const { return options_.contacts == Contact_query::all; }
+  void revisit(Met_pair& pair);
   bool still_meet(const Met_pair& pair, Face_pair contact);
-  void begin_search(const Met_pair& pair);
-  static Remembered_meeting meeting_at(const Met_pair& pair, Face_pair contact);
+  void meet_from(Met_pair& pair, Meeting start);
+  void list_regions(Met_pair& pair);
+  void open(Met_pair& pair);
+  void add_seed(Met_pair& pair, const Remembered_meeting& seed);
+  void follow_curves(const Met_pair& pair, std::vector<Face_pair>& found);
+  void remember(const Met_pair& pair);
 
   const Detector_options options_;
   Meeting_memory memory_;
@@ -75,8 +83,13 @@ class Meeting_search {
   Contact_curve curves_;
   Opening_search openings_;
   Meeting_counts counts_;
-  std::vector<Near_regions> near_regions_;  ///< of all pairs in this frame
-  std::vector<Face_pair> opened_;           ///< memory
+
+  // Of all pairs in this frame.
+  std::vector<Near_regions> near_regions_;
+  std::vector<Remembered_meeting> seeds_;
+  // Memory.
+  std::vector<Face_pair> opened_;
+  std::vector<Candidate_pair> nearest_;
 };
 
 }  // namespace lodestone

@@ -88,7 +88,11 @@ class Particle_detection final : public Detection {
   void find_near_objects(const Collision_filter& filter);
   void detect_as_published(const Collision_filter& filter);
   void detect_by_meetings(const Collision_filter& filter);
-  void finish(Met_pair& pair);
+  void walk_undecided_particles();
+  void add_pulls(const Met_pair& pair);
+  void report(const Met_pair& pair);
+  void list_near_regions(const Met_pair& pair);
+  void move_to_meetings();
   void end_pair(Pair_result& result);
   void list_candidates(Object_pair pair);
   void sort_contacts(Pair_result& result);
@@ -104,6 +108,7 @@ class Particle_detection final : public Detection {
   Broad_phase broad_phase_;
   std::vector<Object_pair> object_candidates_;
   std::vector<std::vector<std::uint32_t>> opponents_;  ///< per object: those it may meet
+  std::vector<std::vector<Pull>> pulls_;  ///< per object, with meetings
   std::vector<Walking_object<Live_positions>> walking_;
   Relaxation_scratch relaxation_;
   std::vector<Candidate_pair> region_candidates_;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lodestone/detection/watched_mesh.h"
 #include "lodestone/mesh/live_positions.h"
 #include "lodestone/mesh/patch.h"
 #include "lodestone/mesh/seams.h"
@@ -65,6 +66,10 @@ class Particle_object {
   }
   /// The tree below the regions, after `prepare_meetings`.
   Tree_on_demand& tree() { return tree_; }
+
+  /// Moves the particle of a vertex's region to that vertex.
+  /// @return whether it was elsewhere
+  bool move_particle(std::uint32_t vertex);
 
   /// Whether a region's area exceeds `growth` times the largest of the time of the partition (A*). Follows a few
   /// samples per region; a region that seems to have grown is measured anew along shortest paths before it counts.

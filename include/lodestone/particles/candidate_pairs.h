@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "lodestone/mesh/concepts.h"
@@ -21,6 +22,11 @@ struct Candidate_pair {
   Region_index a = 0;
   Region_index b = 0;
 };
+
+/// Lexicographic order of distance and region indices.
+inline bool is_nearer(const Candidate_pair& p, const Candidate_pair& q) {
+  return std::tie(p.squared_distance, p.a, p.b) < std::tie(q.squared_distance, q.a, q.b);
+}
 
 /// Finds the pairs of particles of two objects that are nearer than `distance`, \cite saenghaengtham2006, eq. (14). The
 /// result is in lexicographic order of distance and region indices. O(N N') and the sorting of what is found.

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -33,6 +34,14 @@ struct Particles {
   std::size_t hop_limit = 0;               ///< R_max: largest hop distance between two particles
 };
 
+/// One particle that feels another.
+struct Pull {
+  std::uint32_t particle = 0;  ///< of the object that feels
+  std::uint32_t object = 0;    ///< whose particle is felt
+  std::uint32_t by = 0;        ///< that particle
+  auto operator<=>(const Pull&) const = default;
+};
+
 /// One object as relaxation sees it.
 template <Position_reader Reader>
 struct Walking_object {
@@ -41,6 +50,9 @@ struct Walking_object {
   const Reader* reader = nullptr;
   std::span<const std::uint32_t> opponents;  ///< indices of the objects whose particles this one feels
   bool siblings_repel = false;               ///< particles of the object push each other away: only for the predecessor
+  /// Which particles feel which, in ascending order; then forces have no limit of distance. None: all particles of the
+  /// object feel all of the opponents', within R_eff.
+  std::optional<std::span<const Pull>> pulls = {};
 };
 
 struct Relaxation {
@@ -189,24 +201,60 @@ bool rests(std::span<const Walking_object<Reader>> objects, std::size_t o, std::
   return !objects[o].siblings_repel || !disturbed_by(o);
 }
 
+/// Chooses the next step of a particle, given its attractors.
+/// @return whether it will move
+template <Position_reader Reader>
+bool choose_step(std::span<const Walking_object<Reader>> objects, std::size_t o, std::size_t p,
+                 Relaxation_scratch& scratch) {
+  const Step step = best_step(objects[o], p, scratch);
+  const bool moves = step.vertex != objects[o].particles->at[p];
+  scratch.rests[o][p] = {.stayed = !moves};
+  scratch.next_at[o][p] = step.vertex;
+  scratch.next_positions[o][p] = step.position;
+  return moves;
+}
+
+/// Whether a particle that is pulled stays without another comparison of its steps: nothing that it feels has moved.
+inline bool rests(std::span<const Pull> pulls, const Rest& rest, const Relaxation_scratch& scratch) {
+  return rest.stayed && std::ranges::none_of(pulls, [&](const Pull& pull) {
+    return std::ranges::binary_search(scratch.moved[pull.object].which, pull.by);
+  });
+}
+
+/// Chooses the next steps of the particles of an object that are pulled.
+/// @return number of particles that will move
+template <Position_reader Reader>
+std::size_t choose_pulled_steps(std::span<const Walking_object<Reader>> objects, std::size_t o,
+                                Relaxation_scratch& scratch) {
+  constexpr double no_limit = std::numeric_limits<double>::infinity();
+  const auto pulls = *objects[o].pulls;
+  std::size_t moving = 0;
+  for (std::size_t first = 0, end = 0; first < pulls.size(); first = end) {
+    const std::uint32_t p = pulls[first].particle;
+    while (end < pulls.size() && pulls[end].particle == p) ++end;
+    const auto felt = pulls.subspan(first, end - first);
+    if (rests(felt, scratch.rests[o][p], scratch)) continue;
+    scratch.attractors.clear();
+    for (const Pull& pull : felt) scratch.attractors.add(objects[pull.object].particles->positions[pull.by], no_limit);
+    moving += choose_step(objects, o, p, scratch) ? 1 : 0;
+  }
+  return moving;
+}
+
 /// Chooses the next step of each particle of an object.
 /// @return number of particles that will move
 template <Position_reader Reader>
 std::size_t choose_steps(std::span<const Walking_object<Reader>> objects, std::size_t o, Relaxation_scratch& scratch) {
   const Particles& particles = *objects[o].particles;
+  std::ranges::copy(particles.at, scratch.next_at[o].begin());
+  std::ranges::copy(particles.positions, scratch.next_positions[o].begin());
+  if (objects[o].pulls) return choose_pulled_steps(objects, o, scratch);
   std::size_t moving = 0;
   bool gathered = false;
   for (std::size_t p = 0; p < particles.at.size(); ++p) {
-    scratch.next_at[o][p] = particles.at[p];
-    scratch.next_positions[o][p] = particles.positions[p];
     if (rests(objects, o, p, scratch)) continue;
     if (!std::exchange(gathered, true)) gather_attractors(objects, objects[o], scratch);
-    const Step step = best_step(objects[o], p, scratch);
-    const bool moves = step.vertex != particles.at[p];
-    scratch.rests[o][p] = {.stayed = !moves};
-    scratch.next_at[o][p] = step.vertex;
-    scratch.next_positions[o][p] = step.position;
-    moving += moves ? 1 : 0;
+    moving += choose_step(objects, o, p, scratch) ? 1 : 0;
   }
   return moving;
 }
@@ -261,6 +309,8 @@ void swing_to_the_end(std::span<const Walking_object<Reader>> objects, std::size
 /// Ties go to the lowest vertex index. A particle stays if it feels no force, or if it is at r = 0. The particles are
 /// relaxed when fewer than R_min = N / 10 moved in each object; the paper has R_min "about ten times smaller than" N.
 /// R_max, the largest of all objects', limits the iterations; see `hop_diameter`.
+///
+/// Instead of all particles of near objects, a particle can feel those that `Walking_object::pulls` names.
 ///
 /// A particle that stayed is left alone until the force of a particle that has moved reaches one of its steps: it would
 /// stay again. Particles that swing between two vertices are not followed to the last iteration.

@@ -13,7 +13,8 @@ namespace lodestone {
 /// Two regions that may touch, by their places in two lists of Region_anchors.
 struct Near_regions {
   std::uint32_t a = 0, b = 0;
-  float order = 0;  ///< squared distance of the anchors, relative to the sum of the radii
+  double distance = 0;  ///< of the anchors, in units of the coordinates
+  float order = 0;      ///< its square, relative to that of the sum of the radii
 };
 
 /// Where the regions of one object are in a frame, as far as their anchors tell.

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a Particle_detection does with meetings.
+#include <algorithm>
+#include <utility>
+
+#include "lodestone/detection/particle_detection.h"
+#include "lodestone/mesh/stopwatch.h"
+
+namespace lodestone {
+
+void Particle_detection::detect_by_meetings(const Collision_filter& filter) {
+  meeting_search_.start_frame();
+  timed(frame_.seconds().broad_phase, [&] { find_near_objects(filter); });
+  timed(frame_.seconds().confirmation, [&] {
+    for (auto& pair : met_pairs_) meeting_search_.look(pair);
+  });
+  timed(frame_.seconds().relaxation, [&] { walk_undecided_particles(); });
+  timed(frame_.seconds().confirmation, [&] {
+    for (auto& pair : met_pairs_) report(pair);
+  });
+  move_to_meetings();
+
+  const Meeting_counts counts = meeting_search_.counts();
+  frame_.statistics().exact_tests = counts.exact_tests;
+  frame_.statistics().meetings = counts.meetings;
+  frame_.statistics().openings = counts.openings;
+  frame_.statistics().vertices_read += counts.vertices_read;
+  for (auto& object : objects_)
+    if (object) frame_.statistics().vertices_read += object->particle_object.tree().vertices_read();
+}
+
+void Particle_detection::find_near_objects(const Collision_filter& filter) {
+  for (std::size_t o = 0; o < objects_.size(); ++o) {
+    boxes_[o].setEmpty();
+    reach_[o] = 0;
+    if (!objects_[o]) continue;
+    Object& object = *objects_[o];
+    object.named([&] { object.particle_object.read_regions(options_.opening_reach); });
+    boxes_[o] = object.particle_object.regions().box();
+  }
+  list_object_pairs(filter);
+  met_pairs_.clear();
+  for (const auto pair : object_candidates_)
+    met_pairs_.push_back(
+        {.ids = pair, .a = &objects_[pair.a]->particle_object, .b = &objects_[pair.b]->particle_object});
+}
+
+/// Where the budget has ended the openings, lets the particles walk whose regions may touch one of the other object;
+/// then the nearest meet.
+void Particle_detection::walk_undecided_particles() {
+  const auto undecided = [this](const Met_pair& pair) { return pair.out_of_budget && !meeting_search_.decided(pair); };
+  if (std::ranges::none_of(met_pairs_, undecided)) return;
+  for (auto& list : pulls_) list.clear();
+  for (auto& list : opponents_) list.clear();
+  for (const auto& pair : met_pairs_)
+    if (undecided(pair)) add_pulls(pair);
+  for (std::size_t o = 0; o < objects_.size(); ++o) {
+    if (opponents_[o].empty()) continue;
+    std::ranges::sort(pulls_[o]);
+    objects_[o]->named([&] { objects_[o]->particle_object.read_particles(); });
+  }
+  walk();
+  for (auto& pair : met_pairs_)
+    if (undecided(pair)) meeting_search_.meet_nearest(pair);
+}
+
+/// The particles of regions that may touch feel each other.
+void Particle_detection::add_pulls(const Met_pair& pair) {
+  opponents_[pair.ids.a].push_back(pair.ids.b);
+  opponents_[pair.ids.b].push_back(pair.ids.a);
+  for (const auto& near : meeting_search_.near_regions(pair)) {
+    const Region_index a = pair.a->regions().region(near.a), b = pair.b->regions().region(near.b);
+    pulls_[pair.ids.a].push_back({a, pair.ids.b, b});
+    pulls_[pair.ids.b].push_back({b, pair.ids.a, a});
+  }
+}
+
+void Particle_detection::report(const Met_pair& pair) {
+  Pair_result result = frame_.start_pair(pair.ids);
+  result.collides = pair.seed_count > 0;
+  result.candidates = pair.near_count > 0 ? pair.near_count : std::min<std::size_t>(pair.seed_count, 1);
+  frame_.statistics().candidates += result.candidates;
+  meeting_search_.report(pair, frame_.face_pairs());
+  if (options_.list_candidates) list_near_regions(pair);
+  end_pair(result);
+}
+
+/// Lists the regions that may touch; if they were not needed, those in which the particles met.
+void Particle_detection::list_near_regions(const Met_pair& pair) {
+  const auto list = [&](Region_index a, Region_index b, double distance) {
+    frame_.candidates().push_back(
+        {.a = pair.ids.a, .region_a = a, .b = pair.ids.b, .region_b = b, .distance = distance});
+  };
+  for (const auto& near : meeting_search_.near_regions(pair))
+    list(pair.a->regions().region(near.a), pair.b->regions().region(near.b), near.distance);
+  if (pair.near_count > 0 || pair.seed_count == 0) return;
+  const Meeting at = meeting_search_.seeds(pair).front().at;
+  list(pair.a->labels()[at.a], pair.b->labels()[at.b], (pair.a->positions()(at.a) - pair.b->positions()(at.b)).norm());
+}
+
+/// Moves the particles of the regions in which particles met to the place where they did.
+void Particle_detection::move_to_meetings() {
+  for (const auto& pair : met_pairs_) {
+    if (pair.seed_count == 0) continue;
+    const Meeting at = meeting_search_.seeds(pair).front().at;
+    for (const auto& [object, vertex] : {std::pair{pair.a, at.a}, std::pair{pair.b, at.b}})
+      if (object->move_particle(vertex)) object->mesh().move_particles(object->particles().at);
+  }
+}
+
+}  // namespace lodestone
