@@ -97,11 +97,12 @@ Row in_use(const Partition_run& run, Scene scene, const Any_strategy& strategy) 
   const Detector_options options{.mode = Mode::particles,
                                  .particles = run.regions,
                                  .partition = run.variant.options,
+                                 .meetings = 0,
                                  .close_seams = run.labels() == nullptr,
                                  .growth = 1.25};  // labels are those of the mesh as it is
   const Setting settings[] = {
       {.name = run.variant.name, .options = options, .strategy = strategy},
-      {.name = "lbg", .options = {.mode = Mode::particles, .particles = run.regions, .growth = 1.25}}};
+      {.name = "lbg", .options = {.mode = Mode::particles, .particles = run.regions, .meetings = 0, .growth = 1.25}}};
   const auto measured =
       measure({&scene, 1}, settings, [](std::size_t, std::size_t) {}, {.truth = Truth_source::exact_mode});
   const auto& m = measured.measurements[0];

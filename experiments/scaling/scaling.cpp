@@ -217,7 +217,7 @@ std::string detection_against_particles(const Experiment_context& context, Steps
   std::vector<Setting> settings;
   settings.reserve(counts.size());
   for (const auto particles : counts)
-    settings.push_back({std::to_string(particles), {.mode = Mode::particles, .particles = particles}});
+    settings.push_back({std::to_string(particles), {.mode = Mode::particles, .particles = particles, .meetings = 0}});
   const auto run = measure(scenes, settings, [&](auto, auto) { context.progress(0, 1); });
   steps.next();
 

@@ -23,10 +23,10 @@ std::vector<Setting> paper_settings() {
   for (const std::size_t particles : {12, 32, 64})
     for (const double distance : {1.0, 2.0, 4.0})
       settings.push_back({fmt::format("{} particles, {} mu", particles, distance),
-                          {.mode = Mode::particles, .particles = particles, .collision_distance = distance}});
+                          {.mode = Mode::particles, .particles = particles, .meetings = 0, .collision_distance = distance}});
   for (const std::size_t particles : {12, 32, 64})
     settings.push_back({fmt::format("{} particles, 1 mu, growth 1.25", particles),
-                        {.mode = Mode::particles, .particles = particles, .collision_distance = 1, .growth = 1.25}});
+                        {.mode = Mode::particles, .particles = particles, .meetings = 0, .collision_distance = 1, .growth = 1.25}});
   return settings;
 }
 

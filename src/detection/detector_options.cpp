@@ -21,6 +21,13 @@ bool has_defaults_of_particles(const Detector_options& options) {
          options.growth == defaults.growth && options.close_seams == defaults.close_seams;
 }
 
+/// Meetings decide without what the published method needs.
+bool has_defaults_of_candidates(const Detector_options& options) {
+  const Detector_options defaults;
+  return options.collision_distance == defaults.collision_distance &&
+         options.distance_measure == defaults.distance_measure && options.candidates == defaults.candidates;
+}
+
 bool has_defaults_of_meetings(const Detector_options& options) {
   const Detector_options defaults;
   return options.meetings == defaults.meetings && options.opening_budget == defaults.opening_budget &&
@@ -42,7 +49,10 @@ void check(const Detector_options& options) {
   require(options.opening_reach > 0 && std::isfinite(options.opening_reach),
           "the reach of openings must be finite and > 0");
   require(options.mode == Mode::particles || has_defaults_of_meetings(options),
-          "meetings, their budget and their reach need the mode particles");
+          "meetings, and the budget and the reach of openings, need the mode particles");
+  require(options.mode != Mode::particles || options.meetings == 0 || has_defaults_of_candidates(options),
+          "with meetings the collision distance, its measure and the choice of candidates have no effect: set meetings "
+          "to 0");
   require(options.most_contacts > 0, "at least one contact must be allowed");
   require(options.contacts != Contact_query::yes_no ||
               (!options.contact_points && !options.contact_normals && !exact.patches),

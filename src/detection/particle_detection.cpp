@@ -144,6 +144,7 @@ void Particle_detection::find_candidates(const Collision_filter& filter) {
     if (!objects_[o]) continue;
     auto& particle_object = objects_[o]->particle_object;
     objects_[o]->named([&] { particle_object.read_particles(); });
+    frame_.statistics().vertices_read += particle_object.particles().at.size();
     for (const auto& position : particle_object.particles().positions) boxes_[o].extend(position);
     reach_[o] = std::max(particle_object.particles().effective_radius,
                          options_.collision_distance * particle_object.particles().collision_distance);
@@ -182,6 +183,7 @@ void Particle_detection::walk() {
   frame_.statistics().iterations = relaxation.iterations;
   frame_.statistics().moves = relaxation.moves;
   frame_.statistics().relaxed = relaxation.relaxed;
+  frame_.statistics().vertices_read += relaxation.vertices_read;
   if (relaxation.moves == 0) return;
   for (auto& object : objects_)
     if (object) object->particle_object.mesh().move_particles(object->particle_object.particles().at);
@@ -193,7 +195,10 @@ void Particle_detection::check(Object_pair pair) {
   const auto posed_patch = [&](Object_id id, std::size_t particle) -> const Posed_patch& {
     Object& object = *objects_[id];
     return object.named([&]() -> const Posed_patch& {
-      return object.particle_object.posed_patch(particle, frame_.number());
+      const bool is_read = object.particle_object.is_posed(particle, frame_.number());
+      const Posed_patch& posed = object.particle_object.posed_patch(particle, frame_.number());
+      if (!is_read) frame_.statistics().vertices_read += posed.positions.size();
+      return posed;
     });
   };
   Pair_result result = frame_.start_pair(pair);

@@ -11,22 +11,39 @@ namespace lodestone {
 void Particle_detection::detect_by_meetings(const Collision_filter& filter) {
   meeting_search_.start_frame();
   timed(frame_.seconds().broad_phase, [&] { find_near_objects(filter); });
-  timed(frame_.seconds().confirmation, [&] {
-    for (auto& pair : met_pairs_) meeting_search_.look(pair);
-  });
-  timed(frame_.seconds().relaxation, [&] { walk_undecided_particles(); });
-  timed(frame_.seconds().confirmation, [&] {
-    for (auto& pair : met_pairs_) report(pair);
-  });
+  try {
+    timed(frame_.seconds().confirmation, [&] {
+      for (auto& pair : met_pairs_) meeting_search_.look(pair);
+    });
+    timed(frame_.seconds().relaxation, [&] { walk_undecided_particles(); });
+    timed(frame_.seconds().confirmation, [&] {
+      for (auto& pair : met_pairs_) report(pair);
+    });
+  } catch (const Bad_mesh&) {
+    name_the_bad_object();
+    throw;
+  }
   move_to_meetings();
+  add_counts();
+}
 
+void Particle_detection::add_counts() {
   const Meeting_counts counts = meeting_search_.counts();
-  frame_.statistics().exact_tests = counts.exact_tests;
-  frame_.statistics().meetings = counts.meetings;
-  frame_.statistics().openings = counts.openings;
-  frame_.statistics().vertices_read += counts.vertices_read;
+  auto& statistics = frame_.statistics();
+  statistics.exact_tests = counts.exact_tests;
+  statistics.meetings = counts.meetings;
+  statistics.openings = counts.openings;
+  statistics.vertices_read += counts.vertices_read;
   for (auto& object : objects_)
-    if (object) frame_.statistics().vertices_read += object->particle_object.tree().vertices_read();
+    if (object) statistics.vertices_read += object->particle_object.tree().vertices_read();
+}
+
+/// A search reads two objects at once. Its error tells the vertex, not the object.
+/// @throws Bad_mesh  an object of a near pair has a coordinate that is not finite
+void Particle_detection::name_the_bad_object() {
+  for (const auto& pair : met_pairs_)
+    for (const auto id : {pair.ids.a, pair.ids.b})
+      objects_[id]->named([&] { objects_[id]->particle_object.check_positions(); });
 }
 
 void Particle_detection::find_near_objects(const Collision_filter& filter) {
@@ -58,6 +75,7 @@ void Particle_detection::walk_undecided_particles() {
     if (opponents_[o].empty()) continue;
     std::ranges::sort(pulls_[o]);
     objects_[o]->named([&] { objects_[o]->particle_object.read_particles(); });
+    frame_.statistics().vertices_read += objects_[o]->particle_object.particles().at.size();
   }
   walk();
   for (auto& pair : met_pairs_)

@@ -23,6 +23,7 @@ void Relaxation_scratch::reserve(std::span<const std::size_t> particles) {
 }
 
 void Relaxation_scratch::start() {
+  vertices_read = 0;
   for (auto& object : rests) std::ranges::fill(object, Rest{});
   for (auto* list : {&moved, &moved_before})
     for (auto& object : *list) object.clear();

@@ -88,11 +88,14 @@ Json statistics_json(const Frame_statistics& statistics, Mode mode) {
             {"exact_tests", statistics.exact_tests},
             {"contacts", statistics.contacts},
             {"builds", statistics.builds},
-            {"rebuilds", statistics.repartitions}};
+            {"rebuilds", statistics.repartitions},
+            {"vertices_read", statistics.vertices_read}};
   return {{"iterations", statistics.iterations},   {"moves", statistics.moves},
           {"relaxed", statistics.relaxed},         {"candidates", statistics.candidates},
+          {"meetings", statistics.meetings},       {"leaf_tests", statistics.openings},
           {"exact_tests", statistics.exact_tests}, {"contacts", statistics.contacts},
-          {"builds", statistics.builds},           {"repartitions", statistics.repartitions}};
+          {"builds", statistics.builds},           {"repartitions", statistics.repartitions},
+          {"vertices_read", statistics.vertices_read}};
 }
 
 }  // namespace

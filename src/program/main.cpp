@@ -139,12 +139,24 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   app.add_flag("--closest", command.closest,
                "Mode exact: also report the closest faces of each object pair, and their distance");
   app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
-  app.add_option(
-         "--collision-distance", options.collision_distance,
-         "Mode particles or senin: particles nearer than this make their regions a candidate; in mean edge lengths")
+  app.add_option("--meetings", options.meetings,
+                 "Mode particles: maximum number of particle pairs per object pair that walk towards each other; 0: the "
+                 "published method, which checks regions whose particles are near")
+      ->capture_default_str();
+  app.add_option("--opening-budget", options.opening_budget,
+                 "Mode particles, with meetings: maximum number of vertices that a frame reads per object pair to look "
+                 "below the regions")
+      ->capture_default_str();
+  app.add_option("--opening-reach", options.opening_reach,
+                 "Mode particles, with meetings: parts of surfaces farther apart than this multiple of their radii are "
+                 "not looked at")
+      ->capture_default_str();
+  app.add_option("--collision-distance", options.collision_distance,
+                 "Mode senin, or particles with --meetings 0: particles nearer than this make their regions a "
+                 "candidate; in mean edge lengths")
       ->capture_default_str();
   app.add_option("--candidates", options.candidates,
-                 "Mode particles or senin: which of these candidates to check: all, closest")
+                 "Mode senin, or particles with --meetings 0: which of these candidates to check: all, closest")
       ->transform(one_of<Candidate_choice>({{"all", Candidate_choice::all}, {"closest", Candidate_choice::closest}}))
       ->type_name("WHICH")
       ->default_str("all");

@@ -16,8 +16,7 @@ using Id_pair = std::pair<Object_id, Object_id>;
 /// Balls that all meet one another: with regions that hold everything, the particles find all of it too.
 class Filter_in_mode : public testing::TestWithParam<Mode> {
  protected:
-  Detector<> detector{
-      {.mode = GetParam(), .particles = 1, .collision_distance = GetParam() == Mode::particles ? 1000.0 : 1.0}};
+  Detector<> detector{{.mode = GetParam(), .particles = 1}};
   std::deque<Surface_mesh> balls;
 
   void add(const Object_options& options = {}) {

@@ -81,7 +81,7 @@ TEST(Detector, a_coordinate_that_is_not_finite_is_refused_in_any_frame_that_read
 TEST(Detector, a_corner_of_a_candidate_region_that_is_not_finite_is_refused) {
   auto scene = two_spheres(1.8);
   Detector<> detector(
-      {.mode = Mode::particles, .particles = 1, .collision_distance = 50, .contacts = Contact_query::all});
+      {.mode = Mode::particles, .particles = 1, .meetings = 0, .collision_distance = 50, .contacts = Contact_query::all});
   add_all(detector, scene);
   detector.detect();
   // Far from the particle, but in its region.

@@ -157,7 +157,7 @@ TEST(Detector, a_frame_reads_only_where_particles_look_and_in_candidate_regions)
 
 TEST(Detector, particles_stay_where_they_have_walked) {
   auto scene = two_spheres(2.1);
-  Detector<> detector({.mode = Mode::particles, .particles = 16});
+  Detector<> detector({.mode = Mode::particles, .particles = 16, .meetings = 0});
   add_all(detector, scene);
   const std::size_t first = detector.detect().statistics.moves;
   ASSERT_GT(first, 10U);
@@ -209,7 +209,7 @@ void expect_maps_of(const Detector<>& detector, Object_id object, const Surface_
 
 TEST(Detector, regions_and_particles_are_on_the_mesh_before_and_after_walking) {
   auto scene = two_spheres(100);
-  Detector<> detector({.mode = Mode::particles, .particles = 16});
+  Detector<> detector({.mode = Mode::particles, .particles = 16, .meetings = 0});
   add_all(detector, scene);
   detector.detect();  // too far apart to walk
   for (const Object_id object : {0U, 1U}) expect_maps_of(detector, object, scene[object]);
@@ -269,6 +269,7 @@ TEST(Detector, a_query_tells_no_more_than_was_asked) {
 TEST(Detector, with_closest_only_one_pair_of_regions_is_checked) {
   auto scene = two_spheres(1.7);
   auto options = all_contacts;
+  options.meetings = 0;
   options.candidates = Candidate_choice::closest;
   options.collision_distance = 3;
   Detector<> detector(options);
@@ -283,7 +284,7 @@ TEST(Detector, a_larger_collision_distance_makes_more_candidates) {
   for (const double distance : {0.5, 2.0, 8.0}) {
     auto scene = two_spheres(1.9);
     Detector<> detector(
-        {.mode = Mode::particles, .particles = 32, .collision_distance = distance, .contacts = Contact_query::all});
+        {.mode = Mode::particles, .particles = 32, .meetings = 0, .collision_distance = distance, .contacts = Contact_query::all});
     add_all(detector, scene);
     const std::size_t candidates = detector.detect().statistics.candidates;
     EXPECT_GE(candidates, before);
@@ -295,7 +296,9 @@ TEST(Detector, a_larger_collision_distance_makes_more_candidates) {
 TEST(Detector, statistics_agree_with_the_frame) {
   auto scene = two_spheres(2.2);
   scene.push_back(sphere(8, 0.7, {1, 1.5, 0}));
-  Detector<> detector(all_contacts);
+  auto options = all_contacts;
+  options.meetings = 0;
+  Detector<> detector(options);
   add_all(detector, scene);
   for (std::uint64_t number = 1; number < 8; ++number) {
     const Frame& frame = detector.detect();

@@ -69,7 +69,10 @@ TEST(Exact_options, of_particles_alone_are_refused_by_the_mode_exact) {
       {.mode = Mode::exact, .collision_distance = 2},
       {.mode = Mode::exact, .distance_measure = Distance_measure::all_vertices},
       {.mode = Mode::exact, .candidates = Candidate_choice::closest},
-      {.mode = Mode::exact, .growth = infinity}};
+      {.mode = Mode::exact, .growth = infinity},
+      {.mode = Mode::exact, .meetings = 0},
+      {.mode = Mode::exact, .opening_budget = 7},
+      {.mode = Mode::exact, .opening_reach = 2}};
   for (auto options : of_particles) {
     try {
       const Exact_detector detector(options);
@@ -78,6 +81,7 @@ TEST(Exact_options, of_particles_alone_are_refused_by_the_mode_exact) {
       EXPECT_NE(std::string(error.what()).find("mode particles"), std::string::npos) << error.what();
     }
     options.mode = Mode::particles;
+    if (options.opening_budget == Detector_options().opening_budget) options.meetings = 0;
     EXPECT_NO_THROW(const Exact_detector detector(options));
   }
 }

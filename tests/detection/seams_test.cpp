@@ -63,7 +63,8 @@ TEST_P(Seams_in_mode, particles_cross_a_seam_unless_it_is_left_open) {
   for (const bool close : {true, false}) {
     Owned_meshes scene = two_spheres(2.2);
     for (auto& mesh : scene) mesh = flat_shaded(mesh);
-    Detector detector({.mode = GetParam(), .particles = 4, .close_seams = close});
+    const std::size_t meetings = GetParam() == Mode::particles ? 0 : Detector_options().meetings;
+    Detector detector({.mode = GetParam(), .particles = 4, .meetings = meetings, .close_seams = close});
     add_all(detector, scene);
     const auto start = [&] {
       detector.detect();

@@ -59,19 +59,19 @@ struct Detector_options {
   std::size_t least_particles = 12;            ///< but at least so many; 1: the rule alone, which can ask for very few
   Particle_count_options particle_count = {};  ///< the rule; mode `exact` has none
   Partition_options partition = {};
+  /// Mode `particles`: most pairs of particles of two objects that walk towards each other in a frame, nearest first,
+  /// past the borders of their regions. What is around the place where they meet is checked, and the next frame begins
+  /// there. Also, regions are opened. 0: the published method, whose particles stay in their regions, and which checks
+  /// whole regions.
+  std::size_t meetings = 4;
+  /// With meetings: most vertices that a frame reads per object pair below the regions; 0: none are opened.
+  std::size_t opening_budget = 16384;
+  /// With meetings: two parts of surfaces are taken to be apart if the distance of their anchors is more than so many
+  /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed.
+  double opening_reach = 1;
   double collision_distance = 1;  ///< of particles, in multiples of mu, the larger of the two objects'; > 0
   Distance_measure distance_measure = Distance_measure::adjacent_vertices;  ///< of particles: which mean mu is
   Candidate_choice candidates = Candidate_choice::all;                      ///< of particles
-  /// Mode `particles`: so many pairs of particles of two objects walk towards each other after the relaxation, nearest
-  /// first, past the borders of their regions; what is around the place where they meet is checked, and remembered for
-  /// the next frame. 0: the published method, whose particles stay in their regions, and which checks whole regions.
-  std::size_t meetings = 4;
-  /// With meetings: most vertices that a frame reads per object pair to look below the regions; 0: regions are not
-  /// opened.
-  std::size_t opening_budget = 16384;
-  /// With meetings: two parts of surfaces are opened, or checked, if the distance of their anchors is at most so many
-  /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed.
-  double opening_reach = 1;
   Contact_query contacts = Contact_query::all;
   bool contact_points = false;   ///< where faces meet; not with yes_no
   bool contact_normals = false;  ///< which way, how deep; not with yes_no
@@ -107,7 +107,10 @@ std::string title_of(std::uint32_t object, const Object_options& options);
 
 /// @throws Bad_argument  an option out of its range; mode `exact`, and another value than the default for the collision
 ///                       distance, its measure, the choice of candidates, open seams or the growth limit; another mode,
-///                       and a tolerance of either kind, self-collision, containment, parting or contact patches
+///                       and a tolerance of either kind, self-collision, containment, parting or contact patches;
+///                       another mode than `particles`, and another value than the default for meetings or openings;
+///                       mode `particles` with meetings, and another value than the default for the collision distance,
+///                       its measure or the choice of candidates
 void check(const Detector_options& options);
 
 }  // namespace lodestone

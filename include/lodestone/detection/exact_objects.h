@@ -71,6 +71,8 @@ class Exact_objects {
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   work_.seconds.refit = 0;
+  work_.vertices_read = 0;
+  for (const auto id : ids) work_.vertices_read += objects_[id]->mesh().vertex_count();
   // Refitted first: a tree that is built now holds the current positions.
   timed(work_.seconds.refit, [&] { refit_built(ids); });
   build_new(ids);

@@ -93,6 +93,8 @@ class Particle_detection final : public Detection {
   void report(const Met_pair& pair);
   void list_near_regions(const Met_pair& pair);
   void move_to_meetings();
+  void add_counts();
+  void name_the_bad_object();
   void end_pair(Pair_result& result);
   void list_candidates(Object_pair pair);
   void sort_contacts(Pair_result& result);

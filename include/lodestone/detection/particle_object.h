@@ -81,7 +81,12 @@ class Particle_object {
 
   /// The faces that a particle stands for, at their positions in frame number `frame`.
   const Posed_patch& posed_patch(std::size_t particle, std::uint64_t frame);
+  /// Whether `posed_patch` has read their positions in this frame.
+  bool is_posed(std::size_t particle, std::uint64_t frame) const { return posed_[particle].frame == frame; }
 
+  /// Reads all positions. O(V).
+  /// @throws Bad_mesh  a coordinate is not finite or beyond 1e150, or the number of vertices or faces has changed
+  void check_positions() { checked_positions(); }
   Sphere bounding_sphere() { return lodestone::bounding_sphere(checked_positions()); }
   std::vector<Sphere> sphere_collection(const Particle_count_options& options) {
     return lodestone::sphere_collection(graph_, checked_positions(), walked_corners(), options);

@@ -59,6 +59,7 @@ struct Relaxation {
   std::size_t iterations = 0;
   std::size_t moves = 0;  ///< steps taken by all particles together
   bool relaxed = true;    ///< false: R_max stopped the iterations
+  std::size_t vertices_read = 0;  ///< positions read, some more than once
 };
 
 /// What is known of a particle at rest: it stayed when its steps were last compared. The comparison need not be made
@@ -87,6 +88,7 @@ struct Relaxation_scratch {
   std::vector<std::vector<Rest>> rests;
   std::vector<Moved_particles> moved;         ///< per object: in the last iteration
   std::vector<Moved_particles> moved_before;  ///< in the one before
+  std::size_t vertices_read = 0;              ///< since `start`
 
   /// Makes room for objects with so many particles each.
   void reserve(std::span<const std::size_t> particles);
@@ -103,10 +105,11 @@ struct Step {
 };
 
 template <Position_reader Reader>
-Step best_step(const Walking_object<Reader>& object, std::size_t particle, const Relaxation_scratch& scratch) {
+Step best_step(const Walking_object<Reader>& object, std::size_t particle, Relaxation_scratch& scratch) {
   constexpr int lanes = Attractors::lanes;
   const std::uint32_t here = object.particles->at[particle];
   const auto reach = object.steps->from(here);
+  scratch.vertices_read += reach.size();
   Step best{.vertex = here, .position = object.particles->positions[particle]};
   double largest = -std::numeric_limits<double>::infinity();
   bool pulled = false;
@@ -192,7 +195,10 @@ bool rests(std::span<const Walking_object<Reader>> objects, std::size_t o, std::
   const Particles& particles = *objects[o].particles;
   const auto disturbed_by = [&](std::size_t other) {
     if (scratch.moved[other].which.empty()) return false;
-    if (rest.step_length < 0) rest.step_length = measure_step_length(objects[o], particle);
+    if (rest.step_length < 0) {
+      rest.step_length = measure_step_length(objects[o], particle);
+      scratch.vertices_read += objects[o].steps->from(particles.at[particle]).size();
+    }
     const Particles& movers = *objects[other].particles;
     return disturbs(scratch.moved[other], movers, std::max(particles.effective_radius, movers.effective_radius),
                     particles.positions[particle], rest);
@@ -349,6 +355,7 @@ Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scr
       break;
     }
   }
+  result.vertices_read = scratch.vertices_read;
   return result;
 }
 
