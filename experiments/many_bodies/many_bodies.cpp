@@ -27,6 +27,7 @@ constexpr Crowd_size published_sizes[] = {{20, 60}, {100, 40}, {500, 24}, {2000,
 
 std::vector<Setting> crowd_settings() {
   return {{"particles, 12", {.mode = Mode::particles, .particles = 12, .growth = 1.25}},
+          {"particles, no meetings, 12", {.mode = Mode::particles, .particles = 12, .meetings = 0, .growth = 1.25}},
           {"exact", {.mode = Mode::exact}}};
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "lodestone/mesh/errors.h"
 #include "modes/mode_report.h"
@@ -27,11 +28,15 @@ constexpr std::size_t plays = 3;
 /// In larger scenes exhaustive checking would take longer than all settings together.
 constexpr std::size_t most_triangles_for_exhaustive_truth = 20'000;
 
+/// Particles as they are by default, and as in the published method; then the mode exact.
 std::vector<Setting> mode_settings() {
   std::vector<Setting> settings;
-  for (const std::size_t particles : {12, 32, 64, 128})
-    settings.push_back(
-        {fmt::format("particles, {}", particles), {.mode = Mode::particles, .particles = particles, .growth = 1.25}});
+  const std::size_t meetings = Detector_options().meetings;
+  for (const auto& [method, most_meetings] : {std::pair("particles", meetings), {"particles, no meetings", 0}})
+    for (const std::size_t particles : {12, 32, 64, 128})
+      settings.push_back(
+          {fmt::format("{}, {}", method, particles),
+           {.mode = Mode::particles, .particles = particles, .meetings = most_meetings, .growth = 1.25}});
   settings.push_back({"exact", {.mode = Mode::exact}});
   return settings;
 }
