@@ -28,11 +28,10 @@ void Particle_detection::update(Object_id id) {
   });
 }
 
-/// With meetings an eighth of the regions is checked, unless the object seems larger as a whole: radii grow with the
-/// stretch of the surface, so a region that has grown unnoticed for some frames costs little.
+/// With meetings each call looks at an eighth of the regions, unless the whole object was larger in the last frame:
+/// radii grow with the stretch of the surface, so a region that has grown unnoticed for some frames costs little.
 bool Particle_detection::has_outgrown(Particle_object& object) {
-  if (!meets() || object.seems_larger(options_.growth, options_.opening_reach))
-    return object.has_outgrown(options_.growth);
+  if (!meets() || object.seemed_larger(options_.growth)) return object.has_outgrown(options_.growth);
   return object.has_outgrown(options_.growth, (object.particles().at.size() + 7) / 8);
 }
 

@@ -238,10 +238,7 @@ void Particle_object::measure_extents() {
   }
 }
 
-bool Particle_object::seems_larger(double growth, double reach) {
-  read_regions(reach);
-  return std::pow(tree_.stretch(), 2) > std::max(growth, 1.02);
-}
+bool Particle_object::seemed_larger(double growth) const { return std::pow(tree_.stretch(), 2) > std::max(growth, 1.02); }
 
 bool Particle_object::has_outgrown(double growth, std::size_t most_regions) {
   look();

@@ -80,7 +80,8 @@ struct Detector_options {
   /// Of particles: vertices on open borders that lie on each other when the object is built count as one for the
   /// partition, and particles walk across them: see Closed_seams. Faces keep their corners.
   bool close_seams = true;
-  double growth = 1;  ///< mode `particles`: repartition when a region exceeds so many times A*; > 0; infinity: never
+  /// Mode `particles`: repartition when a region exceeds so many times A*; > 0; infinity: never. Published: 1.
+  double growth = 1.25;
   Senin_options senin = {};
   Exact_options exact = {};
 };

@@ -75,9 +75,9 @@ class Particle_object {
   /// samples per region; a region that seems to have grown is measured anew along shortest paths before it counts.
   /// @param most_regions  so many regions are looked at, from where the last call ended
   bool has_outgrown(double growth, std::size_t most_regions = std::numeric_limits<std::size_t>::max());
-  /// Whether the object seems larger as a whole than the growth limit allows: by how far the anchors of its regions
-  /// have spread. After `prepare_meetings`. O(N).
-  bool seems_larger(double growth, double reach);
+  /// Whether the anchors of the regions had spread by more than the growth limit when they were last read. After
+  /// `prepare_meetings`.
+  bool seemed_larger(double growth) const;
 
   /// The faces that a particle stands for, at their positions in frame number `frame`.
   const Posed_patch& posed_patch(std::size_t particle, std::uint64_t frame);
