@@ -27,6 +27,12 @@ std::string face_pair_text(const Mode_figures& figures) {
   return fmt::format("{:.3f}", static_cast<double>(found) / static_cast<double>(all));
 }
 
+/// Positions that a frame reads, in percent of all vertices.
+double percent_read(const Mode_figures& figures) {
+  const double read = mean_count(figures.measurement, &Frame_statistics::vertices_read);
+  return figures.vertices > 0 ? 100 * read / static_cast<double>(figures.vertices) : 0;
+}
+
 /// What the curve of the plot joins: settings that differ only in the number of particles.
 std::string method_of(const Setting& setting) { return setting.name.substr(0, setting.name.rfind(',')); }
 
@@ -72,7 +78,7 @@ std::optional<Interval> recall_interval(const Mode_figures& figures) {
 
 std::string table_of_scenes(std::span<const Mode_figures> rows) {
   Text_table table({"scene", "triangles", "mode", "recall", "face pairs", "delay (frames)", "median (us)", "mean (us)",
-                    "exact / this (median)"});
+                    "exact / this (median)", "read"});
   for (const auto& row : rows) {
     const auto& m = row.measurement;
     const double median = median_microseconds_without_build(m);
@@ -80,7 +86,7 @@ std::string table_of_scenes(std::span<const Mode_figures> rows) {
     table.add({row.scene, std::to_string(row.triangles), m.setting.name, recall_text(row), face_pair_text(row),
                judged ? fmt::format("{:.1f}", m.score.mean_delay()) : not_measured, fmt::format("{:.1f}", median),
                fmt::format("{:.1f}", mean_microseconds_without_build(m)),
-               fmt::format("{:.2f}", row.exact_median / median)});
+               fmt::format("{:.2f}", row.exact_median / median), fmt::format("{:.1f} %", percent_read(row))});
   }
   return table.text();
 }
@@ -103,6 +109,7 @@ nlohmann::ordered_json to_json(const Mode_figures& figures) {
   auto json = to_json(figures.measurement);
   json["scene"] = figures.scene;
   json["triangles"] = figures.triangles;
+  json["vertices"] = figures.vertices;
   json["method"] = method_of(figures.measurement.setting);
   json["is_truth"] = figures.is_truth;
   json["recall_per_play"] = figures.measurement.recalls;

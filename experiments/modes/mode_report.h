@@ -17,6 +17,7 @@ namespace lodestone {
 struct Mode_figures {
   std::string scene;
   std::size_t triangles = 0;  ///< of all objects
+  std::size_t vertices = 0;   ///< of all objects
   Measurement measurement;
   bool is_truth = false;  ///< the answers of other settings are compared with its own, so it has no recall
   Face_pair_count face_pairs;

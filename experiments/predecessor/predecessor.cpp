@@ -13,10 +13,13 @@ namespace {
 
 constexpr int seeds = 5;
 
-std::vector<Setting> both_methods() {
+/// Per number of particles: the regions, with meetings too, then the predecessor with each of its seeds.
+std::vector<Setting> all_methods() {
   std::vector<Setting> settings;
   for (const std::size_t particles : {4, 12, 32}) {
-    settings.push_back({fmt::format("regions, {}", particles), {.mode = Mode::particles, .particles = particles}});
+    settings.push_back(
+        {fmt::format("regions, {}", particles), {.mode = Mode::particles, .particles = particles, .meetings = 0}});
+    settings.push_back({fmt::format("meetings, {}", particles), {.mode = Mode::particles, .particles = particles}});
     for (std::uint64_t seed = 1; seed <= seeds; ++seed)
       settings.push_back({fmt::format("scattered, {}, seed {}", particles, seed),
                           {.mode = Mode::senin, .particles = particles, .senin = {.seed = seed}}});
@@ -24,7 +27,7 @@ std::vector<Setting> both_methods() {
   return settings;
 }
 
-/// One row for the regions, one for the predecessor over all its seeds.
+/// One row for the regions, one with meetings, one for the predecessor over all its seeds.
 void add_rows(Text_table& table, const std::string& scene, std::span<const Measurement> group) {
   const auto add = [&](const char* method, std::span<const Measurement> runs) {
     Score score;
@@ -41,14 +44,15 @@ void add_rows(Text_table& table, const std::string& scene, std::span<const Measu
                fmt::format("{:.1f}", score.mean_delay()), fmt::format("{:.1f}", microseconds)});
   };
   add("regions", group.first(1));
-  add("scattered", group.subspan(1));
+  add("regions, meetings", group.subspan(1, 1));
+  add("scattered", group.subspan(2));
 }
 
 }  // namespace
 
 std::string run_predecessor(const Experiment_context& context) {
-  const std::vector<std::string> names{"wrong_side", "third_object"};
-  const auto settings = both_methods();
+  const std::vector<std::string> names{"wrong_side", "third_object", "inflate"};
+  const auto settings = all_methods();
   Text_table table({"scene", "method", "particles", "recall", "lowest seed", "highest seed", "precision", "never seen",
                     "delay (frames)", "us per frame"});
   nlohmann::ordered_json json;
@@ -58,7 +62,7 @@ std::string run_predecessor(const Experiment_context& context) {
     const auto run = measure(scenes, settings, [&](std::size_t done, std::size_t of) {
       context.progress(n * of + done, names.size() * of);
     });
-    constexpr std::size_t group = 1 + seeds;
+    constexpr std::size_t group = 2 + seeds;
     for (std::size_t first = 0; first < run.measurements.size(); first += group)
       add_rows(table, names[n], std::span(run.measurements).subspan(first, group));
     for (const auto& m : run.measurements) json[names[n]].push_back(to_json(m));
