@@ -30,7 +30,10 @@ void Ring_check::grow(const Walked_surface& surface, Rings& rings) {
 }
 
 bool Ring_check::test(std::span<const Read_face> faces_a, std::span<const Read_face> faces_b, Face_pair& found) {
-  for (const Read_face& a : faces_a)
+  Box around_b;
+  for (const Read_face& b : faces_b) around_b.extend(b.box);
+  for (const Read_face& a : faces_a) {
+    if (!a.box.intersects(around_b)) continue;
     for (const Read_face& b : faces_b) {
       if (!a.box.intersects(b.box)) continue;
       ++exact_tests_;
@@ -38,6 +41,7 @@ bool Ring_check::test(std::span<const Read_face> faces_a, std::span<const Read_f
       found = {a.face, b.face};
       return true;
     }
+  }
   return false;
 }
 
