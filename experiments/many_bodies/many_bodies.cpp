@@ -26,8 +26,8 @@ struct Crowd_size {
 constexpr Crowd_size published_sizes[] = {{20, 60}, {100, 40}, {500, 24}, {2000, 12}};
 
 std::vector<Setting> crowd_settings() {
-  return {{"particles, 12", {.mode = Mode::particles, .particles = 12, .growth = 1.25}},
-          {"particles, no meetings, 12", {.mode = Mode::particles, .particles = 12, .meetings = 0, .growth = 1.25}},
+  return {{"particles, 12", {.mode = Mode::particles, .particles = 12}},
+          {"particles, no meetings, 12", {.mode = Mode::particles, .particles = 12, .meetings = 0}},
           {"exact", {.mode = Mode::exact}}};
 }
 
