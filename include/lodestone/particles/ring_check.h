@@ -30,7 +30,7 @@ class Ring_check {
   /// The faces around one of the two vertices, ring after ring.
   struct Rings {
     std::vector<Read_face> faces;
-    std::vector<std::uint32_t> vertices;  ///< all of the rings so far, sorted
+    std::vector<std::uint32_t> vertices;  ///< all of the rings so far
     std::vector<std::uint32_t> fresh;     ///< those of the last ring
     std::vector<std::uint32_t> rim;       ///< memory: those of the next
   };

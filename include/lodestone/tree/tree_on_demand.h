@@ -13,7 +13,8 @@
 namespace lodestone {
 
 /// A tree over the faces of one object that reads positions only where it is looked at: one vertex per node, its
-/// anchor, and all vertices of the leaves that are posed. In a frame nothing is read twice.
+/// anchor, and all vertices of the leaves that are posed. In a frame no anchor and no leaf is read twice. A vertex is
+/// read again only for another node or leaf.
 ///
 /// A node is taken to lie within its radius of its anchor. That is a guess, right as long as the surface is nowhere
 /// stretched by more than `stretch()` since the tree was built.
@@ -54,7 +55,7 @@ class Tree_on_demand {
   /// Encloses all leaves that were posed in this frame, loosely.
   const Aabb& bounds() const { return bounds_; }
 
-  /// How much longer than at rest the surface is taken to be; >= 1. Leaves that are posed raise it.
+  /// How much longer than at rest the surface is taken to be; >= 1. Each frame begins with 1; `note_distance` raises it.
   double stretch() const { return stretch_; }
   /// Takes note of a distance between two vertices that are at most `at_rest` apart at rest.
   void note_distance(double now, double at_rest) {

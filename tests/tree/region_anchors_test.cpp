@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/tree/region_anchors.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/face_soup.h"
+
+namespace lodestone {
+namespace {
+
+/// An object with the regions of its octants, and where it is now. Not movable, since the tree refers to the positions.
+class Anchored_object {
+ public:
+  explicit Anchored_object(const Face_soup& rest)
+      : rest_(rest), now_(rest), labels_(octants(rest)), tree_(rest.faces, labels_, rest.coordinates, {.leaf_faces = 16}) {
+    tree_.start_frame(Live_positions(rest_.coordinates.data()));
+    regions_ = Region_anchors(tree_, rest_.faces, labels_, rest_.coordinates);
+  }
+  Anchored_object(const Anchored_object&) = delete;
+  Anchored_object& operator=(const Anchored_object&) = delete;
+
+  void move_to(const Face_soup& now, double reach = 1) {
+    now_ = now;
+    tree_.start_frame(Live_positions(now_.coordinates.data()));
+    regions_.read(tree_, reach);
+  }
+  const Face_soup& rest() const { return rest_; }
+  const Face_soup& now() const { return now_; }
+  const Region_anchors& regions() const { return regions_; }
+  Tree_on_demand& tree() { return tree_; }
+  /// The region with which the tree groups a face.
+  Region_index region_of(std::uint32_t face) const {
+    const auto& [a, b, c] = rest_.faces[face];
+    return std::min({labels_[a], labels_[b], labels_[c]});
+  }
+
+ private:
+  Face_soup rest_, now_;
+  std::vector<Region_index> labels_;
+  Tree_on_demand tree_;
+  Region_anchors regions_;
+};
+
+using Region_pairs = std::set<std::pair<Region_index, Region_index>>;
+
+Region_pairs listed_pairs(const Anchored_object& a, const Anchored_object& b) {
+  std::vector<Near_regions> near;
+  list_near_regions(a.regions(), b.regions(), near);
+  Region_pairs pairs;
+  for (const auto& pair : near) pairs.emplace(a.regions().region(pair.a), b.regions().region(pair.b));
+  EXPECT_EQ(pairs.size(), near.size()) << "a pair is listed twice";
+  return pairs;
+}
+
+void expect_box_around(const Anchored_object& object) {
+  for (std::uint32_t v = 0; v < object.now().vertex_count(); ++v) {
+    const Eigen::Vector3d p = Eigen::Map<const Eigen::Vector3d>(object.now().coordinates.data() + 3 * std::size_t{v});
+    EXPECT_LE(object.regions().box().exteriorDistance(p), 1e-12 * (1 + p.norm()));
+  }
+}
+
+TEST(Region_anchors, list_each_region_with_all_its_faces_once) {
+  for (const auto& [name, soup] : small_objects()) {
+    Anchored_object object(soup);
+    const Tree_layout& layout = object.tree().layout();
+    std::set<std::uint32_t> faces;
+    std::set<Region_index> regions;
+    for (std::uint32_t place = 0; place < object.regions().size(); ++place) {
+      EXPECT_TRUE(regions.insert(object.regions().region(place)).second);
+      const auto& node = layout.node(object.regions().node(place));
+      for (std::uint32_t leaf = node.leaf; leaf < node.end_leaf; ++leaf)
+        for (const auto face : layout.faces(leaf)) {
+          EXPECT_TRUE(faces.insert(face).second);
+          EXPECT_EQ(object.region_of(face), object.regions().region(place)) << name;
+        }
+    }
+    EXPECT_EQ(faces.size(), soup.faces.size()) << name;
+  }
+}
+
+TEST(Region_anchors, regions_whose_faces_intersect_are_listed_wherever_and_however_large_the_objects_are) {
+  std::mt19937_64 random(5);
+  const auto objects = small_objects();
+  std::size_t meeting = 0, apart = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    Anchored_object a(objects[i].second), b(objects[(i + 2) % objects.size()].second);
+    for (const double factor : {1.0, 3.0})
+      for (int pose = 0; pose < 6; ++pose) {
+        a.move_to(placed(posed_at_random(a.rest(), 0.8, random), factor));
+        b.move_to(placed(posed_at_random(b.rest(), 0.8, random), factor));
+        const auto listed = listed_pairs(a, b);
+        Region_pairs expected;
+        for (const auto& [face_a, face_b] : true_pairs(a.now(), b.now()))
+          expected.emplace(a.region_of(face_a), b.region_of(face_b));
+        EXPECT_TRUE(std::ranges::includes(listed, expected)) << objects[i].first;
+        meeting += expected.size();
+        apart += a.regions().size() * b.regions().size() - listed.size();
+      }
+  }
+  EXPECT_GT(meeting, 100U);
+  EXPECT_GT(apart, 100U);
+}
+
+TEST(Region_anchors, the_box_encloses_the_surface_at_rest_and_moved_and_scaled) {
+  std::mt19937_64 random(6);
+  for (const auto& [name, soup] : small_objects()) {
+    SCOPED_TRACE(name);
+    Anchored_object object(soup);
+    object.move_to(soup);
+    EXPECT_NEAR(object.tree().stretch(), 1, 1e-12);
+    expect_box_around(object);
+    for (const double factor : {0.25, 1.0, 3.0}) {
+      object.move_to(placed(posed_at_random(soup, 5, random), factor));
+      EXPECT_NEAR(object.tree().stretch(), std::max(1.0, factor), 1e-12);
+      expect_box_around(object);
+    }
+  }
+}
+
+TEST(Region_anchors, a_smaller_reach_lists_fewer_regions_and_no_others) {
+  std::mt19937_64 random(7);
+  Anchored_object a(icosphere(6)), b(torus_knot({.radius = 0.7, .segments = 40, .sides = 7}));
+  std::size_t fewer = 0;
+  for (int pose = 0; pose < 10; ++pose) {
+    const auto a_now = posed_at_random(a.rest(), 0.8, random), b_now = posed_at_random(b.rest(), 0.8, random);
+    a.move_to(a_now), b.move_to(b_now);
+    const auto all = listed_pairs(a, b);
+    a.move_to(a_now, 0.5), b.move_to(b_now, 0.5);
+    const auto some = listed_pairs(a, b);
+    EXPECT_TRUE(std::ranges::includes(all, some));
+    fewer += all.size() - some.size();
+  }
+  EXPECT_GT(fewer, 10U);
+}
+
+TEST(Region_anchors, the_distance_of_near_regions_is_that_of_their_anchors) {
+  Anchored_object a(icosphere(6)), b(icosphere(5));
+  a.move_to(a.rest()), b.move_to(moved(b.rest(), 1.2, 0.3, 0.1));
+  std::vector<Near_regions> near;
+  list_near_regions(a.regions(), b.regions(), near);
+  ASSERT_FALSE(near.empty());
+  for (const auto& pair : near) {
+    const std::uint32_t node_a = a.regions().node(pair.a), node_b = b.regions().node(pair.b);
+    const double distance = (a.tree().anchor(node_a) - b.tree().anchor(node_b)).norm();
+    EXPECT_NEAR(pair.distance, distance, 1e-12);
+    EXPECT_NEAR(pair.order, std::pow(distance / (a.tree().radius(node_a) + b.tree().radius(node_b)), 2), 1e-6);
+  }
+}
+
+TEST(Region_anchors, objects_far_apart_have_no_near_regions) {
+  Anchored_object a(icosphere(4)), b(icosphere(4));
+  a.move_to(a.rest()), b.move_to(moved(b.rest(), 9, 0, 0));
+  EXPECT_TRUE(listed_pairs(a, b).empty());
+  EXPECT_TRUE(a.regions().box().intersection(b.regions().box()).isEmpty());
+}
+
+}  // namespace
+}  // namespace lodestone
