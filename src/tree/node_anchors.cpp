@@ -36,7 +36,9 @@ Node_anchor find_anchor(std::span<const std::uint32_t> vertices, Coordinates coo
   }
   const Eigen::Vector3d position = at(coordinates, anchor.vertex);
   for (const auto vertex : vertices) farthest = std::max(farthest, (at(coordinates, vertex) - position).squaredNorm());
-  anchor.radius = std::sqrt(farthest);
+  // Longer, so that rounding does not part surfaces that touch where their radii end.
+  constexpr double rounding = 1 + 1e-9;
+  anchor.radius = rounding * std::sqrt(farthest);
   return anchor;
 }
 

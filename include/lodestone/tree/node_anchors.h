@@ -11,7 +11,7 @@ namespace lodestone {
 /// A vertex of a node of a tree, by whose position the node is judged without reading the others.
 struct Node_anchor {
   std::uint32_t vertex = 0;  ///< of the node's vertices the one nearest to the centre of their box
-  double radius = 0;         ///< rho: from there to the farthest of the node's vertices at rest
+  double radius = 0;         ///< rho: from there to the farthest of the node's vertices at rest, and by 10^-9 longer
 };
 
 /// The anchor of each node. O(V log V).

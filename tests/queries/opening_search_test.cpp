@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/queries/opening_search.h"
+
+#include <gtest/gtest.h>
+
+#include "lodestone/tree/region_anchors.h"
+#include "support/face_soup.h"
+
+namespace lodestone {
+namespace {
+
+constexpr std::size_t large_budget = 100'000'000;
+
+/// An object that is read on demand. Not movable, since the tree refers to its positions.
+class Opened_object {
+ public:
+  explicit Opened_object(const Face_soup& rest, std::size_t leaf_faces = 8)
+      : rest_(rest),
+        now_(rest),
+        labels_(octants(rest)),
+        tree_(rest.faces, labels_, rest.coordinates, {.leaf_faces = leaf_faces}) {
+    tree_.start_frame(Live_positions(rest_.coordinates.data()));
+    regions_ = Region_anchors(tree_, rest_.faces, labels_, rest_.coordinates);
+  }
+  Opened_object(const Opened_object&) = delete;
+  Opened_object& operator=(const Opened_object&) = delete;
+
+  void move_to(const Face_soup& now) {
+    now_ = now;
+    start_frame();
+  }
+  /// Forgets what was read, and learns how far the object is stretched.
+  void start_frame() {
+    tree_.start_frame(Live_positions(now_.coordinates.data()));
+    regions_.read(tree_, 1);
+  }
+  const Face_soup& rest() const { return rest_; }
+  const Face_soup& now() const { return now_; }
+  const Region_anchors& regions() const { return regions_; }
+  Tree_on_demand& tree() { return tree_; }
+
+ private:
+  Face_soup rest_, now_;
+  std::vector<Region_index> labels_;
+  Tree_on_demand tree_;
+  Region_anchors regions_;
+};
+
+struct Opened {
+  std::vector<Face_pair> found;  ///< sorted
+  bool out_of_budget = false;
+  std::size_t leaf_tests = 0, exact_tests = 0, vertices_read = 0;
+};
+
+/// Searches below the roots, or below the regions that may touch, in a new frame.
+Opened opened(Opening_search& search, Opened_object& a, Opened_object& b, const Opening_request& request,
+              bool from_regions = false) {
+  a.start_frame(), b.start_frame();
+  const std::size_t before = a.tree().vertices_read() + b.tree().vertices_read();
+  search.begin(a.tree(), b.tree(), request);
+  if (from_regions) {
+    std::vector<Near_regions> near;
+    list_near_regions(a.regions(), b.regions(), near);
+    for (const auto& pair : near)
+      search.add_start({a.regions().node(pair.a), b.regions().node(pair.b)}, pair.order);
+  } else {
+    search.add_start({0, 0}, 0);
+  }
+  Opened result;
+  const bool some = search.open(result.found);
+  EXPECT_EQ(some, !result.found.empty());
+  std::ranges::sort(result.found);
+  EXPECT_EQ(std::ranges::adjacent_find(result.found), result.found.end());
+  result.out_of_budget = search.out_of_budget();
+  result.leaf_tests = search.leaf_tests();
+  result.exact_tests = search.exact_tests();
+  result.vertices_read = a.tree().vertices_read() + b.tree().vertices_read() - before;
+  return result;
+}
+
+/// Checks all queries with a large budget.
+void expect_opened(Opening_search& search, Opened_object& a, Opened_object& b) {
+  const auto truth = true_pairs(a.now(), b.now());
+  for (const bool from_regions : {false, true}) {
+    const auto all = opened(search, a, b, {.all = true, .budget = large_budget}, from_regions);
+    EXPECT_EQ(all.found, truth);
+    EXPECT_FALSE(all.out_of_budget);
+    EXPECT_GE(all.exact_tests, truth.size());
+    const auto first = opened(search, a, b, {.budget = large_budget}, from_regions);
+    EXPECT_EQ(first.found.size(), std::min<std::size_t>(1, truth.size()));
+    EXPECT_TRUE(std::ranges::includes(truth, first.found));
+    EXPECT_LE(first.leaf_tests, all.leaf_tests);
+  }
+}
+
+/// Two triangles without area on one line, which have one end in common.
+std::pair<Face_soup, Face_soup> needles_end_to_end(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&] {
+    const double x = unit(random), y = unit(random), z = unit(random);
+    return Eigen::Vector3d(x, y, z);
+  };
+  const Eigen::Vector3d end = vector(), along = vector();
+  const auto needle = [&](double length) {
+    Face_soup soup;
+    for (const double t : {0.0, 0.5, 1.0}) {
+      const Eigen::Vector3d p = end + t * length * along;
+      soup.coordinates.insert(soup.coordinates.end(), p.begin(), p.end());
+    }
+    soup.faces = {{0, 1, 2}};
+    return soup;
+  };
+  return {needle(1), needle(-0.7)};
+}
+
+TEST(Opening_search, with_a_large_budget_finds_what_exhaustive_checking_does) {
+  std::mt19937_64 random(1);
+  const auto objects = small_objects();
+  Opening_search search;
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    for (std::size_t j = 0; j < objects.size(); ++j) {
+      SCOPED_TRACE(objects[i].first + " and " + objects[j].first);
+      Opened_object a(objects[i].second), b(objects[j].second, 30);
+      for (const double factor : {1.0, 3.0, 0.4}) {
+        a.move_to(placed(posed_at_random(a.rest(), 0.8, random), factor));
+        b.move_to(placed(posed_at_random(b.rest(), 0.8, random), factor));
+        expect_opened(search, a, b);
+      }
+    }
+}
+
+TEST(Opening_search, far_from_the_origin_finds_the_same) {
+  std::mt19937_64 random(2);
+  Opening_search search;
+  Opened_object a(icosphere(6)), b(torus_knot({.radius = 0.7, .segments = 40, .sides = 7}));
+  for (const double offset : {1e6, -1e9}) {
+    a.move_to(placed(posed_at_random(a.rest(), 0.5, random), 1, offset));
+    b.move_to(placed(posed_at_random(b.rest(), 0.5, random), 1, offset));
+    expect_opened(search, a, b);
+  }
+}
+
+TEST(Opening_search, faces_that_touch_or_have_no_area_are_found_too) {
+  Opening_search search;
+  std::size_t contacts = 0;
+  for (std::uint64_t seed = 1; seed < 30; ++seed) {
+    Opened_object a(lattice_soup(60, 40, 5, seed), 4), b(moved(lattice_soup(60, 40, 5, seed + 100), 3, 1, 0), 4);
+    expect_opened(search, a, b);
+    contacts += true_pairs(a.now(), b.now()).size();
+  }
+  EXPECT_GT(contacts, 1000U);
+}
+
+TEST(Opening_search, surfaces_that_only_touch_where_their_radii_end_are_found) {
+  std::mt19937_64 random(3);
+  Opening_search search;
+  for (int i = 0; i < 300; ++i) {
+    const auto [one, other] = needles_end_to_end(random);
+    Opened_object a(one), b(other);
+    if (true_pairs(a.now(), b.now()).empty()) continue;
+    expect_opened(search, a, b);
+  }
+}
+
+TEST(Opening_search, a_contact_found_with_a_small_budget_is_true_and_the_search_says_that_it_was_cut_off) {
+  std::mt19937_64 random(4);
+  const auto objects = small_objects();
+  Opening_search search;
+  std::size_t cut_off = 0, complete = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    Opened_object a(objects[i].second), b(objects[(i + 1) % objects.size()].second);
+    for (int pose = 0; pose < 4; ++pose) {
+      a.move_to(posed_at_random(a.rest(), 1.5, random)), b.move_to(posed_at_random(b.rest(), 1.5, random));
+      const auto truth = true_pairs(a.now(), b.now());
+      for (const std::size_t budget : {1, 5, 20, 60, 100, 200, 300})
+        for (const double reach : {0.5, 1.0})
+          for (const bool all : {false, true}) {
+            const auto some = opened(search, a, b, {.all = all, .reach = reach, .budget = budget}, pose % 2 == 0);
+            EXPECT_TRUE(std::ranges::includes(truth, some.found));
+            if (some.out_of_budget) {
+              EXPECT_GE(some.vertices_read, budget);
+              ++cut_off;
+            } else if (reach == 1) {
+              EXPECT_EQ(some.found.size(), all ? truth.size() : std::min<std::size_t>(1, truth.size()));
+              ++complete;
+            }
+          }
+    }
+  }
+  EXPECT_GT(cut_off, 50U);
+  EXPECT_GT(complete, 20U);
+}
+
+TEST(Opening_search, without_a_budget_finds_nothing_and_says_so) {
+  Opening_search search;
+  Opened_object a(icosphere(6)), b(icosphere(5));
+  b.move_to(moved(b.rest(), 0.5, 0, 0));
+  for (const bool all : {false, true}) {
+    const auto none = opened(search, a, b, {.all = all, .budget = 0});
+    EXPECT_TRUE(none.found.empty());
+    EXPECT_TRUE(none.out_of_budget);
+    EXPECT_EQ(none.leaf_tests + none.exact_tests + none.vertices_read, 0U);
+  }
+  EXPECT_FALSE(opened(search, a, b, {.budget = large_budget}).out_of_budget) << "of the last search only";
+}
+
+TEST(Opening_search, the_faces_of_two_leaves_are_compared_exactly) {
+  Opening_search search;
+  Opened_object a(icosphere(6)), b(torus_knot({.radius = 0.7, .segments = 40, .sides = 7}));
+  const auto truth = true_pairs(a.now(), b.now());
+  const Tree_layout &layout_a = a.tree().layout(), &layout_b = b.tree().layout();
+  std::vector<Face_pair> together;
+  for (const bool all : {false, true}) {
+    search.begin(a.tree(), b.tree(), {.all = all});
+    for (std::uint32_t leaf_a = 0; leaf_a < layout_a.leaf_count(); ++leaf_a)
+      for (std::uint32_t leaf_b = 0; leaf_b < layout_b.leaf_count(); ++leaf_b) {
+        std::vector<Face_pair> found;
+        const bool some = search.test_leaves(leaf_a, leaf_b, found);
+        EXPECT_EQ(some, !found.empty());
+        const auto expected = static_cast<std::size_t>(std::ranges::count_if(truth, [&](Face_pair pair) {
+          return std::ranges::find(layout_a.faces(leaf_a), pair.a) != layout_a.faces(leaf_a).end() &&
+                 std::ranges::find(layout_b.faces(leaf_b), pair.b) != layout_b.faces(leaf_b).end();
+        }));
+        EXPECT_EQ(found.size(), all ? expected : std::min<std::size_t>(1, expected));
+        if (all) together.insert(together.end(), found.begin(), found.end());
+      }
+  }
+  std::ranges::sort(together);
+  EXPECT_EQ(together, truth);
+}
+
+TEST(Opening_search, surfaces_that_meet_in_a_small_place_are_read_only_around_it) {
+  Opening_search search;
+  Opened_object a(icosphere(60), 96), b(icosphere(60), 96);
+  b.move_to(moved(b.rest(), 1.999, 0.01, 0.02));
+  ASSERT_FALSE(true_pairs(a.now(), b.now()).empty());
+  const auto found = opened(search, a, b, {.all = true, .budget = large_budget});
+  EXPECT_LT(found.vertices_read, (a.rest().vertex_count() + b.rest().vertex_count()) / 10);
+}
+
+}  // namespace
+}  // namespace lodestone
