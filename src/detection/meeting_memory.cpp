@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/detection/meeting_memory.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lodestone {
@@ -9,13 +10,12 @@ void Meeting_memory::start_frame() {
   std::swap(last_, current_);
   current_.entries.clear();
   current_.meetings.clear();
-  next_ = 0;
 }
 
-std::span<const Remembered_meeting> Meeting_memory::recall(Object_pair pair) {
-  while (next_ < last_.entries.size() && last_.entries[next_].pair < pair) ++next_;
-  if (next_ == last_.entries.size() || last_.entries[next_].pair != pair) return {};
-  return std::span(last_.meetings).subspan(last_.entries[next_].first, last_.entries[next_].count);
+std::span<const Remembered_meeting> Meeting_memory::recall(Object_pair pair) const {
+  const auto entry = std::ranges::lower_bound(last_.entries, pair, {}, &Entry::pair);
+  if (entry == last_.entries.end() || entry->pair != pair) return {};
+  return std::span(last_.meetings).subspan(entry->first, entry->count);
 }
 
 void Meeting_memory::keep(Object_pair pair, const Remembered_meeting& meeting) {
@@ -26,7 +26,8 @@ void Meeting_memory::keep(Object_pair pair, const Remembered_meeting& meeting) {
 }
 
 void Meeting_memory::forget(std::uint32_t object) {
-  std::erase_if(current_.entries, [object](const Entry& entry) { return entry.pair.a == object || entry.pair.b == object; });
+  for (auto* frame : {&last_, &current_})
+    std::erase_if(frame->entries, [object](const Entry& entry) { return entry.pair.a == object || entry.pair.b == object; });
 }
 
 }  // namespace lodestone

@@ -18,15 +18,15 @@ struct Remembered_meeting {
 
 /// Where the particles of each object pair met in the last frame. Reuses its memory from frame to frame.
 ///
-/// In a frame pairs must be recalled in ascending order, and so must they be kept.
+/// In a frame pairs must be kept in ascending order. They can be recalled in any order, and again.
 class Meeting_memory {
  public:
   void start_frame();
-  /// The meetings of a pair that the last frame kept, in the order in which it kept them.
-  std::span<const Remembered_meeting> recall(Object_pair pair);
+  /// The meetings of a pair that the last frame kept, in the order in which it kept them. O(log n) for n pairs.
+  std::span<const Remembered_meeting> recall(Object_pair pair) const;
   /// Remembers a meeting for the next frame.
   void keep(Object_pair pair, const Remembered_meeting& meeting);
-  /// Forgets all meetings of an object, whose vertices and faces have other indices now.
+  /// Forgets all meetings of an object, whose vertices and faces have other indices now. O(n).
   void forget(std::uint32_t object);
 
  private:
@@ -41,7 +41,6 @@ class Meeting_memory {
   };
 
   Frame_memory last_, current_;
-  std::size_t next_ = 0;  ///< the entry of the last frame that is recalled next
 };
 
 }  // namespace lodestone
