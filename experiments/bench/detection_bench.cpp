@@ -24,9 +24,9 @@ using Clock = std::chrono::steady_clock;
 void particles(benchmark::State& state, const std::string& scene_name, bool with_exhaustive) {
   Frame_player player(scene_name);
   Detector<> detector({.mode = Mode::particles,
-                                   .particles = static_cast<std::size_t>(state.range(0)),
-                                   .meetings = 0,
-                                   .contacts = Contact_query::yes_no});
+                       .particles = static_cast<std::size_t>(state.range(0)),
+                       .meetings = 0,
+                       .contacts = Contact_query::yes_no});
   for (auto& object : player.scene().objects) detector.add(std::as_const(object.mesh));
   player.next();
   detector.detect();

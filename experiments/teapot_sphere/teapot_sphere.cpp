@@ -47,8 +47,7 @@ Text_table quality_table(const Measured_run& run) {
                     "never seen", "delay (frames)"});
   for (const auto& m : run.measurements) {
     const auto [lowest, highest] = std::ranges::minmax(m.accuracies);
-    table.add({fmt::format("{}", m.setting.options.particles),
-               search_of(m.setting.options),
+    table.add({fmt::format("{}", m.setting.options.particles), search_of(m.setting.options),
                fmt::format("{} A*", m.setting.options.growth), fmt::format("{:.3f}", m.score.recall()),
                fmt::format("{:.3f}", m.score.precision()), fmt::format("{:.3f}", m.score.accuracy()),
                fmt::format("{:.3f}", lowest), fmt::format("{:.3f}", highest),
@@ -66,8 +65,7 @@ Text_table time_table(const Measured_run& run) {
   for (const auto& m : run.measurements) {
     const auto stage = [&](double Stage_times::*s) { return fmt::format("{:.1f}", median_microseconds(m, s)); };
     const double total = median_microseconds_without_build(m);
-    table.add({fmt::format("{}", m.setting.options.particles),
-               search_of(m.setting.options),
+    table.add({fmt::format("{}", m.setting.options.particles), search_of(m.setting.options),
                fmt::format("{} A*", m.setting.options.growth), stage(&Stage_times::repartition),
                stage(&Stage_times::broad_phase), stage(&Stage_times::relaxation), stage(&Stage_times::candidates),
                stage(&Stage_times::confirmation), fmt::format("{:.1f}", total),

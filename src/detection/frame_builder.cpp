@@ -26,6 +26,7 @@ void Frame_builder::start(const Frame_statistics& statistics) {
   frame_.contact_normals.clear();
   frame_.patches.clear();
   frame_.candidates.clear();
+  frame_.object_iterations.clear();
   faces_.clear();
   frame_.statistics = statistics;
 }

@@ -27,7 +27,8 @@ void Meeting_memory::keep(Object_pair pair, const Remembered_meeting& meeting) {
 
 void Meeting_memory::forget(std::uint32_t object) {
   for (auto* frame : {&last_, &current_})
-    std::erase_if(frame->entries, [object](const Entry& entry) { return entry.pair.a == object || entry.pair.b == object; });
+    std::erase_if(frame->entries,
+                  [object](const Entry& entry) { return entry.pair.a == object || entry.pair.b == object; });
 }
 
 }  // namespace lodestone

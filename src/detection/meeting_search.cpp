@@ -64,9 +64,8 @@ void Meeting_search::list_regions(Met_pair& pair) {
 }
 
 void Meeting_search::open(Met_pair& pair) {
-  openings_.begin(
-      pair.a->tree(), pair.b->tree(),
-      {.all = wants_all(), .reach = options_.opening_reach, .budget = options_.opening_budget});
+  openings_.begin(pair.a->tree(), pair.b->tree(),
+                  {.all = wants_all(), .reach = options_.opening_reach, .budget = options_.opening_budget});
   for (const auto& near : near_regions(pair))
     openings_.add_start({pair.a->regions().node(near.a), pair.b->regions().node(near.b)}, near.order);
   opened_.clear();
@@ -95,8 +94,7 @@ void Meeting_search::meet_nearest(Met_pair& pair) {
   const std::size_t old = pair.first_seed;
   pair.first_seed = seeds_.size();
   for (std::size_t seed = 0; seed < pair.seed_count; ++seed) seeds_.push_back(Remembered_meeting(seeds_[old + seed]));
-  for (std::size_t i = 0; i < count && !decided(pair); ++i)
-    meet_from(pair, {a.at[nearest_[i].a], b.at[nearest_[i].b]});
+  for (std::size_t i = 0; i < count && !decided(pair); ++i) meet_from(pair, {a.at[nearest_[i].a], b.at[nearest_[i].b]});
 }
 
 void Meeting_search::add_seed(Met_pair& pair, const Remembered_meeting& seed) {

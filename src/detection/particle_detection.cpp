@@ -180,6 +180,7 @@ void Particle_detection::walk() {
   }
   const Relaxation relaxation = relax(std::span<const Walking_object<Live_positions>>(walking_), relaxation_);
   frame_.statistics().iterations = relaxation.iterations;
+  frame_.object_iterations().assign(relaxation_.iterations.begin(), relaxation_.iterations.end());
   frame_.statistics().moves = relaxation.moves;
   frame_.statistics().relaxed = relaxation.relaxed;
   frame_.statistics().vertices_read += relaxation.vertices_read;

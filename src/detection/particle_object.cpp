@@ -113,14 +113,13 @@ void Particle_object::start_particles(std::vector<std::uint32_t> vertices, const
 /// Checks that the mesh is the one that was numbered, and finds where its positions are now.
 void Particle_object::look() {
   mesh_->check_connectivity("the mesh");
-  read_ = mesh_->in_memory()
-              ? Live_positions(mesh_->read().data(), placement_)
-              : Live_positions(
-                    mesh_.get(),
-                    [](const void* mesh, std::uint32_t vertex) {
-                      return static_cast<const Watched_mesh*>(mesh)->read(vertex);
-                    },
-                    placement_);
+  read_ = mesh_->in_memory() ? Live_positions(mesh_->read().data(), placement_)
+                             : Live_positions(
+                                   mesh_.get(),
+                                   [](const void* mesh, std::uint32_t vertex) {
+                                     return static_cast<const Watched_mesh*>(mesh)->read(vertex);
+                                   },
+                                   placement_);
 }
 
 /// All positions. Distances are compared by their squares, which must neither overflow nor vanish.
@@ -238,7 +237,9 @@ void Particle_object::measure_extents() {
   }
 }
 
-bool Particle_object::seemed_larger(double growth) const { return std::pow(tree_.stretch(), 2) > std::max(growth, 1.02); }
+bool Particle_object::seemed_larger(double growth) const {
+  return std::pow(tree_.stretch(), 2) > std::max(growth, 1.02);
+}
 
 bool Particle_object::has_outgrown(double growth, std::size_t most_regions) {
   look();

@@ -48,8 +48,10 @@ Ended_meeting meet(const Walked_surface& a, const Walked_surface& b, Meeting sta
   meeting.squared_distance = checked((walker_a.position - walker_b.position).squaredNorm(), start.a);
   for (bool nearer = true; nearer && meeting.hops < most_hops;) {
     nearer = false;
-    for (; meeting.hops < most_hops && step_towards(walker_b.position, walker_a, meeting); nearer = true) ++meeting.hops;
-    for (; meeting.hops < most_hops && step_towards(walker_a.position, walker_b, meeting); nearer = true) ++meeting.hops;
+    for (; meeting.hops < most_hops && step_towards(walker_b.position, walker_a, meeting); nearer = true)
+      ++meeting.hops;
+    for (; meeting.hops < most_hops && step_towards(walker_a.position, walker_b, meeting); nearer = true)
+      ++meeting.hops;
   }
   meeting.at = {walker_a.at, walker_b.at};
   return meeting;

@@ -13,6 +13,7 @@ void Relaxation_scratch::reserve(std::span<const std::size_t> particles) {
   rests.resize(particles.size());
   moved.resize(particles.size());
   moved_before.resize(particles.size());
+  iterations.resize(particles.size());
   for (std::size_t object = 0; object < particles.size(); ++object) {
     next_at[object].resize(particles[object]);
     next_positions[object].resize(particles[object]);
@@ -24,6 +25,7 @@ void Relaxation_scratch::reserve(std::span<const std::size_t> particles) {
 
 void Relaxation_scratch::start() {
   vertices_read = 0;
+  std::ranges::fill(iterations, 0);
   for (auto& object : rests) std::ranges::fill(object, Rest{});
   for (auto* list : {&moved, &moved_before})
     for (auto& object : *list) object.clear();

@@ -139,9 +139,10 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   app.add_flag("--closest", command.closest,
                "Mode exact: also report the closest faces of each object pair, and their distance");
   app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
-  app.add_option("--meetings", options.meetings,
-                 "Mode particles: maximum number of particle pairs per object pair that walk towards each other; 0: the "
-                 "published method, which checks regions whose particles are near")
+  app.add_option(
+         "--meetings", options.meetings,
+         "Mode particles: maximum number of particle pairs per object pair that walk towards each other; 0: the "
+         "published method, which checks regions whose particles are near")
       ->capture_default_str();
   app.add_option("--opening-budget", options.opening_budget,
                  "Mode particles, with meetings: maximum number of vertices that a frame reads per object pair to look "

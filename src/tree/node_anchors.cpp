@@ -27,7 +27,8 @@ Eigen::Vector3d centre(const Aabb& box) {
   return {box.low[0] / 2 + box.high[0] / 2, box.low[1] / 2 + box.high[1] / 2, box.low[2] / 2 + box.high[2] / 2};
 }
 
-Node_anchor find_anchor(std::span<const std::uint32_t> vertices, Coordinates coordinates, const Eigen::Vector3d& centre) {
+Node_anchor find_anchor(std::span<const std::uint32_t> vertices, Coordinates coordinates,
+                        const Eigen::Vector3d& centre) {
   Node_anchor anchor{.vertex = vertices.front()};
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
   for (const auto vertex : vertices) {

@@ -44,7 +44,8 @@ TEST(Candidates, listed_are_all_particle_pairs_below_the_collision_distance_in_t
   for (const Mode mode : modes)
     for (const auto contacts : {Contact_query::yes_no, Contact_query::first, Contact_query::all}) {
       Owned_meshes scene = three_spheres();
-      Detector<> detector({.mode = mode, .particles = 40, .meetings = published(mode), .contacts = contacts, .list_candidates = true});
+      Detector<> detector(
+          {.mode = mode, .particles = 40, .meetings = published(mode), .contacts = contacts, .list_candidates = true});
       add_all(detector, scene);
       for (int frame = 0; frame < 3; ++frame) {
         const Frame& found = detector.detect();
@@ -64,8 +65,11 @@ TEST(Candidates, listed_are_all_particle_pairs_below_the_collision_distance_in_t
 
 TEST(Candidates, of_the_closest_choice_is_the_nearest_of_each_pair) {
   Owned_meshes scene = three_spheres();
-  Detector<> detector(
-      {.mode = Mode::particles, .particles = 40, .meetings = 0, .candidates = Candidate_choice::closest, .list_candidates = true});
+  Detector<> detector({.mode = Mode::particles,
+                       .particles = 40,
+                       .meetings = 0,
+                       .candidates = Candidate_choice::closest,
+                       .list_candidates = true});
   add_all(detector, scene);
   const Frame& found = detector.detect();
   std::vector<Candidate_regions> expected;

@@ -283,8 +283,11 @@ TEST(Detector, a_larger_collision_distance_makes_more_candidates) {
   std::size_t before = 0;
   for (const double distance : {0.5, 2.0, 8.0}) {
     auto scene = two_spheres(1.9);
-    Detector<> detector(
-        {.mode = Mode::particles, .particles = 32, .meetings = 0, .collision_distance = distance, .contacts = Contact_query::all});
+    Detector<> detector({.mode = Mode::particles,
+                         .particles = 32,
+                         .meetings = 0,
+                         .collision_distance = distance,
+                         .contacts = Contact_query::all});
     add_all(detector, scene);
     const std::size_t candidates = detector.detect().statistics.candidates;
     EXPECT_GE(candidates, before);

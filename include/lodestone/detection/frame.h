@@ -99,6 +99,9 @@ struct Frame {
   /// `Pair_result::candidates` of each pair, one pair after the other, nearest first within a pair; empty unless asked
   /// for. Once a face pair has answered the query, the farther ones of its pair are not checked any more.
   std::vector<Candidate_regions> candidates = {};
+  /// Per object: iterations of the relaxation in which one of its particles looked at its steps; the others were at
+  /// rest. Empty if no particle walked.
+  std::vector<std::size_t> object_iterations = {};
   Frame_statistics statistics = {};
 
   std::span<const Face_pair> contacts(const Pair_result& pair) const {

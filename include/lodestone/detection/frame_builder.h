@@ -27,6 +27,7 @@ class Frame_builder {
   /// The contacts of all pairs so far. A stage appends those of its pair between `start_pair` and `end_pair`.
   std::vector<Face_pair>& face_pairs() { return frame_.face_pairs; }
   std::vector<Candidate_regions>& candidates() { return frame_.candidates; }
+  std::vector<std::size_t>& object_iterations() { return frame_.object_iterations; }
 
   Pair_result start_pair(Object_pair pair) const {
     return {.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size(), .first_patch = frame_.patches.size()};

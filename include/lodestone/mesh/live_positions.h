@@ -29,8 +29,9 @@ class Live_positions {
   const double* memory() const { return placement_ ? nullptr : memory_; }
 
   Eigen::Vector3d operator()(std::uint32_t vertex) const {
-    const Eigen::Vector3d position =
-        memory_ != nullptr ? Eigen::Map<const Eigen::Vector3d>(memory_ + 3 * std::size_t{vertex}) : read_(mesh_, vertex);
+    const Eigen::Vector3d position = memory_ != nullptr
+                                         ? Eigen::Map<const Eigen::Vector3d>(memory_ + 3 * std::size_t{vertex})
+                                         : read_(mesh_, vertex);
     return placement_ ? (*placement_)(position) : position;
   }
 

@@ -19,9 +19,9 @@ class Contact_curve {
   /// Starts anew, for two surfaces.
   void begin(const Walked_surface& a, const Walked_surface& b);
 
-  /// Follows the curve through a contact, and appends all that is found to `found`, the contact too, each once. Contacts
-  /// that were followed before are left out, so nothing is appended for a contact on the same curve.
-  /// O(1) exact tests per contact found, for surfaces whose vertices have few faces.
+  /// Follows the curve through a contact, and appends all that is found to `found`, the contact too, each once.
+  /// Contacts that were followed before are left out, so nothing is appended for a contact on the same curve. O(1)
+  /// exact tests per contact found, for surfaces whose vertices have few faces.
   void follow(Face_pair contact, std::vector<Face_pair>& found);
 
   /// Face pairs given to exact predicates, and positions read, since `begin`.

@@ -25,8 +25,9 @@ struct Ended_meeting {
 /// Lets two particles walk towards each other: in turns, each goes from vertex to neighbouring vertex for as long as it
 /// gets nearer to the other, also over the borders of regions. Ties go to the lowest vertex index.
 ///
-/// This is not in \cite saenghaengtham2006, whose particles can rest across the lens of two surfaces that have sunk into
-/// each other, because the force 1 / r^2 sums over all particles. O(d) reads per hop, for vertices of d neighbours.
+/// This is not in \cite saenghaengtham2006, whose particles can rest across the lens of two surfaces that have sunk
+/// into each other, because the force 1 / r^2 sums over all particles. O(d) reads per hop, for vertices of d
+/// neighbours.
 ///
 /// @param start  from where they walk
 /// @param most_hops  the walk ends after so many

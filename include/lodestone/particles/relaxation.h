@@ -88,6 +88,7 @@ struct Relaxation_scratch {
   std::vector<std::vector<Rest>> rests;
   std::vector<Moved_particles> moved;         ///< per object: in the last iteration
   std::vector<Moved_particles> moved_before;  ///< in the one before
+  std::vector<std::size_t> iterations;        ///< per object: in which one of its particles was evaluated
   std::size_t vertices_read = 0;              ///< since `start`
 
   /// Makes room for objects with so many particles each.
@@ -339,7 +340,9 @@ Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scr
     result.relaxed = true;
     for (std::size_t o = 0; o < objects.size(); ++o) {
       if (objects[o].opponents.empty()) continue;
+      const std::size_t read = scratch.vertices_read;
       const std::size_t moving = internal::choose_steps(objects, o, scratch);
+      if (scratch.vertices_read > read) ++scratch.iterations[o];
       result.moves += moving;
       result.relaxed &= 10 * moving < objects[o].particles->at.size();
     }

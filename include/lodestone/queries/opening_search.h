@@ -13,15 +13,15 @@
 namespace lodestone {
 
 struct Opening_request {
-  bool all = false;        ///< every contact that can be found; false: one
-  double reach = 1;        ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are
-                           ///< farther apart than c (rho_a + rho_b)
+  bool all = false;  ///< every contact that can be found; false: one
+  double reach = 1;  ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are
+                     ///< farther apart than c (rho_a + rho_b)
   std::size_t budget = 0;  ///< most vertices to read in both trees together
 };
 
 /// Searches two surfaces for contacts from coarse to fine: pairs of nodes are opened in the order of how near their
-/// anchors are, relative to their radii; the faces of leaves are tested exactly. The order matters only where the budget
-/// may end the search: two surfaces that it covers as a whole are searched in the order that is fastest.
+/// anchors are, relative to their radii; the faces of leaves are tested exactly. The order matters only where the
+/// budget may end the search: two surfaces that it covers as a whole are searched in the order that is fastest.
 ///
 /// What is found is true. Contacts are missed where a surface is stretched beyond its radii, with c below 1, and once
 /// the budget is used up. Reads one vertex per node that it looks at, and the vertices of the leaves that it compares.

@@ -50,8 +50,8 @@ class Region_anchors {
   double spread(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;
   bool may_touch(std::uint32_t place, const Box& box) const;
 
-  std::vector<std::uint32_t> nodes_;   ///< ascending: neighbours in the list are mostly neighbours in space
-  std::vector<Region_index> regions_;  ///< parallel
+  std::vector<std::uint32_t> nodes_;        ///< ascending: neighbours in the list are mostly neighbours in space
+  std::vector<Region_index> regions_;       ///< parallel
   std::vector<double> x_, y_, z_, radius_;  ///< parallel: anchors in this frame, radii with reach and stretch
   Box box_;
   double rest_spread_ = 0;  ///< root of the sum of squared distances from the mean, at rest
