@@ -18,7 +18,9 @@ bool is_exact(const Mode_figures& figures) { return figures.measurement.setting.
 
 std::string recall_text(const Mode_figures& figures) {
   const auto recall = recall_interval(figures);
-  return recall ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", recall->mean, recall->low, recall->high) : not_measured;
+  if (!recall) return not_measured;
+  if (figures.measurement.recalls.size() < 2) return fmt::format("{:.3f}", recall->mean);  // no spread is known
+  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", recall->mean, recall->low, recall->high);
 }
 
 std::string face_pair_text(const Mode_figures& figures) {
@@ -113,7 +115,7 @@ nlohmann::ordered_json to_json(const Mode_figures& figures) {
   json["method"] = method_of(figures.measurement.setting);
   json["is_truth"] = figures.is_truth;
   json["recall_per_play"] = figures.measurement.recalls;
-  if (const auto recall = recall_interval(figures)) {
+  if (const auto recall = recall_interval(figures); recall && figures.measurement.recalls.size() > 1) {
     json["recall_low"] = recall->low;
     json["recall_high"] = recall->high;
   }

@@ -141,20 +141,31 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
 }
 
-const char* building_of(Mode mode) {
-  if (mode == Mode::exact) return "numbering, partition, tree";
-  return mode == Mode::senin ? "numbering, particles" : "numbering, partition";
+const char* building_of(const Detector_options& options) {
+  if (options.mode == Mode::exact) return "numbering, partition, tree";
+  if (options.mode == Mode::senin) return "numbering, particles";
+  return options.meetings > 0 ? "numbering, partition, tree" : "numbering, partition";
+}
+
+/// What a frame has done on average, beside exact tests.
+std::string work_of(const Detector_options& options, const Measurement& measurement) {
+  const auto mean = [&](std::size_t Frame_statistics::*count) { return mean_count(measurement, count); };
+  if (options.mode == Mode::exact) return fmt::format("{:.1f} pairs of leaves", mean(&Frame_statistics::candidates));
+  if (options.mode == Mode::senin || options.meetings == 0)
+    return fmt::format("{:.1f} iterations", mean(&Frame_statistics::iterations));
+  return fmt::format("{:.0f} vertices read, {:.1f} meetings, {:.1f} pairs of leaves",
+                     mean(&Frame_statistics::vertices_read), mean(&Frame_statistics::meetings),
+                     mean(&Frame_statistics::openings));
 }
 
 void print_times(const Run_subject& subject, const Run_summary& summary) {
-  const bool exact = subject.command.options.mode == Mode::exact;
+  const Detector_options& options = subject.command.options;
   const Measurement& measurement = summary.measurement;
-  fmt::print("{:.1f} microseconds per frame (median, all stages but build), {:.1f} {}, {:.1f} exact tests (mean)\n",
-             median_microseconds_without_build(measurement),
-             mean_count(measurement, exact ? &Frame_statistics::candidates : &Frame_statistics::iterations),
-             exact ? "pairs of leaves" : "iterations", mean_count(measurement, &Frame_statistics::exact_tests));
+  fmt::print("{:.1f} microseconds per frame (median, all stages but build), {}, {:.1f} exact tests (mean)\n",
+             median_microseconds_without_build(measurement), work_of(options, measurement),
+             mean_count(measurement, &Frame_statistics::exact_tests));
   fmt::print("{:.1f} milliseconds to build {} objects: {}\n", 1e3 * measurement.build_seconds, summary.builds,
-             building_of(subject.command.options.mode));
+             building_of(options));
 }
 
 }  // namespace
@@ -238,7 +249,7 @@ void print_summary(const Run_subject& subject, const Run_summary& summary) {
   print_pairs(subject, summary);
   fmt::print("\n");
   print_times(subject, summary);
-  if (const auto note = missing_note(subject.command.options.mode)) fmt::print("{}\n", *note);
+  if (const auto note = missing_note(subject.command.options)) fmt::print("{}\n", *note);
 }
 
 }  // namespace lodestone

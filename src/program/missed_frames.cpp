@@ -5,12 +5,12 @@
 
 namespace lodestone {
 
-std::optional<Missed_frames> expected_misses(Mode mode) {
-  switch (mode) {
+std::optional<Missed_frames> expected_misses(const Detector_options& options) {
+  switch (options.mode) {
     case Mode::particles:
       // One minus the recall in the table of experiments/modes/README.md: twelve scenes, 12 to 128 particles per
-      // object.
-      return Missed_frames{.least = 0, .most = 0.24, .experiment = "modes"};
+      // object, with meetings and without.
+      return Missed_frames{.least = 0, .most = options.meetings > 0 ? 0 : 0.24, .experiment = "modes"};
     case Mode::senin:
       // One minus the recall of the best and the worst seed in the table of experiments/predecessor/README.md.
       return Missed_frames{.least = 0, .most = 1, .experiment = "predecessor"};
@@ -20,13 +20,15 @@ std::optional<Missed_frames> expected_misses(Mode mode) {
   return std::nullopt;
 }
 
-std::optional<std::string> missing_note(Mode mode) {
-  const auto missed = expected_misses(mode);
+std::optional<std::string> missing_note(const Detector_options& options) {
+  const auto missed = expected_misses(options);
   if (!missed) return std::nullopt;
+  const std::string range =
+      missed->most > 0 ? fmt::format("{:.0f} to {:.0f} %", 100 * missed->least, 100 * missed->most) : "none";
   return fmt::format(
-      "Mode {} may miss collisions: in the scenes of the experiment {} it missed {:.0f} to {:.0f} % of the colliding "
-      "frames. Mode exact misses none.",
-      name_of(mode), missed->experiment, 100 * missed->least, 100 * missed->most);
+      "Mode {} may miss collisions: in the scenes of the experiment {} it missed {} of the colliding frames. Mode exact "
+      "never misses any.",
+      name_of(options.mode), missed->experiment, range);
 }
 
 }  // namespace lodestone

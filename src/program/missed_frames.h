@@ -15,10 +15,11 @@ struct Missed_frames {
   const char* experiment;  ///< which measured it: a folder of experiments/
 };
 
-/// How many colliding frames a mode may be expected to miss; none for the mode `exact`, which misses nothing.
-std::optional<Missed_frames> expected_misses(Mode mode);
+/// How many colliding frames a run with these options may be expected to miss; none for the mode `exact`, which misses
+/// nothing.
+std::optional<Missed_frames> expected_misses(const Detector_options& options);
 
 /// What a user must know of the answers of a mode, in plain sentences; none for the mode `exact`.
-std::optional<std::string> missing_note(Mode mode);
+std::optional<std::string> missing_note(const Detector_options& options);
 
 }  // namespace lodestone
