@@ -68,8 +68,8 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
 }
 
 /// Null for a mode that misses nothing.
-Json misses_json(Mode mode) {
-  const auto missed = expected_misses(mode);
+Json misses_json(const Detector_options& options) {
+  const auto missed = expected_misses(options);
   if (!missed) return nullptr;
   return {{"least_share", missed->least}, {"most_share", missed->most}, {"experiment", missed->experiment}};
 }
@@ -207,7 +207,7 @@ Json summary_json(const Run_subject& subject, const Run_summary& summary) {
   Json json{{"scene", subject.scene.name},
             {"frames", subject.scene.frames},
             {"mode", name_of(mode)},
-            {"may_miss", misses_json(mode)},
+            {"may_miss", misses_json(subject.command.options)},
             {"strategy", subject.command.partition.name},
             {"objects", Json::array()},
             {"pairs", Json::array()}};

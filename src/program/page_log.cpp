@@ -28,8 +28,10 @@ Detector_options exact_question(const Detector_options& options) {
 
 Page_head head_of(const Detect_command& command, const Scene& scene, std::size_t frame_step) {
   const Mode mode = command.options.mode;
-  Page_head head{
-      .title = scene.name, .mode = std::string(name_of(mode)), .frame_step = frame_step, .note = missing_note(mode)};
+  Page_head head{.title = scene.name,
+                 .mode = std::string(name_of(mode)),
+                 .frame_step = frame_step,
+                 .note = missing_note(command.options)};
   if (mode != Mode::senin) head.strategy = command.partition.name;
   return head;
 }
