@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a Particle_detection does with meetings.
 #include <algorithm>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "lodestone/detection/particle_detection.h"
@@ -103,14 +105,18 @@ void Particle_detection::report(const Met_pair& pair) {
   end_pair(result);
 }
 
-/// Lists the regions that may touch; if they were not needed, those in which the particles met.
+/// Lists the regions that may touch, the nearest first; if they were not needed, those in which the particles met.
 void Particle_detection::list_near_regions(const Met_pair& pair) {
   const auto list = [&](Region_index a, Region_index b, double distance) {
     frame_.candidates().push_back(
         {.a = pair.ids.a, .region_a = a, .b = pair.ids.b, .region_b = b, .distance = distance});
   };
+  const std::size_t first = frame_.candidates().size();
   for (const auto& near : meeting_search_.near_regions(pair))
     list(pair.a->regions().region(near.a), pair.b->regions().region(near.b), near.distance);
+  std::ranges::sort(std::span(frame_.candidates()).subspan(first), {}, [](const Candidate_regions& candidate) {
+    return std::tuple(candidate.distance, candidate.region_a, candidate.region_b);
+  });
   if (pair.near_count > 0 || pair.seed_count == 0) return;
   const Meeting at = meeting_search_.seeds(pair).front().at;
   list(pair.a->labels()[at.a], pair.b->labels()[at.b], (pair.a->positions()(at.a) - pair.b->positions()(at.b)).norm());

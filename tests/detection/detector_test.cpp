@@ -170,10 +170,10 @@ TEST(Detector, particles_stay_where_they_have_walked) {
   EXPECT_LE(moved, second.statistics.moves);
 }
 
-TEST(Detector, allocates_nothing_in_a_steady_scene) {
+/// Frames of a scene that swings to and fro; gives the number of contacts, and of allocations once it is steady.
+std::pair<std::size_t, std::size_t> swing_steadily(const Detector_options& options) {
   auto scene = two_spheres(2.1);
   scene.push_back(sphere(8, 1, {40, 0, 0}));
-  auto options = all_contacts;
   Detector<> detector(options);
   add_all(detector, scene);
   std::size_t contacts = 0;
@@ -187,8 +187,21 @@ TEST(Detector, allocates_nothing_in_a_steady_scene) {
   swing(32);
   const std::size_t before = allocations;
   swing(32);
-  EXPECT_EQ(allocations - before, 0U);
-  EXPECT_GT(contacts, 0U);
+  return {contacts, allocations - before};
+}
+
+TEST(Detector, allocates_nothing_in_a_steady_scene) {
+  for (const std::size_t meetings : {0, 4})
+    for (const std::size_t budget : {std::size_t{1}, std::size_t{200}, Detector_options{}.opening_budget})
+      for (const auto query : {Contact_query::first, Contact_query::all}) {
+        auto options = all_contacts;
+        options.meetings = meetings;
+        options.opening_budget = budget;
+        options.contacts = query;
+        const auto [contacts, allocated] = swing_steadily(options);
+        EXPECT_EQ(allocated, 0U) << meetings << ' ' << budget;
+        EXPECT_GT(contacts, 0U);
+      }
 }
 
 void expect_maps_of(const Detector<>& detector, Object_id object, const Surface_mesh& mesh) {

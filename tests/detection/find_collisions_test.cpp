@@ -94,8 +94,12 @@ TEST(Find_collisions, with_regions_that_hold_everything_is_exhaustive) {
   auto b = potato(6, 2);
   shift(b, 1.5);
   const auto a = potato(6);
-  const auto collisions = find_collisions(
-      a, b, {.mode = Mode::particles, .particles = 1, .meetings = 0, .collision_distance = 1000, .contacts = Contact_query::all});
+  const auto collisions = find_collisions(a, b,
+                                          {.mode = Mode::particles,
+                                           .particles = 1,
+                                           .meetings = 0,
+                                           .collision_distance = 1000,
+                                           .contacts = Contact_query::all});
   EXPECT_EQ(collisions.faces, exhaustive_face_pairs(a, b));
   EXPECT_FALSE(collisions.faces.empty());
 }

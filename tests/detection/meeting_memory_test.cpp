@@ -46,13 +46,15 @@ TEST(Meeting_memory, every_pair_can_be_recalled_again_while_meetings_are_kept) {
   memory.start_frame();
   for (std::uint32_t pair = 0; pair < 5; ++pair) memory.keep({pair, pair + 1}, meeting_number(pair));
   memory.start_frame();
-  for (std::uint32_t pair = 0; pair < 5; ++pair) EXPECT_EQ(numbers_recalled(memory, {pair, pair + 1}), (Meeting_numbers{pair}));
+  for (std::uint32_t pair = 0; pair < 5; ++pair)
+    EXPECT_EQ(numbers_recalled(memory, {pair, pair + 1}), (Meeting_numbers{pair}));
   for (std::uint32_t pair = 0; pair < 5; ++pair) {
     memory.keep({pair, pair + 1}, meeting_number(pair + 10));
     EXPECT_EQ(numbers_recalled(memory, {pair, pair + 1}), (Meeting_numbers{pair}));
   }
   memory.start_frame();
-  for (std::uint32_t pair = 0; pair < 5; ++pair) EXPECT_EQ(numbers_recalled(memory, {pair, pair + 1}), (Meeting_numbers{pair + 10}));
+  for (std::uint32_t pair = 0; pair < 5; ++pair)
+    EXPECT_EQ(numbers_recalled(memory, {pair, pair + 1}), (Meeting_numbers{pair + 10}));
 }
 
 TEST(Meeting_memory, a_pair_that_a_frame_does_not_keep_is_forgotten) {

@@ -72,13 +72,15 @@ struct Pair_result {
   std::size_t patches = 0;
 };
 
-/// Two regions whose particles came nearer than the collision distance, so that their faces were to be checked.
+/// Two regions that may touch, so that their faces were to be checked: their particles came nearer than the collision
+/// distance, or, with meetings, parts of the surfaces are near.
 struct Candidate_regions {
   Object_id a = 0;
   Region_index region_a = 0;  ///< its number within `a`; in mode senin the particle's, which has no region
   Object_id b = 0;
   Region_index region_b = 0;
-  double distance = 0;  ///< of the two particles after their walk, in units of the coordinates
+  double distance = 0;  ///< of the two particles after their walk, in units of the coordinates; with meetings of the
+                        ///< vertices by which the regions were found to be near
 };
 
 /// Everything one frame brought. Pairs that the broad phase dropped are not listed: none of their particles, or not
