@@ -131,7 +131,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
       ->default_str("first");
   app.add_option("--most-contacts", options.most_contacts,
                  "Maximum number of face pairs per object pair, with --contacts all")
-      ->check(CLI::Range(std::size_t{1}, std::numeric_limits<std::size_t>::max()).description("1 or more"))
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000'000}).description("1 or more"))
       ->default_str("all");
   app.add_flag("--points", options.contact_points, "Also report the points where two faces meet");
   app.add_flag("--normals", options.contact_normals,
@@ -143,10 +143,12 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
          "--meetings", options.meetings,
          "Mode particles: maximum number of particle pairs per object pair that walk towards each other; 0: the "
          "published method, which checks regions whose particles are near")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
   app.add_option("--opening-budget", options.opening_budget,
                  "Mode particles, with meetings: maximum number of vertices that a frame reads per object pair to look "
                  "below the regions")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000'000'000}).description("0 or more"))
       ->capture_default_str();
   app.add_option("--opening-reach", options.opening_reach,
                  "Mode particles, with meetings: parts of surfaces farther apart than this multiple of their radii are "

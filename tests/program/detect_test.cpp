@@ -116,8 +116,8 @@ TEST_F(Detect, two_meshes_that_intersect_collide_and_the_output_folder_is_create
 }
 
 TEST_F(Detect, two_meshes_apart_do_not_collide) {
-  expect_success(
-      detect({write("a.off", tetrahedron_off()), write("b.off", tetrahedron_off(2)), "--collision-distance", "9"}));
+  expect_success(detect({write("a.off", tetrahedron_off()), write("b.off", tetrahedron_off(2)), "--meetings", "0",
+                         "--collision-distance", "9"}));
   const auto lines = frames();
   ASSERT_EQ(lines.size(), 1U);
   for (const auto& pair : lines[0]["pairs"]) {
@@ -130,7 +130,8 @@ TEST_F(Detect, every_mesh_format_gives_the_same_faces) {
   const auto other = write("needle.off", needle(0.2, 0.7));
   for (const auto& [name, bytes] : all_squares()) {
     SCOPED_TRACE(name);
-    expect_success(detect({write(name, bytes), other, "--contacts", "all", "--collision-distance", "9"}));
+    expect_success(
+        detect({write(name, bytes), other, "--contacts", "all", "--meetings", "0", "--collision-distance", "9"}));
     EXPECT_EQ(face_pairs(frames().at(0)["pairs"][0]), (Pairs{{1, 0}}));
   }
 }
@@ -140,8 +141,8 @@ TEST_F(Detect, faces_have_their_indices_in_the_file) {
   const auto strip = write("strip.off", backward_strip(squares));
   for (const int square : {0, 17, 39}) {
     SCOPED_TRACE(square);
-    expect_success(detect(
-        {strip, write("needle.off", needle(square + 0.7, 0.2)), "--contacts", "all", "--collision-distance", "99"}));
+    expect_success(detect({strip, write("needle.off", needle(square + 0.7, 0.2)), "--contacts", "all", "--meetings",
+                           "0", "--collision-distance", "99"}));
     // The file's last face is below the diagonal of square 0.
     EXPECT_EQ(face_pairs(frames().at(0)["pairs"][0]), (Pairs{{2 * squares - 1 - 2 * square, 0}}));
   }
@@ -149,7 +150,7 @@ TEST_F(Detect, faces_have_their_indices_in_the_file) {
 
 TEST_F(Detect, with_candidates_everywhere_all_contacts_equal_exhaustive_checking) {
   const auto file = write_shapes();
-  expect_success(detect({file, "--contacts", "all", "--collision-distance", "1000"}));
+  expect_success(detect({file, "--contacts", "all", "--meetings", "0", "--collision-distance", "1000"}));
   Scene scene = read_scene(file);
   const auto lines = frames();
   ASSERT_EQ(lines.size(), scene.frames);
@@ -208,7 +209,7 @@ TEST_F(Detect, no_contact_is_invented_and_contacts_are_sorted) {
 
 TEST_F(Detect, the_first_contact_is_one_real_pair_of_faces) {
   const auto file = write_shapes();
-  expect_success(detect({file, "--contacts", "first", "--collision-distance", "1000"}));
+  expect_success(detect({file, "--contacts", "first", "--meetings", "0", "--collision-distance", "1000"}));
   Scene scene = read_scene(file);
   const auto lines = frames();
   pose(scene.objects[1], 11);
@@ -220,7 +221,8 @@ TEST_F(Detect, the_first_contact_is_one_real_pair_of_faces) {
 }
 
 TEST_F(Detect, a_point_cache_moves_its_mesh) {
-  expect_success(detect({write_meeting_tetrahedra({3, 1.5, 1, 0.5, 0, -0.75, -1.25}), "--collision-distance", "99"}));
+  expect_success(detect(
+      {write_meeting_tetrahedra({3, 1.5, 1, 0.5, 0, -0.75, -1.25}), "--meetings", "0", "--collision-distance", "99"}));
   std::vector<bool> collides;
   for (const auto& frame : frames()) collides.push_back(frame["pairs"].at(0)["collides"]);
   EXPECT_EQ(collides, (std::vector<bool>{false, false, true, true, true, true, false}));
@@ -232,7 +234,7 @@ TEST_F(Detect, a_point_cache_moves_its_mesh) {
 
 TEST_F(Detect, the_truth_is_listed_beside_the_answer) {
   const auto scene = write_meeting_tetrahedra({2, 1, 0.5, 2, 0.25});
-  const auto result = detect({scene, "--truth", "--collision-distance", "99"});
+  const auto result = detect({scene, "--truth", "--meetings", "0", "--collision-distance", "99"});
   expect_success(result);
   std::vector<bool> truth;
   for (const auto& frame : frames()) truth.push_back(frame["pairs"].at(0)["truth"]);
@@ -249,7 +251,7 @@ TEST_F(Detect, the_truth_is_listed_beside_the_answer) {
 TEST_F(Detect, the_truth_shows_what_was_missed) {
   // No vertex of the needle is near one of the square: particles at this distance never call for a check.
   const auto result = detect({write("square.off", square_off), write("needle.off", needle(0.7, 0.2)), "--truth",
-                              "--collision-distance", "0.001"});
+                              "--meetings", "0", "--collision-distance", "0.001"});
   expect_success(result);
   const Json pair = frames().at(0)["pairs"].at(0);
   EXPECT_EQ(pair["collides"], false);
@@ -276,7 +278,7 @@ TEST_F(Detect, the_same_run_gives_the_same_bytes) {
 
 TEST_F(Detect, points_are_where_two_faces_meet) {
   expect_success(detect({write("square.off", square_off), write("needle.off", needle(0.75, 0.25)), "--points",
-                         "--contacts", "all", "--collision-distance", "9"}));
+                         "--contacts", "all", "--meetings", "0", "--collision-distance", "9"}));
   const Json pair = frames().at(0)["pairs"].at(0);
   ASSERT_EQ(face_pairs(pair), (Pairs{{0, 0}}));
   auto points = pair["points"].at(0).get<std::vector<std::vector<double>>>();
@@ -361,7 +363,8 @@ TEST_F(Detect, degenerate_meshes_are_legal_and_answered_exactly) {
       bytes.insert(at, "8 8 8\n9 8 8\n8 9 8\n");
     }
     const auto file = write(name, bytes);
-    expect_success(detect({square, file, "--contacts", "all", "--truth", "--collision-distance", "99", "--quiet"}));
+    expect_success(detect(
+        {square, file, "--contacts", "all", "--truth", "--meetings", "0", "--collision-distance", "99", "--quiet"}));
     const Json pair = frames().at(0)["pairs"].at(0);
     EXPECT_EQ(pair["collides"], true);
     EXPECT_EQ(pair["truth"], true);

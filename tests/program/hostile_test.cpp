@@ -165,8 +165,8 @@ TEST_F(Hostile_input, integer_coordinates_are_read_correctly) {
       "whole.ply",
       changed(changed(changed(square_ply(), "float x", "int x"), "float y", "short y"), "float z", "uchar z"));
   const auto needle = folder.write("needle.off", "OFF\n3 1 0\n0.7 0.2 -1\n0.7 0.2 1\n0.8 0.2 1\n3 0 1 2\n");
-  expect_success(run_program(
-      detect_by_particles({file.string(), needle.string(), "--collision-distance", "9", "--out", out.string()})));
+  expect_success(run_program(detect_by_particles(
+      {file.string(), needle.string(), "--meetings", "0", "--collision-distance", "9", "--out", out.string()})));
   EXPECT_EQ(read_json_lines(out / "frames.jsonl").at(0)["pairs"].at(0)["faces"], nlohmann::json({{0, 0}}));
 }
 

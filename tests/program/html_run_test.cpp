@@ -111,8 +111,11 @@ TEST_F(Html, regions_change_when_an_object_is_repartitioned) {
 }
 
 TEST_F(Html, candidates_are_as_many_as_counted) {
-  for (const auto* mode : {"particles", "senin"}) {
-    const auto shown = detect({"--mode", mode, "--collision-distance", "2"});
+  const std::vector<std::vector<std::string>> runs{{"--mode", "particles"},
+                                                   {"--mode", "particles", "--meetings", "0"},
+                                                   {"--mode", "senin", "--collision-distance", "2"}};
+  for (const auto& options : runs) {
+    const auto shown = detect(options);
     const auto candidates = shown.json_section("candidates");
     const auto lines = lines_of(shown.section(shown.header["numbers"]));
     ASSERT_EQ(candidates.size(), lines.size());

@@ -73,7 +73,7 @@ TEST_F(Program_mode, is_the_one_that_misses_nothing_unless_another_is_named) {
   EXPECT_EQ(summary()["mode"], "exact");
   EXPECT_EQ(summary()["may_miss"], nullptr);
   EXPECT_EQ(result.out.find("may miss"), std::string::npos) << result.out;
-  expect_success(detect({"--mode", "particles", "--collision-distance", "0.001"}));
+  expect_success(detect({"--mode", "particles", "--meetings", "0", "--collision-distance", "0.001"}));
   EXPECT_EQ(frame()["pairs"].at(0)["collides"], false);
 }
 
@@ -97,14 +97,47 @@ TEST_F(Program_mode, that_may_miss_collisions_says_so_with_the_published_figures
 }
 
 TEST_F(Program_mode, exact_refuses_the_options_of_particles) {
-  const std::map<std::string, std::string> options{
-      {"--collision-distance", "9"}, {"--candidates", "closest"}, {"--growth", "inf"}};
+  const std::map<std::string, std::string> options{{"--meetings", "0"},         {"--opening-budget", "100"},
+                                                   {"--opening-reach", "0.5"},  {"--collision-distance", "9"},
+                                                   {"--candidates", "closest"}, {"--growth", "inf"}};
   for (const auto& [option, value] : options) {
     SCOPED_TRACE(option);
     expect_error(detect({option, value}), 2, "mode particles");
     expect_error(detect({option, value, "--mode", "exact"}), 2, "mode particles");
-    expect_success(detect({option, value, "--mode", "particles"}));
+    const bool published = option == "--collision-distance" || option == "--candidates";
+    expect_success(detect({option, value, "--mode", "particles", published ? "--meetings=0" : "--quiet"}));
   }
+}
+
+TEST_F(Program_mode, senin_refuses_the_options_of_meetings) {
+  for (const auto* option : {"--meetings", "--opening-budget", "--opening-reach"})
+    expect_error(detect({"--mode", "senin", option, "3"}), 2, std::string(option) + " needs --mode particles");
+}
+
+TEST_F(Program_mode, particles_with_meetings_refuse_what_only_the_published_method_uses) {
+  for (const auto& [option, value] : {std::pair("--collision-distance", "9"), std::pair("--candidates", "closest")}) {
+    expect_error(detect({"--mode", "particles", option, value}), 2, "set meetings to 0");
+    expect_success(detect({"--mode", "particles", "--meetings", "0", option, value}));
+  }
+}
+
+TEST_F(Program_mode, particles_find_a_needle_far_from_all_vertices_by_meetings_and_may_miss_it_without) {
+  for (const auto* budget : {"1000", "16384"}) {
+    expect_success(detect({"--mode", "particles", "--opening-budget", budget}));
+    EXPECT_EQ(frame()["pairs"].at(0)["collides"], true);
+    EXPECT_EQ(frame()["statistics"]["leaf_tests"], 1);
+  }
+  expect_success(detect({"--mode", "particles", "--meetings", "0", "--collision-distance", "0.001"}));
+  EXPECT_EQ(frame()["pairs"].at(0)["collides"], false);
+  EXPECT_EQ(frame()["statistics"]["meetings"], 0);
+  EXPECT_EQ(frame()["statistics"]["leaf_tests"], 0);
+}
+
+TEST_F(Program_mode, limits_of_particles_out_of_range_are_refused) {
+  for (const auto* bad : {"0", "-1", "inf", "nan", "much"})
+    expect_error(detect({"--mode", "particles", "--opening-reach", bad}), 2, "");
+  for (const auto* option : {"--meetings", "--opening-budget", "--most-contacts"})
+    for (const auto* bad : {"-1", "1.5", "many"}) expect_error(detect({"--mode", "particles", option, bad}), 2, "");
 }
 
 TEST_F(Program_mode, senin_refuses_threads) {
