@@ -48,8 +48,7 @@ TEST(Meeting, particles_on_the_far_sides_of_two_spheres_meet_between_them) {
   const Owned_surface a(sphere(20)), b(moved(sphere(20), 2.5, 0.1, 0.05));
   double nearest = infinity;
   for (std::uint32_t i = 0; i < a.soup().vertex_count(); ++i)
-    for (std::uint32_t j = 0; j < b.soup().vertex_count(); ++j)
-      nearest = std::min(nearest, (a.at(i) - b.at(j)).norm());
+    for (std::uint32_t j = 0; j < b.soup().vertex_count(); ++j) nearest = std::min(nearest, (a.at(i) - b.at(j)).norm());
   std::mt19937_64 random(2);
   for (int i = 0; i < 50; ++i) {
     const auto ended = meet(a.view(), b.view(), {some_vertex(a, random), some_vertex(b, random)}, any_hops);

@@ -61,8 +61,7 @@ Opened opened(Opening_search& search, Opened_object& a, Opened_object& b, const 
   if (from_regions) {
     std::vector<Near_regions> near;
     list_near_regions(a.regions(), b.regions(), near);
-    for (const auto& pair : near)
-      search.add_start({a.regions().node(pair.a), b.regions().node(pair.b)}, pair.order);
+    for (const auto& pair : near) search.add_start({a.regions().node(pair.a), b.regions().node(pair.b)}, pair.order);
   } else {
     search.add_start({0, 0}, 0);
   }

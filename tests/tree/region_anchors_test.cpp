@@ -14,7 +14,10 @@ namespace {
 class Anchored_object {
  public:
   explicit Anchored_object(const Face_soup& rest)
-      : rest_(rest), now_(rest), labels_(octants(rest)), tree_(rest.faces, labels_, rest.coordinates, {.leaf_faces = 16}) {
+      : rest_(rest),
+        now_(rest),
+        labels_(octants(rest)),
+        tree_(rest.faces, labels_, rest.coordinates, {.leaf_faces = 16}) {
     tree_.start_frame(Live_positions(rest_.coordinates.data()));
     regions_ = Region_anchors(tree_, rest_.faces, labels_, rest_.coordinates);
   }
