@@ -35,9 +35,8 @@ struct Met_pair {
 /// The search for contacts of object pairs in mode `particles`, from what is cheapest to what finds most:
 ///  1. `look`: at the place where particles met in the last frame, then below the regions, which are opened;
 ///  2. `meet_nearest`, where the budget has ended the openings, after the particles have walked;
-///  3. `report`: with the query `all`, where regions may have been left closed, along the curves of intersection on
-///  which
-///     the found contacts lie.
+///  3. `report`: with the query `all`, where regions may have been left closed, along the curves of intersection
+///     through the contacts that were found.
 ///
 /// In each of these calls the pairs of a frame must come in ascending order.
 class Meeting_search {

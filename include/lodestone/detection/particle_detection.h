@@ -19,10 +19,11 @@ namespace lodestone {
 
 /// The modes `particles` and `senin` of a Detector: its objects, and what happens to them in a frame.
 ///
-/// In a frame positions are read only where a particle looks and in the regions of candidate pairs; `update` reads a
-/// few vertices per region, and all of a region that seems to have grown. After the first frame memory is allocated
-/// only where a result is larger than any before, for such a region, and for repartitions; in mode `senin` also for the
-/// faces around a particle that has moved. An object with a single particle is felt by others, and feels them, within
+/// In a frame positions are read only where a particle looks and in the regions of candidate pairs; with meetings one
+/// position per region, and those around the places where objects may touch. `update` reads a few vertices per region,
+/// and all of a region that seems to have grown. After the first frame memory is allocated only where a result is
+/// larger than any before, for such a region, and for repartitions; in mode `senin` also for the faces around a
+/// particle that has moved. An object with a single particle is felt by others, and feels them, within
 /// its diameter.
 class Particle_detection final : public Detection {
  public:

@@ -55,7 +55,7 @@ class Tree_on_demand {
   /// Encloses all leaves that were posed in this frame, loosely.
   const Aabb& bounds() const { return bounds_; }
 
-  /// How much longer than at rest the surface is taken to be; >= 1. Each frame begins with 1; `note_distance` raises it.
+  /// How much longer than at rest the surface is taken to be; >= 1. A frame begins with 1; `note_distance` raises it.
   double stretch() const { return stretch_; }
   /// Takes note of a distance between two vertices that are at most `at_rest` apart at rest.
   void note_distance(double now, double at_rest) {
