@@ -345,15 +345,21 @@ TEST_F(Hostile_input, an_invalid_command_line_is_refused) {
 
 TEST_F(Hostile_input, an_invalid_distance_is_refused) {
   const auto good = (folder.path() / "good.off").string();
-  for (const auto* option : {"--collision-distance", "--growth"})
+  const std::vector<std::vector<std::string>> methods{
+      {"--growth"}, {"--opening-reach"}, {"--meetings", "0", "--collision-distance"}};
+  for (const auto& method : methods)
     for (const auto* value : {"nan", "-nan", "0", "-1", "-inf", "far"}) {
-      SCOPED_TRACE(std::string(option) + " " + value);
-      const auto result = run_program(detect_by_particles({good, good, option, value, "--out", out.string()}));
+      SCOPED_TRACE(method.back() + " " + value);
+      std::vector<std::string> arguments{good, good, "--out", out.string()};
+      arguments.insert(arguments.end(), method.begin(), method.end());
+      arguments.emplace_back(value);
+      const auto result = run_program(detect_by_particles(arguments));
       expect_error(result, 2, "");
       EXPECT_LT(result.err.size(), 150U) << result.err;
       EXPECT_EQ(content_of(out), std::set<std::string>{});
     }
-  expect_error(run_program(detect_by_particles({good, good, "--collision-distance", "inf"})), 2, "finite");
+  expect_error(run_program(detect_by_particles({good, good, "--meetings", "0", "--collision-distance", "inf"})), 2,
+               "finite");
 }
 
 TEST_F(Hostile_input, an_invalid_option_value_is_refused_with_the_valid_ones) {

@@ -143,9 +143,17 @@ TEST(Help, lists_the_options_of_each_command) {
     expect_success(result);
     return result.out;
   };
-  expect_parts(help("detect"), {"INPUT", "--mode", "particles", "senin", "--particles", "--contacts", "first", "all",
-                                "--points", "--truth", "--collision-distance", "--candidates", "--growth", "--seed",
-                                "--out", "frames.jsonl", "summary.json", "--quiet", "Exit codes:"});
+  expect_parts(help("detect"), {"INPUT",           "--mode",
+                                "particles",       "senin",
+                                "--particles",     "--contacts",
+                                "first",           "all",
+                                "--points",        "--truth",
+                                "--meetings",      "--opening-budget",
+                                "--opening-reach", "--collision-distance",
+                                "--candidates",    "--growth",
+                                "--seed",          "--out",
+                                "frames.jsonl",    "summary.json",
+                                "--quiet",         "Exit codes:"});
   expect_parts(help("partition"), {"MESH", "--strategy", "lbg", "--regions", "--keep-islands", "--out", ".ply",
                                    "--json", "--quiet", "Exit codes:"});
   expect_parts(help("experiment"), {"NAME", "teapot_sphere", "scaling", "predecessor", "collision_distance", "growth",
