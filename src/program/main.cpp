@@ -291,6 +291,7 @@ int run_commands(int argc, char** argv) {
   if (program.got_subcommand("detect")) {
     const auto& app = *program.get_subcommand("detect");
     refuse_options_of_other_modes(app, detect.options.mode);
+    if (detect.options.mode == Mode::particles) refuse_options_beside_meetings(app, detect.options.meetings);
     refuse_options_of_other_strategies(app, detect.partition.name, detect.options.mode != Mode::exact);
   }
   if (program.got_subcommand("partition"))

@@ -14,6 +14,19 @@
 
 namespace lodestone {
 
+/// Refuses options that the mode `particles` would ignore: with meetings those of the published method, else those of
+/// meetings.
+/// @throws Bad_argument  names the option
+inline void refuse_options_beside_meetings(const CLI::App& detect, std::size_t meetings) {
+  for (const auto* option : {"--collision-distance", "--candidates"})
+    if (meetings > 0 && detect.count(option) > 0)
+      throw Bad_argument(
+          fmt::format("{} has no effect with meetings: add --meetings 0, which is the published method", option));
+  for (const auto* option : {"--opening-budget", "--opening-reach"})
+    if (meetings == 0 && detect.count(option) > 0)
+      throw Bad_argument(fmt::format("{} has no effect with --meetings 0", option));
+}
+
 /// Refuses options of `detect` that the mode would ignore.
 /// @throws Bad_argument  names the option and the modes that take it
 inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {

@@ -78,6 +78,23 @@ TEST_F(Messages, name_the_option_that_the_mode_ignores_and_the_modes_that_take_i
   expect_error(detect({"--mode", "senin", "--growth", "2"}), 2, "--growth needs --mode particles");
 }
 
+TEST_F(Messages, name_the_option_that_has_no_effect_with_meetings_or_without) {
+  const auto detect = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"detect", mesh, mesh, "--mode", "particles"});
+    return run_program(options);
+  };
+  const std::vector<std::vector<std::string>> published{{"--collision-distance", "2"}, {"--candidates", "closest"}};
+  for (const auto& option : published) {
+    expect_error(detect(option), 2, option[0] + " has no effect with meetings: add --meetings 0");
+    expect_success(detect({option[0], option[1], "--meetings", "0"}));
+  }
+  const std::vector<std::vector<std::string>> of_meetings{{"--opening-budget", "9"}, {"--opening-reach", "2"}};
+  for (const auto& option : of_meetings) {
+    expect_error(detect({option[0], option[1], "--meetings", "0"}), 2, option[0] + " has no effect with --meetings 0");
+    expect_success(detect(option));
+  }
+}
+
 TEST_F(Messages, of_convert_name_the_option_to_use) {
   const auto cache =
       folder.write("a.pc2", std::string("POINTCACHE2\0", 12) + packed<std::int32_t>({1, 1}) + packed<float>({0, 1}) +
