@@ -36,9 +36,8 @@ std::vector<Setting> mode_settings() {
   const std::size_t meetings = Detector_options().meetings;
   for (const auto& [method, most_meetings] : {std::pair("particles", meetings), {"particles, no meetings", 0}})
     for (const std::size_t particles : {12, 32, 64, 128})
-      settings.push_back(
-          {fmt::format("{}, {}", method, particles),
-           {.mode = Mode::particles, .particles = particles, .meetings = most_meetings}});
+      settings.push_back({fmt::format("{}, {}", method, particles),
+                          {.mode = Mode::particles, .particles = particles, .meetings = most_meetings}});
   settings.push_back({"exact", {.mode = Mode::exact}});
   return settings;
 }
@@ -117,8 +116,8 @@ std::vector<Mode_figures> play(Scene scene, std::span<const Setting> settings,
   };
   const auto run = measure({&scene, 1}, settings, [&](std::size_t done, std::size_t) { show(done); },
                            {.truth = truth, .plays = timed_plays});
-  const auto face_pairs =
-      count_face_pairs(scene, settings, [&](std::size_t done, std::size_t) { show(timed_plays * scene.frames + done); });
+  const auto face_pairs = count_face_pairs(
+      scene, settings, [&](std::size_t done, std::size_t) { show(timed_plays * scene.frames + done); });
 
   const double exact = median_microseconds_without_build(run.measurements.back());
   std::vector<Mode_figures> rows;
@@ -137,9 +136,12 @@ std::vector<Mode_figures> play(Scene scene, std::span<const Setting> settings,
 
 std::string report(std::span<const Mode_figures> rows, std::span<const std::string> skipped) {
   std::string text = fmt::format(
-      "Each setting answers yes or no in every frame, on one core. `no meetings` is the published method. Every scene is "
-      "played {} times, with partitions made in the poses of {} different frames; once beyond {} triangles. Recall is the mean over the plays, "
-      "with Wilson's interval of 95 % over their colliding frames. `face pairs` is the recall of face pairs: the share "
+      "Each setting answers yes or no in every frame, on one core. `no meetings` is the published method. A scene "
+      "whose "
+      "only object has several connected components is played with one object per component. Every scene is played {} "
+      "times, with partitions made in the poses of {} different frames; once beyond {} triangles. Recall is the mean "
+      "over the plays, with Wilson's interval of 95 % over their colliding frames. `face pairs` is the recall of face "
+      "pairs: the share "
       "of the intersecting face pairs that a setting reports in another play, when asked for all contacts. `read` is "
       "the mean number of positions that a frame reads, as a share of all vertices. In scenes "
       "of more than {} triangles the mode exact is the truth, and has no recall of its own.\n\n",

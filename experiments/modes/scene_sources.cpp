@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "io/files/small_text.h"
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/mesh/errors.h"
+#include "modes/component_objects.h"
 
 namespace lodestone {
 
@@ -43,6 +45,19 @@ bool holds_real_motion(const fs::path& folder) {
          !moving_meshes(folder).empty();
 }
 
+Scene read_folder(const fs::path& folder) {
+  Scene scene = scene_of(moving_meshes(folder));
+  scene.name = name_of_source(folder);
+  return scene;
+}
+
+/// Makes an object of each component, where the only object may collide with itself.
+void separate_components(Scene& scene) {
+  if (scene.objects.size() != 1 || scene.ignores({0, 0})) return;
+  auto parts = component_objects(scene.objects[0]);
+  if (parts.size() > 1) scene.objects = std::move(parts);
+}
+
 }  // namespace
 
 std::vector<fs::path> scene_sources(const fs::path& folder) {
@@ -63,9 +78,8 @@ std::string name_of_source(const fs::path& source) {
 }
 
 Scene read_source(const fs::path& source) {
-  if (!is_directory(source)) return read_scene(source);
-  Scene scene = scene_of(moving_meshes(source));
-  scene.name = name_of_source(source);
+  Scene scene = is_directory(source) ? read_folder(source) : read_scene(source);
+  separate_components(scene);
   return scene;
 }
 

@@ -20,7 +20,9 @@ std::vector<std::filesystem::path> scene_sources(const std::filesystem::path& fo
 std::string name_of_source(const std::filesystem::path& source);
 
 /// Reads a scene file, or makes a scene of a folder of point caches. That scene has the name of the folder, and an
-/// object for each stem in the order of the stems; meshes without a point cache are left out.
+/// object for each stem in the order of the stems; meshes without a point cache are left out. If the scene has a single
+/// object, which may collide with itself and has several connected components, these are the objects instead: see
+/// component_objects.
 /// @throws Bad_scene, Bad_mesh, Bad_motion  as read_scene and scene_of
 Scene read_source(const std::filesystem::path& source);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modes/scene_sources.h"
 
+#include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -71,6 +73,37 @@ TEST_F(Scene_sources, a_folder_of_point_caches_is_a_scene_with_its_name_and_an_o
 TEST_F(Scene_sources, a_scene_file_is_read_with_the_name_that_it_gives) {
   const auto file = folder.write("a.json", R"({"name": "dance", "objects": [{"name": "x", "shape": {"teapot": {}}}]})");
   EXPECT_EQ(read_source(file).name, "dance");
+}
+
+TEST_F(Scene_sources, components_of_an_only_object_are_objects_that_move_as_their_part_of_it_does) {
+  const auto walk = subfolder("walk");
+  write_two_tetrahedra_in_one_mesh(walk / "pair", 3);
+  Scene scene = read_source(walk);
+  EXPECT_EQ(scene.frames, 3U);
+  ASSERT_EQ(scene.objects.size(), 2U);
+  EXPECT_EQ(scene.objects[0].name, "pair_1");
+  EXPECT_EQ(scene.objects[1].name, "pair_2");
+  EXPECT_EQ(scene.objects[0].file_face, (std::vector<std::uint32_t>{0, 5, 6, 7}));
+  EXPECT_EQ(scene.objects[1].file_face, (std::vector<std::uint32_t>{1, 2, 3, 4}));
+  for (std::size_t frame = 0; frame < scene.frames; ++frame)
+    for (auto& object : scene.objects) {
+      pose(object, frame);
+      EXPECT_EQ(object.mesh.number_of_vertices(), 4U);
+      EXPECT_TRUE(CGAL::is_closed(object.mesh));
+      const double x = object.name == "pair_1" ? 2.5 - static_cast<double>(frame) : 0;
+      const auto box = CGAL::Polygon_mesh_processing::bbox(object.mesh);
+      EXPECT_EQ(box, CGAL::Bbox_3(x, 0, 0, x + 1, 1, 1)) << object.name << ' ' << frame;
+    }
+}
+
+TEST_F(Scene_sources, components_stay_together_beside_another_object_or_where_the_object_does_not_meet_itself) {
+  const auto walk = subfolder("walk");
+  write_two_tetrahedra_in_one_mesh(walk / "pair", 3);
+  write_moving_tetrahedron(walk / "other", 3);
+  EXPECT_EQ(read_source(walk).objects.size(), 2U);
+  const std::string pair = R"("objects": [{"name": "x", "mesh": "walk/pair.off"}])";
+  EXPECT_EQ(read_source(folder.write("two.json", "{" + pair + "}")).objects.size(), 2U);
+  EXPECT_EQ(read_source(folder.write("one.json", "{" + pair + R"(, "ignore": [["x", "x"]]})")).objects.size(), 1U);
 }
 
 TEST_F(Scene_sources, a_folder_without_scenes_is_refused_by_name) {

@@ -63,6 +63,16 @@ TEST_F(Modes_experiment, plays_scene_files_and_real_motion_of_a_folder_in_the_or
   EXPECT_EQ(figures[settings]["frames"], 12);
 }
 
+TEST_F(Modes_experiment, plays_the_components_of_an_only_object_against_each_other) {
+  create_directory(folder.path() / "pair");
+  write_two_tetrahedra_in_one_mesh(folder.path() / "pair" / "both", 4);
+  expect_success(run());
+  // The moving tetrahedron is at 2.5, 1.5, 0.5 and -0.5: it meets the other in the last two frames; three plays.
+  for (const auto& row : read_json(out / "modes.json")) EXPECT_EQ(row["positive"], 6) << row;
+  const auto report = read_bytes(out / "modes.md");
+  EXPECT_NE(report.find("one object per component"), std::string::npos) << report;
+}
+
 TEST_F(Modes_experiment, skips_scenes_without_two_objects_that_can_meet_and_names_them) {
   write_spheres("a");
   write_single("lonely");

@@ -9,8 +9,11 @@
 
 namespace lodestone {
 
-/// One vertex of each connected component of the faces, in the order of the faces. O((V + F) a(V)), a the inverse
-/// Ackermann function.
+/// Per face the number of its connected component: from 0, in the order of their first faces. Faces that share a vertex
+/// are connected. O((V + F) a(V)), a the inverse Ackermann function.
+std::vector<std::uint32_t> component_of_faces(std::uint32_t vertex_count, std::span<const Corners> faces);
+
+/// One vertex of each connected component of the faces, in the order of their first faces. The same cost.
 std::vector<std::uint32_t> component_vertices(std::uint32_t vertex_count, std::span<const Corners> faces);
 
 }  // namespace lodestone
