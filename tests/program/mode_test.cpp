@@ -122,7 +122,7 @@ TEST_F(Program_mode, senin_refuses_the_options_of_meetings) {
 
 TEST_F(Program_mode, particles_with_meetings_refuse_what_only_the_published_method_uses) {
   for (const auto& [option, value] : {std::pair("--collision-distance", "9"), std::pair("--candidates", "closest")}) {
-    expect_error(detect({"--mode", "particles", option, value}), 2, "set meetings to 0");
+    expect_error(detect({"--mode", "particles", option, value}), 2, "add --meetings 0");
     expect_success(detect({"--mode", "particles", "--meetings", "0", option, value}));
   }
 }
