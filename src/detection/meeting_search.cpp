@@ -107,7 +107,7 @@ void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found)
   if (!wants_all()) {
     found.push_back(seeds(pair).front().contact);
     remember(pair);
-  } else if (!pair.out_of_budget && options_.opening_reach >= 1) {
+  } else if (pair.near_count > 0 && !pair.out_of_budget && options_.opening_reach >= 1) {
     // All leaves that may touch have been compared, so their contacts are those of whole curves.
     for (const auto& seed : seeds(pair)) found.push_back(seed.contact);
     const std::size_t step = (pair.seed_count + options_.meetings - 1) / options_.meetings;

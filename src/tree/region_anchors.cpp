@@ -26,27 +26,59 @@ Region_anchors::Region_anchors(Tree_on_demand& tree, std::span<const Corners> co
   }
   for (auto* column : {&x_, &y_, &z_, &radius_}) column->resize(nodes_.size());
 
+  probes_ = probes(layout);
   const Eigen::Vector3d middle = mean(tree);
-  rest_spread_ = spread(tree, middle);
+  for (const auto node : probes_) rest_distances_.push_back((tree.anchor(node) - middle).norm());
   for (std::size_t i = 0; i < rest.size(); i += 3)
     rest_radius_ = std::max(rest_radius_, (Eigen::Map<const Eigen::Vector3d>(rest.data() + i) - middle).norm());
 }
 
+/// The regions; if they are few, nodes below them.
+std::vector<std::uint32_t> Region_anchors::probes(const Tree_layout& layout) const {
+  constexpr std::size_t enough = 4;
+  std::vector<std::uint32_t> nodes = nodes_;
+  for (bool opened = true; opened && nodes.size() < enough;) {
+    opened = false;
+    std::vector<std::uint32_t> below;
+    for (const auto node : nodes) {
+      if (layout.is_leaf(node)) {
+        below.push_back(node);
+        continue;
+      }
+      opened = true;
+      below.insert(below.end(), {node + 1, layout.node(node).second_child});
+    }
+    nodes.swap(below);
+  }
+  return nodes;
+}
+
 Eigen::Vector3d Region_anchors::mean(Tree_on_demand& tree) const {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const auto node : nodes_) mean += tree.anchor(node) / static_cast<double>(nodes_.size());
+  for (const auto node : probes_) mean += tree.anchor(node) / static_cast<double>(probes_.size());
   return mean;
 }
 
-double Region_anchors::spread(Tree_on_demand& tree, const Eigen::Vector3d& mean) const {
-  double squared = 0;
-  for (const auto node : nodes_) squared += (tree.anchor(node) - mean).squaredNorm();
-  return std::sqrt(squared);
+/// The anchors' root mean square distance from their mean follows the size of the object, whatever it does otherwise.
+/// Where one distance has grown much more, the object is stretched in that direction; a little does not count, since
+/// radii are seldom needed to their end. An anchor near the mean tells little: a small shift of the mean is a large
+/// share of its distance.
+void Region_anchors::note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& mean) const {
+  constexpr double much = 1.15;
+  const double farthest = std::ranges::max(rest_distances_);
+  double squares = 0, rest_squares = 0;
+  for (std::size_t i = 0; i < probes_.size(); ++i) {
+    const double distance = (tree.anchor(probes_[i]) - mean).norm(), rest = rest_distances_[i];
+    squares += distance * distance;
+    rest_squares += rest * rest;
+    if (2 * rest >= farthest && distance > much * rest) tree.note_distance(distance, rest);
+  }
+  tree.note_distance(std::sqrt(squares), std::sqrt(rest_squares));
 }
 
 void Region_anchors::read(Tree_on_demand& tree, double reach) {
   const Eigen::Vector3d middle = mean(tree);
-  tree.note_distance(spread(tree, middle), rest_spread_);
+  note_stretch(tree, middle);
   box_.setEmpty();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Eigen::Vector3d& anchor = tree.anchor(nodes_[i]);

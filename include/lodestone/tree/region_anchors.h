@@ -30,8 +30,8 @@ class Region_anchors {
   Region_anchors(Tree_on_demand& tree, std::span<const Corners> corners, std::span<const Region_index> labels,
                  Coordinates rest);
 
-  /// Reads the anchors in the current frame of the tree, and tells it how far the surface is stretched: by how much
-  /// they have spread. O(regions).
+  /// Reads the anchors in the current frame of the tree, and tells it how far the surface is stretched: by how far
+  /// they have spread from their mean. O(regions).
   /// @param reach      a region is taken to lie within so many times its radius of its anchor
   /// @throws Bad_mesh  a coordinate is not finite
   void read(Tree_on_demand& tree, double reach);
@@ -47,15 +47,17 @@ class Region_anchors {
 
  private:
   Eigen::Vector3d mean(Tree_on_demand& tree) const;
-  double spread(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;
+  void note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;
+  std::vector<std::uint32_t> probes(const Tree_layout& layout) const;
   bool may_touch(std::uint32_t place, const Box& box) const;
 
   std::vector<std::uint32_t> nodes_;        ///< ascending: neighbours in the list are mostly neighbours in space
   std::vector<Region_index> regions_;       ///< parallel
   std::vector<double> x_, y_, z_, radius_;  ///< parallel: anchors in this frame, radii with reach and stretch
   Box box_;
-  double rest_spread_ = 0;  ///< root of the sum of squared distances from the mean, at rest
-  double rest_radius_ = 0;  ///< from the mean to the farthest vertex, at rest
+  std::vector<std::uint32_t> probes_;   ///< nodes whose anchors tell the stretch: the regions, at least a few
+  std::vector<double> rest_distances_;  ///< parallel: of their anchors from the mean, at rest
+  double rest_radius_ = 0;              ///< from the mean to the farthest vertex, at rest
 };
 
 void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
