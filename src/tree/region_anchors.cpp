@@ -77,8 +77,10 @@ void Region_anchors::note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& m
 }
 
 void Region_anchors::read(Tree_on_demand& tree, double reach) {
-  const Eigen::Vector3d middle = mean(tree);
-  note_stretch(tree, middle);
+  constexpr double rounding = 1 + 1e-9;  // of what touches where the sphere ends
+  middle_ = mean(tree);
+  note_stretch(tree, middle_);
+  sphere_radius_ = rounding * reach * tree.stretch() * rest_radius_;
   box_.setEmpty();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Eigen::Vector3d& anchor = tree.anchor(nodes_[i]);
@@ -87,8 +89,8 @@ void Region_anchors::read(Tree_on_demand& tree, double reach) {
     const Eigen::Vector3d radius = Eigen::Vector3d::Constant(radius_[i]);
     box_.extend(anchor - radius).extend(anchor + radius);
   }
-  const Eigen::Vector3d radius = Eigen::Vector3d::Constant(reach * tree.stretch() * rest_radius_);
-  box_ = box_.intersection(Box(middle - radius, middle + radius));
+  const Eigen::Vector3d radius = Eigen::Vector3d::Constant(sphere_radius_);
+  box_ = box_.intersection(Box(middle_ - radius, middle_ + radius));
 }
 
 bool Region_anchors::may_touch(std::uint32_t place, const Box& box) const {

@@ -41,7 +41,8 @@ std::pair<double, double> missed_share(const std::string& experiment, const std:
   for (std::string line; std::getline(report, line);) {
     const auto cells = cells_of(line);
     const auto at = std::ranges::find_if(cells, [&](const auto& cell) { return cell.starts_with(method); });
-    if (cells.size() < 6 || at == cells.end() || (!but.empty() && at->starts_with(but))) continue;
+    // Other tables are narrower.
+    if (cells.size() < 10 || at == cells.end() || (!but.empty() && at->starts_with(but))) continue;
     for (const auto column : columns) {
       const double missed = 1 - std::stod(at[column]);
       share = {std::min(share.first, missed), std::max(share.second, missed)};
