@@ -64,10 +64,12 @@ struct Detector_options {
   /// there. Also, regions are opened. 0: the published method, whose particles stay in their regions, and which checks
   /// whole regions.
   std::size_t meetings = 4;
-  /// With meetings: most vertices that a frame reads per object pair below the regions; 0: none are opened.
+  /// With meetings: vertices that a frame may read per object pair below the regions. What was begun is finished, so it
+  /// can be some hundred more; two surfaces that have fewer are searched to the end. 0: regions are not opened.
   std::size_t opening_budget = 16384;
   /// With meetings: two parts of surfaces are taken to be apart if the distance of their anchors is more than so many
-  /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed.
+  /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed, with
+  /// 0.5 about half of the collisions.
   double opening_reach = 1;
   double collision_distance = 1;  ///< of particles, in multiples of mu, the larger of the two objects'; > 0
   Distance_measure distance_measure = Distance_measure::adjacent_vertices;  ///< of particles: which mean mu is
