@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 namespace lodestone {
 
@@ -26,30 +27,29 @@ Region_anchors::Region_anchors(Tree_on_demand& tree, std::span<const Corners> co
   }
   for (auto* column : {&x_, &y_, &z_, &radius_}) column->resize(nodes_.size());
 
-  probes_ = probes(layout);
+  probes_ = probes(layout, rest);
   const Eigen::Vector3d middle = mean(tree);
   for (const auto node : probes_) rest_distances_.push_back((tree.anchor(node) - middle).norm());
   for (std::size_t i = 0; i < rest.size(); i += 3)
     rest_radius_ = std::max(rest_radius_, (Eigen::Map<const Eigen::Vector3d>(rest.data() + i) - middle).norm());
 }
 
-/// The regions; if they are few, nodes below them.
-std::vector<std::uint32_t> Region_anchors::probes(const Tree_layout& layout) const {
-  constexpr std::size_t enough = 4;
+/// The regions, and the leaves that reach farthest along an axis: where a pull shows most.
+std::vector<std::uint32_t> Region_anchors::probes(const Tree_layout& layout, Coordinates rest) const {
   std::vector<std::uint32_t> nodes = nodes_;
-  for (bool opened = true; opened && nodes.size() < enough;) {
-    opened = false;
-    std::vector<std::uint32_t> below;
-    for (const auto node : nodes) {
-      if (layout.is_leaf(node)) {
-        below.push_back(node);
-        continue;
-      }
-      opened = true;
-      below.insert(below.end(), {node + 1, layout.node(node).second_child});
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      const auto reach = [&](std::uint32_t leaf) {
+        double farthest = -std::numeric_limits<double>::infinity();
+        for (const auto vertex : layout.vertices(leaf))
+          farthest = std::max(farthest, sign * rest[3 * std::size_t{vertex} + static_cast<std::size_t>(axis)]);
+        return farthest;
+      };
+      const auto leaves = std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(layout.leaf_count()));
+      nodes.push_back(layout.leaf_node(*std::ranges::max_element(leaves, {}, reach)));
     }
-    nodes.swap(below);
-  }
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 

@@ -13,10 +13,11 @@ namespace {
 /// An object with the regions of its octants, and where it is now. Not movable, since the tree refers to the positions.
 class Anchored_object {
  public:
-  explicit Anchored_object(const Face_soup& rest)
+  explicit Anchored_object(const Face_soup& rest) : Anchored_object(rest, octants(rest)) {}
+  Anchored_object(const Face_soup& rest, std::vector<Region_index> labels)
       : rest_(rest),
         now_(rest),
-        labels_(octants(rest)),
+        labels_(std::move(labels)),
         tree_(rest.faces, labels_, rest.coordinates, {.leaf_faces = 16}) {
     tree_.start_frame(Live_positions(rest_.coordinates.data()));
     regions_ = Region_anchors(tree_, rest_.faces, labels_, rest_.coordinates);
@@ -104,6 +105,43 @@ TEST(Region_anchors, regions_whose_faces_intersect_are_listed_wherever_and_howev
   }
   EXPECT_GT(meeting, 100U);
   EXPECT_GT(apart, 100U);
+}
+
+/// Every coordinate along one axis multiplied.
+Face_soup pulled(Face_soup soup, std::size_t axis, double factor) {
+  for (std::size_t i = axis; i < soup.coordinates.size(); i += 3) soup.coordinates[i] *= factor;
+  return soup;
+}
+
+TEST(Region_anchors, regions_whose_faces_intersect_are_listed_where_objects_are_pulled_in_one_direction) {
+  std::mt19937_64 random(7);
+  const auto objects = small_objects();
+  std::size_t meeting = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    SCOPED_TRACE(objects[i].first);
+    Anchored_object a(objects[i].second), b(objects[(i + 2) % objects.size()].second);
+    for (const std::size_t axis : {0, 1, 2})
+      for (const double factor : {1.5, 2.0, 4.0}) {
+        a.move_to(pulled(a.rest(), axis, factor));
+        b.move_to(posed_at_random(b.rest(), factor, random));
+        Region_pairs expected;
+        for (const auto& [face_a, face_b] : true_pairs(a.now(), b.now()))
+          expected.emplace(a.region_of(face_a), b.region_of(face_b));
+        EXPECT_TRUE(std::ranges::includes(listed_pairs(a, b), expected));
+        meeting += expected.size();
+      }
+  }
+  EXPECT_GT(meeting, 50U);
+}
+
+TEST(Region_anchors, an_object_of_a_single_region_stretches_too) {
+  for (const auto& [name, soup] : small_objects()) {
+    SCOPED_TRACE(name);
+    Anchored_object object(soup, std::vector<Region_index>(soup.vertex_count(), 0));
+    object.move_to(placed(soup, 3));
+    EXPECT_NEAR(object.tree().stretch(), 3, 1e-9);
+    expect_box_around(object);
+  }
 }
 
 TEST(Region_anchors, the_box_encloses_the_surface_at_rest_and_moved_and_scaled) {

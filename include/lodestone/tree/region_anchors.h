@@ -53,7 +53,7 @@ class Region_anchors {
  private:
   Eigen::Vector3d mean(Tree_on_demand& tree) const;
   void note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;
-  std::vector<std::uint32_t> probes(const Tree_layout& layout) const;
+  std::vector<std::uint32_t> probes(const Tree_layout& layout, Coordinates rest) const;
   bool may_touch(std::uint32_t place, const Box& box) const;
 
   std::vector<std::uint32_t> nodes_;        ///< ascending: neighbours in the list are mostly neighbours in space
@@ -62,9 +62,9 @@ class Region_anchors {
   Box box_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< mean of the anchors in this frame
   double sphere_radius_ = 0;                          ///< around it, with reach and stretch
-  std::vector<std::uint32_t> probes_;   ///< nodes whose anchors tell the stretch: the regions, at least a few
-  std::vector<double> rest_distances_;  ///< parallel: of their anchors from the mean, at rest
-  double rest_radius_ = 0;              ///< from the mean to the farthest vertex, at rest
+  std::vector<std::uint32_t> probes_;                 ///< nodes whose anchors tell the stretch: regions, and the tips
+  std::vector<double> rest_distances_;                ///< parallel: of their anchors from the mean, at rest
+  double rest_radius_ = 0;                            ///< from the mean to the farthest vertex, at rest
 };
 
 void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
