@@ -116,7 +116,7 @@ TEST(Detector, follows_many_objects) {
 /// A vertex point map that counts how often it is read.
 using Counting_detector = Detector<>;
 
-TEST(Detector, far_objects_cost_no_more_reads_than_the_particles) {
+TEST(Detector, far_objects_cost_the_reads_of_their_regions_and_tips) {
   auto scene = two_spheres(1000, 80);
   ASSERT_GE(num_faces(scene[0]), 50000U);
   std::size_t reads = 0;
@@ -129,7 +129,7 @@ TEST(Detector, far_objects_cost_no_more_reads_than_the_particles) {
   EXPECT_LE(reads, 2 * 32 * 20U);  // at most 5 samples in 4 directions
   reads = 0;
   EXPECT_TRUE(detector.detect().pairs.empty());
-  EXPECT_EQ(reads, 2 * 32U);
+  EXPECT_LE(reads, 2 * (32 + 6U));  // an object has a tip in each of six directions
 }
 
 TEST(Detector, a_frame_reads_only_where_particles_look_and_in_candidate_regions) {
