@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "modes/face_pair_count.h"
+#include "shared/face_pair_count.h"
 #include "program/measurement.h"
 #include "shared/interval.h"
 

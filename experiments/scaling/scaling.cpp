@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <string_view>
 
-#include "lodestone/detection/particle_object.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/io/shapes/shapes.h"
+#include "lodestone/partition/lbg.h"
+#include "scaling/detection_scaling.h"
+#include "scaling/median_seconds.h"
 #include "shared/experiment.h"
 #include "shared/fit.h"
 #include "shared/measured_run.h"
@@ -19,21 +20,7 @@ namespace lodestone {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
-
-constexpr int runs_per_figure = 5;
-
-template <class Function>
-double seconds_of(Function function) {
-  std::vector<double> seconds;
-  for (int pass = 0; pass < runs_per_figure; ++pass) {
-    const auto start = Clock::now();
-    function();
-    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
-  }
-  return median(std::move(seconds));
-}
 
 /// Feature vectors of a teapot with n x n quads per patch: M = 32 n^2 - 4 n + 2.
 Feature_vectors teapot_vectors(std::size_t n) {
@@ -61,13 +48,13 @@ struct Quantise_time {
 Quantise_time time_quantise(const Feature_vectors& vectors, std::size_t cells, Lbg_options options = {}) {
   Quantise_time time;
   options.search = Nearest_search::bounded;
-  time.bounded = seconds_of([&] {
+  time.bounded = median_seconds([&] {
     const auto result = quantise(vectors, cells, options);
     time.iterations = 0;
     for (const auto& run : result.runs) time.iterations += run.distortion.size();
   });
   options.search = Nearest_search::plain;
-  time.plain = seconds_of([&] { quantise(vectors, cells, options); });
+  time.plain = median_seconds([&] { quantise(vectors, cells, options); });
   return time;
 }
 
@@ -197,69 +184,25 @@ std::string partition_against_regions(Steps& steps, Json& json) {
   return fmt::format("Against N, at M = {} and dimension 6:\n\n", vectors.rows()) + series.text();
 }
 
-/// Seconds of one growth check of an object, whether or not a region has grown.
-double growth_check_seconds(const Surface_mesh& mesh, std::size_t particles) {
-  Particle_object object(std::make_unique<Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Lbg>>(
-      mesh, mesh.points(), std::make_shared<const Lbg>()));
-  object.partition(particles, {}, Distance_measure::adjacent_vertices);
-  constexpr int checks = 1000;
-  return seconds_of([&] {
-           for (int check = 0; check < checks; ++check) object.has_outgrown(2);
-         }) /
-         checks;
+/// Two wobbling spheres that approach, touch and part again.
+Scene spheres(const Experiment_context& context, std::string_view name) {
+  return read_scene(context.scenes / fmt::format("{}.json", name));
 }
 
-std::string detection_against_particles(const Experiment_context& context, Steps& steps, Json& json) {
+/// The same motion at four resolutions.
+std::vector<Scene> finer_and_finer_spheres(const Experiment_context& context) {
   std::vector<Scene> scenes;
-  scenes.push_back(read_scene(context.scenes / "spheres_50k.json"));
-  scenes.front().frames = std::min<std::size_t>(scenes.front().frames, 100);
-  const std::vector<std::size_t> counts{8, 16, 32, 64, 128};
-  std::vector<Setting> settings;
-  settings.reserve(counts.size());
-  for (const auto particles : counts)
-    settings.push_back({std::to_string(particles), {.mode = Mode::particles, .particles = particles, .meetings = 0}});
-  const auto run = measure(scenes, settings, [&](auto, auto) { context.progress(0, 1); });
-  steps.next();
-
-  Text_table table(
-      {"N", "relaxation (us)", "iterations", "per iteration (us)", "candidates (us)", "growth check (us)"});
-  std::vector<double> n, iteration, candidates, check;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto& m = run.measurements[i];
-    std::vector<double> per_iteration;
-    for (const auto& frame : m.frames)
-      if (frame.iterations > 0)
-        per_iteration.push_back(1e6 * frame.seconds.relaxation / static_cast<double>(frame.iterations));
-    n.push_back(static_cast<double>(counts[i]));
-    iteration.push_back(median(per_iteration));
-    candidates.push_back(median_microseconds(m, &Stage_times::candidates));
-    check.push_back(1e6 * growth_check_seconds(scenes.front().objects[0].mesh, counts[i]));
-    steps.next();
-    table.add({std::to_string(counts[i]), fmt::format("{:.1f}", median_microseconds(m, &Stage_times::relaxation)),
-               fmt::format("{:.1f}", mean_count(m, &Frame_statistics::iterations)),
-               fmt::format("{:.2f}", iteration.back()), fmt::format("{:.2f}", candidates.back()),
-               fmt::format("{:.2f}", check.back())});
-  }
-  const double of_iteration = fitted_exponent(n, iteration);
-  const double of_candidates = fitted_exponent(n, candidates);
-  const double of_check = fitted_exponent(n, check);
-  json["detection"] = {
-      {"N", n},
-      {"iteration_microseconds", iteration},
-      {"candidate_microseconds", candidates},
-      {"growth_check_microseconds", check},
-      {"exponents", {{"iteration", of_iteration}, {"candidates", of_candidates}, {"check", of_check}}}};
-  return "Detection and repartition check against N, two spheres of 50 000 triangles:\n\n" + table.text() +
-         fmt::format(
-             "\nExponent of N: {:.2f} for one iteration of the relaxation, {:.2f} for the candidate pairs (the paper: "
-             "O(N^2)), {:.2f} for the repartition check (the paper: O(N)).\n",
-             of_iteration, of_candidates, of_check);
+  for (const auto* name : {"spheres_1k", "spheres_5k", "spheres_50k", "spheres_500k"})
+    scenes.push_back(spheres(context, name));
+  return scenes;
 }
 
 }  // namespace
 
 std::string run_scaling(const Experiment_context& context) {
-  Steps steps(context, 5 + 4 + 6 + 4 + 1 + 5);
+  auto scenes = finer_and_finer_spheres(context);
+  Steps steps(context, 5 + 4 + 6 + 4 + 1 + std::size(scaling_particle_counts) + scenes.size());
+  const auto step = [&] { steps.next(); };
   Json json;
   std::string report = fmt::format(
       "Partition: LBG over a teapot, medians of {} runs. The paper: O(kMN), with k Lloyd iterations, M vertices and N "
@@ -269,7 +212,10 @@ std::string run_scaling(const Experiment_context& context) {
   report += partition_against_vertices(steps, json);
   report += partition_against_regions(steps, json);
   report += partition_against_dimension(steps, json);
-  report += detection_against_particles(context, steps, json);
+  report += "Detection and repartition check against N, two spheres of 50 000 triangles:\n\n";
+  report += detection_against_particles(spheres(context, "spheres_50k"), step, json);
+  report += "\nDetection against the number of triangles of the two spheres, with 12 and 128 particles each:\n\n";
+  report += detection_against_triangles(scenes, step, json);
   write_json(context.out, "scaling", json);
   return report;
 }

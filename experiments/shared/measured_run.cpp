@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shared/measured_run.h"
 
+#include <numeric>
 #include <optional>
 
 #include "lodestone/queries/exhaustive.h"
@@ -45,9 +46,7 @@ class Play {
   void play(std::size_t frame, Measured_run& run) {
     pose_all(frame);
     const auto truth = find_truth(frame > 0 ? &run.exhaustive_seconds : nullptr);
-    for (std::size_t turn = 0; turn < detectors_.size(); ++turn) {
-      // Each frame starts with another setting, because the first one finds the positions outside the caches.
-      const std::size_t s = (frame + turn) % detectors_.size();
+    for (const std::size_t s : order_of_turns(frame, detectors_.size())) {
       detectors_[s].update();
       const Frame& answer = detectors_[s].detect();
       run.measurements[s].build_seconds += answer.statistics.seconds.build;
@@ -97,6 +96,16 @@ class Play {
 };
 
 }  // namespace
+
+std::vector<std::size_t> order_of_turns(std::size_t frame, std::size_t settings) {
+  std::vector<std::size_t> strides;  // that reach every setting
+  for (std::size_t stride = 1; stride <= settings; ++stride)
+    if (std::gcd(stride, settings) == 1) strides.push_back(stride);
+  std::vector<std::size_t> order;
+  for (std::size_t turn = 0; turn < settings; ++turn)
+    order.push_back((frame + turn * strides[frame % strides.size()]) % settings);
+  return order;
+}
 
 Measured_run measure(std::span<Scene> scenes, std::span<const Setting> settings,
                      const std::function<void(std::size_t, std::size_t)>& progress, const Measure_options& options) {

@@ -32,6 +32,12 @@ struct Measured_run {
   std::vector<double> exhaustive_seconds;  ///< exhaustive exact checking, per frame, all pairs together
 };
 
+/// The order in which n settings answer in a frame. Each frame starts with another setting, because the first one finds
+/// the positions outside the caches; and the setting before another one differs from frame to frame, because it leaves
+/// what it read in the caches.
+/// @return each of 0 .. n - 1 once
+std::vector<std::size_t> order_of_turns(std::size_t frame, std::size_t settings);
+
 /// Plays the scenes one after the other. In every frame exhaustive checking and all settings answer in turn.
 ///
 /// The first frame of a play is scored; of its times only `build` counts.

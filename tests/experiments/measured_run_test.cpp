@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/queries/exhaustive.h"
-#include "modes/face_pair_count.h"
+#include "shared/face_pair_count.h"
 #include "shared/made_object.h"
 #include "shared/scene_detector.h"
 
@@ -124,6 +127,25 @@ TEST(Face_pair_count, exact_finds_all_face_pairs_and_particles_find_some) {
   EXPECT_EQ(counts[0].found, all);
   EXPECT_GT(counts[1].found, 0U);
   EXPECT_LE(counts[1].found, all);
+}
+
+TEST(Order_of_turns, gives_every_setting_one_turn_and_no_setting_the_same_one_before_it_in_every_frame) {
+  for (const std::size_t settings : {1, 2, 3, 5, 9, 16}) {
+    std::set<std::size_t> first;
+    std::set<std::pair<std::size_t, std::size_t>> neighbours;  // a setting, and the one before it
+    for (std::size_t frame = 0; frame < 100; ++frame) {
+      const auto order = order_of_turns(frame, settings);
+      EXPECT_EQ(std::set(order.begin(), order.end()).size(), settings);
+      EXPECT_EQ(order.size(), settings);
+      EXPECT_LT(std::ranges::max(order), settings);
+      first.insert(order.front());
+      for (std::size_t turn = 1; turn < settings; ++turn) neighbours.insert({order[turn], order[turn - 1]});
+    }
+    EXPECT_EQ(first.size(), settings);
+    if (settings > 2) {
+      EXPECT_GE(neighbours.size(), 2 * settings) << settings;
+    }
+  }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "modes/face_pair_count.h"
+#include "shared/face_pair_count.h"
 
 #include <algorithm>
 #include <iterator>
