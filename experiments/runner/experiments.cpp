@@ -10,10 +10,12 @@ std::string run_teapot_sphere(const Experiment_context& context);
 std::string run_scaling(const Experiment_context& context);
 std::string run_predecessor(const Experiment_context& context);
 std::string run_collision_distance(const Experiment_context& context);
+std::string run_defaults(const Experiment_context& context);
 std::string run_every_frame(const Experiment_context& context);
 std::string run_growth(const Experiment_context& context);
 std::string run_many_bodies(const Experiment_context& context);
 std::string run_modes(const Experiment_context& context);
+std::string run_nested_codebook(const Experiment_context& context);
 std::string run_partitions(const Experiment_context& context);
 std::string run_rebuild(const Experiment_context& context);
 std::string run_peers(const Experiment_context& context);
@@ -31,6 +33,10 @@ std::span<const Experiment> experiments() {
       {"every_frame", "Does the exact mode equal exhaustive checking in every frame of the scenes?", run_every_frame},
       {"growth", "Does repartitioning keep an inflating object detectable, and what does it cost?", run_growth},
       {"modes", "What does a frame cost in each mode, and what does it miss?", run_modes},
+      {"defaults", "What do particles find, and what does a frame take, with other options than the defaults?",
+       run_defaults},
+      {"nested_codebook", "Below the regions: do LBG's own splits find more for less than splits at medians?",
+       run_nested_codebook},
       {"many_bodies", "How does the time of a frame grow with the number of bodies?", run_many_bodies},
       {"partitions", "Which partition strategy is best, by its measures and in use?", run_partitions},
       {"rebuild", "When does a tree of the mode exact become too loose, and does a rebuild pay?", run_rebuild},

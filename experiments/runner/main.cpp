@@ -31,9 +31,10 @@ void add_options(CLI::App& app, Experiment_command& command) {
          "meshes NAME.off and their point caches NAME.pc2")
       ->type_name("DIR")
       ->default_str("data/scenes of the source");
-  app.add_option("--only", command.only,
-                 "Scenes to play in place of all, by name (peers, every_frame, modes, volumes); numbers of bodies "
-                 "(many_bodies); meshes and strategies (partitions)")
+  app.add_option(
+         "--only", command.only,
+         "Scenes to play in place of all, by name (peers, every_frame, modes, volumes, defaults, nested_codebook); "
+         "numbers of bodies (many_bodies); meshes and strategies (partitions)")
       ->delimiter(',')
       ->type_name("NAME");
   app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")
@@ -71,7 +72,8 @@ struct Special_option {
 };
 
 const std::vector<Special_option> special_options{
-    {"--only", {"peers", "every_frame", "modes", "many_bodies", "volumes", "partitions"}},
+    {"--only",
+     {"peers", "every_frame", "modes", "many_bodies", "volumes", "defaults", "nested_codebook", "partitions"}},
     {"--jobs", {"partitions"}},
     {"--shard", {"partitions"}},
     {"--merge", {"partitions"}},
