@@ -76,6 +76,24 @@ const std::vector<Column>& use_columns() {
   return columns;
 }
 
+/// Of the same particles with meetings.
+const std::vector<Column>& meeting_columns() {
+  static const std::vector<Column> columns{
+      {"recall", {"met_recall", "met_recall", {}, 1, false, "positive"}, 3},
+      {"positions read", {"met_vertices_read", "met_vertices_read"}, 0},
+      {"frame (us)", {"met_frame_us", "met_frame_us", {}, 1, true}, 1},
+      {"frame / lbg", {"met_frame_time", "met_frame_us", "met_lbg_frame_us", 1, true}},
+      {"mean frame / lbg", {"met_mean_frame_time", "met_mean_frame_us", "met_lbg_mean_frame_us", 1, true}},
+      {"frame / published", {"met_over_published", "met_frame_us", "frame_us", 1, true}},
+  };
+  return columns;
+}
+
+/// Rows of earlier revisions have no figures of meetings.
+bool have_meetings(const Rows& rows) {
+  return std::ranges::all_of(rows, [](const auto& row) { return row.second.contains("met_recall"); });
+}
+
 /// The rows by variant, number of regions and seed.
 using By_seed = std::map<std::uint64_t, std::vector<const Json*>>;
 using By_regions = std::map<std::size_t, By_seed>;
@@ -258,11 +276,18 @@ std::string partition_report(const Rows& rows) {
   text += columns_table(sorted, strategies, partition_columns());
   text += fmt::format("\n## In use, {} particles per object\n\n", shown_regions);
   text += columns_table(sorted, strategies, use_columns());
+  if (have_meetings(rows)) {
+    text += fmt::format("\n## In use with meetings, {} particles per object\n\n", shown_regions);
+    text += columns_table(sorted, strategies, meeting_columns());
+    text += "\nRecall with meetings:\n\n" + regions_table(sorted, strategies, meeting_columns()[0]);
+    text += "\nFrame with meetings over that of `lbg`:\n\n" + regions_table(sorted, strategies, meeting_columns()[3]);
+  }
   text += "\n## Recall\n\n" + regions_table(sorted, strategies, use_columns()[0]);
   text += "\nDifference from the recall of `lbg` in the same scenes:\n\n" + recall_difference_table(sorted, strategies);
   text += "\n## Repartitions\n\n" + regions_table(sorted, strategies, use_columns()[5]);
   text += "\n## Weight of the normals\n\n" + columns_table(sorted, weights, partition_columns());
   text += "\nRecall:\n\n" + regions_table(sorted, weights, use_columns()[0]);
+  if (have_meetings(rows)) text += "\nWith meetings:\n\n" + columns_table(sorted, weights, meeting_columns());
   text += "\n## Island repair\n\n" + columns_table(sorted, islands, partition_columns());
   text += "\n" + columns_table(sorted, islands, use_columns());
   return text;

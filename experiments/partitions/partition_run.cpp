@@ -92,21 +92,29 @@ Row parameters(const Partition_run& run, const Numbered& surface) {
           {"seed", run.seed}};
 }
 
+/// The detectors that play a run: the strategy of the run, and `lbg`, each as published and with meetings.
+std::vector<Setting> settings_of(const Partition_run& run, const Any_strategy& strategy) {
+  std::vector<Setting> settings;
+  for (const std::size_t meetings : {std::size_t{0}, Detector_options().meetings}) {
+    const Detector_options base{
+        .mode = Mode::particles, .particles = run.regions, .meetings = meetings, .growth = 1.25};
+    Detector_options own = base;
+    own.partition = run.variant.options;
+    own.close_seams = run.labels() == nullptr;  // labels are those of the mesh as it is
+    settings.push_back({.name = run.variant.name, .options = own, .strategy = strategy});
+    settings.push_back({.name = "lbg", .options = base});
+  }
+  return settings;
+}
+
 /// What the particles find in the scene, beside those of `lbg`, in turn in every frame.
 Row in_use(const Partition_run& run, Scene scene, const Any_strategy& strategy) {
-  const Detector_options options{.mode = Mode::particles,
-                                 .particles = run.regions,
-                                 .partition = run.variant.options,
-                                 .meetings = 0,
-                                 .close_seams = run.labels() == nullptr,
-                                 .growth = 1.25};  // labels are those of the mesh as it is
-  const Setting settings[] = {
-      {.name = run.variant.name, .options = options, .strategy = strategy},
-      {.name = "lbg", .options = {.mode = Mode::particles, .particles = run.regions, .meetings = 0, .growth = 1.25}}};
-  const auto measured =
-      measure({&scene, 1}, settings, [](std::size_t, std::size_t) {}, {.truth = Truth_source::exact_mode});
+  const auto measured = measure({&scene, 1}, settings_of(run, strategy), [](std::size_t, std::size_t) {},
+                                {.truth = Truth_source::exact_mode});
   const auto& m = measured.measurements[0];
   const auto& lbg = measured.measurements[1];
+  const auto& met = measured.measurements[2];
+  const auto& met_lbg = measured.measurements[3];
   return {{"frames", m.score.frames()},
           {"positive", m.score.positives()},
           {"recall", m.score.recall()},
@@ -120,7 +128,14 @@ Row in_use(const Partition_run& run, Scene scene, const Any_strategy& strategy) 
           {"frame_us", median_microseconds_without_build(m)},
           {"lbg_frame_us", median_microseconds_without_build(lbg)},
           {"mean_frame_us", mean_microseconds_without_build(m)},
-          {"lbg_mean_frame_us", mean_microseconds_without_build(lbg)}};
+          {"lbg_mean_frame_us", mean_microseconds_without_build(lbg)},
+          {"met_recall", met.score.recall()},
+          {"met_precision", met.score.precision()},
+          {"met_vertices_read", mean_count(met, &Frame_statistics::vertices_read)},
+          {"met_frame_us", median_microseconds_without_build(met)},
+          {"met_lbg_frame_us", median_microseconds_without_build(met_lbg)},
+          {"met_mean_frame_us", mean_microseconds_without_build(met)},
+          {"met_lbg_mean_frame_us", mean_microseconds_without_build(met_lbg)}};
 }
 
 }  // namespace

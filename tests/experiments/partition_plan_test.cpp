@@ -67,7 +67,8 @@ TEST(Partition_run, repeats_the_same_row_except_for_times_and_memory) {
   const auto plan = partition_plan({"cloth_coarse", "lbg"});
   auto row = execute(plan[7]), again = execute(plan[7]);
   for (const char* key :
-       {"seconds", "lbg_seconds", "peak_kib", "frame_us", "lbg_frame_us", "mean_frame_us", "lbg_mean_frame_us"}) {
+       {"seconds", "lbg_seconds", "peak_kib", "frame_us", "lbg_frame_us", "mean_frame_us", "lbg_mean_frame_us",
+        "met_frame_us", "met_lbg_frame_us", "met_mean_frame_us", "met_lbg_mean_frame_us"}) {
     EXPECT_GE(row.at(key), 0) << key;
     row.erase(key);
     again.erase(key);
@@ -78,6 +79,24 @@ TEST(Partition_run, repeats_the_same_row_except_for_times_and_memory) {
   EXPECT_EQ(row["precision"], 1.0);
   EXPECT_GT(row["positive"], 0);
   EXPECT_GT(row["recall"], 0.5);
+  EXPECT_EQ(row["met_precision"], 1.0);
+  EXPECT_GE(row["met_recall"], row["recall"]);
+}
+
+TEST(Partition_report, has_tables_of_meetings_unless_rows_of_earlier_revisions_lack_them) {
+  std::map<std::string, nlohmann::ordered_json> rows;
+  auto row = execute(partition_plan({"cloth_coarse", "lbg"})[0]);
+  row["regions_wanted"] = 32;
+  row["met_recall"] = 0.75;
+  rows["new"] = row;
+  const auto report = partition_report(rows);
+  const auto section = report.find("## In use with meetings, 32 particles per object");
+  ASSERT_NE(section, std::string::npos) << report;
+  EXPECT_NE(report.find("| lbg      |      1 |  0.750 |", section), std::string::npos) << report;
+  row.erase("met_recall");
+  row["seed"] = 99;
+  rows["old"] = row;
+  EXPECT_EQ(partition_report(rows).find("with meetings"), std::string::npos);
 }
 
 TEST(Partition_report, averages_over_meshes_first_and_then_over_seeds) {

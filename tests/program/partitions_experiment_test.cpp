@@ -31,7 +31,8 @@ struct Partitions_experiment : ::testing::Test {
     std::map<std::string, nlohmann::json> by_id;
     for (auto row : read_json_lines(rows(out))) {
       for (const char* key :
-           {"seconds", "lbg_seconds", "peak_kib", "frame_us", "lbg_frame_us", "mean_frame_us", "lbg_mean_frame_us"})
+           {"seconds", "lbg_seconds", "peak_kib", "frame_us", "lbg_frame_us", "mean_frame_us", "lbg_mean_frame_us",
+            "met_frame_us", "met_lbg_frame_us", "met_mean_frame_us", "met_lbg_mean_frame_us"})
         EXPECT_EQ(row.erase(key), 1U) << key;
       by_id.emplace(row["id"], row);
     }
