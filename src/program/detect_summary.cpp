@@ -142,7 +142,7 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
 }
 
 const char* building_of(const Detector_options& options) {
-  if (options.mode == Mode::exact) return "numbering, partition, tree";
+  if (options.mode == Mode::exact) return options.particles > 0 ? "numbering, partition, tree" : "numbering, tree";
   if (options.mode == Mode::senin) return "numbering, particles";
   return options.meetings > 0 ? "numbering, partition, tree" : "numbering, partition";
 }

@@ -3,114 +3,235 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 
 #include "tree/read_ahead.h"
 
 namespace lodestone {
 
-void Tree_builder::build() {
-  group_by_region(face_items());
-  std::vector<Item> regions;
-  for (Region_index region = 0; region + 1 < region_begin_.size(); ++region) {
-    const std::span<Item> faces(faces_.data() + region_begin_[region], faces_.data() + region_begin_[region + 1]);
-    if (faces.empty()) continue;
-    Item item{Eigen::Vector3d::Zero(), region};
-    for (const Item& face : faces) item.centre += face.centre / static_cast<double>(faces.size());
-    regions.push_back(item);
+namespace {
+
+/// How many faces, or leaves, a worker takes at once.
+constexpr std::size_t faces_at_once = 16384, leaves_at_once = 256;
+
+/// Coordinates as floats relative to a box: good enough to group faces, and half as large.
+class Float_frame {
+ public:
+  explicit Float_frame(Coordinates coordinates) {
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < coordinates.size(); i += 3)
+      box.extend(Eigen::Map<const Eigen::Vector3d>(coordinates.data() + i));
+    // Halved, since sums and differences may overflow.
+    half_middle_ = box.min() / 4 + box.max() / 4;
+    const double half_width = (box.max() / 2 - box.min() / 2).maxCoeff();
+    scale_ = std::min(2 / half_width, std::numeric_limits<double>::max());
   }
-  tree_.face_begin_.push_back(0);
-  tree_.vertex_begin_.push_back(0);
-  tree_.faces_.reserve(corners_.size());
-  tree_.corners_.reserve(corners_.size() + kernel::faces_ahead);
-  add_regions(regions);
+
+  /// The mean of three points, each component in [-1, 1].
+  std::array<float, 3> mean(const double* a, const double* b, const double* c) const {
+    constexpr double sixth = 1.0 / 6;
+    std::array<float, 3> mean;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double half = a[axis] * sixth + b[axis] * sixth + c[axis] * sixth;
+      mean[static_cast<std::size_t>(axis)] = static_cast<float>((half - half_middle_[axis]) * scale_);
+    }
+    return mean;
+  }
+
+ private:
+  Eigen::Vector3d half_middle_;
+  double scale_;
+};
+
+}  // namespace
+
+void Tree_builder::build() {
+  read_items();
+  group_by_region();
+  size_lists();
+  auto regions = region_items(), spare = regions;
+  std::vector<Branch> branches;
+  add_regions(regions, spare, {.leaves = static_cast<std::uint32_t>(tree_.leaf_nodes_.size())}, branches);
+  add_branches(std::move(branches));
+  list_vertices();
 }
 
-std::vector<Tree_builder::Item> Tree_builder::face_items() const {
-  std::vector<Item> items(corners_.size());
-  for (std::uint32_t face = 0; face < items.size(); ++face) {
-    // Divided before they are added, since the sum of large coordinates may overflow.
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (const auto corner : corners_[face])
-      centre += Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * std::size_t{corner}) / 3;
-    items[face] = {centre, face};
-  }
-  return items;
+void Tree_builder::read_items() {
+  const Float_frame frame(coordinates_);
+  const auto position = [&](std::uint32_t vertex) { return coordinates_.data() + 3 * std::size_t{vertex}; };
+  workers_.run(items_.size() / faces_at_once + 1, [&](std::size_t index, std::size_t) {
+    const std::size_t end = std::min((index + 1) * faces_at_once, items_.size());
+    for (std::size_t face = index * faces_at_once; face < end; ++face) {
+      const auto& [a, b, c] = corners_[face];
+      items_[face] = {frame.mean(position(a), position(b), position(c)), static_cast<std::uint32_t>(face)};
+    }
+  });
 }
 
 Region_index Tree_builder::region_of(std::uint32_t face) const {
-  if (labels_.empty()) return 0;
   const auto& [a, b, c] = corners_[face];
   return std::min({labels_[a], labels_[b], labels_[c]});
 }
 
-void Tree_builder::group_by_region(const std::vector<Item>& faces) {
-  const std::size_t regions = labels_.empty() ? 1 : std::size_t{std::ranges::max(labels_)} + 1;
+void Tree_builder::group_by_region() {
+  if (labels_.empty()) {
+    region_begin_ = {0, static_cast<std::uint32_t>(items_.size())};
+    return;
+  }
+  const std::size_t regions = std::size_t{std::ranges::max(labels_)} + 1;
   region_begin_.assign(regions + 1, 0);
-  for (const Item& face : faces) ++region_begin_[region_of(face.index) + 1];
+  for (const auto& item : items_) ++region_begin_[region_of(item.index) + 1];
   for (std::size_t region = 0; region < regions; ++region) region_begin_[region + 1] += region_begin_[region];
-  faces_.resize(faces.size());
   auto next = region_begin_;
-  for (const Item& face : faces) faces_[next[region_of(face.index)]++] = face;
+  for (const auto& item : items_) spare_[next[region_of(item.index)]++] = item;
+  std::swap(items_, spare_);
 }
 
-void Tree_builder::add_regions(std::span<Item> regions) {
-  if (regions.size() > 1)
-    return add_parts(regions, regions.size() / 2, [this](std::span<Item> part) { add_regions(part); });
-  const Region_index region = regions.front().index;
-  add_faces({faces_.data() + region_begin_[region], faces_.data() + region_begin_[region + 1]});
+/// All lists of the tree but that of vertices have their final length from here on.
+void Tree_builder::size_lists() {
+  std::size_t leaves = 0;
+  for (Region_index region = 0; region + 1 < region_begin_.size(); ++region) leaves += leaves_of(region);
+  tree_.nodes_.resize(2 * leaves - 1);
+  tree_.leaf_nodes_.resize(leaves);
+  tree_.face_begin_.resize(leaves + 1);
+  tree_.face_begin_.back() = static_cast<std::uint32_t>(corners_.size());
+  tree_.vertex_begin_.resize(leaves + 1);
+  tree_.faces_.resize(corners_.size());
+  tree_.corners_.resize(corners_.size() + kernel::faces_ahead);
 }
 
-void Tree_builder::add_faces(std::span<Item> faces) {
-  // As few leaves as possible, of nearly equal size: plain halving would fill them anywhere between half and whole.
-  const std::size_t leaves = (faces.size() + options_.leaf_faces - 1) / options_.leaf_faces;
-  if (leaves == 1) return add_leaf(faces);
-  add_parts(faces, faces.size() * (leaves / 2) / leaves, [this](std::span<Item> part) { add_faces(part); });
-}
-
-template <class Add>
-void Tree_builder::add_parts(std::span<Item> items, std::size_t first_count, Add add) {
-  Eigen::AlignedBox3d box;
-  for (const Item& item : items) box.extend(item.centre);
-  int axis = 0;
-  // Halved, since the difference may overflow.
-  (box.max() / 2 - box.min() / 2).maxCoeff(&axis);
-  // Ties are broken by index, so that the split does not depend on the sorting routine.
-  const auto before = [axis](const Item& a, const Item& b) {
-    return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.index < b.index;
-  };
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(first_count), items.end(), before);
-
-  const std::size_t node = tree_.nodes_.size();
-  tree_.nodes_.push_back({.leaf = static_cast<std::uint32_t>(tree_.leaf_nodes_.size())});
-  add(items.first(first_count));
-  tree_.nodes_[node].second_child = static_cast<std::uint32_t>(tree_.nodes_.size());
-  add(items.subspan(first_count));
-  tree_.nodes_[node].end_leaf = static_cast<std::uint32_t>(tree_.leaf_nodes_.size());
-}
-
-void Tree_builder::add_leaf(std::span<Item> items) {
-  std::ranges::sort(items, {}, &Item::index);
-  const auto first = static_cast<std::ptrdiff_t>(tree_.vertices_.size());
-  for (const Item& item : items) {
-    tree_.faces_.push_back(item.index);
-    tree_.vertices_.insert(tree_.vertices_.end(), corners_[item.index].begin(), corners_[item.index].end());
+/// The regions that have faces.
+std::vector<Split_item> Tree_builder::region_items() const {
+  std::vector<Split_item> regions;
+  for (Region_index region = 0; region + 1 < region_begin_.size(); ++region) {
+    const std::uint32_t count = faces_of(region);
+    if (count == 0) continue;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& item : std::span(items_).subspan(region_begin_[region], count))
+      sum += Eigen::Map<const Eigen::Vector3f>(item.centre.data()).cast<double>();
+    Split_item item{.centre = {}, .index = region};
+    Eigen::Map<Eigen::Vector3f>(item.centre.data()) = (sum / count).cast<float>();
+    regions.push_back(item);
   }
-  const auto begin = tree_.vertices_.begin() + first;
-  std::sort(begin, tree_.vertices_.end());
-  tree_.vertices_.erase(std::unique(begin, tree_.vertices_.end()), tree_.vertices_.end());
+  return regions;
+}
 
-  const auto index_in_leaf = [&](std::uint32_t vertex) {
-    return static_cast<std::uint16_t>(std::lower_bound(begin, tree_.vertices_.end(), vertex) - begin);
-  };
-  for (const Item& item : items) {
-    const auto& [a, b, c] = corners_[item.index];
-    tree_.corners_.push_back({index_in_leaf(a), index_in_leaf(b), index_in_leaf(c)});
+/// Makes the nodes above the regions. Each region is a branch of its own.
+void Tree_builder::add_regions(std::span<Split_item> regions, std::span<Split_item> spare, const Branch& whole,
+                               std::vector<Branch>& branches) {
+  if (regions.size() == 1) {
+    Branch branch = whole;
+    branch.begin = region_begin_[regions.front().index];
+    branch.end = region_begin_[regions.front().index + 1];
+    branches.push_back(branch);
+    return;
   }
-  const auto leaf = static_cast<std::uint32_t>(tree_.leaf_nodes_.size());
-  tree_.leaf_nodes_.push_back(static_cast<std::uint32_t>(tree_.nodes_.size()));
-  tree_.nodes_.push_back({.leaf = leaf, .end_leaf = leaf + 1});
-  tree_.face_begin_.push_back(static_cast<std::uint32_t>(tree_.faces_.size()));
-  tree_.vertex_begin_.push_back(static_cast<std::uint32_t>(tree_.vertices_.size()));
+  const std::size_t half = regions.size() / 2;
+  if (split_items(regions, spare, half)) std::swap(regions, spare);
+  std::uint32_t faces = 0, leaves = 0;
+  for (const auto& region : regions.first(half)) {
+    faces += faces_of(region.index);
+    leaves += leaves_of(region.index);
+  }
+  const auto [first, second] = add_inner_node(whole, faces, leaves);
+  add_regions(regions.first(half), spare.first(half), first, branches);
+  add_regions(regions.subspan(half), spare.subspan(half), second, branches);
+}
+
+/// Halves branches until there are enough for all workers, which then share them.
+void Tree_builder::add_branches(std::vector<Branch> branches) {
+  const std::size_t enough = workers_.count() == 1 ? 0 : 8 * workers_.count();
+  while (branches.size() < enough && std::ranges::any_of(branches, [](const auto& b) { return b.leaves > 1; })) {
+    std::vector<std::pair<Branch, Branch>> halves(branches.size());
+    workers_.run(branches.size(), [&](std::size_t i, std::size_t) {
+      halves[i] = branches[i].leaves > 1 ? halve(branches[i]) : std::pair(branches[i], Branch{});
+    });
+    branches.clear();
+    for (const auto& [first, second] : halves) {
+      branches.push_back(first);
+      if (second.leaves > 0) branches.push_back(second);
+    }
+  }
+  std::vector<Leaf_maker> makers(workers_.count());
+  workers_.run(branches.size(), [&](std::size_t i, std::size_t worker) {
+    makers[worker].marks.resize(coordinates_.size() / 3);
+    add_branch(branches[i], makers[worker]);
+  });
+}
+
+void Tree_builder::add_branch(const Branch& branch, Leaf_maker& maker) {
+  if (branch.leaves == 1) return add_leaf(branch, maker);
+  const auto [first, second] = halve(branch);
+  add_branch(first, maker);
+  add_branch(second, maker);
+}
+
+std::pair<Tree_builder::Branch, Tree_builder::Branch> Tree_builder::halve(const Branch& branch) {
+  const std::size_t count = branch.end - branch.begin, leaves = branch.leaves / 2;
+  const std::size_t first_count = count * leaves / branch.leaves;
+  auto items = std::span(items_).subspan(branch.begin, count), spare = std::span(spare_).subspan(branch.begin, count);
+  if (branch.in_spare) std::swap(items, spare);
+  const bool moved = split_items(items, spare, first_count);
+  auto [first, second] =
+      add_inner_node(branch, static_cast<std::uint32_t>(first_count), static_cast<std::uint32_t>(leaves));
+  first.end = second.begin = branch.begin + static_cast<std::uint32_t>(first_count);
+  first.in_spare = second.in_spare = branch.in_spare != moved;
+  return {first, second};
+}
+
+/// @return the places of its children; their items are those of the branch
+std::pair<Tree_builder::Branch, Tree_builder::Branch> Tree_builder::add_inner_node(const Branch& branch,
+                                                                                   std::uint32_t first_faces,
+                                                                                   std::uint32_t first_leaves) {
+  Branch first = branch, second = branch;
+  first.node = branch.node + 1;
+  first.leaves = first_leaves;
+  second.node = branch.node + 2 * first_leaves;  // a branch has one node less than twice its leaves
+  second.leaf = branch.leaf + first_leaves;
+  second.leaves = branch.leaves - first_leaves;
+  second.face = branch.face + first_faces;
+  tree_.nodes_[branch.node] = {
+      .second_child = second.node, .leaf = branch.leaf, .end_leaf = branch.leaf + branch.leaves};
+  return {first, second};
+}
+
+void Tree_builder::add_leaf(const Branch& branch, Leaf_maker& maker) {
+  const std::size_t count = branch.end - branch.begin;
+  const auto faces = std::span(tree_.faces_).subspan(branch.face, count);
+  const auto items = std::span(branch.in_spare ? spare_ : items_).subspan(branch.begin, count);
+  std::ranges::transform(items, faces.begin(), &Split_item::index);
+  maker.sort(faces.data(), count, hwy::SortAscending());
+
+  const auto vertices = std::span(vertices_).subspan(3 * std::size_t{branch.face}, 3 * count);
+  auto& marks = maker.marks;
+  std::size_t vertex_count = 0;
+  for (const auto face : faces)
+    for (const auto vertex : corners_[face])
+      if (std::exchange(marks[vertex].leaf, branch.leaf + 1) != branch.leaf + 1) vertices[vertex_count++] = vertex;
+  maker.sort(vertices.data(), vertex_count, hwy::SortAscending());
+  for (std::size_t i = 0; i < vertex_count; ++i) marks[vertices[i]].place = static_cast<std::uint16_t>(i);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [a, b, c] = corners_[faces[i]];
+    tree_.corners_[branch.face + i] = {marks[a].place, marks[b].place, marks[c].place};
+  }
+  tree_.nodes_[branch.node] = {.leaf = branch.leaf, .end_leaf = branch.leaf + 1};
+  tree_.leaf_nodes_[branch.leaf] = branch.node;
+  tree_.face_begin_[branch.leaf] = branch.face;
+  tree_.vertex_begin_[branch.leaf + 1] = static_cast<std::uint32_t>(vertex_count);
+}
+
+/// Moves the leaves' lists of vertices together.
+void Tree_builder::list_vertices() {
+  auto& begin = tree_.vertex_begin_;
+  for (std::size_t leaf = 0; leaf + 1 < begin.size(); ++leaf) begin[leaf + 1] += begin[leaf];
+  tree_.vertices_.reserve(begin.back() + kernel::vertices_ahead + 4);
+  tree_.vertices_.resize(begin.back());
+  workers_.run(tree_.leaf_count() / leaves_at_once + 1, [&](std::size_t index, std::size_t) {
+    const std::size_t end = std::min((index + 1) * leaves_at_once, tree_.leaf_count());
+    for (std::size_t leaf = index * leaves_at_once; leaf < end; ++leaf)
+      std::copy_n(vertices_.begin() + 3 * static_cast<std::ptrdiff_t>(tree_.face_begin_[leaf]),
+                  begin[leaf + 1] - begin[leaf], tree_.vertices_.begin() + begin[leaf]);
+  });
 }
 
 }  // namespace lodestone

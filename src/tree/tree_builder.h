@@ -1,46 +1,91 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <hwy/contrib/sort/vqsort.h>
 
+#include <memory>
+#include <utility>
+
+#include "lodestone/mesh/workers.h"
 #include "lodestone/tree/tree_layout.h"
+#include "tree/face_split.h"
 
 namespace lodestone {
 
 /// Makes the nodes and leaves of a Tree_layout.
+///
+/// How many leaves each branch has is known before it is split. So every node, leaf and face has its place in the lists
+/// of the tree from the start, and branches can be made in any order, by several threads.
 class Tree_builder {
  public:
   Tree_builder(Tree_layout& tree, std::span<const Corners> corners, std::span<const Region_index> labels,
-               Coordinates coordinates, const Region_tree_options& options)
-      : tree_(tree), corners_(corners), labels_(labels), coordinates_(coordinates), options_(options) {}
+               Coordinates coordinates, const Region_tree_options& options, Workers& workers)
+      : tree_(tree),
+        corners_(corners),
+        labels_(labels),
+        coordinates_(coordinates),
+        leaf_faces_(options.leaf_faces),
+        workers_(workers),
+        item_memory_(std::make_unique_for_overwrite<Split_item[]>(corners.size())),
+        spare_memory_(std::make_unique_for_overwrite<Split_item[]>(corners.size())),
+        vertex_memory_(std::make_unique_for_overwrite<std::uint32_t[]>(3 * corners.size())),
+        items_(item_memory_.get(), corners.size()),
+        spare_(spare_memory_.get(), corners.size()),
+        vertices_(vertex_memory_.get(), 3 * corners.size()) {}
 
   void build();
 
  private:
-  /// What a split distributes: a face with the mean of its corners, or a region with the mean of its faces' centres.
-  struct Item {
-    Eigen::Vector3d centre;
-    std::uint32_t index;
+  /// A node to be made, and all that comes below it.
+  struct Branch {
+    std::uint32_t begin = 0, end = 0;  ///< its faces, as a range of `items_` or `spare_`
+    bool in_spare = false;
+    std::uint32_t leaves = 0;                    ///< how many; 1: the node is one
+    std::uint32_t node = 0, leaf = 0, face = 0;  ///< places in the tree's lists: of the node, its first leaf, its faces
+  };
+  /// For a vertex: the last leaf that it was found in, plus 1, and its place in that leaf's list.
+  struct Mark {
+    std::uint32_t leaf = 0;
+    std::uint16_t place = 0;
+  };
+  /// What a worker needs to make leaves.
+  struct Leaf_maker {
+    std::vector<Mark> marks;  ///< per vertex
+    hwy::Sorter sort;
   };
 
-  std::vector<Item> face_items() const;
+  void read_items();
+  void group_by_region();
   Region_index region_of(std::uint32_t face) const;
-  void group_by_region(const std::vector<Item>& faces);
-  void add_regions(std::span<Item> regions);
-  void add_faces(std::span<Item> faces);
-  void add_leaf(std::span<Item> faces);
-  /// Adds a node and its two children. Each call of `add` adds a child: the first with the first `first_count` items
-  /// along the axis on which the centres are spread widest, the second with the others.
-  template <class Add>
-  void add_parts(std::span<Item> items, std::size_t first_count, Add add);
+  void size_lists();
+  std::vector<Split_item> region_items() const;
+  void add_regions(std::span<Split_item> regions, std::span<Split_item> spare, const Branch& whole,
+                   std::vector<Branch>& branches);
+  void add_branches(std::vector<Branch> branches);
+  void add_branch(const Branch& branch, Leaf_maker& maker);
+  std::pair<Branch, Branch> halve(const Branch& branch);
+  std::pair<Branch, Branch> add_inner_node(const Branch& branch, std::uint32_t first_faces, std::uint32_t first_leaves);
+  void add_leaf(const Branch& branch, Leaf_maker& maker);
+  void list_vertices();
+
+  std::uint32_t faces_of(Region_index region) const { return region_begin_[region + 1] - region_begin_[region]; }
+  /// As few as possible, of nearly equal size: plain halving would fill them anywhere between half and whole.
+  std::uint32_t leaves_of(Region_index region) const {
+    return static_cast<std::uint32_t>((faces_of(region) + leaf_faces_ - 1) / leaf_faces_);
+  }
 
   Tree_layout& tree_;
   std::span<const Corners> corners_;
   std::span<const Region_index> labels_;
   Coordinates coordinates_;
-  const Region_tree_options& options_;
-  std::vector<Item> faces_;                  ///< by region
-  std::vector<std::uint32_t> region_begin_;  ///< per region and past the last: where it starts in `faces_`
+  std::size_t leaf_faces_;
+  Workers& workers_;
+  // Lists are not set before they are written: that would cost more than some of the steps.
+  std::unique_ptr<Split_item[]> item_memory_, spare_memory_;
+  std::unique_ptr<std::uint32_t[]> vertex_memory_;
+  std::span<Split_item> items_, spare_;      ///< per face; a branch lies in one of the two
+  std::span<std::uint32_t> vertices_;        ///< of each leaf, from three times the place of its first face
+  std::vector<std::uint32_t> region_begin_;  ///< per region and past the last: where its faces start in `items_`
 };
 
 }  // namespace lodestone

@@ -19,15 +19,14 @@ constexpr std::uint32_t part_leaves = 128;
 }  // namespace
 
 Tree_layout::Tree_layout(std::span<const Corners> corners, std::span<const Region_index> labels,
-                         Coordinates coordinates, const Region_tree_options& options) {
+                         Coordinates coordinates, const Region_tree_options& options, Workers& workers) {
   if (options.leaf_faces < 2 || options.leaf_faces > most_leaf_faces)
     throw Bad_argument("a leaf must hold at most 2 to 128 faces");
   if (corners.size() > std::numeric_limits<std::uint32_t>::max() / 3)
     throw Bad_mesh("the mesh has more than 1431655765 faces, the most that a tree can index");
-  Tree_builder(*this, corners, labels, coordinates, options).build();
+  Tree_builder(*this, corners, labels, coordinates, options, workers).build();
   vertices_.resize(vertices_.size() + kernel::vertices_ahead + 4, vertices_.back());
   static_assert(kernel::vertices_ahead >= most_float_lanes, "a leaf's vertices are read in vectors");
-  corners_.resize(corners_.size() + kernel::faces_ahead);
   find_parts();
 }
 

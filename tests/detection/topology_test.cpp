@@ -203,7 +203,7 @@ TEST(Topology, removed_elements_that_have_not_been_collected_are_refused_by_name
 TEST(Topology, a_mesh_that_is_cleared_and_filled_again_carries_its_maps_after_rebuild) {
   for (const Mode mode : {Mode::exact, Mode::particles}) {
     auto a = sphere(3), b = sphere(5, 1, {1.5, 0, 0});
-    Exact_detector detector({.mode = mode});
+    Exact_detector detector({.mode = mode, .particles = 12});
     detector.add(a);
     detector.add(b);
     detector.detect();

@@ -77,6 +77,65 @@ TEST(Region_tree, of_a_hundred_thousand_faces_is_valid) {
     }
 }
 
+TEST(Region_tree, is_the_same_for_any_number_of_workers) {
+  for (const auto& soup : {Face_soup(icosphere(40)), shuffled(Face_soup(cloth(90, 70)), 1), Face_soup(icosphere(1))})
+    for (const bool divided : {false, true}) {
+      const Labels labels = divided ? octants(soup) : Labels();
+      const Region_tree alone(soup.faces, labels, soup.coordinates);
+      for (const std::size_t threads : {2, 3, 8}) {
+        Workers workers(threads);
+        const Region_tree shared(soup.faces, labels, soup.coordinates, {}, workers);
+        expect_tree(shared, soup, soup.coordinates);
+        EXPECT_TRUE(std::ranges::equal(shared.all_vertices(), alone.all_vertices()));
+        EXPECT_TRUE(std::ranges::equal(shared.volumes(), alone.volumes()));
+        ASSERT_EQ(shared.leaf_count(), alone.leaf_count());
+        for (std::size_t leaf = 0; leaf < alone.leaf_count(); ++leaf)
+          EXPECT_TRUE(std::ranges::equal(shared.faces(leaf), alone.faces(leaf)));
+      }
+    }
+}
+
+/// The lowest and the highest centre of the faces below a node, on one axis.
+std::pair<double, double> range_of_centres(const Region_tree& tree, const Face_soup& soup, std::uint32_t n, int axis) {
+  std::pair range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
+  for (std::uint32_t leaf = tree.node(n).leaf; leaf < tree.node(n).end_leaf; ++leaf)
+    for (const auto face : tree.faces(leaf)) {
+      const Triangle triangle = soup.triangle(face);
+      const double centre = (triangle[0][axis] + triangle[1][axis] + triangle[2][axis]) / 3;
+      range = {std::min(range.first, centre), std::max(range.second, centre)};
+    }
+  return range;
+}
+
+TEST(Region_tree, splits_along_the_axis_on_which_centres_are_spread_widest) {
+  for (const auto& soup : {Face_soup(torus_knot()), moved(shuffled(Face_soup(cloth(70, 30)), 1), 1000, 0, -3)}) {
+    const Region_tree tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 16});
+    for (std::uint32_t n = 0; n < tree.node_count(); ++n) {
+      if (tree.is_leaf(n)) continue;
+      double widest = 0, widest_that_parts = 0;
+      for (const int axis : {0, 1, 2}) {
+        const auto [low, high] = range_of_centres(tree, soup, n, axis);
+        widest = std::max(widest, high - low);
+        const double end = range_of_centres(tree, soup, n + 1, axis).second;
+        const double begin = range_of_centres(tree, soup, tree.node(n).second_child, axis).first;
+        if (end <= begin + 1e-6) widest_that_parts = std::max(widest_that_parts, high - low);
+      }
+      EXPECT_NEAR(widest_that_parts, widest, 1e-6) << "node " << n;
+    }
+  }
+}
+
+TEST(Region_tree, of_coordinates_of_any_size_is_that_of_the_same_faces_elsewhere) {
+  const Face_soup soup(icosphere(20));
+  const Region_tree tree(soup.faces, {}, soup.coordinates);
+  for (const double unit : {0x1p-1000, 0x1p-300, 0x1p300, 0x1p1000}) {
+    auto other = soup;
+    for (auto& coordinate : other.coordinates) coordinate *= unit;
+    const Region_tree scaled(other.faces, {}, other.coordinates);
+    EXPECT_TRUE(std::ranges::equal(scaled.all_vertices(), tree.all_vertices())) << unit;
+  }
+}
+
 TEST(Region_tree, validation_reports_other_faces_and_other_coordinates) {
   const Face_soup soup(icosphere(5));
   const Region_tree tree(soup.faces, octants(soup), soup.coordinates);

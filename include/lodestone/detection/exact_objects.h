@@ -57,6 +57,7 @@ class Exact_objects {
   void build_new(std::span<const Object_id> ids);
   void rebuild_loose(std::span<const Object_id> ids);
   void build(Object_id id, Coordinates coordinates);
+  std::vector<Region_index> divide(Object& object, Coordinates coordinates) const;
 
   Detector_options options_;
   Workers& workers_;
@@ -118,21 +119,29 @@ void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
   }
 }
 
-/// Divides the surface into regions, and builds a tree over them.
+/// Builds a tree, over regions if they are asked for.
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
   Object& object = *objects_[id];
   check_finite(coordinates, object.title);
-  const Vertex_graph graph = vertex_graph(object.mesh().vertex_count(), object.mesh().corners());
-  const Positions positions = scaled_positions(coordinates);
-  std::size_t regions = options_.least_particles;
-  if (options_.particles > 0) regions = options_.particles;
-  if (object.particles > 0) regions = object.particles;
-  const auto partition = object.mesh().partition({graph, positions, object.mesh().corners()},
-                                                 std::max<std::size_t>(1, regions), options_.partition);
-  object.surface.build(partition.labels, coordinates, options_.exact.tree);
+  object.surface.build(divide(object, coordinates), coordinates, options_.exact.tree, workers_);
   object.built = true;
-  object.mesh().write_maps(partition.labels, partition.particles);
+}
+
+/// @return the region of each vertex; empty: no regions are asked for, and all vertices of the mesh are marked as one
+template <Bounding_volume Volume>
+std::vector<Region_index> Exact_objects<Volume>::divide(Object& object, Coordinates coordinates) const {
+  const std::size_t regions = object.particles > 0 ? object.particles : options_.particles;
+  Watched_mesh& mesh = object.mesh();
+  if (regions == 0) {
+    mesh.write_maps(std::vector<Region_index>(mesh.vertex_count(), 0), {});
+    return {};
+  }
+  const Vertex_graph graph = vertex_graph(mesh.vertex_count(), mesh.corners());
+  const Positions positions = scaled_positions(coordinates);
+  auto partition = mesh.partition({graph, positions, mesh.corners()}, regions, options_.partition);
+  mesh.write_maps(partition.labels, partition.particles);
+  return std::move(partition.labels);
 }
 
 }  // namespace lodestone

@@ -50,9 +50,12 @@ class Basic_region_tree : public Tree_layout {
 
   /// Groups the faces as Tree_layout does, with the same parameters and errors, and fits the volumes to `coordinates`.
   Basic_region_tree(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
-                    const Region_tree_options& options = {})
-      : Tree_layout(corners, labels, coordinates, options), volumes_(node_count()), part_sums_(parts().size()) {
-    refit(coordinates);
+                    const Region_tree_options& options = {}, Workers& workers = Workers::alone())
+      : Tree_layout(corners, labels, coordinates, options, workers),
+        volumes_(node_count()),
+        part_sums_(parts().size()) {
+    workers.run(part_count(), [&](std::size_t part, std::size_t) { refit_part(part, coordinates); });
+    finish_refit(coordinates);
   }
 
   /// Fits all volumes to the current coordinates: those of leaves to the leaf's vertices, each of which is read once,

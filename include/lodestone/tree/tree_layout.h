@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/workers.h"
 #include "lodestone/volumes/leaf_faces.h"
 
 namespace lodestone {
@@ -39,7 +40,8 @@ class Tree_layout {
   Tree_layout() = default;
 
   /// Groups the regions by halving their number again and again, and splits each region into as few leaves as possible,
-  /// of nearly equal size. Both are split along the axis on which the centres are spread widest. O(F log F).
+  /// of nearly equal size. Both are split along the axis on which the centres are spread widest. O(F log F), shared
+  /// among the workers; the result does not depend on their number.
   ///
   /// A face is grouped with the lowest of its corners' regions.
   ///
@@ -49,7 +51,7 @@ class Tree_layout {
   /// @throws Bad_argument  an option is out of range
   /// @throws Bad_mesh      more than 2^32 / 3 faces
   Tree_layout(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
-              const Region_tree_options& options);
+              const Region_tree_options& options, Workers& workers = Workers::alone());
 
   std::size_t node_count() const { return nodes_.size(); }
   const Node& node(std::uint32_t n) const { return nodes_[n]; }

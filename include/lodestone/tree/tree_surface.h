@@ -17,12 +17,13 @@ class Basic_tree_surface : public Object_surface {
  public:
   using Object_surface::Object_surface;
 
-  /// Builds the tree, or rebuilds it. O(F log F).
-  /// @param labels       V: region of each vertex
+  /// Builds the tree, or rebuilds it. O(F log F), shared among the workers.
+  /// @param labels       V: region of each vertex; empty: a single region
   /// @param coordinates  3 V, all finite; must stay unchanged until the next refit
-  void build(std::span<const Region_index> labels, Coordinates coordinates, const Region_tree_options& options) {
+  void build(std::span<const Region_index> labels, Coordinates coordinates, const Region_tree_options& options,
+             Workers& workers = Workers::alone()) {
     coordinates_ = coordinates;
-    tree_ = Basic_region_tree<Volume>(corners(), labels, coordinates, options);
+    tree_ = Basic_region_tree<Volume>(corners(), labels, coordinates, options, workers);
     built_looseness_ = tree_.looseness();
     finite_ = true;
   }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace lodestone {
+
+/// What a split distributes: a face with the mean of its corners, or a region with the mean of its faces' centres.
+struct Split_item {
+  std::array<float, 3> centre;
+  std::uint32_t index;
+};
+
+/// Distributes items along the axis on which their centres are spread widest: afterwards none of the first
+/// `first_count` lies behind one of the others. Of equal ones, those of lower index come first. O(n).
+/// @param items  at least one
+/// @param spare  as many
+/// @return whether the items are in `spare` now; the other holds rubbish
+bool split_items(std::span<Split_item> items, std::span<Split_item> spare, std::size_t first_count);
+
+}  // namespace lodestone
