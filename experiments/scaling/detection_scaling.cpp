@@ -84,20 +84,20 @@ class Frame_series {
     curve.x.push_back(static_cast<double>(x));
     curve.medians.push_back(median_microseconds_without_build(m));
     curve.means.push_back(mean_microseconds_without_build(m));
-    const auto count = [&](std::size_t Frame_statistics::*figure) { return mean_count(m, figure); };
-    table_.add({std::to_string(x), name, fmt::format("{:.3f}", m.score.recall()),
-                fmt::format("{:.1f}", curve.medians.back()), fmt::format("{:.1f}", curve.means.back()),
-                fmt::format("{:.1f}", count(&Frame_statistics::moves)),
-                fmt::format("{:.2f}", count(&Frame_statistics::meetings)),
-                fmt::format("{:.0f}", count(&Frame_statistics::vertices_read))});
+    curve.reads.push_back(mean_count(m, &Frame_statistics::vertices_read));
+    table_.add(
+        {std::to_string(x), name, fmt::format("{:.3f}", m.score.recall()), fmt::format("{:.1f}", curve.medians.back()),
+         fmt::format("{:.1f}", curve.means.back()), fmt::format("{:.1f}", mean_count(m, &Frame_statistics::moves)),
+         fmt::format("{:.2f}", mean_count(m, &Frame_statistics::meetings)), fmt::format("{:.0f}", curve.reads.back())});
     rows_.push_back({{parameter_, x}, {"name", name}, {"figures", to_json(m)}});
   }
 
   std::string text() const {
-    std::string text = table_.text() + fmt::format("\nExponents of {}, of the median and of the mean:", parameter_);
+    std::string text =
+        table_.text() + fmt::format("\nExponents of {}, of the median, the mean and the positions read:", parameter_);
     for (const auto& curve : curves_)
-      text += fmt::format(" {:.2f} and {:.2f} ({}),", fitted_exponent(curve.x, curve.medians),
-                          fitted_exponent(curve.x, curve.means), curve.name);
+      text += fmt::format(" {:.2f}, {:.2f} and {:.2f} ({});", fitted_exponent(curve.x, curve.medians),
+                          fitted_exponent(curve.x, curve.means), fitted_exponent(curve.x, curve.reads), curve.name);
     text.back() = '.';
     return text + "\n";
   }
@@ -106,14 +106,15 @@ class Frame_series {
     nlohmann::ordered_json exponents;
     for (const auto& curve : curves_)
       exponents[curve.name] = {{"median", fitted_exponent(curve.x, curve.medians)},
-                               {"mean", fitted_exponent(curve.x, curve.means)}};
+                               {"mean", fitted_exponent(curve.x, curve.means)},
+                               {"positions_read", fitted_exponent(curve.x, curve.reads)}};
     return {{"rows", rows_}, {"exponents", exponents}};
   }
 
  private:
   struct Curve {
     std::string name;
-    std::vector<double> x = {}, medians = {}, means = {};
+    std::vector<double> x = {}, medians = {}, means = {}, reads = {};
   };
 
   Curve& curve_of(const std::string& name) {
