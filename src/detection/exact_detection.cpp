@@ -16,6 +16,13 @@ void check_finite(Coordinates coordinates, const std::string& title) {
   if (wrong != coordinates.end()) fail_not_finite(static_cast<std::size_t>(wrong - coordinates.begin()) / 3, title);
 }
 
+std::vector<std::uint32_t> changed_faces(std::span<const Corners> former, std::span<const Corners> now) {
+  std::vector<std::uint32_t> changed;
+  for (std::uint32_t face = 0; face < now.size(); ++face)
+    if (face >= former.size() || former[face] != now[face]) changed.push_back(face);
+  return changed;
+}
+
 void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, const std::string& title) {
   for (const std::size_t v : vertices)
     for (std::size_t axis = 0; axis < 3; ++axis)

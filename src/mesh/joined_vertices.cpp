@@ -36,12 +36,13 @@ std::vector<Corners> join_vertices(std::span<const Corners> faces, std::uint32_t
 }
 
 std::vector<std::uint32_t> unused_vertices(std::span<const Corners> faces, std::uint32_t vertex_count) {
-  std::vector<bool> used(vertex_count, false);
+  // Bytes, not bits: a store need not wait for the last one.
+  std::vector<std::uint8_t> used(vertex_count, 0);
   for (const auto& corners : faces)
-    for (const auto v : corners) used[v] = true;
+    for (const auto v : corners) used[v] = 1;
   std::vector<std::uint32_t> unused;
   for (std::uint32_t v = 0; v < vertex_count; ++v)
-    if (!used[v]) unused.push_back(v);
+    if (used[v] == 0) unused.push_back(v);
   return unused;
 }
 

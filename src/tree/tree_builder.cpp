@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tree/tree_builder.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
-#include <limits>
 
+#include "tree/float_frame.h"
 #include "tree/read_ahead.h"
 
 namespace lodestone {
@@ -14,57 +14,27 @@ namespace {
 /// How many faces, or leaves, a worker takes at once.
 constexpr std::size_t faces_at_once = 16384, leaves_at_once = 256;
 
-/// Coordinates as floats relative to a box: good enough to group faces, and half as large.
-class Float_frame {
- public:
-  explicit Float_frame(Coordinates coordinates) {
-    Eigen::AlignedBox3d box;
-    for (std::size_t i = 0; i < coordinates.size(); i += 3)
-      box.extend(Eigen::Map<const Eigen::Vector3d>(coordinates.data() + i));
-    // Halved, since sums and differences may overflow.
-    half_middle_ = box.min() / 4 + box.max() / 4;
-    const double half_width = (box.max() / 2 - box.min() / 2).maxCoeff();
-    scale_ = std::min(2 / half_width, std::numeric_limits<double>::max());
-  }
-
-  /// The mean of three points, each component in [-1, 1].
-  std::array<float, 3> mean(const double* a, const double* b, const double* c) const {
-    constexpr double sixth = 1.0 / 6;
-    std::array<float, 3> mean;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double half = a[axis] * sixth + b[axis] * sixth + c[axis] * sixth;
-      mean[static_cast<std::size_t>(axis)] = static_cast<float>((half - half_middle_[axis]) * scale_);
-    }
-    return mean;
-  }
-
- private:
-  Eigen::Vector3d half_middle_;
-  double scale_;
-};
-
 }  // namespace
 
 void Tree_builder::build() {
   read_items();
   group_by_region();
-  size_lists();
+  std::size_t leaves = 0;
+  for (Region_index region = 0; region + 1 < region_begin_.size(); ++region) leaves += leaves_for(faces_of(region));
+  size_lists(leaves);
   auto regions = region_items(), spare = regions;
   std::vector<Branch> branches;
-  add_regions(regions, spare, {.leaves = static_cast<std::uint32_t>(tree_.leaf_nodes_.size())}, branches);
+  add_regions(regions, spare, {.leaves = static_cast<std::uint32_t>(leaves)}, branches);
   add_branches(std::move(branches));
   list_vertices();
 }
 
 void Tree_builder::read_items() {
   const Float_frame frame(coordinates_);
-  const auto position = [&](std::uint32_t vertex) { return coordinates_.data() + 3 * std::size_t{vertex}; };
   workers_.run(items_.size() / faces_at_once + 1, [&](std::size_t index, std::size_t) {
     const std::size_t end = std::min((index + 1) * faces_at_once, items_.size());
-    for (std::size_t face = index * faces_at_once; face < end; ++face) {
-      const auto& [a, b, c] = corners_[face];
-      items_[face] = {frame.mean(position(a), position(b), position(c)), static_cast<std::uint32_t>(face)};
-    }
+    for (std::size_t face = index * faces_at_once; face < end; ++face)
+      items_[face] = {frame.mean(corners_[face]), static_cast<std::uint32_t>(face)};
   });
 }
 
@@ -88,9 +58,7 @@ void Tree_builder::group_by_region() {
 }
 
 /// All lists of the tree but that of vertices have their final length from here on.
-void Tree_builder::size_lists() {
-  std::size_t leaves = 0;
-  for (Region_index region = 0; region + 1 < region_begin_.size(); ++region) leaves += leaves_of(region);
+void Tree_builder::size_lists(std::size_t leaves) {
   tree_.nodes_.resize(2 * leaves - 1);
   tree_.leaf_nodes_.resize(leaves);
   tree_.face_begin_.resize(leaves + 1);
@@ -131,7 +99,7 @@ void Tree_builder::add_regions(std::span<Split_item> regions, std::span<Split_it
   std::uint32_t faces = 0, leaves = 0;
   for (const auto& region : regions.first(half)) {
     faces += faces_of(region.index);
-    leaves += leaves_of(region.index);
+    leaves += leaves_for(faces_of(region.index));
   }
   const auto [first, second] = add_inner_node(whole, faces, leaves);
   add_regions(regions.first(half), spare.first(half), first, branches);
@@ -214,6 +182,11 @@ void Tree_builder::add_leaf(const Branch& branch, Leaf_maker& maker) {
     const auto& [a, b, c] = corners_[faces[i]];
     tree_.corners_[branch.face + i] = {marks[a].place, marks[b].place, marks[c].place};
   }
+  add_leaf_node(branch, vertex_count);
+}
+
+/// All of a leaf but its lists.
+void Tree_builder::add_leaf_node(const Branch& branch, std::size_t vertex_count) {
   tree_.nodes_[branch.node] = {.leaf = branch.leaf, .end_leaf = branch.leaf + 1};
   tree_.leaf_nodes_[branch.leaf] = branch.node;
   tree_.face_begin_[branch.leaf] = branch.face;

@@ -35,7 +35,7 @@ class Tree_builder {
 
   void build();
 
- private:
+ protected:
   /// A node to be made, and all that comes below it.
   struct Branch {
     std::uint32_t begin = 0, end = 0;  ///< its faces, as a range of `items_` or `spare_`
@@ -57,7 +57,7 @@ class Tree_builder {
   void read_items();
   void group_by_region();
   Region_index region_of(std::uint32_t face) const;
-  void size_lists();
+  void size_lists(std::size_t leaves);
   std::vector<Split_item> region_items() const;
   void add_regions(std::span<Split_item> regions, std::span<Split_item> spare, const Branch& whole,
                    std::vector<Branch>& branches);
@@ -66,12 +66,13 @@ class Tree_builder {
   std::pair<Branch, Branch> halve(const Branch& branch);
   std::pair<Branch, Branch> add_inner_node(const Branch& branch, std::uint32_t first_faces, std::uint32_t first_leaves);
   void add_leaf(const Branch& branch, Leaf_maker& maker);
+  void add_leaf_node(const Branch& branch, std::size_t vertex_count);
   void list_vertices();
 
   std::uint32_t faces_of(Region_index region) const { return region_begin_[region + 1] - region_begin_[region]; }
   /// As few as possible, of nearly equal size: plain halving would fill them anywhere between half and whole.
-  std::uint32_t leaves_of(Region_index region) const {
-    return static_cast<std::uint32_t>((faces_of(region) + leaf_faces_ - 1) / leaf_faces_);
+  std::uint32_t leaves_for(std::size_t faces) const {
+    return static_cast<std::uint32_t>((faces + leaf_faces_ - 1) / leaf_faces_);
   }
 
   Tree_layout& tree_;

@@ -8,6 +8,7 @@
 #include "lodestone/mesh/errors.h"
 #include "tree/refit_kernel.h"
 #include "tree/tree_builder.h"
+#include "tree/tree_mender.h"
 
 namespace lodestone {
 
@@ -18,13 +19,32 @@ constexpr std::uint32_t part_leaves = 128;
 
 }  // namespace
 
-Tree_layout::Tree_layout(std::span<const Corners> corners, std::span<const Region_index> labels,
-                         Coordinates coordinates, const Region_tree_options& options, Workers& workers) {
+void Tree_layout::check(std::span<const Corners> corners, const Region_tree_options& options) {
   if (options.leaf_faces < 2 || options.leaf_faces > most_leaf_faces)
     throw Bad_argument("a leaf must hold at most 2 to 128 faces");
   if (corners.size() > std::numeric_limits<std::uint32_t>::max() / 3)
     throw Bad_mesh("the mesh has more than 1431655765 faces, the most that a tree can index");
+}
+
+Tree_layout::Tree_layout(std::span<const Corners> corners, std::span<const Region_index> labels,
+                         Coordinates coordinates, const Region_tree_options& options, Workers& workers) {
+  check(corners, options);
   Tree_builder(*this, corners, labels, coordinates, options, workers).build();
+  finish();
+}
+
+std::optional<Tree_layout> Tree_layout::mended(std::span<const Corners> corners, std::span<const std::uint32_t> changed,
+                                               Coordinates coordinates, const Region_tree_options& options,
+                                               Workers& workers) const {
+  check(corners, options);
+  std::optional<Tree_layout> tree(std::in_place);
+  if (!Tree_mender(*this, *tree, corners, changed, coordinates, options, workers).mend()) return std::nullopt;
+  tree->finish();
+  return tree;
+}
+
+/// What follows from nodes and leaves.
+void Tree_layout::finish() {
   vertices_.resize(vertices_.size() + kernel::vertices_ahead + 4, vertices_.back());
   static_assert(kernel::vertices_ahead >= most_float_lanes, "a leaf's vertices are read in vectors");
   find_parts();

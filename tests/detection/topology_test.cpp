@@ -89,6 +89,75 @@ TEST(Topology, is_right_after_rebuild) {
   }
 }
 
+/// The faces around both ends of an edge, and the new ones: what an Euler operation at the edge changes.
+void list_faces_around(const Surface_mesh& mesh, Halfedge_index h, std::set<std::uint32_t>& faces) {
+  for (const auto end : {mesh.source(h), mesh.target(h)})
+    for (const auto f : mesh.faces_around_target(mesh.halfedge(end)))
+      if (f.is_valid()) faces.insert(f);
+}
+
+TEST(Topology, is_right_after_known_faces_have_changed) {
+  for (const auto mode : {Mode::exact, Mode::particles}) {
+    auto a = sphere(25), b = sphere(25, 1, {1.9, 0, 0});
+    Exact_detector detector({.mode = mode, .exact = {.self_collision = mode == Mode::exact}});
+    detector.add(a);
+    detector.add(b);
+    detector.detect();
+    std::mt19937_64 random(1);
+    for (int round = 0; round < 6; ++round) {
+      std::set<std::uint32_t> changed;
+      for (int i = 0; i < 10; ++i) {
+        const Halfedge_index h(static_cast<std::uint32_t>(random() % a.number_of_halfedges()));
+        list_faces_around(a, h, changed);
+        const auto from = a.target(a.next(h)), to = a.target(a.next(a.opposite(h)));
+        if (i % 2 == 0)
+          split(a, h);
+        else if (!a.halfedge(from, to).is_valid())
+          Euler::flip_edge(h, a);
+      }
+      detector.rebuild(0, Changed_faces{std::vector<std::uint32_t>(changed.begin(), changed.end())});
+      const Frame& frame = detector.detect();
+      EXPECT_EQ(frame.statistics.builds, 1U);
+      if (mode == Mode::particles) continue;
+      expect_exhaustive(frame, {&a, &b});
+      const Numbered_mesh now(a);
+      EXPECT_EQ(detector.tree(0).validate(now.faces, now.coordinates()), "");
+      shift(b, -0.01);
+    }
+  }
+}
+
+TEST(Topology, changed_faces_that_do_not_exist_are_refused) {
+  auto a = sphere(5), b = sphere(5, 1, {1.5, 0, 0});
+  Exact_detector detector(all_exact);
+  add_all(detector, {&a, &b});
+  const std::uint32_t beyond[] = {static_cast<std::uint32_t>(a.number_of_faces())};
+  EXPECT_THROW(detector.rebuild(0, Changed_faces{beyond}), Bad_argument);
+  EXPECT_THROW(detector.rebuild(7, Changed_faces{}), Bad_argument);
+  EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
+}
+
+TEST(Topology, changes_before_the_next_query_add_up) {
+  auto a = sphere(25);
+  const auto b = sphere(25, 1, {1.9, 0, 0});
+  Exact_detector detector(all_exact);
+  add_all(detector, {&a, &b});
+  detector.detect();
+  for (int round = 0; round < 3; ++round) {
+    std::set<std::uint32_t> changed;
+    const Halfedge_index h(static_cast<std::uint32_t>(round * 700));
+    list_faces_around(a, h, changed);
+    split(a, h);
+    if (round == 1)
+      detector.rebuild(0);
+    else
+      detector.rebuild(0, Changed_faces{std::vector<std::uint32_t>(changed.begin(), changed.end())});
+  }
+  EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
+  const Numbered_mesh now(a);
+  EXPECT_EQ(detector.tree(0).validate(now.faces, now.coordinates()), "");
+}
+
 TEST(Topology, an_object_that_becomes_open_or_closed_is_known_as_such_after_rebuild) {
   auto outer = sphere(5);
   const auto inner = sphere(3, 0.3);

@@ -34,6 +34,10 @@ class Detection {
   /// Reads the faces of an object's mesh again.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
   virtual void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) = 0;
+  /// The same where it is known which faces have changed. A mode need not make use of that.
+  virtual void rebuild(Object_id object, const Changed_faces& /*changed*/) {
+    rebuild(object, std::span<const std::uint32_t>());
+  }
 
   /// Forgets an object, and refers to its mesh no more.
   /// @throws Bad_argument  a visitor is being shown face pairs; the object stays

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -103,6 +104,14 @@ struct Object_options {
   /// this, faces that share it would count as touching. Empty: no vertices are merged.
   std::vector<std::uint32_t> file_vertex = {};
   std::string name = {};  ///< for messages, beside the id
+};
+
+/// What has changed about the faces of a mesh since it was added or rebuilt.
+struct Changed_faces {
+  /// Indices, in the order of `faces(mesh)`, of the faces whose corners are others than before. New faces at the end
+  /// need not be listed, nor those that are gone because there are fewer faces now. A face that has changed and is not
+  /// listed goes unnoticed.
+  std::span<const std::uint32_t> faces;
 };
 
 /// How messages name an object: `object 3`, or `object 3 (cloth)`.

@@ -66,6 +66,10 @@ class Exact_detection final : public Detection {
     check_no_visitor();
     objects_.rebuild(object, file_vertex);
   }
+  void rebuild(Object_id object, const Changed_faces& changed) override {
+    check_no_visitor();
+    objects_.rebuild(object, changed);
+  }
 
   void remove(Object_id object) override {
     check_no_visitor();

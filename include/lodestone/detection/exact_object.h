@@ -23,6 +23,9 @@ void check_finite(Coordinates coordinates, const std::string& title);
 /// The same for the coordinates of some vertices.
 void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, const std::string& title);
 
+/// The faces whose corners differ, ascending, with those that only `now` has. O(F).
+std::vector<std::uint32_t> changed_faces(std::span<const Corners> former, std::span<const Corners> now);
+
 /// One object of the mode `exact`: its mesh, where that is placed, and its surface.
 template <Bounding_volume Volume>
 class Exact_object {
@@ -52,6 +55,13 @@ class Exact_object {
   /// Reads the faces of the mesh anew; given positions, which may be those of other vertices, are dropped.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
   void rebuild(std::span<const std::uint32_t> file_vertex);
+  /// The same, reading only what has changed where the type of the mesh allows that.
+  void rebuild(const Changed_faces& changed);
+
+  /// Gives the surface the tree that it had before its faces changed, and mends it.
+  /// @param coordinates  3 V, all finite; must stay unchanged until the next refit
+  /// @return false if there is none, or a new tree is better
+  bool mend(Coordinates coordinates, const Region_tree_options& options, Workers& workers);
 
  private:
   /// The mesh, and what depends on its faces alone.
@@ -68,8 +78,17 @@ class Exact_object {
     std::vector<std::uint32_t> unused;
   };
 
+  /// A surface of former faces, and which of its faces have changed since.
+  struct Former {
+    Basic_tree_surface<Volume> surface;
+    std::vector<std::uint32_t> changed;
+  };
+
+  void start_anew(const std::vector<std::uint32_t>& changed);
+
   Faces faces_;
-  std::vector<double> placed_;  ///< memory of `read`
+  std::optional<Former> former_;  ///< between a change of faces and the next build
+  std::vector<double> placed_;    ///< memory of `read`
 };
 
 template <Bounding_volume Volume>
@@ -83,11 +102,43 @@ Coordinates Exact_object<Volume>::read() {
 template <Bounding_volume Volume>
 void Exact_object<Volume>::rebuild(std::span<const std::uint32_t> file_vertex) {
   Faces anew(mesh().renumbered(), file_vertex);
-  // From here on nothing can fail.
+  const auto changed = changed_faces(corners(), anew.corners());
+  // From here on nothing can fail but for want of memory.
   faces_ = std::move(anew);
+  start_anew(changed);
+}
+
+template <Bounding_volume Volume>
+void Exact_object<Volume>::rebuild(const Changed_faces& changed) {
+  if (!faces_.joined.empty()) return rebuild(std::span<const std::uint32_t>());
+  std::vector<std::uint32_t> all(changed.faces.begin(), changed.faces.end());
+  const std::size_t former_faces = corners().size();
+  mesh().renumber(changed.faces);
+  for (std::size_t face = former_faces; face < corners().size(); ++face)
+    all.push_back(static_cast<std::uint32_t>(face));
+  faces_.unused = unused_vertices(corners(), mesh().vertex_count());
+  start_anew(all);
+}
+
+/// The surface of the faces as they are now has no tree yet; that of the former ones waits to be mended.
+template <Bounding_volume Volume>
+void Exact_object<Volume>::start_anew(const std::vector<std::uint32_t>& changed) {
+  if (built) former_ = {std::move(surface), {}};
+  if (former_) {
+    std::erase_if(former_->changed, [&](std::uint32_t face) { return face >= corners().size(); });
+    former_->changed.insert(former_->changed.end(), changed.begin(), changed.end());
+  }
   surface = Basic_tree_surface<Volume>(corners());
   given.reset();
   built = false;
+}
+
+template <Bounding_volume Volume>
+bool Exact_object<Volume>::mend(Coordinates coordinates, const Region_tree_options& options, Workers& workers) {
+  if (!former_) return false;
+  Former former = std::move(*former_);
+  former_.reset();
+  return surface.mend(std::move(former.surface), former.changed, coordinates, options, workers);
 }
 
 }  // namespace lodestone

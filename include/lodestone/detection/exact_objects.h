@@ -34,6 +34,9 @@ class Exact_objects {
   void rebuild(Object_id id, std::span<const std::uint32_t> file_vertex) {
     timed(work_.seconds.build, [&] { objects_[id]->rebuild(file_vertex); });
   }
+  void rebuild(Object_id id, const Changed_faces& changed) {
+    timed(work_.seconds.build, [&] { objects_[id]->rebuild(changed); });
+  }
 
   void remove(Object_id id) { objects_[id].reset(); }
 
@@ -119,12 +122,15 @@ void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
   }
 }
 
-/// Builds a tree, over regions if they are asked for.
+/// Builds a tree, over regions if they are asked for. Without them the tree of the faces as they were is mended where
+/// that is enough.
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
   Object& object = *objects_[id];
   check_finite(coordinates, object.title);
-  object.surface.build(divide(object, coordinates), coordinates, options_.exact.tree, workers_);
+  const auto labels = divide(object, coordinates);
+  if (!labels.empty() || !object.mend(coordinates, options_.exact.tree, workers_))
+    object.surface.build(labels, coordinates, options_.exact.tree, workers_);
   object.built = true;
 }
 

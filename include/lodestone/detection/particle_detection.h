@@ -42,6 +42,7 @@ class Particle_detection final : public Detection {
   /// Repartitions an object that has outgrown A*.
   void update(Object_id object) override;
   /// Reads the faces of the mesh anew.
+  using Detection::rebuild;
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override;
   void remove(Object_id object) override {
     objects_[object].reset();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,6 +57,8 @@ class Watched_mesh {
   /// The same mesh, its vertices and faces numbered anew, and its maps fetched again.
   /// @throws Bad_mesh  see Mesh_numbering
   virtual std::unique_ptr<Watched_mesh> renumbered() const = 0;
+  /// Numbers this mesh anew after a change of its faces: see `Mesh_numbering::renumber`.
+  virtual void renumber(std::span<const std::uint32_t> changed) = 0;
 };
 
 /// Makes a Watched_mesh. The time that this takes counts as `build`.
@@ -73,6 +76,11 @@ class Watched_mesh_of : public Watched_mesh {
   const std::vector<Corners>& corners() const override { return numbering_.corners(); }
   void check_connectivity(const std::string& title) const override {
     lodestone::check_connectivity(*mesh_, numbering_, [&] { return title; });
+  }
+
+  void renumber(std::span<const std::uint32_t> changed) override {
+    numbering_.renumber(*mesh_, changed);
+    if (maps_) maps_->renew();
   }
 
   /// None: the mesh cannot be written to.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,24 @@ using Corners = std::array<std::uint32_t, 3>;
 /// One row per vertex: its position.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// Maps a vertex index to the descriptor of the vertex. This general version stores a table.
+/// Maps vertex indices to the descriptors of vertices, and back. This general version stores both.
 template <Triangle_mesh Mesh>
 class Vertex_table {
  public:
-  explicit Vertex_table(const Mesh& mesh) : table_(vertices(mesh).begin(), vertices(mesh).end()) {}
+  static constexpr bool by_index = false;  ///< whether descriptors of vertices and faces are indices
+
+  explicit Vertex_table(const Mesh& mesh)
+      : table_(vertices(mesh).begin(), vertices(mesh).end()),
+        index_(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh)) {
+    for (std::uint32_t i = 0; i < table_.size(); ++i) put(index_, table_[i], i);
+  }
   Vertex<Mesh> operator[](std::uint32_t index) const { return table_[index]; }
+  std::uint32_t index(Vertex<Mesh> v) const { return get(index_, v); }
+  std::size_t count(const Mesh& /*mesh*/) const { return table_.size(); }
 
  private:
   std::vector<Vertex<Mesh>> table_;
+  typename boost::property_map<Mesh, CGAL::dynamic_vertex_property_t<std::uint32_t>>::const_type index_;
 };
 
 /// CGAL::Surface_mesh needs no table: its descriptors are indices.
@@ -37,11 +47,14 @@ template <class P>
 class Vertex_table<CGAL::Surface_mesh<P>> {
  public:
   using Mesh = CGAL::Surface_mesh<P>;
+  static constexpr bool by_index = true;
 
   explicit Vertex_table(const Mesh& mesh) {
     if (mesh.has_garbage()) throw Bad_mesh("the mesh holds removed elements: call collect_garbage() on it first");
   }
   Vertex<Mesh> operator[](std::uint32_t index) const { return Vertex<Mesh>(index); }
+  std::uint32_t index(Vertex<Mesh> v) const { return v; }
+  std::size_t count(const Mesh& mesh) const { return num_vertices(mesh); }
 };
 
 /// Vertices and faces of a mesh by index, in the order in which the mesh enumerates them.
@@ -50,8 +63,6 @@ class Vertex_table<CGAL::Surface_mesh<P>> {
 template <Triangle_mesh Mesh>
 class Mesh_numbering {
  public:
-  using Index_map = typename boost::property_map<Mesh, CGAL::dynamic_vertex_property_t<std::uint32_t>>::const_type;
-
   /// Cost O(V + F).
   /// @throws Bad_mesh  no face, a face that is not a triangle, more than 2^32 - 2 vertices or faces, or removed
   /// elements in a CGAL::Surface_mesh
@@ -59,34 +70,73 @@ class Mesh_numbering {
 
   std::uint32_t vertex_count() const { return vertex_count_; }
   Vertex<Mesh> vertex(std::uint32_t index) const { return table_[index]; }
-  std::uint32_t index(Vertex<Mesh> v) const { return get(index_, v); }
+  std::uint32_t index(Vertex<Mesh> v) const { return table_.index(v); }
   /// Corners of every face, in the order of `faces(mesh)`.
   const std::vector<Corners>& corners() const { return corners_; }
 
+  /// Numbers the mesh anew after a change of its faces. A CGAL::Surface_mesh is read only where it has changed.
+  /// @param changed        indices of faces that have other corners than before; new faces need not be listed
+  /// @throws Bad_mesh      as the constructor; the numbering stays as it was
+  /// @throws Bad_argument  an index is not below the number of faces; the numbering stays as it was
+  void renumber(const Mesh& mesh, std::span<const std::uint32_t> changed);
+
  private:
+  static void check_counts(const Mesh& mesh);
+  template <class Face>
+  Corners corners_of(Face f, std::size_t index, const Mesh& mesh) const;
+
   Vertex_table<Mesh> table_;
   std::uint32_t vertex_count_ = 0;
-  Index_map index_;
   std::vector<Corners> corners_;
 };
 
 template <Triangle_mesh Mesh>
-Mesh_numbering<Mesh>::Mesh_numbering(const Mesh& mesh)
-    : table_(mesh), index_(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh)) {
+void Mesh_numbering<Mesh>::check_counts(const Mesh& mesh) {
   constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max() - 1;
   if (num_faces(mesh) == 0) throw Bad_mesh("the mesh has no face");
   if (num_vertices(mesh) > limit || num_faces(mesh) > limit)
     throw Bad_mesh("the mesh has more than 4294967294 vertices or faces");
+}
 
-  for (const auto v : vertices(mesh)) put(index_, v, vertex_count_++);
+template <Triangle_mesh Mesh>
+template <class Face>
+Corners Mesh_numbering<Mesh>::corners_of(Face f, std::size_t face, const Mesh& mesh) const {
+  const auto h = halfedge(f, mesh);
+  const auto second = next(h, mesh);
+  const auto third = next(second, mesh);
+  if (next(third, mesh) != h) throw Bad_mesh("face " + std::to_string(face) + " is not a triangle");
+  return {index(target(h, mesh)), index(target(second, mesh)), index(target(third, mesh))};
+}
 
+template <Triangle_mesh Mesh>
+Mesh_numbering<Mesh>::Mesh_numbering(const Mesh& mesh) : table_(mesh) {
+  check_counts(mesh);
+  vertex_count_ = static_cast<std::uint32_t>(table_.count(mesh));
   corners_.reserve(num_faces(mesh));
-  for (const auto f : faces(mesh)) {
-    const auto h = halfedge(f, mesh);
-    const auto second = next(h, mesh);
-    const auto third = next(second, mesh);
-    if (next(third, mesh) != h) throw Bad_mesh("face " + std::to_string(corners_.size()) + " is not a triangle");
-    corners_.push_back({index(target(h, mesh)), index(target(second, mesh)), index(target(third, mesh))});
+  for (const auto f : faces(mesh)) corners_.push_back(corners_of(f, corners_.size(), mesh));
+}
+
+template <Triangle_mesh Mesh>
+void Mesh_numbering<Mesh>::renumber(const Mesh& mesh, std::span<const std::uint32_t> changed) {
+  const std::size_t face_count = num_faces(mesh);
+  for (const auto face : changed)
+    if (face >= face_count) throw Bad_argument("there is no face " + std::to_string(face));
+  if constexpr (Vertex_table<Mesh>::by_index) {
+    const Vertex_table<Mesh> table(mesh);  // refuses removed elements
+    check_counts(mesh);
+    std::vector<Corners> other, added;
+    const auto read = [&](std::uint32_t face) { return corners_of(lodestone::Face<Mesh>(face), face, mesh); };
+    for (const auto face : changed) other.push_back(read(face));
+    for (std::size_t face = corners_.size(); face < face_count; ++face)
+      added.push_back(read(static_cast<std::uint32_t>(face)));
+    corners_.reserve(face_count);
+    // From here on nothing can fail.
+    corners_.resize(std::min(corners_.size(), face_count));
+    corners_.insert(corners_.end(), added.begin(), added.end());
+    for (std::size_t i = 0; i < changed.size(); ++i) corners_[changed[i]] = other[i];
+    vertex_count_ = static_cast<std::uint32_t>(num_vertices(mesh));
+  } else {
+    *this = Mesh_numbering(mesh);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lodestone/tree/tree_layout.h"
@@ -54,8 +55,20 @@ class Basic_region_tree : public Tree_layout {
       : Tree_layout(corners, labels, coordinates, options, workers),
         volumes_(node_count()),
         part_sums_(parts().size()) {
-    workers.run(part_count(), [&](std::size_t part, std::size_t) { refit_part(part, coordinates); });
-    finish_refit(coordinates);
+    fit(coordinates, workers);
+  }
+
+  /// Follows a change of some faces: see `mended`.
+  /// @return false if a new tree is better; this one stays as it is
+  bool mend(std::span<const Corners> corners, std::span<const std::uint32_t> changed, Coordinates coordinates,
+            const Region_tree_options& options, Workers& workers = Workers::alone()) {
+    auto layout = mended(corners, changed, coordinates, options, workers);
+    if (!layout) return false;
+    static_cast<Tree_layout&>(*this) = std::move(*layout);
+    volumes_.assign(node_count(), {});
+    part_sums_.assign(parts().size(), {});
+    fit(coordinates, workers);
+    return true;
   }
 
   /// Fits all volumes to the current coordinates: those of leaves to the leaf's vertices, each of which is read once,
@@ -85,6 +98,10 @@ class Basic_region_tree : public Tree_layout {
   std::string validate(std::span<const Corners> corners, Coordinates coordinates) const;
 
  private:
+  void fit(Coordinates coordinates, Workers& workers) {
+    workers.run(part_count(), [&](std::size_t part, std::size_t) { refit_part(part, coordinates); });
+    finish_refit(coordinates);
+  }
   void enclose_children(std::uint32_t n) { volumes_[n].enclose(volumes_[n + 1], volumes_[node(n).second_child]); }
 
   std::vector<Volume> volumes_;       ///< per node

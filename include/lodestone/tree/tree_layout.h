@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,6 +54,18 @@ class Tree_layout {
   Tree_layout(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
               const Region_tree_options& options, Workers& workers = Workers::alone());
 
+  /// The layout after a change of some faces. Leaves without such faces stay as they are. O(F), with a constant far
+  /// below that of a new layout.
+  /// @param corners      F' >= 1 faces, now
+  /// @param changed      indices below F' of the faces that have other corners than in this layout. Faces at F and
+  ///                     beyond count as new without being listed, those at F' and beyond as removed
+  /// @param coordinates  3 V', all finite
+  /// @param options      as of this layout, which must have been made without labels
+  /// @return none if a new layout is better: many faces have changed, or a piece of the surface is new
+  std::optional<Tree_layout> mended(std::span<const Corners> corners, std::span<const std::uint32_t> changed,
+                                    Coordinates coordinates, const Region_tree_options& options,
+                                    Workers& workers = Workers::alone()) const;
+
   std::size_t node_count() const { return nodes_.size(); }
   const Node& node(std::uint32_t n) const { return nodes_[n]; }
   bool is_leaf(std::uint32_t n) const { return nodes_[n].second_child == 0; }
@@ -96,7 +109,10 @@ class Tree_layout {
 
  private:
   friend class Tree_builder;
+  friend class Tree_mender;
 
+  static void check(std::span<const Corners> corners, const Region_tree_options& options);
+  void finish();
   void find_parts();
 
   std::vector<Node> nodes_;

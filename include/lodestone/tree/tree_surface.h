@@ -28,6 +28,17 @@ class Basic_tree_surface : public Object_surface {
     finite_ = true;
   }
 
+  /// Takes the tree of a surface of which some faces have changed since, and mends it: see `Tree_layout::mended`.
+  /// @return false if a new tree is better; the former one is then gone
+  bool mend(Basic_tree_surface&& former, std::span<const std::uint32_t> changed, Coordinates coordinates,
+            const Region_tree_options& options, Workers& workers = Workers::alone()) {
+    tree_ = std::move(former.tree_);
+    built_looseness_ = former.built_looseness_;
+    coordinates_ = coordinates;
+    finite_ = true;
+    return tree_.mend(corners(), changed, coordinates, options, workers);
+  }
+
   const Basic_region_tree<Volume>& tree() const { return tree_; }
   Basic_tree_view<Volume> view() const { return {&tree_, coordinates_}; }
   /// Whether all coordinates that faces use are finite. Every query requires it.

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Trees of which some faces change.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "support/tree_checks.h"
+
+namespace lodestone {
+namespace {
+
+using Changed = std::vector<std::uint32_t>;
+
+/// Gives some faces corners of their neighbours, removes some from the end, and adds some with a new vertex.
+Changed change_some(Face_soup& soup, std::size_t count, std::mt19937_64& random) {
+  std::set<std::uint32_t> changed;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto face = static_cast<std::uint32_t>(random() % soup.faces.size());
+    const auto& other = soup.faces[random() % 2 == 0 ? face / 2 : (face + 1) % soup.faces.size()];
+    soup.faces[face][random() % 3] = other[random() % 3];
+    changed.insert(face);
+  }
+  const std::size_t faces_before = soup.faces.size();
+  soup.faces.resize(soup.faces.size() - random() % (count + 1));
+  for (std::size_t i = random() % (count + 1); i > 0; --i) {
+    auto corners = soup.faces[random() % soup.faces.size()];
+    const auto near = soup.point(corners[0]);
+    corners[1] = soup.vertex_count();
+    soup.coordinates.insert(soup.coordinates.end(), {near.x() + 0.01, near.y(), near.z()});
+    if (soup.faces.size() < faces_before) changed.insert(static_cast<std::uint32_t>(soup.faces.size()));
+    soup.faces.push_back(corners);
+  }
+  Changed list;
+  for (const auto face : changed)
+    if (face < soup.faces.size()) list.push_back(face);
+  return list;
+}
+
+TEST(Tree_mender, a_mended_tree_is_valid_however_often_it_is_mended) {
+  std::mt19937_64 random(1);
+  for (const std::size_t leaf_faces : {2, 7, 96, 128})
+    for (auto soup : {Face_soup(icosphere(20)), shuffled(Face_soup(cloth(60, 70)), 1)}) {
+      Region_tree tree(soup.faces, {}, soup.coordinates, {.leaf_faces = leaf_faces});
+      int mended = 0;
+      for (int round = 0; round < 30; ++round) {
+        const auto changed = change_some(soup, round % 10 * 8, random);
+        if (tree.mend(soup.faces, changed, soup.coordinates, {.leaf_faces = leaf_faces}))
+          ++mended;
+        else
+          tree = Region_tree(soup.faces, {}, soup.coordinates, {.leaf_faces = leaf_faces});
+        expect_tree(tree, soup, soup.coordinates);
+      }
+      EXPECT_GT(mended, 20);
+    }
+}
+
+TEST(Tree_mender, leaves_without_a_change_stay_as_they_are) {
+  Face_soup soup(icosphere(30));
+  const Region_tree tree(soup.faces, {}, soup.coordinates);
+  std::swap(soup.faces[100][0], soup.faces[100][1]);
+  auto mended = tree;
+  ASSERT_TRUE(mended.mend(soup.faces, Changed{100}, soup.coordinates, {}));
+  ASSERT_EQ(mended.leaf_count(), tree.leaf_count());
+  for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
+    EXPECT_TRUE(std::ranges::equal(mended.faces(leaf), tree.faces(leaf)));
+  expect_tree(mended, soup, soup.coordinates);
+}
+
+TEST(Tree_mender, is_the_same_for_any_number_of_workers) {
+  std::mt19937_64 random(2);
+  Face_soup soup(icosphere(40));
+  const Region_tree tree(soup.faces, {}, soup.coordinates);
+  const auto changed = change_some(soup, 600, random);
+  auto alone = tree, shared = tree;
+  Workers workers(2);
+  ASSERT_TRUE(alone.mend(soup.faces, changed, soup.coordinates, {}));
+  ASSERT_TRUE(shared.mend(soup.faces, changed, soup.coordinates, {}, workers));
+  EXPECT_TRUE(std::ranges::equal(shared.all_vertices(), alone.all_vertices()));
+  EXPECT_TRUE(std::ranges::equal(shared.volumes(), alone.volumes()));
+}
+
+TEST(Tree_mender, parts_without_faces_are_left_out) {
+  Face_soup soup(cloth(40, 40));
+  Region_tree tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 8});
+  while (soup.faces.size() > 10) {
+    soup.faces.resize(soup.faces.size() - (soup.faces.size() / 20 + 1));
+    const bool mended = tree.mend(soup.faces, {}, soup.coordinates, {.leaf_faces = 8});
+    if (!mended) tree = Region_tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 8});
+    expect_tree(tree, soup, soup.coordinates);
+  }
+}
+
+TEST(Tree_mender, many_changes_and_new_pieces_ask_for_a_new_tree) {
+  const Face_soup before(icosphere(10));
+  Region_tree tree(before.faces, {}, before.coordinates);
+  Changed many;
+  for (std::uint32_t face = 0; face < before.faces.size(); face += 4) many.push_back(face);
+  EXPECT_FALSE(tree.mend(before.faces, many, before.coordinates, {}));
+
+  auto soup = before;
+  const std::uint32_t first = soup.vertex_count();
+  soup.coordinates.insert(soup.coordinates.end(), {5, 0, 0, 6, 0, 0, 5, 1, 0});
+  soup.faces.push_back({first, first + 1, first + 2});
+  EXPECT_FALSE(tree.mend(soup.faces, {}, soup.coordinates, {}));
+  expect_tree(tree, before, before.coordinates);
+}
+
+TEST(Tree_mender, a_strip_of_new_faces_is_placed_from_its_first_on) {
+  Face_soup soup(icosphere(20));
+  Region_tree tree(soup.faces, {}, soup.coordinates);
+  std::uint32_t a = soup.faces[0][0], b = soup.faces[0][1];
+  std::vector<Corners> strip;
+  for (int i = 0; i < 500; ++i) {
+    const std::uint32_t next = soup.vertex_count();
+    soup.coordinates.insert(soup.coordinates.end(), {1 + 0.01 * i, i % 2 == 0 ? 0.0 : 0.01, 0});
+    strip.push_back({a, b, next});
+    a = std::exchange(b, next);
+  }
+  std::ranges::reverse(strip);  // the last touches the surface
+  soup.faces.insert(soup.faces.end(), strip.begin(), strip.end());
+  ASSERT_TRUE(tree.mend(soup.faces, {}, soup.coordinates, {}));
+  expect_tree(tree, soup, soup.coordinates);
+}
+
+}  // namespace
+}  // namespace lodestone
