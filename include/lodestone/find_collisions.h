@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "lodestone/detection/frame_at_once.h"
 #include "lodestone/detector.h"
 
 namespace lodestone {
 
-/// What `find_collisions` found.
+/// What `find_collisions` found; of `find_self_collisions`, a and b are the same mesh.
 struct Collisions {
   bool collide = false;          ///< the surfaces intersect
   bool near = false;             ///< faces are nearer than the tolerance, or intersect; false without one
@@ -21,30 +24,45 @@ struct Collisions {
   Frame_statistics statistics = {};
 };
 
+/// What a frame says about its only pair.
+Collisions collisions_of(const Frame& frame);
+
 /// Finds collisions between two meshes, which may be of different types, with one call.
 ///
 /// Whatever is reported is true, by exact predicates. Mode `exact`, the default, misses nothing; mode `particles` may
-/// miss a collision. Faces are numbered in the order of `faces(mesh)`. To follow meshes that move, keep a
-/// `Detector`: most of the time goes into the partition, which it makes once. Only what is between the two counts:
+/// miss a collision. Faces are numbered in the order of `faces(mesh)`. Only what is between the two counts:
 /// `self_collision` changes nothing.
+///
+/// Nothing is built where `frame_at_once` answers. A tolerance, containment, parting, patches, a limit on the number of
+/// contacts and other modes need a Detector, which this call makes and throws away. To follow meshes that move, keep a
+/// Detector. The query `first` gives one contact, which need not be the one that a Detector gives.
 ///
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
 /// @throws Bad_argument  an option out of range, or one mesh given twice
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
 Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {}) {
+  if (const auto frame = frame_at_once(a, b, options)) return collisions_of(*frame);
   Detector detector(options);
   const Object_id first = detector.add(a), second = detector.add(b);
-  const Frame& frame = options.mode == Mode::exact ? detector.detect(first, second) : detector.detect();
-  return {.collide = frame.collides(),
-          .near = frame.near(),
-          .faces = frame.face_pairs,
-          .points = frame.contact_points,
-          .normals = frame.contact_normals,
-          .capped = frame.capped(),
-          .containment = frame.pairs.empty() ? Containment::none : frame.pairs.front().containment,
-          .parting = frame.pairs.empty() ? std::nullopt : frame.pairs.front().parting,
-          .patches = frame.patches,
-          .statistics = frame.statistics};
+  return collisions_of(options.mode == Mode::exact ? detector.detect(first, second) : detector.detect());
 }
+
+/// Finds the faces of one mesh that intersect each other, with one call, in mode `exact`. `Collisions::faces` are face
+/// pairs a < b. Which faces count, and what options mean, is as in a Detector with `Exact_options::self_collision`,
+/// which this call sets: it gives the same contacts, but without a partition. See `self_frame_at_once`.
+///
+/// Nothing moves between two frames, so a `self_tolerance` finds no more than faces that intersect.
+///
+/// @param file_vertex    which vertices are one: see `Object_options::file_vertex`
+/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
+/// @throws Bad_argument  an option out of range, another mode; `file_vertex` does not have one entry per vertex
+template <Triangle_mesh Mesh>
+Collisions find_self_collisions(const Mesh& mesh, const Detector_options& options = {},
+                                std::span<const std::uint32_t> file_vertex = {}) {
+  return collisions_of(self_frame_at_once(mesh, options, file_vertex));
+}
+
+extern template std::optional<Frame> frame_at_once(const Surface_mesh&, const Surface_mesh&, const Detector_options&);
+extern template Frame self_frame_at_once(const Surface_mesh&, Detector_options, std::span<const std::uint32_t>);
 
 }  // namespace lodestone

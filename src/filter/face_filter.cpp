@@ -2,11 +2,11 @@
 #include "lodestone/filter/face_filter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "filter/face_columns.h"
 #include "filter/face_filter_kernel.h"
+#include "filter/filter_request.h"
 #include "filter/filter_scratch.h"
 
 namespace lodestone {
@@ -16,37 +16,6 @@ namespace {
 /// Leaves that are kept per tree: a walk meets most leaves again soon or not at all.
 constexpr std::size_t slot_count = 32;
 constexpr auto no_leaf = std::numeric_limits<std::uint32_t>::max();
-
-/// A power of two, from 2^-1000 to 2^1000, that brings a size near 1 or nearer to it.
-double unit_scale(double size) { return size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1; }
-
-/// A float that is no less than a number, and no less than 0.
-float rounded_up(double number) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  if (number >= static_cast<double>(std::numeric_limits<float>::max())) return infinity;
-  return number > 0 ? std::nextafter(static_cast<float>(number), infinity) : 0;
-}
-
-/// Rounding and steps are finest where the two trees overlap: only faces there may meet. Where the trees only touch,
-/// the overlap is flat, and steps of its size would separate nothing: each of its sides counts as at least a thousandth
-/// of a tree.
-kernel::Filter_request filter_request(const Aabb& a, const Aabb& b, double margin) {
-  kernel::Filter_request request{};
-  request.margin = margin;
-  constexpr double most = std::numeric_limits<double>::max();
-  const double extent = std::min(a.extent() > 0 ? a.extent() : b.extent(), most);
-  request.scale = unit_scale(extent);
-  request.rounded_margin = rounded_up(margin * request.scale);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = std::max(a.low[axis], b.low[axis]);
-    const double high = std::min(std::min(a.high[axis], b.high[axis]) + margin, most);
-    // Scaled first: the difference could overflow.
-    const double size = std::max(extent * request.scale / 1024, high * request.scale - low * request.scale);
-    request.origin[axis] = std::isfinite(low) ? low : 0;
-    request.steps_per_unit[axis] = size > 1e-30 ? static_cast<float>(most_steps / size) : 0;
-  }
-  return request;
-}
 
 }  // namespace
 

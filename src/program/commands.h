@@ -23,6 +23,7 @@ struct Detect_command {
   std::vector<std::filesystem::path> inputs;
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
+  bool chooses_strategy = false;  ///< the user chose the partition, or a setting of it
   bool truth = false;
   bool closest = false;                       ///< also find the closest faces of each object pair
   std::filesystem::path out, html, paraview;  ///< empty: not written

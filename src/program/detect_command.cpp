@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "io/files/small_text.h"
+#include "lodestone/detection/frame_at_once.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/queries/exhaustive.h"
@@ -44,25 +45,22 @@ Detector_options detector_options(const Detect_command& command) {
   return options;
 }
 
+/// Whether the first frame may be made without a detector. Files of results tell what the detector has built.
+bool asks_once(const Detect_command& command, const Scene& scene) {
+  const bool prints_only = command.out.empty() && command.html.empty() && command.paraview.empty() && !command.json;
+  return scene.frames == 1 && scene.objects.size() == 2 && !scene.ignores({0, 1}) && prints_only &&
+         !command.chooses_strategy && !command.closest && !command.options.exact.self_collision &&
+         can_answer_at_once(command.options);
+}
+
 /// A run through a scene: the detector, the truth beside it, and the results so far.
 class Run {
  public:
-  explicit Run(const Detect_command& command)
-      : command_(command),
-        scene_(load(command)),
-        detector_(detector_options(command), make_strategy(command.partition.name, command.partition.settings)) {
-    for (auto& object : scene_.objects) {
-      Object_options options{.particles = command.options.particles > 0 ? 0 : object.particles,
-                             .groups = object.collision.groups,
-                             .meets = object.collision.meets};
-      if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
-      options.file_vertex = object.file_vertex;
-      options.name = object.name;
-      detector_.add(object.mesh, options);
-    }
-    for (const auto& pair : scene_.ignored) detector_.ignore(pair.a, pair.b);
+  explicit Run(const Detect_command& command) : command_(command), scene_(load(command)) {
+    asks_once_ = asks_once(command, scene_);
+    if (!asks_once_) make_detector();
     summary_.measurement.setting.options = command.options;
-    if (!command.html.empty()) page_.emplace(command, scene_, detector_);
+    if (!command.html.empty()) page_.emplace(command, scene_, *detector_);
     if (!command.paraview.empty()) paraview_.emplace(command.paraview, scene_.frames);
   }
 
@@ -77,7 +75,7 @@ class Run {
   void note_seams() const {
     if (command_.options.mode == Mode::exact) return;
     for (Object_id id = 0; id < scene_.objects.size(); ++id)
-      note_joined_vertices(scene_.objects[id].name, detector_.object(id).joined_vertices(),
+      note_joined_vertices(scene_.objects[id].name, detector_->object(id).joined_vertices(),
                            scene_.objects[id].mesh.number_of_vertices());
   }
   /// Null if no page was requested.
@@ -87,7 +85,9 @@ class Run {
   bool contradicts_truth() const { return contradicted_ || (missed_ && command_.options.mode == Mode::exact); }
 
  private:
-  Run_subject subject() const { return {command_, scene_, detector_}; }
+  Run_subject subject() const { return {command_, scene_, detector_ ? &*detector_ : nullptr}; }
+  void make_detector();
+  const Frame& detect();
   template <class Visit>
   void for_each_pair(const Visit& visit) const;
   std::optional<std::vector<Pair_truth>> find_truth() const;
@@ -97,17 +97,42 @@ class Run {
 
   const Detect_command& command_;
   Scene scene_;
-  Scene_detector detector_;
+  bool asks_once_ = false;
+  std::optional<Scene_detector> detector_;  ///< none if the only frame has been made without one
+  std::optional<Frame> only_frame_;         ///< the one that has been made so
   Run_summary summary_;
   std::optional<Page_log> page_;
   std::optional<Paraview_log> paraview_;
   bool contradicted_ = false, missed_ = false;
 };
 
+void Run::make_detector() {
+  detector_.emplace(detector_options(command_), make_strategy(command_.partition.name, command_.partition.settings));
+  for (auto& object : scene_.objects) {
+    Object_options options{.particles = command_.options.particles > 0 ? 0 : object.particles,
+                           .groups = object.collision.groups,
+                           .meets = object.collision.meets};
+    if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
+    options.file_vertex = object.file_vertex;
+    options.name = object.name;
+    detector_->add(object.mesh, options);
+  }
+  for (const auto& pair : scene_.ignored) detector_->ignore(pair.a, pair.b);
+}
+
+const Frame& Run::detect() {
+  if (asks_once_) {
+    only_frame_ = frame_at_once(scene_.objects[0].mesh, scene_.objects[1].mesh, command_.options);
+    if (only_frame_) return *only_frame_;
+    make_detector();
+  }
+  detector_->update();
+  return detector_->detect();
+}
+
 std::string Run::play(std::size_t frame) {
   for (auto& object : scene_.objects) pose(object, frame);
-  detector_.update();
-  const Frame& result = detector_.detect();
+  const Frame& result = detect();
   // The first frame builds, and finds all positions outside the caches.
   summary_.add(frame, result, frame > 0 || scene_.frames == 1);
   if (paraview_) paraview_->add(frame, scene_, result);
@@ -146,7 +171,7 @@ std::optional<std::vector<Pair_truth>> Run::find_truth() const {
 std::optional<std::vector<Pair_closest>> Run::find_closest() {
   if (!command_.closest) return std::nullopt;
   std::vector<Pair_closest> closest;
-  for_each_pair([&](Object_id a, Object_id b) { closest.push_back({a, b, detector_.closest(a, b)}); });
+  for_each_pair([&](Object_id a, Object_id b) { closest.push_back({a, b, detector_->closest(a, b)}); });
   return closest;
 }
 

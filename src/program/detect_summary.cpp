@@ -29,10 +29,10 @@ Json object_summary_json(const Run_subject& subject, Object_id id) {
             {"faces", count_file_faces(object.file_face).count},
             {"triangles", object.mesh.number_of_faces()}};
   if (subject.command.options.mode == Mode::exact) {
-    json["leaves"] = subject.detector.tree(id).leaf_count();
+    json["leaves"] = subject.detector->tree(id).leaf_count();
   } else {
-    json["particles"] = subject.detector.object(id).particles().at.size();
-    json["joined_vertices"] = subject.detector.object(id).joined_vertices();
+    json["particles"] = subject.detector->object(id).particles().at.size();
+    json["joined_vertices"] = subject.detector->object(id).joined_vertices();
   }
   return json;
 }
@@ -164,6 +164,7 @@ void print_times(const Run_subject& subject, const Run_summary& summary) {
   fmt::print("{:.1f} microseconds per frame (median, all stages but build), {}, {:.1f} exact tests (mean)\n",
              median_microseconds_without_build(measurement), work_of(options, measurement),
              mean_count(measurement, &Frame_statistics::exact_tests));
+  if (summary.builds == 0) return;
   fmt::print("{:.1f} milliseconds to build {} objects: {}\n", 1e3 * measurement.build_seconds, summary.builds,
              building_of(options));
 }

@@ -57,13 +57,13 @@ struct Run_summary {
 struct Run_subject {
   const Detect_command& command;
   const Scene& scene;
-  const Scene_detector& detector;
+  const Scene_detector* detector;  ///< null: the frame has been made without one
 
   /// Whether the truth about a pair is known. It is not known for self-collisions.
   bool has_truth(Object_pair pair) const { return command.truth && pair.a != pair.b; }
 };
 
-/// The content of `summary.json`.
+/// The content of `summary.json`, of a run with a detector.
 nlohmann::ordered_json summary_json(const Run_subject& subject, const Run_summary& summary);
 
 /// One line: how many pairs collide, and when.

@@ -296,6 +296,7 @@ int run_commands(int argc, char** argv) {
     // Whoever names a strategy wants to see regions.
     if (detect.options.mode == Mode::exact && app.count("--strategy") > 0 && detect.options.particles == 0)
       detect.options.particles = detect.options.least_particles;
+    detect.chooses_strategy = chooses_strategy(app);
   }
   if (program.got_subcommand("partition"))
     refuse_options_of_other_strategies(*program.get_subcommand("partition"), partition.strategy.name, true);

@@ -16,6 +16,12 @@
 
 namespace lodestone {
 
+/// Whether the user chose a strategy or one of its settings.
+inline bool chooses_strategy(const CLI::App& command) {
+  const auto names = {"--strategy", "--seed", "--normal-weight", "--split", "--epsilon", "--tolerance"};
+  return std::ranges::any_of(names, [&](const char* name) { return command.count(name) > 0; });
+}
+
 /// Refuses options that the strategy would ignore. All strategies accept a seed.
 /// @param threads  whether --threads concerns nothing but the strategy
 /// @throws Bad_argument  names the option and the strategies that take it

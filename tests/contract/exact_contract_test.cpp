@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contract/mesh_types.h"
+#include "lodestone/find_collisions.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "support/exact_truth.h"
 
@@ -225,6 +226,51 @@ TYPED_TEST(Exact_contract, a_non_finite_coordinate_is_refused_only_in_its_frame)
     EXPECT_THROW(detector.detect(), Bad_mesh);
     place(a, good);
     EXPECT_EQ(expect_exhaustive(detector.detect(), {&source, &other}), 1U);
+  }
+}
+
+TYPED_TEST(Exact_contract, one_call_gives_the_contacts_that_a_detector_gives) {
+  const Detector_options options{.contact_points = true, .contact_normals = true};
+  std::size_t contacts = 0;
+  for (auto tested : surfaces()) {
+    SCOPED_TRACE(tested.name);
+    const auto a = converted<TypeParam>(tested.a);
+    auto b = converted<TypeParam>(tested.b);
+    for (const auto& positions : tested.poses) {
+      place(b, positions);
+      place(tested.b, positions);
+      Exact_detector detector(options);
+      detector.add(tested.a), detector.add(tested.b);
+      const Frame& expected = detector.detect();
+      const auto found = find_collisions(a, b, options);
+      EXPECT_EQ(found.faces, exhaustive_face_pairs(tested.a, tested.b));
+      EXPECT_EQ(found.points, expected.contact_points);
+      ASSERT_EQ(found.normals.size(), expected.contact_normals.size());
+      for (std::size_t i = 0; i < found.normals.size(); ++i)
+        EXPECT_EQ(found.normals[i].normal, expected.contact_normals[i].normal);
+      EXPECT_EQ(found.statistics.builds, 0U);
+      EXPECT_EQ(find_collisions(a, tested.b, {.contacts = Contact_query::yes_no}).collide, expected.collides());
+      contacts += found.faces.size();
+    }
+    Exact_detector detector(self_collision);
+    detector.add(tested.a);
+    EXPECT_EQ(find_self_collisions(a).faces, detector.detect().face_pairs);
+  }
+  EXPECT_GT(contacts, 0U);
+}
+
+TYPED_TEST(Exact_contract, one_call_refuses_coordinates_that_are_not_finite_and_empty_meshes) {
+  const auto source = sphere(4);
+  const auto good = converted<TypeParam>(source);
+  auto bad = converted<TypeParam>(source);
+  Positions positions = positions_of(source);
+  positions(9, 2) = std::numeric_limits<double>::quiet_NaN();
+  place(bad, positions);
+  const TypeParam empty;
+  for (const TypeParam* mesh : {&std::as_const(bad), &empty}) {
+    EXPECT_THROW(find_collisions(good, *mesh), Bad_mesh);
+    EXPECT_THROW(find_collisions(*mesh, good), Bad_mesh);
+    EXPECT_THROW(find_self_collisions(*mesh), Bad_mesh);
   }
 }
 

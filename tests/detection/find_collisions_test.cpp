@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <random>
+#include <string>
 
 #include "support/exact_truth.h"
 
@@ -130,6 +132,237 @@ TEST(Find_collisions, refuses_bad_input) {
     EXPECT_THROW(find_collisions(mesh, broken, {.mode = mode}), Bad_mesh);
   }
   EXPECT_THROW(find_collisions(mesh, sphere(2), {.mode = Mode::particles, .collision_distance = -1}), Bad_argument);
+}
+
+/// The same by a detector.
+template <class Mesh_a, class Mesh_b>
+Collisions by_detector(const Mesh_a& a, const Mesh_b& b, const Detector_options& options) {
+  Detector<> detector(options);
+  detector.add(a), detector.add(b);
+  return collisions_of(detector.detect(0, 1));
+}
+
+Collisions self_by_detector(const Surface_mesh& mesh, Detector_options options,
+                            const std::vector<std::uint32_t>& file_vertex = {}) {
+  options.exact.self_collision = true;
+  Detector<> detector(options);
+  detector.add(mesh, {.file_vertex = file_vertex});
+  return collisions_of(detector.detect(0, 0));
+}
+
+void expect_same(const Collisions& found, const Collisions& expected) {
+  EXPECT_EQ(found.collide, expected.collide);
+  EXPECT_EQ(found.near, expected.near);
+  EXPECT_EQ(found.faces, expected.faces);
+  EXPECT_EQ(found.points, expected.points);
+  ASSERT_EQ(found.normals.size(), expected.normals.size());
+  for (std::size_t i = 0; i < found.normals.size(); ++i) {
+    EXPECT_EQ(found.normals[i].normal, expected.normals[i].normal);
+    EXPECT_EQ(found.normals[i].depth, expected.normals[i].depth);
+  }
+  EXPECT_EQ(found.capped, expected.capped);
+  EXPECT_EQ(found.containment, expected.containment);
+  ASSERT_EQ(found.parting.has_value(), expected.parting.has_value());
+  if (found.parting) {
+    EXPECT_EQ(found.parting->translation, expected.parting->translation);
+  }
+  ASSERT_EQ(found.patches.size(), expected.patches.size());
+  for (std::size_t i = 0; i < found.patches.size(); ++i) EXPECT_EQ(found.patches[i].contacts, expected.patches[i].contacts);
+  EXPECT_EQ(found.statistics.contacts, expected.statistics.contacts);
+}
+
+/// Pairs of meshes that are apart, touch, lie in one plane, share vertices, coincide, enclose each other or cross.
+std::vector<std::pair<Surface_mesh, Surface_mesh>> mesh_pairs() {
+  const auto shifted = [](Surface_mesh mesh, double x, double y, double z) {
+    shift(mesh, x, y, z);
+    return mesh;
+  };
+  const auto scaled = [](Surface_mesh mesh, double factor) {
+    scale(mesh, factor);
+    return mesh;
+  };
+  const auto flattened = [](Surface_mesh mesh) {
+    deform(mesh, [](const Point& p) { return Point(p.x(), 0.5 * p.x(), p.z() > 0 ? 1 : 0); });
+    return mesh;
+  };
+  const Surface_mesh ball = sphere(5), box = cube(2), sheet = grid(4, 4), lump = potato(5);
+  std::vector<std::pair<Surface_mesh, Surface_mesh>> pairs{
+      {ball, shifted(ball, 5, 0, 0)},          {ball, shifted(ball, 2, 0, 0)},
+      {ball, shifted(ball, 1.7, 1.1, 0)},      {ball, shifted(ball, 1.5, 0.1, 0)},
+      {ball, ball},                            {ball, scaled(ball, 0.5)},
+      {scaled(ball, 0.5), ball},               {box, shifted(box, 1, 0, 0)},
+      {box, shifted(box, 1, 1, 1)},            {box, box},
+      {sheet, sheet},                          {sheet, shifted(sheet, 0.3, 0.2, 0)},
+      {sheet, shifted(sheet, 0, 0, 1)},        {sheet, lump},
+      {single_triangle(), single_triangle()},  {single_triangle(), ball},
+      {single_triangle(), tetrahedron()},      {flattened(ball), ball},
+      {flattened(ball), flattened(lump)},      {scaled(lump, 1e300), scaled(ball, 1e300)},
+      {scaled(lump, 1e-300), scaled(ball, 1e-300)}};
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> offset(-1.5, 1.5);
+  for (int trial = 0; trial < 20; ++trial) {
+    Surface_mesh other = potato(4, static_cast<std::uint64_t>(trial));
+    crumple(other, trial % 3 == 0 ? 0.2 : 0, 1);
+    pairs.emplace_back(lump, shifted(other, offset(random), offset(random), offset(random)));
+  }
+  return pairs;
+}
+
+TEST(Find_collisions, answers_as_a_detector_does_whatever_the_options_ask_for) {
+  const std::vector<Detector_options> cases{{},
+                                            {.contacts = Contact_query::yes_no},
+                                            {.contact_points = true},
+                                            {.contact_points = true, .contact_normals = true},
+                                            {.most_contacts = 3},
+                                            {.contacts = Contact_query::yes_no, .most_contacts = 3},
+                                            {.exact = {.tolerance = 0.05}},
+                                            {.exact = {.self_collision = true, .containment = true}},
+                                            {.exact = {.parting = true, .patches = true}},
+                                            {.exact = {.threads = 2}},
+                                            {.contact_normals = true, .exact = {.self_tolerance = 0.1}}};
+  std::size_t colliding = 0;
+  const auto pairs = mesh_pairs();
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+      SCOPED_TRACE(testing::Message() << "meshes " << p << ", options " << c);
+      const auto& [a, b] = pairs[p];
+      const Collisions found = find_collisions(a, b, cases[c]);
+      expect_same(found, by_detector(a, b, cases[c]));
+      colliding += found.collide ? 1 : 0;
+    }
+  EXPECT_GT(colliding, pairs.size() * cases.size() / 4);
+  EXPECT_LT(colliding, pairs.size() * cases.size());
+}
+
+TEST(Find_collisions, gives_a_single_true_contact_if_asked_for_the_first) {
+  for (const auto& [a, b] : mesh_pairs()) {
+    const auto truth = exhaustive_face_pairs(a, b);
+    const auto found = find_collisions(a, b, {.contacts = Contact_query::first, .contact_points = true});
+    EXPECT_EQ(found.collide, !truth.empty());
+    EXPECT_EQ(found.faces.size(), truth.empty() ? 0U : 1U);
+    EXPECT_EQ(found.points.size(), found.faces.size());
+    EXPECT_TRUE(std::ranges::includes(truth, found.faces));
+  }
+}
+
+TEST(Find_collisions, builds_nothing_unless_options_need_it) {
+  const auto a = sphere(8), b = sphere(8, 1, {1.5, 0.1, 0});
+  for (const auto contacts : {Contact_query::all, Contact_query::first, Contact_query::yes_no}) {
+    const auto found = find_collisions(a, b, {.contacts = contacts});
+    EXPECT_TRUE(found.collide);
+    EXPECT_EQ(found.statistics.builds, 0U);
+    EXPECT_EQ(found.statistics.seconds.build, 0);
+    EXPECT_EQ(found.statistics.vertices_read, a.number_of_vertices() + b.number_of_vertices());
+    EXPECT_GT(found.statistics.exact_tests, 0U);
+  }
+  EXPECT_EQ(find_collisions(a, b, {.exact = {.tolerance = 0.1}}).statistics.builds, 2U);
+}
+
+/// What `ask` throws; empty: nothing.
+template <class Ask>
+std::string refusal(const Ask& ask) {
+  try {
+    ask();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Find_collisions, refuses_what_a_detector_refuses_in_the_same_words) {
+  const auto good = sphere(4);
+  auto quadrilateral = sphere(4), infinite = sphere(4), unused = sphere(4), removed = sphere(4);
+  std::vector<Surface_mesh::Vertex_index> corners;
+  for (const auto& p : {Point(40, 0, 0), Point(41, 0, 0), Point(41, 1, 0), Point(40, 1, 0)})
+    corners.push_back(quadrilateral.add_vertex(p));
+  quadrilateral.add_face(corners);
+  infinite.point(Surface_mesh::Vertex_index(17)) = Point(0, std::numeric_limits<double>::infinity(), 0);
+  unused.add_vertex(Point(0, 0, std::numeric_limits<double>::quiet_NaN()));
+  CGAL::Euler::remove_face(removed.halfedge(*removed.faces().begin()), removed);
+  const Surface_mesh none;
+  auto distant = quadrilateral;
+  shift(distant, 500);
+  const std::vector<const Surface_mesh*> meshes{&good, &quadrilateral, &infinite, &unused, &removed, &none, &distant};
+  std::size_t refused = 0;
+  for (const auto* a : meshes)
+    for (const auto* b : meshes) {
+      const std::string expected = refusal([&] { by_detector(*a, *b, {}); });
+      EXPECT_EQ(refusal([&] { find_collisions(*a, *b); }), expected);
+      refused += expected.empty() ? 0 : 1;
+    }
+  EXPECT_EQ(refused, meshes.size() * meshes.size());
+  for (const Detector_options& options :
+       {Detector_options{.most_contacts = 0}, {.exact = {.tolerance = -1}}, {.meetings = 1}, {.exact = {.loosest = 0}}}) {
+    const std::string expected = refusal([&] { by_detector(good, sphere(2), options); });
+    EXPECT_FALSE(expected.empty());
+    EXPECT_EQ(refusal([&] { find_collisions(good, sphere(2), options); }), expected);
+    EXPECT_EQ(refusal([&] { find_self_collisions(good, options); }), expected);
+  }
+}
+
+/// Surfaces with and without folds.
+std::vector<Surface_mesh> folded_meshes() {
+  std::vector<Surface_mesh> meshes{sphere(6), cube(3), grid(6, 5), single_triangle()};
+  for (const double distance : {0.05, 0.2, 0.5}) {
+    meshes.push_back(potato(8));
+    crumple(meshes.back(), distance, 2);
+    meshes.push_back(grid(12, 10));
+    crumple(meshes.back(), 4 * distance, 3);
+  }
+  meshes.push_back(sphere(7));
+  append(meshes.back(), sphere(6, 0.9, {0.8, 0, 0}));
+  return meshes;
+}
+
+TEST(Find_self_collisions, answers_as_a_detector_does) {
+  const std::vector<Detector_options> cases{{},
+                                            {.contacts = Contact_query::yes_no},
+                                            {.contact_points = true, .contact_normals = true},
+                                            {.exact = {.self_tolerance = 0.05}},
+                                            {.exact = {.patches = true}},
+                                            {.exact = {.threads = 2}}};
+  std::size_t colliding = 0;
+  for (const auto& mesh : folded_meshes())
+    for (const auto& options : cases) {
+      const Collisions found = find_self_collisions(mesh, options);
+      expect_same(found, self_by_detector(mesh, options));
+      colliding += found.collide ? 1 : 0;
+    }
+  EXPECT_GT(colliding, 4 * cases.size());
+}
+
+TEST(Find_self_collisions, lists_as_many_contacts_as_asked_for) {
+  auto mesh = potato(8);
+  crumple(mesh, 0.5, 2);
+  const auto all = find_self_collisions(mesh);
+  ASSERT_GT(all.faces.size(), 5U);
+  const auto some = find_self_collisions(mesh, {.most_contacts = 5});
+  EXPECT_TRUE(some.capped);
+  EXPECT_EQ(some.faces.size(), 5U);
+  EXPECT_TRUE(std::ranges::includes(all.faces, some.faces));
+  EXPECT_EQ(find_self_collisions(mesh, {.contacts = Contact_query::first}).faces.size(), 1U);
+}
+
+TEST(Find_self_collisions, joins_vertices_of_one_file_vertex) {
+  const auto mesh = flat_shaded(sphere(3));
+  std::vector<std::uint32_t> file_vertex(mesh.number_of_vertices());
+  std::map<Point, std::uint32_t> places;
+  for (const auto v : mesh.vertices())
+    file_vertex[v] = places.try_emplace(mesh.point(v), static_cast<std::uint32_t>(places.size())).first->second;
+  EXPECT_TRUE(find_self_collisions(mesh).collide);
+  EXPECT_FALSE(find_self_collisions(mesh, {}, file_vertex).collide);
+  EXPECT_THROW(find_self_collisions(mesh, {}, std::vector<std::uint32_t>(3)), Bad_argument);
+}
+
+TEST(Find_self_collisions, refuses_what_a_detector_refuses_in_the_same_words) {
+  auto infinite = sphere(4);
+  infinite.point(Surface_mesh::Vertex_index(17)) = Point(0, std::numeric_limits<double>::infinity(), 0);
+  for (const auto& mesh : {Surface_mesh(), infinite}) {
+    const std::string expected = refusal([&] { self_by_detector(mesh, {}); });
+    EXPECT_FALSE(expected.empty());
+    EXPECT_EQ(refusal([&] { find_self_collisions(mesh); }), expected);
+  }
+  EXPECT_THROW(find_self_collisions(sphere(3), {.mode = Mode::particles}), Bad_argument);
 }
 
 }  // namespace

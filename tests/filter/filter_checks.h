@@ -33,6 +33,7 @@ class Single_leaf {
   }
   void refit() { ASSERT_TRUE(tree_.refit(soup_.coordinates)); }
   std::size_t size() const { return soup_.faces.size(); }
+  std::span<const Corners> faces() const { return soup_.faces; }
   Triangle triangle(std::size_t face) const { return soup_.triangle(face); }
   Tree_view view() const { return {&tree_, soup_.coordinates}; }
 

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "lodestone/detection/detector_options.h"
+#include "lodestone/detection/exact_object.h"
+#include "lodestone/detection/frame.h"
+#include "lodestone/mesh/coordinate_reader.h"
+#include "lodestone/mesh/faces_in_box.h"
+#include "lodestone/mesh/joined_vertices.h"
+#include "lodestone/mesh/stopwatch.h"
+
+/// Frames of the mode `exact` for meshes that are asked about once: nothing is built that another frame would need.
+namespace lodestone {
+
+/// Whether a frame of two meshes can be made at once. Not with another mode, a tolerance, containment, parting or
+/// patches, nor where the number of contacts is limited: which of them are listed depends on the trees.
+/// @throws Bad_argument  an option out of range
+bool can_answer_at_once(const Detector_options& options);
+
+/// Two surfaces, as far as they can meet.
+struct Overlapping_surfaces {
+  Box box_a, box_b;  ///< around all their vertices
+  Faces_in_box a, b;
+};
+/// The frame of two surfaces, the objects 0 and 1.
+/// @param reading  seconds that it took to read them
+Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading);
+/// The frame of one surface, the object 0, and itself.
+/// @param corners  without doubled vertices
+Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, const Detector_options& options);
+
+/// The first frame of a Detector to which two meshes have been added, without that detector. It has the same contacts,
+/// points and normals; with the query `first`, the contact may be another one. Times are `broad_phase` and
+/// `confirmation`.
+///
+/// O(V) for two meshes whose boxes are apart and which have no border. Else O(V + F), and what an Overlap_search takes
+/// for the faces where the boxes overlap.
+///
+/// @return none: the detector has to answer. So it is if `can_answer_at_once` is false, and for meshes that a detector
+///         refuses, with the reason
+/// @throws Bad_argument  an option out of range
+template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
+std::optional<Frame> frame_at_once(const Mesh_a& a, const Mesh_b& b, const Detector_options& options) {
+  if (!can_answer_at_once(options) || static_cast<const void*>(&a) == static_cast<const void*>(&b)) return std::nullopt;
+  Overlapping_surfaces surfaces;
+  bool usable = false;
+  double reading = 0;
+  timed(reading, [&] {
+    Box_reader<Mesh_a, Own_points<Mesh_a>> reader_a(a, CGAL::get_const_property_map(CGAL::vertex_point, a));
+    Box_reader<Mesh_b, Own_points<Mesh_b>> reader_b(b, CGAL::get_const_property_map(CGAL::vertex_point, b));
+    if (!reader_a.read_positions() || !reader_b.read_positions()) return;
+    surfaces.box_a = reader_a.box(), surfaces.box_b = reader_b.box();
+    const Box overlap = surfaces.box_a.intersection(surfaces.box_b);
+    usable = reader_a.read_faces(overlap, surfaces.a) && reader_b.read_faces(overlap, surfaces.b);
+  });
+  if (!usable) return std::nullopt;
+  Frame frame = overlap_frame(surfaces, options, reading);
+  frame.statistics.vertices_read = num_vertices(a) + num_vertices(b);
+  return frame;
+}
+
+/// The first frame of a Detector to which one mesh has been added, with `Exact_options::self_collision`: without a
+/// partition, and with a tree that is thrown away. It has the same contacts, points, normals and patches; where the
+/// number of contacts is limited, others may be listed.
+///
+/// O(F log F).
+///
+/// @param file_vertex    see `Object_options::file_vertex`
+/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
+/// @throws Bad_argument  an option out of range, another mode; `file_vertex` does not have one entry per vertex
+template <Triangle_mesh Mesh>
+Frame self_frame_at_once(const Mesh& mesh, Detector_options options, std::span<const std::uint32_t> file_vertex = {}) {
+  options.exact.self_collision = true;
+  check(options);
+  double reading = 0;
+  std::optional<Mesh_numbering<Mesh>> numbering;
+  std::vector<Corners> joined;
+  Coordinate_reader<Mesh, Own_points<Mesh>> reader(CGAL::get_const_property_map(CGAL::vertex_point, mesh));
+  Coordinates positions;
+  timed(reading, [&] {
+    numbering.emplace(mesh);
+    joined = join_vertices(numbering->corners(), numbering->vertex_count(), file_vertex);
+    positions = reader.read(*numbering);
+    check_finite(positions, title_of(0, {}));
+  });
+  Frame frame = self_frame(joined.empty() ? std::span(numbering->corners()) : joined, positions, options);
+  frame.statistics.seconds.build += reading;
+  return frame;
+}
+
+}  // namespace lodestone

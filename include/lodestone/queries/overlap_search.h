@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "lodestone/filter/face_group_filter.h"
+#include "lodestone/mesh/box.h"
+#include "lodestone/mesh/faces_in_box.h"
+#include "lodestone/mesh/pairs.h"
+#include "lodestone/queries/contact_search.h"
+#include "lodestone/queries/rounded_box.h"
+
+namespace lodestone {
+
+/// Finds the contacts of two surfaces that are asked about once, without a tree.
+///
+/// The faces of both are halved again and again, the longer list along the longer side of its box, but only as far as
+/// the answer needs: what lies outside the box of the other list is dropped first. Lists of at most `group_faces` faces
+/// go to the filter and the exact test.
+///
+/// O(F) where surfaces cross along a curve, or one contact is enough; at most O(F log F) steps of some nanoseconds
+/// before the filters.
+class Overlap_search {
+ public:
+  /// Appends the face pairs that intersect to `found`, sorted; none for the query `yes_no`, one for `first`.
+  /// @param a, b          faces by index in their meshes, of which those outside `overlap` may be missing
+  /// @param box_a, box_b  around the two surfaces
+  Contact_summary run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b, const Box& box_b,
+                      Contact_query query, std::vector<Face_pair>& found);
+
+ private:
+  /// Faces of one surface: so many from one place of its stack on, and the box around them.
+  struct Part {
+    std::size_t begin, count;
+    Rounded_box box;
+  };
+  using Pair_of_parts = std::array<Part, 2>;
+
+  /// Boxes of faces. What lies on top of a list goes before the list does.
+  class Stack {
+   public:
+    Rounded_box* at(std::size_t place) { return boxes_.get() + place; }
+    std::size_t top() const { return top_; }
+    void drop_to(std::size_t top) { top_ = top; }
+    /// Makes room for `count` boxes on top, which it leaves unset. Invalidates addresses.
+    void reserve(std::size_t count);
+    /// Adds boxes that have been written on top.
+    Part push(std::size_t count, const Rounded_box& around) {
+      top_ += count;
+      return {.begin = top_ - count, .count = count, .box = around};
+    }
+
+   private:
+    std::unique_ptr<Rounded_box[]> boxes_;
+    std::size_t top_ = 0, capacity_ = 0;
+  };
+
+  bool search_slice(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
+  bool search_all(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
+  Part box_faces(int side, const Box& overlap, double scale);
+  bool search(Pair_of_parts parts);
+  bool cull(Pair_of_parts& parts);
+  Part copy_meeting(int side, const Part& from, const Rounded_box& other);
+  Part take_half(int side, Part& whole);
+  Part take_median(int side, Part& whole, int axis);
+  bool test(const Pair_of_parts& parts);
+
+  /// Lists no longer than this are not halved any further: to filter them takes about as long as to halve them.
+  static constexpr std::size_t group_faces = 64;
+  /// Of surfaces with more faces than this, a slice is searched first if one contact is enough.
+  static constexpr std::size_t few_faces = 512;
+
+  const Faces_in_box* faces_[2] = {};
+  Stack stacks_[2];
+  std::vector<Corners> groups_[2];
+  Face_group_filter filter_;
+  std::vector<Face_pair>* found_ = nullptr;
+  bool one_is_enough_ = false;
+  std::size_t leaf_tests_ = 0, exact_tests_ = 0;
+};
+
+}  // namespace lodestone

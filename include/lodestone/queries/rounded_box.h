@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+namespace lodestone {
+
+/// The box of a face, or of several, in rounded coordinates. Its highest corner is negated, so that one kind of
+/// comparison serves all six sides.
+struct alignas(32) Rounded_box {
+  float low[3];
+  std::uint32_t index;  ///< of the face in a list; of no meaning for a box around several
+  float negated_high[3];
+  std::uint32_t unused;  ///< padding: a vector holds a whole box
+
+  float high(int axis) const { return -negated_high[axis]; }
+  float side(int axis) const { return high(axis) - low[axis]; }
+  float twice_centre(int axis) const { return low[axis] + high(axis); }
+};
+
+}  // namespace lodestone

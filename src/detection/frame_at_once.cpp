@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/detection/frame_at_once.h"
+
+#include <algorithm>
+
+#include "lodestone/detection/frame_builder.h"
+#include "lodestone/mesh/workers.h"
+#include "lodestone/queries/contact_search.h"
+#include "lodestone/queries/overlap_search.h"
+#include "lodestone/queries/surface_triangle.h"
+
+namespace lodestone {
+
+namespace {
+
+/// The triangle of a face that is among those in the box.
+Triangle triangle_in(const Faces_in_box& faces, std::uint32_t face) {
+  const auto found = std::ranges::lower_bound(faces.faces, face);
+  const Corners& corners = faces.corners[static_cast<std::size_t>(found - faces.faces.begin())];
+  return face_triangle(corners, [&](auto corner) { return faces.coordinates.data() + 3 * std::size_t{corner}; });
+}
+
+void count_tests(const Contact_summary& contacts, Pair_result& result, Frame_statistics& statistics) {
+  result.candidates = statistics.candidates = contacts.leaf_tests;
+  statistics.exact_tests = contacts.exact_tests;
+}
+
+}  // namespace
+
+bool can_answer_at_once(const Detector_options& options) {
+  check(options);
+  const Exact_options& exact = options.exact;
+  const bool limited = options.contacts == Contact_query::all && options.most_contacts < Detector_options().most_contacts;
+  return options.mode == Mode::exact && exact.tolerance == 0 && !exact.containment && !exact.parting &&
+         !exact.patches && !limited;
+}
+
+Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading) {
+  const auto& [box_a, box_b, a, b] = surfaces;
+  Frame_builder builder(options);
+  builder.start();
+  builder.seconds().broad_phase = reading;
+  if (!box_a.intersects(box_b)) return builder.finish();
+  timed(builder.seconds().confirmation, [&] {
+    Pair_result result = builder.start_pair({0, 1});
+    const Contact_summary contacts =
+        Overlap_search().run(a, box_a, b, box_b, options.contacts, builder.face_pairs());
+    result.collides = contacts.found;
+    count_tests(contacts, result, builder.statistics());
+    builder.end_pair(result, [&](Object_id id, std::uint32_t face) { return triangle_in(id == 0 ? a : b, face); });
+  });
+  return builder.finish();
+}
+
+Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, const Detector_options& options) {
+  Frame_builder builder(options);
+  builder.start();
+  builder.statistics().vertices_read = coordinates.size() / 3;
+  builder.statistics().builds = 1;
+  Tree_surface surface(corners);
+  const double tolerance = options.exact.self_tolerance;
+  timed(builder.seconds().build, [&] {
+    surface.build({}, coordinates, options.exact.tree);
+    if (tolerance > 0) surface.keep_rest();
+  });
+  timed(builder.seconds().confirmation, [&] {
+    Workers workers(options.exact.threads);
+    Pair_result result = builder.start_pair({0, 0});
+    const Contact_summary contacts = Contact_search(workers).within(
+        surface, {.query = options.contacts, .tolerance = tolerance, .most = options.most_contacts},
+        builder.face_pairs());
+    // All faces are where they are at rest, so what is near and no neighbour intersects.
+    result.collides = contacts.found;
+    result.near = tolerance > 0 && contacts.found;
+    result.capped = contacts.capped;
+    count_tests(contacts, result, builder.statistics());
+    builder.end_pair(result, [&](Object_id, std::uint32_t face) { return surface_triangle(surface, face); });
+    builder.add_patches(surface, surface, tolerance);
+  });
+  return builder.finish();
+}
+
+}  // namespace lodestone

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/find_collisions.h"
+
+namespace lodestone {
+
+Collisions collisions_of(const Frame& frame) {
+  return {.collide = frame.collides(),
+          .near = frame.near(),
+          .faces = frame.face_pairs,
+          .points = frame.contact_points,
+          .normals = frame.contact_normals,
+          .capped = frame.capped(),
+          .containment = frame.pairs.empty() ? Containment::none : frame.pairs.front().containment,
+          .parting = frame.pairs.empty() ? std::nullopt : frame.pairs.front().parting,
+          .patches = frame.patches,
+          .statistics = frame.statistics};
+}
+
+template std::optional<Frame> frame_at_once(const Surface_mesh&, const Surface_mesh&, const Detector_options&);
+template Frame self_frame_at_once(const Surface_mesh&, Detector_options, std::span<const std::uint32_t>);
+
+}  // namespace lodestone

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/queries/overlap_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "lodestone/queries/face_pair_order.h"
+#include "lodestone/triangles/triangle_intersection.h"
+#include "queries/rounded_box_kernel.h"
+
+namespace lodestone {
+
+namespace {
+
+Aabb to_aabb(const Box& box) {
+  Aabb aabb{};
+  for (int axis = 0; axis < 3; ++axis) {
+    aabb.low[axis] = box.min()[axis];
+    aabb.high[axis] = box.max()[axis];
+  }
+  return aabb;
+}
+
+/// A power of two that brings the longest side of a box near 1, unless its coordinates would overflow.
+double scale_of(const Box& box) {
+  const double longest = (box.max() / 2 - box.min() / 2).maxCoeff();  // halved, since the difference may overflow
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  if (longest <= 0) return 1;
+  return std::ldexp(1.0, std::clamp(std::min(-std::ilogb(longest), 1000 - std::ilogb(largest)), -1000, 1000));
+}
+
+Triangle_corners corners_of(const Faces_in_box& faces, const Corners& corners) {
+  const double* at = faces.coordinates.data();
+  return {at + 3 * std::size_t{corners[0]}, at + 3 * std::size_t{corners[1]}, at + 3 * std::size_t{corners[2]}};
+}
+
+}  // namespace
+
+Contact_summary Overlap_search::run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b, const Box& box_b,
+                                    Contact_query query, std::vector<Face_pair>& found) {
+  const std::size_t first = found.size();
+  found_ = &found;
+  one_is_enough_ = query != Contact_query::all;
+  leaf_tests_ = exact_tests_ = 0;
+  filter_.begin(a.coordinates, to_aabb(box_a), b.coordinates, to_aabb(box_b));
+  const Box overlap = box_a.intersection(box_b);
+  const bool sliced = one_is_enough_ && std::min(a.faces.size(), b.faces.size()) > few_faces;
+  const bool in_slice = sliced && search_slice(a, b, overlap);
+  if (!in_slice) search_all(a, b, overlap);
+  const Contact_summary summary{
+      .found = found.size() > first, .leaf_tests = leaf_tests_, .exact_tests = exact_tests_};
+  if (query == Contact_query::yes_no) found.resize(first);
+  sort_face_pairs(std::span(found).subspan(first));
+  return summary;
+}
+
+/// Searches a slice across the longest side of the overlap. Where surfaces cross, the curve is mostly about as long as
+/// the overlap, and so passes through the slice.
+/// @return whether there is a contact
+bool Overlap_search::search_slice(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap) {
+  constexpr double share = 1.0 / 32;
+  Eigen::Index axis = 0;
+  const Eigen::Vector3d half = overlap.max() / 2 - overlap.min() / 2;
+  half.maxCoeff(&axis);
+  Box slice = overlap;
+  slice.min()[axis] += (1 - share) * half[axis];
+  slice.max()[axis] -= (1 - share) * half[axis];
+  if (slice.isEmpty()) return false;  // by rounding
+  Faces_in_box slice_a, slice_b;
+  select_faces(a, slice, slice_a);
+  select_faces(b, slice, slice_b);
+  return search_all(slice_a, slice_b, slice);
+}
+
+/// @return whether the search is over
+bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap) {
+  if (overlap.isEmpty() || a.faces.empty() || b.faces.empty()) return false;
+  faces_[0] = &a, faces_[1] = &b;
+  const double scale = scale_of(overlap);
+  return search({box_faces(0, overlap, scale), box_faces(1, overlap, scale)});
+}
+
+void Overlap_search::Stack::reserve(std::size_t count) {
+  if (top_ + count <= capacity_) return;
+  capacity_ = std::max(top_ + count, 2 * capacity_);
+  auto larger = std::make_unique_for_overwrite<Rounded_box[]>(capacity_);
+  std::copy_n(boxes_.get(), top_, larger.get());
+  boxes_ = std::move(larger);
+}
+
+Overlap_search::Part Overlap_search::box_faces(int side, const Box& overlap, double scale) {
+  kernel::Box_rounding rounding{.scale = scale, .origin = {}, .size = {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    rounding.origin[axis] = overlap.min()[axis] * scale;
+    rounding.size[axis] = overlap.max()[axis] * scale - rounding.origin[axis];
+  }
+  const Faces_in_box& faces = *faces_[side];
+  Stack& stack = stacks_[side];
+  stack.drop_to(0);
+  stack.reserve(3 * faces.faces.size());  // halves and copies lie on top
+  const Rounded_box around = kernel::box_faces(faces.coordinates.data(), faces.corners.data(), faces.faces.size(),
+                                            rounding, stack.at(0));
+  return stack.push(faces.faces.size(), around);
+}
+
+/// Halves the longer list. Each half is compared with what it may meet of the other list.
+/// @return whether the search is over
+bool Overlap_search::search(Pair_of_parts parts) {
+  while (cull(parts)) {
+    const int longer = parts[1].count > parts[0].count ? 1 : 0, other = 1 - longer;
+    if (parts[longer].count <= group_faces) return test(parts);
+    const std::size_t tops[]{stacks_[0].top(), stacks_[1].top()};
+    Pair_of_parts halves;
+    halves[longer] = take_half(longer, parts[longer]);
+    halves[other] = copy_meeting(other, parts[other], halves[longer].box);
+    const bool over = halves[other].count > 0 && search(halves);
+    for (int side = 0; side < 2; ++side) stacks_[side].drop_to(tops[side]);
+    if (over) return true;
+  }
+  return false;
+}
+
+/// Drops the faces that lie outside the box around the other list, until few are left to drop.
+/// @return whether any pair may meet
+bool Overlap_search::cull(Pair_of_parts& parts) {
+  for (bool again = true; again;) {
+    again = false;
+    for (int side = 0; side < 2; ++side) {
+      Part& part = parts[side];
+      Rounded_box* boxes = stacks_[side].at(part.begin);
+      const std::size_t count = kernel::cull(boxes, part.count, parts[1 - side].box, boxes, part.box);
+      again |= 8 * (part.count - count) > part.count;
+      part.count = count;
+      if (count == 0) return false;
+    }
+  }
+  return true;
+}
+
+/// Copies the faces that may meet a box to the top of their stack.
+Overlap_search::Part Overlap_search::copy_meeting(int side, const Part& from, const Rounded_box& other) {
+  Stack& stack = stacks_[side];
+  stack.reserve(from.count);
+  Rounded_box around;
+  const std::size_t count = kernel::cull(stack.at(from.begin), from.count, other, stack.at(stack.top()), around);
+  return stack.push(count, around);
+}
+
+/// Takes about half of the faces out of a list, to the top of their stack: those on one side of the middle of the box,
+/// or of the median where the middle would leave too few.
+Overlap_search::Part Overlap_search::take_half(int side, Part& whole) {
+  int axis = 0;
+  for (int other = 1; other < 3; ++other)
+    if (whole.box.side(other) > whole.box.side(axis)) axis = other;
+  Stack& stack = stacks_[side];
+  stack.reserve(whole.count);
+  const kernel::Halves halves = kernel::split(stack.at(whole.begin), whole.count, axis, whole.box.twice_centre(axis),
+                                              stack.at(stack.top()));
+  if (8 * std::min(halves.below, halves.above) < whole.count) {
+    std::copy_n(stack.at(stack.top()), halves.below, stack.at(whole.begin) + halves.above);
+    return take_median(side, whole, axis);
+  }
+  whole.count = halves.above;
+  whole.box = halves.around_above;
+  return stack.push(halves.below, halves.around_below);
+}
+
+Overlap_search::Part Overlap_search::take_median(int side, Part& whole, int axis) {
+  Stack& stack = stacks_[side];
+  Rounded_box* boxes = stack.at(whole.begin);
+  const std::size_t half = whole.count / 2;
+  // Ties are broken by index, so that the halves do not depend on the sorting routine.
+  std::nth_element(boxes, boxes + half, boxes + whole.count, [axis](const Rounded_box& a, const Rounded_box& b) {
+    const float at_a = a.twice_centre(axis), at_b = b.twice_centre(axis);
+    return at_a != at_b ? at_a < at_b : a.index < b.index;
+  });
+  Part taken = copy_meeting(side, {whole.begin + half, whole.count - half, {}}, whole.box);
+  whole.count = half;
+  return taken;
+}
+
+/// Gives two short lists to the filter, and what it leaves to the exact test.
+/// @return whether the search is over
+bool Overlap_search::test(const Pair_of_parts& parts) {
+  for (int side = 0; side < 2; ++side) {
+    groups_[side].clear();
+    for (const Rounded_box& box : std::span(stacks_[side].at(parts[side].begin), parts[side].count))
+      groups_[side].push_back(faces_[side]->corners[box.index]);
+  }
+  const auto face = [&](int side, std::size_t i) {
+    return faces_[side]->faces[stacks_[side].at(parts[side].begin + i)->index];
+  };
+  ++leaf_tests_;
+  for (const Face_candidate& candidate : filter_.face_candidates(groups_[0], groups_[1])) {
+    ++exact_tests_;
+    if (!triangles_intersect_given(corners_of(*faces_[0], groups_[0][candidate.a]),
+                                   corners_of(*faces_[1], groups_[1][candidate.b]), candidate.crossing))
+      continue;
+    found_->push_back({face(0, candidate.a), face(1, candidate.b)});
+    if (one_is_enough_) return true;
+  }
+  return false;
+}
+
+}  // namespace lodestone

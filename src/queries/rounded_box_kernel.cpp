@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "queries/rounded_box_kernel.h"
+
+#include <bit>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "queries/rounded_box_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/positions-inl.h"
+#include "simd/vector_types-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::kernel::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The eight numbers of a Rounded_box: one vector of eight lanes, or several with fewer.
+using Box_lanes = hn::CappedTag<float, 8>;
+using Box_vector = hn::Vec<Box_lanes>;
+constexpr std::size_t box_lanes = hn::MaxLanes(Box_lanes());
+constexpr std::size_t box_vectors = 8 / box_lanes;
+/// The bits of the six sides.
+constexpr std::uint32_t all_sides = 0x77;
+
+/// A box around nothing.
+constexpr Rounded_box nothing = [] {
+  constexpr float most = std::numeric_limits<float>::max();
+  return Rounded_box{.low = {most, most, most}, .index = 0, .negated_high = {most, most, most}, .unused = 0};
+}();
+
+HWY_INLINE Box_vector load(const Rounded_box& box, std::size_t i) {
+  return hn::Load(Box_lanes(), reinterpret_cast<const float*>(&box) + i * box_lanes);
+}
+HWY_INLINE void store(Box_vector numbers, Rounded_box& box, std::size_t i) {
+  hn::Store(numbers, Box_lanes(), reinterpret_cast<float*>(&box) + i * box_lanes);
+}
+HWY_INLINE void copy(const Rounded_box& from, Rounded_box& to) {
+  for (std::size_t i = 0; i < box_vectors; ++i) store(load(from, i), to, i);
+}
+
+/// A box that grows around others.
+class Growing {
+ public:
+  HWY_INLINE Growing() {
+    for (std::size_t i = 0; i < box_vectors; ++i) least_[i] = load(nothing, i);
+  }
+  HWY_INLINE void add(const Rounded_box& box) {
+    for (std::size_t i = 0; i < box_vectors; ++i) least_[i] = hn::Min(least_[i], load(box, i));
+  }
+  /// Selects by address, since which boxes are added is unpredictable.
+  HWY_INLINE void add_if(bool added, const Rounded_box& box) { add(added ? box : nothing); }
+  HWY_INLINE Rounded_box box() const {
+    Rounded_box around;
+    for (std::size_t i = 0; i < box_vectors; ++i) store(least_[i], around, i);
+    return around;
+  }
+
+ private:
+  Box_vector least_[box_vectors];
+};
+
+/// What the numbers of a box must not exceed if it meets another.
+class Meeting {
+ public:
+  HWY_INLINE explicit Meeting(const Rounded_box& other) {
+    Rounded_box greatest{};
+    for (int axis = 0; axis < 3; ++axis) {
+      greatest.low[axis] = -other.negated_high[axis];
+      greatest.negated_high[axis] = -other.low[axis];
+    }
+    for (std::size_t i = 0; i < box_vectors; ++i) greatest_[i] = load(greatest, i);
+  }
+  HWY_INLINE bool with(const Rounded_box& box) const {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < box_vectors; ++i)
+      bits |= mask_bits(Box_lanes(), hn::Le(load(box, i), greatest_[i])) << (i * box_lanes);
+    return (bits & all_sides) == all_sides;
+  }
+
+ private:
+  Box_vector greatest_[box_vectors];
+};
+
+using Narrow_lanes = hn::Rebind<float, Position_lanes>;
+
+/// Moves vector `i` of a position into the region that is rounded, and rounds it.
+HWY_INLINE hn::Vec<Narrow_lanes> rounded(const Box_rounding& rounding, Position_vector position, std::size_t i) {
+  const Position_lanes d;
+  const auto scaled = hn::Mul(position, hn::Set(d, rounding.scale));
+  const auto moved = hn::Sub(scaled, hn::LoadU(d, rounding.origin + i * position_lanes));
+  const auto inside = hn::Min(hn::Max(moved, hn::Zero(d)), hn::LoadU(d, rounding.size + i * position_lanes));
+  return hn::DemoteTo(Narrow_lanes(), inside);
+}
+
+HWY_INLINE Rounded_box box_face(const double* coordinates, const Face_corners& corners, const Box_rounding& rounding) {
+  const Narrow_lanes d;
+  alignas(32) float numbers[8];
+  for (std::size_t i = 0; i < position_vectors; ++i) {
+    const auto p = load_position(coordinates + 3 * std::size_t{corners[0]}, i);
+    const auto q = load_position(coordinates + 3 * std::size_t{corners[1]}, i);
+    const auto r = load_position(coordinates + 3 * std::size_t{corners[2]}, i);
+    const auto low = rounded(rounding, hn::Min(hn::Min(p, q), r), i);
+    const auto high = rounded(rounding, hn::Max(hn::Max(p, q), r), i);
+    hn::Store(low, d, numbers + i * position_lanes);
+    hn::Store(hn::Neg(high), d, numbers + 4 + i * position_lanes);
+  }
+  return std::bit_cast<Rounded_box>(numbers);
+}
+
+Rounded_box box_faces_kernel(const double* coordinates, const Face_corners* corners, std::size_t count,
+                          const Box_rounding& rounding, Rounded_box* boxes) {
+  Growing around;
+  for (std::size_t face = 0; face < count; ++face) {
+    boxes[face] = box_face(coordinates, corners[face], rounding);
+    boxes[face].index = static_cast<std::uint32_t>(face);
+    around.add(boxes[face]);
+  }
+  return around.box();
+}
+
+std::size_t cull_kernel(const Rounded_box* from, std::size_t count, const Rounded_box& other, Rounded_box* to,
+                        Rounded_box& around) {
+  const Meeting meeting(other);
+  Growing growing;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool meets = meeting.with(from[i]);
+    growing.add_if(meets, from[i]);
+    copy(from[i], to[kept]);
+    kept += meets ? 1 : 0;
+  }
+  around = growing.box();
+  return kept;
+}
+
+Halves split_kernel(Rounded_box* from, std::size_t count, int axis, float twice_at, Rounded_box* to) {
+  Halves halves;
+  Growing below, above;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool is_below = from[i].low[axis] - from[i].negated_high[axis] < twice_at;
+    below.add_if(is_below, from[i]);
+    above.add_if(!is_below, from[i]);
+    copy(from[i], to[halves.below]);
+    copy(from[i], from[halves.above]);
+    halves.below += is_below ? 1 : 0;
+    halves.above += is_below ? 0 : 1;
+  }
+  halves.around_below = below.box();
+  halves.around_above = above.box();
+  return halves;
+}
+
+}  // namespace lodestone::kernel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::kernel {
+
+HWY_EXPORT(box_faces_kernel);
+HWY_EXPORT(cull_kernel);
+HWY_EXPORT(split_kernel);
+
+Rounded_box box_faces(const double* coordinates, const Face_corners* corners, std::size_t count, const Box_rounding& rounding,
+                   Rounded_box* boxes) {
+  return HWY_DYNAMIC_DISPATCH(box_faces_kernel)(coordinates, corners, count, rounding, boxes);
+}
+std::size_t cull(const Rounded_box* from, std::size_t count, const Rounded_box& other, Rounded_box* to, Rounded_box& around) {
+  return HWY_DYNAMIC_DISPATCH(cull_kernel)(from, count, other, to, around);
+}
+Halves split(Rounded_box* from, std::size_t count, int axis, float twice_at, Rounded_box* to) {
+  return HWY_DYNAMIC_DISPATCH(split_kernel)(from, count, axis, twice_at, to);
+}
+
+}  // namespace lodestone::kernel
+#endif

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/queries/overlap_search.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "lodestone/io/shapes/shapes.h"
+#include "support/face_soup.h"
+#include "support/hard_pairs.h"
+#include "support/instruction_sets.h"
+
+namespace lodestone {
+namespace {
+
+Box box_of(const Face_soup& soup) {
+  Box box;
+  for (std::uint32_t v = 0; v < soup.vertex_count(); ++v) box.extend(coordinates(soup.point(v)));
+  return box;
+}
+
+void read(const Face_soup& soup, const Box& part, Faces_in_box& found) {
+  Faces_in_box all;
+  all.faces.resize(soup.faces.size());
+  std::iota(all.faces.begin(), all.faces.end(), 0U);
+  all.corners = soup.faces;
+  all.coordinates = soup.coordinates;
+  select_faces(all, part, found);
+}
+
+/// Checks all three queries on every instruction set.
+/// @return number of contacts
+std::size_t expect_truth(const Face_soup& a, const Face_soup& b) {
+  const auto truth = true_pairs(a, b);
+  const Box box_a = box_of(a), box_b = box_of(b);
+  const Box overlap = box_a.intersection(box_b);
+  Faces_in_box faces_a, faces_b;
+  if (!overlap.isEmpty()) read(a, overlap, faces_a), read(b, overlap, faces_b);
+  std::vector<Face_pair> firsts;
+  for_instruction_sets([&] {
+    std::vector<Face_pair> found, first, none;
+    Overlap_search search;
+    const auto all = search.run(faces_a, box_a, faces_b, box_b, Contact_query::all, found);
+    EXPECT_EQ(found, truth);
+    EXPECT_EQ(all.found, !truth.empty());
+    EXPECT_GE(all.exact_tests, truth.size());
+    EXPECT_EQ(search.run(faces_a, box_a, faces_b, box_b, Contact_query::first, first).found, !truth.empty());
+    EXPECT_EQ(first.size(), truth.empty() ? 0U : 1U);
+    for (const Face_pair pair : first) EXPECT_TRUE(std::ranges::binary_search(truth, pair));
+    firsts.insert(firsts.end(), first.begin(), first.end());
+    EXPECT_EQ(search.run(faces_a, box_a, faces_b, box_b, Contact_query::yes_no, none).found, !truth.empty());
+    EXPECT_TRUE(none.empty());
+  });
+  for (const Face_pair pair : firsts) EXPECT_EQ(pair, firsts.front());
+  return truth.size();
+}
+
+TEST(Overlap_search, equals_exhaustive_checking_in_any_pose) {
+  std::mt19937_64 random(1);
+  std::size_t poses = 0, meeting = 0;
+  const auto objects = small_objects();
+  for (const auto& [name_a, a] : objects)
+    for (const auto& [name_b, b] : objects)
+      for (const double distance : {0.3, 0.9, 1.6}) {
+        SCOPED_TRACE(name_a + " and " + name_b);
+        meeting += expect_truth(posed_at_random(a, distance, random), posed_at_random(b, distance, random)) > 0 ? 1 : 0;
+        ++poses;
+      }
+  EXPECT_GT(meeting, poses / 3);
+  EXPECT_LT(meeting, poses);
+}
+
+TEST(Overlap_search, equals_exhaustive_checking_of_shapes_that_touch_or_coincide) {
+  const Face_soup box(cube(3)), ball(icosphere(3)), sheet(cloth(6, 6)), lattice(lattice_soup(120, 60, 5, 1));
+  const std::vector<std::pair<Face_soup, Face_soup>> touching{{box, box},
+                                                              {box, moved(box, 1, 0, 0)},
+                                                              {box, moved(box, 1, 1, 1)},
+                                                              {box, moved(box, 0.3, 0.5, 1)},
+                                                              {ball, ball},
+                                                              {sheet, sheet},
+                                                              {sheet, moved(sheet, 0.125, 0.3, 0)},
+                                                              {box, moved(sheet, 0, 0.25, 1)},
+                                                              {sheet, box},
+                                                              {lattice, lattice},
+                                                              {lattice, lattice_soup(120, 60, 5, 2)}};
+  for (const auto& [a, b] : touching)
+    for (const auto& [factor, offset] : {std::pair{1.0, 0.0}, {1.0, 0x1p20}, {0x1p-1060, 0.0}, {0x1p1020, 0.0}}) {
+      SCOPED_TRACE(testing::Message() << factor << " and " << offset);
+      EXPECT_GT(expect_truth(placed(a, factor, offset), placed(b, factor, offset)), 0U);
+    }
+}
+
+TEST(Overlap_search, equals_exhaustive_checking_of_triangles_that_are_hard_to_decide) {
+  Hard_pairs hard(5);
+  std::size_t meeting = 0;
+  for (const auto& kind : Hard_pairs::kinds()) {
+    SCOPED_TRACE(kind.name);
+    for (int trial = 0; trial < 20; ++trial) {
+      Face_soup a, b;
+      for (std::uint32_t face = 0; face < (trial % 2 == 0 ? 1 : 200); ++face) {
+        const auto [s, t] = (hard.*kind.make)();
+        for (auto [soup, triangle] : {std::pair{&a, &s}, {&b, &t}}) {
+          for (const auto& p : *triangle) soup->coordinates.insert(soup->coordinates.end(), {p.x(), p.y(), p.z()});
+          soup->faces.push_back({3 * face, 3 * face + 1, 3 * face + 2});
+        }
+      }
+      meeting += expect_truth(a, b) > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(meeting, 100U);
+}
+
+TEST(Overlap_search, equals_exhaustive_checking_of_large_surfaces_that_lie_inside_one_another_cross_and_just_miss) {
+  const Face_soup outer(icosphere(24)), inner = placed(Face_soup(icosphere(20)), 0.98);
+  EXPECT_EQ(expect_truth(outer, placed(inner, 0.5)), 0U);
+  EXPECT_GT(expect_truth(outer, moved(inner, 0.01, 0.02, 0.03)), 0U);
+  EXPECT_GT(expect_truth(outer, moved(outer, 0.4, 0.01, 0)), 0U);
+  EXPECT_GT(expect_truth(outer, moved(outer, 1e-6, 1e-7, 0)), 0U);
+  EXPECT_EQ(expect_truth(outer, moved(outer, 2.5, 0, 0)), 0U);
+  EXPECT_EQ(expect_truth(outer, moved(outer, 1.7, 1.1, 0)), 0U);  // boxes overlap, surfaces do not
+  EXPECT_GT(expect_truth(moved(outer, 1e9, 0, 0), moved(outer, 1e9 + 1, 0, 0)), 0U);
+}
+
+/// All centres are the same, so only the median divides the list.
+TEST(Overlap_search, divides_faces_that_lie_on_each_other) {
+  const auto pile = [](std::uint32_t faces) {
+    Face_soup soup;
+    for (const double x : {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0}) soup.coordinates.push_back(x);
+    soup.faces.assign(faces, {0, 1, 2});
+    return soup;
+  };
+  EXPECT_EQ(expect_truth(pile(300), pile(70)), 300U * 70U);
+  EXPECT_EQ(expect_truth(pile(1), pile(700)), 700U);
+}
+
+TEST(Overlap_search, of_one_large_face_and_many_small_ones_finds_all) {
+  Face_soup large;
+  large.coordinates = {-50, -50, 0.1, 50, -50, 0.1, 0, 90, 0.1};
+  large.faces = {{0, 1, 2}};
+  const Face_soup ball(icosphere(20));
+  EXPECT_GT(expect_truth(large, ball), 100U);
+  EXPECT_GT(expect_truth(ball, large), 100U);
+}
+
+TEST(Overlap_search, needs_few_exact_tests_where_surfaces_cross) {
+  const Face_soup a(icosphere(24)), b = moved(a, 0.4, 0.01, 0);
+  const Box overlap = box_of(a).intersection(box_of(b));
+  Faces_in_box faces_a, faces_b;
+  read(a, overlap, faces_a), read(b, overlap, faces_b);
+  std::vector<Face_pair> found;
+  const auto summary = Overlap_search().run(faces_a, box_of(a), faces_b, box_of(b), Contact_query::all, found);
+  EXPECT_LT(summary.exact_tests, 2 * found.size());
+}
+
+}  // namespace
+}  // namespace lodestone
