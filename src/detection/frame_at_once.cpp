@@ -30,7 +30,8 @@ void count_tests(const Contact_summary& contacts, Pair_result& result, Frame_sta
 bool can_answer_at_once(const Detector_options& options) {
   check(options);
   const Exact_options& exact = options.exact;
-  const bool limited = options.contacts == Contact_query::all && options.most_contacts < Detector_options().most_contacts;
+  const bool limited =
+      options.contacts == Contact_query::all && options.most_contacts < Detector_options().most_contacts;
   return options.mode == Mode::exact && exact.tolerance == 0 && !exact.containment && !exact.parting &&
          !exact.patches && !limited;
 }
@@ -43,8 +44,7 @@ Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options
   if (!box_a.intersects(box_b)) return builder.finish();
   timed(builder.seconds().confirmation, [&] {
     Pair_result result = builder.start_pair({0, 1});
-    const Contact_summary contacts =
-        Overlap_search().run(a, box_a, b, box_b, options.contacts, builder.face_pairs());
+    const Contact_summary contacts = Overlap_search().run(a, box_a, b, box_b, options.contacts, builder.face_pairs());
     result.collides = contacts.found;
     count_tests(contacts, result, builder.statistics());
     builder.end_pair(result, [&](Object_id id, std::uint32_t face) { return triangle_in(id == 0 ? a : b, face); });

@@ -49,8 +49,7 @@ Contact_summary Overlap_search::run(const Faces_in_box& a, const Box& box_a, con
   const bool sliced = one_is_enough_ && std::min(a.faces.size(), b.faces.size()) > few_faces;
   const bool in_slice = sliced && search_slice(a, b, overlap);
   if (!in_slice) search_all(a, b, overlap);
-  const Contact_summary summary{
-      .found = found.size() > first, .leaf_tests = leaf_tests_, .exact_tests = exact_tests_};
+  const Contact_summary summary{.found = found.size() > first, .leaf_tests = leaf_tests_, .exact_tests = exact_tests_};
   if (query == Contact_query::yes_no) found.resize(first);
   sort_face_pairs(std::span(found).subspan(first));
   return summary;
@@ -79,7 +78,8 @@ bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, co
   if (overlap.isEmpty() || a.faces.empty() || b.faces.empty()) return false;
   faces_[0] = &a, faces_[1] = &b;
   const double scale = scale_of(overlap);
-  return search({box_faces(0, overlap, scale), box_faces(1, overlap, scale)});
+  Pair_of_parts whole{box_faces(0, overlap, scale), box_faces(1, overlap, scale)};
+  return search(whole);
 }
 
 void Overlap_search::Stack::reserve(std::size_t count) {
@@ -100,14 +100,14 @@ Overlap_search::Part Overlap_search::box_faces(int side, const Box& overlap, dou
   Stack& stack = stacks_[side];
   stack.drop_to(0);
   stack.reserve(3 * faces.faces.size());  // halves and copies lie on top
-  const Rounded_box around = kernel::box_faces(faces.coordinates.data(), faces.corners.data(), faces.faces.size(),
-                                            rounding, stack.at(0));
+  const Rounded_box around =
+      kernel::box_faces(faces.coordinates.data(), faces.corners.data(), faces.faces.size(), rounding, stack.at(0));
   return stack.push(faces.faces.size(), around);
 }
 
 /// Halves the longer list. Each half is compared with what it may meet of the other list.
 /// @return whether the search is over
-bool Overlap_search::search(Pair_of_parts parts) {
+bool Overlap_search::search(Pair_of_parts& parts) {
   while (cull(parts)) {
     const int longer = parts[1].count > parts[0].count ? 1 : 0, other = 1 - longer;
     if (parts[longer].count <= group_faces) return test(parts);
@@ -156,8 +156,8 @@ Overlap_search::Part Overlap_search::take_half(int side, Part& whole) {
     if (whole.box.side(other) > whole.box.side(axis)) axis = other;
   Stack& stack = stacks_[side];
   stack.reserve(whole.count);
-  const kernel::Halves halves = kernel::split(stack.at(whole.begin), whole.count, axis, whole.box.twice_centre(axis),
-                                              stack.at(stack.top()));
+  const kernel::Halves halves =
+      kernel::split(stack.at(whole.begin), whole.count, axis, whole.box.twice_centre(axis), stack.at(stack.top()));
   if (8 * std::min(halves.below, halves.above) < whole.count) {
     std::copy_n(stack.at(stack.top()), halves.below, stack.at(whole.begin) + halves.above);
     return take_median(side, whole, axis);

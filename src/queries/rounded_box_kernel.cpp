@@ -111,7 +111,7 @@ HWY_INLINE Rounded_box box_face(const double* coordinates, const Face_corners& c
 }
 
 Rounded_box box_faces_kernel(const double* coordinates, const Face_corners* corners, std::size_t count,
-                          const Box_rounding& rounding, Rounded_box* boxes) {
+                             const Box_rounding& rounding, Rounded_box* boxes) {
   Growing around;
   for (std::size_t face = 0; face < count; ++face) {
     boxes[face] = box_face(coordinates, corners[face], rounding);
@@ -163,11 +163,12 @@ HWY_EXPORT(box_faces_kernel);
 HWY_EXPORT(cull_kernel);
 HWY_EXPORT(split_kernel);
 
-Rounded_box box_faces(const double* coordinates, const Face_corners* corners, std::size_t count, const Box_rounding& rounding,
-                   Rounded_box* boxes) {
+Rounded_box box_faces(const double* coordinates, const Face_corners* corners, std::size_t count,
+                      const Box_rounding& rounding, Rounded_box* boxes) {
   return HWY_DYNAMIC_DISPATCH(box_faces_kernel)(coordinates, corners, count, rounding, boxes);
 }
-std::size_t cull(const Rounded_box* from, std::size_t count, const Rounded_box& other, Rounded_box* to, Rounded_box& around) {
+std::size_t cull(const Rounded_box* from, std::size_t count, const Rounded_box& other, Rounded_box* to,
+                 Rounded_box& around) {
   return HWY_DYNAMIC_DISPATCH(cull_kernel)(from, count, other, to, around);
 }
 Halves split(Rounded_box* from, std::size_t count, int axis, float twice_at, Rounded_box* to) {

@@ -24,14 +24,15 @@ struct Box_rounding {
 /// Boxes faces.
 /// @param boxes  `count` of them; their indices count from 0
 /// @return the box around all
-Rounded_box box_faces(const double* coordinates, const Face_corners* corners, std::size_t count, const Box_rounding& rounding,
-                   Rounded_box* boxes);
+Rounded_box box_faces(const double* coordinates, const Face_corners* corners, std::size_t count,
+                      const Box_rounding& rounding, Rounded_box* boxes);
 
 /// Copies the boxes that meet another box.
 /// @param to      may be `from`, for a cull in place
 /// @param around  set to the box around them, if there are any
 /// @return number of boxes copied
-std::size_t cull(const Rounded_box* from, std::size_t count, const Rounded_box& other, Rounded_box* to, Rounded_box& around);
+std::size_t cull(const Rounded_box* from, std::size_t count, const Rounded_box& other, Rounded_box* to,
+                 Rounded_box& around);
 
 /// The boxes on either side of a plane, and the box around each.
 struct Halves {

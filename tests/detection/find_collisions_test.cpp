@@ -167,7 +167,8 @@ void expect_same(const Collisions& found, const Collisions& expected) {
     EXPECT_EQ(found.parting->translation, expected.parting->translation);
   }
   ASSERT_EQ(found.patches.size(), expected.patches.size());
-  for (std::size_t i = 0; i < found.patches.size(); ++i) EXPECT_EQ(found.patches[i].contacts, expected.patches[i].contacts);
+  for (std::size_t i = 0; i < found.patches.size(); ++i)
+    EXPECT_EQ(found.patches[i].contacts, expected.patches[i].contacts);
   EXPECT_EQ(found.statistics.contacts, expected.statistics.contacts);
 }
 
@@ -186,18 +187,27 @@ std::vector<std::pair<Surface_mesh, Surface_mesh>> mesh_pairs() {
     return mesh;
   };
   const Surface_mesh ball = sphere(5), box = cube(2), sheet = grid(4, 4), lump = potato(5);
-  std::vector<std::pair<Surface_mesh, Surface_mesh>> pairs{
-      {ball, shifted(ball, 5, 0, 0)},          {ball, shifted(ball, 2, 0, 0)},
-      {ball, shifted(ball, 1.7, 1.1, 0)},      {ball, shifted(ball, 1.5, 0.1, 0)},
-      {ball, ball},                            {ball, scaled(ball, 0.5)},
-      {scaled(ball, 0.5), ball},               {box, shifted(box, 1, 0, 0)},
-      {box, shifted(box, 1, 1, 1)},            {box, box},
-      {sheet, sheet},                          {sheet, shifted(sheet, 0.3, 0.2, 0)},
-      {sheet, shifted(sheet, 0, 0, 1)},        {sheet, lump},
-      {single_triangle(), single_triangle()},  {single_triangle(), ball},
-      {single_triangle(), tetrahedron()},      {flattened(ball), ball},
-      {flattened(ball), flattened(lump)},      {scaled(lump, 1e300), scaled(ball, 1e300)},
-      {scaled(lump, 1e-300), scaled(ball, 1e-300)}};
+  std::vector<std::pair<Surface_mesh, Surface_mesh>> pairs{{ball, shifted(ball, 5, 0, 0)},
+                                                           {ball, shifted(ball, 2, 0, 0)},
+                                                           {ball, shifted(ball, 1.7, 1.1, 0)},
+                                                           {ball, shifted(ball, 1.5, 0.1, 0)},
+                                                           {ball, ball},
+                                                           {ball, scaled(ball, 0.5)},
+                                                           {scaled(ball, 0.5), ball},
+                                                           {box, shifted(box, 1, 0, 0)},
+                                                           {box, shifted(box, 1, 1, 1)},
+                                                           {box, box},
+                                                           {sheet, sheet},
+                                                           {sheet, shifted(sheet, 0.3, 0.2, 0)},
+                                                           {sheet, shifted(sheet, 0, 0, 1)},
+                                                           {sheet, lump},
+                                                           {single_triangle(), single_triangle()},
+                                                           {single_triangle(), ball},
+                                                           {single_triangle(), tetrahedron()},
+                                                           {flattened(ball), ball},
+                                                           {flattened(ball), flattened(lump)},
+                                                           {scaled(lump, 1e300), scaled(ball, 1e300)},
+                                                           {scaled(lump, 1e-300), scaled(ball, 1e-300)}};
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> offset(-1.5, 1.5);
   for (int trial = 0; trial < 20; ++trial) {
@@ -291,8 +301,10 @@ TEST(Find_collisions, refuses_what_a_detector_refuses_in_the_same_words) {
       refused += expected.empty() ? 0 : 1;
     }
   EXPECT_EQ(refused, meshes.size() * meshes.size());
-  for (const Detector_options& options :
-       {Detector_options{.most_contacts = 0}, {.exact = {.tolerance = -1}}, {.meetings = 1}, {.exact = {.loosest = 0}}}) {
+  for (const Detector_options& options : {Detector_options{.most_contacts = 0},
+                                          {.exact = {.tolerance = -1}},
+                                          {.meetings = 1},
+                                          {.exact = {.loosest = 0}}}) {
     const std::string expected = refusal([&] { by_detector(good, sphere(2), options); });
     EXPECT_FALSE(expected.empty());
     EXPECT_EQ(refusal([&] { find_collisions(good, sphere(2), options); }), expected);

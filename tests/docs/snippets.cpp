@@ -78,12 +78,22 @@ TEST_F(Snippets, of_the_readme) {
   const auto found = lodestone::find_collisions(mesh_a, mesh_b);  // misses nothing
   const auto by_particles =
       lodestone::find_collisions(mesh_a, mesh_b, {.mode = lodestone::Mode::particles, .particles = 32});
+  const auto folds = lodestone::find_self_collisions(mesh_a);
+  EXPECT_FALSE(folds.collide);
   EXPECT_TRUE(found.collide);
   EXPECT_TRUE(std::ranges::includes(found.faces, by_particles.faces));
 }
 
 TEST_F(Snippets, of_one_call) {
   const auto found = lodestone::find_collisions(a, b);
+  for (const auto& [face_a, face_b] : found.faces) respond(face_a, face_b);
+  EXPECT_EQ(responses, found.faces.size());
+  EXPECT_GT(responses, 0U);
+}
+
+TEST_F(Snippets, of_one_call_for_one_mesh) {
+  lodestone::append(mesh, mesh_b);
+  const auto found = lodestone::find_self_collisions(mesh);
   for (const auto& [face_a, face_b] : found.faces) respond(face_a, face_b);
   EXPECT_EQ(responses, found.faces.size());
   EXPECT_GT(responses, 0U);

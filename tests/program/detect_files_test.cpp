@@ -51,6 +51,30 @@ class Detect_files : public testing::Test {
   std::filesystem::path out = folder.path() / "out";
 };
 
+TEST_F(Detect_files, two_meshes_are_answered_without_building_anything_unless_options_need_it) {
+  const auto a = write("a.off", tetrahedron_off(0)), b = write("b.off", tetrahedron_off(0));
+  const auto far = write("far.off", tetrahedron_off(9));
+  const auto table_of = [](const Program_result& result) { return result.out.substr(0, result.out.rfind("\n\n")); };
+  for (const auto& other : {b, far})
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{}, {"--contacts", "all", "--points", "--normals"}, {"--contacts", "yes_no"}}) {
+      std::vector<std::string> quick{"detect", a, other}, built{"detect", a, other, "--epsilon", "0.01"};
+      quick.insert(quick.end(), options.begin(), options.end());
+      built.insert(built.end(), options.begin(), options.end());
+      const auto answer = run_program(quick), expected = run_program(built);
+      expect_success(answer);
+      EXPECT_EQ(table_of(answer), table_of(expected));
+      EXPECT_EQ(answer.out.find("to build"), std::string::npos) << answer.out;
+      EXPECT_NE(expected.out.find("to build 2 objects"), std::string::npos) << expected.out;
+    }
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--within", "0.1"}, {"--closest"}, {"--self"}}) {
+    std::vector<std::string> arguments{"detect", a, b};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_NE(run_program(arguments).out.find("to build 2 objects"), std::string::npos);
+  }
+}
+
 TEST_F(Detect_files, particles_cross_seams_and_the_program_says_so) {
   // A square of two triangles that share no vertex.
   const auto square = write("square.off", "OFF 6 2 0\n0 0 0\n1 0 0\n1 1 0\n0 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n");

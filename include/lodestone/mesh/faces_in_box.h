@@ -62,9 +62,7 @@ class Box_reader {
  private:
   static constexpr bool in_memory = Coordinate_reader<Mesh, Points>::in_memory;
 
-  Coordinates memory() const
-  requires in_memory
-  {
+  Coordinates memory() const requires in_memory {
     return {points_.data()->cartesian_begin(), 3 * static_cast<std::size_t>(num_vertices(*mesh_))};
   }
   /// Whether the numbers of faces and edges prove that every face is a triangle, which they can if there is no border:

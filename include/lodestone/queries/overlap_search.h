@@ -61,7 +61,7 @@ class Overlap_search {
   bool search_slice(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
   bool search_all(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
   Part box_faces(int side, const Box& overlap, double scale);
-  bool search(Pair_of_parts parts);
+  bool search(Pair_of_parts& parts);
   bool cull(Pair_of_parts& parts);
   Part copy_meeting(int side, const Part& from, const Rounded_box& other);
   Part take_half(int side, Part& whole);
