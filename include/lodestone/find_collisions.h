@@ -49,7 +49,7 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
 
 /// Finds the faces of one mesh that intersect each other, with one call, in mode `exact`. `Collisions::faces` are face
 /// pairs a < b. Which faces count, and what options mean, is as in a Detector with `Exact_options::self_collision`,
-/// which this call sets: it gives the same contacts, but without a partition. See `self_frame_at_once`.
+/// which this call sets. It gives the same contacts and keeps nothing: see `self_frame_at_once`.
 ///
 /// Nothing moves between two frames, so a `self_tolerance` finds no more than faces that intersect.
 ///

@@ -57,14 +57,14 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
   builder.start();
   builder.statistics().vertices_read = coordinates.size() / 3;
   builder.statistics().builds = 1;
+  Workers workers(options.exact.threads);
   Tree_surface surface(corners);
   const double tolerance = options.exact.self_tolerance;
   timed(builder.seconds().build, [&] {
-    surface.build({}, coordinates, options.exact.tree);
+    surface.build({}, coordinates, options.exact.tree, workers);
     if (tolerance > 0) surface.keep_rest();
   });
   timed(builder.seconds().confirmation, [&] {
-    Workers workers(options.exact.threads);
     Pair_result result = builder.start_pair({0, 0});
     const Contact_summary contacts = Contact_search(workers).within(
         surface, {.query = options.contacts, .tolerance = tolerance, .most = options.most_contacts},

@@ -168,15 +168,15 @@ Overlap_search::Part Overlap_search::take_half(int side, Part& whole) {
 }
 
 Overlap_search::Part Overlap_search::take_median(int side, Part& whole, int axis) {
-  Stack& stack = stacks_[side];
-  Rounded_box* boxes = stack.at(whole.begin);
-  const std::size_t half = whole.count / 2;
+  Rounded_box* boxes = stacks_[side].at(whole.begin);
   // Ties are broken by index, so that the halves do not depend on the sorting routine.
-  std::nth_element(boxes, boxes + half, boxes + whole.count, [axis](const Rounded_box& a, const Rounded_box& b) {
-    const float at_a = a.twice_centre(axis), at_b = b.twice_centre(axis);
-    return at_a != at_b ? at_a < at_b : a.index < b.index;
-  });
-  Part taken = copy_meeting(side, {whole.begin + half, whole.count - half, {}}, whole.box);
+  const auto key = [axis](const Rounded_box& box) { return std::pair(box.twice_centre(axis), box.index); };
+  std::vector<std::pair<float, std::uint32_t>> keys(whole.count);
+  std::transform(boxes, boxes + whole.count, keys.begin(), key);
+  const std::size_t half = whole.count / 2;
+  std::ranges::nth_element(keys, keys.begin() + static_cast<std::ptrdiff_t>(half));
+  std::partition(boxes, boxes + whole.count, [&](const Rounded_box& box) { return key(box) < keys[half]; });
+  const Part taken = copy_meeting(side, {whole.begin + half, whole.count - half, {}}, whole.box);
   whole.count = half;
   return taken;
 }

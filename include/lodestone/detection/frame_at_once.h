@@ -63,9 +63,9 @@ std::optional<Frame> frame_at_once(const Mesh_a& a, const Mesh_b& b, const Detec
   return frame;
 }
 
-/// The first frame of a Detector to which one mesh has been added, with `Exact_options::self_collision`: without a
-/// partition, and with a tree that is thrown away. It has the same contacts, points, normals and patches; where the
-/// number of contacts is limited, others may be listed.
+/// The first frame of a Detector to which one mesh has been added, with `Exact_options::self_collision`: without
+/// regions, and with a tree that is thrown away. It has the same contacts, points, normals and patches; where the
+/// number of contacts is limited and regions are asked for, others may be listed.
 ///
 /// O(F log F).
 ///
