@@ -19,15 +19,15 @@ namespace lodestone {
 
 namespace {
 
-/// Flips edges close to some random places until so many faces have changed.
+/// Flips edges around some random places, as a cut or a local remeshing would, until so many faces have changed.
 /// @return these faces, ascending
 std::vector<std::uint32_t> flip_edges(Surface_mesh& mesh, std::size_t faces, std::mt19937_64& random) {
   std::set<std::uint32_t> changed;
-  const std::size_t halfedges = mesh.number_of_halfedges();
   while (changed.size() < faces) {
-    const std::size_t place = random() % halfedges;
-    for (std::size_t i = 0; i < 300 && changed.size() < faces; i += 7) {
-      const Surface_mesh::Halfedge_index h(static_cast<std::uint32_t>((place + i) % halfedges)), o = mesh.opposite(h);
+    Surface_mesh::Halfedge_index h(static_cast<std::uint32_t>(random() % mesh.number_of_halfedges()));
+    for (int step = 0; step < 1000 && changed.size() < faces; ++step) {
+      h = mesh.opposite(random() % 2 == 0 ? mesh.next(h) : mesh.prev(h));
+      const auto o = mesh.opposite(h);
       if (mesh.halfedge(mesh.target(mesh.next(h)), mesh.target(mesh.next(o))).is_valid()) continue;
       CGAL::Euler::flip_edge(h, mesh);
       changed.insert({mesh.face(h), mesh.face(o)});

@@ -194,16 +194,19 @@ void Tree_builder::add_leaf_node(const Branch& branch, std::size_t vertex_count)
 }
 
 /// Moves the leaves' lists of vertices together.
-void Tree_builder::list_vertices() {
+/// @param copied  per leaf: its list, if that is not in `vertices_`; empty: all are there
+void Tree_builder::list_vertices(std::span<const std::span<const std::uint32_t>> copied) {
   auto& begin = tree_.vertex_begin_;
   for (std::size_t leaf = 0; leaf + 1 < begin.size(); ++leaf) begin[leaf + 1] += begin[leaf];
   tree_.vertices_.reserve(begin.back() + kernel::vertices_ahead + 4);
   tree_.vertices_.resize(begin.back());
   workers_.run(tree_.leaf_count() / leaves_at_once + 1, [&](std::size_t index, std::size_t) {
     const std::size_t end = std::min((index + 1) * leaves_at_once, tree_.leaf_count());
-    for (std::size_t leaf = index * leaves_at_once; leaf < end; ++leaf)
-      std::copy_n(vertices_.begin() + 3 * static_cast<std::ptrdiff_t>(tree_.face_begin_[leaf]),
-                  begin[leaf + 1] - begin[leaf], tree_.vertices_.begin() + begin[leaf]);
+    for (std::size_t leaf = index * leaves_at_once; leaf < end; ++leaf) {
+      std::span<const std::uint32_t> list = vertices_.subspan(3 * std::size_t{tree_.face_begin_[leaf]});
+      if (!copied.empty() && !copied[leaf].empty()) list = copied[leaf];
+      std::copy_n(list.begin(), begin[leaf + 1] - begin[leaf], tree_.vertices_.begin() + begin[leaf]);
+    }
   });
 }
 

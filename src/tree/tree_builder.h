@@ -67,7 +67,7 @@ class Tree_builder {
   std::pair<Branch, Branch> add_inner_node(const Branch& branch, std::uint32_t first_faces, std::uint32_t first_leaves);
   void add_leaf(const Branch& branch, Leaf_maker& maker);
   void add_leaf_node(const Branch& branch, std::size_t vertex_count);
-  void list_vertices();
+  void list_vertices(std::span<const std::span<const std::uint32_t>> copied = {});
 
   std::uint32_t faces_of(Region_index region) const { return region_begin_[region + 1] - region_begin_[region]; }
   /// As few as possible, of nearly equal size: plain halving would fill them anywhere between half and whole.

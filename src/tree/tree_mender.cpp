@@ -20,7 +20,7 @@ constexpr std::uint32_t unknown = nobody - 1;
 Tree_mender::Tree_mender(const Tree_layout& former, Tree_layout& tree, std::span<const Corners> corners,
                          std::span<const std::uint32_t> changed, Coordinates coordinates,
                          const Region_tree_options& options, Workers& workers)
-    : Tree_builder(tree, corners, {}, coordinates, options, workers), former_(former), frame_(coordinates) {
+    : Tree_builder(tree, corners, {}, coordinates, options, workers), former_(former) {
   const std::size_t former_faces = former.face_begin_.back();
   moved_.assign(changed.begin(), changed.end());
   for (std::size_t face = former_faces; face < corners.size(); ++face)
@@ -38,7 +38,10 @@ bool Tree_mender::mend() {
   std::vector<Branch> branches;
   add_node(0, branches);
   add_branches(std::move(branches));
-  list_vertices();
+  std::vector<std::span<const std::uint32_t>> copied(tree_.leaf_count());
+  for (std::uint32_t leaf = 0; leaf < former_.leaf_count(); ++leaf)
+    if (!touched_[leaf]) copied[leaf_begin_[leaf]] = former_.vertices(leaf);
+  list_vertices(copied);
   return true;
 }
 
@@ -133,7 +136,7 @@ void Tree_mender::add_node(std::uint32_t former_node, std::vector<Branch>& branc
                         .face = face_begin_[node.leaf]};
     next_node_ += 2 * branch.leaves - 1;
     if (touched_[node.leaf]) {
-      fill_items(node.leaf);
+      fill_items(node.leaf, branch.leaves > 1);
       branches.push_back(branch);
     } else {
       copy_leaf(node.leaf, branch);
@@ -154,14 +157,16 @@ void Tree_mender::copy_leaf(std::uint32_t former_leaf, const Branch& branch) {
   const auto copy = [](const auto& from, auto to) { std::copy(from.begin(), from.end(), to); };
   copy(former_.faces(former_leaf), tree_.faces_.begin() + branch.face);
   copy(former_.corners(former_leaf), tree_.corners_.begin() + branch.face);
-  copy(former_.vertices(former_leaf), vertices_.begin() + 3 * static_cast<std::ptrdiff_t>(branch.face));
   add_leaf_node(branch, former_.vertices(former_leaf).size());
 }
 
-/// The faces that a touched leaf has now.
-void Tree_mender::fill_items(std::uint32_t former_leaf) {
+/// The faces that a touched leaf has now; only those that are split need their centres.
+void Tree_mender::fill_items(std::uint32_t former_leaf, bool with_centres) {
   auto* item = items_.data() + face_begin_[former_leaf];
-  const auto add = [&](std::uint32_t face) { *item++ = {frame_.mean(corners_[face]), face}; };
+  if (with_centres && !frame_) frame_.emplace(coordinates_);
+  const auto add = [&](std::uint32_t face) {
+    *item++ = {with_centres ? frame_->mean(corners_[face]) : std::array<float, 3>{}, face};
+  };
   for (const auto face : former_.faces(former_leaf))
     if (!left_[face]) add(face);
   for (const auto& placed : std::ranges::equal_range(placed_, former_leaf, {}, &Placed_face::leaf)) add(placed.face);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "tree/float_frame.h"
 #include "tree/tree_builder.h"
 
@@ -31,11 +33,11 @@ class Tree_mender : private Tree_builder {
   bool size_leaves();
   void add_node(std::uint32_t former_node, std::vector<Branch>& branches);
   void copy_leaf(std::uint32_t former_leaf, const Branch& branch);
-  void fill_items(std::uint32_t former_leaf);
+  void fill_items(std::uint32_t former_leaf, bool with_centres);
   std::uint32_t leaves_below(std::uint32_t former_node) const;
 
   const Tree_layout& former_;
-  Float_frame frame_;
+  std::optional<Float_frame> frame_;       ///< once it is needed
   std::vector<bool> left_;                 ///< per former or new face: whether it has left its leaf
   std::vector<std::uint32_t> moved_;       ///< the changed and the new faces, ascending
   std::vector<Placed_face> placed_;        ///< the same with their leaves, ascending
