@@ -42,6 +42,7 @@ void keep_corners_apart(std::span<const Corners> faces, std::vector<std::uint32_
 
 std::optional<Closed_seams> close_seams(std::span<const Corners> faces, const std::vector<bool>& on_border,
                                         const Positions& positions) {
+  if (std::ranges::find(on_border, true) == on_border.end()) return std::nullopt;
   std::vector<std::uint32_t> lowest = lowest_at_each_place(on_border, positions);
   keep_corners_apart(faces, lowest);
 

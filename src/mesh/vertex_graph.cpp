@@ -6,39 +6,37 @@
 
 namespace lodestone {
 
-namespace {
-
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
-
-/// Both directions of every side of every face, sorted. Keeps repeats; leaves out sides from a vertex to itself.
-std::vector<Edge> sorted_sides(std::span<const Corners> faces) {
-  std::vector<Edge> sides;
-  sides.reserve(6 * faces.size());
-  for (const auto& [a, b, c] : faces)
-    for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}})
-      if (from != to) sides.insert(sides.end(), {{from, to}, {to, from}});
-  std::ranges::sort(sides);
-  return sides;
+Surface_edges surface_edges(const Vertex_faces& vertex_faces, std::span<const Corners> faces) {
+  const std::uint32_t vertices = vertex_faces.vertex_count();
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(3 * faces.size() + vertices);  // nearly all that a surface has
+  std::vector<bool> border(vertices, false);
+  std::vector<std::uint32_t> others;  // the other corners of the faces at a vertex: a neighbour once per face
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    others.clear();
+    for (const auto face : vertex_faces.at(v))
+      for (const auto corner : faces[face])
+        if (corner != v) others.push_back(corner);
+    std::ranges::sort(others);
+    for (std::size_t i = 0; i < others.size();) {
+      std::size_t end = i + 1;
+      while (end < others.size() && others[end] == others[i]) ++end;
+      edges.emplace_back(v, others[i]);
+      if (end - i == 1) border[v] = true;
+      i = end;
+    }
+  }
+  return {.graph = {boost::edges_are_sorted, edges.begin(), edges.end(), vertices,
+                    static_cast<std::uint32_t>(edges.size())},
+          .open_border = std::move(border)};
 }
 
-}  // namespace
-
 Vertex_graph vertex_graph(std::uint32_t vertex_count, std::span<const Corners> faces) {
-  auto edges = sorted_sides(faces);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return {boost::edges_are_sorted, edges.begin(), edges.end(), vertex_count};
+  return surface_edges(Vertex_faces(vertex_count, faces), faces).graph;
 }
 
 std::vector<bool> open_border(std::uint32_t vertex_count, std::span<const Corners> faces) {
-  std::vector<bool> border(vertex_count, false);
-  const auto sides = sorted_sides(faces);
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i;
-    while (end < sides.size() && sides[end] == sides[i]) ++end;
-    if (end - i == 1) border[sides[i].first] = border[sides[i].second] = true;
-    i = end;
-  }
-  return border;
+  return surface_edges(Vertex_faces(vertex_count, faces), faces).open_border;
 }
 
 }  // namespace lodestone

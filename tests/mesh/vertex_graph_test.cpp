@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <random>
 #include <set>
 
 #include "support/test_meshes.h"
@@ -43,6 +45,34 @@ TEST(Vertex_graph, a_vertex_without_faces_has_no_neighbours) {
 TEST(Vertex_graph, an_edge_of_three_faces_counts_once) {
   const std::vector<Corners> faces{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
   EXPECT_EQ(list(vertex_graph(5, faces), 0), (std::vector<std::uint32_t>{1, 2, 3, 4}));
+}
+
+TEST(Surface_edges, of_any_faces_are_those_that_a_count_of_all_sides_finds) {
+  std::mt19937_64 random(1);
+  for (int round = 0; round < 200; ++round) {
+    // Few vertices, so that faces have corners twice, edges have many faces, and faces are repeated.
+    const auto vertices = static_cast<std::uint32_t>(1 + random() % 9);
+    std::vector<Corners> faces(random() % 12);
+    for (auto& face : faces)
+      for (auto& corner : face) corner = static_cast<std::uint32_t>(random() % vertices);
+
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
+    for (const auto& [a, b, c] : faces)
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        if (from != to) ++sides[{from, to}], ++sides[{to, from}];
+    std::vector<std::vector<std::uint32_t>> expected(vertices);
+    std::vector<bool> open(vertices, false);
+    for (const auto& [side, count] : sides) {
+      expected[side.first].push_back(side.second);
+      if (count == 1) open[side.first] = true;
+    }
+
+    const auto edges = surface_edges(Vertex_faces(vertices, faces), faces);
+    EXPECT_EQ(edges.open_border, open);
+    ASSERT_EQ(num_vertices(edges.graph), vertices);
+    EXPECT_EQ(num_edges(edges.graph), sides.size());
+    for (std::uint32_t v = 0; v < vertices; ++v) EXPECT_EQ(list(edges.graph, v), expected[v]);
+  }
 }
 
 TEST(Open_border, of_a_grid_is_its_outline) {

@@ -23,7 +23,7 @@ struct Patch {
 Patch make_patch(std::vector<std::uint32_t> faces, std::span<const Corners> mesh_corners);
 
 /// The faces of each region: those with at least one corner in it. A face at a seam belongs to two or three regions, so
-/// no face is lost between regions. Cost O(F log F).
+/// no face is lost between regions. O(V + F + B log B), with B faces at borders of regions.
 std::vector<Patch> region_patches(std::span<const Corners> mesh_corners, std::span<const Region_index> labels,
                                   std::size_t regions);
 
