@@ -2,6 +2,7 @@
 #include "lodestone/partition/feature_vectors.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 
 #include "lodestone/mesh/scaled_positions.h"
@@ -10,14 +11,42 @@ namespace lodestone {
 
 namespace {
 
-/// Positions relative to their mean, scaled such that the farthest is at distance 1.
-Positions scaled_to_unit_ball(const Positions& positions) {
-  Positions scaled = scaled_positions(positions);
-  scaled.rowwise() -= scaled.colwise().mean().eval();
-  const double extent = scaled.cwiseAbs().maxCoeff();
-  if (extent == 0) return scaled;
-  scaled /= extent;
-  return scaled / scaled.rowwise().norm().maxCoeff();
+/// Moves the mean of the positions to the origin, and scales them such that the farthest is at distance 1.
+void move_into_unit_ball(Positions& positions) {
+  positions.rowwise() -= positions.colwise().mean().eval();
+  const double extent = positions.cwiseAbs().maxCoeff();
+  if (extent == 0) return;
+  positions /= extent;
+  positions /= std::sqrt(positions.rowwise().squaredNorm().maxCoeff());
+}
+
+/// Whether two sides of a face are parallel but for rounding: then their cross product is nothing but rounding error,
+/// with an arbitrary direction.
+bool parallel(const Eigen::RowVector3d& first, const Eigen::RowVector3d& second, const Eigen::RowVector3d& cross) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  // Most faces are far from that, and their squares from underflow: saves three roots.
+  const double squared = cross.squaredNorm();
+  if (squared > 1e-200 && squared > 4 * rounding * rounding * first.squaredNorm() * second.squaredNorm()) return false;
+  return cross.norm() <= rounding * first.norm() * second.norm();
+}
+
+/// `vertex_normals` of scaled positions.
+Positions normals_of(const Positions& scaled, std::span<const Corners> faces) {
+  const double extent = (scaled.colwise().maxCoeff() - scaled.colwise().minCoeff()).maxCoeff();
+  Positions normals = Positions::Zero(scaled.rows(), 3);
+  if (extent == 0) return normals;
+  for (const auto& [a, b, c] : faces) {
+    const Eigen::RowVector3d first = (scaled.row(b) - scaled.row(a)) / extent;
+    const Eigen::RowVector3d second = (scaled.row(c) - scaled.row(a)) / extent;
+    const Eigen::RowVector3d area_normal = first.cross(second);
+    if (parallel(first, second, area_normal)) continue;
+    for (const auto corner : {a, b, c}) normals.row(corner) += area_normal;
+  }
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+    const double length = normals.row(v).norm();
+    if (length > 0) normals.row(v) /= length;
+  }
+  return normals;
 }
 
 void check_weights(const Feature_options& options) {
@@ -31,35 +60,18 @@ void check_weights(const Feature_options& options) {
 }  // namespace
 
 Positions vertex_normals(const Positions& positions, std::span<const Corners> faces) {
-  const Positions scaled = scaled_positions(positions);
-  const double extent = (scaled.colwise().maxCoeff() - scaled.colwise().minCoeff()).maxCoeff();
-  Positions normals = Positions::Zero(positions.rows(), 3);
-  if (extent == 0) return normals;
-  for (const auto& [a, b, c] : faces) {
-    const Eigen::RowVector3d first = (scaled.row(b) - scaled.row(a)) / extent;
-    const Eigen::RowVector3d second = (scaled.row(c) - scaled.row(a)) / extent;
-    const Eigen::RowVector3d area_normal = first.cross(second);
-    // The cross product of parallel sides is only rounding error, with an arbitrary direction.
-    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-    if (area_normal.norm() <= rounding * first.norm() * second.norm()) continue;
-    for (const auto corner : {a, b, c}) normals.row(corner) += area_normal;
-  }
-  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
-    const double length = normals.row(v).norm();
-    if (length > 0) normals.row(v) /= length;
-  }
-  return normals;
+  return normals_of(scaled_positions(positions), faces);
 }
 
 Feature_vectors feature_vectors(const Positions& positions, std::span<const Corners> faces,
                                 const Feature_options& options) {
   check_weights(options);
-  if (options.normal_weight == 0) return options.position_weight * scaled_to_unit_ball(positions);
-  if (options.position_weight == 0) return options.normal_weight * vertex_normals(positions, faces);
-
-  Feature_vectors features(positions.rows(), 6);
-  features.leftCols<3>() = options.position_weight * scaled_to_unit_ball(positions);
-  features.rightCols<3>() = options.normal_weight * vertex_normals(positions, faces);
+  Positions scaled = scaled_positions(positions);
+  if (options.position_weight == 0) return options.normal_weight * normals_of(scaled, faces);
+  Feature_vectors features(positions.rows(), options.normal_weight == 0 ? 3 : 6);
+  if (options.normal_weight != 0) features.rightCols<3>() = options.normal_weight * normals_of(scaled, faces);
+  move_into_unit_ball(scaled);
+  features.leftCols<3>() = options.position_weight * scaled;
   return features;
 }
 

@@ -14,6 +14,8 @@ namespace lodestone {
 inline Positions scaled_positions(const Eigen::Ref<const Positions>& positions) {
   int exponent = 0;
   if (positions.rows() > 0) std::frexp(positions.cwiseAbs().maxCoeff(), &exponent);
+  constexpr int largest = 1000;  // far enough from where the factor itself overflows or underflows
+  if (-largest < exponent && exponent < largest) return positions * std::ldexp(1.0, -exponent);
   return positions.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
 }
 
