@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "support/test_meshes.h"
 
 namespace lodestone {
@@ -54,6 +56,27 @@ TEST(Hop_diameter, ignores_pairs_in_different_components) {
   const std::vector<std::uint32_t> apart{0, 4}, both{0, 3, 4};
   EXPECT_EQ(hop_diameter(graph, apart), 0U);
   EXPECT_EQ(hop_diameter(graph, both), 2U);
+}
+
+TEST(Hop_diameter, is_the_largest_that_a_search_from_every_target_finds) {
+  std::mt19937_64 random(1);
+  auto pieces = potato(5);
+  for (int i = 1; i < 4; ++i) append(pieces, grid(3 + i, 4));
+  for (const auto& mesh : {sphere(8), potato(9), grid(30, 4), cube(5), pieces, tetrahedron()}) {
+    const Numbered_mesh numbered(mesh);
+    for (const std::size_t count : {2, 3, 9, 40}) {
+      std::vector<std::uint32_t> targets;
+      for (std::size_t i = 0; i < count; ++i)
+        targets.push_back(static_cast<std::uint32_t>(random() % numbered.numbering.vertex_count()));
+      std::size_t expected = 0;
+      for (const auto a : targets) {
+        const auto hops = breadth_first_hops(numbered.graph, a);
+        for (const auto b : targets)
+          if (hops[b] != unreached) expected = std::max<std::size_t>(expected, hops[b]);
+      }
+      EXPECT_EQ(hop_diameter(numbered.graph, targets), expected) << count;
+    }
+  }
 }
 
 TEST(Hop_diameter, of_a_mesh_is_that_of_its_graph) {
