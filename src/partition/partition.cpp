@@ -58,12 +58,12 @@ Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& 
   result.statistics.distance_evaluations = labelling.distance_evaluations;
 
   result.regions = 1 + *std::ranges::max_element(result.labels);
-  result.statistics.pieces_before_repair = count_pieces(graph, result.labels);
-  result.statistics.repair.regions = result.regions;
-  if (!options.keep_islands) {
-    result.statistics.repair = repair_islands(graph, result.labels, result.regions);
-    result.regions = result.statistics.repair.regions;
-  }
+  auto& repair = result.statistics.repair;
+  if (options.keep_islands)
+    repair = {.regions = result.regions, .pieces_before = count_pieces(graph, result.labels)};
+  else
+    repair = repair_islands(graph, result.labels, result.regions);
+  result.regions = repair.regions;
   result.regions = drop_regions_without_edges(graph, result.labels, result.regions);
 
   if (labelling.vectors.size() == 0) labelling.vectors = feature_vectors(positions, faces);

@@ -126,6 +126,7 @@ TEST(Repair_islands, leaves_every_region_of_random_labels_connected) {
       if (region >= regions) continue;
       EXPECT_GE(after[region][0], std::ranges::max(before[region]));
     }
+    EXPECT_EQ(repair.pieces_before, pieces_before);
     EXPECT_EQ(pieces_before, repair.regions + repair.islands_joined);
     EXPECT_EQ(repair.regions, regions + repair.regions_added);
   }

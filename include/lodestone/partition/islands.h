@@ -10,6 +10,7 @@ namespace lodestone {
 
 struct Island_repair {
   std::size_t regions = 0;         ///< number of regions afterwards
+  std::size_t pieces_before = 0;   ///< `count_pieces` of the labels as they were
   std::size_t islands_joined = 0;  ///< pieces that joined another region
   std::size_t regions_added = 0;   ///< pieces that became a new region, because no region reaches their component
   std::size_t islands_left = 0;    ///< pieces beyond the limit of new regions; they keep their label

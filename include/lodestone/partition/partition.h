@@ -65,7 +65,6 @@ struct Partition_options {
 struct Partition_statistics {
   std::size_t iterations = 0;              ///< see Labelling
   std::uint64_t distance_evaluations = 0;  ///< see Labelling
-  std::size_t pieces_before_repair = 0;    ///< connected pieces of all regions as the strategy made them
   Island_repair repair = {};
 };
 
