@@ -2,9 +2,9 @@
 #include "lodestone/tree/region_anchors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 namespace lodestone {
 
@@ -30,24 +30,28 @@ Region_anchors::Region_anchors(Tree_on_demand& tree, std::span<const Corners> co
   probes_ = probes(layout, rest);
   const Eigen::Vector3d middle = mean(tree);
   for (const auto node : probes_) rest_distances_.push_back((tree.anchor(node) - middle).norm());
+  double farthest = 0;
   for (std::size_t i = 0; i < rest.size(); i += 3)
-    rest_radius_ = std::max(rest_radius_, (Eigen::Map<const Eigen::Vector3d>(rest.data() + i) - middle).norm());
+    farthest = std::max(farthest, (Eigen::Map<const Eigen::Vector3d>(rest.data() + i) - middle).squaredNorm());
+  rest_radius_ = std::sqrt(farthest);
 }
 
 /// The regions, and the leaves that reach farthest along an axis: where a pull shows most.
 std::vector<std::uint32_t> Region_anchors::probes(const Tree_layout& layout, Coordinates rest) const {
-  std::vector<std::uint32_t> nodes = nodes_;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0}) {
-      const auto reach = [&](std::uint32_t leaf) {
-        double farthest = -std::numeric_limits<double>::infinity();
-        for (const auto vertex : layout.vertices(leaf))
-          farthest = std::max(farthest, sign * rest[3 * std::size_t{vertex} + static_cast<std::size_t>(axis)]);
-        return farthest;
-      };
-      const auto leaves = std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(layout.leaf_count()));
-      nodes.push_back(layout.leaf_node(*std::ranges::max_element(leaves, {}, reach)));
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Eigen::Array3d least = Eigen::Array3d::Constant(infinity), largest = Eigen::Array3d::Constant(-infinity);
+  std::array<std::uint32_t, 6> tips{};
+  for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf) {
+    Box box;
+    for (const auto vertex : layout.vertices(leaf))
+      box.extend(Eigen::Map<const Eigen::Vector3d>(rest.data() + 3 * std::size_t{vertex}));
+    for (int axis = 0; axis < 3; ++axis) {
+      if (box.min()[axis] < least[axis]) least[axis] = box.min()[axis], tips[axis] = leaf;
+      if (box.max()[axis] > largest[axis]) largest[axis] = box.max()[axis], tips[axis + 3] = leaf;
     }
+  }
+  std::vector<std::uint32_t> nodes = nodes_;
+  for (const auto leaf : tips) nodes.push_back(layout.leaf_node(leaf));
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

@@ -14,7 +14,7 @@ struct Node_anchor {
   double radius = 0;         ///< rho: from there to the farthest of the node's vertices at rest, and by 10^-9 longer
 };
 
-/// The anchor of each node. O(V log V).
+/// The anchor of each node. O(V), and below each node the few leaves that its children's anchors leave open.
 /// @param coordinates  3 V, all finite: where the vertices are at rest
 std::vector<Node_anchor> find_anchors(const Tree_layout& layout, Coordinates coordinates);
 
