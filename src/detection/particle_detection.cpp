@@ -12,8 +12,7 @@ namespace lodestone {
 
 void Particle_detection::add(const Watch_mesh& watch, const Object_options& options) {
   const auto id = static_cast<Object_id>(objects_.size());
-  timed(since_last_frame_.seconds.build,
-        [&] { objects_.push_back(std::make_unique<Object>(id, watch(), options)); });
+  timed(since_last_frame_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(id, watch(), options)); });
 }
 
 void Particle_detection::update(Object_id id) {
@@ -21,8 +20,9 @@ void Particle_detection::update(Object_id id) {
   if (!object.prepared || options_.mode != Mode::particles) return;
   timed(since_last_frame_.seconds.repartition, [&] {
     if (!object.named([&] { return has_outgrown(object.particle_object); })) return;
-    measure(object);
-    partition(object);
+    const Positions positions = object.named([&] { return object.particle_object.read_positions(); });
+    measure(object, positions);
+    partition(object, positions);
     make_room();
     ++since_last_frame_.repartitions;
   });
@@ -71,41 +71,53 @@ void Particle_detection::prepare() {
     if (object && !object->prepared) fresh.push_back(object.get());
   if (fresh.empty()) return;
   timed(since_last_frame_.seconds.build, [&] {
-    if (options_.close_seams)
-      for (Object* object : fresh) object->named([&] { object->particle_object.close_seams(); });
-    for (Object* object : fresh) measure(*object);
-    for (Object* object : fresh) partition(*object);
+    std::vector<Positions> positions;
+    for (Object* object : fresh)
+      positions.push_back(object->named([&] { return object->particle_object.read_positions(); }));
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      if (options_.close_seams) fresh[i]->particle_object.close_seams(positions[i]);
+      measure(*fresh[i], positions[i]);
+    }
+    for (std::size_t i = 0; i < fresh.size(); ++i) partition(*fresh[i], positions[i]);
     make_room();
   });
   since_last_frame_.builds += fresh.size();
 }
 
-void Particle_detection::partition(Object& object) {
+void Particle_detection::measure(Object& object, const Positions& positions) {
+  if (options_.particles == 0) object.radius = bounding_sphere(positions).radius;
+}
+
+void Particle_detection::partition(Object& object, const Positions& positions) {
   if (options_.mode == Mode::senin) {
     Senin_options scattering = options_.senin;
     scattering.seed += object.id;  // objects of one shape must not start alike
     if (object.options.scattered_side) scattering.side = object.options.scattered_side;
     object.named([&] {
-      object.particle_object.scatter(particles_of(object), scattering, options_.distance_measure);
+      object.particle_object.scatter(positions, particles_of(object, positions), scattering, options_.distance_measure);
     });
   } else {
     object.named([&] {
-      object.particle_object.partition(particles_of(object), options_.partition, options_.distance_measure);
-      if (meets()) object.particle_object.prepare_meetings(options_.exact.tree);
+      object.particle_object.partition(positions, particles_of(object, positions), options_.partition,
+                                       options_.distance_measure);
+      if (meets())
+        object.particle_object.prepare_meetings(positions, options_.exact.tree);
+      else
+        object.particle_object.prepare_patches();
     });
   }
   object.prepared = true;
   object.particle_object.mesh().write_maps(object.particle_object.labels(), object.particle_object.particles().at);
 }
 
-std::size_t Particle_detection::particles_of(Object& object) {
+std::size_t Particle_detection::particles_of(Object& object, const Positions& positions) {
   if (object.options.particles > 0) return object.options.particles;
   if (options_.particles > 0) return options_.particles;
   std::vector<double> radii;
   for (const auto& other : objects_)
     if (other) radii.push_back(other->radius);
   const auto& rule = options_.particle_count;
-  const std::size_t by_rule = particle_count(object.particle_object.sphere_collection(rule), radii, rule);
+  const std::size_t by_rule = particle_count(object.particle_object.sphere_collection(positions, rule), radii, rule);
   return std::min(std::max(by_rule, options_.least_particles), rule.most_particles);
 }
 
@@ -214,9 +226,8 @@ void Particle_detection::check(Object_pair pair) {
 
   timed(frame_.seconds().confirmation, [&] {
     for (const auto& candidate : region_candidates_) {
-      result.collides |=
-          confirmation_.confirm(posed_patch(pair.a, candidate.a), posed_patch(pair.b, candidate.b), options_.contacts,
-                                frame_.face_pairs());
+      result.collides |= confirmation_.confirm(posed_patch(pair.a, candidate.a), posed_patch(pair.b, candidate.b),
+                                               options_.contacts, frame_.face_pairs());
       if (result.collides && options_.contacts != Contact_query::all) break;
     }
     end_pair(result);

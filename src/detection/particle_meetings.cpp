@@ -45,7 +45,7 @@ void Particle_detection::add_counts() {
 void Particle_detection::name_the_bad_object() {
   for (const auto& pair : met_pairs_)
     for (const auto id : {pair.ids.a, pair.ids.b})
-      objects_[id]->named([&] { objects_[id]->particle_object.check_positions(); });
+      objects_[id]->named([&] { objects_[id]->particle_object.read_positions(); });
 }
 
 void Particle_detection::find_near_objects(const Collision_filter& filter) {

@@ -21,28 +21,27 @@ namespace {
 
 Particle_object::Particle_object(std::unique_ptr<Watched_mesh> mesh)
     : mesh_(std::move(mesh)),
-      position_([this](std::uint32_t vertex) { return read_(vertex); }),
-      graph_(vertex_graph(mesh_->vertex_count(), corners())),
-      open_border_(open_border(mesh_->vertex_count(), corners())) {}
+      vertex_faces_(mesh_->vertex_count(), corners()),
+      edges_(surface_edges(vertex_faces_, corners())) {}
 
-void Particle_object::close_seams() {
+void Particle_object::close_seams(const Positions& positions) {
   if (!mesh_->divides_by_index()) return;
   // A call that was followed by a failure, perhaps of another object, is repeated when positions may be others.
   if (seams_) {
-    graph_ = vertex_graph(mesh_->vertex_count(), corners());
-    open_border_ = open_border(mesh_->vertex_count(), corners());
+    vertex_faces_ = Vertex_faces(mesh_->vertex_count(), corners());
+    edges_ = surface_edges(vertex_faces_, corners());
     seams_.reset();
   }
-  auto seams = lodestone::close_seams(corners(), open_border_, checked_positions());
+  auto seams = lodestone::close_seams(corners(), edges_.open_border, positions);
   if (!seams) return;
   std::vector<Corners> joined;
   joined.reserve(corners().size());
   for (const auto& [a, b, c] : corners()) joined.push_back({seams->joined(a), seams->joined(b), seams->joined(c)});
-  auto graph = vertex_graph(mesh_->vertex_count(), joined);
-  auto border = open_border(mesh_->vertex_count(), joined);
+  Vertex_faces joined_faces(mesh_->vertex_count(), joined);
+  Surface_edges joined_edges = surface_edges(joined_faces, joined);
   // From here on nothing can fail.
-  graph_ = std::move(graph);
-  open_border_ = std::move(border);
+  vertex_faces_ = std::move(joined_faces);
+  edges_ = std::move(joined_edges);
   joined_corners_ = std::move(joined);
   seams_ = std::move(seams);
 }
@@ -53,7 +52,7 @@ std::span<const Corners> Particle_object::walked_corners() const { return seams_
 /// With closed seams, the surface without the vertices that were joined to others is divided.
 Numbered_partition Particle_object::divide(const Positions& positions, std::size_t regions,
                                            const Partition_options& options) const {
-  if (!seams_) return mesh_->partition({graph_, positions, corners()}, regions, options);
+  if (!seams_) return mesh_->partition({edges_.graph, positions, corners()}, regions, options);
   const auto& vertices = seams_->vertices;
   const Positions joined_positions = positions(vertices, Eigen::all);
   const Vertex_graph joined_graph = vertex_graph(static_cast<std::uint32_t>(vertices.size()), seams_->corners);
@@ -66,29 +65,33 @@ Numbered_partition Particle_object::divide(const Positions& positions, std::size
   return result;
 }
 
-void Particle_object::partition(std::size_t regions, const Partition_options& options, Distance_measure measure) {
-  const Positions positions = measured_positions(measure);
+void Particle_object::partition(const Positions& positions, std::size_t regions, const Partition_options& options,
+                                Distance_measure measure) {
+  measure_distance(positions, measure);
   auto result = divide(positions, regions, options);
   labels_ = std::move(result.labels);
   statistics_ = result.statistics;
-  steps_ = Region_steps(graph_, labels_);
-  patches_ = region_patches(corners(), labels_, result.regions);
-  find_homes(result.particles);
+  steps_ = Region_steps(edges_.graph, labels_);
+  patches_.clear();
+  posed_.clear();
+  const Live_positions at(positions.data());
+  find_homes(result.particles, at);
   start_particles(std::move(result.particles), positions);
-  measure_extents();
+  measure_extents(at);
 }
 
-void Particle_object::scatter(std::size_t particles, const Senin_options& options, Distance_measure measure) {
-  const Positions positions = measured_positions(measure);
+void Particle_object::scatter(const Positions& positions, std::size_t particles, const Senin_options& options,
+                              Distance_measure measure) {
+  measure_distance(positions, measure);
   labels_.assign(mesh_->vertex_count(), 0);
-  steps_ = Region_steps(graph_, labels_);
-  vertex_faces_.emplace(mesh_->vertex_count(), walked_corners());
-  auto vertices = scatter_particles(graph_, positions, particles, options);
+  steps_ = Region_steps(edges_.graph, labels_);
+  auto vertices = scatter_particles(edges_.graph, positions, particles, options);
   rings_ =
       options.rings > 0 ? options.rings : default_rings(mesh_->vertex_count() - joined_vertices(), vertices.size());
   patches_.assign(vertices.size(), {});
   patch_centres_.assign(vertices.size(), unreached);
   start_particles(std::move(vertices), positions);
+  make_poses();
 }
 
 void Particle_object::start_particles(std::vector<std::uint32_t> vertices, const Positions& positions) {
@@ -97,12 +100,15 @@ void Particle_object::start_particles(std::vector<std::uint32_t> vertices, const
   if (particles_.at.size() == 1) {
     // One particle has no other to measure its reach by: it feels as far as the object is wide, and may walk all of it.
     particles_.effective_radius = 2 * lodestone::bounding_sphere(positions).radius;
-    particles_.hop_limit = hop_eccentricity(graph_, particles_.at.front());
+    particles_.hop_limit = hop_eccentricity(edges_.graph, particles_.at.front());
   } else {
     particles_.effective_radius = effective_radius(particles_.positions);
-    particles_.hop_limit = hop_diameter(graph_, particles_.at);
+    particles_.hop_limit = hop_diameter(edges_.graph, particles_.at);
   }
+}
 
+/// Makes room for the positions of all patches.
+void Particle_object::make_poses() {
   posed_.assign(patches_.size(), {});
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     posed_[p].patch = &patches_[p];
@@ -122,25 +128,22 @@ void Particle_object::look() {
                                    placement_);
 }
 
-/// All positions. Distances are compared by their squares, which must neither overflow nor vanish.
-Positions Particle_object::checked_positions() {
+Positions Particle_object::read_positions() {
   look();
   Positions positions(mesh_->vertex_count(), 3);
-  for (std::uint32_t v = 0; v < mesh_->vertex_count(); ++v) {
-    positions.row(v) = read_(v);
+  for (std::uint32_t v = 0; v < mesh_->vertex_count(); ++v) positions.row(v) = read_(v);
+  // Distances are compared by their squares, which must neither overflow nor vanish. The comparison also refuses NaN.
+  if (positions.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= 1e150) return positions;
+  for (std::uint32_t v = 0; v < mesh_->vertex_count(); ++v)
     if (!positions.row(v).allFinite()) fail_not_finite(v);
-  }
-  if (positions.cwiseAbs().maxCoeff() > 1e150) throw Bad_mesh("the mesh has a coordinate beyond 1e150");
-  return positions;
+  throw Bad_mesh("the mesh has a coordinate beyond 1e150");
 }
 
-/// All positions, with mu measured on them: whatever is wrong with them shows before anything else changes.
-Positions Particle_object::measured_positions(Distance_measure measure) {
-  Positions positions = checked_positions();
-  const double mu = collision_distance(graph_, positions, measure);
+/// Measures mu, before anything else changes: whatever is wrong with the edges shows here.
+void Particle_object::measure_distance(const Positions& positions, Distance_measure measure) {
+  const double mu = collision_distance(edges_.graph, positions, measure);
   if (mu > 0 && mu < 1e-150) throw Bad_mesh("the edges of the mesh are shorter than 1e-150 on average");
   particles_.collision_distance = mu;
-  return positions;
 }
 
 void Particle_object::read_particles() {
@@ -152,10 +155,13 @@ void Particle_object::read_particles() {
   }
 }
 
-void Particle_object::prepare_meetings(const Region_tree_options& options) {
-  const Positions positions = checked_positions();
+void Particle_object::prepare_patches() {
+  patches_ = region_patches(corners(), labels_, particles_.at.size());
+  make_poses();
+}
+
+void Particle_object::prepare_meetings(const Positions& positions, const Region_tree_options& options) {
   const Coordinates coordinates(positions.data(), static_cast<std::size_t>(positions.size()));
-  if (!vertex_faces_) vertex_faces_.emplace(mesh_->vertex_count(), walked_corners());
   tree_ = Tree_on_demand(corners(), labels_, coordinates, options);
   tree_.start_frame(read_);
   regions_ = Region_anchors(tree_, corners(), labels_, coordinates);
@@ -178,48 +184,52 @@ const Posed_patch& Particle_object::posed_patch(std::size_t particle, std::uint6
   Posed_patch& posed = posed_[particle];
   if (!patch_centres_.empty() && patch_centres_[particle] != particles_.at[particle]) {
     patch_centres_[particle] = particles_.at[particle];
-    patches_[particle] = ring_patch(graph_, *vertex_faces_, corners(), particles_.at[particle], rings_);
+    patches_[particle] = ring_patch(edges_.graph, vertex_faces_, corners(), particles_.at[particle], rings_);
     posed.frame = 0;
   }
   pose_patch(posed, read_, frame);
   return posed;
 }
 
-Eigen::Vector3d Particle_object::normal_at(const Home& home, Region_index region) const {
+Eigen::Vector3d Particle_object::normal_at(const Home& home, const Live_positions& at) const {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (const auto face : patches_[region].faces) {
+  for (const auto face : vertex_faces_.at(home.vertex)) {
     const auto& [a, b, c] = walked_corners()[face];
-    if (a != home.vertex && b != home.vertex && c != home.vertex) continue;
-    const Eigen::Vector3d origin = read_(a);
-    normal += (read_(b) - origin).cross(read_(c) - origin);
+    const Eigen::Vector3d origin = at(a);
+    normal += (at(b) - origin).cross(at(c) - origin);
   }
   return normal;
 }
 
-Region_extent Particle_object::measure_extent(Region_index region) const {
-  const Home& home = homes_[region];
-  const Eigen::Vector3d normal = normal_at(home, region);
+Extent_start Particle_object::extent_start(const Home& home, const Live_positions& at) const {
+  const Eigen::Vector3d normal = normal_at(home, at);
   // X turns with the surface: the same angle from the same edge as at the time of the partition.
-  const Eigen::Vector3d needle = read_(home.compass) - read_(home.vertex);
+  const Eigen::Vector3d needle = at(home.compass) - at(home.vertex);
   const Eigen::Vector3d x_axis =
       normal.isZero(0) ? needle : Eigen::Vector3d(Eigen::AngleAxisd(home.angle, normal.stableNormalized()) * needle);
-  return region_extent(Extent_input{graph_, labels_, open_border_, position_}, home.vertex, normal, x_axis);
+  return {.home = home.vertex, .normal = normal, .x_axis = x_axis};
 }
 
-void Particle_object::find_homes(const std::vector<std::uint32_t>& vertices) {
+std::vector<Region_extent> Particle_object::extents_of(std::span<const Home> homes, const Live_positions& at) const {
+  std::vector<Extent_start> starts;
+  for (const Home& home : homes) starts.push_back(extent_start(home, at));
+  return region_extents({edges_.graph, labels_, edges_.open_border, at}, starts);
+}
+
+void Particle_object::find_homes(const std::vector<std::uint32_t>& vertices, const Live_positions& at) {
   homes_.clear();
-  for (Region_index region = 0; region < vertices.size(); ++region) {
-    Home home{.vertex = vertices[region], .compass = neighbours(graph_, vertices[region]).front()};
-    home.angle = angle_to_axis(normal_at(home, region), read_(home.compass) - read_(home.vertex));
+  for (const auto vertex : vertices) {
+    Home home{.vertex = vertex, .compass = neighbours(edges_.graph, vertex).front()};
+    home.angle = angle_to_axis(normal_at(home, at), at(home.compass) - at(home.vertex));
     homes_.push_back(home);
   }
 }
 
 /// Longest of the edges by which the homes find their directions again.
-double Particle_object::longest_compass() const {
+double Particle_object::longest_compass(const Live_positions& at) const {
   double longest = 0;
   for (const Home& home : homes_) {
-    const double length = (read_(home.compass) - read_(home.vertex)).norm();
+    const double length = (at(home.compass) - at(home.vertex)).norm();
     if (!std::isfinite(length))
       throw Bad_mesh("vertex " + std::to_string(home.vertex) + " or a neighbour has a coordinate that is not finite");
     longest = std::max(longest, length);
@@ -227,14 +237,11 @@ double Particle_object::longest_compass() const {
   return longest;
 }
 
-void Particle_object::measure_extents() {
-  rest_compass_ = longest_compass();
-  extents_.clear();
+void Particle_object::measure_extents(const Live_positions& at) {
+  rest_compass_ = longest_compass(at);
+  extents_ = extents_of(homes_, at);
   largest_area_ = 0;
-  for (Region_index region = 0; region < homes_.size(); ++region) {
-    extents_.push_back(measure_extent(region));
-    largest_area_ = std::max(largest_area_, extents_.back().area());
-  }
+  for (const auto& extent : extents_) largest_area_ = std::max(largest_area_, extent.area());
 }
 
 bool Particle_object::seemed_larger(double growth) const {
@@ -245,7 +252,7 @@ bool Particle_object::has_outgrown(double growth, std::size_t most_regions) {
   look();
   // A surface that only moves keeps its lengths but for rounding.
   constexpr double rounding = 1 + 1e-9;
-  if (largest_area_ == 0) return std::pow(longest_compass(), 2) > growth * rounding * std::pow(rest_compass_, 2);
+  if (largest_area_ == 0) return std::pow(longest_compass(read_), 2) > growth * rounding * std::pow(rest_compass_, 2);
   const double limit = growth * rounding * largest_area_;
   for (std::size_t checked = 0; checked < std::min(most_regions, extents_.size()); ++checked) {
     last_checked_ = last_checked_ + 1 < extents_.size() ? last_checked_ + 1 : 0;
@@ -255,7 +262,7 @@ bool Particle_object::has_outgrown(double growth, std::size_t most_regions) {
       throw Bad_mesh("region " + std::to_string(region) + " has a coordinate that is not finite");
     if (area <= limit) continue;
     // The measured paths become the new samples, so that one that was merely no longer the shortest alarms only once.
-    extents_[region] = measure_extent(region);
+    extents_[region] = std::move(extents_of({&homes_[region], 1}, read_).front());
     if (extents_[region].area() > limit) return true;
   }
   return false;

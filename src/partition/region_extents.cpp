@@ -3,11 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/graph/dijkstra_shortest_paths.hpp>
-#include <boost/graph/filtered_graph.hpp>
-#include <boost/property_map/function_property_map.hpp>
+#include <boost/graph/detail/d_ary_heap.hpp>
 #include <boost/property_map/property_map.hpp>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <tuple>
 
@@ -15,34 +15,76 @@ namespace lodestone {
 
 namespace {
 
-struct In_region {
-  const Region_index* labels = nullptr;
-  Region_index region = 0;
-  bool operator()(std::uint32_t vertex) const { return labels[vertex] == region; }
+constexpr double unreached_length = std::numeric_limits<double>::infinity();
+
+/// Shortest paths within one region after the other: Dijkstra, with Boost's heap. The memory is kept, and only what a
+/// search has written is cleared, so a search costs nothing for the vertices outside its region.
+class Shortest_paths {
+ public:
+  explicit Shortest_paths(const Extent_input& input)
+      : input_(input),
+        distance_(num_vertices(input.graph), unreached_length),
+        predecessor_(distance_.size()),
+        place_in_heap_(distance_.size()),
+        heap_(Distance_map(distance_.begin()), Place_map(place_in_heap_.begin())) {}
+  Shortest_paths(const Shortest_paths&) = delete;  // the heap refers to the other members
+  Shortest_paths& operator=(const Shortest_paths&) = delete;
+
+  void search(std::uint32_t home);
+
+  /// The vertices that the last search reached, its home first.
+  std::span<const std::uint32_t> reached() const { return reached_; }
+  double distance(std::uint32_t vertex) const { return distance_[vertex]; }
+  /// From the home to `end`.
+  std::vector<std::uint32_t> path_to(std::uint32_t end) const;
+
+ private:
+  template <class Iterator>
+  using Map = boost::iterator_property_map<Iterator, boost::typed_identity_property_map<std::uint32_t>>;
+  using Distance_map = Map<std::vector<double>::iterator>;
+  using Place_map = Map<std::vector<std::uint32_t>::iterator>;
+
+  const Extent_input& input_;
+  std::vector<double> distance_;              ///< V; infinity: not reached
+  std::vector<std::uint32_t> predecessor_;    ///< V
+  std::vector<std::uint32_t> place_in_heap_;  ///< V
+  boost::d_ary_heap_indirect<std::uint32_t, 4, Place_map, Distance_map, std::less<double>> heap_;
+  std::vector<std::uint32_t> reached_;
 };
 
-struct Shortest_paths {
-  std::vector<double> distance;            ///< V; infinity outside the region and its connected part
-  std::vector<std::uint32_t> predecessor;  ///< V
-};
+void Shortest_paths::search(std::uint32_t home) {
+  for (const auto v : reached_) distance_[v] = unreached_length;
+  reached_.assign(1, home);
+  distance_[home] = 0;
+  predecessor_[home] = home;
+  heap_.push(home);
+  while (!heap_.empty()) {
+    const std::uint32_t v = heap_.top();
+    heap_.pop();
+    const Eigen::Vector3d position = input_.position(v);
+    for (const std::uint32_t w : neighbours(input_.graph, v)) {
+      // Half of the neighbours are settled: no path by way of this vertex is shorter.
+      if (distance_[w] <= distance_[v] || input_.labels[w] != input_.labels[home]) continue;
+      const double distance = distance_[v] + (position - input_.position(w)).norm();
+      if (!(distance < distance_[w])) continue;
+      const bool is_new = distance_[w] == unreached_length;
+      distance_[w] = distance;
+      predecessor_[w] = v;
+      if (is_new) {
+        reached_.push_back(w);
+        heap_.push(w);
+      } else {
+        heap_.update(w);
+      }
+    }
+  }
+}
 
-Shortest_paths shortest_paths(const Extent_input& input, std::uint32_t home) {
-  const auto& graph = input.graph;
-  Shortest_paths paths{.distance = std::vector<double>(num_vertices(graph), std::numeric_limits<double>::infinity()),
-                       .predecessor = std::vector<std::uint32_t>(num_vertices(graph), home)};
-  const boost::filtered_graph region(graph, boost::keep_all(), In_region{input.labels.data(), input.labels[home]});
-  const auto index = get(boost::vertex_index, graph);
-  const auto edge_length =
-      boost::make_function_property_map<Vertex_graph::edge_descriptor>([&](const Vertex_graph::edge_descriptor& edge) {
-        return (input.position(source(edge, graph)) - input.position(target(edge, graph))).norm();
-      });
-  boost::dijkstra_shortest_paths(
-      region, home,
-      boost::weight_map(edge_length)
-          .distance_map(boost::make_iterator_property_map(paths.distance.begin(), index))
-          .predecessor_map(boost::make_iterator_property_map(paths.predecessor.begin(), index))
-          .distance_inf(std::numeric_limits<double>::infinity()));
-  return paths;
+std::vector<std::uint32_t> Shortest_paths::path_to(std::uint32_t end) const {
+  std::vector<std::uint32_t> path{end};
+  while (path.back() != reached_.front()) path.push_back(predecessor_[path.back()]);
+  std::ranges::reverse(path);
+  return path;
 }
 
 struct Tangent_frame {
@@ -78,13 +120,10 @@ bool on_border(const Extent_input& input, std::uint32_t vertex) {
                              [&](auto w) { return input.labels[w] != input.labels[vertex]; });
 }
 
-Border_path border_path(const Extent_input& input, const Shortest_paths& paths, std::uint32_t home, std::uint32_t end) {
-  std::vector<std::uint32_t> walk{end};
-  while (walk.back() != home) walk.push_back(paths.predecessor[walk.back()]);
-  std::ranges::reverse(walk);
-
+Border_path border_path(const Extent_input& input, const Shortest_paths& paths, std::uint32_t end) {
+  const auto walk = paths.path_to(end);
   constexpr std::size_t chords = 4;
-  Border_path path{.length = paths.distance[end]};
+  Border_path path{.length = paths.distance(end)};
   for (std::size_t i = 0; i <= chords; ++i) {
     const std::uint32_t sample = walk[i * (walk.size() - 1) / chords];
     if (!path.samples.empty() && path.samples.back() == sample) continue;
@@ -95,36 +134,23 @@ Border_path border_path(const Extent_input& input, const Shortest_paths& paths, 
   return path;
 }
 
-}  // namespace
+/// The end of a path in one direction.
+struct End {
+  std::uint32_t vertex = 0;
+  std::size_t cone = 4;  ///< 4: there is no end
+  double distance = 0;
+};
 
-double angle_to_axis(const Eigen::Vector3d& normal, const Eigen::Vector3d& needle) {
-  const auto frame = tangent_frame(normal, Eigen::Vector3d::Zero());
-  return -std::atan2(needle.dot(frame.y), needle.dot(frame.x));
-}
-
-Region_extent region_extent(const Extent_input& input, std::uint32_t home, const Eigen::Vector3d& normal,
-                            const Eigen::Vector3d& x_axis) {
-  const auto paths = shortest_paths(input, home);
-  const auto frame = tangent_frame(normal, x_axis);
+/// In each direction the nearest border vertex within the narrowest cone that holds one. In a region without a border:
+/// the farthest vertex within 45 degrees. Of several the one of the lowest index.
+std::array<End, 4> find_ends(const Extent_input& input, const Shortest_paths& paths, const Tangent_frame& frame) {
+  std::vector<std::uint32_t> border;
+  std::ranges::copy_if(paths.reached(), std::back_inserter(border), [&](auto v) { return on_border(input, v); });
+  const std::uint32_t home = paths.reached().front();
   const Eigen::Vector3d origin = input.position(home);
-
-  std::vector<std::uint32_t> reached;
-  for (std::uint32_t v = 0; v < paths.distance.size(); ++v)
-    if (v != home && std::isfinite(paths.distance[v])) reached.push_back(v);
-  const bool has_border =
-      on_border(input, home) || std::ranges::any_of(reached, [&](auto v) { return on_border(input, v); });
-
-  // The nearest border vertex within the narrowest cone that holds one. Without a border: the farthest vertex within 45
-  // degrees.
-  struct End {
-    std::uint32_t vertex;
-    std::size_t cone = 4;
-    double distance = 0;
-  };
   std::array<End, 4> ends;
-  ends.fill({.vertex = home});
-  for (const auto v : reached) {
-    if (has_border && !on_border(input, v)) continue;
+  for (const auto v : border.empty() ? paths.reached() : std::span<const std::uint32_t>(border)) {
+    if (v == home) continue;
     const Eigen::Vector3d offset = input.position(v) - origin;
     const double x = offset.dot(frame.x), y = offset.dot(frame.y);
     // A vertex straight above or below home has no direction in the tangent plane.
@@ -134,18 +160,38 @@ Region_extent region_extent(const Extent_input& input, std::uint32_t home, const
       const std::size_t narrowest = cone(along[direction], std::abs(along[(direction + 2) % 4]));
       if (narrowest == 4) continue;
       End& end = ends[direction];
-      const double distance = paths.distance[v];
-      const bool better =
-          has_border ? std::tie(narrowest, distance) < std::tie(end.cone, end.distance) : distance > end.distance;
+      const double distance = paths.distance(v);
+      const bool better = border.empty()
+                              ? std::tie(end.distance, v) < std::tie(distance, end.vertex)
+                              : std::tie(narrowest, distance, v) < std::tie(end.cone, end.distance, end.vertex);
       if (better) end = {.vertex = v, .cone = narrowest, .distance = distance};
     }
   }
+  return ends;
+}
 
+Region_extent measure(const Extent_input& input, const Extent_start& start, Shortest_paths& paths) {
+  paths.search(start.home);
+  const auto ends = find_ends(input, paths, tangent_frame(start.normal, start.x_axis));
   Region_extent extent;
   for (std::size_t direction = 0; direction < 4; ++direction)
-    if (ends[direction].vertex != home)
-      extent.paths[direction] = border_path(input, paths, home, ends[direction].vertex);
+    if (ends[direction].cone < 4) extent.paths[direction] = border_path(input, paths, ends[direction].vertex);
   return extent;
+}
+
+}  // namespace
+
+double angle_to_axis(const Eigen::Vector3d& normal, const Eigen::Vector3d& needle) {
+  const auto frame = tangent_frame(normal, Eigen::Vector3d::Zero());
+  return -std::atan2(needle.dot(frame.y), needle.dot(frame.x));
+}
+
+std::vector<Region_extent> region_extents(const Extent_input& input, std::span<const Extent_start> starts) {
+  Shortest_paths paths(input);
+  std::vector<Region_extent> extents;
+  extents.reserve(starts.size());
+  for (const auto& start : starts) extents.push_back(measure(input, start, paths));
+  return extents;
 }
 
 }  // namespace lodestone

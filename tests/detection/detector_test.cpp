@@ -139,9 +139,11 @@ TEST(Detector, a_frame_reads_only_where_particles_look_and_in_candidate_regions)
   for (auto& mesh : scene) detector.add(mesh, Counting_points{&mesh, &reads});
   detector.detect();
   std::size_t largest_patch = 0, most_reads = 0;
-  for (const Object_id object : {0U, 1U})
-    for (const auto& patch : detector.object(object).patches())
+  for (const Object_id id : {0U, 1U}) {
+    const auto& object = detector.object(id);
+    for (const auto& patch : region_patches(object.corners(), object.labels(), object.particles().at.size()))
       largest_patch = std::max(largest_patch, patch.vertices.size());
+  }
   for (int frame = 0; frame < 10; ++frame) {
     shift(scene[1], -0.004);
     reads = 0;

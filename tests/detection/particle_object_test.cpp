@@ -27,7 +27,13 @@ struct Counted_object {
             mesh, Counting_points{&mesh, &reads}, std::make_shared<const Lbg>())) {}
   Counted_object(const Surface_mesh& shape, std::size_t regions) : Counted_object(shape) { partition(regions); }
 
-  void partition(std::size_t regions) { object.partition(regions, {}, Distance_measure::adjacent_vertices); }
+  void partition(std::size_t regions, const Partition_options& options = {}) {
+    object.partition(object.read_positions(), regions, options, Distance_measure::adjacent_vertices);
+    object.prepare_patches();
+  }
+  void scatter(std::size_t particles, const Senin_options& options = {}) {
+    object.scatter(object.read_positions(), particles, options, Distance_measure::adjacent_vertices);
+  }
   Eigen::Vector3d at(std::uint32_t vertex) const { return coordinates(mesh.point(Surface_mesh::Vertex_index(vertex))); }
 };
 
@@ -95,6 +101,17 @@ TEST(Particle_object, measures_of_the_particles_are_those_of_their_vertices) {
   for (const auto e : counted.mesh.edges())
     edges += (counted.at(counted.mesh.vertex(e, 0)) - counted.at(counted.mesh.vertex(e, 1))).norm();
   EXPECT_NEAR(particles.collision_distance, edges / double(num_edges(counted.mesh)), 1e-14);
+}
+
+TEST(Particle_object, a_partition_reads_nothing_but_its_particles) {
+  Counted_object counted(potato(8));
+  const Positions positions = counted.object.read_positions();
+  EXPECT_EQ(counted.reads, positions.rows());
+  counted.reads = 0;
+  counted.object.partition(positions, 12, {}, Distance_measure::adjacent_vertices);
+  EXPECT_EQ(counted.reads, 12U);
+  counted.object.prepare_meetings(positions, {});
+  EXPECT_LT(counted.reads, 12U + 40U);  // and the anchors at rest
 }
 
 TEST(Particle_object, reads_one_vertex_for_each_particle) {
@@ -326,7 +343,7 @@ TEST(Particle_object, a_single_particle_does_not_walk_to_other_components) {
   shift(other, 10);
   append(mesh, other);
   Counted_object counted(mesh);
-  counted.object.partition(1, {.keep_islands = true}, Distance_measure::adjacent_vertices);
+  counted.partition(1, {.keep_islands = true});
   const auto at = counted.object.particles().at;
   ASSERT_EQ(at.size(), 1U);
   std::uint32_t farthest = 0;
@@ -366,7 +383,7 @@ TEST(Particle_object, two_single_particles_walk_towards_each_other) {
 
 TEST(Scattered_object, has_a_patch_for_each_particle) {
   Counted_object counted(potato(8));
-  counted.object.scatter(20, {}, Distance_measure::adjacent_vertices);
+  counted.scatter(20);
   EXPECT_EQ(counted.object.particles().at.size(), 20U);
   EXPECT_EQ(counted.object.patches().size(), 20U);
   EXPECT_EQ(std::ranges::max(counted.object.labels()), 0U);
@@ -385,7 +402,7 @@ std::vector<std::uint32_t> faces_around(const Surface_mesh& mesh, std::uint32_t 
 
 TEST(Scattered_object, the_patch_around_a_particle_follows_it) {
   Counted_object counted(potato(8));
-  counted.object.scatter(6, {.rings = 2}, Distance_measure::adjacent_vertices);
+  counted.scatter(6, {.rings = 2});
   for (const std::uint32_t step : {0, 5, 17}) {
     for (std::size_t p = 0; p < 6; ++p) {
       std::uint32_t& at = counted.object.particles().at[p];
@@ -398,7 +415,7 @@ TEST(Scattered_object, the_patch_around_a_particle_follows_it) {
 
 TEST(Scattered_object, a_patch_whose_particle_rests_is_read_once_a_frame) {
   Counted_object counted(potato(8));
-  counted.object.scatter(6, {.rings = 1}, Distance_measure::adjacent_vertices);
+  counted.scatter(6, {.rings = 1});
   counted.object.posed_patch(2, 1);
   counted.reads = 0;
   counted.object.posed_patch(2, 1);
@@ -412,7 +429,7 @@ TEST(Scattered_object, coordinates_out_of_range_are_refused) {
     auto mesh = sphere(4);
     scale(mesh, factor);
     Counted_object counted(mesh);
-    EXPECT_THROW(counted.object.scatter(6, {}, Distance_measure::adjacent_vertices), Bad_mesh) << factor;
+    EXPECT_THROW(counted.scatter(6), Bad_mesh) << factor;
   }
 }
 

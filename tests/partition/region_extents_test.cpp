@@ -4,7 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/graph/dijkstra_shortest_paths.hpp>
+#include <boost/graph/filtered_graph.hpp>
+#include <boost/property_map/function_property_map.hpp>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
 
 #include "support/test_meshes.h"
 
@@ -13,22 +19,22 @@ namespace {
 
 const Eigen::Vector3d up(0, 0, 1);
 
-/// A mesh with the inputs of `region_extent`.
+/// A mesh with the inputs of `region_extents`.
 struct Measured : Numbered_mesh {
   std::vector<Region_index> labels;
   std::vector<bool> border;
-  Position_function position;
+  Live_positions position;
 
   explicit Measured(const Surface_mesh& mesh)
       : Numbered_mesh(mesh),
         labels(numbering.vertex_count(), 0),
         border(open_border(numbering.vertex_count(), faces)),
-        position([this](std::uint32_t v) { return Eigen::Vector3d(positions.row(v)); }) {}
+        position(positions.data()) {}
   Measured(const Measured&) = delete;
   Measured& operator=(const Measured&) = delete;
 
   Region_extent extent(std::uint32_t home, const Eigen::Vector3d& normal = up) const {
-    return region_extent({graph, labels, border, position}, home, normal);
+    return region_extents({graph, labels, border, position}, std::vector{Extent_start{home, normal}}).front();
   }
 };
 
@@ -118,6 +124,60 @@ TEST(Region_extent, grows_with_the_square_of_a_uniform_scale) {
       EXPECT_GT(area, 0);
       EXPECT_NEAR(larger.extent(home, normal).area(), factor * factor * area, 1e-9 * area);
       EXPECT_NEAR(stretched_area(mesh.extent(home, normal), larger.position), factor * factor * area, 1e-9 * area);
+    }
+  }
+}
+
+/// Lengths of the shortest paths within the region of `home`, by Boost's search.
+std::vector<double> boosts_lengths(const Measured& mesh, std::uint32_t home) {
+  std::vector<double> lengths(mesh.labels.size());
+  const boost::filtered_graph region(mesh.graph, boost::keep_all(), std::function([&](std::uint32_t v) {
+                                       return mesh.labels[v] == mesh.labels[home];
+                                     }));
+  const auto edge_length =
+      boost::make_function_property_map<Vertex_graph::edge_descriptor>([&](const Vertex_graph::edge_descriptor& edge) {
+        return (mesh.position(source(edge, mesh.graph)) - mesh.position(target(edge, mesh.graph))).norm();
+      });
+  boost::dijkstra_shortest_paths(
+      region, home,
+      boost::weight_map(edge_length)
+          .distance_map(boost::make_iterator_property_map(lengths.begin(), get(boost::vertex_index, mesh.graph)))
+          .distance_inf(std::numeric_limits<double>::infinity()));
+  return lengths;
+}
+
+TEST(Region_extent, paths_are_as_long_as_the_shortest_that_boosts_search_finds) {
+  std::mt19937_64 random(1);
+  for (const auto& surface : {potato(9), grid(12, 9), sphere(7)}) {
+    Measured mesh(surface);
+    for (const Region_index regions : {1, 3, 8}) {
+      // Halfspaces cut regions of several pieces, too.
+      for (std::uint32_t v = 0; v < mesh.labels.size(); ++v)
+        mesh.labels[v] = static_cast<Region_index>(std::abs(mesh.positions.row(v).sum()) * 2) % regions;
+      for (int trial = 0; trial < 5; ++trial) {
+        const auto home = static_cast<std::uint32_t>(random() % mesh.labels.size());
+        const auto expected = boosts_lengths(mesh, home);
+        for (const auto& path : mesh.extent(home, Eigen::Vector3d::Random()).paths) {
+          if (path.samples.empty()) continue;
+          EXPECT_EQ(path.length, expected[path.samples.back()]);
+        }
+      }
+    }
+  }
+}
+
+TEST(Region_extents, measured_together_are_those_measured_alone) {
+  Measured mesh(potato(9));
+  std::vector<Extent_start> starts;
+  for (std::uint32_t v = 0; v < mesh.labels.size(); ++v) mesh.labels[v] = v % 10 < 7 ? 0 : 1;
+  for (std::uint32_t home = 0; home < 60; ++home) starts.push_back({home, mesh.positions.row(home)});
+  const auto together = region_extents({mesh.graph, mesh.labels, mesh.border, mesh.position}, starts);
+  ASSERT_EQ(together.size(), starts.size());
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto alone = mesh.extent(starts[i].home, starts[i].normal);
+    for (std::size_t direction = 0; direction < 4; ++direction) {
+      EXPECT_EQ(together[i].paths[direction].length, alone.paths[direction].length);
+      EXPECT_EQ(together[i].paths[direction].samples, alone.paths[direction].samples);
     }
   }
 }

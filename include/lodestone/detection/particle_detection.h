@@ -57,7 +57,7 @@ class Particle_detection final : public Detection {
     Object_id id;
     Object_options options;
     Particle_object particle_object;
-    double radius = 0;  ///< of the bounding sphere at the last partition
+    double radius = 0;  ///< of the bounding sphere at the last partition, if numbers of particles depend on it
     bool prepared = false;
 
     Object(Object_id i, std::unique_ptr<Watched_mesh> mesh, const Object_options& o)
@@ -75,12 +75,10 @@ class Particle_detection final : public Detection {
   };
 
   void prepare();
-  void measure(Object& object) {
-    object.radius = object.named([&] { return object.particle_object.bounding_sphere().radius; });
-  }
-  void partition(Object& object);
+  void measure(Object& object, const Positions& positions);
+  void partition(Object& object, const Positions& positions);
   bool has_outgrown(Particle_object& object);
-  std::size_t particles_of(Object& object);
+  std::size_t particles_of(Object& object, const Positions& positions);
   void make_room();
   bool meets() const { return options_.mode == Mode::particles && options_.meetings > 0; }
   void find_candidates(const Collision_filter& filter);
@@ -112,7 +110,7 @@ class Particle_detection final : public Detection {
   Broad_phase broad_phase_;
   std::vector<Object_pair> object_candidates_;
   std::vector<std::vector<std::uint32_t>> opponents_;  ///< per object: those it may meet
-  std::vector<std::vector<Pull>> pulls_;  ///< per object, with meetings
+  std::vector<std::vector<Pull>> pulls_;               ///< per object, with meetings
   std::vector<Walking_object<Live_positions>> walking_;
   Relaxation_scratch relaxation_;
   std::vector<Candidate_pair> region_candidates_;

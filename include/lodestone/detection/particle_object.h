@@ -29,41 +29,50 @@ namespace lodestone {
 class Particle_object {
  public:
   explicit Particle_object(std::unique_ptr<Watched_mesh> mesh);
-  Particle_object(const Particle_object&) = delete;  // `position_` refers to the object itself
-  Particle_object& operator=(const Particle_object&) = delete;
 
   /// Places the object elsewhere from now on; none: where its mesh is.
   void place(const std::optional<Rigid_motion>& placement) { placement_ = placement; }
 
-  /// Closes the seams of the surface as it is now, for all that walks along it: partition, particles, paths. Does
-  /// nothing for a strategy that needs the mesh itself. Before the first partition.
-  /// @throws Bad_mesh  as `partition`
-  void close_seams();
+  /// Reads all positions. O(V).
+  /// @throws Bad_mesh  a coordinate is not finite or beyond 1e150, or the number of vertices or faces has changed
+  Positions read_positions();
+
+  // What follows is done with all positions as they are now, from `read_positions`.
+
+  /// Closes the seams of the surface, for all that walks along it: partition, particles, paths. Does nothing for a
+  /// strategy that needs the mesh itself. Before the first partition.
+  void close_seams(const Positions& positions);
   /// Number of vertices that were joined to another one.
   std::size_t joined_vertices() const { return seams_ ? seams_->joined_count() : 0; }
 
-  /// Divides the surface as it is now into `regions` regions, and puts a particle in each. O(V) and more.
-  /// @throws Bad_mesh  a coordinate is not finite or beyond 1e150, or edges are shorter than 1e-150 on average
-  void partition(std::size_t regions, const Partition_options& options, Distance_measure measure);
+  /// Divides the surface into `regions` regions, and puts a particle in each. O(V) and more.
+  /// @throws Bad_mesh  edges are shorter than 1e-150 on average
+  void partition(const Positions& positions, std::size_t regions, const Partition_options& options,
+                 Distance_measure measure);
+  /// Lists the faces of each region, for `posed_patch`. After `partition`. O(V + F).
+  void prepare_patches();
+  /// Builds what meetings need: the tree below the regions. After `partition`. O(F log F).
+  void prepare_meetings(const Positions& positions, const Region_tree_options& options);
 
-  /// Scatters `particles` over the surface as it is now: the predecessor's start.
-  void scatter(std::size_t particles, const Senin_options& options, Distance_measure measure);
+  /// Scatters `particles` over the surface: the predecessor's start.
+  /// @throws Bad_mesh  as `partition`
+  void scatter(const Positions& positions, std::size_t particles, const Senin_options& options,
+               Distance_measure measure);
+
+  std::vector<Sphere> sphere_collection(const Positions& positions, const Particle_count_options& options) const {
+    return lodestone::sphere_collection(edges_.graph, positions, walked_corners(), options);
+  }
 
   /// Reads where the particles are in this frame.
   /// @throws Bad_mesh  a coordinate is not finite, or the number of vertices or faces has changed
   void read_particles();
 
-  /// Builds what meetings need: the tree below the regions, and the faces around each vertex. After `partition`.
-  /// O(F log F + V log V).
-  void prepare_meetings(const Region_tree_options& options);
   /// Reads the anchors of the regions in this frame, after `prepare_meetings`.
   /// @throws Bad_mesh  as `read_particles`
   void read_regions(double reach);
   const Region_anchors& regions() const { return regions_; }
   /// The surface, for particles that may walk anywhere, after `prepare_meetings`.
-  Walked_surface walked_surface() const {
-    return {&graph_, &*vertex_faces_, walked_corners(), corners(), &read_};
-  }
+  Walked_surface walked_surface() const { return {&edges_.graph, &vertex_faces_, walked_corners(), corners(), &read_}; }
   /// The tree below the regions, after `prepare_meetings`.
   Tree_on_demand& tree() { return tree_; }
 
@@ -79,18 +88,11 @@ class Particle_object {
   /// `prepare_meetings`.
   bool seemed_larger(double growth) const;
 
-  /// The faces that a particle stands for, at their positions in frame number `frame`.
+  /// The faces that a particle stands for, at their positions in frame number `frame`. After `prepare_patches` or
+  /// `scatter`.
   const Posed_patch& posed_patch(std::size_t particle, std::uint64_t frame);
   /// Whether `posed_patch` has read their positions in this frame.
   bool is_posed(std::size_t particle, std::uint64_t frame) const { return posed_[particle].frame == frame; }
-
-  /// Reads all positions. O(V).
-  /// @throws Bad_mesh  a coordinate is not finite or beyond 1e150, or the number of vertices or faces has changed
-  void check_positions() { checked_positions(); }
-  Sphere bounding_sphere() { return lodestone::bounding_sphere(checked_positions()); }
-  std::vector<Sphere> sphere_collection(const Particle_count_options& options) {
-    return lodestone::sphere_collection(graph_, checked_positions(), walked_corners(), options);
-  }
 
   Watched_mesh& mesh() { return *mesh_; }
   const Watched_mesh& mesh() const { return *mesh_; }
@@ -110,8 +112,8 @@ class Particle_object {
   std::span<const Corners> walked_corners() const;
   Numbered_partition divide(const Positions& positions, std::size_t regions, const Partition_options& options) const;
   void look();
-  Positions checked_positions();
-  Positions measured_positions(Distance_measure measure);
+  void make_poses();
+  void measure_distance(const Positions& positions, Distance_measure measure);
   void start_particles(std::vector<std::uint32_t> vertices, const Positions& positions);
   /// Where a region's particle started, and an edge from there by which directions are found again.
   struct Home {
@@ -120,20 +122,20 @@ class Particle_object {
     double angle = 0;           ///< from the edge to the X axis, around the normal
   };
 
-  double longest_compass() const;
-  void find_homes(const std::vector<std::uint32_t>& vertices);
-  void measure_extents();
-  Eigen::Vector3d normal_at(const Home& home, Region_index region) const;
-  Region_extent measure_extent(Region_index region) const;
+  double longest_compass(const Live_positions& at) const;
+  void find_homes(const std::vector<std::uint32_t>& vertices, const Live_positions& at);
+  void measure_extents(const Live_positions& at);
+  Eigen::Vector3d normal_at(const Home& home, const Live_positions& at) const;
+  Extent_start extent_start(const Home& home, const Live_positions& at) const;
+  std::vector<Region_extent> extents_of(std::span<const Home> homes, const Live_positions& at) const;
 
   std::unique_ptr<Watched_mesh> mesh_;
   std::optional<Rigid_motion> placement_;
-  Live_positions read_;         ///< of the last `look`
-  Position_function position_;  ///< `read_` for code that takes a function
+  Live_positions read_;  ///< of the last `look`
   std::optional<Closed_seams> seams_;
   std::vector<Corners> joined_corners_;  ///< F, if seams are closed: vertices of the mesh, the joined ones for all
-  Vertex_graph graph_;                   ///< of `walked_corners()`, like everything else that is walked along
-  std::vector<bool> open_border_;
+  Vertex_faces vertex_faces_;            ///< of `walked_corners()`, like everything else that is walked along
+  Surface_edges edges_;
 
   std::vector<Region_index> labels_;
   Partition_statistics statistics_;
@@ -145,14 +147,13 @@ class Particle_object {
   std::vector<Home> homes_;  ///< per region
   std::vector<Region_extent> extents_;
   Region_index last_checked_ = 0;  ///< the last region whose growth was looked at
-  double largest_area_ = 0;  ///< A*
-  double rest_compass_ = 0;  ///< `longest_compass` at the time of the partition
+  double largest_area_ = 0;        ///< A*
+  double rest_compass_ = 0;        ///< `longest_compass` at the time of the partition
 
   // Only for meetings.
   Tree_on_demand tree_;
   Region_anchors regions_;
 
-  std::optional<Vertex_faces> vertex_faces_;  ///< only for scattered particles and meetings
   std::vector<std::uint32_t> patch_centres_;  ///< only for scattered particles: the vertex each patch lies around
   std::size_t rings_ = 0;
 };

@@ -2,18 +2,15 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "lodestone/mesh/live_positions.h"
 #include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/mesh/vertex_graph.h"
 
 /// How large the regions of a surface have become: what triggers repartitioning.
 namespace lodestone {
-
-/// Position of a vertex in the current frame, by its index.
-using Position_function = std::function<Eigen::Vector3d(std::uint32_t)>;
 
 /// Path along mesh edges from a region's home vertex to its border in one direction of the tangent plane.
 struct Border_path {
@@ -38,24 +35,29 @@ struct Extent_input {
   const Vertex_graph& graph;
   std::span<const Region_index> labels;  ///< V
   const std::vector<bool>& open_border;  ///< V, see `open_border`
-  const Position_function& position;
+  const Live_positions& position;        ///< in the current frame
 };
 
-/// Measures one region. First finds the shortest paths from `home` along the edges within the region (Dijkstra,
-/// Boost.Graph, on the region's subgraph). Then takes, in each direction, the nearest border vertex within a cone.
-/// There are four cones, of 5.6, 11, 22 and 45 degrees to either side; the narrowest that holds a border vertex counts.
+/// Where the extent of a region is measured from.
+struct Extent_start {
+  std::uint32_t home = 0;  ///< a vertex of the region
+  /// Of the tangent plane, of any length; zero: the plane z = 0.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  /// Its projection into the plane becomes X; zero: the coordinate axis nearest to the plane.
+  Eigen::Vector3d x_axis = Eigen::Vector3d::Zero();
+};
+
+/// Measures a region from each start. First finds the shortest paths from its home along the edges within the region
+/// (Dijkstra). Then takes, in each direction, the nearest border vertex within a cone. There are four cones, of 5.6,
+/// 11, 22 and 45 degrees to either side; the narrowest that holds a border vertex counts.
 ///
 /// The border consists of the vertices with a neighbour in another region and of those on an open border of the mesh. A
 /// region without a border is a whole closed component. It is measured to the farthest vertex within 45 degrees
-/// instead. O(V + n log n) for a region of n vertices, where V is for the working memory. Reads positions of the region
+/// instead. O(V) for the working memory, and O(n log n) for each region of n vertices. Reads positions of these regions
 /// only.
-///
-/// @param normal  of the tangent plane, of any length; zero: the plane z = 0
-/// @param x_axis  its projection into the plane becomes X; zero: the coordinate axis nearest to the plane
-Region_extent region_extent(const Extent_input& input, std::uint32_t home, const Eigen::Vector3d& normal,
-                            const Eigen::Vector3d& x_axis = Eigen::Vector3d::Zero());
+std::vector<Region_extent> region_extents(const Extent_input& input, std::span<const Extent_start> starts);
 
-/// Angle by which a vector must turn around the normal to point along the X that `region_extent` chooses for a zero
+/// Angle by which a vector must turn around the normal to point along the X that `region_extents` chooses for a zero
 /// `x_axis`.
 /// @param needle  any vector that is not parallel to the normal
 /// @return radians; 0 if the angle is undefined
