@@ -8,6 +8,8 @@
 #include <ctime>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/io/shapes/shapes.h"
@@ -144,20 +146,62 @@ void beside_brute_force(benchmark::State& state, Timed timed) {
   state.counters["cpu_vector_passes"] = whole.processor / vector.processor;
 }
 
-/// LBG alone, from vectors to labels. With several threads, one thread takes turns with them and gives the same labels.
+/// LBG alone, trained on all vectors, from vectors to labels. With several threads, one thread takes turns with them
+/// and gives the same labels.
 void lbg_on_threads(benchmark::State& state) {
   const auto threads = static_cast<std::size_t>(state.range(0));
   Quantisation alone, shared;
   Seconds one, several;
   beside_brute_force(state, [&] {
-    if (threads != 1) one.keep_least(seconds_of([&] { alone = quantise(subject().vectors, regions); }));
-    const Seconds seconds = seconds_of([&] { shared = quantise(subject().vectors, regions, {.threads = threads}); });
+    if (threads != 1) one.keep_least(seconds_of([&] { alone = quantise(subject().vectors, regions, {.sample = 0}); }));
+    const Seconds seconds =
+        seconds_of([&] { shared = quantise(subject().vectors, regions, {.sample = 0, .threads = threads}); });
     several.keep_least(seconds);
     return seconds;
   });
   if (threads == 1) return;
   if (alone.labels != shared.labels) state.SkipWithError("the labels differ");
   state.counters["one_over_this"] = one.wall / several.wall;
+}
+
+/// Mean squared distance of the vectors from the means of their cells, per component.
+double distortion(const Feature_vectors& vectors, const Quantisation& cells) {
+  double sum = 0;
+  for (Eigen::Index v = 0; v < vectors.rows(); ++v)
+    sum += (vectors.row(v) - cells.code_vectors.row(cells.labels[static_cast<std::size_t>(v)])).squaredNorm();
+  return sum / static_cast<double>(vectors.size());
+}
+
+/// The same after all vectors have been assigned once more, and the code vectors moved to the means again.
+double distortion_after_another(const Feature_vectors& vectors, Quantisation cells) {
+  Assignment again;
+  assign_plain(vectors, cells.code_vectors, again);
+  for (Eigen::Index c = 0; c < cells.code_vectors.rows(); ++c)
+    if (again.cell_sizes[static_cast<std::size_t>(c)] > 0)
+      cells.code_vectors.row(c) =
+          again.cell_sums.row(c) / static_cast<double>(again.cell_sizes[static_cast<std::size_t>(c)]);
+  cells.labels = again.labels;
+  return distortion(vectors, cells);
+}
+
+/// LBG trained on a sample takes turns with LBG trained on all vectors. `over_all` is the ratio of their distortions,
+/// `twice_over_all` the same after a second assignment, `faster` the ratio of their processor times.
+void lbg_on_sample(benchmark::State& state, const Surface_mesh& mesh) {
+  const Feature_vectors vectors = feature_vectors(mesh);
+  const auto cells = static_cast<std::size_t>(state.range(0)), sample = static_cast<std::size_t>(state.range(1));
+  Quantisation all, some;
+  Seconds all_seconds, some_seconds;
+  for (auto _ : state) {
+    all_seconds.keep_least(seconds_of([&] { all = quantise(vectors, cells, {.sample = 0}); }));
+    const Seconds seconds = seconds_of([&] { some = quantise(vectors, cells, {.sample = sample}); });
+    some_seconds.keep_least(seconds);
+    state.SetIterationTime(seconds.wall);
+  }
+  state.counters["vectors"] = static_cast<double>(vectors.rows());
+  state.counters["over_all"] = distortion(vectors, some) / distortion(vectors, all);
+  state.counters["twice_over_all"] = distortion_after_another(vectors, some) / distortion(vectors, all);
+  state.counters["faster"] = all_seconds.processor / some_seconds.processor;
+  state.counters["cpu_ms"] = 1e3 * some_seconds.processor;
 }
 
 /// A strategy by name, from the numbered mesh to labels.
@@ -176,8 +220,22 @@ BENCHMARK(lbg_on_threads)
     ->Iterations(10)
     ->Unit(benchmark::kMillisecond);
 
-/// The strategies of the library, each by its own name.
+/// The strategies of the library, each by its own name, and samples of several shapes.
 const bool registered = [] {
+  const std::vector<std::pair<std::string, Surface_mesh (*)()>> shapes{
+      {"wobbly_sphere", Subject::wobbly_sphere},
+      {"teapot", [] { return teapot({.u = 60, .v = 60}); }},
+      {"knot", [] { return torus_knot({.segments = 2000, .sides = 120}); }},
+      {"cloth", [] { return cloth(500, 500); }},
+      {"sphere", [] { return icosphere(158); }}};
+  for (const auto& [name, shape] : shapes)
+    benchmark::RegisterBenchmark(("large/sample/" + name).c_str(),
+                                 [shape = shape](benchmark::State& state) { lbg_on_sample(state, shape()); })
+        ->ArgNames({"N", "sample"})
+        ->ArgsProduct({{12, 32, 256}, {1, 8192, 32768}})
+        ->UseManualTime()
+        ->Iterations(3)
+        ->Unit(benchmark::kMillisecond);
   for (const std::string name : {"lbg", "kmeans++", "metis", "vsa"}) {
     if (std::ranges::find(strategies(), name, &Strategy_entry::name) == strategies().end()) continue;
     benchmark::RegisterBenchmark(("large/strategy/" + name).c_str(), strategy, name)

@@ -47,6 +47,7 @@ struct Quantise_time {
 
 Quantise_time time_quantise(const Feature_vectors& vectors, std::size_t cells, Lbg_options options = {}) {
   Quantise_time time;
+  options.sample = 0;  // the paper's formula counts all vectors
   options.search = Nearest_search::bounded;
   time.bounded = median_seconds([&] {
     const auto result = quantise(vectors, cells, options);

@@ -80,7 +80,7 @@ class Mixture {
 /// Means of LBG cells, ascending. The two nearest are joined until all are far enough apart.
 std::vector<double> distinct_means(const Diameters& values, std::size_t clusters) {
   const Eigen::Map<const Eigen::VectorXd> column(values.data(), static_cast<Eigen::Index>(values.size()));
-  const auto cells = quantise(column, clusters);
+  const auto cells = quantise(column, clusters, {.sample = 0});
   std::vector<std::pair<double, double>> means;  // each with its number of values
   for (const double code : cells.code_vectors.reshaped()) means.emplace_back(code, 0);
   for (const auto label : cells.labels) means[label].second += 1;

@@ -68,6 +68,10 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
   app.add_option("--epsilon", options.split, "e of the split (1 + e)C, (1 - e)C")->capture_default_str();
   app.add_option("--tolerance", options.tolerance, "LBG: relative drop of the distortion at which iterations stop")
       ->capture_default_str();
+  app.add_option("--lbg-sample", options.sample,
+                 "LBG: maximum number of vertices to train on, but at least 128 per region; 0: all")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"))
+      ->capture_default_str();
 }
 
 void add_exact_options(CLI::App& app, Exact_options& options) {

@@ -54,6 +54,7 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
       {"--split", {Mode::exact, Mode::particles}},
       {"--epsilon", {Mode::exact, Mode::particles}},
       {"--tolerance", {Mode::exact, Mode::particles}},
+      {"--lbg-sample", {Mode::exact, Mode::particles}},
       {"--threads", {Mode::exact, Mode::particles}},
   };
   for (const auto& option : options) {

@@ -35,6 +35,7 @@ inline void refuse_options_of_other_strategies(const CLI::App& command, std::str
       {"--normal-weight", {Lbg::name, Lbg_curvature::name, Kmeans_plus_plus::name}},
       {"--split", lbg},
       {"--epsilon", lbg},
+      {"--lbg-sample", lbg},
       {"--tolerance", {Lbg::name, Lbg_position::name, Lbg_curvature::name, Kmeans_plus_plus::name}},
   };
   if (threads) options.push_back({"--threads", lbg});

@@ -21,21 +21,6 @@ Feature_vectors clusters(const Feature_vectors& centres, Eigen::Index per_cluste
   return vectors;
 }
 
-std::vector<std::size_t> cell_sizes(const Quantisation& result) {
-  std::vector<std::size_t> sizes(static_cast<std::size_t>(result.code_vectors.rows()), 0);
-  for (const auto label : result.labels) ++sizes.at(label);
-  return sizes;
-}
-
-void expect_means_of_full_cells(const Feature_vectors& vectors, const Quantisation& result) {
-  const auto sizes = cell_sizes(result);
-  EXPECT_EQ(std::ranges::count(sizes, 0U), 0);
-  Feature_vectors means = Feature_vectors::Zero(result.code_vectors.rows(), vectors.cols());
-  for (std::size_t v = 0; v < result.labels.size(); ++v)
-    means.row(result.labels[v]) += vectors.row(static_cast<Eigen::Index>(v)) / double(sizes[result.labels[v]]);
-  EXPECT_LT((means - result.code_vectors).cwiseAbs().maxCoeff(), 1e-12 * (1 + vectors.cwiseAbs().maxCoeff()));
-}
-
 std::vector<Region_index> labels_on(const Surface_mesh& mesh, std::size_t regions, const Lbg_options& options = {}) {
   Surface_mesh copy = mesh;
   auto map = copy.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:label").first;

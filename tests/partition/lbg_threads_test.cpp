@@ -14,21 +14,6 @@
 namespace lodestone {
 namespace {
 
-bool same_bits(const Feature_vectors& a, const Feature_vectors& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() &&
-         (a.size() == 0 || std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0);
-}
-
-void expect_same(const Quantisation& a, const Quantisation& b) {
-  EXPECT_EQ(a.labels, b.labels);
-  EXPECT_TRUE(same_bits(a.code_vectors, b.code_vectors));
-  ASSERT_EQ(a.runs.size(), b.runs.size());
-  for (std::size_t r = 0; r < a.runs.size(); ++r) {
-    EXPECT_EQ(a.runs[r].code_vectors, b.runs[r].code_vectors);
-    EXPECT_EQ(a.runs[r].distortion, b.runs[r].distortion);
-  }
-}
-
 /// Labels, distances and sums of one call, as in a Lloyd iteration.
 void expect_same(const Assignment& a, const Assignment& b) {
   EXPECT_EQ(a.labels, b.labels);

@@ -160,8 +160,11 @@ TEST_F(Program_mode, senin_refuses_threads) {
 }
 
 TEST_F(Program_mode, options_of_other_strategies_are_refused) {
-  const std::map<std::string, std::string> options{
-      {"--normal-weight", "0.5"}, {"--split", "multiplicative"}, {"--epsilon", "0.01"}, {"--tolerance", "0.01"}};
+  const std::map<std::string, std::string> options{{"--normal-weight", "0.5"},
+                                                   {"--split", "multiplicative"},
+                                                   {"--epsilon", "0.01"},
+                                                   {"--tolerance", "0.01"},
+                                                   {"--lbg-sample", "0"}};
   for (const auto& [option, value] : options) {
     SCOPED_TRACE(option);
     const auto needs = option + " needs --strategy lbg";

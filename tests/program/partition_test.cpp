@@ -118,6 +118,17 @@ TEST_F(Partition_program, writes_the_same_mesh_twice) {
   EXPECT_EQ(read_bytes(ply), first);
 }
 
+TEST_F(Partition_program, trains_lbg_on_a_sample_where_asked_to) {
+  const auto labels = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> all{"--regions", "3"};
+    all.insert(all.end(), options.begin(), options.end());
+    expect_success(divide(all));
+    return Json::parse(read_bytes(json))["labels"];
+  };
+  EXPECT_EQ(labels({"--lbg-sample", "0"}), labels({}));  // so few vertices are all trained on
+  EXPECT_NE(labels({"--lbg-sample", "1"}), labels({}));
+}
+
 TEST_F(Partition_program, quiet_prints_nothing) {
   const auto result = divide({"--quiet"});
   expect_success(result);
@@ -156,6 +167,10 @@ TEST_F(Partition_program, refuses_options_out_of_range) {
       SCOPED_TRACE(std::string(option) + " " + value);
       expect_error(divide({option, value}), 2, value == std::string("small") ? option : "> 0");
     }
+  for (const auto* sample : {"-1", "1.5", "all", "99999999999999999999"}) {
+    SCOPED_TRACE(sample);
+    expect_error(divide({"--lbg-sample", sample}), 2, "--lbg-sample");
+  }
   expect_no_results();
 }
 

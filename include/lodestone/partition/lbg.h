@@ -26,6 +26,9 @@ struct Lbg_options {
   Split split_rule = Split::principal_axis;
   Nearest_search search = Nearest_search::bounded;
   Feature_options features = {};
+  /// Vectors to train on at most, but 128 per code vector if that is more. Where there are more vectors, a sample is
+  /// trained on, drawn evenly along their order, and then all are assigned once. 0: all are trained on, as published.
+  std::size_t sample = 32768;
   std::size_t max_iterations = 1000;  ///< per Lloyd run; no mesh we know of reaches this limit
   std::size_t threads = 1;            ///< at most; 0: as many as the machine has. The result does not depend on it
 };
@@ -40,7 +43,7 @@ struct Lloyd_run {
 struct Quantisation {
   Feature_vectors code_vectors;      ///< n x k, n <= N: each the mean of its cell
   std::vector<Region_index> labels;  ///< M, each below n; no cell is empty
-  std::vector<Lloyd_run> runs;       ///< one per number of code vectors: 1, 2, 4, ... N
+  std::vector<Lloyd_run> runs;       ///< of the training, one per number of code vectors: 1, 2, 4, ... N
   std::uint64_t distance_evaluations = 0;
 };
 
@@ -54,14 +57,18 @@ struct Quantisation {
 ///    mean of its cell, eq. (7).
 ///  - Iterations stop when the relative drop of the distortion, eq. (8), is at most `tolerance`, eq. (9).
 ///
+/// With more vectors than `sample` the code vectors are trained on some of them. Linde, Buzo and Gray train on a
+/// sequence of vectors too, instead of their distribution. Then all vectors are assigned to the nearest code vector,
+/// and each code vector moves to the mean of its cell, once.
+///
 /// If N is not a power of two, the last split takes only the cells with the largest distortion. A cell that becomes
 /// empty is re-seeded from the cell of largest distortion, with the vector that is farthest from its code vector. Fewer
 /// than N cells are returned only if the vectors hold fewer than N different values.
 ///
-/// Cost: an iteration with the plain search computes M N distances. In the paper's O(kMN), k is the number of
-/// iterations, not of components. In addition, the time of a distance grows linearly with the number of components. The
-/// threads share this work. Labels, code vectors and runs are the same to the last bit for any number of threads and
-/// either search. Memory: about three copies of the vectors.
+/// Cost: an iteration with the plain search computes M N distances, with M the vectors that are trained on. In the
+/// paper's O(kMN), k is the number of iterations, not of components. In addition, the time of a distance grows linearly
+/// with the number of components. The threads share this work. Labels, code vectors and runs are the same to the last
+/// bit for any number of threads and either search. Memory: about three copies of the vectors.
 ///
 /// @param vectors  M x k: one row of k components per vertex
 /// @param cells    N, >= 1
