@@ -56,7 +56,7 @@ class Known_hops {
   void add(std::vector<std::uint32_t> hops) { rows_.push_back(std::move(hops)); }
 
   /// How many of the others may be farther than `most` from a target; counts up to 64.
-  std::size_t count_open(std::size_t target, std::span<const std::size_t> others, std::size_t most) const {
+  std::size_t count_undecided(std::size_t target, std::span<const std::size_t> others, std::size_t most) const {
     std::size_t count = 0;
     for (const auto other : others) {
       if (other != target && may_exceed(target, other, most)) ++count;
@@ -101,24 +101,24 @@ std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_
   if (targets.size() < 2) return diameter;
   Hop_search search(graph);
   Known_hops known;
-  std::vector<std::size_t> open(targets.size());  // may be farther from another one than the diameter so far
-  std::iota(open.begin(), open.end(), 0);
-  for (std::size_t source = 0; !open.empty();) {
+  std::vector<std::size_t> undecided(targets.size());  // may be farther from another one than the diameter so far
+  std::iota(undecided.begin(), undecided.end(), 0);
+  for (std::size_t source = 0; !undecided.empty();) {
     auto hops = search.hops_from(targets[source], targets);
     for (const auto hop : hops)
       if (hop != unreached) diameter = std::max<std::size_t>(diameter, hop);
     known.add(std::move(hops));
-    std::erase(open, source);
+    std::erase(undecided, source);
 
     // Next comes the target that may be far from the most others.
-    std::vector<std::size_t> still_open;
+    std::vector<std::size_t> still_undecided;
     std::size_t most = 0;
-    for (const auto target : open) {
-      const std::size_t count = known.count_open(target, open, diameter);
-      if (count > 0) still_open.push_back(target);
+    for (const auto target : undecided) {
+      const std::size_t count = known.count_undecided(target, undecided, diameter);
+      if (count > 0) still_undecided.push_back(target);
       if (count > most) most = count, source = target;
     }
-    open = std::move(still_open);
+    undecided = std::move(still_undecided);
   }
   return diameter;
 }
