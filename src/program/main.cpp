@@ -70,7 +70,7 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
       ->capture_default_str();
   app.add_option("--lbg-sample", options.sample,
                  "LBG: maximum number of vertices to train on, but at least 128 per region; 0: all")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"))
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000'000}))
       ->capture_default_str();
 }
 
