@@ -111,7 +111,10 @@ struct Found_one {};
 template <bool culled>
 class Boxes_peer : public Peer {
  public:
-  void add(const Moving_mesh& mesh) override { objects_.push_back({mesh, {}}); }
+  void add(const Moving_mesh& mesh) override {
+    objects_.push_back({mesh, {}});
+    update(objects_.size() - 1);
+  }
 
   void update(std::size_t object) override {
     if (culled) objects_[object].bounds = read_every_vertex(objects_[object].mesh.coordinates());

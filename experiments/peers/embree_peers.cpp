@@ -84,7 +84,9 @@ void decide(void* user, RTCCollision* pairs, unsigned count) {
   }
 }
 
-template <RTCBuildQuality quality, std::size_t threads>
+/// @tparam quality  of the hierarchy over a geometry, which decides whether it is refitted
+/// @tparam built    how well scenes are built
+template <RTCBuildQuality quality, std::size_t threads, RTCBuildQuality built = RTC_BUILD_QUALITY_LOW>
 class Embree_peer : public Peer {
  public:
   Embree_peer() : device_(rtcNewDevice(fmt::format("threads={}", most_threads).c_str())) {
@@ -109,8 +111,8 @@ class Embree_peer : public Peer {
     rtcSetGeometryBoundsFunction(object.geometry, bound, nullptr);
     rtcSetGeometryBuildQuality(object.geometry, quality);
     rtcAttachGeometry(object.scene, object.geometry);
-    rtcSetSceneFlags(object.scene, RTC_SCENE_FLAG_DYNAMIC);
-    rtcSetSceneBuildQuality(object.scene, RTC_BUILD_QUALITY_LOW);
+    rtcSetSceneFlags(object.scene, built == RTC_BUILD_QUALITY_LOW ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE);
+    rtcSetSceneBuildQuality(object.scene, built);
     update(objects_.size() - 1);
   }
 
@@ -152,13 +154,13 @@ class Embree_peer : public Peer {
   std::vector<std::unique_ptr<Object>> objects_;
 };
 
-template <RTCBuildQuality quality, std::size_t threads>
+template <RTCBuildQuality quality, std::size_t threads, RTCBuildQuality built = RTC_BUILD_QUALITY_LOW>
 Peer_kind kind(const char* method) {
   return {.entry = {.library = "Embree",
                     .method = threads == 1 ? method : fmt::format("{}, {} threads", method, threads),
                     .volume = "AABB",
                     .threads = threads},
-          .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Embree_peer<quality, threads>>(); }};
+          .make = []() -> std::unique_ptr<Peer> { return std::make_unique<Embree_peer<quality, threads, built>>(); }};
 }
 
 }  // namespace
@@ -166,6 +168,10 @@ Peer_kind kind(const char* method) {
 std::vector<Peer_kind> embree_peers() {
   return {kind<RTC_BUILD_QUALITY_REFIT, 1>("refit"), kind<RTC_BUILD_QUALITY_LOW, 1>("rebuild"),
           kind<RTC_BUILD_QUALITY_REFIT, most_threads>("refit"), kind<RTC_BUILD_QUALITY_LOW, most_threads>("rebuild")};
+}
+
+Peer_kind embree_built_well() {
+  return kind<RTC_BUILD_QUALITY_HIGH, 1, RTC_BUILD_QUALITY_HIGH>("rebuild, high quality");
 }
 
 }  // namespace lodestone

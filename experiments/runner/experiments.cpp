@@ -12,6 +12,7 @@ std::string run_predecessor(const Experiment_context& context);
 std::string run_collision_distance(const Experiment_context& context);
 std::string run_defaults(const Experiment_context& context);
 std::string run_every_frame(const Experiment_context& context);
+std::string run_first_answer(const Experiment_context& context);
 std::string run_growth(const Experiment_context& context);
 std::string run_many_bodies(const Experiment_context& context);
 std::string run_modes(const Experiment_context& context);
@@ -45,6 +46,8 @@ std::span<const Experiment> experiments() {
       {"volumes", "What does refitting bounding volumes cost per frame, and which are tightest?", run_volumes},
 #ifdef LODESTONE_PEERS
       {"peers", "How do other collision libraries fare on the same frames?", run_peers},
+      {"first_answer", "What does the first answer about two meshes cost, and from which frame on does a build pay?",
+       run_first_answer},
 #endif
   });
   return all;

@@ -34,7 +34,8 @@ void add_options(CLI::App& app, Experiment_command& command) {
   app.add_option(
          "--only", command.only,
          "Scenes to play in place of all, by name (peers, every_frame, modes, volumes, defaults, nested_codebook); "
-         "numbers of bodies (many_bodies); meshes and strategies (partitions)")
+         "numbers of bodies (many_bodies); meshes and strategies (partitions); scenes and numbers of triangles "
+         "(first_answer)")
       ->delimiter(',')
       ->type_name("NAME");
   app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")
@@ -71,14 +72,14 @@ struct Special_option {
   std::vector<std::string> experiments;
 };
 
-const std::vector<Special_option> special_options{
-    {"--only",
-     {"peers", "every_frame", "modes", "many_bodies", "volumes", "defaults", "nested_codebook", "partitions"}},
-    {"--jobs", {"partitions"}},
-    {"--shard", {"partitions"}},
-    {"--merge", {"partitions"}},
-    {"--strategy-file", {"partitions"}},
-    {"--write-meshes", {"partitions"}}};
+const std::vector<Special_option> special_options{{"--only",
+                                                   {"peers", "every_frame", "modes", "many_bodies", "volumes",
+                                                    "defaults", "nested_codebook", "partitions", "first_answer"}},
+                                                  {"--jobs", {"partitions"}},
+                                                  {"--shard", {"partitions"}},
+                                                  {"--merge", {"partitions"}},
+                                                  {"--strategy-file", {"partitions"}},
+                                                  {"--write-meshes", {"partitions"}}};
 
 /// @throws Bad_argument  an option that the experiment would ignore
 void refuse_options_of_other_experiments(const CLI::App& app, const std::string& experiment) {

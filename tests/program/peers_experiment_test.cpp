@@ -48,6 +48,22 @@ TEST_F(Peers_experiment, writes_a_row_for_every_library) {
   EXPECT_NE(report.find("wrong yes/no"), std::string::npos) << report;
 }
 
+TEST_F(Peers_experiment, writes_the_cost_of_first_answers) {
+  expect_success(run_program({"experiment", "first_answer", "--only", "far,tenth,1280", "--out", out.string()}));
+  const auto figures = read_json(out / "first_answer.json");
+  ASSERT_EQ(figures.size(), 2U);
+  for (const auto& scene : figures) {
+    EXPECT_EQ(scene["triangles"], 1280);
+    const auto& calls = scene["entries"][0];
+    EXPECT_EQ(calls["method"], "find_collisions");
+    EXPECT_EQ(calls["right"], true);
+    EXPECT_GT(calls["yes_no"]["first_milliseconds"], 0);
+  }
+  EXPECT_NE(read_bytes(out / "first_answer.md").find("## tenth, 1280 triangles each"), std::string::npos);
+  expect_error(run_program({"experiment", "first_answer", "--only", "near", "--out", out.string()}), 3,
+               "far, touching");
+}
+
 TEST_F(Peers_experiment, refuses_a_scene_that_does_not_exist) {
   expect_error(run("tiny,huge"), 3, "huge.json");
   EXPECT_EQ(content_of(out), std::set<std::string>{});

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "first_answer/contestant.h"
+#include "first_answer/once_scene.h"
+
+namespace lodestone {
+
+/// Seconds of one question.
+struct Once_times {
+  double first = 0;  ///< from two meshes to the first answer: reading and building included; the least of all rounds
+  double frame = 0;  ///< one more frame: following the meshes and answering; the least
+
+  double of_frames(std::size_t frames) const { return first + static_cast<double>(frames - 1) * frame; }
+};
+
+/// Figures of one contestant on one scene.
+struct Once_figures {
+  const Contestant* contestant = nullptr;
+  std::optional<Once_times> any = {}, all = {};  ///< none: not reported, given up, or not asked
+  std::size_t peak_bytes = 0;                    ///< more resident memory than before, at most, for the first yes or no
+  bool left_out = false;                         ///< was too slow in a smaller scene
+  bool gave_up = false;
+  bool right = true;  ///< all answers were
+};
+
+/// From which frame on a session is faster in all than one call per frame. None: never.
+std::optional<std::size_t> pays_from(const Once_times& session, const Once_times& calls);
+
+/// Asks all contestants, which take turns, round by round. Times of making the scene and of comparing answers do not
+/// count.
+/// @param left_out  per contestant: whether to leave it out
+std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<const Contestant> contestants,
+                                                const std::vector<bool>& left_out);
+
+}  // namespace lodestone

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "first_answer/once_scene.h"
+
+#include "lodestone/io/shapes/shapes.h"
+
+namespace lodestone {
+
+void Once_scene::step() {
+  const Kernel::Vector_3 step(0, 1e-5, 0);
+  for (const auto v : b.vertices()) b.point(v) = b.point(v) + step;
+}
+
+const std::vector<Once_kind>& once_kinds() {
+  static const std::vector<Once_kind> kinds{
+      {"far", 5, 1}, {"touching", 1.99, 1}, {"tenth", 1.8, 1}, {"deep", 0.3, 1}, {"inside", 0, 0.5}};
+  return kinds;
+}
+
+const std::vector<Once_size>& once_sizes() {
+  static const std::vector<Once_size> sizes{{8, true}, {16, true}, {50, true}, {158, true}, {316, false}};
+  return sizes;
+}
+
+Once_scene make_once_scene(const Once_kind& kind, const Once_size& size) {
+  Once_scene scene{
+      .name = kind.name, .triangles = size.triangles(), .a = icosphere(size.frequency), .b = icosphere(size.frequency)};
+  // Off the axes of symmetry, where no edge of one lies on an edge of the other.
+  for (const auto v : scene.b.vertices()) {
+    const Point& p = scene.b.point(v);
+    scene.b.point(v) = Point(kind.size * p.x() + kind.distance, kind.size * p.y() + 0.01, kind.size * p.z() + 0.02);
+  }
+  return scene;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "first_answer/first_measure.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lodestone/queries/exhaustive.h"
+
+namespace lodestone {
+namespace {
+
+std::vector<Point> positions_of_second(const Once_scene& scene) {
+  return {scene.b.points().begin(), scene.b.points().end()};
+}
+
+TEST(First_answer, scenes_collide_where_their_names_say_so) {
+  for (const auto& kind : once_kinds()) {
+    const Once_scene scene = make_once_scene(kind, once_sizes().front());
+    const bool apart = kind.name == "far" || kind.name == "inside";
+    EXPECT_EQ(exhaustive_face_pairs(scene.a, scene.b).empty(), apart) << kind.name;
+    EXPECT_EQ(scene.a.number_of_faces(), scene.triangles);
+  }
+}
+
+TEST(First_answer, contestants_that_decide_exactly_are_right_at_once_and_in_the_next_frame) {
+  for (const auto& kind : once_kinds())
+    for (const auto& contestant : contestants()) {
+      if (contestant.library == "Bullet" || contestant.library == "ODE" || contestant.library == "FCL") continue;
+      SCOPED_TRACE(kind.name + ", " + contestant.name());
+      Once_scene scene = make_once_scene(kind, once_sizes().front());
+      const auto yes_no = contestant.begin(scene.a, scene.b, Contact_query::yes_no);
+      const auto pairs = contestant.begin(scene.a, scene.b, Contact_query::all);
+      for (int frame = 0; frame < 2; ++frame) {
+        const auto truth = exhaustive_face_pairs(scene.a, scene.b);
+        EXPECT_EQ(yes_no->any(), !truth.empty());
+        std::vector<Face_pair> found;
+        if (contestant.reports_pairs) {
+          pairs->all(found);
+          std::ranges::sort(found);
+          EXPECT_EQ(found, truth);
+        }
+        scene.step();
+        yes_no->update(), pairs->update();
+      }
+    }
+}
+
+TEST(First_answer, contestants_are_one_call_a_detector_and_every_library) {
+  const auto all = contestants();
+  const auto has = [&](const std::string& name) { return std::ranges::count(all, name, &Contestant::name) == 1; };
+  EXPECT_EQ(all.front().name(), "Lodestone: find_collisions");
+  for (const char* name : {"Lodestone: Detector", "CGAL: PMP::do_intersect", "CGAL: box_intersection_d, overlap only",
+                           "Embree: rebuild", "Embree: rebuild, high quality", "ODE: OPCODE, refit"})
+    EXPECT_TRUE(has(name)) << name;
+}
+
+TEST(First_answer, a_build_pays_from_the_frame_in_which_it_has_caught_up) {
+  const Once_times calls{.first = 10, .frame = 10};
+  EXPECT_EQ(pays_from({.first = 8, .frame = 20}, calls), 1U);
+  EXPECT_EQ(pays_from({.first = 55, .frame = 1}, calls), 6U);  // 55 + 5 = 60
+  EXPECT_EQ(pays_from({.first = 56, .frame = 1}, calls), 7U);
+  EXPECT_EQ(pays_from({.first = 11, .frame = 10}, calls), std::nullopt);
+  EXPECT_EQ((Once_times{.first = 5, .frame = 2}.of_frames(10)), 23);
+}
+
+TEST(First_answer, measures_every_question_that_a_contestant_answers) {
+  const auto all = contestants();
+  Once_scene scene = make_once_scene(once_kinds()[2], once_sizes().front());
+  const auto before = positions_of_second(scene);
+  std::vector<bool> left_out(all.size(), false);
+  left_out.back() = true;
+  const auto figures = measure_first_answers(scene, all, left_out);
+  ASSERT_EQ(figures.size(), all.size());
+  for (const auto& f : figures) {
+    SCOPED_TRACE(f.contestant->name());
+    EXPECT_EQ(f.left_out, f.contestant == &all.back());
+    if (f.left_out || f.gave_up) continue;
+    ASSERT_TRUE(f.any);
+    EXPECT_GT(f.any->first, 0);
+    EXPECT_GT(f.any->frame, 0);
+    EXPECT_EQ(f.all.has_value(), f.contestant->reports_pairs);
+  }
+  EXPECT_TRUE(figures[0].right);
+  EXPECT_TRUE(figures[1].right);
+  EXPECT_EQ(positions_of_second(scene), before);
+}
+
+}  // namespace
+}  // namespace lodestone
