@@ -36,6 +36,12 @@ Triangle_corners corners_of(const Faces_in_box& faces, const Corners& corners) {
   return {at + 3 * std::size_t{corners[0]}, at + 3 * std::size_t{corners[1]}, at + 3 * std::size_t{corners[2]}};
 }
 
+/// Kept per thread, some 200 kB: to get this memory from the system takes longer than to search small surfaces.
+Face_group_filter& filter_of_thread() {
+  static thread_local Face_group_filter filter;
+  return filter;
+}
+
 }  // namespace
 
 Contact_summary Overlap_search::run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b, const Box& box_b,
@@ -44,7 +50,8 @@ Contact_summary Overlap_search::run(const Faces_in_box& a, const Box& box_a, con
   found_ = &found;
   one_is_enough_ = query != Contact_query::all;
   leaf_tests_ = exact_tests_ = 0;
-  filter_.begin(a.coordinates, to_aabb(box_a), b.coordinates, to_aabb(box_b));
+  filter_ = &filter_of_thread();
+  filter_->begin(a.coordinates, to_aabb(box_a), b.coordinates, to_aabb(box_b));
   const Box overlap = box_a.intersection(box_b);
   const bool sliced = one_is_enough_ && std::min(a.faces.size(), b.faces.size()) > few_faces;
   const bool in_slice = sliced && search_slice(a, b, overlap);
@@ -193,7 +200,7 @@ bool Overlap_search::test(const Pair_of_parts& parts) {
     return faces_[side]->faces[stacks_[side].at(parts[side].begin + i)->index];
   };
   ++leaf_tests_;
-  for (const Face_candidate& candidate : filter_.face_candidates(groups_[0], groups_[1])) {
+  for (const Face_candidate& candidate : filter_->face_candidates(groups_[0], groups_[1])) {
     ++exact_tests_;
     if (!triangles_intersect_given(corners_of(*faces_[0], groups_[0][candidate.a]),
                                    corners_of(*faces_[1], groups_[1][candidate.b]), candidate.crossing))

@@ -76,7 +76,7 @@ class Overlap_search {
   const Faces_in_box* faces_[2] = {};
   Stack stacks_[2];
   std::vector<Corners> groups_[2];
-  Face_group_filter filter_;
+  Face_group_filter* filter_ = nullptr;
   std::vector<Face_pair>* found_ = nullptr;
   bool one_is_enough_ = false;
   std::size_t leaf_tests_ = 0, exact_tests_ = 0;
