@@ -47,6 +47,18 @@ std::size_t peak_bytes(const Ask& ask) {
   return std::max(status_bytes("VmHWM"), before) - before;
 }
 
+/// Puts the vertices of a mesh back where they were, also after a contestant has given up.
+class Kept_positions {
+ public:
+  explicit Kept_positions(Surface_mesh& mesh) : mesh_(mesh), points_(mesh.points().begin(), mesh.points().end()) {}
+  ~Kept_positions() { std::ranges::copy(points_, mesh_.points().begin()); }
+  Kept_positions(const Kept_positions&) = delete;
+
+ private:
+  Surface_mesh& mesh_;
+  std::vector<Point> points_;
+};
+
 /// One question to one contestant on one scene.
 class Asker {
  public:
@@ -66,8 +78,7 @@ class Asker {
     const bool right = is_right(truth);
     note(times_.first, first);
     double frames = 0;
-    const auto start = scene_.b.points();
-    const std::vector<Point> before(start.begin(), start.end());
+    const Kept_positions kept(scene_.b);
     for (std::size_t frame = 0; frame < frames_per_round; ++frame) {
       scene_.step();
       Lap_timer lap;
@@ -77,7 +88,6 @@ class Asker {
       note(times_.frame, seconds);
       frames += seconds;
     }
-    std::ranges::copy(before, scene_.b.points().begin());
     ++rounds_;
     spent_ += first + frames;
     return right;
