@@ -57,7 +57,7 @@ class Peer_session : public Session {
   std::unique_ptr<Peer> peer_;
 };
 
-Contestant contestant_of(const Peer_kind& kind) {
+Once_contestant contestant_of(const Peer_kind& kind) {
   return {.library = kind.entry.library,
           .method = kind.entry.method + (kind.entry.library == "FCL" ? ", " + kind.entry.volume : ""),
           .reports_pairs = kind.entry.reports_pairs,
@@ -67,8 +67,8 @@ Contestant contestant_of(const Peer_kind& kind) {
 
 }  // namespace
 
-std::vector<Contestant> contestants() {
-  std::vector<Contestant> all{
+std::vector<Once_contestant> once_contestants() {
+  std::vector<Once_contestant> all{
       {.library = "Lodestone",
        .method = "find_collisions",
        .begin = [](const Surface_mesh& a, const Surface_mesh& b, Contact_query) -> std::unique_ptr<Session> {

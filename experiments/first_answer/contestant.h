@@ -27,7 +27,7 @@ class Session {
   virtual void all(std::vector<Face_pair>& found) = 0;
 };
 
-struct Contestant {
+struct Once_contestant {
   std::string library, method;
   bool reports_pairs = true;
   /// Makes what the question needs of two meshes, which outlive it.
@@ -37,6 +37,6 @@ struct Contestant {
 };
 
 /// `find_collisions`, a Detector, and all peers on one thread.
-std::vector<Contestant> contestants();
+std::vector<Once_contestant> once_contestants();
 
 }  // namespace lodestone

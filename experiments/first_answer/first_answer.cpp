@@ -95,7 +95,7 @@ nlohmann::ordered_json to_json(const Once_scene& scene, std::span<const Once_fig
 
 std::string run_first_answer(const Experiment_context& context) {
   const auto [kinds, sizes] = chosen(context.only);
-  const auto all = contestants();
+  const auto all = once_contestants();
   std::string report;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   std::size_t done = 0;

@@ -62,7 +62,7 @@ class Kept_positions {
 /// One question to one contestant on one scene.
 class Asker {
  public:
-  Asker(const Contestant& contestant, Contact_query query, Once_scene& scene)
+  Asker(const Once_contestant& contestant, Contact_query query, Once_scene& scene)
       : contestant_(contestant), query_(query), scene_(scene) {}
 
   bool done() const { return rounds_ == most_rounds || spent_ > enough_seconds; }
@@ -110,7 +110,7 @@ class Asker {
     least = rounds_ == 0 && least == 0 ? seconds : std::min(least, seconds);
   }
 
-  const Contestant& contestant_;
+  const Once_contestant& contestant_;
   Contact_query query_;
   Once_scene& scene_;
   Once_times times_;
@@ -148,7 +148,7 @@ std::optional<std::size_t> pays_from(const Once_times& session, const Once_times
   return static_cast<std::size_t>(std::ceil((session.first - session.frame) / (calls.first - session.frame)));
 }
 
-std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<const Contestant> contestants,
+std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<const Once_contestant> contestants,
                                                 const std::vector<bool>& left_out) {
   const auto truth = truth_of(scene);
   std::vector<Once_figures> figures;

@@ -21,7 +21,7 @@ struct Once_times {
 
 /// Figures of one contestant on one scene.
 struct Once_figures {
-  const Contestant* contestant = nullptr;
+  const Once_contestant* contestant = nullptr;
   std::optional<Once_times> any = {}, all = {};  ///< none: not reported, given up, or not asked
   std::size_t peak_bytes = 0;                    ///< more resident memory than before, at most, for the first yes or no
   bool left_out = false;                         ///< was too slow in a smaller scene
@@ -35,7 +35,7 @@ std::optional<std::size_t> pays_from(const Once_times& session, const Once_times
 /// Asks all contestants, which take turns, round by round. Times of making the scene and of comparing answers do not
 /// count.
 /// @param left_out  per contestant: whether to leave it out
-std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<const Contestant> contestants,
+std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<const Once_contestant> contestants,
                                                 const std::vector<bool>& left_out);
 
 }  // namespace lodestone

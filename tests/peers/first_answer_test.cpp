@@ -25,7 +25,7 @@ TEST(First_answer, scenes_collide_where_their_names_say_so) {
 
 TEST(First_answer, contestants_that_decide_exactly_are_right_at_once_and_in_the_next_frame) {
   for (const auto& kind : once_kinds())
-    for (const auto& contestant : contestants()) {
+    for (const auto& contestant : once_contestants()) {
       if (contestant.library == "Bullet" || contestant.library == "ODE" || contestant.library == "FCL") continue;
       SCOPED_TRACE(kind.name + ", " + contestant.name());
       Once_scene scene = make_once_scene(kind, once_sizes().front());
@@ -47,8 +47,8 @@ TEST(First_answer, contestants_that_decide_exactly_are_right_at_once_and_in_the_
 }
 
 TEST(First_answer, contestants_are_one_call_a_detector_and_every_library) {
-  const auto all = contestants();
-  const auto has = [&](const std::string& name) { return std::ranges::count(all, name, &Contestant::name) == 1; };
+  const auto all = once_contestants();
+  const auto has = [&](const std::string& name) { return std::ranges::count(all, name, &Once_contestant::name) == 1; };
   EXPECT_EQ(all.front().name(), "Lodestone: find_collisions");
   for (const char* name : {"Lodestone: Detector", "CGAL: PMP::do_intersect", "CGAL: box_intersection_d, overlap only",
                            "Embree: rebuild", "Embree: rebuild, high quality", "ODE: OPCODE, refit"})
@@ -65,7 +65,7 @@ TEST(First_answer, a_build_pays_from_the_frame_in_which_it_has_caught_up) {
 }
 
 TEST(First_answer, measures_every_question_that_a_contestant_answers) {
-  const auto all = contestants();
+  const auto all = once_contestants();
   Once_scene scene = make_once_scene(once_kinds()[2], once_sizes().front());
   const auto before = positions_of_second(scene);
   std::vector<bool> left_out(all.size(), false);
