@@ -127,6 +127,27 @@ TEST(Topology, is_right_after_known_faces_have_changed) {
   }
 }
 
+TEST(Topology, an_object_with_regions_has_them_again_after_known_faces_have_changed) {
+  auto a = sphere(25);
+  const auto b = sphere(25, 1, {1.9, 0, 0});
+  Exact_detector detector({.particles = 12});
+  detector.add(a);
+  detector.add(b);
+  detector.detect();
+  std::set<std::uint32_t> changed;
+  list_faces_around(a, Halfedge_index(0), changed);
+  split(a, Halfedge_index(0));
+  detector.rebuild(0, Changed_faces{std::vector<std::uint32_t>(changed.begin(), changed.end())});
+  for (int frame = 0; frame < 2; ++frame) {
+    EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
+    const Numbered_mesh now(a);
+    EXPECT_EQ(detector.tree(0).validate(now.faces, now.coordinates()), "");
+  }
+  std::set<Region_index> seen;
+  for (const auto v : a.vertices()) seen.insert(detector.maps(0).region()[v]);
+  EXPECT_EQ(seen.size(), 12U);
+}
+
 TEST(Topology, changed_faces_that_do_not_exist_are_refused) {
   auto a = sphere(5), b = sphere(5, 1, {1.5, 0, 0});
   Exact_detector detector(all_exact);

@@ -58,10 +58,12 @@ class Exact_object {
   /// The same, reading only what has changed where the type of the mesh allows that.
   void rebuild(const Changed_faces& changed);
 
-  /// Gives the surface the tree that it had before its faces changed, and mends it.
+  /// Gives the surface a tree. Without regions, the tree that it had before its faces changed is mended where that is
+  /// enough.
+  /// @param labels       V: region of each vertex; empty: no regions
   /// @param coordinates  3 V, all finite; must stay unchanged until the next refit
-  /// @return false if there is none, or a new tree is better
-  bool mend(Coordinates coordinates, const Region_tree_options& options, Workers& workers);
+  void build(std::span<const Region_index> labels, Coordinates coordinates, const Region_tree_options& options,
+             Workers& workers);
 
  private:
   /// The mesh, and what depends on its faces alone.
@@ -134,11 +136,13 @@ void Exact_object<Volume>::start_anew(const std::vector<std::uint32_t>& changed)
 }
 
 template <Bounding_volume Volume>
-bool Exact_object<Volume>::mend(Coordinates coordinates, const Region_tree_options& options, Workers& workers) {
-  if (!former_) return false;
-  Former former = std::move(*former_);
-  former_.reset();
-  return surface.mend(std::move(former.surface), former.changed, coordinates, options, workers);
+void Exact_object<Volume>::build(std::span<const Region_index> labels, Coordinates coordinates,
+                                 const Region_tree_options& options, Workers& workers) {
+  auto former = std::exchange(former_, std::nullopt);
+  const bool mended = former && labels.empty() &&
+                      surface.mend(std::move(former->surface), former->changed, coordinates, options, workers);
+  if (!mended) surface.build(labels, coordinates, options, workers);
+  built = true;
 }
 
 }  // namespace lodestone

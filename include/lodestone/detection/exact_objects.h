@@ -122,16 +122,12 @@ void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
   }
 }
 
-/// Builds a tree, over regions if they are asked for. Without them the tree of the faces as they were is mended where
-/// that is enough.
+/// Builds a tree, over regions if they are asked for.
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
   Object& object = *objects_[id];
   check_finite(coordinates, object.title);
-  const auto labels = divide(object, coordinates);
-  if (!labels.empty() || !object.mend(coordinates, options_.exact.tree, workers_))
-    object.surface.build(labels, coordinates, options_.exact.tree, workers_);
-  object.built = true;
+  object.build(divide(object, coordinates), coordinates, options_.exact.tree, workers_);
 }
 
 /// @return the region of each vertex; empty: no regions are asked for, and all vertices of the mesh are marked as one
