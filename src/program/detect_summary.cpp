@@ -141,8 +141,12 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
 }
 
-const char* building_of(const Detector_options& options) {
-  if (options.mode == Mode::exact) return options.particles > 0 ? "numbering, partition, tree" : "numbering, tree";
+const char* building_of(const Run_subject& subject) {
+  const Detector_options& options = subject.command.options;
+  const bool regions = options.particles > 0 || std::ranges::any_of(subject.scene.objects, [](const auto& object) {
+                         return object.particles > 0;
+                       });
+  if (options.mode == Mode::exact) return regions ? "numbering, partition, tree" : "numbering, tree";
   if (options.mode == Mode::senin) return "numbering, particles";
   return options.meetings > 0 ? "numbering, partition, tree" : "numbering, partition";
 }
@@ -166,7 +170,7 @@ void print_times(const Run_subject& subject, const Run_summary& summary) {
              mean_count(measurement, &Frame_statistics::exact_tests));
   if (summary.builds == 0) return;
   fmt::print("{:.1f} milliseconds to build {} objects: {}\n", 1e3 * measurement.build_seconds, summary.builds,
-             building_of(options));
+             building_of(subject));
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
       ->default_str("exact");
   app.add_option("--particles", options.particles,
                  "Particles per object; 0: the number of objects that can touch it at once, at least 12. Mode exact: "
-                 "regions at the top of its tree; 0: 12 with --strategy, else none")
+                 "regions at the top of its tree; 0: 12 with a strategy or a setting of it, else none")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
   app.add_option("--contacts", options.contacts, "What to report of a colliding pair: yes_no, first, all")
@@ -297,10 +297,10 @@ int run_commands(int argc, char** argv) {
     refuse_options_of_other_modes(app, detect.options.mode);
     if (detect.options.mode == Mode::particles) refuse_options_beside_meetings(app, detect.options.meetings);
     refuse_options_of_other_strategies(app, detect.partition.name, detect.options.mode != Mode::exact);
-    // Whoever names a strategy wants to see regions.
-    if (detect.options.mode == Mode::exact && app.count("--strategy") > 0 && detect.options.particles == 0)
-      detect.options.particles = detect.options.least_particles;
     detect.chooses_strategy = chooses_strategy(app);
+    // Whoever chooses a strategy wants to see regions.
+    if (detect.options.mode == Mode::exact && detect.chooses_strategy && detect.options.particles == 0)
+      detect.options.particles = detect.options.least_particles;
   }
   if (program.got_subcommand("partition"))
     refuse_options_of_other_strategies(*program.get_subcommand("partition"), partition.strategy.name, true);
