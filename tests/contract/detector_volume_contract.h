@@ -268,11 +268,7 @@ TYPED_TEST_P(Detector_volume_contract, points_and_normals_of_contacts_are_those_
   EXPECT_GT(found.face_pairs.size(), 20U);
   EXPECT_EQ(found.face_pairs, expected.face_pairs);
   EXPECT_EQ(found.contact_points, expected.contact_points);
-  ASSERT_EQ(found.contact_normals.size(), expected.contact_normals.size());
-  for (std::size_t i = 0; i < found.contact_normals.size(); ++i) {
-    EXPECT_EQ(found.contact_normals[i].normal, expected.contact_normals[i].normal);
-    EXPECT_EQ(found.contact_normals[i].depth, expected.contact_normals[i].depth);
-  }
+  expect_same_normals(found.contact_normals, expected.contact_normals);
 }
 
 REGISTER_TYPED_TEST_SUITE_P(Detector_volume_contract,

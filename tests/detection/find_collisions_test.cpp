@@ -155,11 +155,7 @@ void expect_same(const Collisions& found, const Collisions& expected) {
   EXPECT_EQ(found.near, expected.near);
   EXPECT_EQ(found.faces, expected.faces);
   EXPECT_EQ(found.points, expected.points);
-  ASSERT_EQ(found.normals.size(), expected.normals.size());
-  for (std::size_t i = 0; i < found.normals.size(); ++i) {
-    EXPECT_EQ(found.normals[i].normal, expected.normals[i].normal);
-    EXPECT_EQ(found.normals[i].depth, expected.normals[i].depth);
-  }
+  expect_same_normals(found.normals, expected.normals);
   EXPECT_EQ(found.capped, expected.capped);
   EXPECT_EQ(found.containment, expected.containment);
   ASSERT_EQ(found.parting.has_value(), expected.parting.has_value());

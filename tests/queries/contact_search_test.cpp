@@ -32,23 +32,7 @@ TEST(Contact_search, equals_exhaustive_checking_in_any_pose) {
 }
 
 TEST(Contact_search, equals_exhaustive_checking_of_shapes_that_touch_or_coincide) {
-  const Face_soup box(cube(4)), ball(icosphere(4)), sheet(cloth(9, 9)), lattice(lattice_soup(300, 60, 5, 1));
-  const auto moved = [](Face_soup soup, double x, double y, double z) {
-    deform(soup, [&](const Point& p) { return Point(p.x() + x, p.y() + y, p.z() + z); });
-    return soup;
-  };
-  const std::vector<std::pair<Face_soup, Face_soup>> touching{{box, box},
-                                                              {box, moved(box, 1, 0, 0)},
-                                                              {box, moved(box, 1, 1, 1)},
-                                                              {box, moved(box, 0.25, 0.5, 1)},
-                                                              {ball, ball},
-                                                              {sheet, sheet},
-                                                              {sheet, moved(sheet, 0.125, 0.3, 0)},
-                                                              {box, moved(sheet, 0, 0.25, 1)},
-                                                              {sheet, box},
-                                                              {lattice, lattice},
-                                                              {lattice, lattice_soup(300, 60, 5, 2)}};
-  for (const auto& [first, second] : touching)
+  for (const auto& [first, second] : touching_soups(4))
     for (const auto& [factor, offset] : {std::pair{1.0, 0.0}, {1.0, 0x1p20}, {0x1p-300, 0.0}, {0x1p300, 0.0}}) {
       const Posed_object a(placed(first, factor, offset)), b(placed(second, factor, offset));
       const auto truth = true_pairs(a.soup(), b.soup());

@@ -72,19 +72,7 @@ TEST(Overlap_search, equals_exhaustive_checking_in_any_pose) {
 }
 
 TEST(Overlap_search, equals_exhaustive_checking_of_shapes_that_touch_or_coincide) {
-  const Face_soup box(cube(3)), ball(icosphere(3)), sheet(cloth(6, 6)), lattice(lattice_soup(120, 60, 5, 1));
-  const std::vector<std::pair<Face_soup, Face_soup>> touching{{box, box},
-                                                              {box, moved(box, 1, 0, 0)},
-                                                              {box, moved(box, 1, 1, 1)},
-                                                              {box, moved(box, 0.3, 0.5, 1)},
-                                                              {ball, ball},
-                                                              {sheet, sheet},
-                                                              {sheet, moved(sheet, 0.125, 0.3, 0)},
-                                                              {box, moved(sheet, 0, 0.25, 1)},
-                                                              {sheet, box},
-                                                              {lattice, lattice},
-                                                              {lattice, lattice_soup(120, 60, 5, 2)}};
-  for (const auto& [a, b] : touching)
+  for (const auto& [a, b] : touching_soups(3))
     for (const auto& [factor, offset] : {std::pair{1.0, 0.0}, {1.0, 0x1p20}, {0x1p-1060, 0.0}, {0x1p1020, 0.0}}) {
       SCOPED_TRACE(testing::Message() << factor << " and " << offset);
       EXPECT_GT(expect_truth(placed(a, factor, offset), placed(b, factor, offset)), 0U);

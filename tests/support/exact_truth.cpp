@@ -91,15 +91,19 @@ Surface_mesh posed(Surface_mesh mesh, const Positions& positions) {
   return mesh;
 }
 
+void expect_same_normals(std::span<const Contact_normal> a, std::span<const Contact_normal> b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].normal, b[i].normal);
+    EXPECT_EQ(a[i].depth, b[i].depth);
+  }
+}
+
 void expect_same_frame(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.number, b.number);
   EXPECT_EQ(a.face_pairs, b.face_pairs);
   EXPECT_EQ(a.contact_points, b.contact_points);
-  ASSERT_EQ(a.contact_normals.size(), b.contact_normals.size());
-  for (std::size_t i = 0; i < a.contact_normals.size(); ++i) {
-    EXPECT_EQ(a.contact_normals[i].normal, b.contact_normals[i].normal);
-    EXPECT_EQ(a.contact_normals[i].depth, b.contact_normals[i].depth);
-  }
+  expect_same_normals(a.contact_normals, b.contact_normals);
   ASSERT_EQ(a.pairs.size(), b.pairs.size());
   const auto fields = [](const Pair_result& pair) {
     return std::make_tuple(pair.a, pair.b, pair.collides, pair.near, pair.candidates, pair.first_contact, pair.contacts,

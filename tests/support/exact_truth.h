@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,6 +71,7 @@ void place(Surface_mesh& mesh, const Positions& positions);
 /// A copy of a mesh with other positions.
 Surface_mesh posed(Surface_mesh mesh, const Positions& positions);
 
+void expect_same_normals(std::span<const Contact_normal> a, std::span<const Contact_normal> b);
 /// A frame without its times, which differ in every run.
 void expect_same_frame(const Frame& a, const Frame& b);
 

@@ -8,6 +8,23 @@ Face_soup moved(Face_soup soup, double x, double y, double z) {
   return soup;
 }
 
+std::vector<std::pair<Face_soup, Face_soup>> touching_soups(std::size_t detail) {
+  const Face_soup box(cube(static_cast<int>(detail))), ball(icosphere(detail)),
+      sheet(cloth(2 * detail + 1, 2 * detail + 1)), lattice(lattice_soup(75 * detail, 60, 5, 1));
+  return {{box, box},
+          {box, moved(box, 1, 0, 0)},
+          {box, moved(box, 1, 1, 1)},
+          {box, moved(box, 0.25, 0.5, 1)},
+          {box, moved(box, 0.3, 0.5, 1)},
+          {ball, ball},
+          {sheet, sheet},
+          {sheet, moved(sheet, 0.125, 0.3, 0)},
+          {box, moved(sheet, 0, 0.25, 1)},
+          {sheet, box},
+          {lattice, lattice},
+          {lattice, lattice_soup(75 * detail, 60, 5, 2)}};
+}
+
 Face_soup placed(Face_soup soup, double factor, double offset) {
   for (double& x : soup.coordinates) x = factor * x + offset;
   return soup;

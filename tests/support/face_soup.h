@@ -58,6 +58,10 @@ void deform(Face_soup& soup, Map map) {
 /// Moved by a vector.
 Face_soup moved(Face_soup soup, double x, double y, double z);
 
+/// Shapes that coincide, or touch in corners, edges, or parts of their faces.
+/// @param detail  how fine they are; > 1
+std::vector<std::pair<Face_soup, Face_soup>> touching_soups(std::size_t detail);
+
 /// Coordinates times `factor`, plus `offset`.
 Face_soup placed(Face_soup soup, double factor, double offset = 0);
 
