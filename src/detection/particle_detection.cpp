@@ -45,6 +45,37 @@ void Particle_detection::rebuild(Object_id id, std::span<const std::uint32_t> /*
   });
 }
 
+Saved_origin Particle_detection::origin(const Object& object) const {
+  const bool published = options_.mode == Mode::particles && !meets();
+  return {.mode = std::string(name_of(options_.mode)) + (published ? " without meetings" : ""),
+          .vertices = object.particle_object.mesh().vertex_count(),
+          .corners = object.particle_object.corners()};
+}
+
+void Particle_detection::save(Object_id id, State_writer& state) {
+  prepare();
+  Object& object = *objects_[id];
+  save_origin(origin(object), state);
+  // A detector that loads the object may need it.
+  const auto measured = [&] { return bounding_sphere(object.particle_object.read_positions()).radius; };
+  state.value(object.radius > 0 ? object.radius : object.named(measured));
+  object.particle_object.save(state);
+}
+
+void Particle_detection::load(Object_id id, State_reader& state) {
+  Object& object = *objects_[id];
+  timed(since_last_frame_.seconds.build, [&] {
+    check_origin(origin(object), title_of(id, object.options), state);
+    const auto radius = state.value<double>();
+    object.particle_object.load(state);
+    object.radius = radius;
+    object.prepared = true;
+    write_maps(object);
+    meeting_search_.forget(id);
+    make_room();
+  });
+}
+
 const Frame& Particle_detection::detect(const Collision_filter& filter) {
   prepare();
   frame_.start(std::exchange(since_last_frame_, {}));
@@ -107,6 +138,10 @@ void Particle_detection::partition(Object& object, const Positions& positions) {
     });
   }
   object.prepared = true;
+  write_maps(object);
+}
+
+void Particle_detection::write_maps(Object& object) {
   object.particle_object.mesh().write_maps(object.particle_object.labels(), object.particle_object.particles().at);
 }
 

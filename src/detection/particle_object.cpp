@@ -27,21 +27,23 @@ Particle_object::Particle_object(std::unique_ptr<Watched_mesh> mesh)
 void Particle_object::close_seams(const Positions& positions) {
   if (!mesh_->divides_by_index()) return;
   // A call that was followed by a failure, perhaps of another object, is repeated when positions may be others.
-  if (seams_) {
-    vertex_faces_ = Vertex_faces(mesh_->vertex_count(), corners());
-    edges_ = surface_edges(vertex_faces_, corners());
-    seams_.reset();
-  }
-  auto seams = lodestone::close_seams(corners(), edges_.open_border, positions);
-  if (!seams) return;
+  if (seams_) walk_along(std::nullopt);
+  if (auto seams = lodestone::close_seams(corners(), edges_.open_border, positions)) walk_along(std::move(seams));
+}
+
+/// What walks along the surface does so with these seams closed from now on.
+void Particle_object::walk_along(std::optional<Closed_seams> seams) {
   std::vector<Corners> joined;
-  joined.reserve(corners().size());
-  for (const auto& [a, b, c] : corners()) joined.push_back({seams->joined(a), seams->joined(b), seams->joined(c)});
-  Vertex_faces joined_faces(mesh_->vertex_count(), joined);
-  Surface_edges joined_edges = surface_edges(joined_faces, joined);
+  if (seams) {
+    joined.reserve(corners().size());
+    for (const auto& [a, b, c] : corners()) joined.push_back({seams->joined(a), seams->joined(b), seams->joined(c)});
+  }
+  const std::span<const Corners> walked = seams ? std::span<const Corners>(joined) : corners();
+  Vertex_faces vertex_faces(mesh_->vertex_count(), walked);
+  Surface_edges edges = surface_edges(vertex_faces, walked);
   // From here on nothing can fail.
-  vertex_faces_ = std::move(joined_faces);
-  edges_ = std::move(joined_edges);
+  vertex_faces_ = std::move(vertex_faces);
+  edges_ = std::move(edges);
   joined_corners_ = std::move(joined);
   seams_ = std::move(seams);
 }
@@ -86,11 +88,17 @@ void Particle_object::scatter(const Positions& positions, std::size_t particles,
   labels_.assign(mesh_->vertex_count(), 0);
   steps_ = Region_steps(edges_.graph, labels_);
   auto vertices = scatter_particles(edges_.graph, positions, particles, options);
-  rings_ =
+  const std::size_t rings =
       options.rings > 0 ? options.rings : default_rings(mesh_->vertex_count() - joined_vertices(), vertices.size());
-  patches_.assign(vertices.size(), {});
-  patch_centres_.assign(vertices.size(), unreached);
   start_particles(std::move(vertices), positions);
+  start_patches(rings);
+}
+
+/// The faces around scattered particles are found when they are needed.
+void Particle_object::start_patches(std::size_t rings) {
+  rings_ = rings;
+  patches_.assign(particles_.at.size(), {});
+  patch_centres_.assign(particles_.at.size(), unreached);
   make_poses();
 }
 

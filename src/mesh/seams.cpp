@@ -38,6 +38,20 @@ void keep_corners_apart(std::span<const Corners> faces, std::vector<std::uint32_
     if (refused[lowest[v]]) lowest[v] = v;
 }
 
+/// @param lowest  V: per vertex the lowest of those that are joined
+Closed_seams join(std::span<const Corners> faces, std::span<const std::uint32_t> lowest) {
+  Closed_seams seams;
+  seams.index.resize(lowest.size());
+  for (std::uint32_t v = 0; v < lowest.size(); ++v) {
+    if (lowest[v] == v) seams.vertices.push_back(v);
+    // The lowest comes first, so it has its index already.
+    seams.index[v] = lowest[v] == v ? static_cast<std::uint32_t>(seams.vertices.size() - 1) : seams.index[lowest[v]];
+  }
+  seams.corners.reserve(faces.size());
+  for (const auto& [a, b, c] : faces) seams.corners.push_back({seams.index[a], seams.index[b], seams.index[c]});
+  return seams;
+}
+
 }  // namespace
 
 std::optional<Closed_seams> close_seams(std::span<const Corners> faces, const std::vector<bool>& on_border,
@@ -46,17 +60,17 @@ std::optional<Closed_seams> close_seams(std::span<const Corners> faces, const st
   std::vector<std::uint32_t> lowest = lowest_at_each_place(on_border, positions);
   keep_corners_apart(faces, lowest);
 
-  Closed_seams seams;
-  seams.index.resize(lowest.size());
-  for (std::uint32_t v = 0; v < lowest.size(); ++v) {
-    if (lowest[v] == v) seams.vertices.push_back(v);
-    // The lowest comes first, so it has its index already.
-    seams.index[v] = lowest[v] == v ? static_cast<std::uint32_t>(seams.vertices.size() - 1) : seams.index[lowest[v]];
-  }
+  Closed_seams seams = join(faces, lowest);
   if (seams.joined_count() == 0) return std::nullopt;
-  seams.corners.reserve(faces.size());
-  for (const auto& [a, b, c] : faces) seams.corners.push_back({seams.index[a], seams.index[b], seams.index[c]});
   return seams;
+}
+
+std::optional<Closed_seams> seams_of(std::span<const Corners> faces, std::span<const std::uint32_t> joined) {
+  for (std::uint32_t v = 0; v < joined.size(); ++v)
+    if (joined[v] > v || joined[joined[v]] != joined[v]) return std::nullopt;
+  for (const auto& [a, b, c] : faces)
+    if (joined[a] == joined[b] || joined[b] == joined[c] || joined[c] == joined[a]) return std::nullopt;
+  return join(faces, joined);
 }
 
 }  // namespace lodestone

@@ -19,9 +19,11 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
       const std::uint32_t face = faces(leaf)[i];
       if (face >= mesh_corners.size()) return fmt::format("leaf {}: there is no face {}", leaf, face);
       ++uses[face];
-      for (std::size_t corner = 0; corner < 3; ++corner)
-        if (list[corners(leaf)[i][corner]] != mesh_corners[face][corner])
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const std::size_t place = corners(leaf)[i][corner];
+        if (place >= list.size() || list[place] != mesh_corners[face][corner])
           return fmt::format("leaf {}: face {} has other corners than in the mesh", leaf, face);
+      }
     }
     if (leaf_nodes_[leaf] >= nodes_.size() || !is_leaf(leaf_nodes_[leaf]))
       return fmt::format("leaf {}: its node is not a leaf", leaf);

@@ -25,8 +25,7 @@ Region_anchors::Region_anchors(Tree_on_demand& tree, std::span<const Corners> co
     nodes_.push_back(n);
     regions_.push_back(region);
   }
-  for (auto* column : {&x_, &y_, &z_, &radius_}) column->resize(nodes_.size());
-
+  make_room();
   probes_ = probes(layout, rest);
   const Eigen::Vector3d middle = mean(tree);
   for (const auto node : probes_) rest_distances_.push_back((tree.anchor(node) - middle).norm());
@@ -34,6 +33,37 @@ Region_anchors::Region_anchors(Tree_on_demand& tree, std::span<const Corners> co
   for (std::size_t i = 0; i < rest.size(); i += 3)
     farthest = std::max(farthest, (Eigen::Map<const Eigen::Vector3d>(rest.data() + i) - middle).squaredNorm());
   rest_radius_ = std::sqrt(farthest);
+}
+
+void Region_anchors::make_room() {
+  for (auto* column : {&x_, &y_, &z_, &radius_}) column->resize(nodes_.size());
+}
+
+void Region_anchors::save(State_writer& state) const {
+  state.list(nodes_);
+  state.list(regions_);
+  state.list(probes_);
+  state.list(rest_distances_);
+  state.value(rest_radius_);
+}
+
+Region_anchors Region_anchors::load(State_reader& state, const Tree_layout& layout, std::size_t regions) {
+  Region_anchors loaded;
+  loaded.nodes_ = state.list<std::uint32_t>();
+  loaded.regions_ = state.list<Region_index>();
+  loaded.probes_ = state.list<std::uint32_t>();
+  loaded.rest_distances_ = state.list<double>();
+  loaded.rest_radius_ = state.value<double>();
+  const auto below = [](std::size_t count) { return [count](std::size_t index) { return index < count; }; };
+  State_reader::require(loaded.nodes_.size() == loaded.regions_.size() &&
+                            std::ranges::all_of(loaded.nodes_, below(layout.node_count())) &&
+                            std::ranges::all_of(loaded.regions_, below(regions)),
+                        "a region has no node of the tree");
+  State_reader::require(!loaded.probes_.empty() && loaded.probes_.size() == loaded.rest_distances_.size() &&
+                            std::ranges::all_of(loaded.probes_, below(layout.node_count())),
+                        "the nodes that tell its stretch are not in the tree");
+  loaded.make_room();
+  return loaded;
 }
 
 /// The regions, and the leaves that reach farthest along an axis: where a pull shows most.

@@ -20,14 +20,39 @@ namespace {
 }  // namespace
 
 Tree_on_demand::Tree_on_demand(std::span<const Corners> corners, std::span<const Region_index> labels,
-                               Coordinates coordinates, const Region_tree_options& options)
-    : layout_(corners, labels, coordinates, options),
+                               Coordinates coordinates, const Region_tree_options& options) {
+  Tree_layout layout(corners, labels, coordinates, options);
+  const auto anchors = find_anchors(layout, coordinates);
+  *this = Tree_on_demand(std::move(layout), anchors, coordinates.size() / 3);
+}
+
+Tree_on_demand::Tree_on_demand(Tree_layout layout, std::span<const Node_anchor> anchors, std::size_t vertex_count)
+    : layout_(std::move(layout)),
       posed_(layout_.leaf_count()),
       boxes_(layout_.node_count()),
-      vertex_count_(coordinates.size() / 3) {
+      vertex_count_(vertex_count) {
   nodes_.reserve(layout_.node_count());
-  for (const auto& anchor : find_anchors(layout_, coordinates))
+  for (const auto& anchor : anchors)
     nodes_.push_back({.position = Eigen::Vector3d::Zero(), .radius = anchor.radius, .vertex = anchor.vertex});
+}
+
+void Tree_on_demand::save(State_writer& state) const {
+  layout_.save(state);
+  for (const Node& node : nodes_) {
+    state.value(node.vertex);
+    state.value(node.radius);
+  }
+}
+
+Tree_on_demand Tree_on_demand::load(State_reader& state, std::span<const Corners> corners, std::size_t vertex_count) {
+  Tree_layout layout = Tree_layout::load(state, corners, vertex_count);
+  std::vector<Node_anchor> anchors(layout.node_count());
+  for (auto& anchor : anchors) {
+    anchor.vertex = state.value<std::uint32_t>();
+    anchor.radius = state.value<double>();
+    State_reader::require(anchor.vertex < vertex_count && anchor.radius >= 0, "a node has no anchor");
+  }
+  return {std::move(layout), anchors, vertex_count};
 }
 
 void Tree_on_demand::start_frame(const Live_positions& positions) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <string_view>
 
 #include "lodestone/detector.h"
 #include "lodestone/queries/exhaustive.h"
@@ -26,6 +27,18 @@ std::size_t expect_true(const Frame& frame, const Owned_meshes& scene);
 void expect_sums_of_pairs(const Frame& frame);
 
 Owned_meshes two_spheres(double distance, int parts = 12);
+
+/// A strategy that needs the mesh itself.
+struct By_vertex_number {
+  static constexpr std::string_view name = "by vertex number";
+  template <Triangle_mesh Mesh>
+  Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
+    Labelling result;
+    for (const auto v : vertices(input.mesh))
+      result.labels.push_back(input.numbering.index(v) % static_cast<Region_index>(regions));
+    return result;
+  }
+};
 
 template <class Detector_type>
 void add_all(Detector_type& detector, Owned_meshes& scene) {

@@ -12,18 +12,6 @@
 namespace lodestone {
 namespace {
 
-/// A strategy that needs the mesh itself.
-struct By_vertex_number {
-  static constexpr std::string_view name = "by vertex number";
-  template <Triangle_mesh Mesh>
-  Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
-    Labelling result;
-    for (const auto v : vertices(input.mesh))
-      result.labels.push_back(input.numbering.index(v) % static_cast<Region_index>(regions));
-    return result;
-  }
-};
-
 /// The same faces with shared vertices, in the order in which the faces name them.
 Surface_mesh sharing(const Surface_mesh& apart) {
   const Mesh_numbering<Surface_mesh> numbering(apart);

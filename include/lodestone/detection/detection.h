@@ -10,6 +10,7 @@
 #include "lodestone/detection/frame.h"
 #include "lodestone/detection/watched_mesh.h"
 #include "lodestone/mesh/rigid_motion.h"
+#include "lodestone/mesh/saved_state.h"
 
 namespace lodestone {
 
@@ -38,6 +39,13 @@ class Detection {
   virtual void rebuild(Object_id object, const Changed_faces& /*changed*/) {
     rebuild(object, std::span<const std::uint32_t>());
   }
+
+  /// Writes what has been built of an object, which is built first if it has not been.
+  /// @throws Bad_mesh, Bad_argument  as `detect`
+  virtual void save(Object_id object, State_writer& state) = 0;
+  /// Takes what `save` has written of an object with the same faces, in place of building it.
+  /// @throws Bad_saved_object  the object stays as it was
+  virtual void load(Object_id object, State_reader& state) = 0;
 
   /// Forgets an object, and refers to its mesh no more.
   /// @throws Bad_argument  a visitor is being shown face pairs; the object stays

@@ -12,6 +12,7 @@
 #include "lodestone/detection/detection.h"
 #include "lodestone/detection/exact_objects.h"
 #include "lodestone/detection/frame_builder.h"
+#include "lodestone/detection/saved_object.h"
 #include "lodestone/mesh/stopwatch.h"
 #include "lodestone/queries/closest_faces.h"
 #include "lodestone/queries/contact_search.h"
@@ -71,6 +72,17 @@ class Exact_detection final : public Detection {
     objects_.rebuild(object, changed);
   }
 
+  void save(Object_id object, State_writer& state) override {
+    check_no_visitor();
+    save_origin(origin(object), state);
+    objects_.save(object, state);
+  }
+  void load(Object_id object, State_reader& state) override {
+    check_no_visitor();
+    check_origin(origin(object), objects_[object].title, state);
+    objects_.load(object, state);
+  }
+
   void remove(Object_id object) override {
     check_no_visitor();
     objects_.remove(object);
@@ -111,6 +123,11 @@ class Exact_detection final : public Detection {
   void refresh(std::span<const Object_id> ids) {
     check_no_visitor();
     objects_.refresh(ids);
+  }
+  Saved_origin origin(Object_id object) {
+    return {.mode = "exact with volumes of kind " + std::string(Volume::name),
+            .vertices = objects_[object].mesh().vertex_count(),
+            .corners = objects_[object].corners()};
   }
   void start_frame(std::span<const Object_id> ids);
   void find_candidates(const Collision_filter& filter);

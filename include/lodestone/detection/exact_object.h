@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lodestone/detection/detector_options.h"
+#include "lodestone/detection/saved_object.h"
 #include "lodestone/detection/watched_mesh.h"
 #include "lodestone/mesh/joined_vertices.h"
 #include "lodestone/mesh/rigid_motion.h"
@@ -60,12 +61,21 @@ class Exact_object {
 
   /// Gives the surface a tree. Without regions, the tree that it had before its faces changed is mended where that is
   /// enough.
-  /// @param labels       V: region of each vertex; empty: no regions
+  /// @param regions      none: without regions
   /// @param coordinates  3 V, all finite; must stay unchanged until the next refit
-  void build(std::span<const Region_index> labels, Coordinates coordinates, const Region_tree_options& options,
+  void build(std::optional<Numbered_partition> regions, Coordinates coordinates, const Region_tree_options& options,
              Workers& workers);
 
+  /// Writes what was built. Only if something was.
+  void save(State_writer& state) const;
+  /// Takes what `save` has written for an object with the same faces. The tree has no volumes before the next refit.
+  /// @param with_rest          the positions at rest are needed
+  /// @throws Bad_saved_object  the object stays as it was
+  void load(State_reader& state, bool with_rest);
+
  private:
+  void write_maps();
+
   /// The mesh, and what depends on its faces alone.
   struct Faces {
     Faces(std::unique_ptr<Watched_mesh> watched, std::span<const std::uint32_t> file_vertex)
@@ -90,7 +100,8 @@ class Exact_object {
 
   Faces faces_;
   std::optional<Former> former_;  ///< between a change of faces and the next build
-  std::vector<double> placed_;    ///< memory of `read`
+  std::optional<Numbered_partition> regions_;
+  std::vector<double> placed_;  ///< memory of `read`
 };
 
 template <Bounding_volume Volume>
@@ -136,12 +147,47 @@ void Exact_object<Volume>::start_anew(const std::vector<std::uint32_t>& changed)
 }
 
 template <Bounding_volume Volume>
-void Exact_object<Volume>::build(std::span<const Region_index> labels, Coordinates coordinates,
+void Exact_object<Volume>::build(std::optional<Numbered_partition> regions, Coordinates coordinates,
                                  const Region_tree_options& options, Workers& workers) {
   auto former = std::exchange(former_, std::nullopt);
-  const bool mended = former && labels.empty() &&
-                      surface.mend(std::move(former->surface), former->changed, coordinates, options, workers);
-  if (!mended) surface.build(labels, coordinates, options, workers);
+  const bool mended =
+      former && !regions && surface.mend(std::move(former->surface), former->changed, coordinates, options, workers);
+  if (!mended)
+    surface.build(regions ? std::span<const Region_index>(regions->labels) : std::span<const Region_index>(),
+                  coordinates, options, workers);
+  regions_ = std::move(regions);
+  write_maps();
+  built = true;
+}
+
+/// Without regions all vertices are marked as one.
+template <Bounding_volume Volume>
+void Exact_object<Volume>::write_maps() {
+  if (regions_)
+    mesh().write_maps(regions_->labels, regions_->particles);
+  else
+    mesh().write_maps(std::vector<Region_index>(mesh().vertex_count(), 0), {});
+}
+
+template <Bounding_volume Volume>
+void Exact_object<Volume>::save(State_writer& state) const {
+  save_regions(regions_, state);
+  surface.save(state);
+}
+
+template <Bounding_volume Volume>
+void Exact_object<Volume>::load(State_reader& state, bool with_rest) {
+  auto regions = load_regions(state, mesh().vertex_count());
+  Basic_tree_surface<Volume> loaded(corners());
+  loaded.load(state, mesh().vertex_count());
+  state.end();
+  State_reader::require(!with_rest || !loaded.rest().empty(),
+                        "it was saved without positions at rest, which a tolerance within an object needs");
+  // From here on nothing can fail but for want of memory.
+  surface = std::move(loaded);
+  regions_ = std::move(regions);
+  former_.reset();
+  write_maps();
   built = true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,6 +39,15 @@ class Exact_objects {
     timed(work_.seconds.build, [&] { objects_[id]->rebuild(changed); });
   }
 
+  /// Writes what was built of an object, which is built first if it has not been.
+  /// @throws Bad_mesh  as `refresh`
+  void save(Object_id id, State_writer& state);
+  /// Takes what was saved of an object with the same faces.
+  /// @throws Bad_saved_object  the object stays as it was
+  void load(Object_id id, State_reader& state) {
+    timed(work_.seconds.build, [&] { objects_[id]->load(state, options_.exact.self_tolerance > 0); });
+  }
+
   void remove(Object_id id) { objects_[id].reset(); }
 
   /// Objects added, removed ones included.
@@ -60,7 +70,7 @@ class Exact_objects {
   void build_new(std::span<const Object_id> ids);
   void rebuild_loose(std::span<const Object_id> ids);
   void build(Object_id id, Coordinates coordinates);
-  std::vector<Region_index> divide(Object& object, Coordinates coordinates) const;
+  std::optional<Numbered_partition> divide(Object& object, Coordinates coordinates) const;
 
   Detector_options options_;
   Workers& workers_;
@@ -81,6 +91,13 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   timed(work_.seconds.refit, [&] { refit_built(ids); });
   build_new(ids);
   rebuild_loose(ids);
+}
+
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::save(Object_id id, State_writer& state) {
+  const Object_id ids[] = {id};
+  refresh(ids);
+  objects_[id]->save(state);
 }
 
 template <Bounding_volume Volume>
@@ -130,20 +147,15 @@ void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
   object.build(divide(object, coordinates), coordinates, options_.exact.tree, workers_);
 }
 
-/// @return the region of each vertex; empty: no regions are asked for, and all vertices of the mesh are marked as one
+/// @return none if no regions are asked for
 template <Bounding_volume Volume>
-std::vector<Region_index> Exact_objects<Volume>::divide(Object& object, Coordinates coordinates) const {
+std::optional<Numbered_partition> Exact_objects<Volume>::divide(Object& object, Coordinates coordinates) const {
   const std::size_t regions = object.particles > 0 ? object.particles : options_.particles;
+  if (regions == 0) return std::nullopt;
   Watched_mesh& mesh = object.mesh();
-  if (regions == 0) {
-    mesh.write_maps(std::vector<Region_index>(mesh.vertex_count(), 0), {});
-    return {};
-  }
   const Vertex_graph graph = vertex_graph(mesh.vertex_count(), mesh.corners());
   const Positions positions = scaled_positions(coordinates);
-  auto partition = mesh.partition({graph, positions, mesh.corners()}, regions, options_.partition);
-  mesh.write_maps(partition.labels, partition.particles);
-  return std::move(partition.labels);
+  return mesh.partition({graph, positions, mesh.corners()}, regions, options_.partition);
 }
 
 }  // namespace lodestone

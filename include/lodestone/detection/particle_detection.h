@@ -13,6 +13,7 @@
 #include "lodestone/detection/frame_builder.h"
 #include "lodestone/detection/meeting_search.h"
 #include "lodestone/detection/particle_object.h"
+#include "lodestone/detection/saved_object.h"
 #include "lodestone/particles/candidate_pairs.h"
 
 namespace lodestone {
@@ -44,6 +45,8 @@ class Particle_detection final : public Detection {
   /// Reads the faces of the mesh anew.
   using Detection::rebuild;
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override;
+  void save(Object_id object, State_writer& state) override;
+  void load(Object_id object, State_reader& state) override;
   void remove(Object_id object) override {
     objects_[object].reset();
     meeting_search_.forget(object);
@@ -74,11 +77,13 @@ class Particle_detection final : public Detection {
     }
   };
 
+  Saved_origin origin(const Object& object) const;
   void prepare();
   void measure(Object& object, const Positions& positions);
   void partition(Object& object, const Positions& positions);
   bool has_outgrown(Particle_object& object);
   std::size_t particles_of(Object& object, const Positions& positions);
+  void write_maps(Object& object);
   void make_room();
   bool meets() const { return options_.mode == Mode::particles && options_.meetings > 0; }
   void find_candidates(const Collision_filter& filter);

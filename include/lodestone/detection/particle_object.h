@@ -59,6 +59,12 @@ class Particle_object {
   void scatter(const Positions& positions, std::size_t particles, const Senin_options& options,
                Distance_measure measure);
 
+  /// Writes what was built. Only if something was.
+  void save(State_writer& state) const;
+  /// Takes what `save` has written for an object with the same faces in the same mode.
+  /// @throws Bad_saved_object  the object stays as it was
+  void load(State_reader& state);
+
   std::vector<Sphere> sphere_collection(const Positions& positions, const Particle_count_options& options) const {
     return lodestone::sphere_collection(edges_.graph, positions, walked_corners(), options);
   }
@@ -110,8 +116,10 @@ class Particle_object {
 
  private:
   std::span<const Corners> walked_corners() const;
+  void walk_along(std::optional<Closed_seams> seams);
   Numbered_partition divide(const Positions& positions, std::size_t regions, const Partition_options& options) const;
   void look();
+  void start_patches(std::size_t rings);
   void make_poses();
   void measure_distance(const Positions& positions, Distance_measure measure);
   void start_particles(std::vector<std::uint32_t> vertices, const Positions& positions);
@@ -121,6 +129,7 @@ class Particle_object {
     std::uint32_t compass = 0;  ///< a neighbour of the vertex
     double angle = 0;           ///< from the edge to the X axis, around the normal
   };
+  struct Saved;
 
   double longest_compass(const Live_positions& at) const;
   void find_homes(const std::vector<std::uint32_t>& vertices, const Live_positions& at);

@@ -31,6 +31,12 @@ class Bad_scene : public Error {
   using Error::Error;
 };
 
+/// What was saved of an object, and cannot be used: broken bytes, another format, another mesh or another mode.
+class Bad_saved_object : public Error {
+ public:
+  using Error::Error;
+};
+
 /// An argument or option outside its documented range.
 class Bad_argument : public Error {
  public:

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lodestone/mesh/coordinates.h"
@@ -36,6 +37,8 @@ class Object_surface {
   std::span<const std::uint32_t> piece_vertices() const;
 
  protected:
+  void set_rest(std::vector<double> rest) { rest_ = std::move(rest); }
+
   Coordinates coordinates_;
 
  private:

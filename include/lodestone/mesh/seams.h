@@ -33,4 +33,10 @@ struct Closed_seams {
 std::optional<Closed_seams> close_seams(std::span<const Corners> faces, const std::vector<bool>& on_border,
                                         const Positions& positions);
 
+/// Joins the vertices that are said to be. O(V + F).
+/// @param joined  V: per mesh vertex the one that stands for it, as `Closed_seams::joined` gives it
+/// @return none if there are no such seams: each vertex must stand for itself or be joined to a lower one that does,
+///         and the corners of a face must stay three
+std::optional<Closed_seams> seams_of(std::span<const Corners> faces, std::span<const std::uint32_t> joined);
+
 }  // namespace lodestone

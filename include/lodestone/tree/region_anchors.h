@@ -30,6 +30,12 @@ class Region_anchors {
   Region_anchors(Tree_on_demand& tree, std::span<const Corners> corners, std::span<const Region_index> labels,
                  Coordinates rest);
 
+  void save(State_writer& state) const;
+  /// Reads what `save` has written. O(regions).
+  /// @param regions            how many the surface is divided into
+  /// @throws Bad_saved_object  the bytes are no regions of this tree
+  static Region_anchors load(State_reader& state, const Tree_layout& layout, std::size_t regions);
+
   /// Reads the anchors in the current frame of the tree, and tells it how far the surface is stretched: by how far
   /// they have spread from their mean. O(regions).
   /// @param reach      a region is taken to lie within so many times its radius of its anchor
@@ -51,6 +57,7 @@ class Region_anchors {
   friend void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
 
  private:
+  void make_room();
   Eigen::Vector3d mean(Tree_on_demand& tree) const;
   void note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;
   std::vector<std::uint32_t> probes(const Tree_layout& layout, Coordinates rest) const;

@@ -58,6 +58,10 @@ class Basic_region_tree : public Tree_layout {
     fit(coordinates, workers);
   }
 
+  /// A tree that has a layout, but no volumes before the first refit.
+  explicit Basic_region_tree(Tree_layout layout)
+      : Tree_layout(std::move(layout)), volumes_(node_count()), part_sums_(parts().size()) {}
+
   /// Follows a change of some faces: see `mended`.
   /// @return false if a new tree is better; this one stays as it is
   bool mend(std::span<const Corners> corners, std::span<const std::uint32_t> changed, Coordinates coordinates,

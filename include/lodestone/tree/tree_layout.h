@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/saved_state.h"
 #include "lodestone/mesh/workers.h"
 #include "lodestone/volumes/leaf_faces.h"
 
@@ -66,6 +67,13 @@ class Tree_layout {
                                     Coordinates coordinates, const Region_tree_options& options,
                                     Workers& workers = Workers::alone()) const;
 
+  /// Writes all that cannot be told from the rest. O(F).
+  void save(State_writer& state) const;
+  /// Reads what `save` has written. O(V + F).
+  /// @param corners  F >= 1 faces
+  /// @throws Bad_saved_object  the bytes are no layout of these faces
+  static Tree_layout load(State_reader& state, std::span<const Corners> corners, std::size_t vertex_count);
+
   std::size_t node_count() const { return nodes_.size(); }
   const Node& node(std::uint32_t n) const { return nodes_[n]; }
   bool is_leaf(std::uint32_t n) const { return nodes_[n].second_child == 0; }
@@ -104,7 +112,7 @@ class Tree_layout {
   bool finite(Coordinates coordinates) const;
 
  protected:
-  /// Describes the first violation of the definition above; empty if there is none. O(F log F).
+  /// Describes the first violation of the definition above; empty if there is none. O(V + F).
   std::string validate_layout(std::span<const Corners> corners, std::size_t vertex_count) const;
 
  private:

@@ -26,6 +26,12 @@ class Tree_on_demand {
   Tree_on_demand(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
                  const Region_tree_options& options);
 
+  /// Writes the tree and its anchors. O(F).
+  void save(State_writer& state) const;
+  /// Reads what `save` has written. O(V + F).
+  /// @throws Bad_saved_object  the bytes are no tree over these faces
+  static Tree_on_demand load(State_reader& state, std::span<const Corners> corners, std::size_t vertex_count);
+
   /// Forgets what was read. O(1).
   void start_frame(const Live_positions& positions);
 
@@ -66,6 +72,8 @@ class Tree_on_demand {
   std::size_t vertices_read() const { return vertices_read_; }
 
  private:
+  Tree_on_demand(Tree_layout layout, std::span<const Node_anchor> anchors, std::size_t vertex_count);
+
   /// All that a look at a node needs, in one place of the memory.
   struct Node {
     Eigen::Vector3d position;

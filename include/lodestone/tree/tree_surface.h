@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,26 @@ class Basic_tree_surface : public Object_surface {
     coordinates_ = coordinates;
     finite_ = true;
     return tree_.mend(corners(), changed, coordinates, options, workers);
+  }
+
+  /// Writes the tree, how loose it was when it was built, and the positions at rest if kept. O(V + F).
+  void save(State_writer& state) const {
+    state.value(built_looseness_);
+    state.list(rest());
+    tree_.save(state);
+  }
+  /// Reads what `save` has written for a surface of the same faces. Has no volumes and no positions before the next
+  /// refit. O(V + F).
+  /// @throws Bad_saved_object  the surface stays as it was
+  void load(State_reader& state, std::size_t vertex_count) {
+    const auto looseness = state.value<double>();
+    auto rest = state.list<double>();
+    State_reader::require(rest.empty() || rest.size() == 3 * vertex_count, "it has other positions than vertices");
+    State_reader::require(std::ranges::all_of(rest, [](double x) { return std::isfinite(x); }),
+                          "a coordinate is not finite");
+    tree_ = Basic_region_tree<Volume>(Tree_layout::load(state, corners(), vertex_count));
+    built_looseness_ = looseness;
+    set_rest(std::move(rest));
   }
 
   const Basic_region_tree<Volume>& tree() const { return tree_; }

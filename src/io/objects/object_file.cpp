@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/objects/object_file.h"
+
+#include "io/files/file_bytes.h"
+#include "lodestone/io/files/atomic_file.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace {
+
+File_bytes open(const std::filesystem::path& file) {
+  try {
+    return File_bytes(file);
+  } catch (const Bad_mesh& error) {
+    throw Bad_saved_object(error.what());
+  }
+}
+
+}  // namespace
+
+void write_object_file(std::span<const std::byte> saved, const std::filesystem::path& file) {
+  Atomic_file output(file);
+  output.write({reinterpret_cast<const char*>(saved.data()), saved.size()});
+  output.commit();
+}
+
+void read_object_file(const std::filesystem::path& file, const std::function<void(std::span<const std::byte>)>& load) {
+  const File_bytes bytes = open(file);
+  try {
+    load(std::as_bytes(std::span(bytes.view())));
+  } catch (const Bad_saved_object& error) {
+    throw Bad_saved_object(bytes.name() + ": " + error.what());
+  }
+}
+
+}  // namespace lodestone
