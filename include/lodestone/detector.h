@@ -126,7 +126,7 @@ class Detector {
   /// The same where the caller knows which faces have changed, as after CGAL's Euler operations. In mode `exact` the
   /// tree is mended where they are, which takes a fraction of the time, and no vertices are joined. In other modes
   /// everything is built again.
-  /// @throws Bad_argument  no such object; mode `exact`: no such face
+  /// @throws Bad_argument  no such object; mode `exact`: no such face, a face that is not listed has lost a corner
   /// @throws Bad_mesh      as `add`; the object stays as it was
   void rebuild(Object_id object, const Changed_faces& changed) { detection_->rebuild(checked(object), changed); }
 

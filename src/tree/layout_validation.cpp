@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "lodestone/tree/tree_layout.h"
 
@@ -9,7 +10,7 @@ namespace lodestone {
 
 std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, std::size_t vertex_count) const {
   // Every face is in exactly one leaf, with its own corners.
-  std::vector<std::uint32_t> uses(mesh_corners.size(), 0);
+  std::vector<std::uint8_t> seen(mesh_corners.size(), 0);  // not bool: faces come in no order
   for (std::size_t leaf = 0; leaf < leaf_count(); ++leaf) {
     const auto list = vertices(leaf);
     if (list.empty() || std::ranges::adjacent_find(list, std::greater_equal()) != list.end())
@@ -18,7 +19,7 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
     for (std::size_t i = 0; i < faces(leaf).size(); ++i) {
       const std::uint32_t face = faces(leaf)[i];
       if (face >= mesh_corners.size()) return fmt::format("leaf {}: there is no face {}", leaf, face);
-      ++uses[face];
+      if (std::exchange(seen[face], 1) != 0) return fmt::format("face {} is in two leaves", face);
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const std::size_t place = corners(leaf)[i][corner];
         if (place >= list.size() || list[place] != mesh_corners[face][corner])
@@ -28,8 +29,8 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
     if (leaf_nodes_[leaf] >= nodes_.size() || !is_leaf(leaf_nodes_[leaf]))
       return fmt::format("leaf {}: its node is not a leaf", leaf);
   }
-  for (std::uint32_t face = 0; face < uses.size(); ++face)
-    if (uses[face] != 1) return fmt::format("face {} is in {} leaves", face, uses[face]);
+  if (const auto face = std::ranges::find(seen, 0); face != seen.end())
+    return fmt::format("face {} is in no leaf", face - seen.begin());
 
   // A depth-first walk from the root meets all nodes and all leaves in ascending order.
   std::uint32_t next = 0, leaf = 0;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes whose faces change: noticed where numbers change, and right after `rebuild`.
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Polyhedron_3.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -148,6 +151,36 @@ TEST(Topology, an_object_with_regions_has_them_again_after_known_faces_have_chan
   EXPECT_EQ(seen.size(), 12U);
 }
 
+TEST(Topology, is_right_after_known_faces_of_a_mesh_without_indices_have_changed) {
+  using Polyhedron = CGAL::Polyhedron_3<Kernel>;
+  Polyhedron a;
+  CGAL::copy_face_graph(sphere(10), a);
+  const auto b = sphere(5, 1, {1.5, 0, 0});
+  Exact_detector detector;
+  detector.add(a);
+  detector.add(b);
+  detector.detect();
+  // Removing the first vertex gives all others another index.
+  Euler::remove_center_vertex(a.vertices_begin()->halfedge(), a);
+  CGAL::Polygon_mesh_processing::triangulate_faces(a);
+  detector.rebuild(0, Changed_faces{});
+  EXPECT_EQ(detector.detect().face_pairs, exhaustive_face_pairs(a, b));
+}
+
+TEST(Topology, a_list_without_faces_whose_corners_are_gone_is_refused) {
+  auto a = sphere(5), b = sphere(5, 1, {1.5, 0, 0});
+  Exact_detector detector(all_exact);
+  add_all(detector, {&a, &b});
+  detector.detect();
+  collapse_some(a);
+  EXPECT_THROW(detector.rebuild(0, Changed_faces{}), Bad_argument);
+  EXPECT_THROW(detector.detect(), Bad_mesh) << "the object stays as it was";
+  std::vector<std::uint32_t> all(a.number_of_faces());
+  std::iota(all.begin(), all.end(), 0U);
+  detector.rebuild(0, Changed_faces{all});
+  EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
+}
+
 TEST(Topology, changed_faces_that_do_not_exist_are_refused) {
   auto a = sphere(5), b = sphere(5, 1, {1.5, 0, 0});
   Exact_detector detector(all_exact);
@@ -156,6 +189,16 @@ TEST(Topology, changed_faces_that_do_not_exist_are_refused) {
   EXPECT_THROW(detector.rebuild(0, Changed_faces{beyond}), Bad_argument);
   EXPECT_THROW(detector.rebuild(7, Changed_faces{}), Bad_argument);
   EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
+
+  // The same for an object whose doubled vertices count as one.
+  std::vector<std::uint32_t> file_vertex(a.number_of_vertices());
+  std::iota(file_vertex.begin(), file_vertex.end(), 0U);
+  file_vertex.back() = 0;
+  Exact_detector joining(all_exact);
+  joining.add(std::as_const(a), {.file_vertex = file_vertex});
+  const auto contacts = joining.detect().face_pairs;
+  EXPECT_THROW(joining.rebuild(0, Changed_faces{beyond}), Bad_argument);
+  EXPECT_EQ(joining.detect().face_pairs, contacts);
 }
 
 TEST(Topology, changes_before_the_next_query_add_up) {

@@ -109,8 +109,9 @@ struct Object_options {
 /// What has changed about the faces of a mesh since it was added or rebuilt.
 struct Changed_faces {
   /// Indices, in the order of `faces(mesh)`, of the faces whose corners are others than before. New faces at the end
-  /// need not be listed, nor those that are gone because there are fewer faces now. A face that has changed and is not
-  /// listed goes unnoticed.
+  /// need not be listed, nor those that are gone because there are fewer faces now. `collect_garbage` changes the
+  /// corners of faces too, where it moves the last faces and vertices to freed places. A face that has changed and is
+  /// not listed goes unnoticed.
   std::span<const std::uint32_t> faces;
 };
 

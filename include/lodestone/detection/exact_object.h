@@ -55,7 +55,7 @@ class Exact_object {
 
   /// Reads the faces of the mesh anew; given positions, which may be those of other vertices, are dropped.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
-  void rebuild(std::span<const std::uint32_t> file_vertex);
+  void rebuild(std::span<const std::uint32_t> file_vertex) { replace(Faces(mesh().renumbered(), file_vertex)); }
   /// The same, reading only what has changed where the type of the mesh allows that.
   void rebuild(const Changed_faces& changed);
 
@@ -96,6 +96,7 @@ class Exact_object {
     std::vector<std::uint32_t> changed;
   };
 
+  void replace(Faces anew);
   void start_anew(const std::vector<std::uint32_t>& changed);
 
   Faces faces_;
@@ -113,8 +114,7 @@ Coordinates Exact_object<Volume>::read() {
 }
 
 template <Bounding_volume Volume>
-void Exact_object<Volume>::rebuild(std::span<const std::uint32_t> file_vertex) {
-  Faces anew(mesh().renumbered(), file_vertex);
+void Exact_object<Volume>::replace(Faces anew) {
   const auto changed = changed_faces(corners(), anew.corners());
   // From here on nothing can fail but for want of memory.
   faces_ = std::move(anew);
@@ -123,10 +123,13 @@ void Exact_object<Volume>::rebuild(std::span<const std::uint32_t> file_vertex) {
 
 template <Bounding_volume Volume>
 void Exact_object<Volume>::rebuild(const Changed_faces& changed) {
-  if (!faces_.joined.empty()) return rebuild(std::span<const std::uint32_t>());
-  std::vector<std::uint32_t> all(changed.faces.begin(), changed.faces.end());
   const std::size_t former_faces = corners().size();
-  mesh().renumber(changed.faces);
+  if (!faces_.joined.empty() || !mesh().renumber(changed.faces)) {
+    Faces anew(mesh().renumbered(), {});
+    check_faces(changed.faces, anew.corners().size());
+    return replace(std::move(anew));
+  }
+  std::vector<std::uint32_t> all(changed.faces.begin(), changed.faces.end());
   for (std::size_t face = former_faces; face < corners().size(); ++face)
     all.push_back(static_cast<std::uint32_t>(face));
   faces_.unused = unused_vertices(corners(), mesh().vertex_count());

@@ -58,7 +58,8 @@ class Watched_mesh {
   /// @throws Bad_mesh  see Mesh_numbering
   virtual std::unique_ptr<Watched_mesh> renumbered() const = 0;
   /// Numbers this mesh anew after a change of its faces: see `Mesh_numbering::renumber`.
-  virtual void renumber(std::span<const std::uint32_t> changed) = 0;
+  /// @return false if a mesh of this type must be numbered as a whole: nothing has been done
+  virtual bool renumber(std::span<const std::uint32_t> changed) = 0;
 };
 
 /// Makes a Watched_mesh. The time that this takes counts as `build`.
@@ -78,9 +79,12 @@ class Watched_mesh_of : public Watched_mesh {
     lodestone::check_connectivity(*mesh_, numbering_, [&] { return title; });
   }
 
-  void renumber(std::span<const std::uint32_t> changed) override {
-    numbering_.renumber(*mesh_, changed);
-    if (maps_) maps_->renew();
+  bool renumber(std::span<const std::uint32_t> changed) override {
+    if constexpr (Vertex_table<Mesh>::by_index) {
+      numbering_.renumber(*mesh_, changed);
+      if (maps_) maps_->renew();
+    }
+    return Vertex_table<Mesh>::by_index;
   }
 
   /// None: the mesh cannot be written to.

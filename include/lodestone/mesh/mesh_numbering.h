@@ -4,6 +4,7 @@
 #include <CGAL/Dynamic_property_map.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -57,6 +58,12 @@ class Vertex_table<CGAL::Surface_mesh<P>> {
   std::size_t count(const Mesh& mesh) const { return num_vertices(mesh); }
 };
 
+/// @throws Bad_argument  one of the indices is not below the number of faces
+inline void check_faces(std::span<const std::uint32_t> indices, std::size_t face_count) {
+  for (const auto face : indices)
+    if (face >= face_count) throw Bad_argument("there is no face " + std::to_string(face));
+}
+
 /// Vertices and faces of a mesh by index, in the order in which the mesh enumerates them.
 ///
 /// Every later stage works on indices, so it is compiled once for all mesh types.
@@ -74,14 +81,17 @@ class Mesh_numbering {
   /// Corners of every face, in the order of `faces(mesh)`.
   const std::vector<Corners>& corners() const { return corners_; }
 
-  /// Numbers the mesh anew after a change of its faces. A CGAL::Surface_mesh is read only where it has changed.
+  /// Numbers the mesh anew after a change of its faces, reading it only where it has changed. CGAL::Surface_mesh only.
   /// @param changed        indices of faces that have other corners than before; new faces need not be listed
   /// @throws Bad_mesh      as the constructor; the numbering stays as it was
-  /// @throws Bad_argument  an index is not below the number of faces; the numbering stays as it was
+  /// @throws Bad_argument  an index is not below the number of faces; a face that is not listed has had a corner that
+  ///                       there is no more; the numbering stays as it was
   void renumber(const Mesh& mesh, std::span<const std::uint32_t> changed);
 
  private:
   static void check_counts(const Mesh& mesh);
+  void check_kept_faces(std::span<const std::uint32_t> changed, std::size_t face_count,
+                        std::uint32_t vertex_count) const;
   template <class Face>
   Corners corners_of(Face f, std::size_t index, const Mesh& mesh) const;
 
@@ -118,26 +128,37 @@ Mesh_numbering<Mesh>::Mesh_numbering(const Mesh& mesh) : table_(mesh) {
 
 template <Triangle_mesh Mesh>
 void Mesh_numbering<Mesh>::renumber(const Mesh& mesh, std::span<const std::uint32_t> changed) {
+  static_assert(Vertex_table<Mesh>::by_index, "where a vertex is removed, other meshes number many anew");
   const std::size_t face_count = num_faces(mesh);
+  check_faces(changed, face_count);
+  const Vertex_table<Mesh> table(mesh);  // refuses removed elements
+  check_counts(mesh);
+  const auto vertex_count = static_cast<std::uint32_t>(num_vertices(mesh));
+  if (vertex_count < vertex_count_) check_kept_faces(changed, face_count, vertex_count);
+  std::vector<Corners> other, added;
+  const auto read = [&](std::uint32_t face) { return corners_of(lodestone::Face<Mesh>(face), face, mesh); };
+  for (const auto face : changed) other.push_back(read(face));
+  for (std::size_t face = corners_.size(); face < face_count; ++face)
+    added.push_back(read(static_cast<std::uint32_t>(face)));
+  corners_.reserve(face_count);
+  // From here on nothing can fail.
+  corners_.resize(std::min(corners_.size(), face_count));
+  corners_.insert(corners_.end(), added.begin(), added.end());
+  for (std::size_t i = 0; i < changed.size(); ++i) corners_[changed[i]] = other[i];
+  vertex_count_ = vertex_count;
+}
+
+/// A list that leaves out faces can go unnoticed, but must not lead to vertices that do not exist.
+template <Triangle_mesh Mesh>
+void Mesh_numbering<Mesh>::check_kept_faces(std::span<const std::uint32_t> changed, std::size_t face_count,
+                                            std::uint32_t vertex_count) const {
+  std::vector<bool> listed(std::min(corners_.size(), face_count), false);
   for (const auto face : changed)
-    if (face >= face_count) throw Bad_argument("there is no face " + std::to_string(face));
-  if constexpr (Vertex_table<Mesh>::by_index) {
-    const Vertex_table<Mesh> table(mesh);  // refuses removed elements
-    check_counts(mesh);
-    std::vector<Corners> other, added;
-    const auto read = [&](std::uint32_t face) { return corners_of(lodestone::Face<Mesh>(face), face, mesh); };
-    for (const auto face : changed) other.push_back(read(face));
-    for (std::size_t face = corners_.size(); face < face_count; ++face)
-      added.push_back(read(static_cast<std::uint32_t>(face)));
-    corners_.reserve(face_count);
-    // From here on nothing can fail.
-    corners_.resize(std::min(corners_.size(), face_count));
-    corners_.insert(corners_.end(), added.begin(), added.end());
-    for (std::size_t i = 0; i < changed.size(); ++i) corners_[changed[i]] = other[i];
-    vertex_count_ = static_cast<std::uint32_t>(num_vertices(mesh));
-  } else {
-    *this = Mesh_numbering(mesh);
-  }
+    if (face < listed.size()) listed[face] = true;
+  for (std::size_t face = 0; face < listed.size(); ++face)
+    if (!listed[face] && std::ranges::max(corners_[face]) >= vertex_count)
+      throw Bad_argument("face " + std::to_string(face) +
+                         " is not listed as changed, but one of its corners has been removed");
 }
 
 /// Coordinates of a point of any kernel as doubles.
