@@ -130,9 +130,9 @@ void Particle_detection::partition(Object& object, const Positions& positions) {
   } else {
     object.named([&] {
       object.particle_object.partition(positions, particles_of(object, positions), options_.partition,
-                                       options_.distance_measure);
+                                       options_.distance_measure, workers_);
       if (meets())
-        object.particle_object.prepare_meetings(positions, options_.exact.tree);
+        object.particle_object.prepare_meetings(positions, options_.exact.tree, workers_);
       else
         object.particle_object.prepare_patches();
     });

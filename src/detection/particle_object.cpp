@@ -68,7 +68,7 @@ Numbered_partition Particle_object::divide(const Positions& positions, std::size
 }
 
 void Particle_object::partition(const Positions& positions, std::size_t regions, const Partition_options& options,
-                                Distance_measure measure) {
+                                Distance_measure measure, Workers& workers) {
   measure_distance(positions, measure);
   auto result = divide(positions, regions, options);
   labels_ = std::move(result.labels);
@@ -79,7 +79,7 @@ void Particle_object::partition(const Positions& positions, std::size_t regions,
   const Live_positions at(positions.data());
   find_homes(result.particles, at);
   start_particles(std::move(result.particles), positions);
-  measure_extents(at);
+  measure_extents(at, workers);
 }
 
 void Particle_object::scatter(const Positions& positions, std::size_t particles, const Senin_options& options,
@@ -168,9 +168,10 @@ void Particle_object::prepare_patches() {
   make_poses();
 }
 
-void Particle_object::prepare_meetings(const Positions& positions, const Region_tree_options& options) {
+void Particle_object::prepare_meetings(const Positions& positions, const Region_tree_options& options,
+                                       Workers& workers) {
   const Coordinates coordinates(positions.data(), static_cast<std::size_t>(positions.size()));
-  tree_ = Tree_on_demand(corners(), labels_, coordinates, options);
+  tree_ = Tree_on_demand(corners(), labels_, coordinates, options, workers);
   tree_.start_frame(read_);
   regions_ = Region_anchors(tree_, corners(), labels_, coordinates);
 }
@@ -218,10 +219,11 @@ Extent_start Particle_object::extent_start(const Home& home, const Live_position
   return {.home = home.vertex, .normal = normal, .x_axis = x_axis};
 }
 
-std::vector<Region_extent> Particle_object::extents_of(std::span<const Home> homes, const Live_positions& at) const {
+std::vector<Region_extent> Particle_object::extents_of(std::span<const Home> homes, const Live_positions& at,
+                                                       Workers& workers) const {
   std::vector<Extent_start> starts;
   for (const Home& home : homes) starts.push_back(extent_start(home, at));
-  return region_extents({edges_.graph, labels_, edges_.open_border, at}, starts);
+  return region_extents({edges_.graph, labels_, edges_.open_border, at}, starts, workers);
 }
 
 void Particle_object::find_homes(const std::vector<std::uint32_t>& vertices, const Live_positions& at) {
@@ -245,9 +247,9 @@ double Particle_object::longest_compass(const Live_positions& at) const {
   return longest;
 }
 
-void Particle_object::measure_extents(const Live_positions& at) {
+void Particle_object::measure_extents(const Live_positions& at, Workers& workers) {
   rest_compass_ = longest_compass(at);
-  extents_ = extents_of(homes_, at);
+  extents_ = extents_of(homes_, at, workers);
   largest_area_ = 0;
   for (const auto& extent : extents_) largest_area_ = std::max(largest_area_, extent.area());
 }

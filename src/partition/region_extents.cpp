@@ -9,6 +9,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <tuple>
 
 namespace lodestone {
@@ -186,11 +187,14 @@ double angle_to_axis(const Eigen::Vector3d& normal, const Eigen::Vector3d& needl
   return -std::atan2(needle.dot(frame.y), needle.dot(frame.x));
 }
 
-std::vector<Region_extent> region_extents(const Extent_input& input, std::span<const Extent_start> starts) {
-  Shortest_paths paths(input);
-  std::vector<Region_extent> extents;
-  extents.reserve(starts.size());
-  for (const auto& start : starts) extents.push_back(measure(input, start, paths));
+std::vector<Region_extent> region_extents(const Extent_input& input, std::span<const Extent_start> starts,
+                                          Workers& workers) {
+  std::vector<std::unique_ptr<Shortest_paths>> paths(workers.count());
+  std::vector<Region_extent> extents(starts.size());
+  workers.run(starts.size(), [&](std::size_t region, std::size_t worker) {
+    if (!paths[worker]) paths[worker] = std::make_unique<Shortest_paths>(input);
+    extents[region] = measure(input, starts[region], *paths[worker]);
+  });
   return extents;
 }
 

@@ -177,7 +177,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
       "then stop at seams");
   add_exact_options(app, options.exact);
   add_threads(app, options.exact.threads,
-              "Maximum number of threads, for mode exact and lbg partitions; 0: all of the machine");
+              "Maximum number of threads, for mode exact, builds and lbg partitions; 0: all of the machine");
   add_strategy_options(app, command.partition, "Seed, for random strategies and --mode senin");
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")

@@ -20,8 +20,8 @@ namespace {
 }  // namespace
 
 Tree_on_demand::Tree_on_demand(std::span<const Corners> corners, std::span<const Region_index> labels,
-                               Coordinates coordinates, const Region_tree_options& options) {
-  Tree_layout layout(corners, labels, coordinates, options);
+                               Coordinates coordinates, const Region_tree_options& options, Workers& workers) {
+  Tree_layout layout(corners, labels, coordinates, options, workers);
   const auto anchors = find_anchors(layout, coordinates);
   *this = Tree_on_demand(std::move(layout), anchors, coordinates.size() / 3);
 }

@@ -164,9 +164,11 @@ TEST(Saved_objects, know_the_kind_of_their_volumes) {
 
 TEST(Saved_objects, do_not_depend_on_threads) {
   auto meshes = two_spheres(1.8, 40);
-  Detector<> one, two({.exact = {.threads = 2}});
-  add_all(one, meshes), add_all(two, meshes);
-  EXPECT_EQ(one.save(0), two.save(0));
+  for (const auto mode : {Mode::exact, Mode::particles}) {
+    Detector<> one({.mode = mode}), three({.mode = mode, .exact = {.threads = 3}});
+    add_all(one, meshes), add_all(three, meshes);
+    EXPECT_EQ(one.save(0), three.save(0));
+  }
 }
 
 TEST(Saved_objects, serve_meshes_of_another_type_with_the_same_numbers) {

@@ -4,6 +4,7 @@
 #include <lodestone/detector.h>
 #include <lodestone/find_collisions.h>
 #include <lodestone/io/meshes/mesh_file.h>
+#include <lodestone/io/objects/object_file.h>
 #include <lodestone/partition/lbg.h>
 #include <lodestone/partition/partition_measures.h>
 
@@ -142,6 +143,20 @@ TEST_F(Snippets, of_more_than_face_pairs) {
   EXPECT_GT(pushes, 0U);
   EXPECT_EQ(least_distance, 0);
   EXPECT_GT(longest_way_out, 0);
+}
+
+TEST_F(Snippets, of_saved_objects) {
+  const lodestone::test::Temporary_folder folder;
+  const Working_folder here(folder.path());
+  for (int run = 0; run < 2; ++run) {
+    lodestone::Detector detector;
+    const auto cloth = detector.add(cloth_mesh);
+    if (std::filesystem::exists("cloth.object"))
+      lodestone::load_object(detector, cloth, "cloth.object");
+    else
+      lodestone::save_object(detector, cloth, "cloth.object");
+    EXPECT_EQ(detector.detect().statistics.builds, run == 0 ? 1U : 0U);
+  }
 }
 
 TEST_F(Snippets, of_vertices_that_a_file_has_once) {

@@ -47,7 +47,8 @@ struct Exact_options {
   bool parting = false;         ///< also give a translation that parts two objects which collide, or of which one lies
                                 ///< inside the other; tells containment too
   bool patches = false;         ///< also group the contacts of a pair into contact patches; not with yes_no
-  std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it
+  std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it. Other
+                                ///< modes use them while they measure regions and make trees; LBG has its own option
   double loosest = 2;           ///< rebuild an object's tree when its leaves are looser by this factor; > 1
   Region_tree_options tree = {};
 };

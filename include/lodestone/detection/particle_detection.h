@@ -32,7 +32,7 @@ class Particle_detection final : public Detection {
   static constexpr const char* needed = "this needs a mode with particles";
 
   explicit Particle_detection(const Detector_options& options)
-      : options_(options), frame_(options), meeting_search_(options) {}
+      : options_(options), workers_(options.exact.threads), frame_(options), meeting_search_(options) {}
 
   void add(const Watch_mesh& watch, const Object_options& options) override;
   Watched_mesh& mesh(Object_id object) override { return objects_[object]->particle_object.mesh(); }
@@ -105,6 +105,7 @@ class Particle_detection final : public Detection {
   void sort_contacts(Pair_result& result);
 
   Detector_options options_;
+  Workers workers_;                               ///< only while objects are built
   std::vector<std::unique_ptr<Object>> objects_;  ///< null: removed
   Frame_builder frame_;
   Frame_statistics since_last_frame_;  ///< what other calls have to tell the next frame

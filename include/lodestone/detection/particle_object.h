@@ -48,11 +48,12 @@ class Particle_object {
   /// Divides the surface into `regions` regions, and puts a particle in each. O(V) and more.
   /// @throws Bad_mesh  edges are shorter than 1e-150 on average
   void partition(const Positions& positions, std::size_t regions, const Partition_options& options,
-                 Distance_measure measure);
+                 Distance_measure measure, Workers& workers = Workers::alone());
   /// Lists the faces of each region, for `posed_patch`. After `partition`. O(V + F).
   void prepare_patches();
   /// Builds what meetings need: the tree below the regions. After `partition`. O(F log F).
-  void prepare_meetings(const Positions& positions, const Region_tree_options& options);
+  void prepare_meetings(const Positions& positions, const Region_tree_options& options,
+                        Workers& workers = Workers::alone());
 
   /// Scatters `particles` over the surface: the predecessor's start.
   /// @throws Bad_mesh  as `partition`
@@ -133,10 +134,11 @@ class Particle_object {
 
   double longest_compass(const Live_positions& at) const;
   void find_homes(const std::vector<std::uint32_t>& vertices, const Live_positions& at);
-  void measure_extents(const Live_positions& at);
+  void measure_extents(const Live_positions& at, Workers& workers);
   Eigen::Vector3d normal_at(const Home& home, const Live_positions& at) const;
   Extent_start extent_start(const Home& home, const Live_positions& at) const;
-  std::vector<Region_extent> extents_of(std::span<const Home> homes, const Live_positions& at) const;
+  std::vector<Region_extent> extents_of(std::span<const Home> homes, const Live_positions& at,
+                                        Workers& workers = Workers::alone()) const;
 
   std::unique_ptr<Watched_mesh> mesh_;
   std::optional<Rigid_motion> placement_;

@@ -8,6 +8,7 @@
 #include "lodestone/mesh/live_positions.h"
 #include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/mesh/vertex_graph.h"
+#include "lodestone/mesh/workers.h"
 
 /// How large the regions of a surface have become: what triggers repartitioning.
 namespace lodestone {
@@ -53,9 +54,10 @@ struct Extent_start {
 ///
 /// The border consists of the vertices with a neighbour in another region and of those on an open border of the mesh. A
 /// region without a border is a whole closed component. It is measured to the farthest vertex within 45 degrees
-/// instead. O(V) for the working memory, and O(n log n) for each region of n vertices. Reads positions of these regions
-/// only.
-std::vector<Region_extent> region_extents(const Extent_input& input, std::span<const Extent_start> starts);
+/// instead. O(V) for the working memory, and O(n log n) for each region of n vertices, which the workers share; each
+/// worker has memory of its own. Reads positions of these regions only.
+std::vector<Region_extent> region_extents(const Extent_input& input, std::span<const Extent_start> starts,
+                                          Workers& workers = Workers::alone());
 
 /// Angle by which a vector must turn around the normal to point along the X that `region_extents` chooses for a zero
 /// `x_axis`.

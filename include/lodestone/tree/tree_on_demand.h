@@ -22,9 +22,9 @@ class Tree_on_demand {
  public:
   Tree_on_demand() = default;
   /// O(F log F + V log V).
-  /// @param corners, labels, coordinates, options  as of Tree_layout; coordinates are those at rest
+  /// @param corners, labels, coordinates, options, workers  as of Tree_layout; coordinates are those at rest
   Tree_on_demand(std::span<const Corners> corners, std::span<const Region_index> labels, Coordinates coordinates,
-                 const Region_tree_options& options);
+                 const Region_tree_options& options, Workers& workers = Workers::alone());
 
   /// Writes the tree and its anchors. O(F).
   void save(State_writer& state) const;
