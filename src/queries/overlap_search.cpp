@@ -84,6 +84,8 @@ bool Overlap_search::search_slice(const Faces_in_box& a, const Faces_in_box& b, 
 bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap) {
   if (overlap.isEmpty() || a.faces.empty() || b.faces.empty()) return false;
   faces_[0] = &a, faces_[1] = &b;
+  const bool few = std::max(a.faces.size(), b.faces.size()) <= few_faces;
+  most_faces_ = one_is_enough_ && few ? small_group_faces : group_faces;
   const double scale = scale_of(overlap);
   Pair_of_parts whole{box_faces(0, overlap, scale), box_faces(1, overlap, scale)};
   return search(whole);
@@ -117,7 +119,7 @@ Overlap_search::Part Overlap_search::box_faces(int side, const Box& overlap, dou
 bool Overlap_search::search(Pair_of_parts& parts) {
   while (cull(parts)) {
     const int longer = parts[1].count > parts[0].count ? 1 : 0, other = 1 - longer;
-    if (parts[longer].count <= group_faces) return test(parts);
+    if (parts[longer].count <= most_faces_) return test(parts);
     const std::size_t tops[]{stacks_[0].top(), stacks_[1].top()};
     Pair_of_parts halves;
     halves[longer] = take_half(longer, parts[longer]);
@@ -191,6 +193,7 @@ Overlap_search::Part Overlap_search::take_median(int side, Part& whole, int axis
 /// Gives two short lists to the filter, and what it leaves to the exact test.
 /// @return whether the search is over
 bool Overlap_search::test(const Pair_of_parts& parts) {
+  if (parts[0].count * parts[1].count <= few_pairs) return test_few(parts);
   for (int side = 0; side < 2; ++side) {
     groups_[side].clear();
     for (const Rounded_box& box : std::span(stacks_[side].at(parts[side].begin), parts[side].count))
@@ -208,6 +211,23 @@ bool Overlap_search::test(const Pair_of_parts& parts) {
     found_->push_back({face(0, candidate.a), face(1, candidate.b)});
     if (one_is_enough_) return true;
   }
+  return false;
+}
+
+/// Gives the faces whose boxes meet to the exact test.
+/// @return whether the search is over
+bool Overlap_search::test_few(const Pair_of_parts& parts) {
+  ++leaf_tests_;
+  for (const Rounded_box& box_a : std::span(stacks_[0].at(parts[0].begin), parts[0].count))
+    for (const Rounded_box& box_b : std::span(stacks_[1].at(parts[1].begin), parts[1].count)) {
+      if (!meet(box_a, box_b)) continue;
+      ++exact_tests_;
+      if (!triangles_intersect_given(corners_of(*faces_[0], faces_[0]->corners[box_a.index]),
+                                     corners_of(*faces_[1], faces_[1]->corners[box_b.index]), no_crossing))
+        continue;
+      found_->push_back({faces_[0]->faces[box_a.index], faces_[1]->faces[box_b.index]});
+      if (one_is_enough_) return true;
+    }
   return false;
 }
 

@@ -18,8 +18,8 @@ namespace lodestone {
 /// Finds the contacts of two surfaces that are asked about once, without a tree.
 ///
 /// The faces of both are halved again and again, the longer list along the longer side of its box, but only as far as
-/// the answer needs: what lies outside the box of the other list is dropped first. Lists of at most `group_faces` faces
-/// go to the filter and the exact test.
+/// the answer needs: what lies outside the box of the other list is dropped first. Short lists go to the filter and the
+/// exact test.
 ///
 /// O(F) where surfaces cross along a curve, or one contact is enough; at most O(F log F) steps of some nanoseconds
 /// before the filters.
@@ -67,9 +67,14 @@ class Overlap_search {
   Part take_half(int side, Part& whole);
   Part take_median(int side, Part& whole, int axis);
   bool test(const Pair_of_parts& parts);
+  bool test_few(const Pair_of_parts& parts);
 
   /// Lists no longer than this are not halved any further: to filter them takes about as long as to halve them.
   static constexpr std::size_t group_faces = 64;
+  /// So few face pairs are tested without the filter, whose code and memory are seldom in the cache.
+  static constexpr std::size_t few_pairs = 64;
+  /// Where one contact is enough and surfaces have few faces, the filter is mostly not needed at all.
+  static constexpr std::size_t small_group_faces = 8;
   /// Of surfaces with more faces than this, a slice is searched first if one contact is enough.
   static constexpr std::size_t few_faces = 512;
 
@@ -79,6 +84,7 @@ class Overlap_search {
   Face_group_filter* filter_ = nullptr;
   std::vector<Face_pair>* found_ = nullptr;
   bool one_is_enough_ = false;
+  std::size_t most_faces_ = 0;  ///< of a list that is not halved
   std::size_t leaf_tests_ = 0, exact_tests_ = 0;
 };
 

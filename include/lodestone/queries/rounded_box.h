@@ -16,6 +16,12 @@ struct alignas(32) Rounded_box {
   float high(int axis) const { return -negated_high[axis]; }
   float side(int axis) const { return high(axis) - low[axis]; }
   float twice_centre(int axis) const { return low[axis] + high(axis); }
+
+  friend bool meet(const Rounded_box& a, const Rounded_box& b) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (a.low[axis] > b.high(axis) || b.low[axis] > a.high(axis)) return false;
+    return true;
+  }
 };
 
 }  // namespace lodestone
