@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/detection/exact_detection.h"
 
+#include "lodestone/mesh/faces_in_box.h"
+
 namespace lodestone {
 
 namespace {
@@ -12,6 +14,7 @@ namespace {
 }  // namespace
 
 void check_finite(Coordinates coordinates, const std::string& title) {
+  if (Box box; bound_positions(coordinates, box)) return;
   const auto wrong = std::ranges::find_if(coordinates, [](double x) { return !std::isfinite(x); });
   if (wrong != coordinates.end()) fail_not_finite(static_cast<std::size_t>(wrong - coordinates.begin()) / 3, title);
 }

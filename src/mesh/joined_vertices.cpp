@@ -9,6 +9,18 @@
 
 namespace lodestone {
 
+namespace {
+
+/// @param used  bytes, not bits: a store need not wait for the last one
+std::vector<std::uint32_t> places_of_zeros(std::span<const std::uint8_t> used) {
+  std::vector<std::uint32_t> places;
+  for (auto v = used.begin(); (v = std::find(v, used.end(), 0)) != used.end(); ++v)
+    places.push_back(static_cast<std::uint32_t>(v - used.begin()));
+  return places;
+}
+
+}  // namespace
+
 std::vector<Corners> join_vertices(std::span<const Corners> faces, std::uint32_t vertex_count,
                                    std::span<const std::uint32_t> file_vertex) {
   if (file_vertex.empty()) return {};
@@ -36,14 +48,16 @@ std::vector<Corners> join_vertices(std::span<const Corners> faces, std::uint32_t
 }
 
 std::vector<std::uint32_t> unused_vertices(std::span<const Corners> faces, std::uint32_t vertex_count) {
-  // Bytes, not bits: a store need not wait for the last one.
   std::vector<std::uint8_t> used(vertex_count, 0);
   for (const auto& corners : faces)
     for (const auto v : corners) used[v] = 1;
-  std::vector<std::uint32_t> unused;
-  for (std::uint32_t v = 0; v < vertex_count; ++v)
-    if (used[v] == 0) unused.push_back(v);
-  return unused;
+  return places_of_zeros(used);
+}
+
+std::vector<std::uint32_t> unused_vertices(std::span<const std::uint32_t> listed, std::uint32_t vertex_count) {
+  std::vector<std::uint8_t> used(vertex_count, 0);
+  for (const auto v : listed) used[v] = 1;
+  return places_of_zeros(used);
 }
 
 }  // namespace lodestone

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 
 #include "lodestone/mesh/coordinates.h"
 #include "lodestone/mesh/mesh_numbering.h"
@@ -14,14 +15,20 @@ namespace lodestone {
 /// Coordinates as floats relative to a box: good enough to group faces, and half as large.
 class Float_frame {
  public:
+  /// Relative to the box around all positions.
   explicit Float_frame(Coordinates coordinates) : coordinates_(coordinates) {
     Eigen::AlignedBox3d box;
     for (std::size_t i = 0; i < coordinates.size(); i += 3)
       box.extend(Eigen::Map<const Eigen::Vector3d>(coordinates.data() + i));
-    // Halved, since sums and differences may overflow.
-    half_middle_ = box.min() / 4 + box.max() / 4;
-    const double half_width = (box.max() / 2 - box.min() / 2).maxCoeff();
-    scale_ = std::min(2 / half_width, std::numeric_limits<double>::max());
+    place(box);
+  }
+  /// Relative to the box around some faces.
+  Float_frame(Coordinates coordinates, std::span<const Corners> corners, std::span<const std::uint32_t> faces)
+      : coordinates_(coordinates) {
+    Eigen::AlignedBox3d box;
+    for (const auto face : faces)
+      for (const auto vertex : corners[face]) box.extend(Eigen::Map<const Eigen::Vector3d>(position(vertex)));
+    place(box);
   }
 
   /// The mean of a face's corners, each component in [-1, 1].
@@ -37,6 +44,12 @@ class Float_frame {
   }
 
  private:
+  void place(const Eigen::AlignedBox3d& box) {
+    // Halved, since sums and differences may overflow.
+    half_middle_ = box.min() / 4 + box.max() / 4;
+    const double half_width = (box.max() / 2 - box.min() / 2).maxCoeff();
+    scale_ = std::min(2 / half_width, std::numeric_limits<double>::max());
+  }
   const double* position(std::uint32_t vertex) const { return coordinates_.data() + 3 * std::size_t{vertex}; }
 
   Coordinates coordinates_;

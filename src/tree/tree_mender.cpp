@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "tree/float_frame.h"
+
 namespace lodestone {
 
 namespace {
@@ -27,9 +29,9 @@ Tree_mender::Tree_mender(const Tree_layout& former, Tree_layout& tree, std::span
     moved_.push_back(static_cast<std::uint32_t>(face));
   std::ranges::sort(moved_);
   moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
-  left_.assign(std::max(former_faces, corners.size()), false);
-  std::fill(left_.begin() + static_cast<std::ptrdiff_t>(corners.size()), left_.end(), true);
-  for (const auto face : moved_) left_[face] = true;
+  left_.assign(std::max(former_faces, corners.size()), 0);
+  std::fill(left_.begin() + static_cast<std::ptrdiff_t>(corners.size()), left_.end(), std::uint8_t{1});
+  for (const auto face : moved_) left_[face] = 1;
 }
 
 bool Tree_mender::mend() {
@@ -52,37 +54,57 @@ bool Tree_mender::place_faces() {
   for (const auto face : moved_)
     for (const auto vertex : corners_[face]) leaf_of[vertex] = nobody;
   find_leaves_of_vertices(leaf_of);
-
-  using Vertex_and_face = std::pair<std::uint32_t, std::uint32_t>;
-  std::vector<Vertex_and_face> faces_at;  // moved faces, by their vertices
+  std::vector<std::uint32_t> reached, waiting;
   for (const auto face : moved_)
+    if (!place(face, leaf_of, reached)) waiting.push_back(face);
+  if (!waiting.empty() && !place_waiting_faces(leaf_of, std::move(waiting))) return false;
+  std::ranges::sort(placed_, {},
+                    [](const Placed_face& placed) { return std::uint64_t{placed.leaf} << 32U | placed.face; });
+  return true;
+}
+
+/// Gives a face to the leaf of one of its vertices, if one has a leaf; then all have.
+/// @param reached  the vertices that had none are appended
+bool Tree_mender::place(std::uint32_t face, std::vector<std::uint32_t>& leaf_of, std::vector<std::uint32_t>& reached) {
+  const auto& corners = corners_[face];
+  const auto with_leaf = std::ranges::find_if(corners, [&](auto vertex) { return leaf_of[vertex] < unknown; });
+  if (with_leaf == corners.end()) return false;
+  const std::uint32_t leaf = leaf_of[*with_leaf];
+  placed_.push_back({leaf, face});
+  for (const auto vertex : corners)
+    if (leaf_of[vertex] >= unknown) {
+      leaf_of[vertex] = leaf;
+      reached.push_back(vertex);
+    }
+  return true;
+}
+
+/// Faces between new vertices: from the faces that have been placed outwards.
+/// @return whether all have been placed
+bool Tree_mender::place_waiting_faces(std::vector<std::uint32_t>& leaf_of, std::vector<std::uint32_t> waiting) {
+  using Vertex_and_face = std::pair<std::uint32_t, std::uint32_t>;
+  std::vector<Vertex_and_face> faces_at;  // by their vertices
+  for (const auto face : waiting)
     for (const auto vertex : corners_[face]) faces_at.emplace_back(vertex, face);
   std::ranges::sort(faces_at);
-
   std::vector<bool> waits(corners_.size(), false);
-  std::vector<std::uint32_t> queue;  // vertices that have got a leaf, and may have faces that wait for one
-  const auto place = [&](std::uint32_t face) {
-    const auto& corners = corners_[face];
-    const auto with_leaf = std::ranges::find_if(corners, [&](auto vertex) { return leaf_of[vertex] < unknown; });
-    waits[face] = with_leaf == corners.end();
-    if (waits[face]) return;
-    const std::uint32_t leaf = leaf_of[*with_leaf];
-    placed_.push_back({leaf, face});
-    for (const auto vertex : corners)
-      if (leaf_of[vertex] >= unknown) {
-        leaf_of[vertex] = leaf;
-        queue.push_back(vertex);
-      }
-  };
-  for (const auto face : moved_) place(face);
+  std::size_t left = waiting.size();
+  std::vector<std::uint32_t> queue;
+  for (const auto face : waiting) {
+    waits[face] = true;
+    for (const auto vertex : corners_[face])
+      if (leaf_of[vertex] < unknown) queue.push_back(vertex);  // since a face beside it was placed later
+  }
   while (!queue.empty()) {
     const std::uint32_t vertex = queue.back();
     queue.pop_back();
     for (const auto& [at, face] : std::ranges::equal_range(faces_at, vertex, {}, &Vertex_and_face::first))
-      if (waits[face]) place(face);
+      if (waits[face] && place(face, leaf_of, queue)) {
+        waits[face] = false;
+        --left;
+      }
   }
-  std::ranges::sort(placed_);
-  return placed_.size() == moved_.size();
+  return left == 0;
 }
 
 void Tree_mender::find_leaves_of_vertices(std::vector<std::uint32_t>& leaf_of) const {
@@ -99,8 +121,9 @@ bool Tree_mender::size_leaves() {
   face_count_.resize(leaves);
   for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
     const auto faces = former_.faces(leaf);
-    const auto left = std::ranges::count_if(faces, [this](std::uint32_t face) { return left_[face]; });
-    face_count_[leaf] = static_cast<std::uint32_t>(faces.size() - static_cast<std::size_t>(left));
+    std::uint32_t left = 0;
+    for (const auto face : faces) left += left_[face];
+    face_count_[leaf] = static_cast<std::uint32_t>(faces.size()) - left;
     touched_[leaf] = left > 0;
   }
   for (const auto& [leaf, face] : placed_) {
@@ -163,13 +186,17 @@ void Tree_mender::copy_leaf(std::uint32_t former_leaf, const Branch& branch) {
 /// The faces that a touched leaf has now; only those that are split need their centres.
 void Tree_mender::fill_items(std::uint32_t former_leaf, bool with_centres) {
   auto* item = items_.data() + face_begin_[former_leaf];
-  if (with_centres && !frame_) frame_.emplace(coordinates_);
-  const auto add = [&](std::uint32_t face) {
-    *item++ = {with_centres ? frame_->mean(corners_[face]) : std::array<float, 3>{}, face};
-  };
+  std::vector<std::uint32_t> faces;
   for (const auto face : former_.faces(former_leaf))
-    if (!left_[face]) add(face);
-  for (const auto& placed : std::ranges::equal_range(placed_, former_leaf, {}, &Placed_face::leaf)) add(placed.face);
+    if (left_[face] == 0) faces.push_back(face);
+  for (const auto& placed : std::ranges::equal_range(placed_, former_leaf, {}, &Placed_face::leaf))
+    faces.push_back(placed.face);
+  if (!with_centres) {
+    for (const auto face : faces) *item++ = {{}, face};
+    return;
+  }
+  const Float_frame frame(coordinates_, corners_, faces);
+  for (const auto face : faces) *item++ = {frame.mean(corners_[face]), face};
 }
 
 }  // namespace lodestone

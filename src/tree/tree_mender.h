@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
-
-#include "tree/float_frame.h"
 #include "tree/tree_builder.h"
 
 namespace lodestone {
@@ -29,6 +26,8 @@ class Tree_mender : private Tree_builder {
   };
 
   bool place_faces();
+  bool place_waiting_faces(std::vector<std::uint32_t>& leaf_of, std::vector<std::uint32_t> waiting);
+  bool place(std::uint32_t face, std::vector<std::uint32_t>& leaf_of, std::vector<std::uint32_t>& reached);
   void find_leaves_of_vertices(std::vector<std::uint32_t>& leaf_of) const;
   bool size_leaves();
   void add_node(std::uint32_t former_node, std::vector<Branch>& branches);
@@ -37,8 +36,7 @@ class Tree_mender : private Tree_builder {
   std::uint32_t leaves_below(std::uint32_t former_node) const;
 
   const Tree_layout& former_;
-  std::optional<Float_frame> frame_;       ///< once it is needed
-  std::vector<bool> left_;                 ///< per former or new face: whether it has left its leaf
+  std::vector<std::uint8_t> left_;         ///< per former or new face: 1 if it has left its leaf
   std::vector<std::uint32_t> moved_;       ///< the changed and the new faces, ascending
   std::vector<Placed_face> placed_;        ///< the same with their leaves, ascending
   std::vector<bool> touched_;              ///< per former leaf: whether its faces are others now

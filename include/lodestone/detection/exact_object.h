@@ -46,8 +46,8 @@ class Exact_object {
   Watched_mesh& mesh() { return *faces_.mesh; }
   /// The faces of the surface, with doubled vertices as one.
   std::span<const Corners> corners() const { return faces_.corners(); }
-  /// Vertices that the surface has no face at.
-  std::span<const std::uint32_t> unused() const { return faces_.unused; }
+  /// Vertices that the surface has no face at, once it is built.
+  std::span<const std::uint32_t> unused() const { return unused_; }
 
   /// Where the vertices are now.
   /// @throws Bad_mesh  the mesh has changed since it was numbered
@@ -74,20 +74,18 @@ class Exact_object {
   void load(State_reader& state, bool with_rest);
 
  private:
+  void finish();
   void write_maps();
 
   /// The mesh, and what depends on its faces alone.
   struct Faces {
     Faces(std::unique_ptr<Watched_mesh> watched, std::span<const std::uint32_t> file_vertex)
-        : mesh(std::move(watched)),
-          joined(join_vertices(mesh->corners(), mesh->vertex_count(), file_vertex)),
-          unused(unused_vertices(corners(), mesh->vertex_count())) {}
+        : mesh(std::move(watched)), joined(join_vertices(mesh->corners(), mesh->vertex_count(), file_vertex)) {}
 
     std::span<const Corners> corners() const { return joined.empty() ? mesh->corners() : joined; }
 
     std::unique_ptr<Watched_mesh> mesh;
     std::vector<Corners> joined;  ///< none if no vertex is doubled
-    std::vector<std::uint32_t> unused;
   };
 
   /// A surface of former faces, and which of its faces have changed since.
@@ -102,6 +100,7 @@ class Exact_object {
   Faces faces_;
   std::optional<Former> former_;  ///< between a change of faces and the next build
   std::optional<Numbered_partition> regions_;
+  std::vector<std::uint32_t> unused_;
   std::vector<double> placed_;  ///< memory of `read`
 };
 
@@ -132,7 +131,6 @@ void Exact_object<Volume>::rebuild(const Changed_faces& changed) {
   std::vector<std::uint32_t> all(changed.faces.begin(), changed.faces.end());
   for (std::size_t face = former_faces; face < corners().size(); ++face)
     all.push_back(static_cast<std::uint32_t>(face));
-  faces_.unused = unused_vertices(corners(), mesh().vertex_count());
   start_anew(all);
 }
 
@@ -159,6 +157,13 @@ void Exact_object<Volume>::build(std::optional<Numbered_partition> regions, Coor
     surface.build(regions ? std::span<const Region_index>(regions->labels) : std::span<const Region_index>(),
                   coordinates, options, workers);
   regions_ = std::move(regions);
+  finish();
+}
+
+/// What follows from the tree and the regions.
+template <Bounding_volume Volume>
+void Exact_object<Volume>::finish() {
+  unused_ = unused_vertices(surface.tree().all_vertices(), mesh().vertex_count());
   write_maps();
   built = true;
 }
@@ -166,6 +171,7 @@ void Exact_object<Volume>::build(std::optional<Numbered_partition> regions, Coor
 /// Without regions all vertices are marked as one.
 template <Bounding_volume Volume>
 void Exact_object<Volume>::write_maps() {
+  if (!mesh().has_maps()) return;
   if (regions_)
     mesh().write_maps(regions_->labels, regions_->particles);
   else
@@ -190,8 +196,7 @@ void Exact_object<Volume>::load(State_reader& state, bool with_rest) {
   surface = std::move(loaded);
   regions_ = std::move(regions);
   former_.reset();
-  write_maps();
-  built = true;
+  finish();
 }
 
 }  // namespace lodestone

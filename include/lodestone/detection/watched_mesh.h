@@ -49,7 +49,9 @@ class Watched_mesh {
   virtual Numbered_partition partition(const Numbered_surface& surface, std::size_t regions,
                                        const Partition_options& options) const = 0;
 
-  /// Writes the maps `v:region` and `v:particle`, if the mesh has them. O(V).
+  /// Whether the mesh has the maps `v:region` and `v:particle`.
+  virtual bool has_maps() const = 0;
+  /// Writes them, if it has them. O(V).
   virtual void write_maps(const std::vector<Region_index>& labels, const std::vector<std::uint32_t>& particles) = 0;
   /// Moves the particles of `v:particle`, if the mesh has it. O(N).
   virtual void move_particles(const std::vector<std::uint32_t>& particles) = 0;
@@ -89,6 +91,7 @@ class Watched_mesh_of : public Watched_mesh {
 
   /// None: the mesh cannot be written to.
   const std::optional<Region_maps<Mesh>>& maps() const { return maps_; }
+  bool has_maps() const override { return maps_.has_value(); }
   /// Adds the maps to the mesh, which is the one that is watched.
   void add_maps(Mesh& mesh) { maps_.emplace(mesh); }
   void write_maps(const std::vector<Region_index>& labels, const std::vector<std::uint32_t>& particles) override {

@@ -21,5 +21,7 @@ std::vector<Corners> join_vertices(std::span<const Corners> faces, std::uint32_t
 
 /// The vertices that no face uses, ascending. O(V + F).
 std::vector<std::uint32_t> unused_vertices(std::span<const Corners> faces, std::uint32_t vertex_count);
+/// The same, where the vertices of all faces are listed, each at least once. O(V + their number).
+std::vector<std::uint32_t> unused_vertices(std::span<const std::uint32_t> listed, std::uint32_t vertex_count);
 
 }  // namespace lodestone
