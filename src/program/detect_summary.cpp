@@ -143,10 +143,8 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
 
 const char* building_of(const Run_subject& subject) {
   const Detector_options& options = subject.command.options;
-  const bool regions = options.particles > 0 || std::ranges::any_of(subject.scene.objects, [](const auto& object) {
-                         return object.particles > 0;
-                       });
-  if (options.mode == Mode::exact) return regions ? "numbering, partition, tree" : "numbering, tree";
+  if (options.mode == Mode::exact)
+    return makes_regions(options, subject.scene) ? "numbering, partition, tree" : "numbering, tree";
   if (options.mode == Mode::senin) return "numbering, particles";
   return options.meetings > 0 ? "numbering, partition, tree" : "numbering, partition";
 }

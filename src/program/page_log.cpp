@@ -32,7 +32,7 @@ Page_head head_of(const Detect_command& command, const Scene& scene, std::size_t
                  .mode = std::string(name_of(mode)),
                  .frame_step = frame_step,
                  .note = missing_note(command.options)};
-  if (mode != Mode::senin) head.strategy = command.partition.name;
+  if (makes_regions(command.options, scene)) head.strategy = command.partition.name;
   return head;
 }
 
@@ -76,6 +76,12 @@ Json microseconds(const Stage_times& seconds) {
 
 }  // namespace
 
+bool makes_regions(const Detector_options& options, const Scene& scene) {
+  const auto asks = [](const auto& object) { return object.particles > 0; };
+  return options.mode == Mode::particles ||
+         (options.mode == Mode::exact && (options.particles > 0 || std::ranges::any_of(scene.objects, asks)));
+}
+
 Page_log::Page_log(const Detect_command& command, const Scene& scene, const Scene_detector& detector)
     : command_(command),
       scene_(scene),
@@ -105,7 +111,7 @@ void Page_log::add(std::size_t frame, const Frame& result, const std::string& li
 }
 
 void Page_log::set_regions() {
-  if (command_.options.mode == Mode::senin) return;
+  if (!makes_regions(command_.options, scene_)) return;
   for (Object_id o = 0; o < scene_.objects.size(); ++o) {
     const auto& regions = detector_.maps(o).region();
     std::vector<Region_index> labels;

@@ -14,6 +14,9 @@ namespace lodestone {
 
 using Scene_detector = Detector<Any_strategy>;
 
+/// Whether a run divides surfaces into regions: mode `exact` does only if they are asked for.
+bool makes_regions(const Detector_options& options, const Scene& scene);
+
 /// Makes the page of a run of `detect`.
 ///
 /// Answers come from the run. A second detector computes the truth about the same frames, and the distance of the two

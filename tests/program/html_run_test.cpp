@@ -46,6 +46,14 @@ TEST_F(Html, the_same_run_gives_the_same_page_except_for_times) {
   }
 }
 
+TEST_F(Html, shows_regions_of_mode_exact_only_where_it_has_some) {
+  const auto without = detect({"--mode", "exact"}), with = detect({"--mode", "exact", "--strategy", "grid"});
+  EXPECT_EQ(without.header["strategy"], nullptr);
+  EXPECT_EQ(without.object(0)["partitions"].size(), 0U);
+  EXPECT_EQ(with.header["strategy"], "grid");
+  EXPECT_EQ(with.object(0)["partitions"].size(), 1U);
+}
+
 TEST_F(Html, objects_have_the_positions_of_the_scene) {
   const auto file = bodies_file();
   const auto shown = detect();
