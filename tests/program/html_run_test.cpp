@@ -47,7 +47,12 @@ TEST_F(Html, the_same_run_gives_the_same_page_except_for_times) {
 }
 
 TEST_F(Html, shows_regions_of_mode_exact_only_where_it_has_some) {
-  const auto without = detect({"--mode", "exact"}), with = detect({"--mode", "exact", "--strategy", "grid"});
+  const auto run = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"detect", R"(shape:{"icosphere": {"frequency": 4}})", "shape:teapot"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return page_of(arguments);
+  };
+  const auto without = run({}), with = run({"--strategy", "grid"});
   EXPECT_EQ(without.header["strategy"], nullptr);
   EXPECT_EQ(without.object(0)["partitions"].size(), 0U);
   EXPECT_EQ(with.header["strategy"], "grid");
