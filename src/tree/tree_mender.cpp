@@ -136,7 +136,9 @@ bool Tree_mender::size_leaves() {
     // A leaf that has grown a little stays whole.
     const std::size_t most = std::min(leaf_faces_ + leaf_faces_ / 3, most_leaf_faces);
     const std::uint32_t count = face_count_[leaf];
-    leaf_begin_.push_back(leaf_begin_.back() + (count > 0 && count <= most ? 1 : leaves_for(count)));
+    const std::uint32_t becomes = count > 0 && count <= most ? 1 : leaves_for(count);
+    if (becomes > 1) touched_[leaf] = true;  // even without a change: leaves may have held more when it was made
+    leaf_begin_.push_back(leaf_begin_.back() + becomes);
     face_begin_.push_back(face_begin_.back() + count);
   }
   return leaf_begin_.back() <= 2 * leaves_for(corners_.size());

@@ -68,6 +68,15 @@ TEST(Tree_mender, leaves_without_a_change_stay_as_they_are) {
   expect_tree(mended, soup, soup.coordinates);
 }
 
+TEST(Tree_mender, leaves_without_a_change_are_split_if_they_are_too_full_for_the_options) {
+  Face_soup soup(icosphere(20));
+  Region_tree tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 96});
+  std::swap(soup.faces[100][0], soup.faces[100][1]);
+  ASSERT_TRUE(tree.mend(soup.faces, Changed{100}, soup.coordinates, {.leaf_faces = 16}));
+  for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) EXPECT_LE(tree.faces(leaf).size(), 16U);
+  expect_tree(tree, soup, soup.coordinates);
+}
+
 TEST(Tree_mender, is_the_same_for_any_number_of_workers) {
   std::mt19937_64 random(2);
   Face_soup soup(icosphere(40));
@@ -122,6 +131,30 @@ TEST(Tree_mender, a_strip_of_new_faces_is_placed_from_its_first_on) {
   soup.faces.insert(soup.faces.end(), strip.begin(), strip.end());
   ASSERT_TRUE(tree.mend(soup.faces, {}, soup.coordinates, {}));
   expect_tree(tree, soup, soup.coordinates);
+}
+
+TEST(Tree_mender, a_face_may_be_listed_twice) {
+  Face_soup soup(icosphere(20));
+  Region_tree tree(soup.faces, {}, soup.coordinates);
+  std::swap(soup.faces[100][0], soup.faces[100][1]);
+  ASSERT_TRUE(tree.mend(soup.faces, Changed{100, 7, 100}, soup.coordinates, {}));
+  expect_tree(tree, soup, soup.coordinates);
+}
+
+TEST(Tree_mender, no_leaf_grows_beyond_the_most_faces_that_a_leaf_may_hold) {
+  Face_soup soup(icosphere(20));
+  Region_tree tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 128});
+  for (int i = 0; i < 40; ++i) soup.faces.push_back(soup.faces[0]);
+  ASSERT_TRUE(tree.mend(soup.faces, {}, soup.coordinates, {.leaf_faces = 128}));
+  for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) EXPECT_LE(tree.faces(leaf).size(), 128U);
+  expect_tree(tree, soup, soup.coordinates);
+}
+
+TEST(Tree_mender, many_nearly_empty_leaves_ask_for_a_new_tree) {
+  auto soup = shuffled(Face_soup(icosphere(20)), 1);
+  Region_tree tree(soup.faces, {}, soup.coordinates);
+  soup.faces.resize(soup.faces.size() / 8);
+  EXPECT_FALSE(tree.mend(soup.faces, {}, soup.coordinates, {}));
 }
 
 }  // namespace

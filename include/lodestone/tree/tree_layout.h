@@ -61,7 +61,8 @@ class Tree_layout {
   /// @param changed      indices below F' of the faces that have other corners than in this layout. Faces at F and
   ///                     beyond count as new without being listed, those at F' and beyond as removed
   /// @param coordinates  3 V', all finite
-  /// @param options      as of this layout, which must have been made without labels
+  /// @param options      this layout must have been made without labels; leaves that are too full for the options are
+  ///                     split
   /// @return none if a new layout is better: many faces have changed, or a piece of the surface is new
   std::optional<Tree_layout> mended(std::span<const Corners> corners, std::span<const std::uint32_t> changed,
                                     Coordinates coordinates, const Region_tree_options& options,
