@@ -222,6 +222,39 @@ TEST(Topology, changes_before_the_next_query_add_up) {
   EXPECT_EQ(detector.tree(0).validate(now.faces, now.coordinates()), "");
 }
 
+TEST(Topology, faces_that_are_listed_as_changed_may_be_gone_before_the_next_query) {
+  auto a = sphere(25);
+  const auto b = sphere(25, 1, {1.9, 0, 0});
+  Exact_detector detector(all_exact);
+  add_all(detector, {&a, &b});
+  detector.detect();
+  const auto last = static_cast<std::uint32_t>(a.number_of_faces()) - 1;
+  detector.rebuild(0, Changed_faces{std::vector{last - 1, last}});
+  for (const std::uint32_t face : {5, 50}) Euler::make_hole(a.halfedge(Surface_mesh::Face_index(face)), a);
+  a.collect_garbage();
+  detector.rebuild(0);
+  EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
+  const Numbered_mesh now(a);
+  EXPECT_EQ(detector.tree(0).validate(now.faces, now.coordinates()), "");
+}
+
+TEST(Topology, doubled_vertices_are_apart_after_known_faces_have_changed) {
+  auto a = sphere(5);
+  std::vector<std::uint32_t> file_vertex(a.number_of_vertices());
+  std::iota(file_vertex.begin(), file_vertex.end(), 0U);
+  file_vertex.back() = 0;
+  Exact_detector detector(all_exact);
+  detector.add(std::as_const(a), {.file_vertex = file_vertex});
+  detector.detect();
+  std::set<std::uint32_t> changed;
+  list_faces_around(a, Halfedge_index(0), changed);
+  Euler::flip_edge(Halfedge_index(0), a);
+  detector.rebuild(0, Changed_faces{std::vector<std::uint32_t>(changed.begin(), changed.end())});
+  expect_exhaustive(detector.detect(), {&a});
+  const Numbered_mesh now(a);
+  EXPECT_EQ(detector.tree(0).validate(now.faces, now.coordinates()), "");
+}
+
 TEST(Topology, an_object_that_becomes_open_or_closed_is_known_as_such_after_rebuild) {
   auto outer = sphere(5);
   const auto inner = sphere(3, 0.3);

@@ -61,13 +61,26 @@ TEST(Seams, the_two_zeros_are_the_same_place) {
 
 TEST(Seams, a_face_keeps_three_corners) {
   // The first face has two corners at the origin, where the second has one.
-  const auto mesh = mesh_of({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {{0, 1, 2}, {3, 4, 5}});
-  const auto seams = closed(mesh);
-  ASSERT_TRUE(seams);
-  EXPECT_EQ(seams->joined_count(), 1U);
-  EXPECT_EQ(seams->joined(5), 2U);
+  for (const Corners& first : {Corners{0, 1, 2}, Corners{1, 2, 0}, Corners{2, 0, 1}}) {
+    const auto mesh = mesh_of({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}},
+                              {{first[0], first[1], first[2]}, {3, 4, 5}});
+    const auto seams = closed(mesh);
+    ASSERT_TRUE(seams);
+    EXPECT_EQ(seams->joined_count(), 1U);
+    EXPECT_EQ(seams->joined(5), 2U);
+  }
   const auto all = mesh_of({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}});
   EXPECT_FALSE(closed(all));
+}
+
+TEST(Seams, join_vertices_to_the_lowest_of_them) {
+  const std::vector<Corners> faces{{0, 1, 2}, {3, 4, 5}};
+  const std::vector<std::uint32_t> lowest{0, 1, 2, 2, 4, 5}, highest{0, 1, 3, 3, 4, 5}, chain{0, 0, 2, 1, 4, 5};
+  const auto seams = seams_of(faces, lowest);
+  ASSERT_TRUE(seams);
+  EXPECT_EQ(seams->joined(3), 2U);
+  EXPECT_FALSE(seams_of(faces, highest));
+  EXPECT_FALSE(seams_of(faces, chain));
 }
 
 }  // namespace

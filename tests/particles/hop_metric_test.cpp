@@ -85,5 +85,19 @@ TEST(Hop_diameter, of_a_mesh_is_that_of_its_graph) {
   EXPECT_EQ(hop_diameter(mesh, std::span<const Surface_mesh::Vertex_index>(targets)), 9U);
 }
 
+TEST(Hop_diameter, of_two_targets_beside_a_third_is_2) {
+  const auto graph = vertex_graph(25, grid_faces(5, 5));
+  const std::vector<std::uint32_t> targets{12, 11, 13};
+  EXPECT_EQ(hop_diameter(graph, targets), 2U);
+}
+
+TEST(Hop_diameter, may_lie_in_any_component) {
+  auto faces = grid_faces(9, 2);
+  faces.push_back({18, 19, 20});
+  const auto graph = vertex_graph(21, faces);
+  const std::vector<std::uint32_t> targets{18, 0, 8};
+  EXPECT_EQ(hop_diameter(graph, targets), 8U);
+}
+
 }  // namespace
 }  // namespace lodestone

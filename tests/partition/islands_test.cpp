@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
 
 #include "support/test_meshes.h"
 
@@ -138,6 +139,23 @@ TEST(Repair_islands, isolated_vertices_keep_their_label) {
   const auto repair = repair_islands(vertex_graph(5, faces), labels, 2);
   EXPECT_EQ(labels, (Labels{1, 1, 1, 0, 0}));
   EXPECT_EQ(repair.regions, 2U);
+  EXPECT_EQ(repair.pieces_before, 1U);
+}
+
+TEST(Repair_islands, the_largest_components_become_regions_where_not_all_may) {
+  std::vector<Corners> faces;
+  std::uint32_t vertices = 0;
+  for (int component = 0; component < 80; ++component, vertices += 3)
+    faces.push_back({vertices, vertices + 1, vertices + 2});
+  for (int component = 0; component < 40; ++component, vertices += 4) {
+    faces.push_back({vertices, vertices + 1, vertices + 2});
+    faces.push_back({vertices, vertices + 2, vertices + 3});
+  }
+  Labels labels(vertices, 0);
+  const auto repair = repair_islands(vertex_graph(vertices, faces), labels, 1);
+  EXPECT_EQ(repair.regions, 65U);
+  std::set<Region_index> of_large(labels.begin() + 240, labels.end());
+  EXPECT_EQ(of_large.size(), 40U);
 }
 
 TEST(Drop_regions_without_edges, renumbers_the_others_without_gaps) {

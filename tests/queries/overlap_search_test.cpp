@@ -141,5 +141,42 @@ TEST(Overlap_search, needs_few_exact_tests_where_surfaces_cross) {
   EXPECT_LT(summary.exact_tests, 2 * found.size());
 }
 
+TEST(Overlap_search, adds_to_what_was_found_before_and_counts_each_run_alone) {
+  const Face_soup a(icosphere(12)), inner = placed(a, 0.5), crossing = moved(a, 0.4, 0.01, 0);
+  const Face_pair before{7, 7};
+  std::vector<Face_pair> found{before};
+  Overlap_search search;
+  const auto run = [&](const Face_soup& b, Contact_query query) {
+    const Box overlap = box_of(a).intersection(box_of(b));
+    Faces_in_box faces_a, faces_b;
+    read(a, overlap, faces_a), read(b, overlap, faces_b);
+    return search.run(faces_a, box_of(a), faces_b, box_of(b), query, found);
+  };
+  for (const auto query : {Contact_query::yes_no, Contact_query::first, Contact_query::all}) {
+    EXPECT_FALSE(run(inner, query).found);
+    EXPECT_EQ(found, std::vector{before});
+  }
+  EXPECT_TRUE(run(crossing, Contact_query::yes_no).found);
+  EXPECT_EQ(found, std::vector{before});
+  const auto first = run(crossing, Contact_query::all), second = run(crossing, Contact_query::all);
+  EXPECT_EQ(found.size(), 1 + 2 * true_pairs(a, crossing).size());
+  EXPECT_EQ(second.leaf_tests, first.leaf_tests);
+  EXPECT_EQ(second.exact_tests, first.exact_tests);
+}
+
+/// What brings their sides near 1 takes their coordinates beyond the largest number.
+TEST(Overlap_search, finds_contacts_of_small_faces_in_a_plane_very_far_away) {
+  const auto in_plane = [](double x) {
+    Face_soup soup;
+    for (std::uint32_t face = 0; face < 100; ++face) {
+      const double y = 0x1p-20 * face;
+      soup.coordinates.insert(soup.coordinates.end(), {x, y, 0, x, y + 0x1p-21, 0, x, y, 0x1p-20});
+      soup.faces.push_back({3 * face, 3 * face + 1, 3 * face + 2});
+    }
+    return soup;
+  };
+  EXPECT_GT(expect_truth(in_plane(0x1p1020), in_plane(0x1p1020)), 0U);
+}
+
 }  // namespace
 }  // namespace lodestone
