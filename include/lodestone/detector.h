@@ -141,7 +141,7 @@ class Detector {
   }
   /// Takes what was saved of an object with the same faces, by a detector of the same mode, in place of building it.
   /// Positions may be others than when it was saved. It has the regions, particles and leaves with which it was saved,
-  /// whatever the options say; they count when it is built anew. O(V + F), without sorting: as fast as a disk.
+  /// whatever the options say; they count when it is built anew. O(V + F).
   /// @throws Bad_argument      no such object, a call of a visitor
   /// @throws Bad_saved_object  the bytes are broken, or from another mode, mesh or format; the object stays as it was
   void load(Object_id object, std::span<const std::byte> saved) {

@@ -66,7 +66,7 @@ void Particle_detection::load(Object_id id, State_reader& state) {
   Object& object = *objects_[id];
   timed(since_last_frame_.seconds.build, [&] {
     check_origin(origin(object), title_of(id, object.options), state);
-    const auto radius = state.value<double>();
+    const double radius = state.finite();
     object.particle_object.load(state);
     object.radius = radius;
     object.prepared = true;

@@ -20,9 +20,9 @@ void save_extent(const Region_extent& extent, State_writer& state) {
 Region_extent load_extent(State_reader& state, std::size_t vertex_count) {
   Region_extent extent;
   for (Border_path& path : extent.paths) {
-    path.length = state.value<double>();
+    path.length = state.finite();
     path.samples = state.list<std::uint32_t>();
-    path.sampled_length = state.value<double>();
+    path.sampled_length = state.finite();
     State_reader::require(std::ranges::all_of(path.samples, [&](auto v) { return v < vertex_count; }),
                           "a path to a border leads to a vertex that does not exist");
   }
@@ -86,14 +86,14 @@ Particle_object::Saved::Saved(State_reader& state, std::span<const Corners> corn
   statistics = state.value<Partition_statistics>();
   particles.at = state.list<std::uint32_t>();
   particles.positions.resize(particles.at.size());
-  particles.effective_radius = state.value<double>();
-  particles.collision_distance = state.value<double>();
+  particles.effective_radius = state.finite();
+  particles.collision_distance = state.finite();
   particles.hop_limit = state.value<std::uint64_t>();
   rings = state.value<std::uint64_t>();
   load_homes(state, vertex_count);
   last_checked = state.value<Region_index>();
-  largest_area = state.value<double>();
-  rest_compass = state.value<double>();
+  largest_area = state.finite();
+  rest_compass = state.finite();
   has_tree = state.value<std::uint32_t>();
   check(corners, vertex_count);
   if (has_tree == 0) return;
@@ -108,7 +108,7 @@ void Particle_object::Saved::load_homes(State_reader& state, std::size_t vertex_
   for (Home& home : homes) {
     home.vertex = state.value<std::uint32_t>();
     home.compass = state.value<std::uint32_t>();
-    home.angle = state.value<double>();
+    home.angle = state.finite();
   }
   for (std::size_t region = 0; region < count; ++region) extents.push_back(load_extent(state, vertex_count));
 }

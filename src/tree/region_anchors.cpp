@@ -53,7 +53,7 @@ Region_anchors Region_anchors::load(State_reader& state, const Tree_layout& layo
   loaded.regions_ = state.list<Region_index>();
   loaded.probes_ = state.list<std::uint32_t>();
   loaded.rest_distances_ = state.list<double>();
-  loaded.rest_radius_ = state.value<double>();
+  loaded.rest_radius_ = state.finite();
   const auto below = [](std::size_t count) { return [count](std::size_t index) { return index < count; }; };
   State_reader::require(loaded.nodes_.size() == loaded.regions_.size() &&
                             std::ranges::all_of(loaded.nodes_, below(layout.node_count())) &&
@@ -62,6 +62,8 @@ Region_anchors Region_anchors::load(State_reader& state, const Tree_layout& layo
   State_reader::require(!loaded.probes_.empty() && loaded.probes_.size() == loaded.rest_distances_.size() &&
                             std::ranges::all_of(loaded.probes_, below(layout.node_count())),
                         "the nodes that tell its stretch are not in the tree");
+  State_reader::require(std::ranges::all_of(loaded.rest_distances_, [](double x) { return std::isfinite(x); }),
+                        "a number is not finite");
   loaded.make_room();
   return loaded;
 }

@@ -49,7 +49,7 @@ Tree_on_demand Tree_on_demand::load(State_reader& state, std::span<const Corners
   std::vector<Node_anchor> anchors(layout.node_count());
   for (auto& anchor : anchors) {
     anchor.vertex = state.value<std::uint32_t>();
-    anchor.radius = state.value<double>();
+    anchor.radius = state.finite();
     State_reader::require(anchor.vertex < vertex_count && anchor.radius >= 0, "a node has no anchor");
   }
   return {std::move(layout), anchors, vertex_count};

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "detection/detector_scenes.h"
+#include "support/message_of.h"
 #include "support/special_numbers.h"
 
 namespace lodestone {
@@ -80,8 +81,11 @@ TEST(Detector, a_coordinate_that_is_not_finite_is_refused_in_any_frame_that_read
 
 TEST(Detector, a_corner_of_a_candidate_region_that_is_not_finite_is_refused) {
   auto scene = two_spheres(1.8);
-  Detector<> detector(
-      {.mode = Mode::particles, .particles = 1, .meetings = 0, .collision_distance = 50, .contacts = Contact_query::all});
+  Detector<> detector({.mode = Mode::particles,
+                       .particles = 1,
+                       .meetings = 0,
+                       .collision_distance = 50,
+                       .contacts = Contact_query::all});
   add_all(detector, scene);
   detector.detect();
   // Far from the particle, but in its region.
@@ -93,15 +97,6 @@ TEST(Detector, a_corner_of_a_candidate_region_that_is_not_finite_is_refused) {
   }
   scene[1].point(Surface_mesh::Vertex_index(lost)) = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
   EXPECT_THROW(detector.detect(), Bad_mesh);
-}
-
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Bad_mesh& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(Detector, a_bad_mesh_in_a_frame_is_named_by_id_and_name) {
@@ -119,10 +114,11 @@ TEST(Detector, a_bad_mesh_in_a_frame_is_named_by_id_and_name) {
       };
       const Surface_mesh original = scene[1];
       deform(scene[1], [](const Point& p) { return Point(p.x(), infinity, p.z()); });
-      EXPECT_TRUE(message_of(next_frame).find(title) != std::string::npos) << message_of(next_frame);
+      EXPECT_TRUE(message_of<Bad_mesh>(next_frame).find(title) != std::string::npos)
+          << message_of<Bad_mesh>(next_frame);
       for (const auto v : scene[1].vertices()) scene[1].point(v) = original.point(v);
       scene[1].add_vertex(Point(0, 0, 0));
-      const std::string message = message_of(next_frame);
+      const std::string message = message_of<Bad_mesh>(next_frame);
       EXPECT_TRUE(message.find(title) != std::string::npos && message.find("rebuild()") != std::string::npos)
           << message;
     }

@@ -181,6 +181,14 @@ TEST(Topology, a_list_without_faces_whose_corners_are_gone_is_refused) {
   EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
 }
 
+/// File vertices by which the last vertex of a mesh counts as its first.
+std::vector<std::uint32_t> last_joined_to_first(const Surface_mesh& mesh) {
+  std::vector<std::uint32_t> file_vertex(mesh.number_of_vertices());
+  std::iota(file_vertex.begin(), file_vertex.end(), 0U);
+  file_vertex.back() = 0;
+  return file_vertex;
+}
+
 TEST(Topology, changed_faces_that_do_not_exist_are_refused) {
   auto a = sphere(5), b = sphere(5, 1, {1.5, 0, 0});
   Exact_detector detector(all_exact);
@@ -191,11 +199,8 @@ TEST(Topology, changed_faces_that_do_not_exist_are_refused) {
   EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
 
   // The same for an object whose doubled vertices count as one.
-  std::vector<std::uint32_t> file_vertex(a.number_of_vertices());
-  std::iota(file_vertex.begin(), file_vertex.end(), 0U);
-  file_vertex.back() = 0;
   Exact_detector joining(all_exact);
-  joining.add(std::as_const(a), {.file_vertex = file_vertex});
+  joining.add(std::as_const(a), {.file_vertex = last_joined_to_first(a)});
   const auto contacts = joining.detect().face_pairs;
   EXPECT_THROW(joining.rebuild(0, Changed_faces{beyond}), Bad_argument);
   EXPECT_EQ(joining.detect().face_pairs, contacts);
@@ -240,11 +245,8 @@ TEST(Topology, faces_that_are_listed_as_changed_may_be_gone_before_the_next_quer
 
 TEST(Topology, doubled_vertices_are_apart_after_known_faces_have_changed) {
   auto a = sphere(5);
-  std::vector<std::uint32_t> file_vertex(a.number_of_vertices());
-  std::iota(file_vertex.begin(), file_vertex.end(), 0U);
-  file_vertex.back() = 0;
   Exact_detector detector(all_exact);
-  detector.add(std::as_const(a), {.file_vertex = file_vertex});
+  detector.add(std::as_const(a), {.file_vertex = last_joined_to_first(a)});
   detector.detect();
   std::set<std::uint32_t> changed;
   list_faces_around(a, Halfedge_index(0), changed);

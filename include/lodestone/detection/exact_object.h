@@ -190,8 +190,8 @@ void Exact_object<Volume>::load(State_reader& state, bool with_rest) {
   Basic_tree_surface<Volume> loaded(corners());
   loaded.load(state, mesh().vertex_count());
   state.end();
-  State_reader::require(!with_rest || !loaded.rest().empty(),
-                        "it was saved without positions at rest, which a tolerance within an object needs");
+  if (with_rest && loaded.rest().empty())
+    throw Bad_saved_object("the object was saved without positions at rest, which a tolerance within one object needs");
   // From here on nothing can fail but for want of memory.
   surface = std::move(loaded);
   regions_ = std::move(regions);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -56,6 +57,13 @@ class State_reader {
     T value;
     std::memcpy(&value, next(1, sizeof(T)).data(), sizeof(T));
     return value;
+  }
+  /// A number that is neither infinite nor NaN.
+  /// @throws Bad_saved_object  it is; the bytes end too early
+  double finite() {
+    const auto number = value<double>();
+    require(std::isfinite(number), "a number is not finite");
+    return number;
   }
   /// @throws Bad_saved_object  the bytes end too early
   template <Savable T>

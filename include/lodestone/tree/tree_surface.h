@@ -50,7 +50,7 @@ class Basic_tree_surface : public Object_surface {
   /// refit. O(V + F).
   /// @throws Bad_saved_object  the surface stays as it was
   void load(State_reader& state, std::size_t vertex_count) {
-    const auto looseness = state.value<double>();
+    const double looseness = state.finite();
     auto rest = state.list<double>();
     State_reader::require(rest.empty() || rest.size() == 3 * vertex_count, "it has other positions than vertices");
     State_reader::require(std::ranges::all_of(rest, [](double x) { return std::isfinite(x); }),
