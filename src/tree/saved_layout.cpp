@@ -46,9 +46,9 @@ Tree_layout Tree_layout::load(State_reader& state, std::span<const Corners> corn
   layout.nodes_ = state.list<Node>();
   layout.face_begin_ = state.list<std::uint32_t>();
   layout.vertex_begin_ = state.list<std::uint32_t>();
-  layout.faces_ = state.list<std::uint32_t>();
-  layout.vertices_ = state.list<std::uint32_t>();
-  layout.corners_ = state.list<Leaf_corners>();
+  state.list(layout.faces_);
+  state.list(layout.vertices_);
+  state.list(layout.corners_);
   for (std::uint32_t n = 0; n < layout.nodes_.size(); ++n)
     if (layout.is_leaf(n)) layout.leaf_nodes_.push_back(n);
 
@@ -60,7 +60,7 @@ Tree_layout Tree_layout::load(State_reader& state, std::span<const Corners> corn
   if (const std::string wrong = layout.validate_layout(corners, vertex_count); !wrong.empty())
     State_reader::fail(wrong);
   State_reader::require(!is_too_deep(layout.nodes_), "its tree has too many levels");
-  layout.corners_.resize(layout.corners_.size() + kernel::faces_ahead);
+  layout.corners_.resize(layout.corners_.size() + kernel::faces_ahead, {});
   layout.finish();
   return layout;
 }

@@ -17,6 +17,7 @@ constexpr std::size_t faces_at_once = 16384, leaves_at_once = 256;
 }  // namespace
 
 void Tree_builder::build() {
+  make_room(corners_.size());
   read_items();
   group_by_region();
   std::size_t leaves = 0;
@@ -26,7 +27,17 @@ void Tree_builder::build() {
   std::vector<Branch> branches;
   add_regions(regions, spare, {.leaves = static_cast<std::uint32_t>(leaves)}, branches);
   add_branches(std::move(branches));
-  list_vertices();
+  size_vertices();
+  workers_.run(leaves / leaves_at_once + 1, [&](std::size_t index, std::size_t) {
+    gather_vertices(index * leaves_at_once, std::min((index + 1) * leaves_at_once, leaves));
+  });
+}
+
+/// @param faces  how many are to be grouped
+void Tree_builder::make_room(std::size_t faces) {
+  items_.resize(faces);
+  spare_.resize(faces);
+  vertices_.resize(3 * faces);
 }
 
 void Tree_builder::read_items() {
@@ -66,6 +77,8 @@ void Tree_builder::size_lists(std::size_t leaves) {
   tree_.vertex_begin_.resize(leaves + 1);
   tree_.faces_.resize(corners_.size());
   tree_.corners_.resize(corners_.size() + kernel::faces_ahead);
+  std::fill_n(tree_.corners_.end() - kernel::faces_ahead, kernel::faces_ahead, Leaf_corners{});
+  item_begin_.resize(leaves);
 }
 
 /// The regions that have faces.
@@ -121,10 +134,7 @@ void Tree_builder::add_branches(std::vector<Branch> branches) {
     }
   }
   std::vector<Leaf_maker> makers(workers_.count());
-  workers_.run(branches.size(), [&](std::size_t i, std::size_t worker) {
-    makers[worker].marks.resize(coordinates_.size() / 3);
-    add_branch(branches[i], makers[worker]);
-  });
+  workers_.run(branches.size(), [&](std::size_t i, std::size_t worker) { add_branch(branches[i], makers[worker]); });
 }
 
 void Tree_builder::add_branch(const Branch& branch, Leaf_maker& maker) {
@@ -170,19 +180,24 @@ void Tree_builder::add_leaf(const Branch& branch, Leaf_maker& maker) {
   std::ranges::transform(items, faces.begin(), &Split_item::index);
   maker.sort(faces.data(), count, hwy::SortAscending());
 
-  const auto vertices = std::span(vertices_).subspan(3 * std::size_t{branch.face}, 3 * count);
-  auto& marks = maker.marks;
-  std::size_t vertex_count = 0;
-  for (const auto face : faces)
-    for (const auto vertex : corners_[face])
-      if (std::exchange(marks[vertex].leaf, branch.leaf + 1) != branch.leaf + 1) vertices[vertex_count++] = vertex;
-  maker.sort(vertices.data(), vertex_count, hwy::SortAscending());
-  for (std::size_t i = 0; i < vertex_count; ++i) marks[vertices[i]].place = static_cast<std::uint16_t>(i);
+  auto& numbers = maker.numbers;
+  numbers.start_leaf();
+  const auto corners = std::span(tree_.corners_).subspan(branch.face, count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [a, b, c] = corners_[faces[i]];
-    tree_.corners_[branch.face + i] = {marks[a].place, marks[b].place, marks[c].place};
+    corners[i] = {numbers[a], numbers[b], numbers[c]};
   }
-  add_leaf_node(branch, vertex_count);
+  const auto numbered = numbers.vertices();
+  maker.sort(numbered.data(), numbered.size(), hwy::SortAscending());
+  const auto vertices = vertices_.begin() + 3 * std::ptrdiff_t{branch.begin};
+  std::array<std::uint16_t, 3 * most_leaf_faces> places;  // by number
+  for (std::uint16_t place = 0; place < numbered.size(); ++place) {
+    vertices[place] = static_cast<std::uint32_t>(numbered[place] >> 32U);
+    places[numbered[place] & 0xffffU] = place;
+  }
+  for (auto& [a, b, c] : corners) a = places[a], b = places[b], c = places[c];
+  item_begin_[branch.leaf] = branch.begin;
+  add_leaf_node(branch, numbered.size());
 }
 
 /// All of a leaf but its lists.
@@ -193,21 +208,21 @@ void Tree_builder::add_leaf_node(const Branch& branch, std::size_t vertex_count)
   tree_.vertex_begin_[branch.leaf + 1] = static_cast<std::uint32_t>(vertex_count);
 }
 
-/// Moves the leaves' lists of vertices together.
-/// @param copied  per leaf: its list, if that is not in `vertices_`; empty: all are there
-void Tree_builder::list_vertices(std::span<const std::span<const std::uint32_t>> copied) {
+/// All leaves are there and know how many vertices they have.
+void Tree_builder::size_vertices() {
   auto& begin = tree_.vertex_begin_;
   for (std::size_t leaf = 0; leaf + 1 < begin.size(); ++leaf) begin[leaf + 1] += begin[leaf];
   tree_.vertices_.reserve(begin.back() + kernel::vertices_ahead + 4);
   tree_.vertices_.resize(begin.back());
-  workers_.run(tree_.leaf_count() / leaves_at_once + 1, [&](std::size_t index, std::size_t) {
-    const std::size_t end = std::min((index + 1) * leaves_at_once, tree_.leaf_count());
-    for (std::size_t leaf = index * leaves_at_once; leaf < end; ++leaf) {
-      std::span<const std::uint32_t> list = vertices_.subspan(3 * std::size_t{tree_.face_begin_[leaf]});
-      if (!copied.empty() && !copied[leaf].empty()) list = copied[leaf];
-      std::copy_n(list.begin(), begin[leaf + 1] - begin[leaf], tree_.vertices_.begin() + begin[leaf]);
-    }
-  });
+}
+
+/// Moves the vertices of leaves that were made here to the list of the tree.
+void Tree_builder::gather_vertices(std::size_t first_leaf, std::size_t end_leaf) {
+  for (std::size_t leaf = first_leaf; leaf < end_leaf; ++leaf) {
+    const auto begin = tree_.vertex_begin_[leaf], end = tree_.vertex_begin_[leaf + 1];
+    std::copy_n(vertices_.begin() + 3 * std::ptrdiff_t{item_begin_[leaf]}, end - begin,
+                tree_.vertices_.begin() + begin);
+  }
 }
 
 }  // namespace lodestone

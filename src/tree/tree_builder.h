@@ -3,12 +3,12 @@
 
 #include <hwy/contrib/sort/vqsort.h>
 
-#include <memory>
 #include <utility>
 
 #include "lodestone/mesh/workers.h"
 #include "lodestone/tree/tree_layout.h"
 #include "tree/face_split.h"
+#include "tree/leaf_numbering.h"
 
 namespace lodestone {
 
@@ -25,13 +25,7 @@ class Tree_builder {
         labels_(labels),
         coordinates_(coordinates),
         leaf_faces_(options.leaf_faces),
-        workers_(workers),
-        item_memory_(std::make_unique_for_overwrite<Split_item[]>(corners.size())),
-        spare_memory_(std::make_unique_for_overwrite<Split_item[]>(corners.size())),
-        vertex_memory_(std::make_unique_for_overwrite<std::uint32_t[]>(3 * corners.size())),
-        items_(item_memory_.get(), corners.size()),
-        spare_(spare_memory_.get(), corners.size()),
-        vertices_(vertex_memory_.get(), 3 * corners.size()) {}
+        workers_(workers) {}
 
   void build();
 
@@ -43,17 +37,13 @@ class Tree_builder {
     std::uint32_t leaves = 0;                    ///< how many; 1: the node is one
     std::uint32_t node = 0, leaf = 0, face = 0;  ///< places in the tree's lists: of the node, its first leaf, its faces
   };
-  /// For a vertex: the last leaf that it was found in, plus 1, and its place in that leaf's list.
-  struct Mark {
-    std::uint32_t leaf = 0;
-    std::uint16_t place = 0;
-  };
   /// What a worker needs to make leaves.
   struct Leaf_maker {
-    std::vector<Mark> marks;  ///< per vertex
+    Leaf_numbering numbers;
     hwy::Sorter sort;
   };
 
+  void make_room(std::size_t faces);
   void read_items();
   void group_by_region();
   Region_index region_of(std::uint32_t face) const;
@@ -67,7 +57,8 @@ class Tree_builder {
   std::pair<Branch, Branch> add_inner_node(const Branch& branch, std::uint32_t first_faces, std::uint32_t first_leaves);
   void add_leaf(const Branch& branch, Leaf_maker& maker);
   void add_leaf_node(const Branch& branch, std::size_t vertex_count);
-  void list_vertices(std::span<const std::span<const std::uint32_t>> copied = {});
+  void size_vertices();
+  void gather_vertices(std::size_t first_leaf, std::size_t end_leaf);
 
   std::uint32_t faces_of(Region_index region) const { return region_begin_[region + 1] - region_begin_[region]; }
   /// As few as possible, of nearly equal size: plain halving would fill them anywhere between half and whole.
@@ -81,11 +72,9 @@ class Tree_builder {
   Coordinates coordinates_;
   std::size_t leaf_faces_;
   Workers& workers_;
-  // Lists are not set before they are written: that would cost more than some of the steps.
-  std::unique_ptr<Split_item[]> item_memory_, spare_memory_;
-  std::unique_ptr<std::uint32_t[]> vertex_memory_;
-  std::span<Split_item> items_, spare_;      ///< per face; a branch lies in one of the two
-  std::span<std::uint32_t> vertices_;        ///< of each leaf, from three times the place of its first face
+  Unset_vector<Split_item> items_, spare_;   ///< per face to be grouped; a branch lies in one of the two
+  Unset_vector<std::uint32_t> vertices_;     ///< of each leaf, from three times the place of its first item
+  std::vector<std::uint32_t> item_begin_;    ///< per leaf that is made here: where its items start
   std::vector<std::uint32_t> region_begin_;  ///< per region and past the last: where its faces start in `items_`
 };
 

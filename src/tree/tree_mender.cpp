@@ -2,6 +2,7 @@
 #include "tree/tree_mender.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -14,8 +15,7 @@ namespace {
 /// With more than this share of its faces changed, a tree is built anew.
 constexpr std::size_t most_changed = 8;
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();  // asks for the leaf of a vertex
-constexpr std::uint32_t unknown = nobody - 1;
+constexpr std::uint32_t not_placed = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
@@ -29,34 +29,52 @@ Tree_mender::Tree_mender(const Tree_layout& former, Tree_layout& tree, std::span
     moved_.push_back(static_cast<std::uint32_t>(face));
   std::ranges::sort(moved_);
   moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
-  left_.assign(std::max(former_faces, corners.size()), 0);
-  std::fill(left_.begin() + static_cast<std::ptrdiff_t>(corners.size()), left_.end(), std::uint8_t{1});
-  for (const auto face : moved_) left_[face] = 1;
+  left_.resize(corners.size(), false);
+  left_.resize(std::max(former_faces, corners.size()), true);
+  for (const auto face : moved_) left_.set(face);
 }
 
 bool Tree_mender::mend() {
-  if (moved_.size() > corners_.size() / most_changed || !place_faces() || !size_leaves()) return false;
+  if (moved_.size() > corners_.size() / most_changed) return false;
+  find_left_faces();
+  if (!place_faces() || !size_leaves()) return false;
   size_lists(leaf_begin_.back());
   std::vector<Branch> branches;
   add_node(0, branches);
+  if (!finite_) return false;
   add_branches(std::move(branches));
-  std::vector<std::span<const std::uint32_t>> copied(tree_.leaf_count());
-  for (std::uint32_t leaf = 0; leaf < former_.leaf_count(); ++leaf)
-    if (!touched_[leaf]) copied[leaf_begin_[leaf]] = former_.vertices(leaf);
-  list_vertices(copied);
+  size_vertices();
+  copy_leaves();
   return true;
 }
 
-/// Gives each moved face to a leaf that has one of its vertices, or one of a moved face beside it, and so on.
+/// Which leaves faces have left, and how many each still has.
+void Tree_mender::find_left_faces() {
+  const std::size_t leaves = former_.leaf_count();
+  touched_.assign(leaves, false);
+  face_count_.resize(leaves);
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+    const auto faces = former_.faces(leaf);
+    std::uint32_t left = 0;
+    for (const auto face : faces) left += left_.test(face) ? 1 : 0;
+    face_count_[leaf] = static_cast<std::uint32_t>(faces.size()) - left;
+    touched_[leaf] = left > 0;
+  }
+}
+
+/// Gives each moved face to a leaf that has one of its vertices, or one of a moved face beside it, and so on. Most find
+/// one among the leaves that faces have left, so the others are looked through only for those that do not.
 /// @return false if there is none: the face belongs to a piece that is new
 bool Tree_mender::place_faces() {
-  std::vector<std::uint32_t> leaf_of(coordinates_.size() / 3, unknown);
+  Vertex_leaves leaf_of(coordinates_.size() / 3);
   for (const auto face : moved_)
-    for (const auto vertex : corners_[face]) leaf_of[vertex] = nobody;
-  find_leaves_of_vertices(leaf_of);
-  std::vector<std::uint32_t> reached, waiting;
-  for (const auto face : moved_)
-    if (!place(face, leaf_of, reached)) waiting.push_back(face);
+    for (const auto vertex : corners_[face]) leaf_of[vertex] = not_placed;
+  std::vector<std::uint32_t> reached, waiting = moved_;
+  for (const bool everywhere : {false, true}) {
+    if (waiting.empty()) break;
+    find_leaves_of_vertices(waiting, everywhere, leaf_of);
+    std::erase_if(waiting, [&](std::uint32_t face) { return place(face, leaf_of, reached); });
+  }
   if (!waiting.empty() && !place_waiting_faces(leaf_of, std::move(waiting))) return false;
   std::ranges::sort(placed_, {},
                     [](const Placed_face& placed) { return std::uint64_t{placed.leaf} << 32U | placed.face; });
@@ -65,14 +83,14 @@ bool Tree_mender::place_faces() {
 
 /// Gives a face to the leaf of one of its vertices, if one has a leaf; then all have.
 /// @param reached  the vertices that had none are appended
-bool Tree_mender::place(std::uint32_t face, std::vector<std::uint32_t>& leaf_of, std::vector<std::uint32_t>& reached) {
+bool Tree_mender::place(std::uint32_t face, Vertex_leaves& leaf_of, std::vector<std::uint32_t>& reached) {
   const auto& corners = corners_[face];
-  const auto with_leaf = std::ranges::find_if(corners, [&](auto vertex) { return leaf_of[vertex] < unknown; });
+  const auto with_leaf = std::ranges::find_if(corners, [&](auto vertex) { return leaf_of[vertex] != not_placed; });
   if (with_leaf == corners.end()) return false;
   const std::uint32_t leaf = leaf_of[*with_leaf];
   placed_.push_back({leaf, face});
   for (const auto vertex : corners)
-    if (leaf_of[vertex] >= unknown) {
+    if (leaf_of[vertex] == not_placed) {
       leaf_of[vertex] = leaf;
       reached.push_back(vertex);
     }
@@ -81,7 +99,7 @@ bool Tree_mender::place(std::uint32_t face, std::vector<std::uint32_t>& leaf_of,
 
 /// Faces between new vertices: from the faces that have been placed outwards.
 /// @return whether all have been placed
-bool Tree_mender::place_waiting_faces(std::vector<std::uint32_t>& leaf_of, std::vector<std::uint32_t> waiting) {
+bool Tree_mender::place_waiting_faces(Vertex_leaves& leaf_of, std::vector<std::uint32_t> waiting) {
   using Vertex_and_face = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<Vertex_and_face> faces_at;  // by their vertices
   for (const auto face : waiting)
@@ -93,7 +111,7 @@ bool Tree_mender::place_waiting_faces(std::vector<std::uint32_t>& leaf_of, std::
   for (const auto face : waiting) {
     waits[face] = true;
     for (const auto vertex : corners_[face])
-      if (leaf_of[vertex] < unknown) queue.push_back(vertex);  // since a face beside it was placed later
+      if (leaf_of[vertex] != not_placed) queue.push_back(vertex);  // since a face beside it was placed later
   }
   while (!queue.empty()) {
     const std::uint32_t vertex = queue.back();
@@ -107,25 +125,28 @@ bool Tree_mender::place_waiting_faces(std::vector<std::uint32_t>& leaf_of, std::
   return left == 0;
 }
 
-void Tree_mender::find_leaves_of_vertices(std::vector<std::uint32_t>& leaf_of) const {
-  for (std::uint32_t leaf = 0; leaf < former_.leaf_count(); ++leaf)
+/// The first former leaf of each vertex that has none yet.
+/// @param everywhere  not only in leaves that faces have left
+void Tree_mender::find_leaves_of_vertices(std::span<const std::uint32_t> faces, bool everywhere,
+                                          Vertex_leaves& leaf_of) const {
+  boost::dynamic_bitset<> wanted(leaf_of.size());
+  for (const auto face : faces)
+    for (const auto vertex : corners_[face])
+      if (leaf_of[vertex] == not_placed) wanted.set(vertex);
+  for (std::uint32_t leaf = 0; leaf < former_.leaf_count(); ++leaf) {
+    if (!everywhere && !touched_[leaf]) continue;
     for (const auto vertex : former_.vertices(leaf))
-      if (vertex < leaf_of.size() && leaf_of[vertex] == nobody) leaf_of[vertex] = leaf;
+      if (vertex < wanted.size() && wanted.test(vertex)) {
+        leaf_of[vertex] = leaf;
+        wanted.reset(vertex);
+      }
+  }
 }
 
 /// Finds which leaves are made anew, and how many leaves each becomes.
 /// @return false if leaves would be much emptier than in a new tree
 bool Tree_mender::size_leaves() {
   const std::size_t leaves = former_.leaf_count();
-  touched_.assign(leaves, false);
-  face_count_.resize(leaves);
-  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
-    const auto faces = former_.faces(leaf);
-    std::uint32_t left = 0;
-    for (const auto face : faces) left += left_[face];
-    face_count_[leaf] = static_cast<std::uint32_t>(faces.size()) - left;
-    touched_[leaf] = left > 0;
-  }
   for (const auto& [leaf, face] : placed_) {
     ++face_count_[leaf];
     touched_[leaf] = true;
@@ -141,7 +162,12 @@ bool Tree_mender::size_leaves() {
     leaf_begin_.push_back(leaf_begin_.back() + becomes);
     face_begin_.push_back(face_begin_.back() + count);
   }
-  return leaf_begin_.back() <= 2 * leaves_for(corners_.size());
+  if (leaf_begin_.back() > 2 * leaves_for(corners_.size())) return false;
+  std::size_t touched_faces = 0;
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf)
+    if (touched_[leaf]) touched_faces += face_count_[leaf];
+  make_room(touched_faces);
+  return true;
 }
 
 std::uint32_t Tree_mender::leaves_below(std::uint32_t former_node) const {
@@ -153,19 +179,16 @@ std::uint32_t Tree_mender::leaves_below(std::uint32_t former_node) const {
 void Tree_mender::add_node(std::uint32_t former_node, std::vector<Branch>& branches) {
   const auto& node = former_.node(former_node);
   if (former_.is_leaf(former_node)) {
-    const Branch branch{.begin = face_begin_[node.leaf],
-                        .end = face_begin_[node.leaf + 1],
-                        .leaves = leaves_below(former_node),
-                        .node = next_node_,
-                        .leaf = leaf_begin_[node.leaf],
-                        .face = face_begin_[node.leaf]};
+    Branch branch{.leaves = leaves_below(former_node),
+                  .node = next_node_,
+                  .leaf = leaf_begin_[node.leaf],
+                  .face = face_begin_[node.leaf]};
     next_node_ += 2 * branch.leaves - 1;
-    if (touched_[node.leaf]) {
-      fill_items(node.leaf, branch.leaves > 1);
-      branches.push_back(branch);
-    } else {
-      copy_leaf(node.leaf, branch);
-    }
+    if (!touched_[node.leaf]) return add_leaf_node(branch, former_.vertices(node.leaf).size());
+    branch.begin = next_item_;
+    next_item_ = branch.end = branch.begin + face_count_[node.leaf];
+    fill_items(node.leaf, branch.begin, branch.leaves > 1);
+    branches.push_back(branch);
     return;
   }
   const std::uint32_t first = former_node + 1, second = node.second_child;
@@ -178,19 +201,32 @@ void Tree_mender::add_node(std::uint32_t former_node, std::vector<Branch>& branc
   add_node(second, branches);
 }
 
-void Tree_mender::copy_leaf(std::uint32_t former_leaf, const Branch& branch) {
-  const auto copy = [](const auto& from, auto to) { std::copy(from.begin(), from.end(), to); };
-  copy(former_.faces(former_leaf), tree_.faces_.begin() + branch.face);
-  copy(former_.corners(former_leaf), tree_.corners_.begin() + branch.face);
-  add_leaf_node(branch, former_.vertices(former_leaf).size());
+/// The lists of untouched leaves, as many at once as follow each other, and the vertices of the others.
+void Tree_mender::copy_leaves() {
+  const auto copy = [](const auto& from, std::size_t begin, std::size_t end, auto& to, std::size_t at) {
+    std::copy(from.data() + begin, from.data() + end, to.data() + at);
+  };
+  for (std::uint32_t first = 0, end = 0; first < former_.leaf_count(); first = end) {
+    end = first + 1;
+    while (end < former_.leaf_count() && touched_[end] == touched_[first]) ++end;
+    if (touched_[first]) {
+      gather_vertices(leaf_begin_[first], leaf_begin_[end]);
+      continue;
+    }
+    const auto faces = former_.face_begin_[first], end_face = former_.face_begin_[end];
+    copy(former_.faces_, faces, end_face, tree_.faces_, face_begin_[first]);
+    copy(former_.corners_, faces, end_face, tree_.corners_, face_begin_[first]);
+    copy(former_.vertices_, former_.vertex_begin_[first], former_.vertex_begin_[end], tree_.vertices_,
+         tree_.vertex_begin_[leaf_begin_[first]]);
+  }
 }
 
 /// The faces that a touched leaf has now; only those that are split need their centres.
-void Tree_mender::fill_items(std::uint32_t former_leaf, bool with_centres) {
-  auto* item = items_.data() + face_begin_[former_leaf];
+void Tree_mender::fill_items(std::uint32_t former_leaf, std::uint32_t begin, bool with_centres) {
+  auto* item = items_.data() + begin;
   std::vector<std::uint32_t> faces;
   for (const auto face : former_.faces(former_leaf))
-    if (left_[face] == 0) faces.push_back(face);
+    if (!left_.test(face)) faces.push_back(face);
   for (const auto& placed : std::ranges::equal_range(placed_, former_leaf, {}, &Placed_face::leaf))
     faces.push_back(placed.face);
   if (!with_centres) {
@@ -198,7 +234,11 @@ void Tree_mender::fill_items(std::uint32_t former_leaf, bool with_centres) {
     return;
   }
   const Float_frame frame(coordinates_, corners_, faces);
-  for (const auto face : faces) *item++ = {frame.mean(corners_[face]), face};
+  for (const auto face : faces) {
+    *item = {frame.mean(corners_[face]), face};
+    for (const float x : item->centre) finite_ = finite_ && std::isfinite(x);
+    ++item;
+  }
 }
 
 }  // namespace lodestone

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <boost/dynamic_bitset.hpp>
+
 #include "tree/tree_builder.h"
 
 namespace lodestone {
@@ -25,25 +27,29 @@ class Tree_mender : private Tree_builder {
     auto operator<=>(const Placed_face&) const = default;
   };
 
+  using Vertex_leaves = Unset_vector<std::uint32_t>;  ///< of the vertices of moved faces; all others are not set
+
+  void find_left_faces();
   bool place_faces();
-  bool place_waiting_faces(std::vector<std::uint32_t>& leaf_of, std::vector<std::uint32_t> waiting);
-  bool place(std::uint32_t face, std::vector<std::uint32_t>& leaf_of, std::vector<std::uint32_t>& reached);
-  void find_leaves_of_vertices(std::vector<std::uint32_t>& leaf_of) const;
+  bool place_waiting_faces(Vertex_leaves& leaf_of, std::vector<std::uint32_t> waiting);
+  bool place(std::uint32_t face, Vertex_leaves& leaf_of, std::vector<std::uint32_t>& reached);
+  void find_leaves_of_vertices(std::span<const std::uint32_t> faces, bool everywhere, Vertex_leaves& leaf_of) const;
   bool size_leaves();
   void add_node(std::uint32_t former_node, std::vector<Branch>& branches);
-  void copy_leaf(std::uint32_t former_leaf, const Branch& branch);
-  void fill_items(std::uint32_t former_leaf, bool with_centres);
+  void copy_leaves();
+  void fill_items(std::uint32_t former_leaf, std::uint32_t begin, bool with_centres);
   std::uint32_t leaves_below(std::uint32_t former_node) const;
 
   const Tree_layout& former_;
-  std::vector<std::uint8_t> left_;         ///< per former or new face: 1 if it has left its leaf
+  boost::dynamic_bitset<> left_;           ///< per former or new face: whether it has left its leaf
   std::vector<std::uint32_t> moved_;       ///< the changed and the new faces, ascending
   std::vector<Placed_face> placed_;        ///< the same with their leaves, ascending
   std::vector<bool> touched_;              ///< per former leaf: whether its faces are others now
   std::vector<std::uint32_t> face_count_;  ///< per former leaf: of its faces now
   std::vector<std::uint32_t> leaf_begin_;  ///< per former leaf and past the last: the first of the leaves it becomes
   std::vector<std::uint32_t> face_begin_;  ///< per former leaf: where its faces start
-  std::uint32_t next_node_ = 0;
+  std::uint32_t next_node_ = 0, next_item_ = 0;
+  bool finite_ = true;  ///< the centres of faces that are split
 };
 
 }  // namespace lodestone

@@ -59,8 +59,12 @@ class Exact_object {
   /// The same, reading only what has changed where the type of the mesh allows that.
   void rebuild(const Changed_faces& changed);
 
-  /// Gives the surface a tree. Without regions, the tree that it had before its faces changed is mended where that is
-  /// enough.
+  /// Mends the tree that the surface had before its faces changed, if there is one and it has no regions. Call it
+  /// before `build`, which is then needless.
+  /// @param coordinates  3 V; must stay unchanged until the next refit
+  /// @return false if the surface needs a new tree, or if a coordinate that faces use is not finite
+  bool mend(Coordinates coordinates, const Region_tree_options& options, Workers& workers);
+  /// Gives the surface a new tree.
   /// @param regions      none: without regions
   /// @param coordinates  3 V, all finite; must stay unchanged until the next refit
   void build(std::optional<Numbered_partition> regions, Coordinates coordinates, const Region_tree_options& options,
@@ -148,14 +152,20 @@ void Exact_object<Volume>::start_anew(const std::vector<std::uint32_t>& changed)
 }
 
 template <Bounding_volume Volume>
+bool Exact_object<Volume>::mend(Coordinates coordinates, const Region_tree_options& options, Workers& workers) {
+  auto former = std::exchange(former_, std::nullopt);
+  if (!former || regions_) return false;
+  if (!surface.mend(std::move(former->surface), former->changed, coordinates, options, workers)) return false;
+  finish();
+  return true;
+}
+
+template <Bounding_volume Volume>
 void Exact_object<Volume>::build(std::optional<Numbered_partition> regions, Coordinates coordinates,
                                  const Region_tree_options& options, Workers& workers) {
-  auto former = std::exchange(former_, std::nullopt);
-  const bool mended =
-      former && !regions && surface.mend(std::move(former->surface), former->changed, coordinates, options, workers);
-  if (!mended)
-    surface.build(regions ? std::span<const Region_index>(regions->labels) : std::span<const Region_index>(),
-                  coordinates, options, workers);
+  former_.reset();
+  surface.build(regions ? std::span<const Region_index>(regions->labels) : std::span<const Region_index>(), coordinates,
+                options, workers);
   regions_ = std::move(regions);
   finish();
 }

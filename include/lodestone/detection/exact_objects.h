@@ -70,6 +70,10 @@ class Exact_objects {
   void build_new(std::span<const Object_id> ids);
   void rebuild_loose(std::span<const Object_id> ids);
   void build(Object_id id, Coordinates coordinates);
+  /// How many regions are asked for; 0: none.
+  std::size_t region_count(const Object& object) const {
+    return object.particles > 0 ? object.particles : options_.particles;
+  }
   std::optional<Numbered_partition> divide(Object& object, Coordinates coordinates) const;
 
   Detector_options options_;
@@ -139,10 +143,12 @@ void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
   }
 }
 
-/// Builds a tree, over regions if they are asked for.
+/// Mends the tree of an object of which some faces have changed, or builds one, over regions if they are asked for.
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
   Object& object = *objects_[id];
+  if (region_count(object) == 0 && object.mend(coordinates, options_.exact.tree, workers_))
+    return check_finite(coordinates, object.unused(), object.title);
   check_finite(coordinates, object.title);
   object.build(divide(object, coordinates), coordinates, options_.exact.tree, workers_);
 }
@@ -150,7 +156,7 @@ void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
 /// @return none if no regions are asked for
 template <Bounding_volume Volume>
 std::optional<Numbered_partition> Exact_objects<Volume>::divide(Object& object, Coordinates coordinates) const {
-  const std::size_t regions = object.particles > 0 ? object.particles : options_.particles;
+  const std::size_t regions = region_count(object);
   if (regions == 0) return std::nullopt;
   Watched_mesh& mesh = object.mesh();
   const Vertex_graph graph = vertex_graph(mesh.vertex_count(), mesh.corners());

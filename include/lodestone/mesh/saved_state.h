@@ -32,8 +32,8 @@ class State_writer {
     value(std::uint64_t{values.size()});
     bytes(std::as_bytes(values));
   }
-  template <Savable T>
-  void list(const std::vector<T>& values) {
+  template <Savable T, typename Allocator>
+  void list(const std::vector<T, Allocator>& values) {
     list(std::span<const T>(values));
   }
 
@@ -68,11 +68,17 @@ class State_reader {
   /// @throws Bad_saved_object  the bytes end too early
   template <Savable T>
   std::vector<T> list() {
+    std::vector<T> values;
+    list(values);
+    return values;
+  }
+  /// @throws Bad_saved_object  the bytes end too early
+  template <Savable T, typename Allocator>
+  void list(std::vector<T, Allocator>& values) {
     const auto count = value<std::uint64_t>();
     const auto bytes = next(count, sizeof(T));
-    std::vector<T> values(count);
+    values.resize(count);
     if (count > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
   }
   /// @throws Bad_saved_object  there are more bytes
   void end() const;

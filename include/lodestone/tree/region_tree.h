@@ -63,7 +63,8 @@ class Basic_region_tree : public Tree_layout {
       : Tree_layout(std::move(layout)), volumes_(node_count()), part_sums_(parts().size()) {}
 
   /// Follows a change of some faces: see `mended`.
-  /// @return false if a new tree is better; this one stays as it is
+  /// @param coordinates  3 V'
+  /// @return false if a new tree is better, or if a coordinate that faces use is not finite; this one is then unusable
   bool mend(std::span<const Corners> corners, std::span<const std::uint32_t> changed, Coordinates coordinates,
             const Region_tree_options& options, Workers& workers = Workers::alone()) {
     auto layout = mended(corners, changed, coordinates, options, workers);
@@ -71,8 +72,7 @@ class Basic_region_tree : public Tree_layout {
     static_cast<Tree_layout&>(*this) = std::move(*layout);
     volumes_.assign(node_count(), {});
     part_sums_.assign(parts().size(), {});
-    fit(coordinates, workers);
-    return true;
+    return fit(coordinates, workers);
   }
 
   /// Fits all volumes to the current coordinates: those of leaves to the leaf's vertices, each of which is read once,
@@ -102,9 +102,9 @@ class Basic_region_tree : public Tree_layout {
   std::string validate(std::span<const Corners> corners, Coordinates coordinates) const;
 
  private:
-  void fit(Coordinates coordinates, Workers& workers) {
+  bool fit(Coordinates coordinates, Workers& workers) {
     workers.run(part_count(), [&](std::size_t part, std::size_t) { refit_part(part, coordinates); });
-    finish_refit(coordinates);
+    return finish_refit(coordinates);
   }
   void enclose_children(std::uint32_t n) { volumes_[n].enclose(volumes_[n + 1], volumes_[node(n).second_child]); }
 

@@ -9,6 +9,7 @@
 
 #include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/mesh/saved_state.h"
+#include "lodestone/mesh/unset_vector.h"
 #include "lodestone/mesh/workers.h"
 #include "lodestone/volumes/leaf_faces.h"
 
@@ -60,10 +61,11 @@ class Tree_layout {
   /// @param corners      F' >= 1 faces, now
   /// @param changed      indices below F' of the faces that have other corners than in this layout. Faces at F and
   ///                     beyond count as new without being listed, those at F' and beyond as removed
-  /// @param coordinates  3 V', all finite
+  /// @param coordinates  3 V'
   /// @param options      this layout must have been made without labels; leaves that are too full for the options are
   ///                     split
-  /// @return none if a new layout is better: many faces have changed, or a piece of the surface is new
+  /// @return none if a new layout is better: many faces have changed, or a piece of the surface is new; or if a
+  ///         coordinate that is needed is not finite
   std::optional<Tree_layout> mended(std::span<const Corners> corners, std::span<const std::uint32_t> changed,
                                     Coordinates coordinates, const Region_tree_options& options,
                                     Workers& workers = Workers::alone()) const;
@@ -128,9 +130,9 @@ class Tree_layout {
   std::vector<std::uint32_t> leaf_nodes_;
   std::vector<std::uint32_t> face_begin_;  ///< per leaf and past the last: where it starts in `faces_` and `corners_`
   std::vector<std::uint32_t> vertex_begin_;
-  std::vector<std::uint32_t> faces_;
-  std::vector<std::uint32_t> vertices_;
-  std::vector<Leaf_corners> corners_;  ///< padded for kernels that read ahead
+  Unset_vector<std::uint32_t> faces_;
+  Unset_vector<std::uint32_t> vertices_;
+  Unset_vector<Leaf_corners> corners_;  ///< padded for kernels that read ahead
   std::vector<Part> parts_;
   std::vector<std::uint32_t> top_nodes_;
 };

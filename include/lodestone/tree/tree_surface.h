@@ -30,7 +30,8 @@ class Basic_tree_surface : public Object_surface {
   }
 
   /// Takes the tree of a surface of which some faces have changed since, and mends it: see `Tree_layout::mended`.
-  /// @return false if a new tree is better; the former one is then gone
+  /// @param coordinates  3 V; must stay unchanged until the next refit
+  /// @return false if a new tree is better, or if a coordinate that faces use is not finite; the former tree is gone
   bool mend(Basic_tree_surface&& former, std::span<const std::uint32_t> changed, Coordinates coordinates,
             const Region_tree_options& options, Workers& workers = Workers::alone()) {
     tree_ = std::move(former.tree_);
