@@ -2,6 +2,7 @@
 #include "lodestone/mesh/joined_vertices.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <string>
 
@@ -14,8 +15,14 @@ namespace {
 /// @param used  bytes, not bits: a store need not wait for the last one
 std::vector<std::uint32_t> places_of_zeros(std::span<const std::uint8_t> used) {
   std::vector<std::uint32_t> places;
-  for (auto v = used.begin(); (v = std::find(v, used.end(), 0)) != used.end(); ++v)
-    places.push_back(static_cast<std::uint32_t>(v - used.begin()));
+  std::size_t v = 0;
+  const auto next_zero = [&]() -> const void* {
+    return v < used.size() ? std::memchr(used.data() + v, 0, used.size() - v) : nullptr;
+  };
+  while (const void* zero = next_zero()) {
+    v = static_cast<std::size_t>(static_cast<const std::uint8_t*>(zero) - used.data());
+    places.push_back(static_cast<std::uint32_t>(v++));
+  }
   return places;
 }
 

@@ -76,8 +76,7 @@ bool Tree_mender::place_faces() {
     std::erase_if(waiting, [&](std::uint32_t face) { return place(face, leaf_of, reached); });
   }
   if (!waiting.empty() && !place_waiting_faces(leaf_of, std::move(waiting))) return false;
-  std::ranges::sort(placed_, {},
-                    [](const Placed_face& placed) { return std::uint64_t{placed.leaf} << 32U | placed.face; });
+  hwy::Sorter()(placed_.data(), placed_.size(), hwy::SortAscending());
   return true;
 }
 
@@ -88,7 +87,7 @@ bool Tree_mender::place(std::uint32_t face, Vertex_leaves& leaf_of, std::vector<
   const auto with_leaf = std::ranges::find_if(corners, [&](auto vertex) { return leaf_of[vertex] != not_placed; });
   if (with_leaf == corners.end()) return false;
   const std::uint32_t leaf = leaf_of[*with_leaf];
-  placed_.push_back({leaf, face});
+  placed_.push_back(std::uint64_t{leaf} << 32U | face);
   for (const auto vertex : corners)
     if (leaf_of[vertex] == not_placed) {
       leaf_of[vertex] = leaf;
@@ -147,9 +146,9 @@ void Tree_mender::find_leaves_of_vertices(std::span<const std::uint32_t> faces, 
 /// @return false if leaves would be much emptier than in a new tree
 bool Tree_mender::size_leaves() {
   const std::size_t leaves = former_.leaf_count();
-  for (const auto& [leaf, face] : placed_) {
-    ++face_count_[leaf];
-    touched_[leaf] = true;
+  for (const auto placed : placed_) {
+    ++face_count_[leaf_with(placed)];
+    touched_[leaf_with(placed)] = true;
   }
   leaf_begin_ = {0};
   face_begin_ = {0};
@@ -227,8 +226,8 @@ void Tree_mender::fill_items(std::uint32_t former_leaf, std::uint32_t begin, boo
   std::vector<std::uint32_t> faces;
   for (const auto face : former_.faces(former_leaf))
     if (!left_.test(face)) faces.push_back(face);
-  for (const auto& placed : std::ranges::equal_range(placed_, former_leaf, {}, &Placed_face::leaf))
-    faces.push_back(placed.face);
+  for (const auto placed : std::ranges::equal_range(placed_, former_leaf, {}, leaf_with))
+    faces.push_back(static_cast<std::uint32_t>(placed));
   if (!with_centres) {
     for (const auto face : faces) *item++ = {{}, face};
     return;

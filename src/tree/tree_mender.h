@@ -21,12 +21,9 @@ class Tree_mender : private Tree_builder {
   bool mend();
 
  private:
-  /// A face that is not where it was, or new, and the former leaf that takes it.
-  struct Placed_face {
-    std::uint32_t leaf, face;
-    auto operator<=>(const Placed_face&) const = default;
-  };
-
+  /// In the lower half a face that is not where it was, or new, in the upper the former leaf that takes it.
+  using Placed_face = std::uint64_t;
+  static std::uint32_t leaf_with(Placed_face placed) { return static_cast<std::uint32_t>(placed >> 32U); }
   using Vertex_leaves = Unset_vector<std::uint32_t>;  ///< of the vertices of moved faces; all others are not set
 
   void find_left_faces();

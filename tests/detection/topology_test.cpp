@@ -12,6 +12,7 @@
 #include <set>
 
 #include "support/exact_truth.h"
+#include "support/message_of.h"
 
 namespace lodestone {
 namespace {
@@ -405,6 +406,31 @@ TEST(Topology, given_positions_are_not_taken_for_those_of_other_vertices) {
   append(a, mesh_of({{8, 0, 0}, {10, 0, 0}, {9, 1, 0}}, {{0, 1, 2}}));
   detector.rebuild(0);
   EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
+}
+
+TEST(Topology, a_coordinate_that_is_not_finite_is_named_and_the_next_frame_is_right) {
+  for (const std::size_t vertex : {std::size_t{3}, std::size_t{100}, std::size_t{146}})  // the last is of no face
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      auto a = sphere(6), b = sphere(6);
+      a.add_vertex(Point(0, 0, 0));
+      shift(b, 1.5);
+      ASSERT_EQ(a.number_of_vertices(), 147U);
+      Detector<> detector(all_exact);
+      detector.add(std::as_const(a));
+      detector.add(std::as_const(b));
+      detector.detect();
+      split(a, Halfedge_index(0));
+      auto& point = a.point(Surface_mesh::Vertex_index(static_cast<std::uint32_t>(vertex)));
+      const Point before = point;
+      point = Point(before.x(), value, before.z());
+      std::set<std::uint32_t> changed;
+      list_faces_around(a, Halfedge_index(0), changed);
+      detector.rebuild(0, Changed_faces{std::vector<std::uint32_t>(changed.begin(), changed.end())});
+      const auto message = message_of<Bad_mesh>([&] { detector.detect(); });
+      EXPECT_NE(message.find("vertex " + std::to_string(vertex) + " of object 0"), std::string::npos) << message;
+      point = before;
+      EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
+    }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -131,6 +132,41 @@ TEST(Tree_mender, a_strip_of_new_faces_is_placed_from_its_first_on) {
   soup.faces.insert(soup.faces.end(), strip.begin(), strip.end());
   ASSERT_TRUE(tree.mend(soup.faces, {}, soup.coordinates, {}));
   expect_tree(tree, soup, soup.coordinates);
+}
+
+TEST(Tree_mender, a_new_face_beside_leaves_without_a_change_is_placed_in_one_of_them) {
+  const Face_soup before(icosphere(20));
+  const Region_tree tree(before.faces, {}, before.coordinates);
+  for (const bool elsewhere : {false, true}) {  // whether other leaves have a change
+    auto soup = before;
+    soup.faces.push_back(soup.faces[200]);
+    if (elsewhere) std::swap(soup.faces[7000][0], soup.faces[7000][1]);
+    auto mended = tree;
+    ASSERT_TRUE(mended.mend(soup.faces, elsewhere ? Changed{7000} : Changed{}, soup.coordinates, {}));
+    expect_tree(mended, soup, soup.coordinates);
+    const auto new_face = static_cast<std::uint32_t>(before.faces.size());
+    std::size_t leaf = 0;
+    while (!std::ranges::binary_search(mended.faces(leaf), new_face)) ++leaf;
+    EXPECT_TRUE(std::ranges::any_of(mended.faces(leaf), [&](std::uint32_t face) {
+      return face != new_face &&
+             std::ranges::find_first_of(soup.faces[face], soup.faces[new_face]) != soup.faces[face].end();
+    }));
+  }
+}
+
+TEST(Tree_mender, a_coordinate_that_is_not_finite_asks_for_a_new_tree) {
+  Face_soup soup(icosphere(20));
+  const Region_tree tree(soup.faces, {}, soup.coordinates, {.leaf_faces = 16});
+  std::swap(soup.faces[100][0], soup.faces[100][1]);
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (const std::uint32_t face : {100U, 5000U}) {
+      auto broken = soup;
+      broken.coordinates[3 * broken.faces[face][1]] = value;
+      for (const std::size_t leaf_faces : {16, 4}) {  // with 4, all leaves are split
+        auto mended = tree;
+        EXPECT_FALSE(mended.mend(broken.faces, Changed{100}, broken.coordinates, {.leaf_faces = leaf_faces}));
+      }
+    }
 }
 
 TEST(Tree_mender, a_face_may_be_listed_twice) {
