@@ -54,14 +54,14 @@ std::uint8_t sides_beyond(const double* position, const Box& box) {
   return sides;
 }
 
-std::vector<std::uint8_t> sides_beyond(Coordinates coordinates, const Box& box) {
-  std::vector<std::uint8_t> sides(coordinates.size() / 3);
+Unset_vector<std::uint8_t> sides_beyond(Coordinates coordinates, const Box& box) {
+  Unset_vector<std::uint8_t> sides(coordinates.size() / 3);
   kernel::sides_beyond(coordinates.data(), sides.size(), box.min().data(), box.max().data(), sides.data());
   return sides;
 }
 
 void select_faces(const Faces_in_box& faces, const Box& part, Faces_in_box& found) {
-  const std::vector<std::uint8_t> beyond = sides_beyond(faces.coordinates, part);
+  const auto beyond = sides_beyond(faces.coordinates, part);
   found.coordinates = faces.coordinates;
   for (std::size_t i = 0; i < faces.faces.size(); ++i) {
     const auto& [p, q, r] = faces.corners[i];

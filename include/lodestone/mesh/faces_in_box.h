@@ -9,15 +9,16 @@
 #include "lodestone/mesh/box.h"
 #include "lodestone/mesh/coordinate_reader.h"
 #include "lodestone/mesh/coordinates.h"
+#include "lodestone/mesh/unset_vector.h"
 
 namespace lodestone {
 
 /// Faces of a mesh whose boxes meet a given box.
 struct Faces_in_box {
-  std::vector<std::uint32_t> faces;  ///< their indices in the mesh, ascending
-  std::vector<Corners> corners;      ///< of each, as indices into `coordinates`
-  Coordinates coordinates;           ///< the memory of the mesh, or `copied`
-  std::vector<double> copied;        ///< empty, or nine coordinates per face: then no two faces share a vertex
+  Unset_vector<std::uint32_t> faces;  ///< their indices in the mesh, ascending
+  Unset_vector<Corners> corners;      ///< of each, as indices into `coordinates`
+  Coordinates coordinates;            ///< the memory of the mesh, or `copied`
+  std::vector<double> copied;         ///< empty, or nine coordinates per face: then no two faces share a vertex
 
   Faces_in_box() = default;
   Faces_in_box(const Faces_in_box&) = delete;  // `coordinates` may refer to `copied`
@@ -32,7 +33,7 @@ bool bound_positions(Coordinates coordinates, Box& box);
 /// box exactly where its three corners have a bit in common.
 std::uint8_t sides_beyond(const double* position, const Box& box);
 /// The same for all positions. O(V).
-std::vector<std::uint8_t> sides_beyond(Coordinates coordinates, const Box& box);
+Unset_vector<std::uint8_t> sides_beyond(Coordinates coordinates, const Box& box);
 
 /// Those faces whose boxes meet a smaller box. They refer to the same coordinates. O(V + faces).
 /// @param found  empty so far; valid as long as `faces`
@@ -103,12 +104,13 @@ bool Box_reader<Mesh, Points>::read_positions() {
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 template <class Use>
 bool Box_reader<Mesh, Points>::for_each_face(Use use) const {
+  const bool all_triangles = all_triangles_by_count();
   std::uint32_t face = 0;
   for (const auto f : faces(*mesh_)) {
     const auto first = halfedge(f, *mesh_);
     const auto second = next(first, *mesh_);
     const auto third = next(second, *mesh_);
-    if (next(third, *mesh_) != first) return false;
+    if (!all_triangles && next(third, *mesh_) != first) return false;
     use(face++, target(first, *mesh_), target(second, *mesh_), target(third, *mesh_));
   }
   return true;
@@ -118,15 +120,21 @@ template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 bool Box_reader<Mesh, Points>::read_faces(const Box& part, Faces_in_box& found) const {
   if (part.isEmpty()) return all_triangles_by_count() || for_each_face([](auto&&...) {});
   if constexpr (in_memory) {
-    const std::vector<std::uint8_t> beyond = sides_beyond(memory(), part);
+    const auto beyond = sides_beyond(memory(), part);
     found.coordinates = memory();
-    found.faces.reserve(num_faces(*mesh_));
-    found.corners.reserve(num_faces(*mesh_));
-    return for_each_face([&](std::uint32_t face, auto p, auto q, auto r) {
-      if ((beyond[p] & beyond[q] & beyond[r]) != 0) return;
-      found.faces.push_back(face);
-      found.corners.push_back({p, q, r});
+    found.faces.resize(num_faces(*mesh_));
+    found.corners.resize(num_faces(*mesh_));
+    std::size_t count = 0;
+    // Every face is written, and kept by counting it: whether it is kept can hardly be predicted.
+    const bool triangles = for_each_face([&, faces = found.faces.data(), corners = found.corners.data(),
+                                          sides = beyond.data()](std::uint32_t face, auto p, auto q, auto r) {
+      faces[count] = face;
+      corners[count] = {p, q, r};
+      count += (sides[p] & sides[q] & sides[r]) == 0 ? 1 : 0;
     });
+    found.faces.resize(count);
+    found.corners.resize(count);
+    return triangles;
   } else {
     const bool triangles = for_each_face([&](std::uint32_t face, auto... corners) {
       const Eigen::Vector3d positions[]{coordinates(get(points_, corners))...};
