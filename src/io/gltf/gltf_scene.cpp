@@ -14,6 +14,7 @@
 #include "io/formats/mesh_guard.h"
 #include "io/gltf/gltf_guard.h"
 #include "io/gltf/gltf_numbers.h"
+#include "io/gltf/gltf_points.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -367,16 +368,16 @@ bool is_gltf(const std::filesystem::path& file) {
   return extension == ".gltf" || extension == ".glb";
 }
 
-Polygon_soup soup_of(const Gltf_scene& scene) {
+Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene) {
   Polygon_soup soup;
-  soup.not_read = scene.not_read;
-  soup.points.resize(scene.vertices);
+  soup.not_read = scene->not_read;
+  soup.points.resize(scene->vertices);
   try {
-    pose_gltf(scene, nullptr, 0, soup.points);
+    Gltf_points(scene).pose_all(soup.points);
   } catch (const Bad_motion& error) {
     throw Bad_mesh(error.what());
   }
-  for (const auto& part : scene.parts)
+  for (const auto& part : scene->parts)
     for (const auto& [a, b, c] : part.shape->faces)
       soup.faces.push_back({part.first_vertex + a, part.first_vertex + b, part.first_vertex + c});
   return soup;

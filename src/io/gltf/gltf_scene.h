@@ -104,12 +104,7 @@ bool is_gltf(const std::filesystem::path& file);
 std::shared_ptr<const Gltf_scene> read_gltf_scene(const std::filesystem::path& file,
                                                   const Mesh_file_options& options = {});
 
-/// Computes the positions of all vertices at a time of an animation, or at rest without one.
-/// @param positions  one per vertex of the scene
-/// @throws Bad_motion  a coordinate that is not finite, a rotation that has no direction
-void pose_gltf(const Gltf_scene& scene, const Gltf_animation* animation, double time, std::span<Point> positions);
-
 /// The triangles of all parts, with vertices at rest.
-Polygon_soup soup_of(const Gltf_scene& scene);
+Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene);
 
 }  // namespace lodestone

@@ -112,7 +112,7 @@ Polygon_soup soup_of(const Game_model& model) {
 }  // namespace
 
 Polygon_soup read_polygon_soup(const std::filesystem::path& file, const Mesh_file_options& options) {
-  if (is_gltf(file)) return soup_of(*read_gltf_scene(file, options));
+  if (is_gltf(file)) return soup_of(read_gltf_scene(file, options));
   if (is_game_model(file)) return soup_of(*read_game_model(file, options));
   const auto& format = format_of(file);
   auto guarded = format.guard(File_bytes(file), options.max_faces);

@@ -47,7 +47,7 @@ Animation still(const fs::path& file) {
 Animation gltf(const fs::path& file, const Animation_options& options) {
   auto scene = read_gltf_scene(file);
   Animation result{.kind = "gltf", .files = scene->files};
-  auto soup = triangulated(soup_of(*scene));
+  auto soup = triangulated(soup_of(scene));
   if (scene->animations.empty()) {
     result.motion = rest(soup.points);
   } else {

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "io/files/file_bytes.h"
+#include "io/gltf/gltf_points.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -82,7 +84,13 @@ Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_opti
     resampled = [scene, number](double other) {
       return motion_of(scene, {.frames_per_second = other, .animation = number});
     };
-  const auto pose = [scene = std::move(scene), number, frames, rate, keys = std::move(keys)](
+  // The points hold one pose, and several threads may ask for different frames.
+  struct Shared_points {
+    Gltf_points points;
+    std::mutex in_use;
+  };
+  const auto shared = std::make_shared<Shared_points>(Gltf_points(scene));
+  const auto pose = [scene = std::move(scene), shared, number, frames, rate, keys = std::move(keys)](
                         std::size_t frame, std::span<Point> positions) {
     if (frame >= frames)
       throw Bad_motion(
@@ -92,7 +100,9 @@ Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_opti
                                    positions.size(), scene->vertices));
     // Key times are floats. With the same rounding, a frame at a key gets the key's exact value.
     const double time = keys.empty() ? static_cast<float>(static_cast<double>(frame) / rate) : keys[frame];
-    pose_gltf(*scene, &scene->animations[number], time, positions);
+    const std::lock_guard lock(shared->in_use);
+    shared->points.set_time(&scene->animations[number], time);
+    shared->points.pose_all(positions);
   };
   return {.frames = frames, .pose = pose, .frames_per_second = rate, .start = start, .resampled = std::move(resampled)};
 }

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "lodestone/io/motion/deformed_points.h"
+#include "lodestone/mesh/computed_points.h"
 #include "lodestone/mesh/errors.h"
 #include "support/special_numbers.h"
 
@@ -305,6 +307,40 @@ TEST(Travel, refuses_way_points_that_make_no_path) {
   EXPECT_EQ(message_of(Travel{{{0, {0, 0, 0}}, {5, {0, 0, 0}}}, Path::closed}), "a closed path needs three way points");
   EXPECT_EQ(message_of(Travel{{{0, {0, 0, 0}}, {5, {1, 0, 0}}, {9, {2, 0, 0}}}, Path::closed}),
             "a closed path must end where it starts");
+}
+
+TEST(Deformed_points, are_those_of_the_motion_bit_by_bit) {
+  static_assert(Computed_points<Deformed_points>);
+  const std::vector<Deformation> deformations{
+      Wobble{}, Bend{}, Twist{}, Inflate{}, Spin{}, Travel{.way_points = {{0, {0, 0, 0}}, {9, {1, 2, 3}}}}};
+  const auto motion = deform(box, deformations);
+  Deformed_points points(box, deformations);
+  const std::vector<std::uint32_t> list{7, 2};
+  for (const std::size_t frame : {0U, 3U, 8U, 200U, 1U}) {
+    const auto before = points.pose_number();
+    points.set_frame(static_cast<double>(frame));
+    EXPECT_GT(points.pose_number(), before);
+    const auto expected = posed(motion, frame);
+    std::vector<double> all(3 * box.size()), listed(3 * box.size(), -1);
+    points.pose_all(all);
+    points.pose(list, listed);
+    for (std::uint32_t v = 0; v < box.size(); ++v) {
+      const Eigen::Vector3d single = points(v);
+      EXPECT_EQ(Point(single.x(), single.y(), single.z()), expected[v]);
+      EXPECT_EQ(Point(all[3 * v], all[3 * v + 1], all[3 * v + 2]), expected[v]);
+      const Point in_list(listed[3 * v], listed[3 * v + 1], listed[3 * v + 2]);
+      EXPECT_EQ(in_list, v == 7 || v == 2 ? expected[v] : Point(-1, -1, -1));
+    }
+  }
+}
+
+TEST(Deformed_points, refuse_what_is_no_frame) {
+  Deformed_points points(box, {Wobble{}});
+  const auto before = points.pose_number();
+  EXPECT_THROW(points.set_frame(-1), Bad_argument);
+  EXPECT_THROW(points.set_frame(std::numeric_limits<double>::infinity()), Bad_argument);
+  EXPECT_EQ(points.pose_number(), before);
+  EXPECT_THROW(Deformed_points(box, {Inflate{.factor = 0}}), Bad_argument);
 }
 
 }  // namespace

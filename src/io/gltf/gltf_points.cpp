@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/gltf/gltf_scene.h"
+#include "io/gltf/gltf_points.h"
 #include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/unset_vector.h"
 
 namespace lodestone {
 namespace {
@@ -120,16 +121,6 @@ Posed_nodes pose_nodes(const Gltf_scene& scene, const Gltf_animation* animation,
   return posed;
 }
 
-Coordinate_list morphed(const Gltf_shape& shape, const std::vector<double>& weights) {
-  auto positions = shape.positions;
-  for (std::size_t target = 0; target < shape.targets.size(); ++target) {
-    if (weights[target] == 0) continue;
-    const auto& added = shape.targets[target];
-    for (std::size_t i = 0; i < added.size(); ++i) positions[i] += weights[target] * added[i];
-  }
-  return positions;
-}
-
 std::vector<Eigen::Affine3d> joint_motions(const Gltf_skin& skin, const Posed_nodes& posed) {
   std::vector<Eigen::Affine3d> motions;
   motions.reserve(skin.joints.size());
@@ -138,34 +129,80 @@ std::vector<Eigen::Affine3d> joint_motions(const Gltf_skin& skin, const Posed_no
   return motions;
 }
 
-/// A mesh with a skin follows only its joints, not its node.
-void pose_part(const Gltf_scene& scene, const Gltf_part& part, const Posed_nodes& posed, std::span<Point> positions) {
+std::vector<Morph_target> targets_of(const Gltf_shape& shape) {
+  std::vector<Morph_target> targets;
+  for (const auto& offsets : shape.targets) targets.push_back({.vertices = {}, .offsets = offsets});
+  return targets;
+}
+
+/// A mesh with a skin follows only its joints, not its node; one without follows its node as its only joint.
+Skinned_points points_of(const Gltf_scene& scene, const Gltf_part& part) {
   const auto& shape = *part.shape;
-  const auto& own = posed.weights[part.node];
-  const auto local = morphed(shape, own.empty() ? shape.weights : own);
-  const auto joints =
-      part.skin == no_index ? std::vector<Eigen::Affine3d>() : joint_motions(scene.skins[part.skin], posed);
-  for (std::size_t vertex = 0; vertex < shape.vertices(); ++vertex) {
-    const Eigen::Vector3d at(local[3 * vertex], local[3 * vertex + 1], local[3 * vertex + 2]);
-    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-    if (joints.empty()) moved = posed.to_world[part.node] * at;
-    for (std::size_t k = 0; k < (joints.empty() ? 0 : shape.influences); ++k) {
-      const auto influence = vertex * shape.influences + k;
-      const double weight = shape.joint_weights[influence];
-      if (weight != 0) moved += weight * (joints[shape.joints[influence]] * at);
-    }
-    if (!moved.allFinite())
-      throw Bad_motion(fmt::format("{}: vertex {} (counted from 0) is moved to a position that is not finite",
-                                   scene.name, part.first_vertex + vertex));
-    positions[part.first_vertex + vertex] = Point(moved.x(), moved.y(), moved.z());
-  }
+  Morphed_points morphed(shape.positions, targets_of(shape));
+  if (part.skin != no_index)
+    return {std::move(morphed), Joint_influences::of(shape.influences, shape.joints, shape.joint_weights),
+            scene.skins[part.skin].joints.size()};
+  const std::vector<std::uint32_t> joints(shape.vertices(), 0);
+  const std::vector<double> weights(shape.vertices(), 1);
+  return {std::move(morphed), Joint_influences::of(1, joints, weights), 1};
 }
 
 }  // namespace
 
-void pose_gltf(const Gltf_scene& scene, const Gltf_animation* animation, double time, std::span<Point> positions) {
-  const auto posed = pose_nodes(scene, animation, time);
-  for (const auto& part : scene.parts) pose_part(scene, part, posed, positions);
+Gltf_points::Gltf_points(std::shared_ptr<const Gltf_scene> scene) : scene_(std::move(scene)) {
+  for (const auto& part : scene_->parts) {
+    first_vertex_.push_back(static_cast<std::uint32_t>(part.first_vertex));
+    parts_.push_back(points_of(*scene_, part));
+  }
+  set_time(nullptr, 0);
+}
+
+void Gltf_points::set_time(const Gltf_animation* animation, double time) {
+  const auto posed = pose_nodes(*scene_, animation, time);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const auto& part = scene_->parts[i];
+    const auto& own = posed.weights[part.node];
+    const auto joints =
+        part.skin == no_index ? std::vector{posed.to_world[part.node]} : joint_motions(scene_->skins[part.skin], posed);
+    try {
+      parts_[i].set_weights(own.empty() ? part.shape->weights : own);
+      parts_[i].set_joints(joints);
+    } catch (const Bad_argument& error) {
+      throw Bad_motion(fmt::format("{}: {}", scene_->name, error.what()));
+    }
+  }
+  ++pose_number_;
+}
+
+std::uint32_t Gltf_points::vertex_count() const { return static_cast<std::uint32_t>(scene_->vertices); }
+
+Eigen::Vector3d Gltf_points::operator()(std::uint32_t vertex) const {
+  const auto after = std::ranges::upper_bound(first_vertex_, vertex);
+  const auto part = static_cast<std::size_t>(after - first_vertex_.begin()) - 1;
+  return parts_[part](vertex - first_vertex_[part]);
+}
+
+void Gltf_points::pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const {
+  for (const auto vertex : vertices)
+    Eigen::Map<Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{vertex}) = (*this)(vertex);
+}
+
+void Gltf_points::pose_all(std::span<double> coordinates) const {
+  for (std::size_t part = 0; part < parts_.size(); ++part)
+    parts_[part].pose_all(
+        coordinates.subspan(3 * std::size_t{first_vertex_[part]}, 3 * std::size_t{parts_[part].vertex_count()}));
+}
+
+void Gltf_points::pose_all(std::span<Point> positions) const {
+  Unset_vector<double> coordinates(3 * positions.size());
+  pose_all(coordinates);
+  for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
+    const double* p = coordinates.data() + 3 * vertex;
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      throw Bad_motion(fmt::format("{}: vertex {} (counted from 0) is moved to a position that is not finite",
+                                   scene_->name, vertex));
+    positions[vertex] = Point(p[0], p[1], p[2]);
+  }
 }
 
 }  // namespace lodestone

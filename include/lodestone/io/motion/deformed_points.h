@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lodestone/io/motion/deformation.h"
+
+namespace lodestone {
+
+/// Built-in deformations as computed points: the positions that the motion of `deform` gives, vertex by vertex and with
+/// the same bits. A model of Computed_points.
+///
+/// Lists are not computed in vectors: sines and cosines take most of the time.
+class Deformed_points {
+ public:
+  /// In frame 0 at first.
+  /// @param deformations   applied in order
+  /// @throws Bad_argument  as `check`
+  Deformed_points(std::vector<Point> rest, std::vector<Deformation> deformations);
+  ~Deformed_points();
+  Deformed_points(Deformed_points&&) noexcept;
+  Deformed_points& operator=(Deformed_points&&) noexcept;
+
+  /// Changes the pose. O(deformations).
+  /// @param frame          finite, >= 0; also between two frames
+  /// @throws Bad_argument  the pose stays as it was
+  void set_frame(double frame);
+
+  std::uint32_t vertex_count() const;
+  std::uint64_t pose_number() const { return pose_number_; }
+
+  /// One position. O(deformations).
+  Eigen::Vector3d operator()(std::uint32_t vertex) const;
+  /// The positions of a list.
+  /// @param coordinates  3 V; only those of the list are written
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const;
+  /// All positions.
+  /// @param coordinates  3 V
+  void pose_all(std::span<double> coordinates) const;
+
+ private:
+  struct State;
+
+  std::unique_ptr<State> state_;
+  std::uint64_t pose_number_ = 1;
+};
+
+}  // namespace lodestone

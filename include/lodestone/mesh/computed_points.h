@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CGAL/boost/graph/named_params_helper.h>
+
+#include <Eigen/Core>
+#include <boost/property_map/property_map.hpp>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/coordinate_reader.h"
+#include "lodestone/mesh/coordinates.h"
+#include "lodestone/mesh/unset_vector.h"
+
+/// Positions that nobody has written to memory: each is computed when it is read.
+namespace lodestone {
+
+/// The positions of V vertices in the current pose, by vertex index. A vertex comes out with the same bits whichever
+/// function computes it, and whatever else it computes.
+///
+/// `points(v)` computes one. `points.pose(vertices, coordinates)` computes those of a list and writes each to its three
+/// places among 3 V coordinates; `points.pose_all(coordinates)` writes all. Both are much faster per vertex.
+/// `points.pose_number()` is above 0 and grows whenever the pose changes.
+///
+/// Several threads may compute positions at once while none changes the pose. Models: Skinned_points, Morphed_points,
+/// Deformed_points.
+template <class P>
+concept Computed_points = requires(const P& points, std::uint32_t vertex, std::span<const std::uint32_t> vertices,
+                                   std::span<double> coordinates) {
+  { points.vertex_count() } -> std::convertible_to<std::uint32_t>;
+  { points(vertex) } -> std::convertible_to<Eigen::Vector3d>;
+  points.pose(vertices, coordinates);
+  points.pose_all(coordinates);
+  { points.pose_number() } -> std::convertible_to<std::uint64_t>;
+};
+
+/// Computed points as a vertex point map of a mesh. Cheap to copy. Make it with `point_map`.
+template <Triangle_mesh Mesh, Computed_points Points>
+class Computed_point_map {
+ public:
+  using key_type = Vertex<Mesh>;
+  using value_type = Point;
+  using reference = Point;
+  using category = boost::readable_property_map_tag;
+  using Index_map = decltype(CGAL::get_initialized_vertex_index_map(std::declval<const Mesh&>()));
+
+  Computed_point_map(const Mesh& mesh, const Points& points)
+      : points_(&points), index_(CGAL::get_initialized_vertex_index_map(mesh)) {}
+
+  friend Point get(const Computed_point_map& map, key_type vertex) {
+    const Eigen::Vector3d position = (*map.points_)(map.index(vertex));
+    return {position.x(), position.y(), position.z()};
+  }
+
+  const Points& points() const { return *points_; }
+  /// Index of a vertex among the points.
+  std::uint32_t index(key_type vertex) const { return static_cast<std::uint32_t>(get(index_, vertex)); }
+
+ private:
+  const Points* points_;
+  Index_map index_;
+};
+
+/// The vertex point map of a mesh that is where `points` say. Vertex indices are those of the mesh where it has some
+/// that count from 0, else the order of `vertices(mesh)`.
+/// @param points  one per vertex; must outlive the map. Change the pose between two frames
+template <Triangle_mesh Mesh, Computed_points Points>
+Computed_point_map<Mesh, Points> point_map(const Mesh& mesh, const Points& points) {
+  return {mesh, points};
+}
+
+/// Computes all positions at once.
+template <Triangle_mesh Mesh, Computed_points Points>
+class Coordinate_reader<Mesh, Computed_point_map<Mesh, Points>> {
+ public:
+  static constexpr bool in_memory = false;
+
+  explicit Coordinate_reader(Computed_point_map<Mesh, Points> map) : map_(std::move(map)) {}
+
+  /// @return valid until the next call. O(V)
+  Coordinates read(const Mesh_numbering<Mesh>& numbering) {
+    const std::size_t size = 3 * std::size_t{numbering.vertex_count()};
+    posed_.resize(3 * std::size_t{map_.points().vertex_count()});
+    map_.points().pose_all(posed_);
+    if constexpr (Vertex_table<Mesh>::by_index) return Coordinates(posed_).first(size);
+    ordered_.resize(size);
+    for (std::uint32_t i = 0; i < numbering.vertex_count(); ++i)
+      Eigen::Map<Eigen::Vector3d>(ordered_.data() + 3 * std::size_t{i}) =
+          Eigen::Map<const Eigen::Vector3d>(posed_.data() + 3 * std::size_t{map_.index(numbering.vertex(i))});
+    return ordered_;
+  }
+
+ private:
+  Computed_point_map<Mesh, Points> map_;
+  Unset_vector<double> posed_, ordered_;
+};
+
+/// Computed points of groups of vertices, such as the leaves of a tree. A group is posed when it is first asked for in
+/// a pose, and kept until the pose changes. Nothing is cleared then: each group has the number of its pose.
+///
+/// Not for several threads at once: groups may share vertices.
+template <Computed_points Points>
+class Kept_points {
+ public:
+  /// @param points  must outlive this
+  /// @param groups  how many
+  Kept_points(const Points& points, std::size_t groups)
+      : points_(&points), coordinates_(3 * std::size_t{points.vertex_count()}), pose_of_(groups, 0) {}
+
+  /// Makes sure that the positions of a group are there. O(1) if they are.
+  /// @param vertices  of the group, the same in each call
+  /// @return whether they were computed now
+  bool pose(std::size_t group, std::span<const std::uint32_t> vertices) {
+    if (pose_of_[group] == points_->pose_number()) return false;
+    points_->pose(vertices, coordinates_);
+    pose_of_[group] = points_->pose_number();
+    return true;
+  }
+  /// Makes sure that all positions are there. Once many groups are asked for, this is faster than posing the rest group
+  /// by group.
+  void pose_all() {
+    points_->pose_all(coordinates_);
+    std::ranges::fill(pose_of_, points_->pose_number());
+  }
+
+  /// 3 V. Those of vertices in no group that was posed mean nothing.
+  Coordinates coordinates() const { return coordinates_; }
+
+ private:
+  const Points* points_;
+  Unset_vector<double> coordinates_;
+  std::vector<std::uint64_t> pose_of_;  ///< per group: the pose that its positions belong to
+};
+
+}  // namespace lodestone

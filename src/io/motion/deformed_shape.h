@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "lodestone/io/motion/deformation.h"
+#include "lodestone/mesh/concepts.h"
+
+/// Built-in deformations of one shape, frame by frame.
+namespace lodestone::detail {
+
+// What each deformation does to a point in one frame.
+struct Wobble_step {
+  Point middle;
+  double wave_number, angle, height;
+  Point operator()(const Point& p) const;
+};
+struct Bend_step {
+  Point middle;
+  Kernel::Vector_3 axis, towards;
+  double curvature;
+  Point operator()(const Point& p) const;
+};
+struct Twist_step {
+  Point middle;
+  Kernel::Vector_3 axis;
+  double rate;
+  Point operator()(const Point& p) const;
+};
+struct Inflate_step {
+  Point middle;
+  double factor;
+  Point operator()(const Point& p) const { return middle + factor * (p - middle); }
+};
+struct Travel_step {
+  Kernel::Vector_3 way;
+  Point operator()(const Point& p) const { return p + way; }
+};
+struct Spin_step {
+  Point middle;
+  Kernel::Vector_3 axis;
+  double angle;
+  Point operator()(const Point& p) const;
+};
+using Step = std::variant<Wobble_step, Bend_step, Twist_step, Inflate_step, Travel_step, Spin_step>;
+
+/// A shape at rest, and the deformations that are applied to it in order.
+class Deformed_shape {
+ public:
+  /// @throws Bad_argument  as `check`
+  Deformed_shape(std::vector<Point> rest, std::vector<Deformation> deformations);
+
+  const std::vector<Point>& rest() const { return rest_; }
+  /// What moves the points in a frame. O(deformations).
+  std::vector<Step> steps_at(double frame) const;
+
+ private:
+  std::vector<Point> rest_;
+  std::vector<Deformation> deformations_;
+  Point middle_{0, 0, 0};        ///< of the bounding box
+  double half_diagonal_ = 0;     ///< of the bounding box
+  std::vector<double> lengths_;  ///< per deformation: how long the shape is along its axis
+};
+
+}  // namespace lodestone::detail
