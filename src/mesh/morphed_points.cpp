@@ -89,12 +89,9 @@ std::span<const Morphed_points::Slice> Morphed_points::slices_of(std::uint32_t v
 
 Eigen::Vector3d Morphed_points::operator()(std::uint32_t vertex) const {
   Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(rest_.data() + 3 * std::size_t{vertex});
-  for (const Slice& slice : slices_of(vertex)) {
-    const double weight = weights_[slice.target];
-    if (weight == 0 || vertex < slice.first || vertex >= slice.end) continue;
-    position +=
-        weight * Eigen::Map<const Eigen::Vector3d>(offsets_.data() + slice.offsets + 3 * (vertex - slice.first));
-  }
+  for_each_offset(vertex, [&](std::uint32_t target, std::span<const double, 3> offset) {
+    if (weights_[target] != 0) position += weights_[target] * Eigen::Map<const Eigen::Vector3d>(offset.data());
+  });
   return position;
 }
 

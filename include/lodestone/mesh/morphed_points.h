@@ -37,6 +37,16 @@ class Morphed_points {
   std::uint64_t pose_number() const { return pose_number_; }
   /// 3 V coordinates.
   std::span<const double> rest() const { return rest_; }
+  /// Per target.
+  std::span<const double> weights() const { return weights_; }
+
+  /// Calls `use(target, offset)` for the targets that may move a vertex, in order. Offsets may be 0.
+  template <class Use>
+  void for_each_offset(std::uint32_t vertex, Use use) const {
+    for (const Slice& slice : slices_of(vertex))
+      if (vertex >= slice.first && vertex < slice.end)
+        use(slice.target, std::span<const double, 3>(offsets_.data() + slice.offsets + 3 * (vertex - slice.first), 3));
+  }
 
   /// One position. O(targets that move vertices near it).
   Eigen::Vector3d operator()(std::uint32_t vertex) const;

@@ -53,6 +53,17 @@ class Skinned_points {
   std::size_t joint_count() const { return columns_.size() / 16; }
   std::uint64_t pose_number() const { return pose_number_ + shape_.pose_number(); }
   const Morphed_points& shape() const { return shape_; }
+  /// The joints that move a vertex, and their normalised weights, all above 0.
+  struct Influences {
+    std::span<const std::uint32_t> joints;
+    std::span<const double> weights;
+  };
+  Influences influences(std::uint32_t vertex) const {
+    const std::size_t begin = begin_[vertex], count = begin_[vertex + 1] - begin;
+    return {std::span(joints_).subspan(begin, count), std::span(weights_).subspan(begin, count)};
+  }
+  /// The columns of the motion of a joint, each padded to four numbers.
+  const double* columns(std::uint32_t joint) const { return columns_.data() + 16 * std::size_t{joint}; }
 
   /// One position. O(its joints).
   Eigen::Vector3d operator()(std::uint32_t vertex) const;
