@@ -24,7 +24,7 @@ void read(const Face_soup& soup, const Box& part, Faces_in_box& found) {
   Faces_in_box all;
   all.faces.resize(soup.faces.size());
   std::iota(all.faces.begin(), all.faces.end(), 0U);
-  all.corners = soup.faces;
+  all.corners.assign(soup.faces.begin(), soup.faces.end());
   all.coordinates = soup.coordinates;
   select_faces(all, part, found);
 }

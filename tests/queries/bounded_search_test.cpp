@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contacts of surfaces that are bounded and posed only where they are near: those of exhaustive checking.
+#include "lodestone/queries/bounded_search.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "lodestone/bounds/skin_bound.h"
+#include "lodestone/mesh/errors.h"
+#include "support/exact_truth.h"
+#include "support/message_of.h"
+#include "support/test_meshes.h"
+
+namespace lodestone {
+namespace {
+
+/// An arm along x that bends at two joints. One morph target makes it thicker.
+struct Arm {
+  Surface_mesh mesh;
+  Skinned_points points;
+  Tree_layout layout;
+  Skin_bound bound;
+  Bounded_surface surface;
+
+  explicit Arm(Surface_mesh shape, bool morphed, std::size_t leaf_faces = 16)
+      : mesh(std::move(shape)),
+        points(points_of(mesh, morphed)),
+        layout(Numbered_mesh(mesh).faces, {}, points.shape().rest(), {.leaf_faces = leaf_faces}),
+        bound(points, layout),
+        surface(layout, points, bound) {}
+
+  static Skinned_points points_of(const Surface_mesh& mesh, bool morphed) {
+    std::vector<double> rest, weights;
+    std::vector<std::uint32_t> joints;
+    Morph_target thicker;
+    for (const auto v : mesh.vertices()) {
+      const Point& p = mesh.point(v);
+      rest.insert(rest.end(), {p.x(), p.y(), p.z()});
+      const double along = std::clamp(p.x() + 1, 0.0, 2.0);  // joint 0 up to -1, 1 at 0, 2 from 1 on
+      joints.insert(joints.end(), {0, 1, 2});
+      weights.insert(weights.end(), {std::max(0.0, 1 - along), 1 - std::abs(along - 1), std::max(0.0, along - 1)});
+      thicker.offsets.insert(thicker.offsets.end(), {0, p.y(), p.z()});
+    }
+    const auto targets = morphed ? std::vector{thicker} : std::vector<Morph_target>();
+    return {Morphed_points(rest, targets), Joint_influences::of(3, joints, weights), 3};
+  }
+
+  /// Bends the arm, and puts it at a place.
+  void pose(double angle, const Eigen::Vector3d& at) {
+    std::vector<Eigen::Affine3d> motions;
+    for (const double part : {-1.0, 0.0, 1.0})
+      motions.emplace_back(Eigen::Translation3d(at) * Eigen::AngleAxisd(part * angle, Eigen::Vector3d(0, 0.6, 0.8)));
+    points.set_joints(motions);
+    if (points.shape().target_count() > 0) points.set_weights(std::vector{0.1 * angle});
+    for (const auto v : mesh.vertices()) {
+      const Eigen::Vector3d moved = points(v);
+      mesh.point(v) = Point(moved.x(), moved.y(), moved.z());
+    }
+  }
+};
+
+Surface_mesh long_potato(int parts, std::uint64_t seed) {
+  auto mesh = potato(parts, seed);
+  for (const auto v : mesh.vertices())
+    mesh.point(v) = Point(2 * mesh.point(v).x(), 0.7 * mesh.point(v).y(), 0.7 * mesh.point(v).z());
+  return mesh;
+}
+
+/// Compares all three questions with the truth.
+/// @return whether the two meet
+bool expect_truth(Bounded_surface& a, Bounded_surface& b, const Surface_mesh& mesh_a, const Surface_mesh& mesh_b) {
+  const auto truth = exhaustive_face_pairs(mesh_a, mesh_b);
+  Bounded_search search;
+  std::vector<Face_pair> found{{7, 7}};
+  EXPECT_EQ(search.run(a, b, Contact_query::yes_no, found).found, !truth.empty());
+  EXPECT_EQ(found.size(), 1U);
+  EXPECT_EQ(search.run(a, b, Contact_query::first, found).found, !truth.empty());
+  EXPECT_EQ(found.size(), truth.empty() ? 1U : 2U);
+  if (!truth.empty()) {
+    EXPECT_TRUE(std::ranges::find(truth, found.back()) != truth.end());
+  }
+  found.resize(1);
+  EXPECT_EQ(search.run(a, b, Contact_query::all, found).found, !truth.empty());
+  EXPECT_EQ(std::vector(found.begin() + 1, found.end()), truth);
+  EXPECT_EQ(found.front(), (Face_pair{7, 7}));
+  return !truth.empty();
+}
+
+TEST(Bounded_search, finds_what_exhaustive_checking_finds) {
+  std::mt19937_64 random(1);
+  int meetings = 0, rounds = 0;
+  for (const bool morphed : {false, true})
+    for (const std::size_t leaf_faces : {4, 40}) {
+      Arm a(long_potato(7, 1), morphed, leaf_faces), b(long_potato(6, 2), !morphed, leaf_faces);
+      for (int round = 0; round < 12; ++round, ++rounds) {
+        const auto number = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
+        a.pose(1.5 * number(), {0, 0, 0});
+        b.pose(1.5 * number(), {4 * number(), 2 * number(), 2 * number()});
+        meetings += expect_truth(a.surface, b.surface, a.mesh, b.mesh) ? 1 : 0;
+        EXPECT_EQ(a.surface.violations() + b.surface.violations(), 0U);
+      }
+    }
+  EXPECT_GT(meetings, rounds / 5);
+  EXPECT_LT(meetings, rounds - rounds / 5);
+}
+
+TEST(Bounded_search, poses_little_where_little_is_near) {
+  Surface_mesh smooth = sphere(40);
+  for (const auto v : smooth.vertices())
+    smooth.point(v) = Point(3 * smooth.point(v).x(), smooth.point(v).y(), smooth.point(v).z());
+  Arm a(smooth, false), b(smooth, false);
+  a.pose(0.5, {0, 0, 0});
+  b.pose(-0.5, {0, 0, 30});
+  Bounded_search search;
+  std::vector<Face_pair> found;
+  EXPECT_FALSE(search.run(a.surface, b.surface, Contact_query::all, found).found);
+  EXPECT_EQ(a.surface.vertices_posed() + b.surface.vertices_posed(), 0U);
+  EXPECT_EQ(a.surface.nodes_bounded(), 1U);
+  bool meet = false;
+  for (double x = 6.2; !meet && x > 5; x -= 0.05) {  // tip to tip
+    a.pose(0, {0, 0, 0});
+    b.pose(0, {x, 0, 0});
+    meet = expect_truth(a.surface, b.surface, a.mesh, b.mesh);
+  }
+  EXPECT_TRUE(meet);
+  EXPECT_GT(a.surface.vertices_posed(), 0U);
+  EXPECT_LT(a.surface.vertices_posed(), a.points.vertex_count() / 10);
+}
+
+TEST(Bounded_search, poses_all_where_much_is_near) {
+  Arm a(long_potato(12, 1), false), b(long_potato(12, 1), false);
+  a.pose(0.3, {0, 0, 0});
+  b.pose(0.3, {0.01, 0.005, 0});
+  EXPECT_TRUE(expect_truth(a.surface, b.surface, a.mesh, b.mesh));
+  EXPECT_EQ(a.surface.leaves_posed(), a.layout.leaf_count());
+}
+
+/// Promises a box that is too small for some nodes.
+struct Broken_bound {
+  const Skin_bound& truth;
+  std::uint32_t from;  ///< nodes from here on shrink
+
+  std::size_t node_count() const { return truth.node_count(); }
+  Aabb box(std::uint32_t node) const {
+    Aabb box = truth.box(node);
+    if (node < from) return box;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double middle = box.low[axis] / 2 + box.high[axis] / 2;
+      box.low[axis] = box.low[axis] / 100 + 0.99 * middle;
+      box.high[axis] = box.high[axis] / 100 + 0.99 * middle;
+    }
+    return box;
+  }
+};
+static_assert(Motion_bound<Broken_bound>);
+
+TEST(Bounded_search, that_notices_a_broken_bound_poses_all_and_is_right) {
+  Arm a(long_potato(10, 1), false), b(long_potato(10, 2), false);
+  a.pose(0.4, {0, 0, 0});
+  b.pose(0.8, {1.5, 0.3, 0});
+  int broken = 0;
+  for (std::uint32_t from = 0; from < a.bound.node_count(); ++from) {
+    const Broken_bound lie{a.bound, from};
+    Bounded_surface surface(a.layout, a.points, lie);
+    Bounded_search search;
+    std::vector<Face_pair> found;
+    search.run(surface, b.surface, Contact_query::all, found);
+    if (surface.violations() == 0) continue;
+    ++broken;
+    EXPECT_FALSE(surface.is_broken());
+    EXPECT_EQ(found, exhaustive_face_pairs(a.mesh, b.mesh));
+    EXPECT_EQ(surface.leaves_posed(), a.layout.leaf_count());
+  }
+  EXPECT_GT(broken, 10);
+}
+
+TEST(Bounded_surface, lies_in_what_several_bounds_have_in_common) {
+  Arm a(long_potato(5, 1), false);
+  a.pose(0.4, {0, 0, 0});
+  struct Half_space {
+    std::size_t nodes;
+    std::size_t node_count() const { return nodes; }
+    Aabb box(std::uint32_t) const {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      return {.low = {-infinity, -infinity, 0.25, 0}, .high = {infinity, infinity, infinity, 0}};
+    }
+  };
+  const Half_space above{a.bound.node_count()};
+  Bounded_surface surface(a.layout, a.points, a.bound, above);
+  EXPECT_EQ(surface.box(0).low[2], 0.25);
+  EXPECT_EQ(surface.box(0).high[2], a.bound.box(0).high[2]);
+}
+
+TEST(Bounded_search, names_a_vertex_that_is_not_finite) {
+  Arm a(long_potato(5, 1), false), b(long_potato(5, 2), false);
+  b.pose(0.4, {0, 0, 0});
+  std::vector<Eigen::Affine3d> motions(3, Eigen::Affine3d::Identity());
+  motions[2] = Eigen::Translation3d(1.7e308, 0, 0) * Eigen::Scaling(1.7e308);
+  a.points.set_joints(motions);
+  Bounded_search search;
+  std::vector<Face_pair> found;
+  const auto message = message_of<Bad_mesh>([&] { search.run(a.surface, b.surface, Contact_query::yes_no, found); });
+  EXPECT_NE(message.find("has a coordinate that is not finite"), std::string::npos) << message;
+  a.pose(0, {0, 0, 0});
+  EXPECT_TRUE(expect_truth(a.surface, b.surface, a.mesh, b.mesh));
+}
+
+}  // namespace
+}  // namespace lodestone
