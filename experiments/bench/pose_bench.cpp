@@ -14,7 +14,7 @@ namespace lodestone {
 
 namespace {
 
-constexpr std::size_t joints = 60, per_vertex = 4, targets = 8;
+constexpr std::size_t joints = 60, per_vertex = 4, target_count = 8;
 
 /// Vertices in a row: each follows four neighbouring joints, and each target moves a tenth of the row.
 struct Row {
@@ -33,7 +33,7 @@ struct Row {
         followed.push_back(static_cast<std::uint32_t>((v * joints / vertices + k) % joints));
         weights.push_back(number(random) / per_vertex);
       }
-    for (std::uint32_t t = 0; morphed && t < lodestone::targets; ++t) {
+    for (std::uint32_t t = 0; morphed && t < target_count; ++t) {
       targets.emplace_back();
       for (std::uint32_t v = 0; v < vertices / 10; ++v) {
         targets.back().vertices.push_back(vertices / 10 * t + v);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What it takes to ask two skinned surfaces for contacts, posing only what is near, beside posing all.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "lodestone/bounds/skin_bound.h"
+#include "lodestone/detector.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "lodestone/mesh/computed_points.h"
+#include "lodestone/queries/bounded_search.h"
+#include "shared/lap_timer.h"
+#include "shared/measured_run.h"
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t worm_joints = 20;
+
+/// A worm along x that winds: an ellipsoid, ten times as long as thick, with a chain of joints.
+struct Worm {
+  Surface_mesh mesh;
+  Skinned_points points;
+  Tree_layout layout;
+  Skin_bound bound;
+  Bounded_surface surface;
+
+  explicit Worm(std::size_t frequency)
+      : mesh(ellipsoid(frequency)),
+        points(points_of(mesh)),
+        layout(Mesh_numbering<Surface_mesh>(mesh).corners(), {}, points.shape().rest(), {}),
+        bound(points, layout),
+        surface(layout, points, bound) {}
+
+  static Surface_mesh ellipsoid(std::size_t frequency) {
+    auto mesh = icosphere(frequency);
+    for (const auto v : mesh.vertices()) {
+      Point& p = mesh.point(v);
+      p = Point(10 * p.x(), p.y(), p.z());
+    }
+    return mesh;
+  }
+  static Skinned_points points_of(const Surface_mesh& mesh) {
+    std::vector<double> rest, weights;
+    std::vector<std::uint32_t> followed;
+    for (const auto v : mesh.vertices()) {
+      const Point& p = mesh.point(v);
+      rest.insert(rest.end(), {p.x(), p.y(), p.z()});
+      const double along = (p.x() / 20 + 0.5) * (worm_joints - 1);
+      const auto joint = std::min(static_cast<std::uint32_t>(along), static_cast<std::uint32_t>(worm_joints - 2));
+      followed.insert(followed.end(), {joint, joint + 1});
+      weights.insert(weights.end(), {1 - (along - joint), along - joint});
+    }
+    return {rest, Joint_influences::of(2, followed, weights), worm_joints};
+  }
+  void pose(double time, const Eigen::Vector3d& at) {
+    std::vector<Eigen::Affine3d> motions;
+    for (std::size_t joint = 0; joint < worm_joints; ++joint)
+      motions.emplace_back(Eigen::Translation3d(at) *
+                           Eigen::AngleAxisd(0.03 * (static_cast<double>(joint) - worm_joints / 2.0) * std::sin(time),
+                                             Eigen::Vector3d(0, 0.6, 0.8)));
+    points.set_joints(motions);
+  }
+};
+
+/// Two worms whose tips meet in some frames. A Bounded_search and a Detector of mode exact, which poses all, take turns
+/// on each frame; both get a pose that they have not seen. The question is yes/no (`all`:0) or all face pairs (1).
+///
+/// Reported time: that of the Bounded_search. The counters are medians, but for `contact_ratio`: the sums over the
+/// frames with contacts, Detector over Bounded_search.
+void bounded(benchmark::State& state) {
+  Worm a(static_cast<std::size_t>(state.range(0))), b(static_cast<std::size_t>(state.range(0)));
+  const auto query = state.range(1) != 0 ? Contact_query::all : Contact_query::yes_no;
+  Detector<> detector({.mode = Mode::exact, .contacts = query});
+  detector.add(std::as_const(a.mesh), point_map(a.mesh, a.points));
+  detector.add(std::as_const(b.mesh), point_map(b.mesh, b.points));
+  detector.detect();
+  Bounded_search search;
+  std::array<std::vector<double>, 2> seconds;
+  std::array<double, 2> with_contact{};
+  std::vector<double> posed;
+  std::vector<Face_pair> found;
+  int frame = 0;
+  for (auto _ : state) {
+    ++frame;
+    a.pose(0.1 * frame, {0, 0, 0});
+    b.pose(0.13 * frame, {18.9 + 0.9 * std::sin(0.7 * frame), 0, 0});
+    found.clear();
+    Lap_timer timer;
+    const bool meet = search.run(a.surface, b.surface, query, found).found;
+    seconds[0].push_back(timer.lap());
+    const Frame& truth = detector.detect();
+    seconds[1].push_back(timer.lap());
+    const bool truly_meet = std::ranges::any_of(truth.pairs, &Pair_result::collides);
+    if (truly_meet != meet || !std::ranges::equal(truth.face_pairs, found))
+      throw std::runtime_error("the two answers differ");
+    posed.push_back(100.0 * static_cast<double>(a.surface.vertices_posed() + b.surface.vertices_posed()) /
+                    static_cast<double>(a.points.vertex_count() + b.points.vertex_count()));
+    for (std::size_t who = 0; meet && who < 2; ++who) with_contact[who] += seconds[who].back();
+    state.SetIterationTime(seconds[0].back());
+  }
+  state.counters["bounded_ms"] = 1e3 * median(seconds[0]);
+  state.counters["exact_ms"] = 1e3 * median(seconds[1]);
+  state.counters["exact_over_bounded"] = median(seconds[1]) / median(seconds[0]);
+  state.counters["contact_ratio"] = with_contact[1] / with_contact[0];
+  state.counters["posed_percent"] = median(posed);
+}
+
+BENCHMARK(bounded)
+    ->ArgsProduct({{32, 71, 158, 224, 447}, {0, 1}})
+    ->ArgNames({"frequency", "all"})
+    ->UseManualTime()
+    ->Iterations(60)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+}  // namespace lodestone
