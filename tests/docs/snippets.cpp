@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The C++ of README, manual and concept pages, word for word: docs.snippets compares them. Here it is compiled and run.
 #include <gtest/gtest.h>
+#include <lodestone/bounds/skin_bound.h>
 #include <lodestone/detector.h>
 #include <lodestone/find_collisions.h>
 #include <lodestone/io/meshes/mesh_file.h>
 #include <lodestone/io/objects/object_file.h>
+#include <lodestone/mesh/computed_points.h>
+#include <lodestone/mesh/skinned_points.h>
 #include <lodestone/partition/lbg.h>
 #include <lodestone/partition/partition_measures.h>
+#include <lodestone/queries/bounded_search.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -143,6 +147,42 @@ TEST_F(Snippets, of_more_than_face_pairs) {
   EXPECT_GT(pushes, 0U);
   EXPECT_EQ(least_distance, 0);
   EXPECT_GT(longest_way_out, 0);
+}
+
+TEST_F(Snippets, of_computed_positions) {
+  const Surface_mesh& arm_mesh = cloth_mesh;
+  std::vector<double> rest, weights;
+  std::vector<std::uint32_t> joints;
+  for (const auto v : arm_mesh.vertices()) {
+    for (int axis = 0; axis < 3; ++axis) rest.push_back(arm_mesh.point(v)[axis]);
+    joints.insert(joints.end(), {0, 1, 0, 0});
+    weights.insert(weights.end(), {0.5, 0.5, 0, 0});
+  }
+  const Eigen::Affine3d shoulder = Eigen::Affine3d::Identity(), elbow = shoulder;
+  const lodestone::Mesh_numbering<Surface_mesh> other_numbering(body_mesh);
+  std::vector<double> other_rest;
+  for (const auto v : body_mesh.vertices())
+    for (int axis = 0; axis < 3; ++axis) other_rest.push_back(body_mesh.point(v)[axis]);
+  const lodestone::Morphed_points other(other_rest);
+  const lodestone::Tree_layout other_layout(other_numbering.corners(), {}, other_rest, {});
+  const lodestone::Linear_bound other_bound(other, other_layout);
+  lodestone::Bounded_surface other_surface(other_layout, other, other_bound);
+
+  lodestone::Skinned_points arm(rest, lodestone::Joint_influences::of(4, joints, weights), 2);
+  lodestone::Detector detector;
+  detector.add(arm_mesh, point_map(arm_mesh, arm));
+  detector.add(body_mesh);
+  arm.set_joints(std::vector{shoulder, elbow});  // the next pose
+  const bool hit = detector.detect().collides();
+
+  const lodestone::Mesh_numbering<lodestone::Surface_mesh> numbering(arm_mesh);
+  const lodestone::Tree_layout layout(numbering.corners(), {}, rest, {});
+  const lodestone::Skin_bound bound(arm, layout);
+  lodestone::Bounded_surface surface(layout, arm, bound);  // keep it from frame to frame
+  std::vector<lodestone::Face_pair> contacts;
+  lodestone::Bounded_search().run(surface, other_surface, lodestone::Contact_query::all, contacts);
+  EXPECT_EQ(hit, !contacts.empty());
+  EXPECT_TRUE(std::ranges::equal(contacts, detector.detect().face_pairs));
 }
 
 TEST_F(Snippets, of_saved_objects) {
