@@ -186,35 +186,6 @@ TEST(Joint_influences, of_files_leave_out_joints_without_weight) {
   EXPECT_EQ(influences.weights, (std::vector<double>{0.5, 0.5, 1}));
 }
 
-TEST(Kept_points, are_computed_once_in_a_pose) {
-  std::mt19937_64 random(5);
-  auto points = some_skinned_points(100, true, random);
-  Kept_points kept(points, 2);
-  const std::vector<std::uint32_t> first{0, 3, 50}, second{3, 99};
-  for (int pose = 0; pose < 3; ++pose) {
-    std::vector<double> all(300);
-    points.pose_all(all);
-    const auto expect_posed = [&](const auto& list) {
-      for (const auto v : list)
-        for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(kept.coordinates()[3 * v + axis], all[3 * v + axis]);
-    };
-    EXPECT_TRUE(kept.pose(0, first));
-    EXPECT_FALSE(kept.pose(0, first));
-    EXPECT_TRUE(kept.pose(1, second));
-    expect_posed(first);
-    expect_posed(second);
-    if (pose == 0)
-      points.set_joints(some_motions(9, random));
-    else
-      points.set_weights(numbers(5, random));
-  }
-  kept.pose_all();
-  EXPECT_FALSE(kept.pose(0, first));
-  std::vector<double> all(300);
-  points.pose_all(all);
-  EXPECT_TRUE(std::ranges::equal(kept.coordinates(), all));
-}
-
 template <class Mesh>
 class Point_map : public testing::Test {};
 using Meshes = testing::Types<Surface_mesh, CGAL::Polyhedron_3<Kernel>,

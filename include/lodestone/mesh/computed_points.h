@@ -23,8 +23,8 @@ namespace lodestone {
 /// The positions of V vertices in the current pose, by vertex index. A vertex comes out with the same bits whichever
 /// function computes it, and whatever else it computes.
 ///
-/// `points(v)` computes one. `points.pose(vertices, coordinates)` computes those of a list and writes each to its three
-/// places among 3 V coordinates; `points.pose_all(coordinates)` writes all. Both are much faster per vertex.
+/// `points(v)` computes one. `points.pose(vertices, coordinates)` computes those of a list, in which no vertex stands
+/// twice, and writes each to its three places among 3 V coordinates. `points.pose_all(coordinates)` writes all.
 /// `points.pose_number()` is above 0 and grows whenever the pose changes.
 ///
 /// Several threads may compute positions at once while none changes the pose. Models: Skinned_points, Morphed_points,
@@ -98,43 +98,6 @@ class Coordinate_reader<Mesh, Computed_point_map<Mesh, Points>> {
  private:
   Computed_point_map<Mesh, Points> map_;
   Unset_vector<double> posed_, ordered_;
-};
-
-/// Computed points of groups of vertices, such as the leaves of a tree. A group is posed when it is first asked for in
-/// a pose, and kept until the pose changes. Nothing is cleared then: each group has the number of its pose.
-///
-/// Not for several threads at once: groups may share vertices.
-template <Computed_points Points>
-class Kept_points {
- public:
-  /// @param points  must outlive this
-  /// @param groups  how many
-  Kept_points(const Points& points, std::size_t groups)
-      : points_(&points), coordinates_(3 * std::size_t{points.vertex_count()}), pose_of_(groups, 0) {}
-
-  /// Makes sure that the positions of a group are there. O(1) if they are.
-  /// @param vertices  of the group, the same in each call
-  /// @return whether they were computed now
-  bool pose(std::size_t group, std::span<const std::uint32_t> vertices) {
-    if (pose_of_[group] == points_->pose_number()) return false;
-    points_->pose(vertices, coordinates_);
-    pose_of_[group] = points_->pose_number();
-    return true;
-  }
-  /// Makes sure that all positions are there. Once many groups are asked for, this is faster than posing the rest group
-  /// by group.
-  void pose_all() {
-    points_->pose_all(coordinates_);
-    std::ranges::fill(pose_of_, points_->pose_number());
-  }
-
-  /// 3 V. Those of vertices in no group that was posed mean nothing.
-  Coordinates coordinates() const { return coordinates_; }
-
- private:
-  const Points* points_;
-  Unset_vector<double> coordinates_;
-  std::vector<std::uint64_t> pose_of_;  ///< per group: the pose that its positions belong to
 };
 
 }  // namespace lodestone

@@ -68,6 +68,7 @@ class Skinned_points {
   /// One position. O(its joints).
   Eigen::Vector3d operator()(std::uint32_t vertex) const;
   /// The positions of a list.
+  /// @param vertices     none twice
   /// @param coordinates  3 V; only those of the list are written
   void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const;
   /// All positions.
