@@ -106,6 +106,27 @@ TEST(Bounded_search, finds_what_exhaustive_checking_finds) {
   EXPECT_LT(meetings, rounds - rounds / 5);
 }
 
+TEST(Bounded_search, with_a_tolerance_finds_what_is_near) {
+  std::mt19937_64 random(2);
+  Arm a(long_potato(5, 1), true, 8), b(long_potato(5, 2), false, 8);
+  Bounded_search search;
+  std::size_t near_misses = 0;
+  for (int round = 0; round < 40; ++round) {
+    const auto number = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
+    a.pose(number(), {0, 0, 0});
+    b.pose(number(), {number(), 2.0 + 0.4 * number(), number()});
+    for (const double tolerance : {0.01, 0.3}) {
+      const auto truth = near_face_pairs(a.mesh, b.mesh, tolerance);
+      std::vector<Face_pair> found;
+      EXPECT_EQ(search.run(a.surface, b.surface, Contact_query::yes_no, found, tolerance).found, !truth.empty());
+      search.run(a.surface, b.surface, Contact_query::all, found, tolerance);
+      EXPECT_EQ(found, truth);
+      near_misses += !truth.empty() && exhaustive_face_pairs(a.mesh, b.mesh).empty() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(near_misses, 2U);
+}
+
 TEST(Bounded_search, poses_little_where_little_is_near) {
   Surface_mesh smooth = sphere(40);
   for (const auto v : smooth.vertices())

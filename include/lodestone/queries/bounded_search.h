@@ -9,6 +9,7 @@
 #include "lodestone/mesh/pairs.h"
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/tree/node_pair.h"
+#include "lodestone/triangles/triangle_intersection.h"
 
 namespace lodestone {
 
@@ -22,17 +23,22 @@ namespace lodestone {
 class Bounded_search {
  public:
   /// @param found      contacts are appended, sorted; one at most unless all are asked for, none for `yes_no`
+  /// @param tolerance  distance below which two faces are a contact, in units of the coordinates; >= 0; 0: they must
+  ///                   intersect
   /// @throws Bad_mesh  a coordinate that is read is not finite
-  Contact_summary run(Bounded_surface& a, Bounded_surface& b, Contact_query query, std::vector<Face_pair>& found);
+  Contact_summary run(Bounded_surface& a, Bounded_surface& b, Contact_query query, std::vector<Face_pair>& found,
+                      double tolerance = 0);
 
  private:
   bool search(std::vector<Face_pair>& found);
   bool test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, std::vector<Face_pair>& found);
+  bool are_in_contact(const Triangle_corners& a, const Triangle_corners& b, Crossing likely) const;
   bool is_broken() const { return a_->is_broken() || b_->is_broken(); }
 
   Bounded_surface* a_ = nullptr;
   Bounded_surface* b_ = nullptr;
   bool one_is_enough_ = false;
+  double tolerance_ = 0;
   std::vector<Node_pair> waiting_;
   Face_filter filter_;
   bool filter_begun_ = false;
