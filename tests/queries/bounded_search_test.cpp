@@ -197,6 +197,28 @@ TEST(Bounded_search, that_notices_a_broken_bound_poses_all_and_is_right) {
   EXPECT_GT(broken, 10);
 }
 
+TEST(Bounded_surface, compares_what_it_poses_with_the_boxes_that_were_in_use) {
+  Arm a(long_potato(20, 1), false);
+  a.pose(0.4, {0, 0, 0});
+  const std::uint32_t leaf = 3, node = a.layout.leaf_node(leaf);
+  const Broken_bound lie{a.bound, 1};  // of all nodes but the root
+  Bounded_surface by_leaf(a.layout, a.points, lie), by_node(a.layout, a.points, lie), unused(a.layout, a.points, lie);
+  by_leaf.pose(leaf);
+  EXPECT_EQ(by_leaf.violations(), 1U);
+  EXPECT_TRUE(by_leaf.is_broken());
+  by_leaf.settle();
+  EXPECT_FALSE(by_leaf.is_broken());
+  by_node.box(node);
+  by_node.pose_all();
+  EXPECT_EQ(by_node.violations(), 1U);
+  EXPECT_TRUE(by_node.is_broken());
+  unused.pose_all();
+  EXPECT_EQ(unused.violations(), 0U);  // no box was in use
+  a.pose(0.5, {0, 0, 0});
+  by_node.start_frame();
+  EXPECT_EQ(by_node.violations(), 0U);
+}
+
 TEST(Bounded_surface, lies_in_what_several_bounds_have_in_common) {
   Arm a(long_potato(5, 1), false);
   a.pose(0.4, {0, 0, 0});
