@@ -58,11 +58,13 @@ void node_lists(const Tree_layout& layout, Of_leaf of_leaf, Merged merged, std::
   }
 }
 
-/// What has overflowed says nothing.
-inline void open_if_not_finite(Aabb& box, std::size_t axis) {
-  if (std::isfinite(box.low[axis]) && std::isfinite(box.high[axis])) return;
+inline void open_axis(Aabb& box, std::size_t axis) {
   box.low[axis] = -std::numeric_limits<double>::infinity();
   box.high[axis] = std::numeric_limits<double>::infinity();
+}
+/// What has overflowed says nothing.
+inline void open_if_not_finite(Aabb& box, std::size_t axis) {
+  if (!std::isfinite(box.low[axis]) || !std::isfinite(box.high[axis])) open_axis(box, axis);
 }
 
 }  // namespace lodestone

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bounds/node_lists.h"
 
@@ -137,12 +138,17 @@ Aabb Skin_bound::box(std::uint32_t node) const {
       }
       high[axis].push_back({range.least, range.greatest, middle + spread});
       low[axis].push_back({range.least, range.greatest, spread - middle});  // mirrored
-      reach[axis] = std::max(reach[axis], magnitude);
+      reach[axis] =
+          std::isfinite(magnitude) ? std::max(reach[axis], magnitude) : std::numeric_limits<double>::infinity();
     }
   }
   const auto count = static_cast<double>(ranges.size() + most_influences_[node]);
   Aabb box{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(reach[axis])) {  // ends may be no numbers, which cannot be sorted
+      open_axis(box, axis);
+      continue;
+    }
     const double margin = (16 * count + 64) * unit_roundoff * reach[axis] + (count + 4) * 0x1p-1070 * size;
     box.low[axis] = -greatest_mean({low[axis].data(), low[axis].size()}) - margin;
     box.high[axis] = greatest_mean({high[axis].data(), high[axis].size()}) + margin;

@@ -237,6 +237,23 @@ TEST(Skin_bound, that_overflows_says_nothing) {
   EXPECT_NEAR(box.high[1], 1, 0.01);
 }
 
+TEST(Skin_bound, of_targets_that_overflow_says_nothing) {
+  std::mt19937_64 random(3);
+  const Face_soup soup(icosphere(4));
+  Morph_target target;
+  for (std::size_t i = 0; i < soup.coordinates.size(); ++i) target.offsets.push_back(number(random, -20, 20));
+  Skinned_points points(Morphed_points(soup.coordinates, std::vector{target}),
+                        wild_influences(soup.vertex_count(), 40, random), 40);
+  const Tree_layout layout(soup.faces, {}, soup.coordinates, {});
+  const Skin_bound bound(points, layout);
+  points.set_weights(std::vector{1e308});
+  for (std::uint32_t node = 0; node < layout.node_count(); ++node)
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(bound.box(node).low[axis], -std::numeric_limits<double>::infinity());
+      EXPECT_EQ(bound.box(node).high[axis], std::numeric_limits<double>::infinity());
+    }
+}
+
 TEST(Motion_bound, the_common_box_of_two_is_where_both_are) {
   const Aabb a{.low = {0, 0, 0, 0}, .high = {2, 2, 2, 0}}, b{.low = {1, -1, 0, 0}, .high = {3, 1, 2, 0}};
   EXPECT_EQ(common_box(a, b), (Aabb{.low = {1, 0, 0, 0}, .high = {2, 1, 2, 0}}));
