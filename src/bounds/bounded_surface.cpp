@@ -32,6 +32,8 @@ Bounded_surface::Bounded_surface(const Tree_layout& layout, std::unique_ptr<cons
       boxes_(layout.node_count()),
       boxed_in_(layout.node_count(), 0),
       posed_in_(layout.leaf_count(), 0) {
+  check_layout(layout, motion_->vertex_count());
+  if (motion_->node_count() < layout.node_count()) throw Bad_argument("a bound was made for a tree of fewer nodes");
   start_frame();
 }
 

@@ -11,6 +11,7 @@ namespace lodestone {
 
 Linear_bound::Linear_bound(const Morphed_points& points, const Tree_layout& layout)
     : points_(&points), rest_(layout.node_count()) {
+  check_layout(layout, points.vertex_count());
   for (auto node = static_cast<std::uint32_t>(layout.node_count()); node-- > 0;) {
     Aabb& box = rest_[node];
     if (layout.is_leaf(node))

@@ -40,6 +40,7 @@ double greatest_mean(std::span<Weighted_end> ends) {
 }  // namespace
 
 Skin_bound::Skin_bound(const Skinned_points& points, const Tree_layout& layout) : points_(&points) {
+  check_layout(layout, points.vertex_count());
   if (points.shape().target_count() > 0) shape_.emplace(points.shape(), layout);
   node_lists(
       layout, [&](auto vertices) { return of_leaf(vertices); }, merged, ranges_, range_begin_);
@@ -123,7 +124,7 @@ Aabb Skin_bound::box(std::uint32_t node) const {
       const double to = range.high[axis] + shift.high[axis] + shift.margin[axis];
       const auto row = static_cast<Eigen::Index>(axis);
       centre[row] = from / 2 + to / 2;
-      half[row] = to / 2 - from / 2;
+      half[row] = to / 2 - from / 2 + 0x1p-1073;  // halves of the smallest numbers are rounded
     }
     size = std::max(size, 1 + centre.cwiseAbs().sum() + half.sum());
     const double* columns = points_->columns(range.joint);

@@ -38,7 +38,7 @@ void check(const Morph_target& target, std::size_t number, std::size_t vertex_co
 
 Morphed_points::Morphed_points(std::vector<double> rest, std::span<const Morph_target> targets)
     : rest_(std::move(rest)), weights_(targets.size(), 0) {
-  if (rest_.size() % 3 != 0 || rest_.size() / 3 >= std::numeric_limits<std::uint32_t>::max())
+  if (rest_.size() % 3 != 0 || rest_.size() / 3 > std::numeric_limits<std::uint32_t>::max() - block_vertices)
     throw Bad_argument(fmt::format("{} coordinates at rest, expected three for each vertex", rest_.size()));
   if (!all_finite(rest_)) throw Bad_argument("a coordinate at rest is not finite");
   for (std::size_t target = 0; target < targets.size(); ++target) check(targets[target], target, vertex_count());

@@ -31,11 +31,11 @@ Contact_summary Bounded_search::run(Bounded_surface& a, Bounded_surface& b, Cont
   bound_whole(a);
   bound_whole(b);
   const std::size_t first = found.size();
-  while (!search(found)) {
+  do {
     found.resize(first);
     if (a.is_broken()) a.settle();
     if (b.is_broken()) b.settle();
-  }
+  } while (!search(found));
   const Contact_summary summary{.found = found.size() > first, .leaf_tests = leaf_tests_, .exact_tests = exact_tests_};
   if (query == Contact_query::yes_no) found.resize(first);
   sort_face_pairs(std::span(found).subspan(first));

@@ -237,6 +237,18 @@ TEST(Skin_bound, that_overflows_says_nothing) {
   EXPECT_NEAR(box.high[1], 1, 0.01);
 }
 
+TEST(Skin_bound, contains_the_smallest_numbers) {
+  auto soup = Face_soup(icosphere(2));
+  for (double& x : soup.coordinates) x = x < 0 ? -5e-324 : 1e-323;
+  const std::vector<std::uint32_t> joints(soup.vertex_count(), 0);
+  const std::vector<double> weights(soup.vertex_count(), 1);
+  Skinned_points points(soup.coordinates, Joint_influences::of(1, joints, weights), 1);
+  const Tree_layout layout(soup.faces, {}, soup.coordinates, {.leaf_faces = 4});
+  const Skin_bound bound(points, layout);
+  points.set_joints(std::vector{Eigen::Affine3d(Eigen::Scaling(1e100))});
+  EXPECT_EQ(outside(bound, points, layout), 0U);
+}
+
 TEST(Skin_bound, of_targets_that_overflow_says_nothing) {
   std::mt19937_64 random(3);
   const Face_soup soup(icosphere(4));

@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "lodestone/io/shapes/shapes.h"
 #include "support/exact_truth.h"
 #include "support/message_of.h"
 
@@ -431,6 +432,24 @@ TEST(Topology, a_coordinate_that_is_not_finite_is_named_and_the_next_frame_is_ri
       point = before;
       EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b}), 1U);
     }
+}
+
+TEST(Topology, what_is_near_at_rest_is_known_after_a_frame_that_was_not_finite) {
+  auto sheet = cloth(16, 16);
+  const auto lonely = sheet.add_vertex(Point(0, 0, 0));
+  Detector<> detector({.mode = Mode::exact, .exact = {.self_collision = true, .self_tolerance = 0.05}});
+  detector.add(std::as_const(sheet));
+  detector.detect();
+  Halfedge_index h(0);
+  while (sheet.is_border(sheet.edge(h))) h = Halfedge_index(h + 2);
+  std::set<std::uint32_t> changed;
+  list_faces_around(sheet, h, changed);
+  split(sheet, h);
+  detector.rebuild(0, Changed_faces{std::vector<std::uint32_t>(changed.begin(), changed.end())});
+  sheet.point(lonely) = Point(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  EXPECT_THROW(detector.detect(), Bad_mesh);
+  sheet.point(lonely) = Point(0, 0, 0);
+  EXPECT_TRUE(detector.detect().face_pairs.empty());
 }
 
 }  // namespace

@@ -218,6 +218,14 @@ TYPED_TEST(Point_map, gives_each_vertex_its_point) {
   }
 }
 
+TEST(Point_map, of_fewer_points_than_vertices_is_refused) {
+  Surface_mesh mesh;
+  CGAL::make_icosahedron(mesh, Point(0, 0, 0), 1.0);
+  const Morphed_points points(std::vector<double>(33, 1));
+  Coordinate_reader<Surface_mesh, Computed_point_map<Surface_mesh, Morphed_points>> reader(point_map(mesh, points));
+  EXPECT_THROW(reader.read(Mesh_numbering<Surface_mesh>(mesh)), Bad_argument);
+}
+
 TEST(Computed_points, bad_input_is_refused_and_changes_nothing) {
   const std::vector<double> rest(9, 1);
   const auto morphed = [&](const Morph_target& target) {

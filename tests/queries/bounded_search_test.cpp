@@ -219,6 +219,33 @@ TEST(Bounded_surface, compares_what_it_poses_with_the_boxes_that_were_in_use) {
   EXPECT_EQ(by_node.violations(), 0U);
 }
 
+TEST(Bounded_search, settles_a_surface_that_is_broken_already) {
+  Arm a(long_potato(10, 1), false), b(long_potato(10, 2), false);
+  a.pose(0.4, {0, 0, 0});
+  b.pose(0.8, {1.5, 0.3, 0});
+  struct Far_away {
+    const Skin_bound& truth;
+    std::size_t node_count() const { return truth.node_count(); }
+    Aabb box(std::uint32_t) const { return {.low = {900, 900, 900, 0}, .high = {901, 901, 901, 0}}; }
+  };
+  const Far_away lie{a.bound};
+  Bounded_surface surface(a.layout, a.points, lie);
+  surface.pose(0);
+  EXPECT_TRUE(surface.is_broken());
+  Bounded_search search;
+  std::vector<Face_pair> found;
+  search.run(surface, b.surface, Contact_query::all, found);
+  EXPECT_EQ(found, exhaustive_face_pairs(a.mesh, b.mesh));
+}
+
+TEST(Bounded_surface, refuses_what_belongs_to_other_meshes) {
+  Arm a(long_potato(6, 1), false), small(long_potato(3, 1), false);
+  EXPECT_THROW(Bounded_surface(a.layout, small.points, a.bound), Bad_argument);
+  EXPECT_THROW(Bounded_surface(a.layout, a.points, small.bound), Bad_argument);
+  EXPECT_THROW(Skin_bound(small.points, a.layout), Bad_argument);
+  EXPECT_THROW(Linear_bound(small.points.shape(), a.layout), Bad_argument);
+}
+
 TEST(Bounded_surface, lies_in_what_several_bounds_have_in_common) {
   Arm a(long_potato(5, 1), false);
   a.pose(0.4, {0, 0, 0});

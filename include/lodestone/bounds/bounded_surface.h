@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,8 +20,9 @@ namespace lodestone {
 /// A surface whose nodes are bounded without being read, and whose leaves are posed when somebody needs their faces.
 /// Nothing is done before it is asked for, and nothing twice in a pose.
 ///
-/// A bound is a promise. It is checked wherever vertices are posed: if one lies outside, `is_broken()` says so, and
-/// whoever relied on boxes must `settle` the surface and ask again.
+/// A bound is a promise. The vertices of a leaf that is posed are compared with the boxes of the leaf and of the whole,
+/// and where all vertices are posed with all boxes in use. If one lies outside, `is_broken()` says so, and whoever
+/// relied on boxes must `settle` the surface and ask again.
 ///
 /// Not for several threads at once.
 class Bounded_surface {
@@ -31,6 +33,7 @@ class Bounded_surface {
     virtual ~Motion() = default;
     virtual std::uint64_t pose_number() const = 0;
     virtual std::uint32_t vertex_count() const = 0;
+    virtual std::size_t node_count() const = 0;
     virtual Aabb box(std::uint32_t node) const = 0;
     virtual void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const = 0;
     virtual void pose_all(std::span<double> coordinates) const = 0;
@@ -39,8 +42,10 @@ class Bounded_surface {
   /// @param layout  must outlive this, as must what follows
   /// @param points  of the same vertices
   /// @param bounds  of the same nodes: a node lies in what all of them have in common
+  /// @throws Bad_argument  they have other vertices, or other nodes
   template <Computed_points Points, Motion_bound... Bounds>
-  Bounded_surface(const Tree_layout& layout, const Points& points, const Bounds&... bounds)
+  requires(sizeof...(Bounds) > 0)
+      Bounded_surface(const Tree_layout& layout, const Points& points, const Bounds&... bounds)
       : Bounded_surface(layout, std::make_unique<Motion_of<Points, Bounds...>>(points, bounds...)) {}
   Bounded_surface(const Tree_layout& layout, std::unique_ptr<const Motion> motion);
 
@@ -87,6 +92,10 @@ class Bounded_surface {
 
     std::uint64_t pose_number() const override { return points_->pose_number(); }
     std::uint32_t vertex_count() const override { return points_->vertex_count(); }
+    std::size_t node_count() const override {
+      return std::apply([](const auto*... bounds) { return std::min({std::size_t{bounds->node_count()}...}); },
+                        bounds_);
+    }
     Aabb box(std::uint32_t node) const override {
       return std::apply([node](const auto*... bounds) { return common(bounds->box(node)...); }, bounds_);
     }

@@ -38,7 +38,8 @@ class Linear_bound {
 
   /// O(V + T log N) for T offsets and N nodes.
   /// @param points  must outlive this
-  /// @param layout  of the same vertices
+  /// @param layout         of the same vertices
+  /// @throws Bad_argument  it has vertices that `points` does not have
   Linear_bound(const Morphed_points& points, const Tree_layout& layout);
 
   std::size_t node_count() const { return rest_.size(); }

@@ -33,9 +33,13 @@ class Lipschitz_bound {
   /// @param layout         of the same vertices
   /// @param rest           3 V coordinates, finite
   /// @param constant       L: finite, >= 0
-  /// @throws Bad_argument  L is out of range
+  /// @throws Bad_argument  L is out of range, `layout` has other vertices than `points`, `rest` has the wrong length
   Lipschitz_bound(const Points& points, const Tree_layout& layout, Coordinates rest, double constant)
-      : points_(&points), anchors_(find_anchors(layout, rest)) {
+      : points_(&points) {
+    check_layout(layout, points.vertex_count());
+    if (rest.size() != 3 * std::size_t{points.vertex_count()})
+      throw Bad_argument("the positions at rest are not three coordinates for each vertex");
+    anchors_ = find_anchors(layout, rest);
     set_constant(constant);
   }
 

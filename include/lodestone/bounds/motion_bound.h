@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lodestone/tree/tree_layout.h"
 #include "lodestone/volumes/aabb.h"
 
 namespace lodestone {
@@ -19,6 +20,9 @@ concept Motion_bound = requires(const B& bound, std::uint32_t node) {
   { bound.node_count() } -> std::convertible_to<std::size_t>;
   { bound.box(node) } -> std::same_as<Aabb>;
 };
+
+/// @throws Bad_argument  a leaf of the layout lists a vertex that does not exist
+void check_layout(const Tree_layout& layout, std::size_t vertex_count);
 
 /// What two boxes have in common, where both contain the same points. O(1).
 inline Aabb common_box(const Aabb& a, const Aabb& b) {

@@ -44,7 +44,8 @@ class Skin_bound {
  public:
   /// O(influences log N) for N nodes.
   /// @param points  must outlive this
-  /// @param layout  of the same vertices
+  /// @param layout         of the same vertices
+  /// @throws Bad_argument  it has vertices that `points` does not have
   Skin_bound(const Skinned_points& points, const Tree_layout& layout);
 
   std::size_t node_count() const { return range_begin_.size() - 1; }

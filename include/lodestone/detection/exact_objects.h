@@ -130,6 +130,8 @@ void Exact_objects<Volume>::build_new(std::span<const Object_id> ids) {
       if (options_.exact.self_tolerance > 0) objects_[id]->surface.keep_rest();
     });
     ++work_.builds;
+    // A mended tree has looked at the vertices of its faces only.
+    check_finite(surface(id).coordinates(), objects_[id]->unused(), objects_[id]->title);
   }
 }
 
@@ -147,8 +149,7 @@ void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
   Object& object = *objects_[id];
-  if (region_count(object) == 0 && object.mend(coordinates, options_.exact.tree, workers_))
-    return check_finite(coordinates, object.unused(), object.title);
+  if (region_count(object) == 0 && object.mend(coordinates, options_.exact.tree, workers_)) return;
   check_finite(coordinates, object.title);
   object.build(divide(object, coordinates), coordinates, options_.exact.tree, workers_);
 }

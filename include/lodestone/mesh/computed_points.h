@@ -15,6 +15,7 @@
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/coordinate_reader.h"
 #include "lodestone/mesh/coordinates.h"
+#include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/unset_vector.h"
 
 /// Positions that nobody has written to memory: each is computed when it is read.
@@ -73,6 +74,8 @@ template <Triangle_mesh Mesh, Computed_points Points>
 Computed_point_map<Mesh, Points> point_map(const Mesh& mesh, const Points& points) {
   return {mesh, points};
 }
+template <Triangle_mesh Mesh, Computed_points Points>
+Computed_point_map<Mesh, Points> point_map(const Mesh& mesh, const Points&& points) = delete;
 
 /// Computes all positions at once.
 template <Triangle_mesh Mesh, Computed_points Points>
@@ -83,7 +86,10 @@ class Coordinate_reader<Mesh, Computed_point_map<Mesh, Points>> {
   explicit Coordinate_reader(Computed_point_map<Mesh, Points> map) : map_(std::move(map)) {}
 
   /// @return valid until the next call. O(V)
+  /// @throws Bad_argument  there are fewer points than vertices
   Coordinates read(const Mesh_numbering<Mesh>& numbering) {
+    if (map_.points().vertex_count() < numbering.vertex_count())
+      throw Bad_argument("there are fewer computed points than the mesh has vertices");
     const std::size_t size = 3 * std::size_t{numbering.vertex_count()};
     posed_.resize(3 * std::size_t{map_.points().vertex_count()});
     map_.points().pose_all(posed_);

@@ -159,6 +159,7 @@ Gltf_points::Gltf_points(std::shared_ptr<const Gltf_scene> scene) : scene_(std::
 
 void Gltf_points::set_time(const Gltf_animation* animation, double time) {
   const auto posed = pose_nodes(*scene_, animation, time);
+  ++pose_number_;  // also if a part fails: those before it have moved
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto& part = scene_->parts[i];
     const auto& own = posed.weights[part.node];
@@ -171,7 +172,6 @@ void Gltf_points::set_time(const Gltf_animation* animation, double time) {
       throw Bad_motion(fmt::format("{}: {}", scene_->name, error.what()));
     }
   }
-  ++pose_number_;
 }
 
 std::uint32_t Gltf_points::vertex_count() const { return static_cast<std::uint32_t>(scene_->vertices); }

@@ -138,6 +138,8 @@ void Shape_reader::read_joints(const tinygltf::Primitive& primitive, std::size_t
   }
   for (std::size_t vertex = first; vertex < first + count && width > 0; ++vertex) {
     const auto weights = std::span(shape_.joint_weights).subspan(vertex * width, width);
+    if (std::ranges::any_of(weights, [](double weight) { return weight < 0; }))
+      throw Bad_mesh(fmt::format("{}: vertex {} (counted from 0) has a negative joint weight", name_, vertex));
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (sum == 0) weights[0] = 1;
     for (double& weight : weights) weight /= sum == 0 ? 1 : sum;
