@@ -153,6 +153,13 @@ TEST_F(Gltf_damage, dangling_references_are_refused) {
   expect_error(sample.gltf(), "/meshes/0: index 2 (counted from 0) refers to vertex 4 of 4");
 }
 
+TEST_F(Gltf_damage, negative_joint_weights_are_refused) {
+  auto sample = rich_gltf();
+  const auto weights = sample.add_quaternions({1, 0, 0, 0, 1.5, -0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+  sample.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = weights;
+  expect_error(sample.gltf(), "vertex 1 (counted from 0) has a negative joint weight");
+}
+
 TEST_F(Gltf_damage, nodes_in_cycles_or_with_two_parents_are_refused) {
   expect_error("/nodes/2/children", {1}, "/nodes/1: is a child of node 0 and of node 2");
   expect_error("/nodes/2/children", {0}, "the nodes form a cycle");
