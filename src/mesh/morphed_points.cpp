@@ -4,19 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <limits>
+#include <string_view>
+#include <utility>
 
+#include "lodestone/mesh/coordinates.h"
 #include "lodestone/mesh/errors.h"
 #include "mesh/pose_kernel.h"
 
 namespace lodestone {
 
 namespace {
-
-bool all_finite(std::span<const double> numbers) {
-  return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
-}
 
 void check(const Morph_target& target, std::size_t number, std::size_t vertex_count) {
   const auto require = [number](bool right, std::string_view what) {

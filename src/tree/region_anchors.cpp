@@ -62,8 +62,7 @@ Region_anchors Region_anchors::load(State_reader& state, const Tree_layout& layo
   State_reader::require(!loaded.probes_.empty() && loaded.probes_.size() == loaded.rest_distances_.size() &&
                             std::ranges::all_of(loaded.probes_, below(layout.node_count())),
                         "the nodes that tell its stretch are not in the tree");
-  State_reader::require(std::ranges::all_of(loaded.rest_distances_, [](double x) { return std::isfinite(x); }),
-                        "a number is not finite");
+  State_reader::require(all_finite(loaded.rest_distances_), "a number is not finite");
   loaded.make_room();
   return loaded;
 }

@@ -54,8 +54,7 @@ class Basic_tree_surface : public Object_surface {
     const double looseness = state.finite();
     auto rest = state.list<double>();
     State_reader::require(rest.empty() || rest.size() == 3 * vertex_count, "it has other positions than vertices");
-    State_reader::require(std::ranges::all_of(rest, [](double x) { return std::isfinite(x); }),
-                          "a coordinate is not finite");
+    State_reader::require(all_finite(rest), "a coordinate is not finite");
     tree_ = Basic_region_tree<Volume>(Tree_layout::load(state, corners(), vertex_count));
     built_looseness_ = looseness;
     set_rest(std::move(rest));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/gltf/gltf_points.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "io/gltf/gltf_points.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/unset_vector.h"
 
@@ -150,16 +151,12 @@ Skinned_points points_of(const Gltf_scene& scene, const Gltf_part& part) {
 }  // namespace
 
 Gltf_points::Gltf_points(std::shared_ptr<const Gltf_scene> scene) : scene_(std::move(scene)) {
-  for (const auto& part : scene_->parts) {
-    first_vertex_.push_back(static_cast<std::uint32_t>(part.first_vertex));
-    parts_.push_back(points_of(*scene_, part));
-  }
+  for (const auto& part : scene_->parts) parts_.push_back(points_of(*scene_, part));
   set_time(nullptr, 0);
 }
 
 void Gltf_points::set_time(const Gltf_animation* animation, double time) {
   const auto posed = pose_nodes(*scene_, animation, time);
-  ++pose_number_;  // also if a part fails: those before it have moved
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto& part = scene_->parts[i];
     const auto& own = posed.weights[part.node];
@@ -174,28 +171,11 @@ void Gltf_points::set_time(const Gltf_animation* animation, double time) {
   }
 }
 
-std::uint32_t Gltf_points::vertex_count() const { return static_cast<std::uint32_t>(scene_->vertices); }
-
-Eigen::Vector3d Gltf_points::operator()(std::uint32_t vertex) const {
-  const auto after = std::ranges::upper_bound(first_vertex_, vertex);
-  const auto part = static_cast<std::size_t>(after - first_vertex_.begin()) - 1;
-  return parts_[part](vertex - first_vertex_[part]);
-}
-
-void Gltf_points::pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const {
-  for (const auto vertex : vertices)
-    Eigen::Map<Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{vertex}) = (*this)(vertex);
-}
-
-void Gltf_points::pose_all(std::span<double> coordinates) const {
-  for (std::size_t part = 0; part < parts_.size(); ++part)
-    parts_[part].pose_all(
-        coordinates.subspan(3 * std::size_t{first_vertex_[part]}, 3 * std::size_t{parts_[part].vertex_count()}));
-}
-
 void Gltf_points::pose_all(std::span<Point> positions) const {
   Unset_vector<double> coordinates(3 * positions.size());
-  pose_all(coordinates);
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    parts_[i].pose_all(
+        std::span(coordinates).subspan(3 * scene_->parts[i].first_vertex, 3 * std::size_t{parts_[i].vertex_count()}));
   for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
     const double* p = coordinates.data() + 3 * vertex;
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
