@@ -25,7 +25,7 @@ bool contains(const Aabb& outer, const Aabb& inner) {
 
 }  // namespace
 
-Bounded_surface::Bounded_surface(const Tree_layout& layout, std::unique_ptr<const Motion> motion)
+Bounded_surface::Bounded_surface(const Tree_layout& layout, std::unique_ptr<const Posable> motion)
     : layout_(&layout),
       motion_(std::move(motion)),
       coordinates_(3 * std::size_t{motion_->vertex_count()}),

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bounds/node_lists.h"
+#include "lodestone/bounds/motion_bound.h"
 
 namespace lodestone {
 

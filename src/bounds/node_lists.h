@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "lodestone/tree/tree_layout.h"
-#include "lodestone/volumes/aabb.h"
 
 /// What bounds have in common: a list per node, made from the leaves up.
 namespace lodestone {
@@ -56,15 +53,6 @@ void node_lists(const Tree_layout& layout, Of_leaf of_leaf, Merged merged, std::
     lists.insert(lists.end(), list.begin(), list.end());
     begin.push_back(lists.size());
   }
-}
-
-inline void open_axis(Aabb& box, std::size_t axis) {
-  box.low[axis] = -std::numeric_limits<double>::infinity();
-  box.high[axis] = std::numeric_limits<double>::infinity();
-}
-/// What has overflowed says nothing.
-inline void open_if_not_finite(Aabb& box, std::size_t axis) {
-  if (!std::isfinite(box.low[axis]) || !std::isfinite(box.high[axis])) open_axis(box, axis);
 }
 
 }  // namespace lodestone

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "lodestone/mesh/errors.h"
 #include "lodestone/queries/face_pair_order.h"
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/triangles/triangle_distance.h"
@@ -22,6 +23,7 @@ void bound_whole(Bounded_surface& surface) {
 
 Contact_summary Bounded_search::run(Bounded_surface& a, Bounded_surface& b, Contact_query query,
                                     std::vector<Face_pair>& found, double tolerance) {
+  if (!(tolerance >= 0) || !std::isfinite(tolerance)) throw Bad_argument("the tolerance must be finite and >= 0");
   a_ = &a, b_ = &b;
   tolerance_ = tolerance;
   one_is_enough_ = query != Contact_query::all;

@@ -27,10 +27,10 @@ namespace lodestone {
 /// Not for several threads at once.
 class Bounded_surface {
  public:
-  /// What the surface asks of its motion.
-  class Motion {
+  /// Points and bounds of any type.
+  class Posable {
    public:
-    virtual ~Motion() = default;
+    virtual ~Posable() = default;
     virtual std::uint64_t pose_number() const = 0;
     virtual std::uint32_t vertex_count() const = 0;
     virtual std::size_t node_count() const = 0;
@@ -39,15 +39,15 @@ class Bounded_surface {
     virtual void pose_all(std::span<double> coordinates) const = 0;
   };
 
-  /// @param layout  must outlive this, as must what follows
-  /// @param points  of the same vertices
-  /// @param bounds  of the same nodes: a node lies in what all of them have in common
+  /// @param layout         must outlive this, as must what follows
+  /// @param points         of the same vertices
+  /// @param bounds         of the same nodes: a node lies in what all of them have in common
   /// @throws Bad_argument  they have other vertices, or other nodes
   template <Computed_points Points, Motion_bound... Bounds>
   requires(sizeof...(Bounds) > 0)
       Bounded_surface(const Tree_layout& layout, const Points& points, const Bounds&... bounds)
-      : Bounded_surface(layout, std::make_unique<Motion_of<Points, Bounds...>>(points, bounds...)) {}
-  Bounded_surface(const Tree_layout& layout, std::unique_ptr<const Motion> motion);
+      : Bounded_surface(layout, std::make_unique<Posable_of<Points, Bounds...>>(points, bounds...)) {}
+  Bounded_surface(const Tree_layout& layout, std::unique_ptr<const Posable> motion);
 
   /// Forgets what was of an earlier pose, if the pose has changed. O(1).
   void start_frame();
@@ -86,9 +86,9 @@ class Bounded_surface {
 
  private:
   template <class Points, class... Bounds>
-  class Motion_of final : public Motion {
+  class Posable_of final : public Posable {
    public:
-    explicit Motion_of(const Points& points, const Bounds&... bounds) : points_(&points), bounds_(&bounds...) {}
+    explicit Posable_of(const Points& points, const Bounds&... bounds) : points_(&points), bounds_(&bounds...) {}
 
     std::uint64_t pose_number() const override { return points_->pose_number(); }
     std::uint32_t vertex_count() const override { return points_->vertex_count(); }
@@ -119,7 +119,7 @@ class Bounded_surface {
   void check_finite(std::uint32_t leaf) const;
 
   const Tree_layout* layout_;
-  std::unique_ptr<const Motion> motion_;
+  std::unique_ptr<const Posable> motion_;
   Unset_vector<double> coordinates_;     ///< 3 V: only those of posed leaves mean something
   std::vector<Aabb> boxes_;              ///< per node
   std::vector<std::uint64_t> boxed_in_;  ///< per node: the frame of its box

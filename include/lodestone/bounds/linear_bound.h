@@ -37,7 +37,7 @@ class Linear_bound {
   };
 
   /// O(V + T log N) for T offsets and N nodes.
-  /// @param points  must outlive this
+  /// @param points         must outlive this
   /// @param layout         of the same vertices
   /// @throws Bad_argument  it has vertices that `points` does not have
   Linear_bound(const Morphed_points& points, const Tree_layout& layout);
@@ -46,10 +46,8 @@ class Linear_bound {
   /// The box of a node in the current pose. O(targets that move vertices of the node).
   Aabb box(std::uint32_t node) const;
 
-  /// How far morphing moves the vertices of a node.
+  /// How far morphing moves the vertices of a node. O(targets that move some of them).
   Shift shift(std::uint32_t node) const;
-  /// The box of a node at rest, which is not rounded.
-  const Aabb& rest(std::uint32_t node) const { return rest_[node]; }
 
  private:
   /// The offsets by which one target moves the vertices of a node.
@@ -61,7 +59,7 @@ class Linear_bound {
   static std::vector<Range> merged(std::span<const Range> a, std::span<const Range> b);
 
   const Morphed_points* points_;
-  std::vector<Aabb> rest_;
+  std::vector<Aabb> rest_;                  ///< per node: the box at rest, which is not rounded
   std::vector<Range> ranges_;               ///< by node, then by target
   std::vector<std::uint64_t> range_begin_;  ///< per node and past the last
 };

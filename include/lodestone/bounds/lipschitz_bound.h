@@ -57,14 +57,13 @@ class Lipschitz_bound {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double smallest = 1e-150;  // shorter distances have squares that underflow
     const Eigen::Vector3d anchor = (*points_)(anchors_[node].vertex);
-    const double reach = constant_ * (anchors_[node].radius + smallest);
+    const double radius = constant_ * (anchors_[node].radius + smallest);
     Aabb box{};
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::nextafter(anchor[axis] - reach, -infinity);
-      box.high[axis] = std::nextafter(anchor[axis] + reach, infinity);
-      if (std::isfinite(box.low[axis]) && std::isfinite(box.high[axis])) continue;
-      box.low[axis] = -infinity;
-      box.high[axis] = infinity;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double at = anchor[static_cast<Eigen::Index>(axis)];
+      box.low[axis] = std::nextafter(at - radius, -infinity);
+      box.high[axis] = std::nextafter(at + radius, infinity);
+      open_if_not_finite(box, axis);
     }
     return box;
   }

@@ -1,27 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "lodestone/tree/tree_layout.h"
 #include "lodestone/volumes/aabb.h"
 
 namespace lodestone {
 
-/// Boxes around the vertices of each node of a tree in the current pose, from the parameters of the motion alone: no
-/// position is computed.
+/// Boxes around the vertices of each node of a tree in the current pose, found without computing their positions, or
+/// with a few of them.
 ///
-/// `bound.box(node)` contains the position of every vertex of the node as it *would be computed*, rounding included. It
-/// may be infinite where numbers overflow. Several threads may ask at once while the pose stays as it is.
+/// `bound.box(node)` contains every vertex of the node where it *would be computed* to be, rounding included. It is
+/// infinite where numbers overflow. Several threads may ask at once while the pose stays as it is.
 template <class B>
 concept Motion_bound = requires(const B& bound, std::uint32_t node) {
   { bound.node_count() } -> std::convertible_to<std::size_t>;
   { bound.box(node) } -> std::same_as<Aabb>;
 };
 
-/// @throws Bad_argument  a leaf of the layout lists a vertex that does not exist
+/// Opens the axis of a box that has overflowed: it says nothing then. O(1).
+inline void open_if_not_finite(Aabb& box, std::size_t axis) {
+  if (std::isfinite(box.low[axis]) && std::isfinite(box.high[axis])) return;
+  box.low[axis] = -std::numeric_limits<double>::infinity();
+  box.high[axis] = std::numeric_limits<double>::infinity();
+}
+
+/// Checks that a layout lists no vertex that does not exist. O(V).
+/// @throws Bad_argument  it does
 void check_layout(const Tree_layout& layout, std::size_t vertex_count);
 
 /// What two boxes have in common, where both contain the same points. O(1).

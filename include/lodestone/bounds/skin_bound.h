@@ -39,11 +39,12 @@ namespace lodestone {
 /// Together these are less than (6 J + 3 n + 16) u R, up to terms in u^2. The ends are moved outwards by
 /// (16 (J + n) + 64) u R, which also covers the rounding of R and of the ends themselves. Products that underflow add
 /// at most 2^-1075 (8 n + 16 J + 32) (|x| + |y| + |z| + 1), for which (J + n + 4) 2^-1070 (|x| + |y| + |z| + 1) is
-/// added.
+/// added. Boxes at rest are halved to find their centres, which rounds the smallest numbers: the halves are 2^-1073
+/// longer.
 class Skin_bound {
  public:
   /// O(influences log N) for N nodes.
-  /// @param points  must outlive this
+  /// @param points         must outlive this
   /// @param layout         of the same vertices
   /// @throws Bad_argument  it has vertices that `points` does not have
   Skin_bound(const Skinned_points& points, const Tree_layout& layout);
@@ -59,13 +60,31 @@ class Skin_bound {
     double least, greatest;           ///< weights
     std::array<double, 3> low, high;  ///< of the vertices with a weight above 0, at rest
   };
+  /// One joint and one vertex that it moves.
+  struct Influence {
+    std::uint32_t joint, vertex;
+    double weight;
+  };
+  /// The box around what a joint moves, before it does.
+  struct Rest_box {
+    std::array<double, 3> centre, half;
+  };
+  /// The same afterwards, along one axis, and an upper bound of |T_j| (|x|, |y|, |z|, 1).
+  struct Moved_box {
+    double middle, half, magnitude;
+  };
+  static std::vector<Influence> influences_on(const Skinned_points& points, std::span<const std::uint32_t> vertices);
   std::vector<Range> of_leaf(std::span<const std::uint32_t> vertices) const;
+  Range of_vertex(const Influence& influence) const;
+  static void enclose(Range& range, const Range& other);
   static std::vector<Range> merged(std::span<const Range> a, std::span<const Range> b);
+  static Rest_box widened(const Range& range, const Linear_bound::Shift& shift);
+  static Moved_box moved(const Rest_box& box, const double* columns, std::size_t axis);
 
   const Skinned_points* points_;
-  std::optional<Linear_bound> shape_;  ///< none: vertices are not morphed
-  std::vector<Range> ranges_;          ///< by node, then by joint
-  std::vector<std::uint64_t> range_begin_;
+  std::optional<Linear_bound> shape_;           ///< none: vertices are not morphed
+  std::vector<Range> ranges_;                   ///< by node, then by joint
+  std::vector<std::uint64_t> range_begin_;      ///< per node and past the last
   std::vector<std::uint32_t> most_influences_;  ///< per node: of one vertex
 };
 

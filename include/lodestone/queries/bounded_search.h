@@ -22,10 +22,12 @@ namespace lodestone {
 /// Keeps its memory from one search to the next.
 class Bounded_search {
  public:
+  /// @param a, b       two surfaces
   /// @param found      contacts are appended, sorted; one at most unless all are asked for, none for `yes_no`
   /// @param tolerance  distance below which two faces are a contact, in units of the coordinates; >= 0; 0: they must
   ///                   intersect
-  /// @throws Bad_mesh  a coordinate that is read is not finite
+  /// @throws Bad_argument  the tolerance is not finite or below 0
+  /// @throws Bad_mesh      a coordinate that is read is not finite
   Contact_summary run(Bounded_surface& a, Bounded_surface& b, Contact_query query, std::vector<Face_pair>& found,
                       double tolerance = 0);
 
