@@ -146,12 +146,17 @@ TEST(Skin_bound, contains_every_position_as_it_is_computed) {
   }
 }
 
+/// All vertices follow one joint.
+Skinned_points rigid(const Face_soup& soup) {
+  const std::vector<std::uint32_t> joints(soup.vertex_count(), 0);
+  const std::vector<double> weights(soup.vertex_count(), 1);
+  return {soup.coordinates, Joint_influences::of(1, joints, weights), 1};
+}
+
 /// Where all vertices of a node move alike, the box is that of the moved corners.
 TEST(Skin_bound, of_vertices_that_follow_one_joint_is_the_box_of_their_turned_box) {
   const Face_soup soup(icosphere(6));
-  const std::vector<std::uint32_t> joints(soup.vertex_count(), 0);
-  const std::vector<double> weights(soup.vertex_count(), 1);
-  Skinned_points points(soup.coordinates, Joint_influences::of(1, joints, weights), 1);
+  auto points = rigid(soup);
   const Tree_layout layout(soup.faces, {}, soup.coordinates, {});
   const Skin_bound bound(points, layout);
   points.set_joints(std::vector{Eigen::Affine3d(Eigen::AngleAxisd(std::acos(-1) / 4, Eigen::Vector3d::UnitZ()))});
@@ -224,9 +229,7 @@ TEST(Motion_bound, of_a_node_whose_children_move_differently_contains_both) {
 
 TEST(Skin_bound, that_overflows_says_nothing) {
   const Face_soup soup(icosphere(2));
-  const std::vector<std::uint32_t> joints(soup.vertex_count(), 0);
-  const std::vector<double> weights(soup.vertex_count(), 1);
-  Skinned_points points(soup.coordinates, Joint_influences::of(1, joints, weights), 1);
+  auto points = rigid(soup);
   const Tree_layout layout(soup.faces, {}, soup.coordinates, {});
   const Skin_bound bound(points, layout);
   points.set_joints(
@@ -240,9 +243,7 @@ TEST(Skin_bound, that_overflows_says_nothing) {
 TEST(Skin_bound, contains_the_smallest_numbers) {
   auto soup = Face_soup(icosphere(2));
   for (double& x : soup.coordinates) x = x < 0 ? -5e-324 : 1e-323;
-  const std::vector<std::uint32_t> joints(soup.vertex_count(), 0);
-  const std::vector<double> weights(soup.vertex_count(), 1);
-  Skinned_points points(soup.coordinates, Joint_influences::of(1, joints, weights), 1);
+  auto points = rigid(soup);
   const Tree_layout layout(soup.faces, {}, soup.coordinates, {.leaf_faces = 4});
   const Skin_bound bound(points, layout);
   points.set_joints(std::vector{Eigen::Affine3d(Eigen::Scaling(1e100))});

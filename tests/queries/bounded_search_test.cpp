@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -125,6 +126,13 @@ TEST(Bounded_search, with_a_tolerance_finds_what_is_near) {
     }
   }
   EXPECT_GT(near_misses, 2U);
+}
+
+TEST(Bounded_search, refuses_what_is_no_tolerance) {
+  Arm a(long_potato(3, 1), false), b(long_potato(3, 2), false);
+  std::vector<Face_pair> found;
+  for (const double tolerance : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_THROW(Bounded_search().run(a.surface, b.surface, Contact_query::all, found, tolerance), Bad_argument);
 }
 
 TEST(Bounded_search, poses_little_where_little_is_near) {
