@@ -26,16 +26,19 @@ constexpr std::size_t worm_joints = 20;
 struct Worm {
   Surface_mesh mesh;
   Skinned_points points;
-  Tree_layout layout;
+  std::vector<Corners> corners;
+  Tree_surface tree;
   Skin_bound bound;
   Bounded_surface surface;
 
   explicit Worm(std::size_t frequency)
       : mesh(ellipsoid(frequency)),
         points(points_of(mesh)),
-        layout(Mesh_numbering<Surface_mesh>(mesh).corners(), {}, points.shape().rest(), {}),
-        bound(points, layout),
-        surface(layout, points, bound) {}
+        corners(Mesh_numbering<Surface_mesh>(mesh).corners()),
+        tree(corners, points.shape().rest()),
+        bound(points, tree.tree()),
+        surface(tree, points, bound) {}
+  Worm(const Worm&) = delete;
 
   static Surface_mesh ellipsoid(std::size_t frequency) {
     auto mesh = icosphere(frequency);
@@ -92,7 +95,7 @@ void bounded(benchmark::State& state) {
     b.pose(0.13 * frame, {18.9 + 0.9 * std::sin(0.7 * frame), 0, 0});
     found.clear();
     Lap_timer timer;
-    const bool meet = search.run(a.surface, b.surface, query, found).found;
+    const bool meet = search.run(a.surface, b.surface, {.query = query}, found).found;
     seconds[0].push_back(timer.lap());
     const Frame& truth = detector.detect();
     seconds[1].push_back(timer.lap());

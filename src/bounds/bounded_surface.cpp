@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "lodestone/mesh/errors.h"
-#include "lodestone/tree/region_tree.h"
 
 namespace lodestone {
 
@@ -23,66 +22,92 @@ bool contains(const Aabb& outer, const Aabb& inner) {
   return result;
 }
 
+void check_nodes(const Node_bound& bound, const Tree_layout& layout) {
+  if (bound.node_count() < layout.node_count()) throw Bad_argument("a bound was made for a tree of fewer nodes");
+}
+
 }  // namespace
 
-Bounded_surface::Bounded_surface(const Tree_layout& layout, std::unique_ptr<const Posable> motion)
-    : layout_(&layout),
-      motion_(std::move(motion)),
-      coordinates_(3 * std::size_t{motion_->vertex_count()}),
-      boxes_(layout.node_count()),
-      boxed_in_(layout.node_count(), 0),
-      posed_in_(layout.leaf_count(), 0) {
-  check_layout(layout, motion_->vertex_count());
-  if (motion_->node_count() < layout.node_count()) throw Bad_argument("a bound was made for a tree of fewer nodes");
+Bounded_surface::Bounded_surface(Tree_surface& tree, std::unique_ptr<const Position_source> positions,
+                                 std::vector<std::unique_ptr<Node_bound>> bounds, Workers& workers, std::string title)
+    : tree_(&tree),
+      positions_(std::move(positions)),
+      bounds_(std::move(bounds)),
+      workers_(&workers),
+      title_(std::move(title)),
+      coordinates_(3 * std::size_t{positions_->vertex_count()}),
+      boxes_(tree.volumes_to_fit()),
+      boxed_in_(layout().node_count(), 0),
+      posed_in_(layout().leaf_count(), 0) {
+  check_layout(layout(), positions_->vertex_count());
+  for (const auto& bound : bounds_) check_nodes(*bound, layout());
   start_frame();
 }
 
+void Bounded_surface::add(std::unique_ptr<Node_bound> bound) {
+  check_nodes(*bound, layout());
+  bounds_.push_back(std::move(bound));
+}
+
 void Bounded_surface::start_frame() {
-  if (frame_ > 0 && pose_ == motion_->pose_number()) return;
-  pose_ = motion_->pose_number();
+  const std::uint64_t pose = positions_->pose_number();
+  if (pose > 0 && pose_ == pose) return;
+  pose_ = pose;
   ++frame_;
   all_posed_ = false;
   violations_settled_ = 0;
   violations_ = nodes_bounded_ = leaves_posed_ = vertices_posed_ = 0;
+  tree_->follow(coordinates_);
 }
 
 void Bounded_surface::bound(std::uint32_t node) {
-  boxes_[node] = motion_->box(node);
+  if (bounds_.empty()) return pose_all();
+  Aabb box = bounds_.front()->box(node);
+  for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node));
+  boxes_[node] = box;
   boxed_in_[node] = frame_;
   ++nodes_bounded_;
 }
 
 void Bounded_surface::read(std::uint32_t leaf) {
-  if (vertices_posed_ > layout_->all_vertices().size() / many_posed) return pose_all();
-  const auto vertices = layout_->vertices(leaf);
-  const std::uint32_t node = layout_->leaf_node(leaf);
+  if (vertices_posed_ > layout().all_vertices().size() / many_posed) return pose_all();
+  const std::uint32_t node = layout().leaf_node(leaf);
   const Aabb promised = box(node), promised_whole = box(0);
-  motion_->pose(vertices, coordinates_);
+  if (all_posed_) return;  // there were no bounds
+  const auto vertices = layout().vertices(leaf);
+  positions_->pose(vertices, coordinates_);
   check_finite(leaf);
-  boxes_[node].enclose(layout_->leaf_faces(leaf, coordinates_));
+  boxes_[node].enclose(layout().leaf_faces(leaf, coordinates_));
   if (!contains(promised, boxes_[node]) || !contains(promised_whole, boxes_[node])) ++violations_;
+  note_read(leaf);
   posed_in_[leaf] = frame_;
   vertices_posed_ += vertices.size();
   ++leaves_posed_;
 }
 
-/// Boxes from bounds that were in use until now are compared with the fitted ones.
 void Bounded_surface::pose_all() {
   if (all_posed_) return;
-  motion_->pose_all(coordinates_);
-  if (!layout_->finite(coordinates_))
-    for (std::uint32_t leaf = 0; leaf < layout_->leaf_count(); ++leaf) check_finite(leaf);
-  const std::vector<Aabb> promised = boxes_;
-  fit_leaves(*layout_, coordinates_, 0, layout_->leaf_count(), boxes_);
-  for (auto node = static_cast<std::uint32_t>(layout_->node_count()); node-- > 0;) {
-    if (!layout_->is_leaf(node)) boxes_[node].enclose(boxes_[node + 1], boxes_[layout_->node(node).second_child]);
-    if (boxed_in_[node] == frame_ && !contains(promised[node], boxes_[node])) ++violations_;
+  const Coordinates coordinates = positions_->pose_all(coordinates_);
+  const std::vector<Aabb> promised(boxes_.begin(), boxes_.end());
+  Tree_surface* const tree[] = {tree_};
+  refit(tree, std::span(&coordinates, 1), *workers_);
+  if (!tree_->finite()) {
+    pose_ = 0;  // no box means anything: the next frame is a new one, even in this pose
+    for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf) check_finite(leaf);
   }
+  for (std::uint32_t node = 0; node < layout().node_count(); ++node)
+    if (boxed_in_[node] == frame_ && !contains(promised[node], boxes_[node])) ++violations_;
+  note_refitted();
+}
+
+void Bounded_surface::note_refitted() {
+  for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf)
+    if (posed_in_[leaf] != frame_) note_read(leaf);
   std::ranges::fill(boxed_in_, frame_);
   std::ranges::fill(posed_in_, frame_);
   all_posed_ = true;
-  leaves_posed_ = layout_->leaf_count();
-  vertices_posed_ = layout_->vertex_begin().back();
+  leaves_posed_ = layout().leaf_count();
+  vertices_posed_ = layout().vertex_begin().back();
 }
 
 void Bounded_surface::settle() {
@@ -90,11 +115,17 @@ void Bounded_surface::settle() {
   violations_settled_ = violations_;
 }
 
+void Bounded_surface::note_read(std::uint32_t leaf) {
+  for (const auto& bound : bounds_)
+    if (!bound->note_read(leaf, boxes_[layout().leaf_node(leaf)], tree_->coordinates())) ++violations_;
+}
+
 void Bounded_surface::check_finite(std::uint32_t leaf) const {
-  for (const auto vertex : layout_->vertices(leaf))
+  for (const auto vertex : layout().vertices(leaf))
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!std::isfinite(coordinates_[3 * std::size_t{vertex} + axis]))
-        throw Bad_mesh("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
+      if (!std::isfinite(tree_->coordinates()[3 * std::size_t{vertex} + axis]))
+        throw Bad_mesh("vertex " + std::to_string(vertex) + (title_.empty() ? "" : " of " + title_) +
+                       " has a coordinate that is not finite");
 }
 
 }  // namespace lodestone

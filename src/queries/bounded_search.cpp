@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/queries/bounded_search.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
 
 #include "lodestone/mesh/errors.h"
-#include "lodestone/queries/face_pair_order.h"
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/triangles/triangle_distance.h"
 #include "lodestone/triangles/triangle_intersection.h"
@@ -21,35 +22,67 @@ void bound_whole(Bounded_surface& surface) {
 
 }  // namespace
 
-Contact_summary Bounded_search::run(Bounded_surface& a, Bounded_surface& b, Contact_query query,
-                                    std::vector<Face_pair>& found, double tolerance) {
+Contact_summary Bounded_search::run(Bounded_surface& a, Bounded_surface& b, const Contact_request& request,
+                                    std::vector<Face_pair>& found) {
+  begin(a, b, request.tolerance);
+  const std::size_t limit = contact_limit(request);
+  End end;
+  do {
+    settle_broken();
+    contacts_.found.clear();
+    end = walk(true, [&](Face_pair contact) {
+      contacts_.found.push_back(contact);
+      return contacts_.found.size() < limit ? Visit::go_on : Visit::stop;
+    });
+  } while (end == End::broken);
+  contacts_.leaf_tests = leaf_tests_;
+  contacts_.exact_tests = exact_tests_;
+  if (end != End::all_posed) return join_tasks(std::span(&contacts_, 1), request, found);
+  Contact_summary summary = whole_.between(a.tree(), b.tree(), request, found);
+  summary.leaf_tests += leaf_tests_;
+  summary.exact_tests += exact_tests_;
+  return summary;
+}
+
+Visit Bounded_search::visit(Bounded_surface& a, Bounded_surface& b, double tolerance,
+                            const std::function<Visit(Face_pair)>& visitor) {
+  begin(a, b, tolerance);
+  std::set<Face_pair> shown;
+  End end;
+  do {
+    settle_broken();
+    end = walk(false, [&](Face_pair contact) {
+      return shown.insert(contact).second ? visitor(contact) : Visit::go_on;
+    });
+  } while (end == End::broken);
+  return end == End::stopped ? Visit::stop : Visit::go_on;
+}
+
+void Bounded_search::begin(Bounded_surface& a, Bounded_surface& b, double tolerance) {
   if (!(tolerance >= 0) || !std::isfinite(tolerance)) throw Bad_argument("the tolerance must be finite and >= 0");
   a_ = &a, b_ = &b;
   tolerance_ = tolerance;
-  one_is_enough_ = query != Contact_query::all;
   leaf_tests_ = exact_tests_ = 0;
   a.start_frame();
   b.start_frame();
   bound_whole(a);
   bound_whole(b);
-  const std::size_t first = found.size();
-  do {
-    found.resize(first);
-    if (a.is_broken()) a.settle();
-    if (b.is_broken()) b.settle();
-  } while (!search(found));
-  const Contact_summary summary{.found = found.size() > first, .leaf_tests = leaf_tests_, .exact_tests = exact_tests_};
-  if (query == Contact_query::yes_no) found.resize(first);
-  sort_face_pairs(std::span(found).subspan(first));
-  return summary;
 }
 
-/// @return false if a bound was broken: what was found is not all
-bool Bounded_search::search(std::vector<Face_pair>& found) {
-  filter_begun_ = false;
+void Bounded_search::settle_broken() {
+  if (a_->is_broken()) a_->settle();
+  if (b_->is_broken()) b_->settle();
+}
+
+/// @param until_all_posed  end as soon as both surfaces are posed as a whole
+/// @return broken: what was visited is not all
+template <class Visitor>
+Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor) {
+  filter_of_a_ = {};
   waiting_.assign(1, root_pair);
   const Tree_layout &layout_a = a_->layout(), &layout_b = b_->layout();
   while (!waiting_.empty()) {
+    if (until_all_posed && all_posed()) return End::all_posed;
     const Node_pair pair = waiting_.back();
     waiting_.pop_back();
     const Aabb box_a = a_->box(pair.a), box_b = b_->box(pair.b);
@@ -58,34 +91,40 @@ bool Bounded_search::search(std::vector<Face_pair>& found) {
       open_pair(layout_a, layout_b, pair, box_a.extent() >= box_b.extent(), waiting_);
       continue;
     }
-    const bool met = test_leaves(layout_a.node(pair.a).leaf, layout_b.node(pair.b).leaf, found);
-    if (met && one_is_enough_) return true;  // even if a bound is broken: the contact is there
-    if (is_broken()) return false;
+    const End end = test_leaves(layout_a.node(pair.a).leaf, layout_b.node(pair.b).leaf, visitor);
+    if (end == End::stopped) return end;  // even if a bound is broken: the contacts are there
+    if (is_broken()) return End::broken;
   }
-  return true;
+  return End::complete;
 }
 
-/// @return whether there was a contact
-bool Bounded_search::test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, std::vector<Face_pair>& found) {
+/// @return stopped, or complete
+template <class Visitor>
+Bounded_search::End Bounded_search::test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor) {
   // The fitted box of one leaf can spare posing the other.
   const bool a_first = a_->is_posed(leaf_a) || !b_->is_posed(leaf_b);
   const bool apart = a_first ? !near(a_->pose(leaf_a), b_->box(b_->layout().leaf_node(leaf_b)), tolerance_)
                              : !near(a_->box(a_->layout().leaf_node(leaf_a)), b_->pose(leaf_b), tolerance_);
-  if (apart || !near(a_->pose(leaf_a), b_->pose(leaf_b), tolerance_) || is_broken()) return false;
+  if (apart || !near(a_->pose(leaf_a), b_->pose(leaf_b), tolerance_) || is_broken()) return End::complete;
   ++leaf_tests_;
-  if (!filter_begun_) filter_.begin(a_->view(), b_->view(), tolerance_);
-  filter_begun_ = true;
+  begin_filter();
   const Leaf_faces faces_a = a_->view().leaf(leaf_a), faces_b = b_->view().leaf(leaf_b);
   const auto indices_a = a_->layout().faces(leaf_a), indices_b = b_->layout().faces(leaf_b);
-  const std::size_t before = found.size();
   for (const Face_candidate& candidate : filter_.face_candidates(leaf_a, leaf_b)) {
     ++exact_tests_;
     if (!are_in_contact(leaf_triangle(faces_a, candidate.a), leaf_triangle(faces_b, candidate.b), candidate.crossing))
       continue;
-    found.push_back({indices_a[candidate.a], indices_b[candidate.b]});
-    if (one_is_enough_) break;
+    if (visitor({indices_a[candidate.a], indices_b[candidate.b]}) == Visit::stop) return End::stopped;
   }
-  return found.size() > before;
+  return End::complete;
+}
+
+/// Once for the positions in each memory: a surface that is posed as a whole can have them elsewhere.
+void Bounded_search::begin_filter() {
+  const Coordinates of_a = a_->tree().coordinates(), of_b = b_->tree().coordinates();
+  if (of_a.data() == filter_of_a_.data() && of_b.data() == filter_of_b_.data()) return;
+  filter_.begin(a_->view(), b_->view(), tolerance_);
+  filter_of_a_ = of_a, filter_of_b_ = of_b;
 }
 
 bool Bounded_search::are_in_contact(const Triangle_corners& a, const Triangle_corners& b, Crossing likely) const {

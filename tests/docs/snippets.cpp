@@ -164,9 +164,9 @@ TEST_F(Snippets, of_computed_positions) {
   for (const auto v : body_mesh.vertices())
     for (int axis = 0; axis < 3; ++axis) other_rest.push_back(body_mesh.point(v)[axis]);
   const lodestone::Morphed_points other(other_rest);
-  const lodestone::Tree_layout other_layout(other_numbering.corners(), {}, other_rest, {});
-  const lodestone::Linear_bound other_bound(other, other_layout);
-  lodestone::Bounded_surface other_surface(other_layout, other, other_bound);
+  lodestone::Tree_surface other_tree(other_numbering.corners(), other_rest);
+  const lodestone::Linear_bound other_bound(other, other_tree.tree());
+  lodestone::Bounded_surface other_surface(other_tree, other, other_bound);
 
   lodestone::Skinned_points arm(rest, lodestone::Joint_influences::of(4, joints, weights), 2);
   lodestone::Detector detector;
@@ -176,11 +176,11 @@ TEST_F(Snippets, of_computed_positions) {
   const bool hit = detector.detect().collides();
 
   const lodestone::Mesh_numbering<lodestone::Surface_mesh> numbering(arm_mesh);
-  const lodestone::Tree_layout layout(numbering.corners(), {}, rest, {});
-  const lodestone::Skin_bound bound(arm, layout);
-  lodestone::Bounded_surface surface(layout, arm, bound);  // keep it from frame to frame
+  lodestone::Tree_surface tree(numbering.corners(), rest);
+  const lodestone::Skin_bound bound(arm, tree.tree());
+  lodestone::Bounded_surface surface(tree, arm, bound);  // keep it from frame to frame
   std::vector<lodestone::Face_pair> contacts;
-  lodestone::Bounded_search().run(surface, other_surface, lodestone::Contact_query::all, contacts);
+  lodestone::Bounded_search().run(surface, other_surface, {}, contacts);
   EXPECT_EQ(hit, !contacts.empty());
   EXPECT_TRUE(std::ranges::equal(contacts, detector.detect().face_pairs));
 }

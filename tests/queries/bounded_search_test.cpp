@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -21,16 +22,21 @@ namespace {
 struct Arm {
   Surface_mesh mesh;
   Skinned_points points;
-  Tree_layout layout;
+  std::vector<Corners> corners;
+  Tree_surface tree;
+  const Tree_layout& layout;
   Skin_bound bound;
   Bounded_surface surface;
 
   explicit Arm(Surface_mesh shape, bool morphed, std::size_t leaf_faces = 16)
       : mesh(std::move(shape)),
         points(points_of(mesh, morphed)),
-        layout(Numbered_mesh(mesh).faces, {}, points.shape().rest(), {.leaf_faces = leaf_faces}),
+        corners(Numbered_mesh(mesh).numbering.corners()),
+        tree(corners, points.shape().rest(), {.leaf_faces = leaf_faces}),
+        layout(tree.tree()),
         bound(points, layout),
-        surface(layout, points, bound) {}
+        surface(tree, points, bound) {}
+  Arm(const Arm&) = delete;
 
   static Skinned_points points_of(const Surface_mesh& mesh, bool morphed) {
     std::vector<double> rest, weights;
@@ -75,15 +81,15 @@ bool expect_truth(Bounded_surface& a, Bounded_surface& b, const Surface_mesh& me
   const auto truth = exhaustive_face_pairs(mesh_a, mesh_b);
   Bounded_search search;
   std::vector<Face_pair> found{{7, 7}};
-  EXPECT_EQ(search.run(a, b, Contact_query::yes_no, found).found, !truth.empty());
+  EXPECT_EQ(search.run(a, b, {.query = Contact_query::yes_no}, found).found, !truth.empty());
   EXPECT_EQ(found.size(), 1U);
-  EXPECT_EQ(search.run(a, b, Contact_query::first, found).found, !truth.empty());
+  EXPECT_EQ(search.run(a, b, {.query = Contact_query::first}, found).found, !truth.empty());
   EXPECT_EQ(found.size(), truth.empty() ? 1U : 2U);
   if (!truth.empty()) {
     EXPECT_TRUE(std::ranges::find(truth, found.back()) != truth.end());
   }
   found.resize(1);
-  EXPECT_EQ(search.run(a, b, Contact_query::all, found).found, !truth.empty());
+  EXPECT_EQ(search.run(a, b, {}, found).found, !truth.empty());
   EXPECT_EQ(std::vector(found.begin() + 1, found.end()), truth);
   EXPECT_EQ(found.front(), (Face_pair{7, 7}));
   return !truth.empty();
@@ -119,8 +125,11 @@ TEST(Bounded_search, with_a_tolerance_finds_what_is_near) {
     for (const double tolerance : {0.01, 0.3}) {
       const auto truth = near_face_pairs(a.mesh, b.mesh, tolerance);
       std::vector<Face_pair> found;
-      EXPECT_EQ(search.run(a.surface, b.surface, Contact_query::yes_no, found, tolerance).found, !truth.empty());
-      search.run(a.surface, b.surface, Contact_query::all, found, tolerance);
+      const auto ask = [&](Contact_query query) {
+        return search.run(a.surface, b.surface, {.query = query, .tolerance = tolerance}, found).found;
+      };
+      EXPECT_EQ(ask(Contact_query::yes_no), !truth.empty());
+      ask(Contact_query::all);
       EXPECT_EQ(found, truth);
       near_misses += !truth.empty() && exhaustive_face_pairs(a.mesh, b.mesh).empty() ? 1 : 0;
     }
@@ -132,7 +141,7 @@ TEST(Bounded_search, refuses_what_is_no_tolerance) {
   Arm a(long_potato(3, 1), false), b(long_potato(3, 2), false);
   std::vector<Face_pair> found;
   for (const double tolerance : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")})
-    EXPECT_THROW(Bounded_search().run(a.surface, b.surface, Contact_query::all, found, tolerance), Bad_argument);
+    EXPECT_THROW(Bounded_search().run(a.surface, b.surface, {.tolerance = tolerance}, found), Bad_argument);
 }
 
 TEST(Bounded_search, poses_little_where_little_is_near) {
@@ -144,7 +153,7 @@ TEST(Bounded_search, poses_little_where_little_is_near) {
   b.pose(-0.5, {0, 0, 30});
   Bounded_search search;
   std::vector<Face_pair> found;
-  EXPECT_FALSE(search.run(a.surface, b.surface, Contact_query::all, found).found);
+  EXPECT_FALSE(search.run(a.surface, b.surface, {}, found).found);
   EXPECT_EQ(a.surface.vertices_posed() + b.surface.vertices_posed(), 0U);
   EXPECT_EQ(a.surface.nodes_bounded(), 1U);
   bool meet = false;
@@ -192,10 +201,11 @@ TEST(Bounded_search, that_notices_a_broken_bound_poses_all_and_is_right) {
   int broken = 0;
   for (std::uint32_t from = 0; from < a.bound.node_count(); ++from) {
     const Broken_bound lie{a.bound, from};
-    Bounded_surface surface(a.layout, a.points, lie);
+    Tree_surface tree = a.tree;
+    Bounded_surface surface(tree, a.points, lie);
     Bounded_search search;
     std::vector<Face_pair> found;
-    search.run(surface, b.surface, Contact_query::all, found);
+    search.run(surface, b.surface, {}, found);
     if (surface.violations() == 0) continue;
     ++broken;
     EXPECT_FALSE(surface.is_broken());
@@ -210,7 +220,8 @@ TEST(Bounded_surface, compares_what_it_poses_with_the_boxes_that_were_in_use) {
   a.pose(0.4, {0, 0, 0});
   const std::uint32_t leaf = 3, node = a.layout.leaf_node(leaf);
   const Broken_bound lie{a.bound, 1};  // of all nodes but the root
-  Bounded_surface by_leaf(a.layout, a.points, lie), by_node(a.layout, a.points, lie), unused(a.layout, a.points, lie);
+  std::array<Tree_surface, 3> trees{a.tree, a.tree, a.tree};
+  Bounded_surface by_leaf(trees[0], a.points, lie), by_node(trees[1], a.points, lie), unused(trees[2], a.points, lie);
   by_leaf.pose(leaf);
   EXPECT_EQ(by_leaf.violations(), 1U);
   EXPECT_TRUE(by_leaf.is_broken());
@@ -237,19 +248,19 @@ TEST(Bounded_search, settles_a_surface_that_is_broken_already) {
     Aabb box(std::uint32_t) const { return {.low = {900, 900, 900, 0}, .high = {901, 901, 901, 0}}; }
   };
   const Far_away lie{a.bound};
-  Bounded_surface surface(a.layout, a.points, lie);
+  Bounded_surface surface(a.tree, a.points, lie);
   surface.pose(0);
   EXPECT_TRUE(surface.is_broken());
   Bounded_search search;
   std::vector<Face_pair> found;
-  search.run(surface, b.surface, Contact_query::all, found);
+  search.run(surface, b.surface, {}, found);
   EXPECT_EQ(found, exhaustive_face_pairs(a.mesh, b.mesh));
 }
 
 TEST(Bounded_surface, refuses_what_belongs_to_other_meshes) {
   Arm a(long_potato(6, 1), false), small(long_potato(3, 1), false);
-  EXPECT_THROW(Bounded_surface(a.layout, small.points, a.bound), Bad_argument);
-  EXPECT_THROW(Bounded_surface(a.layout, a.points, small.bound), Bad_argument);
+  EXPECT_THROW(Bounded_surface(a.tree, small.points, a.bound), Bad_argument);
+  EXPECT_THROW(Bounded_surface(a.tree, a.points, small.bound), Bad_argument);
   EXPECT_THROW(Skin_bound(small.points, a.layout), Bad_argument);
   EXPECT_THROW(Linear_bound(small.points.shape(), a.layout), Bad_argument);
 }
@@ -266,7 +277,7 @@ TEST(Bounded_surface, lies_in_what_several_bounds_have_in_common) {
     }
   };
   const Half_space above{a.bound.node_count()};
-  Bounded_surface surface(a.layout, a.points, a.bound, above);
+  Bounded_surface surface(a.tree, a.points, a.bound, above);
   EXPECT_EQ(surface.box(0).low[2], 0.25);
   EXPECT_EQ(surface.box(0).high[2], a.bound.box(0).high[2]);
 }
@@ -279,7 +290,7 @@ TEST(Bounded_search, names_a_vertex_that_is_not_finite) {
   a.points.set_joints(motions);
   Bounded_search search;
   std::vector<Face_pair> found;
-  const auto message = message_of<Bad_mesh>([&] { search.run(a.surface, b.surface, Contact_query::yes_no, found); });
+  const auto message = message_of<Bad_mesh>([&] { search.run(a.surface, b.surface, {}, found); });
   EXPECT_NE(message.find("has a coordinate that is not finite"), std::string::npos) << message;
   a.pose(0, {0, 0, 0});
   EXPECT_TRUE(expect_truth(a.surface, b.surface, a.mesh, b.mesh));

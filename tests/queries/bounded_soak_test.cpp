@@ -35,7 +35,8 @@ struct Soft_body {
   std::vector<double> rest;
   std::size_t joint_count;
   Skinned_points points;
-  Tree_layout layout;
+  std::vector<Corners> corners;
+  Tree_surface tree;
   Skin_bound bound;
   Bounded_surface surface;
 
@@ -45,9 +46,11 @@ struct Soft_body {
         rest(rest_of(mesh, far, random)),
         joint_count(1 + random.below(6)),
         points(Morphed_points(rest, targets(random)), influences(random), joint_count),
-        layout(Mesh_numbering<Surface_mesh>(mesh).corners(), {}, rest, {.leaf_faces = 2 + random.below(60)}),
-        bound(points, layout),
-        surface(layout, points, bound) {}
+        corners(Mesh_numbering<Surface_mesh>(mesh).corners()),
+        tree(corners, rest, {.leaf_faces = 2 + random.below(60)}),
+        bound(points, tree.tree()),
+        surface(tree, points, bound) {}
+  Soft_body(const Soft_body&) = delete;
 
   static std::vector<double> rest_of(const Surface_mesh& mesh, double far, Random& random) {
     const double x_size = random.number(0.1, 3), y_size = random.one_in(10) ? 0 : random.number(0, 1.5);
@@ -125,8 +128,8 @@ TEST(Bounded_soak, random_surfaces_have_the_contacts_of_mode_exact) {
       b.pose({random.number(-2.5, 2.5), random.number(), random.number()}, random);
       const auto truth = find_collisions(a.mesh, b.mesh).faces;
       std::vector<Face_pair> found;
-      EXPECT_EQ(search.run(a.surface, b.surface, Contact_query::yes_no, found).found, !truth.empty());
-      search.run(a.surface, b.surface, Contact_query::all, found);
+      EXPECT_EQ(search.run(a.surface, b.surface, {.query = Contact_query::yes_no}, found).found, !truth.empty());
+      search.run(a.surface, b.surface, {}, found);
       EXPECT_EQ(found, truth) << bodies << ", " << frame;
       EXPECT_EQ(a.surface.violations() + b.surface.violations(), 0U);
       meetings += truth.empty() ? 0 : 1;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <tuple>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "lodestone/bounds/motion_bound.h"
-#include "lodestone/mesh/computed_points.h"
+#include "lodestone/bounds/node_bound.h"
+#include "lodestone/mesh/position_source.h"
 #include "lodestone/mesh/unset_vector.h"
-#include "lodestone/tree/tree_layout.h"
-#include "lodestone/tree/tree_view.h"
+#include "lodestone/tree/tree_surface.h"
 
 namespace lodestone {
 
@@ -24,35 +24,43 @@ namespace lodestone {
 /// and where all vertices are posed with all boxes in use. If one lies outside, `is_broken()` says so, and whoever
 /// relied on boxes must `settle` the surface and ask again.
 ///
-/// Not for several threads at once.
+/// Boxes and positions are written to the tree's surface. Not for several threads at once.
 class Bounded_surface {
  public:
-  /// Points and bounds of any type.
-  class Posable {
-   public:
-    virtual ~Posable() = default;
-    virtual std::uint64_t pose_number() const = 0;
-    virtual std::uint32_t vertex_count() const = 0;
-    virtual std::size_t node_count() const = 0;
-    virtual Aabb box(std::uint32_t node) const = 0;
-    virtual void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const = 0;
-    virtual void pose_all(std::span<double> coordinates) const = 0;
-  };
+  /// How much is known about a leaf in the current pose.
+  enum class Leaf_state { far, bounded, posed };
 
-  /// @param layout         must outlive this, as must what follows
+  /// Points and bounds of any type.
+  /// @param tree           has been built; must outlive this, as must what follows
   /// @param points         of the same vertices
   /// @param bounds         of the same nodes: a node lies in what all of them have in common
   /// @throws Bad_argument  they have other vertices, or other nodes
-  template <Computed_points Points, Motion_bound... Bounds>
-  requires(sizeof...(Bounds) > 0)
-      Bounded_surface(const Tree_layout& layout, const Points& points, const Bounds&... bounds)
-      : Bounded_surface(layout, std::make_unique<Posable_of<Points, Bounds...>>(points, bounds...)) {}
-  Bounded_surface(const Tree_layout& layout, std::unique_ptr<const Posable> motion);
+  template <Computed_points Points, class... Bounds>
+  requires(sizeof...(Bounds) > 0 && (Motion_bound<std::remove_const_t<Bounds>> && ...))
+      Bounded_surface(Tree_surface& tree, const Points& points, Bounds&... bounds)
+      : Bounded_surface(tree, std::make_unique<Computed_source<Points>>(points), list_of(bounds...)) {}
+  /// @param positions  of the vertices of the tree
+  /// @param bounds     none: everything is posed as soon as a box is needed
+  /// @param workers    share what is done to all vertices; must outlive this
+  /// @param title      names the object in messages
+  Bounded_surface(Tree_surface& tree, std::unique_ptr<const Position_source> positions,
+                  std::vector<std::unique_ptr<Node_bound>> bounds, Workers& workers = Workers::alone(),
+                  std::string title = {});
 
-  /// Forgets what was of an earlier pose, if the pose has changed. O(1).
+  /// One more bound. The boxes in use stay as they are until the next frame.
+  /// @throws Bad_argument  it has fewer nodes than the tree
+  void add(std::unique_ptr<Node_bound> bound);
+
+  /// Forgets what was of an earlier pose, unless it is known to be that of now. O(1).
   void start_frame();
+  /// Takes note that the tree has just been refitted to all positions, for this frame. O(F).
+  void note_refitted();
 
-  const Tree_layout& layout() const { return *layout_; }
+  const Tree_layout& layout() const { return tree_->tree(); }
+  Tree_surface& tree() const { return *tree_; }
+  const Position_source& positions() const { return *positions_; }
+  bool has_bounds() const { return !bounds_.empty(); }
+
   /// A box around the vertices of a node: from the bounds, or fitted where positions are known.
   const Aabb& box(std::uint32_t node) {
     if (boxed_in_[node] != frame_) bound(node);
@@ -63,7 +71,7 @@ class Bounded_surface {
   /// @throws Bad_mesh  a coordinate is not finite
   const Aabb& pose(std::uint32_t leaf) {
     if (posed_in_[leaf] != frame_) read(leaf);
-    return boxes_[layout_->leaf_node(leaf)];
+    return boxes_[layout().leaf_node(leaf)];
   }
   /// Poses all vertices and fits all boxes. O(V).
   /// @throws Bad_mesh  a coordinate is not finite
@@ -71,57 +79,44 @@ class Bounded_surface {
   /// The same after a broken bound: all boxes are fitted, so nothing is broken any more.
   void settle();
 
+  bool all_posed() const { return all_posed_; }
   bool is_posed(std::uint32_t leaf) const { return posed_in_[leaf] == frame_; }
+  Leaf_state leaf_state(std::uint32_t leaf) const {
+    if (is_posed(leaf)) return Leaf_state::posed;
+    return boxed_in_[layout().leaf_node(leaf)] == frame_ ? Leaf_state::bounded : Leaf_state::far;
+  }
   /// What has been posed. Only leaves that were posed in this frame may be read.
   /// @pre the root has a box in this frame, and it is finite
-  Layout_view view() const { return {layout_, coordinates_, boxes_[0], boxes_}; }
+  Layout_view view() const { return {&layout(), tree_->coordinates(), boxes_[0], boxes_}; }
 
   /// Whether a position of this frame was outside a box that was in use, and the surface has not been settled since.
   bool is_broken() const { return violations_ > violations_settled_; }
   // Counts of this frame.
-  std::size_t violations() const { return violations_; }  ///< boxes with positions outside
+  std::size_t violations() const { return violations_; }  ///< boxes with positions outside, promises not kept
   std::size_t nodes_bounded() const { return nodes_bounded_; }
   std::size_t leaves_posed() const { return leaves_posed_; }
   std::size_t vertices_posed() const { return vertices_posed_; }  ///< those of several leaves count for each
 
  private:
-  template <class Points, class... Bounds>
-  class Posable_of final : public Posable {
-   public:
-    explicit Posable_of(const Points& points, const Bounds&... bounds) : points_(&points), bounds_(&bounds...) {}
-
-    std::uint64_t pose_number() const override { return points_->pose_number(); }
-    std::uint32_t vertex_count() const override { return points_->vertex_count(); }
-    std::size_t node_count() const override {
-      return std::apply([](const auto*... bounds) { return std::min({std::size_t{bounds->node_count()}...}); },
-                        bounds_);
-    }
-    Aabb box(std::uint32_t node) const override {
-      return std::apply([node](const auto*... bounds) { return common(bounds->box(node)...); }, bounds_);
-    }
-    void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
-      points_->pose(vertices, coordinates);
-    }
-    void pose_all(std::span<double> coordinates) const override { points_->pose_all(coordinates); }
-
-   private:
-    static Aabb common(const Aabb& box) { return box; }
-    template <class... Others>
-    static Aabb common(const Aabb& a, const Aabb& b, const Others&... others) {
-      return common(common_box(a, b), others...);
-    }
-    const Points* points_;
-    std::tuple<const Bounds*...> bounds_;
-  };
-
+  template <class... Bounds>
+  static std::vector<std::unique_ptr<Node_bound>> list_of(Bounds&... bounds) {
+    std::vector<std::unique_ptr<Node_bound>> list;
+    (list.push_back(std::make_unique<Node_bound_of<Bounds&>>(bounds)), ...);
+    return list;
+  }
   void bound(std::uint32_t node);
   void read(std::uint32_t leaf);
+  void compare_with_boxes();
+  void note_read(std::uint32_t leaf);
   void check_finite(std::uint32_t leaf) const;
 
-  const Tree_layout* layout_;
-  std::unique_ptr<const Posable> motion_;
+  Tree_surface* tree_;
+  std::unique_ptr<const Position_source> positions_;
+  std::vector<std::unique_ptr<Node_bound>> bounds_;
+  Workers* workers_;
+  std::string title_;
   Unset_vector<double> coordinates_;     ///< 3 V: only those of posed leaves mean something
-  std::vector<Aabb> boxes_;              ///< per node
+  std::span<Aabb> boxes_;                ///< per node, of the tree
   std::vector<std::uint64_t> boxed_in_;  ///< per node: the frame of its box
   std::vector<std::uint64_t> posed_in_;  ///< per leaf: the frame in which it was posed
   std::uint64_t frame_ = 0, pose_ = 0;

@@ -23,6 +23,16 @@ concept Motion_bound = requires(const B& bound, std::uint32_t node) {
   { bound.box(node) } -> std::same_as<Aabb>;
 };
 
+/// A bound that learns from positions which have been computed, or compares them with what was promised.
+///
+/// `bound.note_read(leaf, fitted, coordinates)` is called once in a frame for a leaf that has been read, with the box
+/// fitted to it, and 3 V coordinates of which those of the leaf are current. It returns whether they keep the promise.
+template <class B>
+concept Watching_bound =
+    Motion_bound<B> && requires(B& bound, std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
+      { bound.note_read(leaf, fitted, coordinates) } -> std::same_as<bool>;
+    };
+
 /// Opens the axis of a box that has overflowed: it says nothing then. O(1).
 inline void open_if_not_finite(Aabb& box, std::size_t axis) {
   if (std::isfinite(box.low[axis]) && std::isfinite(box.high[axis])) return;

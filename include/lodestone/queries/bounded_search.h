@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "lodestone/bounds/bounded_surface.h"
@@ -17,34 +18,50 @@ namespace lodestone {
 /// down; the leaves that may meet are posed, and their faces tested exactly.
 ///
 /// The contacts are those of a Contact_search over all positions. Where a position is found outside its bound, its
-/// surface is posed as a whole and the search begins anew; a bound that is broken elsewhere goes unnoticed.
+/// surface is posed as a whole and the search begins anew; a bound that is broken elsewhere goes unnoticed. Once both
+/// surfaces are posed as a whole, a Contact_search goes on, and shares the work among workers.
 ///
 /// Keeps its memory from one search to the next.
 class Bounded_search {
  public:
-  /// @param a, b       two surfaces
-  /// @param found      contacts are appended, sorted; one at most unless all are asked for, none for `yes_no`
-  /// @param tolerance  distance below which two faces are a contact, in units of the coordinates; >= 0; 0: they must
-  ///                   intersect
+  /// @param workers  must outlive this
+  explicit Bounded_search(Workers& workers = Workers::alone()) : whole_(workers) {}
+
+  /// @param a, b   two surfaces
+  /// @param found  contacts are appended, sorted; none for the query `yes_no`
   /// @throws Bad_argument  the tolerance is not finite or below 0
   /// @throws Bad_mesh      a coordinate that is read is not finite
-  Contact_summary run(Bounded_surface& a, Bounded_surface& b, Contact_query query, std::vector<Face_pair>& found,
-                      double tolerance = 0);
+  Contact_summary run(Bounded_surface& a, Bounded_surface& b, const Contact_request& request,
+                      std::vector<Face_pair>& found);
+  /// Shows each contact once to a visitor, until it stops the walk.
+  /// @param tolerance  as of a request
+  /// @throws Bad_argument, Bad_mesh  as `run`
+  Visit visit(Bounded_surface& a, Bounded_surface& b, double tolerance,
+              const std::function<Visit(Face_pair)>& visitor);
 
  private:
-  bool search(std::vector<Face_pair>& found);
-  bool test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, std::vector<Face_pair>& found);
+  enum class End { complete, stopped, broken, all_posed };
+
+  void begin(Bounded_surface& a, Bounded_surface& b, double tolerance);
+  template <class Visitor>
+  End walk(bool until_all_posed, Visitor&& visitor);
+  template <class Visitor>
+  End test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor);
+  void begin_filter();
   bool are_in_contact(const Triangle_corners& a, const Triangle_corners& b, Crossing likely) const;
   bool is_broken() const { return a_->is_broken() || b_->is_broken(); }
+  bool all_posed() const { return a_->all_posed() && b_->all_posed(); }
+  void settle_broken();
 
   Bounded_surface* a_ = nullptr;
   Bounded_surface* b_ = nullptr;
-  bool one_is_enough_ = false;
   double tolerance_ = 0;
   std::vector<Node_pair> waiting_;
   Face_filter filter_;
-  bool filter_begun_ = false;
+  Coordinates filter_of_a_ = {}, filter_of_b_ = {};  ///< which positions the filter has been told of; empty: none
   std::size_t leaf_tests_ = 0, exact_tests_ = 0;
+  Contact_search whole_;
+  Task_contacts contacts_;
 };
 
 }  // namespace lodestone

@@ -91,6 +91,8 @@ class Basic_region_tree : public Tree_layout {
 
   const Volume& volume(std::uint32_t n) const { return volumes_[n]; }
   std::span<const Volume> volumes() const { return volumes_; }
+  /// The same, for whoever fits single nodes.
+  std::span<Volume> volumes() { return volumes_; }
 
   /// Mean extent of the leaves' volumes, relative to the extent of the root's. It grows when leaves are pulled apart.
   /// For boxes it stays the same if the mesh is moved, turned by right angles, or scaled. 0 for a point.

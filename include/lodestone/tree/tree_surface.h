@@ -18,6 +18,12 @@ class Basic_tree_surface : public Object_surface {
  public:
   using Object_surface::Object_surface;
 
+  /// A surface with a tree, without regions: see `build`.
+  Basic_tree_surface(std::span<const Corners> corners, Coordinates coordinates, const Region_tree_options& options = {})
+      : Object_surface(corners) {
+    build({}, coordinates, options);
+  }
+
   /// Builds the tree, or rebuilds it. O(F log F), shared among the workers.
   /// @param labels       V: region of each vertex; empty: a single region
   /// @param coordinates  3 V, all finite; must stay unchanged until the next refit
@@ -62,6 +68,12 @@ class Basic_tree_surface : public Object_surface {
 
   const Basic_region_tree<Volume>& tree() const { return tree_; }
   Basic_tree_view<Volume> view() const { return {&tree_, coordinates_}; }
+
+  // For whoever fits single nodes, instead of refitting the tree.
+  std::span<Volume> volumes_to_fit() { return tree_.volumes(); }
+  /// @param coordinates  3 V; must stay where they are until the next refit
+  void follow(Coordinates coordinates) { coordinates_ = coordinates; }
+
   /// Whether all coordinates that faces use are finite. Every query requires it.
   bool finite() const { return finite_; }
   /// Whether the looseness of the tree has grown by more than `factor` since it was built.

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "lodestone/bounds/motion_bound.h"
+#include "lodestone/mesh/position_source.h"
+
+namespace lodestone {
+
+/// A Motion_bound of any type.
+class Node_bound {
+ public:
+  virtual ~Node_bound() = default;
+  virtual std::size_t node_count() const = 0;
+  virtual Aabb box(std::uint32_t node) const = 0;
+  /// See Watching_bound.
+  virtual bool note_read(std::uint32_t /*leaf*/, const Aabb& /*fitted*/, Coordinates /*coordinates*/) { return true; }
+};
+
+/// A bound as a Node_bound.
+/// @tparam B  what is kept: the bound, or a reference to it
+template <class B>
+class Node_bound_of final : public Node_bound {
+ public:
+  explicit Node_bound_of(B bound) : bound_(std::forward<B>(bound)) {}
+
+  std::size_t node_count() const override { return bound_.node_count(); }
+  Aabb box(std::uint32_t node) const override { return bound_.box(node); }
+  bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) override {
+    if constexpr (Watching_bound<std::remove_reference_t<B>>)
+      return bound_.note_read(leaf, fitted, coordinates);
+    else
+      return true;
+  }
+
+ private:
+  B bound_;
+};
+
+/// What a bound can be made from, once the tree of an object has been built.
+struct Bounded_object {
+  const Tree_layout& layout;
+  std::span<const Region_index> labels;  ///< V: region of each vertex; empty: a single region
+  Coordinates rest;                      ///< 3 V: where the vertices were then, which is called at rest
+  const Position_source& positions;      ///< where they are
+};
+
+/// A promise about the motion of an object, from which a bound is made when the object's tree has been built.
+///
+/// `promise.bound(object)` makes it: a Motion_bound, which may refer to the promise, to the layout and to the positions,
+/// but neither to the labels nor to the rest. Models: Lipschitz_promise, Stretch_promise, Displacement_promise,
+/// Box_promise.
+template <class P>
+concept Motion_promise = requires(const P& promise, const Bounded_object& object) {
+  { promise.bound(object) } -> Motion_bound;
+};
+
+}  // namespace lodestone
