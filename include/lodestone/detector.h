@@ -210,6 +210,25 @@ class Detector {
     return exact.parting({a, b});
   }
 
+  /// Promises something about how an object moves, in mode `certified`: see Motion_promise. The promise must outlive the
+  /// object, or the detector; it may change between frames. It is about where the vertices are, placement included. The
+  /// positions of the next query are those at rest, unless an earlier promise has set them. Several promises hold
+  /// together. Computed points with joints, morph targets or other bounds of their own need no promise.
+  /// @throws Bad_argument  no such object, another mode
+  template <Motion_promise Promise>
+  void promise(Object_id object, const Promise& promise) {
+    ask<Exact>(object).promise(object, [&promise](const Bounded_object& bounded) -> std::unique_ptr<Node_bound> {
+      auto bound = promise.bound(bounded);
+      return std::make_unique<Node_bound_of<decltype(bound)>>(std::move(bound));
+    });
+  }
+  template <Motion_promise Promise>
+  void promise(Object_id object, const Promise&& promise) = delete;
+  /// What the last query knew of an object in mode `certified`: which leaves of its tree it has bounded, and which it has
+  /// posed. Null before the first query, and in mode `exact`.
+  /// @throws Bad_argument  no such object, another mode
+  const Bounded_surface* bounded(Object_id object) const { return ask<Exact>(object).bounded(object); }
+
   /// Number of objects added, removed ones included: every id is below it.
   std::size_t size() const { return meshes_.size(); }
   /// The state of one object in a mode with particles: regions, particles, patches. Valid until it is rebuilt.

@@ -100,6 +100,14 @@ void Bounded_surface::pose_all() {
   note_refitted();
 }
 
+void Bounded_surface::take_refitted() {
+  const Coordinates now = tree_->coordinates();
+  start_frame();
+  tree_->follow(now);
+  note_refitted();
+  violations_settled_ = violations_;
+}
+
 void Bounded_surface::note_refitted() {
   for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf)
     if (posed_in_[leaf] != frame_) note_read(leaf);

@@ -20,6 +20,11 @@ void Frame_builder::reserve(std::size_t pairs, std::size_t face_pairs) {
 
 void Frame_builder::start(const Frame_statistics& statistics) {
   ++frame_.number;
+  clear_pairs();
+  frame_.statistics = statistics;
+}
+
+void Frame_builder::clear_pairs() {
   frame_.pairs.clear();
   frame_.face_pairs.clear();
   frame_.contact_points.clear();
@@ -28,7 +33,6 @@ void Frame_builder::start(const Frame_statistics& statistics) {
   frame_.candidates.clear();
   frame_.object_iterations.clear();
   faces_.clear();
-  frame_.statistics = statistics;
 }
 
 void Frame_builder::add_patches(const Object_surface& a, const Object_surface& b, double tolerance) {

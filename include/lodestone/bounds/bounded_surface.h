@@ -53,8 +53,8 @@ class Bounded_surface {
 
   /// Forgets what was of an earlier pose, unless it is known to be that of now. O(1).
   void start_frame();
-  /// Takes note that the tree has just been refitted to all positions, for this frame. O(F).
-  void note_refitted();
+  /// Starts a frame to whose positions the tree has just been refitted. O(F).
+  void take_refitted();
 
   const Tree_layout& layout() const { return tree_->tree(); }
   Tree_surface& tree() const { return *tree_; }
@@ -106,7 +106,7 @@ class Bounded_surface {
   }
   void bound(std::uint32_t node);
   void read(std::uint32_t leaf);
-  void compare_with_boxes();
+  void note_refitted();
   void note_read(std::uint32_t leaf);
   void check_finite(std::uint32_t leaf) const;
 

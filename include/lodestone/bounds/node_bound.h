@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lodestone/bounds/motion_bound.h"
+#include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/position_source.h"
 
 namespace lodestone {

@@ -26,15 +26,16 @@ enum class Mode {
   particles,  ///< one particle per region; may miss a collision, never invents one
   senin,      ///< the predecessor: particles scattered over the surface, no regions
   exact,      ///< a tree of volumes over the regions: finds what checking every face against every other would
+  certified,  ///< as exact, but objects whose motion is bounded are read only where they are near others
 };
 
 /// As the options of the program and its results name it.
 constexpr std::string_view name_of(Mode mode) {
-  constexpr std::string_view names[] = {"particles", "senin", "exact"};
+  constexpr std::string_view names[] = {"particles", "senin", "exact", "certified"};
   return names[static_cast<int>(mode)];
 }
 
-/// What only the mode `exact` is asked.
+/// What only the modes `exact` and `certified` are asked.
 struct Exact_options {
   double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect.
                                 ///< Between two objects. A frame tells apart what is near and what collides, which can
@@ -49,6 +50,7 @@ struct Exact_options {
   bool patches = false;         ///< also group the contacts of a pair into contact patches; not with yes_no
   std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it. Other
                                 ///< modes use them while they measure regions and make trees; LBG has its own option
+  bool throw_if_broken = false; ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass
   double loosest = 2;           ///< rebuild an object's tree when its leaves are looser by this factor; > 1
   Region_tree_options tree = {};
 };

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +16,7 @@
 #include "lodestone/detection/frame_builder.h"
 #include "lodestone/detection/saved_object.h"
 #include "lodestone/mesh/stopwatch.h"
+#include "lodestone/queries/bounded_search.h"
 #include "lodestone/queries/closest_faces.h"
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/containment.h"
@@ -23,15 +26,16 @@
 
 namespace lodestone {
 
-/// The mode `exact` of a Detector: its objects, and what happens to them in a frame.
+/// The modes `exact` and `certified` of a Detector: its objects, and what happens to them in a frame.
 ///
 /// Every call that answers first reads all positions of the objects that it is about and refits their trees: it cannot
-/// answer for where they were before.
+/// answer for where they were before. In mode `certified` an object with bounds is read where it is near others. If a
+/// bound turns out to be broken, the object is read as a whole, and the call answers anew.
 template <Bounding_volume Volume>
 class Exact_detection final : public Detection {
  public:
   /// What a refusal tells a user who asks another mode for this one's answers.
-  static constexpr const char* needed = "this needs the mode exact";
+  static constexpr const char* needed = "this needs the mode exact or certified";
 
   using Surface = Basic_tree_surface<Volume>;
 
@@ -39,6 +43,7 @@ class Exact_detection final : public Detection {
       : options_(options),
         workers_(options.exact.threads),
         search_(workers_),
+        bounded_search_(workers_),
         objects_(options, workers_),
         frame_(options) {}
   // The search and the objects refer to the workers.
@@ -54,13 +59,13 @@ class Exact_detection final : public Detection {
   /// The mesh is where positions come from.
   void update(Object_id object) override {
     check_no_visitor();
-    objects_[object].given.reset();
+    objects_[object].give({});
   }
   /// These are its positions until the next update.
   void update(Object_id object, const Eigen::Ref<const Positions>& positions);
   void place(Object_id object, const std::optional<Rigid_motion>& placement) override {
     check_no_visitor();
-    objects_[object].placement = placement;
+    objects_[object].place(placement);
   }
   /// Reads the faces of the mesh anew.
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override {
@@ -95,6 +100,13 @@ class Exact_detection final : public Detection {
     const Object_id ids[] = {pair.a, pair.b};
     refresh(ids);
     const Visiting visiting(visited_);
+    if constexpr (is_bounded)
+      if (on_demand(pair)) {
+        const Visit end = bounded_search_.visit(objects_.bounded(pair.a), objects_.bounded(pair.b),
+                                                options_.exact.tolerance, std::ref(visitor));
+        throw_if_broken(ids);
+        return end;
+      }
     return visit_contacts(objects_.surface(pair.a).view(), objects_.surface(pair.b).view(), options_.exact.tolerance,
                           std::forward<Visitor>(visitor));
   }
@@ -102,9 +114,21 @@ class Exact_detection final : public Detection {
   bool contains(Object_id outer, Object_id inner);
   std::optional<Parting> parting(Object_pair pair);
 
+  /// Promises something about the motion of an object: see Motion_promise.
+  void promise(Object_id object, Make_bound make) {
+    check_no_visitor();
+    if (options_.mode != Mode::certified) throw Bad_argument("promises need the mode certified");
+    objects_[object].promise(std::move(make));
+  }
+  /// The surface of an object as one that is bounded; null before the first query, and in mode `exact`.
+  const Bounded_surface* bounded(Object_id object) const { return objects_[object].bounded(); }
+
   const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_.surface(object).tree(); }
 
  private:
+  /// Whether objects can have bounds.
+  static constexpr bool is_bounded = std::same_as<Volume, Aabb>;
+
   /// While a visitor is shown face pairs.
   class Visiting {
    public:
@@ -129,8 +153,15 @@ class Exact_detection final : public Detection {
             .vertices = objects_[object].mesh().vertex_count(),
             .corners = objects_[object].corners()};
   }
+  bool on_demand(Object_pair pair) const { return objects_.on_demand(pair.a) || objects_.on_demand(pair.b); }
   void start_frame(std::span<const Object_id> ids);
+  template <class Answer>
+  void until_settled(std::span<const Object_id> ids, Answer answer);
+  void throw_if_broken(std::span<const Object_id> ids) const;
+  Frame_statistics demand(std::span<const Object_id> ids) const;
+  const Frame& finish_frame(std::span<const Object_id> ids);
   void find_candidates(const Collision_filter& filter);
+  Aabb whole_box(Object_id id);
   void check(Object_pair pair);
   /// Below which the faces of a pair are contacts.
   double tolerance(Object_pair pair) const {
@@ -139,14 +170,17 @@ class Exact_detection final : public Detection {
   void find_contacts(Pair_result& result);
   void find_way_out(Pair_result& result);
   Contact_summary search(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
+  Contact_summary search_on_demand(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
   Containment containment(const Pair_result& pair);
 
   Detector_options options_;
   Workers workers_;
   Basic_contact_search<Volume> search_;
+  Bounded_search bounded_search_;
   Exact_objects<Volume> objects_;
   Frame_builder frame_;
-  bool visited_ = false;  ///< a visitor is being shown face pairs
+  Frame_statistics before_;  ///< `demand` when the frame began
+  bool visited_ = false;     ///< a visitor is being shown face pairs
 
   // Memory of the stages, kept from frame to frame.
   std::vector<Object_id> all_;  ///< but removed ones
@@ -165,7 +199,7 @@ void Exact_detection<Volume>::update(Object_id id, const Eigen::Ref<const Positi
                    std::to_string(positions.rows()) + " positions");
   Positions copy = positions;
   check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, object.title);
-  object.given = std::move(copy);
+  object.give(std::move(copy));
 }
 
 template <Bounding_volume Volume>
@@ -174,25 +208,34 @@ const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter) {
   for (Object_id id = 0; id < objects_.size(); ++id)
     if (objects_.has(id)) all_.push_back(id);
   start_frame(all_);
-  timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
-  timed(frame_.seconds().confirmation, [&] {
-    for (const auto pair : candidates_) check(pair);
+  until_settled(all_, [&] {
+    frame_.clear_pairs();
+    candidates_.clear();
+    timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
+    timed(frame_.seconds().confirmation, [&] {
+      for (const auto pair : candidates_) check(pair);
+    });
   });
-  return frame_.finish();
+  return finish_frame(all_);
 }
 
 template <Bounding_volume Volume>
 const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter, Object_pair pair) {
-  const Object_id ids[] = {pair.a, pair.b};
-  start_frame(std::span(ids).first(pair.a == pair.b ? 1 : 2));
-  if (filter.may_collide(pair.a, pair.b)) timed(frame_.seconds().confirmation, [&] { check(pair); });
-  return frame_.finish();
+  const Object_id both[] = {pair.a, pair.b};
+  const auto ids = std::span(both).first(pair.a == pair.b ? 1 : 2);
+  start_frame(ids);
+  until_settled(ids, [&] {
+    frame_.clear_pairs();
+    if (filter.may_collide(pair.a, pair.b)) timed(frame_.seconds().confirmation, [&] { check(pair); });
+  });
+  return finish_frame(ids);
 }
 
 template <Bounding_volume Volume>
 Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
+  for (const auto id : ids) objects_.pose_all(id);
   return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
 }
 
@@ -200,6 +243,7 @@ template <Bounding_volume Volume>
 std::optional<Parting> Exact_detection<Volume>::parting(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
+  for (const auto id : ids) objects_.pose_all(id);
   return lodestone::parting(objects_.surface(pair.a), objects_.surface(pair.b));
 }
 
@@ -207,6 +251,7 @@ template <Bounding_volume Volume>
 bool Exact_detection<Volume>::contains(Object_id outer, Object_id inner) {
   const Object_id ids[] = {outer, inner};
   refresh(ids);
+  for (const auto id : ids) objects_.pose_all(id);
   std::vector<Face_pair> none;
   const auto& out = objects_.surface(outer);
   const auto& in = objects_.surface(inner);
@@ -217,13 +262,64 @@ template <Bounding_volume Volume>
 void Exact_detection<Volume>::start_frame(std::span<const Object_id> ids) {
   refresh(ids);
   frame_.start(objects_.take_work());
-  candidates_.clear();
+  before_ = demand(ids);
+}
+
+/// What has been done so far to objects with bounds, in their current poses.
+template <Bounding_volume Volume>
+Frame_statistics Exact_detection<Volume>::demand(std::span<const Object_id> ids) const {
+  Frame_statistics sum;
+  for (const auto id : ids) {
+    if (!objects_.on_demand(id)) continue;
+    const Bounded_surface& surface = objects_.bounded(id);
+    sum.vertices_read += surface.vertices_posed();
+    sum.nodes_bounded += surface.nodes_bounded();
+    sum.leaves_posed += surface.leaves_posed();
+    sum.violations += surface.violations();
+  }
+  return sum;
+}
+
+/// Repeats an answer as long as it has relied on a bound that turned out to be broken: by then the object is posed as
+/// a whole. Each repetition settles an object, so there are few.
+template <Bounding_volume Volume>
+template <class Answer>
+void Exact_detection<Volume>::until_settled(std::span<const Object_id> ids, Answer answer) {
+  std::size_t before;
+  do {
+    before = demand(ids).violations;
+    answer();
+    throw_if_broken(ids);
+    for (const auto id : ids)
+      if (objects_.on_demand(id) && objects_.bounded(id).is_broken()) objects_.bounded(id).settle();
+  } while (demand(ids).violations > before);
+}
+
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::throw_if_broken(std::span<const Object_id> ids) const {
+  if (!options_.exact.throw_if_broken) return;
+  for (const auto id : ids)
+    if (objects_.on_demand(id) && objects_.bounded(id).violations() > 0)
+      throw Broken_bound(objects_[id].title + " has vertices that are not where its bounds say");
+}
+
+/// Adds what this frame has done to objects with bounds.
+template <Bounding_volume Volume>
+const Frame& Exact_detection<Volume>::finish_frame(std::span<const Object_id> ids) {
+  Frame_statistics& statistics = frame_.statistics();
+  statistics.seconds.refit += objects_.take_work().seconds.refit;
+  const Frame_statistics now = demand(ids);
+  statistics.vertices_read += now.vertices_read - before_.vertices_read;
+  statistics.nodes_bounded += now.nodes_bounded - before_.nodes_bounded;
+  statistics.leaves_posed += now.leaves_posed - before_.leaves_posed;
+  statistics.violations += now.violations - before_.violations;
+  return frame_.finish();
 }
 
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::find_candidates(const Collision_filter& filter) {
   boxes_.assign(objects_.size(), {});  // that of a removed object stays empty
-  for (const auto id : all_) boxes_[id] = to_box(objects_.surface(id).tree().volume(0).bounds());
+  for (const auto id : all_) boxes_[id] = to_box(whole_box(id));
   reach_.assign(objects_.size(), options_.exact.tolerance);
   for (const auto pair : broad_phase_.find(boxes_, reach_))
     if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
@@ -231,6 +327,18 @@ void Exact_detection<Volume>::find_candidates(const Collision_filter& filter) {
   for (const auto id : all_)
     if (filter.may_collide(id, id)) candidates_.push_back({id, id});
   std::ranges::sort(candidates_);
+}
+
+/// Around an object: fitted, or from its bounds.
+template <Bounding_volume Volume>
+Aabb Exact_detection<Volume>::whole_box(Object_id id) {
+  if constexpr (is_bounded)
+    if (objects_.on_demand(id)) {
+      Bounded_surface& surface = objects_.bounded(id);
+      if (!std::isfinite(surface.box(0).extent())) surface.pose_all();
+      return surface.box(0);
+    }
+  return objects_.surface(id).tree().volume(0).bounds();
 }
 
 template <Bounding_volume Volume>
@@ -246,6 +354,8 @@ void Exact_detection<Volume>::check(Object_pair pair) {
 /// Whether one object lies inside the other, and how to part the two.
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::find_way_out(Pair_result& result) {
+  if (options_.exact.containment || options_.exact.parting)
+    for (const auto id : {result.a, result.b}) objects_.pose_all(id);
   if (options_.exact.containment || options_.exact.parting) result.containment = containment(result);
   if (options_.exact.parting && (result.collides || result.containment != Containment::none))
     result.parting = lodestone::parting(objects_.surface(result.a), objects_.surface(result.b));
@@ -273,11 +383,19 @@ Contact_summary Exact_detection<Volume>::search(Object_pair pair, const Contact_
                                                 std::vector<Face_pair>& found) {
   const Surface& a = objects_.surface(pair.a);
   const Surface& b = objects_.surface(pair.b);
-  const Contact_summary summary =
-      pair.a == pair.b ? search_.within(a, request, found) : search_.between(a, b, request, found);
+  if (pair.a == pair.b) objects_.pose_all(pair.a);
+  const Contact_summary summary = pair.a == pair.b  ? search_.within(a, request, found)
+                                  : on_demand(pair) ? search_on_demand(pair, request, found)
+                                                    : search_.between(a, b, request, found);
   frame_.statistics().candidates += summary.leaf_tests;
   frame_.statistics().exact_tests += summary.exact_tests;
   return summary;
+}
+
+template <Bounding_volume Volume>
+Contact_summary Exact_detection<Volume>::search_on_demand(Object_pair pair, const Contact_request& request,
+                                                          std::vector<Face_pair>& found) {
+  return bounded_search_.run(objects_.bounded(pair.a), objects_.bounded(pair.b), request, found);
 }
 
 template <Bounding_volume Volume>

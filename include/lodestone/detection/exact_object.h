@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "lodestone/bounds/bounded_surface.h"
+#include "lodestone/bounds/placed_bound.h"
 #include "lodestone/detection/detector_options.h"
 #include "lodestone/detection/saved_object.h"
 #include "lodestone/detection/watched_mesh.h"
@@ -27,7 +30,10 @@ void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertic
 /// The faces whose corners differ, ascending, with those that only `now` has. O(F).
 std::vector<std::uint32_t> changed_faces(std::span<const Corners> former, std::span<const Corners> now);
 
-/// One object of the mode `exact`: its mesh, where that is placed, and its surface.
+/// Makes the bound of a promise.
+using Make_bound = std::function<std::unique_ptr<Node_bound>(const Bounded_object&)>;
+
+/// One object of the mode `exact` or `certified`: its mesh, where that is placed, and its surface.
 template <Bounding_volume Volume>
 class Exact_object {
  public:
@@ -40,8 +46,18 @@ class Exact_object {
   const std::size_t particles;          ///< Object_options::particles
   Basic_tree_surface<Volume> surface;   ///< of `corners()`
   bool built = false;                   ///< whether the surface has a tree
-  std::optional<Positions> given = {};  ///< positions that came through `update`
-  std::optional<Rigid_motion> placement = {};
+
+  /// Positions that came through `update`, if any.
+  const std::optional<Positions>& given() const { return given_; }
+  void give(std::optional<Positions> positions) {
+    if (given_ || positions) ++changes_;
+    given_ = std::move(positions);
+  }
+  const std::optional<Rigid_motion>& placement() const { return placement_; }
+  void place(const std::optional<Rigid_motion>& placement) {
+    placement_ = placement;
+    ++changes_;
+  }
 
   Watched_mesh& mesh() { return *faces_.mesh; }
   /// The faces of the surface, with doubled vertices as one.
@@ -69,6 +85,19 @@ class Exact_object {
   /// @param coordinates  3 V, all finite; must stay unchanged until the next refit
   void build(std::optional<Numbered_partition> regions, Coordinates coordinates, const Region_tree_options& options,
              Workers& workers);
+
+  /// The surface as one that is bounded, in mode `certified`; null: not yet.
+  Bounded_surface* bounded() const { return bounded_.get(); }
+  /// Whether it is posed only where it is looked at.
+  bool on_demand() const { return bounded_ && bounded_->has_bounds() && !given_; }
+  /// Promises something about the motion.
+  void promise(Make_bound make) {
+    promises_.push_back(std::move(make));
+    bounded_.reset();
+  }
+  /// Makes the bounds of a surface that has just been refitted. The first time, promises take its positions as those at
+  /// rest.
+  void make_bounds(Workers& workers);
 
   /// Writes what was built. Only if something was.
   void save(State_writer& state) const;
@@ -98,6 +127,28 @@ class Exact_object {
     std::vector<std::uint32_t> changed;
   };
 
+  /// Where the vertices are, whoever says so.
+  class Object_positions final : public Position_source {
+   public:
+    explicit Object_positions(Exact_object& object) : object_(&object) {}
+
+    std::uint32_t vertex_count() const override { return object_->mesh().vertex_count(); }
+    std::uint64_t pose_number() const override {
+      const std::uint64_t of_mesh = object_->mesh().pose_number();
+      return of_mesh > 0 ? of_mesh + object_->changes_ : 0;
+    }
+    Eigen::Vector3d operator()(std::uint32_t vertex) const override {
+      const Eigen::Vector3d position =
+          object_->given_ ? Eigen::Vector3d(object_->given_->row(vertex)) : object_->mesh().read(vertex);
+      return object_->placement_ ? (*object_->placement_)(position) : position;
+    }
+    void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override;
+    Coordinates pose_all(std::span<double> /*coordinates*/) const override { return object_->read(); }
+
+   private:
+    Exact_object* object_;
+  };
+
   void replace(Faces anew);
   void start_anew(const std::vector<std::uint32_t>& changed);
 
@@ -105,6 +156,12 @@ class Exact_object {
   std::optional<Former> former_;  ///< between a change of faces and the next build
   std::optional<Numbered_partition> regions_;
   std::vector<std::uint32_t> unused_;
+  std::optional<Positions> given_ = {};
+  std::optional<Rigid_motion> placement_ = {};
+  std::uint64_t changes_ = 0;  ///< of both
+  std::vector<Make_bound> promises_;
+  std::vector<double> rest_;  ///< 3 V: the first positions that a promise was about; none before
+  std::unique_ptr<Bounded_surface> bounded_;
   std::vector<double> placed_;  ///< memory of `read`
 };
 
@@ -112,8 +169,42 @@ template <Bounding_volume Volume>
 Coordinates Exact_object<Volume>::read() {
   mesh().check_connectivity(title);
   const Coordinates unplaced =
-      given ? Coordinates(given->data(), static_cast<std::size_t>(given->size())) : mesh().read();
-  return placement ? (*placement)(unplaced, placed_) : unplaced;
+      given_ ? Coordinates(given_->data(), static_cast<std::size_t>(given_->size())) : mesh().read();
+  return placement_ ? (*placement_)(unplaced, placed_) : unplaced;
+}
+
+template <Bounding_volume Volume>
+void Exact_object<Volume>::Object_positions::pose(std::span<const std::uint32_t> vertices,
+                                                  std::span<double> coordinates) const {
+  if (!object_->given_) object_->mesh().read(vertices, coordinates);
+  if (!object_->given_ && !object_->placement_) return;
+  for (const std::uint32_t vertex : vertices) {
+    Eigen::Map<Eigen::Vector3d> position(coordinates.data() + 3 * std::size_t{vertex});
+    if (object_->given_) position = object_->given_->row(vertex);
+    if (object_->placement_) position = (*object_->placement_)(position);
+  }
+}
+
+template <Bounding_volume Volume>
+void Exact_object<Volume>::make_bounds(Workers& workers) {
+  if constexpr (std::same_as<Volume, Aabb>) {
+    if (!promises_.empty() && rest_.empty())
+      rest_.assign(surface.coordinates().begin(), surface.coordinates().end());
+    auto positions = std::make_unique<Object_positions>(*this);
+    const Bounded_object object{.layout = surface.tree(),
+                                .labels = regions_ ? std::span<const Region_index>(regions_->labels)
+                                                   : std::span<const Region_index>(),
+                                .rest = rest_,
+                                .positions = *positions};
+    std::vector<std::unique_ptr<Node_bound>> bounds;
+    if (auto own = mesh().own_bound(object))
+      bounds.push_back(std::make_unique<Placed_bound>(std::move(own), placement_));
+    for (const Make_bound& make : promises_) bounds.push_back(make(object));
+    const Coordinates now = surface.coordinates();
+    bounded_ = std::make_unique<Bounded_surface>(surface, std::move(positions), std::move(bounds), workers, title);
+    surface.follow(now);
+    bounded_->take_refitted();
+  }
 }
 
 template <Bounding_volume Volume>
@@ -141,13 +232,15 @@ void Exact_object<Volume>::rebuild(const Changed_faces& changed) {
 /// The surface of the faces as they are now has no tree yet; that of the former ones waits to be mended.
 template <Bounding_volume Volume>
 void Exact_object<Volume>::start_anew(const std::vector<std::uint32_t>& changed) {
-  if (built) former_ = {std::move(surface), {}};
+  if (built) former_ = Former{std::move(surface), {}};
   if (former_) {
     std::erase_if(former_->changed, [&](std::uint32_t face) { return face >= corners().size(); });
     former_->changed.insert(former_->changed.end(), changed.begin(), changed.end());
   }
+  bounded_.reset();
+  rest_.clear();
   surface = Basic_tree_surface<Volume>(corners());
-  given.reset();
+  give({});
   built = false;
 }
 
@@ -173,6 +266,7 @@ void Exact_object<Volume>::build(std::optional<Numbered_partition> regions, Coor
 /// What follows from the tree and the regions.
 template <Bounding_volume Volume>
 void Exact_object<Volume>::finish() {
+  bounded_.reset();
   unused_ = unused_vertices(surface.tree().all_vertices(), mesh().vertex_count());
   write_maps();
   built = true;

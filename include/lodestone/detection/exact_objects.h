@@ -15,8 +15,9 @@
 
 namespace lodestone {
 
-/// The objects of the mode `exact`, whose trees follow their meshes: built once, refitted in every frame, rebuilt where
-/// they have become loose.
+/// The objects of the modes `exact` and `certified`, whose trees follow their meshes: built once, refitted in every
+/// frame, rebuilt where they have become loose. In mode `certified` an object with bounds is not refitted: its nodes are
+/// bounded, and its leaves posed, when somebody looks at them.
 template <Bounding_volume Volume>
 class Exact_objects {
  public:
@@ -57,6 +58,15 @@ class Exact_objects {
   Object& operator[](Object_id id) { return *objects_[id]; }
   const Object& operator[](Object_id id) const { return *objects_[id]; }
   const Surface& surface(Object_id id) const { return objects_[id]->surface; }
+  /// In mode `certified`: the surface as one that is bounded.
+  Bounded_surface& bounded(Object_id id) const { return *objects_[id]->bounded(); }
+  /// Whether an object is posed only where it is looked at.
+  bool on_demand(Object_id id) const { return objects_[id]->on_demand(); }
+  /// Poses and refits all of an object.
+  /// @throws Bad_mesh  a coordinate is not finite
+  void pose_all(Object_id id) {
+    if (on_demand(id)) timed(work_.seconds.refit, [&] { bounded(id).pose_all(); });
+  }
 
   /// Brings everything that depends on positions to where the vertices of these objects are now.
   /// @throws Bad_mesh  a coordinate is not finite; a mesh has changed since it was numbered
@@ -66,9 +76,11 @@ class Exact_objects {
   Frame_statistics take_work() { return std::exchange(work_, {}); }
 
  private:
+  void start_on_demand(std::span<const Object_id> ids);
   void refit_built(std::span<const Object_id> ids);
   void build_new(std::span<const Object_id> ids);
   void rebuild_loose(std::span<const Object_id> ids);
+  void bound_refitted(std::span<const Object_id> ids);
   void build(Object_id id, Coordinates coordinates);
   /// How many regions are asked for; 0: none.
   std::size_t region_count(const Object& object) const {
@@ -82,6 +94,7 @@ class Exact_objects {
   Frame_statistics work_;
 
   // Memory, kept from frame to frame.
+  std::vector<Object_id> whole_;  ///< those that are posed as a whole
   std::vector<Surface*> surfaces_;
   std::vector<Coordinates> coordinates_;
 };
@@ -90,17 +103,43 @@ template <Bounding_volume Volume>
 void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   work_.seconds.refit = 0;
   work_.vertices_read = 0;
-  for (const auto id : ids) work_.vertices_read += objects_[id]->mesh().vertex_count();
+  start_on_demand(ids);
+  whole_.clear();
+  for (const auto id : ids)
+    if (!on_demand(id)) whole_.push_back(id);
+  for (const auto id : whole_) work_.vertices_read += objects_[id]->mesh().vertex_count();
   // Refitted first: a tree that is built now holds the current positions.
-  timed(work_.seconds.refit, [&] { refit_built(ids); });
-  build_new(ids);
-  rebuild_loose(ids);
+  timed(work_.seconds.refit, [&] { refit_built(whole_); });
+  build_new(whole_);
+  rebuild_loose(whole_);
+  if (options_.mode == Mode::certified) bound_refitted(whole_);
+}
+
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::start_on_demand(std::span<const Object_id> ids) {
+  for (const auto id : ids) {
+    if (!on_demand(id)) continue;
+    objects_[id]->mesh().check_connectivity(objects_[id]->title);
+    bounded(id).start_frame();
+  }
+}
+
+/// What has been refitted is known to be, and has bounds from now on.
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::bound_refitted(std::span<const Object_id> ids) {
+  for (const auto id : ids) {
+    if (objects_[id]->bounded() == nullptr)
+      timed(work_.seconds.build, [&] { objects_[id]->make_bounds(workers_); });
+    else
+      timed(work_.seconds.refit, [&] { bounded(id).take_refitted(); });
+  }
 }
 
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::save(Object_id id, State_writer& state) {
   const Object_id ids[] = {id};
   refresh(ids);
+  pose_all(id);
   objects_[id]->save(state);
 }
 
@@ -139,7 +178,8 @@ void Exact_objects<Volume>::build_new(std::span<const Object_id> ids) {
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
   for (const auto id : ids) {
-    if (!surface(id).looser_than(options_.exact.loosest)) continue;
+    const bool has_bounds = objects_[id]->bounded() != nullptr && bounded(id).has_bounds();  // of the tree's nodes
+    if (has_bounds || !surface(id).looser_than(options_.exact.loosest)) continue;
     timed(work_.seconds.repartition, [&] { build(id, surface(id).coordinates()); });
     ++work_.repartitions;
   }

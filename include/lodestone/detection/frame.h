@@ -44,6 +44,9 @@ struct Frame_statistics {
   bool relaxed = true;                ///< false: the relaxation was stopped by R_max
   std::size_t meetings = 0;           ///< pairs of particles that walked towards each other
   std::size_t vertices_read = 0;      ///< positions read, some more than once
+  std::size_t nodes_bounded = 0;      ///< mode certified: boxes that come from bounds, without reading
+  std::size_t leaves_posed = 0;       ///< mode certified: leaves of objects with bounds that were read
+  std::size_t violations = 0;         ///< mode certified: promises that what was read did not keep
   std::size_t candidates = 0;         ///< candidate region pairs; in mode exact pairs of leaves
   std::size_t openings = 0;           ///< pairs of leaves that were compared below opened regions
   std::size_t exact_tests = 0;        ///< face pairs given to the exact test

@@ -52,6 +52,9 @@ class Frame_builder {
   /// @param tolerance  below which faces are contacts
   void add_patches(const Object_surface& a, const Object_surface& b, double tolerance);
 
+  /// Forgets what the pairs hold, to find it anew.
+  void clear_pairs();
+
   /// Ends the frame: sums up what the pairs hold.
   const Frame& finish();
 

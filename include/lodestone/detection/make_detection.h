@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <concepts>
 #include <memory>
 
 #include "lodestone/detection/exact_detection.h"
@@ -19,6 +20,9 @@ std::unique_ptr<Detection> make_detection(const Detector_options& options) {
       return std::make_unique<Particle_detection>(options);
     case Mode::exact:
       return std::make_unique<Exact_detection<Volume>>(options);
+    case Mode::certified:
+      if constexpr (std::same_as<Volume, Aabb>) return std::make_unique<Exact_detection<Volume>>(options);
+      throw Bad_argument("the mode certified needs boxes as volumes");
   }
   throw Bad_argument("there is no such mode");
 }

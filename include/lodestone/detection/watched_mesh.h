@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "lodestone/bounds/own_bound.h"
+#include "lodestone/mesh/computed_points.h"
 #include "lodestone/mesh/connectivity.h"
 #include "lodestone/mesh/coordinate_reader.h"
 #include "lodestone/mesh/region_maps.h"
@@ -39,8 +41,14 @@ class Watched_mesh {
   virtual Coordinates read() = 0;
   /// Where one vertex is now.
   virtual Eigen::Vector3d read(std::uint32_t vertex) const = 0;
+  /// Where the vertices of a list are now, each to its three places among 3 V coordinates.
+  virtual void read(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const = 0;
   /// Whether `read()` refers to the mesh's own memory, instead of copying.
   virtual bool in_memory() const = 0;
+  /// Grows whenever positions change; 0: nobody knows.
+  virtual std::uint64_t pose_number() const = 0;
+  /// The bound that the positions have by themselves; null: none.
+  virtual std::unique_ptr<Node_bound> own_bound(const Bounded_object& object) const = 0;
 
   /// Whether the detector's strategy needs only a surface by index, which need not be that of the mesh.
   virtual bool divides_by_index() const = 0;
@@ -112,6 +120,12 @@ class Watched_mesh_of : public Watched_mesh {
   std::optional<Region_maps<Mesh>> maps_;
 };
 
+/// Computed points behind a point map, if there are any.
+template <class Points>
+inline constexpr bool is_computed = false;
+template <class Mesh, class Points>
+inline constexpr bool is_computed<Computed_point_map<Mesh, Points>> = true;
+
 /// A mesh with a point map through which its positions are read, and the strategy that divides it.
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points, Partition_strategy<Mesh> Strategy>
 class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
@@ -120,13 +134,34 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
       : Watched_mesh_of<Mesh>(mesh),
         points_(points),
         all_points_(std::move(points)),
-        strategy_(std::move(strategy)) {}
+        strategy_(std::move(strategy)) {
+    if constexpr (is_computed<Points> && !Vertex_table<Mesh>::by_index) in_order_ = points_.in_order(this->numbering_);
+  }
 
   Coordinates read() override { return all_points_.read(this->numbering_); }
   Eigen::Vector3d read(std::uint32_t vertex) const override {
     return coordinates(get(points_, this->numbering_.vertex(vertex)));
   }
+  void read(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
+    if constexpr (is_computed<Points>)
+      if (in_order()) return points_.points().pose(vertices, coordinates);
+    for (const std::uint32_t vertex : vertices)
+      Eigen::Map<Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{vertex}) = read(vertex);
+  }
   bool in_memory() const override { return Coordinate_reader<Mesh, Points>::in_memory; }
+  std::uint64_t pose_number() const override {
+    if constexpr (is_computed<Points>) return points_.points().pose_number();
+    return 0;
+  }
+  std::unique_ptr<Node_bound> own_bound(const Bounded_object& object) const override {
+    if constexpr (is_computed<Points>)
+      if constexpr (Bounded_points<std::remove_cvref_t<decltype(points_.points())>>)
+        if (in_order()) {
+          auto bound = lodestone::own_bound(points_.points(), object);
+          return std::make_unique<Node_bound_of<decltype(bound)>>(std::move(bound));
+        }
+    return nullptr;
+  }
 
   bool divides_by_index() const override { return Labels_by_index<Strategy>; }
   Numbered_partition partition(const Numbered_surface& surface, std::size_t regions,
@@ -145,7 +180,16 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
   }
 
  private:
+  /// Whether computed points are numbered as the vertices are.
+  bool in_order() const {
+    if constexpr (is_computed<Points> && Vertex_table<Mesh>::by_index)
+      return points_.in_order(this->numbering_);
+    else
+      return in_order_;
+  }
+
   Points points_;
+  bool in_order_ = false;
   Coordinate_reader<Mesh, Points> all_points_;
   std::shared_ptr<const Strategy> strategy_;
 };

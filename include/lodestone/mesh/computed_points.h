@@ -59,6 +59,14 @@ class Computed_point_map {
   }
 
   const Points& points() const { return *points_; }
+  /// Whether the points are numbered as the vertices of the mesh are. O(1) for Surface_mesh, else O(V).
+  bool in_order(const Mesh_numbering<Mesh>& numbering) const {
+    if (points_->vertex_count() < numbering.vertex_count()) return false;
+    if constexpr (!Vertex_table<Mesh>::by_index)
+      for (std::uint32_t i = 0; i < numbering.vertex_count(); ++i)
+        if (index(numbering.vertex(i)) != i) return false;
+    return true;
+  }
   /// Index of a vertex among the points.
   std::uint32_t index(key_type vertex) const { return static_cast<std::uint32_t>(get(index_, vertex)); }
 

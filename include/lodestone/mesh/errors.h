@@ -37,6 +37,12 @@ class Bad_saved_object : public Error {
   using Error::Error;
 };
 
+/// A vertex that is not where a bound of its motion, or a promise of the caller, says.
+class Broken_bound : public Error {
+ public:
+  using Error::Error;
+};
+
 /// An argument or option outside its documented range.
 class Bad_argument : public Error {
  public:

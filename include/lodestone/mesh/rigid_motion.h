@@ -16,6 +16,9 @@ class Rigid_motion {
   ///                       10^-6 from unit vectors at right angles, or it mirrors
   explicit Rigid_motion(const Eigen::Isometry3d& motion);
 
+  const Eigen::Matrix3d& rotation() const { return rotation_; }
+  const Eigen::Vector3d& translation() const { return translation_; }
+
   Eigen::Vector3d operator()(const Eigen::Vector3d& position) const { return rotation_ * position + translation_; }
   /// All positions at once. O(V).
   /// @param placed  memory for the result

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "lodestone/bounds/node_bound.h"
+#include "lodestone/mesh/rigid_motion.h"
+
+namespace lodestone {
+
+/// Around a box that has been moved rigidly: contains the placed position of every point of the box, as `motion`
+/// computes it.
+///
+/// *Rounding.* With c and h the centre and half the size of the box, R the rotation, t the translation, and
+/// m = sum_j |R_ij| (|c_j| + h_j) + |t_i| for axis i, a computed position is rounded at most four times per term, which
+/// is less than 4 u m, u = 2^-53; so is each end of the box, once more for the rounding of c and h. The ends are moved
+/// outwards by 32 u m, and by 2^-1060 for products that underflow. An axis that overflows is open.
+Aabb placed_box(const Rigid_motion& motion, const Aabb& box);
+
+/// The bound of an object that is placed elsewhere.
+class Placed_bound final : public Node_bound {
+ public:
+  /// @param bound      of the object where its mesh is
+  /// @param placement  looked at for each box; must outlive this
+  Placed_bound(std::unique_ptr<Node_bound> bound, const std::optional<Rigid_motion>& placement)
+      : bound_(std::move(bound)), placement_(&placement) {}
+
+  std::size_t node_count() const override { return bound_->node_count(); }
+  Aabb box(std::uint32_t node) const override {
+    const Aabb box = bound_->box(node);
+    return *placement_ ? placed_box(**placement_, box) : box;
+  }
+
+ private:
+  std::unique_ptr<Node_bound> bound_;
+  const std::optional<Rigid_motion>* placement_;
+};
+
+}  // namespace lodestone

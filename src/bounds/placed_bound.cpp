@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/bounds/placed_bound.h"
+
+#include <array>
+#include <cmath>
+
+#include "bounds/node_lists.h"
+
+namespace lodestone {
+
+Aabb placed_box(const Rigid_motion& motion, const Aabb& box) {
+  std::array<double, 3> centre, half;
+  for (std::size_t j = 0; j < 3; ++j) {
+    centre[j] = box.low[j] / 2 + box.high[j] / 2;
+    half[j] = box.high[j] / 2 - box.low[j] / 2;
+  }
+  Aabb placed{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    double middle = motion.translation()[row], reach = 0, magnitude = std::abs(middle);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double factor = motion.rotation()(row, static_cast<Eigen::Index>(j));
+      middle += factor * centre[j];
+      reach += std::abs(factor) * half[j];
+      magnitude += std::abs(factor) * (std::abs(centre[j]) + half[j]);
+    }
+    const double margin = 32 * unit_roundoff * magnitude + 0x1p-1060;
+    placed.low[i] = middle - reach - margin;
+    placed.high[i] = middle + reach + margin;
+    open_if_not_finite(placed, i);
+  }
+  return placed;
+}
+
+}  // namespace lodestone

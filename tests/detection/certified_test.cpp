@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mode certified gives the answers of mode exact, and reads little where little is near.
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "lodestone/detector.h"
+#include "lodestone/mesh/computed_points.h"
+#include "lodestone/mesh/skinned_points.h"
+#include "lodestone/volumes/bounding_sphere.h"
+#include "support/exact_truth.h"
+#include "support/face_soup.h"
+#include "support/message_of.h"
+
+namespace lodestone {
+namespace {
+
+Surface_mesh long_body(int parts, std::uint64_t seed) {
+  auto mesh = potato(parts, seed);
+  deform(mesh, [](const Point& p) { return Point(2 * p.x(), 0.6 * p.y(), 0.6 * p.z()); });
+  return mesh;
+}
+
+/// A limb along x whose ends follow two joints.
+Skinned_points limb(const Surface_mesh& mesh) {
+  const auto rest = Face_soup(mesh).coordinates;
+  std::vector<std::uint32_t> joints;
+  std::vector<double> weights;
+  for (std::size_t v = 0; v < rest.size() / 3; ++v) {
+    const double second = std::clamp(rest[3 * v] + 0.5, 0.0, 1.0);
+    joints.insert(joints.end(), {0, 1});
+    weights.insert(weights.end(), {1 - second, second});
+  }
+  return {rest, Joint_influences::of(2, joints, weights), 2};
+}
+
+void bend(Skinned_points& points, double angle, const Eigen::Vector3d& at) {
+  const Eigen::Translation3d there(at);
+  points.set_joints(std::vector<Eigen::Affine3d>{
+      Eigen::Affine3d(there), there * Eigen::Affine3d(Eigen::AngleAxisd(angle, Eigen::Vector3d(0, 0.6, 0.8)))});
+}
+
+Morphed_points swelling(const Surface_mesh& mesh) {
+  Morph_target larger;
+  larger.offsets = Face_soup(mesh).coordinates;
+  return Morphed_points(Face_soup(mesh).coordinates, std::vector{larger});
+}
+
+/// Two limbs, a body that swells, and one that moves without saying how.
+struct Scene {
+  Surface_mesh upper = long_body(9, 1), lower = long_body(8, 2), round = potato(6, 3), plain = potato(7, 4);
+  Skinned_points upper_points = limb(upper), lower_points = limb(lower);
+  Morphed_points round_points = swelling(round);
+
+  void add_to(Detector<>& detector) {
+    detector.add(upper, point_map(upper, upper_points), {.name = "upper"});
+    detector.add(lower, point_map(lower, lower_points));
+    detector.add(round, point_map(round, round_points));
+    detector.add(std::as_const(plain));
+  }
+  void pose(int frame) {
+    const double t = frame;
+    bend(upper_points, 0.3 * t, {0, 0, 1.4 * std::cos(0.5 * t)});
+    bend(lower_points, -0.4 * t, {0.5 * std::sin(t), 0, 0});
+    round_points.set_weights(std::vector{0.5 * std::sin(0.7 * t)});
+    shift(plain, 0, std::sin(1.3 * t), 0.6 * std::cos(0.9 * t));
+  }
+};
+
+Detector_options in_mode(Mode mode, Detector_options options) {
+  options.mode = mode;
+  options.exact.tree.leaf_faces = 24;
+  return options;
+}
+
+Pair_result result_or_none(const Frame& frame, Object_id a, Object_id b) {
+  const auto* result = result_of(frame, a, b);
+  return result == nullptr ? Pair_result{} : *result;
+}
+
+/// The two frames list the same contacts, and the same of all that depends on them.
+void expect_same_answers(const Frame& found, const Frame& truth, Object_id objects) {
+  for (Object_id a = 0; a < objects; ++a)
+    for (Object_id b = a; b < objects; ++b) {
+      SCOPED_TRACE(testing::Message() << a << ", " << b);
+      const Pair_result one = result_or_none(found, a, b), other = result_or_none(truth, a, b);
+      EXPECT_EQ(one.collides, other.collides);
+      EXPECT_EQ(one.near, other.near);
+      EXPECT_EQ(one.capped, other.capped);
+      EXPECT_EQ(one.containment, other.containment);
+      EXPECT_EQ(one.patches, other.patches);
+      EXPECT_EQ(one.parting.has_value(), other.parting.has_value());
+      if (one.parting && other.parting) {
+        EXPECT_EQ(one.parting->translation, other.parting->translation);
+      }
+    }
+  EXPECT_EQ(found.face_pairs, truth.face_pairs);
+  EXPECT_EQ(found.contact_points, truth.contact_points);
+  EXPECT_EQ(found.contact_normals.size(), truth.contact_normals.size());
+}
+
+std::vector<Detector_options> questions() {
+  return {{},
+          {.contacts = Contact_query::yes_no},
+          {.exact = {.tolerance = 0.1}},
+          {.contact_points = true, .contact_normals = true, .exact = {.patches = true}},
+          {.exact = {.self_collision = true, .containment = true, .parting = true}},
+          {.particles = 4, .exact = {.tolerance = 0.05, .threads = 0}}};
+}
+
+TEST(Certified, gives_the_answers_of_mode_exact) {
+  std::size_t colliding = 0, apart = 0;
+  for (const Detector_options& options : questions()) {
+    Scene scene;
+    Detector certified(in_mode(Mode::certified, options)), exact(in_mode(Mode::exact, options));
+    scene.add_to(certified);
+    scene.add_to(exact);
+    for (int frame = 0; frame < 12; ++frame) {
+      SCOPED_TRACE(frame);
+      scene.pose(frame);
+      const Frame& found = certified.detect();
+      expect_same_answers(found, exact.detect(), 4);
+      EXPECT_EQ(found.statistics.violations, 0U);
+      for (Object_id a = 0; a < 4; ++a)
+        for (Object_id b = a + 1; b < 4; ++b) ++(result_or_none(found, a, b).collides ? colliding : apart);
+    }
+  }
+  EXPECT_GT(colliding, 50U);
+  EXPECT_GT(apart, 50U);
+}
+
+TEST(Certified, a_first_contact_is_a_contact) {
+  Scene scene;
+  Detector certified(in_mode(Mode::certified, {.contacts = Contact_query::first})), exact(in_mode(Mode::exact, {}));
+  scene.add_to(certified);
+  scene.add_to(exact);
+  for (int frame = 0; frame < 12; ++frame) {
+    scene.pose(frame);
+    const Frame& found = certified.detect();
+    const Frame& truth = exact.detect();
+    for (const auto& pair : truth.pairs) {
+      const auto one = contacts_of(found, pair.a, pair.b);
+      EXPECT_EQ(one.size(), pair.collides ? 1U : 0U);
+      for (const auto& contact : one) EXPECT_TRUE(std::ranges::count(truth.contacts(pair), contact));
+    }
+  }
+}
+
+TEST(Certified, a_capped_list_holds_contacts) {
+  Scene scene;
+  Detector certified(in_mode(Mode::certified, {.most_contacts = 3})), exact(in_mode(Mode::exact, {}));
+  scene.add_to(certified);
+  scene.add_to(exact);
+  scene.pose(3);
+  const Frame& found = certified.detect();
+  const Frame& truth = exact.detect();
+  EXPECT_TRUE(found.capped());
+  for (const auto& pair : truth.pairs) {
+    const auto some = contacts_of(found, pair.a, pair.b);
+    EXPECT_EQ(some.size(), std::min<std::size_t>(3, pair.contacts));
+    for (const auto& contact : some) EXPECT_TRUE(std::ranges::count(truth.contacts(pair), contact));
+  }
+}
+
+TEST(Certified, single_questions_have_the_answers_of_mode_exact) {
+  Scene scene;
+  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  scene.add_to(certified);
+  scene.add_to(exact);
+  bool stopped = false;
+  for (int frame = 0; frame < 10; ++frame) {
+    SCOPED_TRACE(frame);
+    scene.pose(frame);
+    for (Object_id a = 0; a < 4; ++a)
+      for (Object_id b = 0; b < 4; ++b) {
+        if (a == b) continue;
+        const auto nearest = certified.closest(a, b), true_nearest = exact.closest(a, b);
+        EXPECT_EQ(nearest.faces, true_nearest.faces);
+        EXPECT_EQ(nearest.points.distance, true_nearest.points.distance);
+        EXPECT_EQ(certified.contains(a, b), exact.contains(a, b));
+        std::set<Face_pair> shown, truly;
+        const auto shows = [](std::set<Face_pair>& set) {
+          return [&set](Face_pair pair) {
+            EXPECT_TRUE(set.insert(pair).second);
+            return Visit::go_on;
+          };
+        };
+        certified.visit(a, b, shows(shown));
+        exact.visit(a, b, shows(truly));
+        EXPECT_EQ(shown, truly);
+        int calls = 0;
+        const auto end = certified.visit(a, b, [&](Face_pair) { return ++calls, Visit::stop; });
+        EXPECT_EQ(calls, truly.empty() ? 0 : 1);
+        EXPECT_EQ(end == Visit::stop, !truly.empty());
+        stopped |= end == Visit::stop;
+        expect_same_answers(certified.detect(a, b), exact.detect(a, b), 4);
+        EXPECT_EQ(certified.parting(a, b).has_value(), exact.parting(a, b).has_value());
+      }
+  }
+  EXPECT_TRUE(stopped);
+}
+
+TEST(Certified, placed_given_and_rebuilt_objects_have_the_answers_of_mode_exact) {
+  Scene scene;
+  Detector certified(in_mode(Mode::certified, {.exact = {.self_collision = true}})),
+      exact(in_mode(Mode::exact, {.exact = {.self_collision = true}}));
+  scene.add_to(certified);
+  scene.add_to(exact);
+  Positions given(static_cast<Eigen::Index>(scene.lower.number_of_vertices()), 3);
+  for (const auto v : scene.lower.vertices())
+    given.row(static_cast<Eigen::Index>(v.idx())) << scene.lower.point(v).x(), 1.1, scene.lower.point(v).z();
+  for (int frame = 0; frame < 16; ++frame) {
+    SCOPED_TRACE(frame);
+    if (frame < 12) scene.pose(frame);  // afterwards only the detectors are told
+    for (Detector<>* detector : {&certified, &exact}) {
+      if (frame % 3 == 1)
+        detector->place(0, Eigen::Isometry3d(Eigen::Translation3d(0.2, 0.1 * frame, 0) *
+                                             Eigen::AngleAxisd(0.3 * frame, Eigen::Vector3d(0.6, 0.8, 0))));
+      if (frame == 8) detector->place(0, Eigen::Isometry3d::Identity());
+      if (frame % 4 == 2) detector->update(1, given);
+      if (frame % 4 == 3) detector->update(1);
+      if (frame == 6) detector->rebuild(0);
+      if (frame == 14) detector->remove(2);
+    }
+    expect_same_answers(certified.detect(), exact.detect(), 4);
+  }
+}
+
+TEST(Certified, polyhedra_whose_vertices_have_no_ids_are_bounded_too) {
+  Scene scene;
+  CGAL::Polyhedron_3<Kernel> upper, lower;
+  CGAL::copy_face_graph(scene.upper, upper);
+  CGAL::copy_face_graph(scene.lower, lower);
+  const auto points_of = [](const auto& polyhedron) {
+    Surface_mesh mesh;  // its vertices are in the order of the polyhedron
+    CGAL::copy_face_graph(polyhedron, mesh);
+    return limb(mesh);
+  };
+  auto upper_points = points_of(upper), lower_points = points_of(lower);
+  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(upper, point_map(upper, upper_points));
+    detector->add(lower, point_map(lower, lower_points));
+  }
+  std::size_t colliding = 0, bounded = 0;
+  for (int frame = 0; frame < 8; ++frame) {
+    bend(upper_points, 0.3 * frame, {0, 0, 1.5 * std::cos(0.5 * frame)});
+    bend(lower_points, -0.4 * frame, {0, 0, 0});
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 2);
+    colliding += found.collides() ? 1 : 0;
+    bounded += found.statistics.nodes_bounded;
+  }
+  EXPECT_GT(colliding, 1U);
+  EXPECT_GT(bounded, 10U);
+}
+
+TEST(Certified, reads_little_where_little_is_near) {
+  Surface_mesh a = long_body(40, 1), b = long_body(40, 1);
+  Skinned_points a_points = limb(a), b_points = limb(b);
+  Detector detector({.mode = Mode::certified});
+  detector.add(a, point_map(a, a_points));
+  detector.add(b, point_map(b, b_points));
+  detector.detect();
+  bend(a_points, 0.1, {0, 0, 0});
+  bend(b_points, 0.1, {0, 0, 20});
+  const Frame& apart = detector.detect();
+  EXPECT_EQ(apart.statistics.vertices_read, 0U);
+  EXPECT_EQ(apart.statistics.nodes_bounded, 2U);
+  double x = 12;
+  for (bool met = false; !met; x -= 0.02) {
+    bend(b_points, 0.1, {x, 0, 0});
+    met = detector.detect().collides();
+    ASSERT_GT(x, 3);
+  }
+  const Frame& again = detector.detect();  // nothing has moved: nothing is read
+  EXPECT_TRUE(again.collides());
+  EXPECT_EQ(again.statistics.vertices_read, 0U);
+  bend(b_points, 0.1, {x + 0.019, 0, 0});
+  const Frame_statistics touching = detector.detect().statistics;
+  EXPECT_GT(touching.leaves_posed, 0U);
+  EXPECT_LT(touching.vertices_read, a.number_of_vertices() / 4);
+  std::array<std::size_t, 3> leaves{};
+  const Bounded_surface& of_b = *detector.bounded(1);
+  for (std::uint32_t leaf = 0; leaf < of_b.layout().leaf_count(); ++leaf)
+    ++leaves[static_cast<std::size_t>(of_b.leaf_state(leaf))];
+  EXPECT_GT(leaves[static_cast<std::size_t>(Bounded_surface::Leaf_state::far)], of_b.layout().leaf_count() / 2);
+  EXPECT_EQ(leaves[static_cast<std::size_t>(Bounded_surface::Leaf_state::posed)], of_b.leaves_posed());
+}
+
+/// Points that promise a box which ends too early along x.
+struct Liar {
+  Skinned_points points;
+  double end = -0.5;
+
+  std::uint32_t vertex_count() const { return points.vertex_count(); }
+  std::uint64_t pose_number() const { return points.pose_number(); }
+  Eigen::Vector3d operator()(std::uint32_t vertex) const { return points(vertex); }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> to) const { points.pose(vertices, to); }
+  void pose_all(std::span<double> to) const { points.pose_all(to); }
+
+  struct Lie {
+    Skin_bound truth;
+    const double* end;
+    std::size_t node_count() const { return truth.node_count(); }
+    Aabb box(std::uint32_t node) const {
+      Aabb box = truth.box(node);
+      box.high[0] = std::min(box.high[0], *end);
+      box.low[0] = std::min(box.low[0], box.high[0]);
+      return box;
+    }
+  };
+  Lie bound(const Bounded_object& object) const { return {{points, object.layout}, &end}; }
+};
+
+TEST(Certified, a_broken_bound_is_counted_and_answered_by_an_exact_pass) {
+  Surface_mesh a = long_body(12, 1), b = potato(8, 2), c = potato(8, 3);
+  Liar a_points{limb(a)};
+  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(a, point_map(a, a_points));
+    detector->add(std::as_const(b));
+    detector->add(std::as_const(c));
+  }
+  deform(b, [](const Point& p) { return Point(p.x() + 2.4, p.y(), p.z()); });  // beyond the box that is promised
+  deform(c, [](const Point& p) { return Point(p.x() - 1.5, p.y(), p.z()); });
+  for (int frame = 0; frame < 4; ++frame) {
+    bend(a_points.points, 0.1 * frame, {0, 0, 0});
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 3);
+    EXPECT_EQ(found.pairs.size(), exact.detect().pairs.size());
+    EXPECT_EQ(found.statistics.violations > 0, frame > 0) << frame;  // the first frame builds: nothing relies on bounds
+  }
+  a_points.end = 100;  // the truth
+  bend(a_points.points, 0.7, {0, 0, 0});
+  EXPECT_EQ(certified.detect().statistics.violations, 0U);
+  expect_same_answers(certified.detect(), exact.detect(), 3);
+}
+
+TEST(Certified, a_broken_bound_is_an_error_on_request) {
+  Surface_mesh a = long_body(12, 1), c = potato(8, 3);
+  Liar a_points{limb(a)};
+  Detector detector({.mode = Mode::certified, .exact = {.throw_if_broken = true}});
+  detector.add(a, point_map(a, a_points), {.name = "a liar"});
+  detector.add(std::as_const(c));
+  deform(c, [](const Point& p) { return Point(p.x() - 1, p.y(), p.z()); });
+  detector.detect();
+  bend(a_points.points, 0.2, {0, 0, 0});
+  const auto message = message_of<Broken_bound>([&] { detector.detect(); });
+  EXPECT_NE(message.find("object 0 (a liar)"), std::string::npos) << message;
+  bend(a_points.points, 0.3, {0, 0, 0});
+  EXPECT_THROW(detector.visit(0, 1, [](Face_pair) { return Visit::go_on; }), Broken_bound);
+  a_points.end = 100;
+  bend(a_points.points, 0.2, {0, 0, 0});
+  EXPECT_TRUE(detector.detect().collides());
+}
+
+TEST(Certified, names_the_object_of_a_vertex_that_is_not_finite) {
+  Scene scene;
+  Detector detector(in_mode(Mode::certified, {}));
+  scene.add_to(detector);
+  scene.pose(0);
+  detector.detect();
+  auto motions = std::vector<Eigen::Affine3d>(2, Eigen::Affine3d(Eigen::Scaling(1.7e308)));
+  motions[1] = Eigen::Translation3d(1.7e308, 0, 0) * motions[1];
+  scene.upper_points.set_joints(motions);
+  for (int twice = 0; twice < 2; ++twice) {
+    const auto message = message_of<Bad_mesh>([&] { detector.detect(); });
+    EXPECT_NE(message.find("of object 0 (upper)"), std::string::npos) << message;
+  }
+  scene.pose(1);
+  EXPECT_NO_THROW(detector.detect());
+}
+
+TEST(Certified, is_no_mode_of_other_volumes_and_takes_no_options_of_particles) {
+  EXPECT_THROW((Volume_detector<Bounding_sphere>({.mode = Mode::certified})), Bad_argument);
+  EXPECT_THROW(Detector({.mode = Mode::certified, .growth = 2}), Bad_argument);
+  Scene scene;
+  Detector exact;
+  scene.add_to(exact);
+  exact.detect();
+  EXPECT_EQ(exact.bounded(0), nullptr);
+}
+
+}  // namespace
+}  // namespace lodestone
