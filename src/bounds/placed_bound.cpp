@@ -8,7 +8,7 @@
 
 namespace lodestone {
 
-Aabb placed_box(const Rigid_motion& motion, const Aabb& box) {
+Aabb placed_box(const Eigen::Matrix3d& linear, const Eigen::Vector3d& translation, const Aabb& box) {
   std::array<double, 3> centre, half;
   for (std::size_t j = 0; j < 3; ++j) {
     centre[j] = box.low[j] / 2 + box.high[j] / 2;
@@ -17,9 +17,9 @@ Aabb placed_box(const Rigid_motion& motion, const Aabb& box) {
   Aabb placed{};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    double middle = motion.translation()[row], reach = 0, magnitude = std::abs(middle);
+    double middle = translation[row], reach = 0, magnitude = std::abs(middle);
     for (std::size_t j = 0; j < 3; ++j) {
-      const double factor = motion.rotation()(row, static_cast<Eigen::Index>(j));
+      const double factor = linear(row, static_cast<Eigen::Index>(j));
       middle += factor * centre[j];
       reach += std::abs(factor) * half[j];
       magnitude += std::abs(factor) * (std::abs(centre[j]) + half[j]);

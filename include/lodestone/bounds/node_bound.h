@@ -42,6 +42,24 @@ class Node_bound_of final : public Node_bound {
   B bound_;
 };
 
+/// A bound whose type is known only when the program runs. A model of Watching_bound.
+class Any_bound {
+ public:
+  explicit Any_bound(std::unique_ptr<Node_bound> bound) : bound_(std::move(bound)) {}
+  template <Motion_bound B>
+  requires(!std::same_as<B, Any_bound>)
+  explicit Any_bound(B bound) : bound_(std::make_unique<Node_bound_of<B>>(std::move(bound))) {}
+
+  std::size_t node_count() const { return bound_->node_count(); }
+  Aabb box(std::uint32_t node) const { return bound_->box(node); }
+  bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
+    return bound_->note_read(leaf, fitted, coordinates);
+  }
+
+ private:
+  std::unique_ptr<Node_bound> bound_;
+};
+
 /// What a bound can be made from, once the tree of an object has been built.
 struct Bounded_object {
   const Tree_layout& layout;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,14 +13,14 @@
 
 namespace lodestone {
 
-/// Around a box that has been moved rigidly: contains the placed position of every point of the box, as `motion`
-/// computes it.
+/// Around a box that has been moved by an affine map: contains where every point of the box is afterwards, as sums of
+/// rounded products give it.
 ///
-/// *Rounding.* With c and h the centre and half the size of the box, R the rotation, t the translation, and
+/// *Rounding.* With c and h the centre and half the size of the box, R the linear part, t the translation, and
 /// m = sum_j |R_ij| (|c_j| + h_j) + |t_i| for axis i, a computed position is rounded at most four times per term, which
 /// is less than 4 u m, u = 2^-53; so is each end of the box, once more for the rounding of c and h. The ends are moved
 /// outwards by 32 u m, and by 2^-1060 for products that underflow. An axis that overflows is open.
-Aabb placed_box(const Rigid_motion& motion, const Aabb& box);
+Aabb placed_box(const Eigen::Matrix3d& linear, const Eigen::Vector3d& translation, const Aabb& box);
 
 /// The bound of an object that is placed elsewhere.
 class Placed_bound final : public Node_bound {
@@ -32,7 +33,7 @@ class Placed_bound final : public Node_bound {
   std::size_t node_count() const override { return bound_->node_count(); }
   Aabb box(std::uint32_t node) const override {
     const Aabb box = bound_->box(node);
-    return *placement_ ? placed_box(**placement_, box) : box;
+    return *placement_ ? placed_box((*placement_)->rotation(), (*placement_)->translation(), box) : box;
   }
 
  private:

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/unset_vector.h"
@@ -130,57 +132,115 @@ std::vector<Eigen::Affine3d> joint_motions(const Gltf_skin& skin, const Posed_no
   return motions;
 }
 
-std::vector<Morph_target> targets_of(const Gltf_shape& shape) {
-  std::vector<Morph_target> targets;
-  for (const auto& offsets : shape.targets) targets.push_back({.vertices = {}, .offsets = offsets});
-  return targets;
-}
+/// Where the joints and targets of each part start among those of all.
+struct Part_ranges {
+  std::vector<std::uint32_t> first_joint = {0}, first_target = {0};
 
-/// A mesh with a skin follows only its joints, not its node; one without follows its node as its only joint.
-Skinned_points points_of(const Gltf_scene& scene, const Gltf_part& part) {
-  const auto& shape = *part.shape;
-  Morphed_points morphed(shape.positions, targets_of(shape));
-  if (part.skin != no_index)
-    return {std::move(morphed), Joint_influences::of(shape.influences, shape.joints, shape.joint_weights),
-            scene.skins[part.skin].joints.size()};
-  const std::vector<std::uint32_t> joints(shape.vertices(), 0);
-  const std::vector<double> weights(shape.vertices(), 1);
-  return {std::move(morphed), Joint_influences::of(1, joints, weights), 1};
-}
+  explicit Part_ranges(const Gltf_scene& scene) {
+    for (const auto& part : scene.parts) {
+      const std::size_t joints = part.skin == no_index ? 1 : scene.skins[part.skin].joints.size();
+      first_joint.push_back(first_joint.back() + static_cast<std::uint32_t>(joints));
+      first_target.push_back(first_target.back() + static_cast<std::uint32_t>(part.shape->targets.size()));
+    }
+  }
+};
+
+/// Gathers what is known of single vertices of all parts.
+class Gathering {
+ public:
+  Gathering(const Gltf_scene& scene, std::span<const std::uint32_t> vertices)
+      : scene_(scene), ranges_(scene), targets_(ranges_.first_target.back()) {
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) add(i, vertices[i]);
+  }
+
+  Skinned_points points() && {
+    return {Morphed_points(std::move(rest_), targets_), influences_, ranges_.first_joint.back()};
+  }
+
+ private:
+  /// @param i       index among the points
+  /// @param vertex  index in the scene
+  void add(std::uint32_t i, std::uint32_t vertex) {
+    const auto after = std::ranges::upper_bound(scene_.parts, vertex, {}, &Gltf_part::first_vertex);
+    const auto number = static_cast<std::size_t>(after - scene_.parts.begin()) - 1;
+    const Gltf_part& part = scene_.parts[number];
+    const std::size_t v = vertex - part.first_vertex;
+    const double* at = part.shape->positions.data() + 3 * v;
+    rest_.insert(rest_.end(), at, at + 3);
+    add_influences(part, v, ranges_.first_joint[number]);
+    for (std::size_t target = 0; target < part.shape->targets.size(); ++target) {
+      const Coordinate_list& offsets = part.shape->targets[target];
+      if (offsets.empty()) continue;
+      Morph_target& gathered = targets_[ranges_.first_target[number] + target];
+      gathered.vertices.push_back(i);
+      gathered.offsets.insert(gathered.offsets.end(), offsets.data() + 3 * v, offsets.data() + 3 * v + 3);
+    }
+  }
+
+  /// A mesh with a skin follows only its joints, not its node; one without follows its node as its only joint.
+  void add_influences(const Gltf_part& part, std::size_t v, std::uint32_t first_joint) {
+    if (part.skin == no_index) {
+      influences_.joints.push_back(first_joint);
+      influences_.weights.push_back(1);
+    }
+    for (std::size_t k = v * part.shape->influences; part.skin != no_index && k < (v + 1) * part.shape->influences; ++k)
+      if (part.shape->joint_weights[k] != 0) {
+        influences_.joints.push_back(first_joint + part.shape->joints[k]);
+        influences_.weights.push_back(part.shape->joint_weights[k]);
+      }
+    influences_.begin.push_back(static_cast<std::uint32_t>(influences_.joints.size()));
+  }
+
+  const Gltf_scene& scene_;
+  Part_ranges ranges_;
+  std::vector<double> rest_;
+  std::vector<Morph_target> targets_;
+  Joint_influences influences_;
+};
 
 }  // namespace
 
-Gltf_points::Gltf_points(std::shared_ptr<const Gltf_scene> scene) : scene_(std::move(scene)) {
-  for (const auto& part : scene_->parts) parts_.push_back(points_of(*scene_, part));
+Gltf_points::Gltf_points(std::shared_ptr<const Gltf_scene> scene, std::span<const std::uint32_t> vertices)
+    : scene_(std::move(scene)), points_(Gathering(*scene_, vertices).points()) {
   set_time(nullptr, 0);
 }
 
 void Gltf_points::set_time(const Gltf_animation* animation, double time) {
   const auto posed = pose_nodes(*scene_, animation, time);
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const auto& part = scene_->parts[i];
-    const auto& own = posed.weights[part.node];
-    const auto joints =
-        part.skin == no_index ? std::vector{posed.to_world[part.node]} : joint_motions(scene_->skins[part.skin], posed);
-    try {
-      parts_[i].set_weights(own.empty() ? part.shape->weights : own);
-      parts_[i].set_joints(joints);
-    } catch (const Bad_argument& error) {
-      throw Bad_motion(fmt::format("{}: {}", scene_->name, error.what()));
+  std::vector<double> weights;
+  std::vector<Eigen::Affine3d> joints;
+  for (const auto& part : scene_->parts) {
+    const auto& own = posed.weights[part.node].empty() ? part.shape->weights : posed.weights[part.node];
+    weights.insert(weights.end(), own.begin(), own.end());
+    if (part.skin == no_index) {
+      joints.push_back(posed.to_world[part.node]);
+    } else {
+      const auto of_skin = joint_motions(scene_->skins[part.skin], posed);
+      joints.insert(joints.end(), of_skin.begin(), of_skin.end());
     }
+  }
+  try {
+    points_.set_weights(weights);
+    points_.set_joints(joints);
+  } catch (const Bad_argument& error) {
+    throw Bad_motion(fmt::format("{}: {}", scene_->name, error.what()));
   }
 }
 
-void Gltf_points::pose_all(std::span<Point> positions) const {
+std::vector<std::uint32_t> all_vertices(const Gltf_scene& scene) {
+  std::vector<std::uint32_t> all(scene.vertices);
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+void pose_all(const Gltf_points& points, const std::string& name, std::span<Point> positions) {
   Unset_vector<double> coordinates(3 * positions.size());
-  for (std::size_t i = 0; i < parts_.size(); ++i)
-    parts_[i].pose_all(
-        std::span(coordinates).subspan(3 * scene_->parts[i].first_vertex, 3 * std::size_t{parts_[i].vertex_count()}));
+  points.points().pose_all(coordinates);
   for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
     const double* p = coordinates.data() + 3 * vertex;
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-      throw Bad_motion(fmt::format("{}: vertex {} (counted from 0) is moved to a position that is not finite",
-                                   scene_->name, vertex));
+      throw Bad_motion(
+          fmt::format("{}: vertex {} (counted from 0) is moved to a position that is not finite", name, vertex));
     positions[vertex] = Point(p[0], p[1], p[2]);
   }
 }

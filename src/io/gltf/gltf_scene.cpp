@@ -375,7 +375,7 @@ Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene) {
   soup.not_read = scene->not_read;
   soup.points.resize(scene->vertices);
   try {
-    Gltf_points(scene).pose_all(soup.points);
+    pose_all(Gltf_points(scene, all_vertices(*scene)), scene->name, soup.points);
   } catch (const Bad_motion& error) {
     throw Bad_mesh(error.what());
   }

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "io/motion/deformed_shape.h"
 #include "io/shapes/directions.h"
+#include "lodestone/io/motion/computed_motion.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -93,20 +95,26 @@ void check(const Deformation& deformation) {
 }
 
 Motion deform(std::vector<Point> rest, std::vector<Deformation> deformations) {
-  auto pose = [shape = detail::Deformed_shape(std::move(rest), std::move(deformations))](std::size_t frame,
-                                                                                         std::span<Point> positions) {
-    if (positions.size() != shape.rest().size())
+  const auto shape = std::make_shared<const detail::Deformed_shape>(std::move(rest), std::move(deformations));
+  auto pose = [shape](std::size_t frame, std::span<Point> positions) {
+    if (positions.size() != shape->rest().size())
       throw Bad_motion(fmt::format("positions of {} vertices are requested, the shape has {}", positions.size(),
-                                   shape.rest().size()));
-    std::ranges::copy(shape.rest(), positions.begin());
-    for (const detail::Step& step : shape.steps_at(static_cast<double>(frame)))
+                                   shape->rest().size()));
+    std::ranges::copy(shape->rest(), positions.begin());
+    for (const detail::Step& step : shape->steps_at(static_cast<double>(frame)))
       std::visit(
           [&](const auto& move) {
             for (Point& p : positions) p = move(p);
           },
           step);
   };
-  return {.frames = 0, .pose = std::move(pose)};
+  auto computed = [shape](std::span<const std::uint32_t> vertices) {
+    std::vector<Point> of_list;
+    of_list.reserve(vertices.size());
+    for (const std::uint32_t vertex : vertices) of_list.push_back(shape->rest().at(vertex));
+    return computed_deformation(std::move(of_list), shape->deformations());
+  };
+  return {.frames = 0, .pose = std::move(pose), .computed = std::move(computed)};
 }
 
 }  // namespace lodestone

@@ -53,6 +53,7 @@ class Deformed_shape {
   Deformed_shape(std::vector<Point> rest, std::vector<Deformation> deformations);
 
   const std::vector<Point>& rest() const { return rest_; }
+  const std::vector<Deformation>& deformations() const { return deformations_; }
   /// What moves the points in a frame. O(deformations).
   std::vector<Step> steps_at(double frame) const;
 

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "io/files/file_bytes.h"
 #include "io/gltf/gltf_points.h"
+#include "lodestone/bounds/skin_bound.h"
+#include "lodestone/io/motion/computed_motion.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -67,44 +71,100 @@ std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, 
   return static_cast<std::size_t>(frames);
 }
 
-}  // namespace
+/// When the frames of an animation are.
+struct Sampling {
+  std::size_t animation = 0;
+  std::size_t frames = 0;
+  double rate = 0;
+  std::vector<double> keys = {};  ///< empty: frames follow each other at the rate
 
-Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options) {
+  /// Key times are floats. With the same rounding, a frame at a key gets the key's exact value.
+  double time(std::size_t frame) const {
+    return keys.empty() ? static_cast<float>(static_cast<double>(frame) / rate) : keys[frame];
+  }
+};
+
+/// @throws Bad_argument, Bad_motion  as `motion_of`
+Sampling sampling_of(const Gltf_scene& scene, const Gltf_motion_options& options) {
   const auto asked = options.frames_per_second;
   if (asked && (!(*asked > 0) || !std::isfinite(*asked)))
     throw Bad_argument(fmt::format("{} frames per second: expected a positive and finite number", *asked));
-  const auto number = number_of(*scene, options.animation);
-  const auto& animation = scene->animations[number];
-  auto keys = asked ? std::vector<double>() : uniform_keys(animation);
-  const double rate = keys.empty() ? asked.value_or(usual_rate) : rate_of(keys);
-  const auto frames = keys.empty() ? frames_of(*scene, animation, rate) : keys.size();
-  const double start = keys.empty() ? 0 : keys.front();
+  Sampling sampling{.animation = number_of(scene, options.animation)};
+  const auto& animation = scene.animations[sampling.animation];
+  if (!asked) sampling.keys = uniform_keys(animation);
+  sampling.rate = sampling.keys.empty() ? asked.value_or(usual_rate) : rate_of(sampling.keys);
+  sampling.frames = sampling.keys.empty() ? frames_of(scene, animation, sampling.rate) : sampling.keys.size();
+  return sampling;
+}
+
+/// Some vertices of a scene, frame by frame.
+class Gltf_computed final : public Computed_motion {
+ public:
+  Gltf_computed(std::shared_ptr<const Gltf_scene> scene, std::shared_ptr<const Sampling> sampling,
+                std::span<const std::uint32_t> vertices)
+      : scene_(std::move(scene)), sampling_(std::move(sampling)), points_(scene_, vertices) {}
+
+  void set_frame(std::size_t frame) override {
+    if (frame >= sampling_->frames)
+      throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is requested, the animation has {}", scene_->name,
+                                   frame, sampling_->frames));
+    points_.set_time(&scene_->animations[sampling_->animation], sampling_->time(frame));
+  }
+  Any_bound bound(const Bounded_object& object) const override {
+    return Any_bound(Skin_bound(points_.points(), object.layout));
+  }
+  const Skinned_points* skin() const override { return &points_.points(); }
+  std::uint32_t vertex_count() const override { return points_.points().vertex_count(); }
+  std::uint64_t pose_number() const override { return points_.points().pose_number(); }
+  Eigen::Vector3d operator()(std::uint32_t vertex) const override { return points_.points()(vertex); }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
+    points_.points().pose(vertices, coordinates);
+  }
+  Coordinates pose_all(std::span<double> coordinates) const override {
+    points_.points().pose_all(coordinates);
+    return coordinates;
+  }
+  void pose_all(std::span<Point> positions) const { lodestone::pose_all(points_, scene_->name, positions); }
+
+ private:
+  std::shared_ptr<const Gltf_scene> scene_;
+  std::shared_ptr<const Sampling> sampling_;
+  Gltf_points points_;
+};
+
+}  // namespace
+
+Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options) {
+  const auto sampling = std::make_shared<const Sampling>(sampling_of(*scene, options));
   std::function<Motion(double)> resampled;
-  if (!asked)
-    resampled = [scene, number](double other) {
+  if (!options.frames_per_second)
+    resampled = [scene, number = sampling->animation](double other) {
       return motion_of(scene, {.frames_per_second = other, .animation = number});
     };
   // The points hold one pose, and several threads may ask for different frames.
   struct Shared_points {
-    Gltf_points points;
+    std::optional<Gltf_computed> points;  ///< made when a frame is posed as a whole
     std::mutex in_use;
   };
-  const auto shared = std::make_shared<Shared_points>(Gltf_points(scene));
-  const auto pose = [scene = std::move(scene), shared, number, frames, rate, keys = std::move(keys)](
-                        std::size_t frame, std::span<Point> positions) {
-    if (frame >= frames)
-      throw Bad_motion(
-          fmt::format("{}: frame {} (counted from 0) is requested, the animation has {}", scene->name, frame, frames));
+  const auto pose = [scene, sampling, shared = std::make_shared<Shared_points>()](std::size_t frame,
+                                                                                  std::span<Point> positions) {
     if (positions.size() != scene->vertices)
       throw Bad_motion(fmt::format("{}: positions of {} vertices are requested, the file has {}", scene->name,
                                    positions.size(), scene->vertices));
-    // Key times are floats. With the same rounding, a frame at a key gets the key's exact value.
-    const double time = keys.empty() ? static_cast<float>(static_cast<double>(frame) / rate) : keys[frame];
     const std::lock_guard lock(shared->in_use);
-    shared->points.set_time(&scene->animations[number], time);
-    shared->points.pose_all(positions);
+    if (!shared->points) shared->points.emplace(scene, sampling, all_vertices(*scene));
+    shared->points->set_frame(frame);
+    shared->points->pose_all(positions);
   };
-  return {.frames = frames, .pose = pose, .frames_per_second = rate, .start = start, .resampled = std::move(resampled)};
+  const auto computed = [scene, sampling](std::span<const std::uint32_t> vertices) -> std::unique_ptr<Computed_motion> {
+    return std::make_unique<Gltf_computed>(scene, sampling, vertices);
+  };
+  return {.frames = sampling->frames,
+          .pose = pose,
+          .frames_per_second = sampling->rate,
+          .start = sampling->keys.empty() ? 0 : sampling->keys.front(),
+          .resampled = std::move(resampled),
+          .computed = computed};
 }
 
 Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices, const Gltf_motion_options& options) {

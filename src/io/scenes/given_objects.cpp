@@ -17,6 +17,7 @@
 #include "io/scenes/shared_clock.h"
 #include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/motion/computed_motion.h"
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/mesh/errors.h"
 
@@ -45,6 +46,9 @@ Scene_object any_object(const std::filesystem::path& input, const Scene_options&
 }
 
 void hold_last_pose(Motion& motion) {
+  if (motion.computed)
+    motion.computed = [inner = std::move(motion.computed), last = motion.frames - 1](
+                          std::span<const std::uint32_t> vertices) { return held(inner(vertices), last); };
   motion.pose = [inner = std::move(motion.pose), last = motion.frames - 1](
                     std::size_t frame, std::span<Point> positions) { inner(std::min(frame, last), positions); };
 }

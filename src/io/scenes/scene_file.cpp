@@ -17,6 +17,7 @@
 #include "io/scenes/scene_groups.h"
 #include "io/scenes/shared_clock.h"
 #include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/motion/computed_motion.h"
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/mesh/errors.h"
 #include "mesh/is_finite.h"
@@ -88,6 +89,10 @@ Motion placed(Motion motion, const Placement& placement) {
     inner(frame, positions);
     for (Point& p : positions) p = p.transform(transformation);
   };
+  if (motion.computed)
+    motion.computed = [inner = std::move(motion.computed), placement](std::span<const std::uint32_t> vertices) {
+      return placed(inner(vertices), *placement);
+    };
   if (motion.resampled)
     motion.resampled = [inner = std::move(motion.resampled), placement](double rate) {
       return placed(inner(rate), placement);

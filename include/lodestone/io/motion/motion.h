@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +15,8 @@
 #include "lodestone/mesh/concepts.h"
 
 namespace lodestone {
+
+class Computed_motion;
 
 /// How the vertices of one object move: a function from the frame index to all positions.
 struct Motion {
@@ -26,6 +30,9 @@ struct Motion {
   double start = 0;              ///< time of the first frame in seconds, if they have
   /// The same motion at another rate, > 0, if its reader chose the rate; empty if the caller did, or there is none.
   std::function<Motion(double frames_per_second)> resampled = {};
+  /// The same motion of some vertices, as one whose frames need not be posed as a whole; empty: `pose` must be used.
+  /// @param vertices  their indices, in the order of the file or shape
+  std::function<std::unique_ptr<Computed_motion>(std::span<const std::uint32_t> vertices)> computed = {};
 };
 
 /// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). `pose` reads each frame on demand, and several

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/io/motion/computed_motion.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lodestone/bounds/linear_bound.h"
+#include "lodestone/bounds/placed_bound.h"
+#include "lodestone/io/motion/deformed_points.h"
+
+namespace lodestone {
+namespace {
+
+/// What stays where it is: its boxes at rest are exact.
+class Still final : public Computed_motion {
+ public:
+  explicit Still(const std::vector<Point>& rest) : points_(coordinates_of(rest)) {}
+
+  void set_frame(std::size_t /*frame*/) override {}
+  Any_bound bound(const Bounded_object& object) const override { return Any_bound(Linear_bound(points_, object.layout)); }
+  std::uint32_t vertex_count() const override { return points_.vertex_count(); }
+  std::uint64_t pose_number() const override { return 1; }
+  Eigen::Vector3d operator()(std::uint32_t vertex) const override { return points_(vertex); }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
+    points_.pose(vertices, coordinates);
+  }
+  Coordinates pose_all(std::span<double> /*coordinates*/) const override { return points_.rest(); }
+
+ private:
+  static std::vector<double> coordinates_of(const std::vector<Point>& points) {
+    std::vector<double> coordinates;
+    coordinates.reserve(3 * points.size());
+    for (const Point& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+    return coordinates;
+  }
+
+  Morphed_points points_;
+};
+
+/// Nothing is known about it: all boxes are open.
+struct Open_bound {
+  std::size_t nodes;
+  std::size_t node_count() const { return nodes; }
+  Aabb box(std::uint32_t /*node*/) const {
+    Aabb box{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.high[axis] = std::numeric_limits<double>::infinity();
+      box.low[axis] = -box.high[axis];
+    }
+    return box;
+  }
+};
+
+class Deforming final : public Computed_motion {
+ public:
+  Deforming(std::vector<Point> rest, std::vector<Deformation> deformations)
+      : points_(std::move(rest), std::move(deformations)) {}
+
+  void set_frame(std::size_t frame) override { points_.set_frame(static_cast<double>(frame)); }
+  Any_bound bound(const Bounded_object& object) const override {
+    return Any_bound(Open_bound{object.layout.node_count()});
+  }
+  std::uint32_t vertex_count() const override { return points_.vertex_count(); }
+  std::uint64_t pose_number() const override { return points_.pose_number(); }
+  Eigen::Vector3d operator()(std::uint32_t vertex) const override { return points_(vertex); }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
+    points_.pose(vertices, coordinates);
+  }
+  Coordinates pose_all(std::span<double> coordinates) const override {
+    points_.pose_all(coordinates);
+    return coordinates;
+  }
+
+ private:
+  Deformed_points points_;
+};
+
+/// Another motion, changed.
+class Changed : public Computed_motion {
+ public:
+  explicit Changed(std::unique_ptr<Computed_motion> motion) : inner_(std::move(motion)) {}
+
+  void set_frame(std::size_t frame) override { inner_->set_frame(frame); }
+  Any_bound bound(const Bounded_object& object) const override { return inner_->bound(object); }
+  std::uint32_t vertex_count() const override { return inner_->vertex_count(); }
+  std::uint64_t pose_number() const override { return inner_->pose_number(); }
+  Eigen::Vector3d operator()(std::uint32_t vertex) const override { return (*inner_)(vertex); }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
+    inner_->pose(vertices, coordinates);
+  }
+  Coordinates pose_all(std::span<double> coordinates) const override { return inner_->pose_all(coordinates); }
+
+ protected:
+  std::unique_ptr<Computed_motion> inner_;
+};
+
+class Placed final : public Changed {
+ public:
+  Placed(std::unique_ptr<Computed_motion> motion, const Kernel::Aff_transformation_3& placement)
+      : Changed(std::move(motion)), placement_(placement) {
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) linear_(row, column) = placement_.m(row, column);
+      translation_[row] = placement_.m(row, 3);
+    }
+  }
+
+  Any_bound bound(const Bounded_object& object) const override {
+    return Any_bound(Placed_box{inner_->bound(object), this});
+  }
+  Eigen::Vector3d operator()(std::uint32_t vertex) const override { return placed((*inner_)(vertex)); }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
+    inner_->pose(vertices, coordinates);
+    for (const std::uint32_t vertex : vertices) {
+      Eigen::Map<Eigen::Vector3d> position(coordinates.data() + 3 * std::size_t{vertex});
+      position = placed(position);
+    }
+  }
+  Coordinates pose_all(std::span<double> coordinates) const override {
+    const Coordinates unplaced = inner_->pose_all(coordinates);
+    for (std::size_t i = 0; i < unplaced.size(); i += 3)
+      Eigen::Map<Eigen::Vector3d>(coordinates.data() + i) =
+          placed(Eigen::Map<const Eigen::Vector3d>(unplaced.data() + i));
+    return coordinates;
+  }
+
+ private:
+  struct Placed_box {
+    Any_bound inner;
+    const Placed* motion;
+    std::size_t node_count() const { return inner.node_count(); }
+    Aabb box(std::uint32_t node) const { return placed_box(motion->linear_, motion->translation_, inner.box(node)); }
+  };
+  Eigen::Vector3d placed(const Eigen::Vector3d& position) const {
+    const Point p = Point(position.x(), position.y(), position.z()).transform(placement_);
+    return {p.x(), p.y(), p.z()};
+  }
+
+  Kernel::Aff_transformation_3 placement_;
+  Eigen::Matrix3d linear_;
+  Eigen::Vector3d translation_;
+};
+
+class Held final : public Changed {
+ public:
+  Held(std::unique_ptr<Computed_motion> motion, std::size_t last) : Changed(std::move(motion)), last_(last) {}
+  void set_frame(std::size_t frame) override {
+    if (frame <= last_) inner_->set_frame(frame);
+    else if (!ended_) inner_->set_frame(last_);
+    ended_ = frame >= last_;
+  }
+  const Skinned_points* skin() const override { return inner_->skin(); }
+
+ private:
+  std::size_t last_;
+  bool ended_ = false;  ///< whether it is in the last pose, which need not be set again
+};
+
+}  // namespace
+
+std::unique_ptr<Computed_motion> computed_deformation(std::vector<Point> rest, std::vector<Deformation> deformations) {
+  if (deformations.empty()) return std::make_unique<Still>(rest);
+  return std::make_unique<Deforming>(std::move(rest), std::move(deformations));
+}
+
+std::unique_ptr<Computed_motion> placed(std::unique_ptr<Computed_motion> motion,
+                                        const Kernel::Aff_transformation_3& placement) {
+  return std::make_unique<Placed>(std::move(motion), placement);
+}
+
+std::unique_ptr<Computed_motion> held(std::unique_ptr<Computed_motion> motion, std::size_t last_frame) {
+  return std::make_unique<Held>(std::move(motion), last_frame);
+}
+
+}  // namespace lodestone
