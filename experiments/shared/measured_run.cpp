@@ -64,7 +64,7 @@ class Play {
       measurement.accuracies.push_back(scores_[s].accuracy());
       measurement.recalls.push_back(scores_[s].recall());
       measurement.particles.clear();
-      if (measurement.setting.options.mode == Mode::exact) continue;
+      if (finds_all(measurement.setting.options.mode)) continue;
       for (Object_id o = 0; o < detectors_[s].size(); ++o)
         measurement.particles.push_back(detectors_[s].object(o).particles().at.size());
     }

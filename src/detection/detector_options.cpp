@@ -13,9 +13,6 @@ void require(bool holds, const char* requirement) {
   if (!holds) throw Bad_argument(requirement);
 }
 
-/// Whether the mode asks all faces.
-bool is_exact(Mode mode) { return mode == Mode::exact || mode == Mode::certified; }
-
 /// Modes without particles must not ignore silently what only particles have.
 bool has_defaults_of_particles(const Detector_options& options) {
   const Detector_options defaults;
@@ -65,11 +62,11 @@ void check(const Detector_options& options) {
           "the tolerance within one object must be finite and >= 0");
   require(exact.loosest > 1, "a tree must be allowed to become looser than it was built: the factor must be > 1");
   require(exact.tree.leaf_faces >= 2 && exact.tree.leaf_faces <= 128, "a leaf must hold at most 2 to 128 faces");
-  require(is_exact(options.mode) || has_defaults_of_exact(exact),
+  require(finds_all(options.mode) || has_defaults_of_exact(exact),
           "a distance other than 0, self-collision, containment, parting and contact patches need the mode exact or "
           "certified");
   require(
-      !is_exact(options.mode) || has_defaults_of_particles(options),
+      !finds_all(options.mode) || has_defaults_of_particles(options),
       "the collision distance, its measure, the choice of candidates, open seams and the growth limit need the mode "
       "particles");
 }

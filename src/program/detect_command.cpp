@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "io/files/small_text.h"
 #include "lodestone/detection/frame_at_once.h"
 #include "lodestone/io/files/atomic_file.h"
+#include "lodestone/io/motion/computed_motion.h"
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/queries/exhaustive.h"
 #include "program/commands.h"
@@ -58,6 +61,7 @@ class Run {
  public:
   explicit Run(const Detect_command& command) : command_(command), scene_(load(command)) {
     asks_once_ = asks_once(command, scene_);
+    if (command.options.mode == Mode::certified) compute_motions();
     if (!asks_once_) make_detector();
     summary_.measurement.setting.options = command.options;
     if (!command.html.empty()) page_.emplace(command, scene_, *detector_);
@@ -73,7 +77,7 @@ class Run {
   const Scene& scene() const { return scene_; }
   /// Tells at which objects particles walk across seams.
   void note_seams() const {
-    if (command_.options.mode == Mode::exact) return;
+    if (finds_all(command_.options.mode)) return;
     for (Object_id id = 0; id < scene_.objects.size(); ++id)
       note_joined_vertices(scene_.objects[id].name, detector_->object(id).joined_vertices(),
                            scene_.objects[id].mesh.number_of_vertices());
@@ -82,11 +86,13 @@ class Run {
   Page_log* page() { return page_ ? &*page_ : nullptr; }
   Paraview_log* paraview() { return paraview_ ? &*paraview_ : nullptr; }
   /// Whether a false contact was reported, or mode exact missed one.
-  bool contradicts_truth() const { return contradicted_ || (missed_ && command_.options.mode == Mode::exact); }
+  bool contradicts_truth() const { return contradicted_ || (missed_ && finds_all(command_.options.mode)); }
 
  private:
   Run_subject subject() const { return {command_, scene_, detector_ ? &*detector_ : nullptr}; }
+  void compute_motions();
   void make_detector();
+  void pose_all(std::size_t frame);
   const Frame& detect();
   template <class Visit>
   void for_each_pair(const Visit& visit) const;
@@ -97,6 +103,7 @@ class Run {
 
   const Detect_command& command_;
   Scene scene_;
+  std::vector<std::unique_ptr<Computed_motion>> computed_;  ///< per object in mode certified; null: read from files
   bool asks_once_ = false;
   std::optional<Scene_detector> detector_;  ///< none if the only frame has been made without one
   std::optional<Frame> only_frame_;         ///< the one that has been made so
@@ -106,16 +113,26 @@ class Run {
   bool contradicted_ = false, missed_ = false;
 };
 
+/// What need not be posed as a whole is posed by the detector, where it looks.
+void Run::compute_motions() {
+  for (const auto& object : scene_.objects)
+    computed_.push_back(object.motion.computed ? object.motion.computed(object.file_vertex) : nullptr);
+}
+
 void Run::make_detector() {
   detector_.emplace(detector_options(command_), make_strategy(command_.partition.name, command_.partition.settings));
-  for (auto& object : scene_.objects) {
+  for (std::size_t number = 0; number < scene_.objects.size(); ++number) {
+    auto& object = scene_.objects[number];
     Object_options options{.particles = command_.options.particles > 0 ? 0 : object.particles,
                            .groups = object.collision.groups,
                            .meets = object.collision.meets};
     if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
     options.file_vertex = object.file_vertex;
     options.name = object.name;
-    detector_->add(object.mesh, options);
+    if (number < computed_.size() && computed_[number])
+      detector_->add(object.mesh, point_map(object.mesh, *computed_[number]), options);
+    else
+      detector_->add(object.mesh, options);
   }
   for (const auto& pair : scene_.ignored) detector_->ignore(pair.a, pair.b);
 }
@@ -130,8 +147,18 @@ const Frame& Run::detect() {
   return detector_->detect();
 }
 
+/// Moves all objects; only those meshes whose positions somebody reads.
+void Run::pose_all(std::size_t frame) {
+  const bool shown = command_.truth || !command_.html.empty() || !command_.paraview.empty();
+  for (std::size_t number = 0; number < scene_.objects.size(); ++number) {
+    const bool computed = number < computed_.size() && computed_[number];
+    if (computed) computed_[number]->set_frame(frame);
+    if (!computed || shown) pose(scene_.objects[number], frame);
+  }
+}
+
 std::string Run::play(std::size_t frame) {
-  for (auto& object : scene_.objects) pose(object, frame);
+  pose_all(frame);
   const Frame& result = detect();
   // The first frame builds, and finds all positions outside the caches.
   summary_.add(frame, result, frame > 0 || scene_.frames == 1);

@@ -28,7 +28,7 @@ Json object_summary_json(const Run_subject& subject, Object_id id) {
             {"vertices", object.mesh.number_of_vertices()},
             {"faces", count_file_faces(object.file_face).count},
             {"triangles", object.mesh.number_of_faces()}};
-  if (subject.command.options.mode == Mode::exact) {
+  if (finds_all(subject.command.options.mode)) {
     json["leaves"] = subject.detector->tree(id).leaf_count();
   } else {
     json["particles"] = subject.detector->object(id).particles().at.size();
@@ -143,7 +143,7 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
 
 const char* building_of(const Run_subject& subject) {
   const Detector_options& options = subject.command.options;
-  if (options.mode == Mode::exact)
+  if (finds_all(options.mode))
     return makes_regions(options, subject.scene) ? "numbering, partition, tree" : "numbering, tree";
   if (options.mode == Mode::senin) return "numbering, particles";
   return options.meetings > 0 ? "numbering, partition, tree" : "numbering, partition";
@@ -152,7 +152,11 @@ const char* building_of(const Run_subject& subject) {
 /// What a frame has done on average, beside exact tests.
 std::string work_of(const Detector_options& options, const Measurement& measurement) {
   const auto mean = [&](std::size_t Frame_statistics::*count) { return mean_count(measurement, count); };
-  if (options.mode == Mode::exact) return fmt::format("{:.1f} pairs of leaves", mean(&Frame_statistics::candidates));
+  if (options.mode == Mode::certified)
+    return fmt::format("{:.0f} vertices read, {:.1f} nodes bounded, {:.1f} pairs of leaves",
+                       mean(&Frame_statistics::vertices_read), mean(&Frame_statistics::nodes_bounded),
+                       mean(&Frame_statistics::candidates));
+  if (finds_all(options.mode)) return fmt::format("{:.1f} pairs of leaves", mean(&Frame_statistics::candidates));
   if (options.mode == Mode::senin || options.meetings == 0)
     return fmt::format("{:.1f} iterations", mean(&Frame_statistics::iterations));
   return fmt::format("{:.0f} vertices read, {:.1f} meetings, {:.1f} pairs of leaves",
@@ -221,6 +225,9 @@ Json summary_json(const Run_subject& subject, const Run_summary& summary) {
   for (const char* key : {"mean_iterations", "mean_moves", "mean_candidates", "mean_exact_tests", "mean_repartitions",
                           "median_microseconds"})
     json[key] = measured[key];
+  if (mode == Mode::certified)
+    for (const char* key : {"mean_vertices_read", "mean_nodes_bounded", "mean_leaves_posed", "mean_violations"})
+      json[key] = measured[key];
   json["build_microseconds"] = 1e6 * summary.measurement.build_seconds;
   return json;
 }

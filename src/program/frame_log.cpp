@@ -83,13 +83,20 @@ Json closest_json(const std::vector<Scene_object>& objects, std::span<const Pair
 
 /// Only counts, since times differ from run to run.
 Json statistics_json(const Frame_statistics& statistics, Mode mode) {
-  if (mode == Mode::exact)
-    return {{"leaf_tests", statistics.candidates},
+  if (finds_all(mode)) {
+    Json json{{"leaf_tests", statistics.candidates},
             {"exact_tests", statistics.exact_tests},
             {"contacts", statistics.contacts},
             {"builds", statistics.builds},
             {"rebuilds", statistics.repartitions},
             {"vertices_read", statistics.vertices_read}};
+    if (mode == Mode::certified) {
+      json["nodes_bounded"] = statistics.nodes_bounded;
+      json["leaves_posed"] = statistics.leaves_posed;
+      json["violations"] = statistics.violations;
+    }
+    return json;
+  }
   return {{"iterations", statistics.iterations},   {"moves", statistics.moves},
           {"relaxed", statistics.relaxed},         {"candidates", statistics.candidates},
           {"meetings", statistics.meetings},       {"leaf_tests", statistics.openings},

@@ -119,8 +119,12 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
       ->required()
       ->type_name("FILE");
   app.add_option("--mode", options.mode,
-                 "exact: every face, misses nothing; particles: one per region, may miss; senin: the predecessor")
-      ->transform(one_of<Mode>({{"particles", Mode::particles}, {"senin", Mode::senin}, {"exact", Mode::exact}}))
+                 "exact: every face, misses nothing; certified: the same, reads only what is near; particles: one per "
+                 "region, may miss; senin: the predecessor")
+      ->transform(one_of<Mode>({{"particles", Mode::particles},
+                                {"senin", Mode::senin},
+                                {"exact", Mode::exact},
+                                {"certified", Mode::certified}}))
       ->type_name("MODE")
       ->default_str("exact");
   app.add_option("--particles", options.particles,
@@ -296,10 +300,10 @@ int run_commands(int argc, char** argv) {
     const auto& app = *program.get_subcommand("detect");
     refuse_options_of_other_modes(app, detect.options.mode);
     if (detect.options.mode == Mode::particles) refuse_options_beside_meetings(app, detect.options.meetings);
-    refuse_options_of_other_strategies(app, detect.partition.name, detect.options.mode != Mode::exact);
+    refuse_options_of_other_strategies(app, detect.partition.name, !finds_all(detect.options.mode));
     detect.chooses_strategy = chooses_strategy(app);
     // Whoever chooses a strategy wants to see regions.
-    if (detect.options.mode == Mode::exact && detect.chooses_strategy && detect.options.particles == 0)
+    if (finds_all(detect.options.mode) && detect.chooses_strategy && detect.options.particles == 0)
       detect.options.particles = detect.options.least_particles;
   }
   if (program.got_subcommand("partition"))

@@ -35,13 +35,13 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
     std::vector<Mode> modes;
   };
   static const std::vector<Mode_option> options{
-      {"--within", {Mode::exact}},
-      {"--closest", {Mode::exact}},
-      {"--self", {Mode::exact}},
-      {"--self-within", {Mode::exact}},
-      {"--containment", {Mode::exact}},
-      {"--parting", {Mode::exact}},
-      {"--patches", {Mode::exact}},
+      {"--within", {Mode::exact, Mode::certified}},
+      {"--closest", {Mode::exact, Mode::certified}},
+      {"--self", {Mode::exact, Mode::certified}},
+      {"--self-within", {Mode::exact, Mode::certified}},
+      {"--containment", {Mode::exact, Mode::certified}},
+      {"--parting", {Mode::exact, Mode::certified}},
+      {"--patches", {Mode::exact, Mode::certified}},
       {"--collision-distance", {Mode::particles, Mode::senin}},
       {"--candidates", {Mode::particles, Mode::senin}},
       {"--growth", {Mode::particles}},
@@ -49,13 +49,13 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
       {"--opening-budget", {Mode::particles}},
       {"--opening-reach", {Mode::particles}},
       {"--open-seams", {Mode::particles, Mode::senin}},
-      {"--strategy", {Mode::exact, Mode::particles}},
-      {"--normal-weight", {Mode::exact, Mode::particles}},
-      {"--split", {Mode::exact, Mode::particles}},
-      {"--epsilon", {Mode::exact, Mode::particles}},
-      {"--tolerance", {Mode::exact, Mode::particles}},
-      {"--lbg-sample", {Mode::exact, Mode::particles}},
-      {"--threads", {Mode::exact, Mode::particles}},
+      {"--strategy", {Mode::exact, Mode::certified, Mode::particles}},
+      {"--normal-weight", {Mode::exact, Mode::certified, Mode::particles}},
+      {"--split", {Mode::exact, Mode::certified, Mode::particles}},
+      {"--epsilon", {Mode::exact, Mode::certified, Mode::particles}},
+      {"--tolerance", {Mode::exact, Mode::certified, Mode::particles}},
+      {"--lbg-sample", {Mode::exact, Mode::certified, Mode::particles}},
+      {"--threads", {Mode::exact, Mode::certified, Mode::particles}},
   };
   for (const auto& option : options) {
     if (detect.count(option.name) == 0 || std::ranges::find(option.modes, mode) != option.modes.end()) continue;

@@ -32,7 +32,8 @@ Page_head head_of(const Detect_command& command, const Scene& scene, std::size_t
                  .mode = std::string(name_of(mode)),
                  .frame_step = frame_step,
                  .note = missing_note(command.options)};
-  if (makes_regions(command.options, scene)) head.strategy = command.partition.name;
+  if (mode == Mode::certified) head.states = {"far", "bounded", "posed"};
+  else if (makes_regions(command.options, scene)) head.strategy = command.partition.name;
   return head;
 }
 
@@ -79,7 +80,7 @@ Json microseconds(const Stage_times& seconds) {
 bool makes_regions(const Detector_options& options, const Scene& scene) {
   const auto asks = [](const auto& object) { return object.particles > 0; };
   return options.mode == Mode::particles ||
-         (options.mode == Mode::exact && (options.particles > 0 || std::ranges::any_of(scene.objects, asks)));
+         (finds_all(options.mode) && (options.particles > 0 || std::ranges::any_of(scene.objects, asks)));
 }
 
 Page_log::Page_log(const Detect_command& command, const Scene& scene, const Scene_detector& detector)
@@ -105,12 +106,26 @@ void Page_log::add(std::size_t frame, const Frame& result, const std::string& li
   set_regions();
   Page_frame shown{.positions = {}, .particles = particles(), .numbers = line, .stages = stages(result, truth)};
   for (const auto& object : scene_.objects) shown.positions.push_back(positions_of(object.mesh));
-  if (options.mode != Mode::exact) shown.candidates = result.candidates;
+  if (!finds_all(options.mode)) shown.candidates = result.candidates;
   if (options.contacts != Contact_query::yes_no) shown.contacts = contacts(result);
   page_.add_frame(std::move(shown));
 }
 
+/// What mode certified knows of the leaves at each vertex: the most of any.
+std::vector<Region_index> Page_log::leaf_states(Object_id o) const {
+  std::vector<Region_index> states(scene_.objects[o].mesh.number_of_vertices(), 0);
+  const Bounded_surface& surface = *detector_.bounded(o);
+  for (std::uint32_t leaf = 0; leaf < surface.layout().leaf_count(); ++leaf)
+    for (const auto vertex : surface.layout().vertices(leaf))
+      states[vertex] = std::max(states[vertex], static_cast<Region_index>(surface.leaf_state(leaf)));
+  return states;
+}
+
 void Page_log::set_regions() {
+  if (command_.options.mode == Mode::certified) {
+    for (Object_id o = 0; o < scene_.objects.size(); ++o) page_.set_regions(o, leaf_states(o));
+    return;
+  }
   if (!makes_regions(command_.options, scene_)) return;
   for (Object_id o = 0; o < scene_.objects.size(); ++o) {
     const auto& regions = detector_.maps(o).region();
@@ -122,7 +137,7 @@ void Page_log::set_regions() {
 
 std::vector<std::vector<std::uint32_t>> Page_log::particles() const {
   std::vector<std::vector<std::uint32_t>> at;
-  if (command_.options.mode == Mode::exact) return at;
+  if (finds_all(command_.options.mode)) return at;
   for (Object_id o = 0; o < scene_.objects.size(); ++o) at.push_back(detector_.object(o).particles().at);
   return at;
 }

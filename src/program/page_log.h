@@ -38,6 +38,7 @@ class Page_log {
   std::string summary() const;
 
  private:
+  std::vector<Region_index> leaf_states(Object_id o) const;
   void set_regions();
   std::vector<std::vector<std::uint32_t>> particles() const;
   std::vector<Page_contact> contacts(const Frame& result) const;

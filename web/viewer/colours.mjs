@@ -17,6 +17,11 @@ export function region_colour(region) {
   return [channel(0), channel(4), channel(2)];
 }
 
+/** What a run knew of a part of a surface: nothing; where it can be; where it is. */
+const state_colours = [[176, 180, 188], [112, 160, 222], [242, 152, 62]];
+
+export const state_colour = (state) => state_colours[state % state_colours.length];
+
 /** Colours of whole objects, without regions. */
 const object_colours = [[154, 172, 200], [214, 186, 148], [160, 193, 168], [196, 166, 193], [190, 190, 160], [160, 188, 196]];
 

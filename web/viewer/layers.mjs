@@ -34,11 +34,16 @@ function has_any(lists, fits = () => true) {
   return Boolean(lists?.some((list) => list.some(fits)));
 }
 
+/** The layer of regions shows states where the page has some. */
+function as_states(layer, states) {
+  return states && layer.key === 'regions' ? { ...layer, name: 'What was read', about: '' } : layer;
+}
+
 /** The current visibility: layers, and per object whether it is visible and whether it is translucent. */
 export class Shown {
   /** @param {import('./container.mjs').Page} page */
   constructor(page) {
-    this.available = layers.filter((layer) => layer.exists(page));
+    this.available = layers.filter((layer) => layer.exists(page)).map((layer) => as_states(layer, page.header.states));
     this.layers = Object.fromEntries(layers.map(({ key, on }) => [key, on]));
     this.objects = page.objects.map(() => ({ visible: true, translucent: false }));
     this.listeners = [];

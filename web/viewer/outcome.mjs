@@ -27,8 +27,9 @@ export function runs(frames, is) {
   return found;
 }
 
-/** Frames of the page at which an object gets new regions. */
+/** Frames of the page at which an object gets new regions. Labels that are states change all the time. */
 export function repartitions(page) {
+  if (page.header.states) return [];
   const frames = page.objects.flatMap(({ partitions }) => partitions.map(({ frame }) => frame));
   return [...new Set(frames)].filter((frame) => frame > 0).sort((a, b) => a - b);
 }

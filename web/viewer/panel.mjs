@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Switches for layers and objects.
 import { by_id, element, number_text } from './dom.mjs';
+import { state_colour } from './colours.mjs';
 import { layers } from './layers.mjs';
 
 /**
@@ -10,6 +11,8 @@ import { layers } from './layers.mjs';
  */
 export function make_panel(page, shown, frame) {
   const boxes = shown.available.map((layer) => layer_row(layer, shown));
+  const { states } = page.header;
+  if (states) boxes.find(({ key }) => key === 'regions')?.row.querySelector('.about').append(...state_legend(states));
   by_id('layers').append(...boxes.map(({ row }) => row));
   const rows = page.objects.map((object, i) => object_row(object, i, shown));
   by_id('objects').append(...rows.map(({ row }) => row));
@@ -21,7 +24,7 @@ export function make_panel(page, shown, frame) {
       translucent.disabled = !visible.checked;
     });
   });
-  return () => rows.forEach(({ facts }, i) => set_text(facts, object_facts(page.objects[i], frame())));
+  return () => rows.forEach(({ facts }, i) => set_text(facts, object_facts(page.objects[i], frame(), page.header.states)));
 }
 
 function layer_row({ key, name, about }, shown) {
@@ -32,6 +35,15 @@ function layer_row({ key, name, about }, shown) {
     element('span', { className: 'name', textContent: name }), element('span', { className: 'about', textContent: about }),
     element('kbd', { textContent: String(number), title: `Key ${number}` }));
   return { key, box, row };
+}
+
+/** The names of states, each in its colour. */
+function state_legend(states) {
+  return states.map((name, i) => {
+    const swatch = element('span', { className: 'swatch', 'aria-hidden': 'true' });
+    swatch.style.background = `rgb(${state_colour(i).join(' ')})`;
+    return element('span', { className: 'state' }, swatch, name);
+  });
 }
 
 function object_row({ name }, i, shown) {
@@ -50,12 +62,20 @@ function object_row({ name }, i, shown) {
   return { row, facts, visible: visible.box, translucent: translucent.box };
 }
 
-function object_facts({ vertices, triangles, partitions, particles }, frame) {
+function object_facts({ vertices, triangles, partitions, particles }, frame, states) {
   const facts = [`${number_text(vertices)} vertices`, `${number_text(triangles)} triangles`];
   const partition = partitions.findLast((candidate) => candidate.frame <= frame);
-  if (partition) facts.push(`${number_text(partition.regions)} regions`);
+  if (partition && states) facts.push(...share_of_states(partition.labels, states));
+  else if (partition) facts.push(`${number_text(partition.regions)} regions`);
   else if (particles) facts.push(`${number_text(particles[frame].length)} particles`);
   return facts.join(', ');
+}
+
+/** @returns {string[]} the share of the vertices that are not in the first state */
+function share_of_states(labels, states) {
+  const counts = states.map(() => 0);
+  labels.forEach((label) => ++counts[label]);
+  return states.slice(1).map((state, i) => `${Math.round((1000 * counts[i + 1]) / labels.length) / 10} % ${state}`);
 }
 
 /** Unchanged text needs no new layout. */

@@ -4,7 +4,7 @@ import {
   BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, DynamicDrawUsage, GLSL3, Group, IntType, Mesh, RawShaderMaterial, RGBAFormat,
   SRGBColorSpace, UnsignedByteType, Vector3,
 } from 'three';
-import { marks, object_colour, region_colour } from './colours.mjs';
+import { marks, object_colour, region_colour, state_colour } from './colours.mjs';
 import { vertex_normals } from './normals.mjs';
 import { fragment_shader, row_length, vertex_shader } from './surface_shader.mjs';
 
@@ -19,7 +19,7 @@ export class Surface {
    * @param {number} index  of the object on the page
    * @param {import('./places.mjs').Places} places
    */
-  constructor(object, index, places) {
+  constructor(object, index, places, states) {
     this.object = object;
     this.places = places;
     this.normals = vertex_normals(object, places.cell);
@@ -27,8 +27,9 @@ export class Surface {
     this.partition = undefined;
     this.apart = undefined;
     this.marked = [];
+    this.label_colour = states ? state_colour : region_colour;
     this.material = material_of({
-      palette: palette_of(1),
+      palette: palette_of(1, this.label_colour),
       origin: new Vector3(...places.origin),
       cell: new Vector3(...places.cell),
       plain: new Color().setRGB(...object_colour(index).map((x) => x / 255), SRGBColorSpace),
@@ -118,7 +119,7 @@ export class Surface {
 
   #set_palette(regions) {
     this.material.uniforms.palette.value.dispose();
-    this.material.uniforms.palette.value = palette_of(regions);
+    this.material.uniforms.palette.value = palette_of(regions, this.label_colour);
     this.marked = [];
   }
 
@@ -159,11 +160,11 @@ function material_of(values) {
   });
 }
 
-function palette_of(regions) {
+function palette_of(regions, colour) {
   const rows = Math.max(1, Math.ceil(regions / row_length));
   const texture = new DataTexture(new Uint8Array(4 * rows * row_length), row_length, rows, RGBAFormat, UnsignedByteType);
   texture.colorSpace = SRGBColorSpace;
-  for (let region = 0; region < regions; ++region) texture.image.data.set(region_colour(region), 4 * region);
+  for (let region = 0; region < regions; ++region) texture.image.data.set(colour(region), 4 * region);
   texture.needsUpdate = true;
   return texture;
 }

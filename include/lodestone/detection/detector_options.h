@@ -35,6 +35,9 @@ constexpr std::string_view name_of(Mode mode) {
   return names[static_cast<int>(mode)];
 }
 
+/// Whether a mode finds what checking every face against every other would.
+constexpr bool finds_all(Mode mode) { return mode == Mode::exact || mode == Mode::certified; }
+
 /// What only the modes `exact` and `certified` are asked.
 struct Exact_options {
   double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect.
@@ -50,7 +53,7 @@ struct Exact_options {
   bool patches = false;         ///< also group the contacts of a pair into contact patches; not with yes_no
   std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it. Other
                                 ///< modes use them while they measure regions and make trees; LBG has its own option
-  bool throw_if_broken = false; ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass
+  bool throw_if_broken = false;  ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass
   double loosest = 2;           ///< rebuild an object's tree when its leaves are looser by this factor; > 1
   Region_tree_options tree = {};
 };

@@ -151,6 +151,7 @@ std::string Page::data() const {
               {"title", head_.title},
               {"mode", text_or_null(head_.mode)},
               {"strategy", text_or_null(head_.strategy)},
+              {"states", head_.states.empty() ? Json() : Json(head_.states)},
               {"frames", frames_.size()},
               {"first_frame", head_.first_frame},
               {"frame_step", head_.frame_step},

@@ -21,6 +21,7 @@ struct Page_head {
   Page_kind kind = Page_kind::detect;
   std::string title;
   std::optional<std::string> mode = {}, strategy = {};
+  std::vector<std::string> states = {};  ///< what the labels of vertices mean; empty: they are regions
   std::size_t first_frame = 0;  ///< frame of the scene that is the page's first
   std::size_t frame_step = 1;   ///< frames of the scene per frame of the page
   double frames_per_second = 30;
