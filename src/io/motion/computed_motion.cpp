@@ -37,29 +37,13 @@ class Still final : public Computed_motion {
   Morphed_points points_;
 };
 
-/// Nothing is known about it: all boxes are open.
-struct Open_bound {
-  std::size_t nodes;
-  std::size_t node_count() const { return nodes; }
-  Aabb box(std::uint32_t /*node*/) const {
-    Aabb box{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.high[axis] = std::numeric_limits<double>::infinity();
-      box.low[axis] = -box.high[axis];
-    }
-    return box;
-  }
-};
-
 class Deforming final : public Computed_motion {
  public:
   Deforming(std::vector<Point> rest, std::vector<Deformation> deformations)
       : points_(std::move(rest), std::move(deformations)) {}
 
   void set_frame(std::size_t frame) override { points_.set_frame(static_cast<double>(frame)); }
-  Any_bound bound(const Bounded_object& object) const override {
-    return Any_bound(Open_bound{object.layout.node_count()});
-  }
+  Any_bound bound(const Bounded_object& object) const override { return points_.bound(object); }
   std::uint32_t vertex_count() const override { return points_.vertex_count(); }
   std::uint64_t pose_number() const override { return points_.pose_number(); }
   Eigen::Vector3d operator()(std::uint32_t vertex) const override { return points_(vertex); }

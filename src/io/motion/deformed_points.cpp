@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "io/motion/deformed_shape.h"
+#include "io/motion/expansion.h"
+#include "lodestone/bounds/lipschitz_bound.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -14,11 +16,14 @@ namespace lodestone {
 struct Deformed_points::State {
   detail::Deformed_shape shape;
   std::vector<detail::Step> steps;  ///< of the current frame
+
+  Lipschitz_promise promise;        ///< of the current frame
+  detail::Expansion expansion() const { return detail::expansion(steps, shape.middle(), shape.box()); }
 };
 
 Deformed_points::Deformed_points(std::vector<Point> rest, std::vector<Deformation> deformations)
     : state_(std::make_unique<State>(detail::Deformed_shape(std::move(rest), std::move(deformations)))) {
-  state_->steps = state_->shape.steps_at(0);
+  set_frame(0);
 }
 Deformed_points::~Deformed_points() = default;
 Deformed_points::Deformed_points(Deformed_points&&) noexcept = default;
@@ -28,10 +33,39 @@ void Deformed_points::set_frame(double frame) {
   if (!(frame >= 0) || !std::isfinite(frame))
     throw Bad_argument(fmt::format("frame {} of a deformation, must be >= 0 and finite", frame));
   state_->steps = state_->shape.steps_at(frame);
+  const auto [constant, error] = state_->expansion();
+  state_->promise.set_constant(constant, error);
   ++pose_number_;
 }
 
 std::uint32_t Deformed_points::vertex_count() const { return static_cast<std::uint32_t>(state_->shape.rest().size()); }
+
+double Deformed_points::lipschitz_constant() const { return state_->expansion().constant; }
+
+double Deformed_points::position_error() const { return state_->expansion().error; }
+
+namespace {
+
+/// A bound that reads its own positions.
+struct Deformed_bound {
+  std::unique_ptr<const Position_source> positions;
+  Lipschitz_bound bound;
+
+  std::size_t node_count() const { return bound.node_count(); }
+  Aabb box(std::uint32_t node) const { return bound.box(node); }
+};
+
+}  // namespace
+
+Any_bound Deformed_points::bound(const Bounded_object& object) const {
+  auto positions = std::make_unique<const Computed_source<Deformed_points>>(*this);
+  std::vector<double> rest;
+  rest.reserve(3 * state_->shape.rest().size());
+  for (const Point& p : state_->shape.rest()) rest.insert(rest.end(), {p.x(), p.y(), p.z()});
+  auto bound = state_->promise.bound(
+      {.layout = object.layout, .labels = object.labels, .rest = rest, .positions = *positions});
+  return Any_bound(Deformed_bound{std::move(positions), std::move(bound)});
+}
 
 Eigen::Vector3d Deformed_points::operator()(std::uint32_t vertex) const {
   Point p = state_->shape.rest()[vertex];

@@ -7,12 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "lodestone/bounds/node_bound.h"
 #include "lodestone/io/motion/deformation.h"
 
 namespace lodestone {
 
 /// Built-in deformations as computed points: the positions that the motion of `deform` gives, vertex by vertex and with
-/// the same bits. A model of Computed_points.
+/// the same bits. A model of Computed_points and of Motion_promise.
 ///
 /// Lists are not computed in vectors: sines and cosines take most of the time.
 class Deformed_points {
@@ -29,6 +30,23 @@ class Deformed_points {
   /// @param frame          finite, >= 0; also between two frames
   /// @throws Bad_argument  the pose stays as it was
   void set_frame(double frame);
+
+  /// How much farther apart than at rest two vertices can be in this pose: before positions are rounded, at most this
+  /// many times as far. Infinite where numbers overflow. O(deformations).
+  ///
+  /// The constants of deformations that follow each other multiply. For a wobble the constant is
+  /// 1 + pi |amplitude waves|. A bend has it from the part of the shape that lies farthest towards the outside of the
+  /// arc, a twist from the part farthest from the axis. For `Inflate` it is the current factor, for `Travel` and `Spin`
+  /// 1. After a wobble or a bend, only a ball and a box around the shape are known, so constants may be larger than
+  /// needed.
+  double lipschitz_constant() const;
+  /// How far a position of this pose can be from the exact one, through rounding; in units of the coordinates. With
+  /// `lipschitz_constant` what a Lipschitz_promise needs. O(deformations).
+  double position_error() const;
+
+  /// Boxes from `lipschitz_constant` and `position_error`. O(V).
+  /// @param object  of this must only the layout be; positions and rest are those of the points
+  Any_bound bound(const Bounded_object& object) const;
 
   std::uint32_t vertex_count() const;
   std::uint64_t pose_number() const { return pose_number_; }
