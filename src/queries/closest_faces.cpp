@@ -6,6 +6,7 @@
 
 #include "lodestone/filter/face_filter.h"
 #include "lodestone/queries/leaf_triangle.h"
+#include "lodestone/queries/surface_on_demand.h"
 #include "lodestone/tree/node_pair.h"
 #include "lodestone/triangles/triangle_intersection.h"
 #include "lodestone/volumes/to_box.h"
@@ -32,26 +33,24 @@ struct Boxed_leaf {
   }
 };
 
+template <Surface_on_demand Surface>
 class Search {
  public:
-  Search(const Layout_view& a, const Layout_view& b) : a_(a), b_(b) {
+  Search(Surface& a, Surface& b) : a_(a), b_(b) {
     best_.points.distance = std::numeric_limits<double>::infinity();
     best_.faces = {std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()};
-    face_filter_.begin(a, b, 0);
   }
 
+  /// @return of no meaning once a surface is broken
   Closest_faces run() {
     push(root_pair);
-    while (!queue_.empty() && queue_.top().bound <= best_.points.distance) {
-      const Node_pair pair = queue_.top().pair;
+    while (!queue_.empty() && queue_.top().bound <= best_.points.distance && !is_broken()) {
+      const auto [bound, pair] = queue_.top();
       queue_.pop();
-      if (a_.layout->is_leaf(pair.a) && b_.layout->is_leaf(pair.b)) {
-        try_leaves(a_.layout->node(pair.a).leaf, b_.layout->node(pair.b).leaf);
-        continue;
-      }
-      below_.clear();
-      open_pair(*a_.layout, *b_.layout, pair, a_.boxes[pair.a].extent() >= b_.boxes[pair.b].extent(), below_);
-      for (const Node_pair next : below_) push(next);
+      if (!a_.layout().is_leaf(pair.a) || !b_.layout().is_leaf(pair.b))
+        open(pair);
+      else if (!pose_loosens(pair, bound))
+        try_leaves(a_.layout().node(pair.a).leaf, b_.layout().node(pair.b).leaf);
     }
     return best_;
   }
@@ -64,17 +63,36 @@ class Search {
   };
 
   void push(Node_pair pair) {
-    const double bound = distance_lower_bound(to_box(a_.boxes[pair.a]), to_box(b_.boxes[pair.b]));
+    const double bound = distance_lower_bound(to_box(a_.box(pair.a)), to_box(b_.box(pair.b)));
     if (bound <= best_.points.distance) queue_.push({bound, pair});
   }
 
+  void open(Node_pair pair) {
+    below_.clear();
+    open_pair(a_.layout(), b_.layout(), pair, a_.box(pair.a).extent() >= b_.box(pair.b).extent(), below_);
+    for (const Node_pair next : below_) push(next);
+  }
+
+  /// Poses the leaves of a pair, one after the other: the fitted box of one can spare posing the other.
+  /// @return whether a fitted box puts the pair farther apart: it has been pushed again, or dropped
+  bool pose_loosens(Node_pair pair, double bound) {
+    const Aabb& box_a = a_.pose(a_.layout().node(pair.a).leaf);
+    if (distance_lower_bound(to_box(box_a), to_box(b_.box(pair.b))) > bound) return push(pair), true;
+    const Aabb& box_b = b_.pose(b_.layout().node(pair.b).leaf);
+    if (distance_lower_bound(to_box(box_a), to_box(box_b)) > bound) return push(pair), true;
+    return is_broken();
+  }
+
+  bool is_broken() const { return a_.is_broken() || b_.is_broken(); }
+
   void try_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b) {
     if (best_.points.distance == 0) return look_for_lower(leaf_a, leaf_b);
-    faces_a_.fill(a_, leaf_a);
-    faces_b_.fill(b_, leaf_b);
+    const auto indices_a = a_.layout().faces(leaf_a), indices_b = b_.layout().faces(leaf_b);
+    faces_a_.fill(a_.view(), leaf_a);
+    faces_b_.fill(b_.view(), leaf_b);
     for (std::size_t i = 0; i < faces_a_.boxes.size(); ++i)
       for (std::size_t j = 0; j < faces_b_.boxes.size(); ++j) {
-        const Face_pair faces{a_.layout->faces(leaf_a)[i], b_.layout->faces(leaf_b)[j]};
+        const Face_pair faces{indices_a[i], indices_b[j]};
         const double bound = distance_lower_bound(faces_a_.boxes[i], faces_b_.boxes[j]);
         if (std::tie(bound, faces) >= std::tie(best_.points.distance, best_.faces)) continue;
         const Closest_points points = closest_points(faces_a_.triangles[i], faces_b_.triangles[j]);
@@ -84,27 +102,49 @@ class Search {
 
   /// The objects intersect, so only a lower intersecting face pair can still be the answer.
   void look_for_lower(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    begin_filter();
+    const Leaf_faces all_a = a_.view().leaf(leaf_a), all_b = b_.view().leaf(leaf_b);
+    const auto indices_a = a_.layout().faces(leaf_a), indices_b = b_.layout().faces(leaf_b);
     for (const Face_candidate& candidate : face_filter_.face_candidates(leaf_a, leaf_b)) {
-      const Face_pair faces{a_.layout->faces(leaf_a)[candidate.a], b_.layout->faces(leaf_b)[candidate.b]};
+      const Face_pair faces{indices_a[candidate.a], indices_b[candidate.b]};
       if (!(faces < best_.faces)) continue;
-      const Triangle_corners a = leaf_triangle(a_.leaf(leaf_a), candidate.a);
-      const Triangle_corners b = leaf_triangle(b_.leaf(leaf_b), candidate.b);
+      const Triangle_corners a = leaf_triangle(all_a, candidate.a), b = leaf_triangle(all_b, candidate.b);
       if (!triangles_intersect_given(a, b, candidate.crossing)) continue;
       best_ = {faces, closest_points(triangle_of(a), triangle_of(b))};
     }
   }
 
-  const Layout_view& a_;
-  const Layout_view& b_;
+  /// Once for the positions in each memory: a surface that is posed as a whole can have them elsewhere.
+  void begin_filter() {
+    const Layout_view a = a_.view(), b = b_.view();
+    if (a.coordinates.data() == filter_of_a_ && b.coordinates.data() == filter_of_b_) return;
+    face_filter_.begin(a, b, 0);
+    filter_of_a_ = a.coordinates.data(), filter_of_b_ = b.coordinates.data();
+  }
+
+  Surface& a_;
+  Surface& b_;
   Closest_faces best_;
   std::priority_queue<Candidate> queue_;
   std::vector<Node_pair> below_;
   Boxed_leaf faces_a_, faces_b_;
   Face_filter face_filter_;
+  const double* filter_of_a_ = nullptr;  ///< which positions the filter has been told of; null: none
+  const double* filter_of_b_ = nullptr;
 };
+
+template <Surface_on_demand Surface>
+Closest_faces find_closest(Surface& a, Surface& b) {
+  return ask_until_settled([&] { return Search(a, b).run(); }, a, b);
+}
 
 }  // namespace
 
-Closest_faces closest_faces(const Layout_view& a, const Layout_view& b) { return Search(a, b).run(); }
+Closest_faces closest_faces(const Layout_view& a, const Layout_view& b) {
+  Fitted_surface fitted_a(a), fitted_b(b);
+  return find_closest(fitted_a, fitted_b);
+}
+
+Closest_faces closest_faces(Bounded_surface& a, Bounded_surface& b) { return find_closest(a, b); }
 
 }  // namespace lodestone

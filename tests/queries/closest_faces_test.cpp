@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "support/arm.h"
 #include "support/face_soup.h"
 
 namespace lodestone {
@@ -124,6 +125,90 @@ TEST(Closest_faces, of_larger_meshes_equal_those_of_all_pairs) {
   const Face_soup knot(torus_knot({.radius = 0.7, .tube = 0.1, .segments = 40, .sides = 7})), ball(icosphere(5));
   EXPECT_GT(expect_closest(knot, moved(ball, 2.5, 0.3, 0.2)), 0);
   EXPECT_GT(expect_closest(knot, placed(ball, 4)), 0);
+}
+
+/// The closest faces of two surfaces that are bounded must be those of their trees, fitted to all positions.
+Closest_faces expect_as_fitted(Bounded_surface& a, Bounded_surface& b, const Arm& arm_a, const Arm& arm_b) {
+  const Posed_object fitted_a(Face_soup(arm_a.mesh)), fitted_b(Face_soup(arm_b.mesh));
+  const auto truth = closest_faces(fitted_a.view(), fitted_b.view()), found = closest_faces(a, b);
+  EXPECT_EQ(found.faces, truth.faces);
+  EXPECT_EQ(found.points.distance, truth.points.distance);
+  EXPECT_EQ(found.points.a, truth.points.a);
+  EXPECT_EQ(found.points.b, truth.points.b);
+  return found;
+}
+
+TEST(Closest_faces, of_bounded_surfaces_equal_those_of_fitted_ones) {
+  std::mt19937_64 random(5);
+  const auto number = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
+  int meeting = 0, rounds = 0;
+  for (const bool morphed : {false, true})
+    for (const std::size_t leaf_faces : {4, 40}) {
+      Arm a(long_potato(7, 1), morphed, leaf_faces), b(long_potato(6, 2), !morphed, leaf_faces);
+      for (int round = 0; round < 12; ++round, ++rounds) {
+        a.pose(1.5 * number(), {0, 0, 0});
+        b.pose(1.5 * number(), {5 * number(), 3 * number(), 3 * number()});
+        meeting += expect_as_fitted(a.surface, b.surface, a, b).points.distance == 0 ? 1 : 0;
+        expect_as_fitted(b.surface, a.surface, b, a);
+        EXPECT_FALSE(a.surface.is_broken() || b.surface.is_broken());
+      }
+    }
+  EXPECT_GT(meeting, 3);
+  EXPECT_LT(meeting, rounds - 3);
+}
+
+TEST(Closest_faces, of_bounded_surfaces_are_found_with_few_leaves_posed) {
+  Surface_mesh smooth = sphere(40);
+  for (const auto v : smooth.vertices())
+    smooth.point(v) = Point(3 * smooth.point(v).x(), smooth.point(v).y(), smooth.point(v).z());
+  Arm a(smooth, false), b(smooth, false);
+  a.pose(0.2, {0, 0, 0});
+  b.pose(-0.2, {7, 0.3, 0});
+  expect_as_fitted(a.surface, b.surface, a, b);
+  EXPECT_FALSE(a.surface.all_posed());
+  EXPECT_GT(a.surface.leaves_posed(), 0U);
+  EXPECT_LT(a.surface.leaves_posed(), a.layout.leaf_count() / 8);
+}
+
+TEST(Closest_faces, of_one_posed_and_one_bounded_surface_equal_those_of_fitted_ones) {
+  Arm a(long_potato(8, 1), false), b(long_potato(8, 2), false);
+  for (const double x : {0.5, 3.0, 9.0}) {
+    a.pose(0.4, {0, 0, 0});
+    b.pose(-0.4, {x, 1, 0});
+    a.surface.start_frame();
+    a.surface.pose_all();
+    expect_as_fitted(a.surface, b.surface, a, b);
+    expect_as_fitted(b.surface, a.surface, b, a);
+  }
+}
+
+TEST(Closest_faces, are_right_where_a_broken_bound_is_noticed) {
+  Arm a(long_potato(10, 1), false), b(long_potato(10, 2), false);
+  a.pose(0.4, {0, 0, 0});
+  b.pose(0.8, {1.5, 2.5, 0});
+  int broken = 0;
+  for (std::uint32_t from = 0; from < a.bound.node_count(); from += 3) {
+    const Broken_bound lie{a.bound, from};
+    Tree_surface tree = a.tree;
+    Bounded_surface surface(tree, a.points, lie);
+    closest_faces(surface, b.surface);
+    if (surface.violations() == 0) continue;
+    ++broken;
+    EXPECT_FALSE(surface.is_broken());
+    expect_as_fitted(surface, b.surface, a, b);
+  }
+  EXPECT_GT(broken, 10);
+}
+
+TEST(Closest_faces, of_surfaces_with_infinite_bounds_equal_those_of_fitted_ones) {
+  Arm a(long_potato(6, 1), false), b(long_potato(6, 2), false);
+  const No_bound nothing{a.bound.node_count()};
+  a.pose(0.4, {0, 0, 0});
+  for (const double x : {0.5, 5.0}) {
+    b.pose(0.8, {x, 0.5, 0});
+    Bounded_surface surface(a.tree, a.points, nothing);
+    expect_as_fitted(surface, b.surface, a, b);
+  }
 }
 
 }  // namespace

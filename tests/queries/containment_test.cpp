@@ -4,6 +4,8 @@
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <gtest/gtest.h>
 
+#include "lodestone/mesh/errors.h"
+#include "support/arm.h"
 #include "support/face_soup.h"
 
 namespace lodestone {
@@ -112,7 +114,9 @@ TEST(Containment, of_points_equals_cgal) {
         if (trial % 4 == 2) p = Point((v.x() + w.x()) / 2, (v.y() + w.y()) / 2, w.z());  // often with an edge
         if (trial % 4 == 3) p = Point(v.x(), w.y(), v.z());
         const auto truth = side(p);
-        if (truth == CGAL::ON_BOUNDARY) continue;
+        const auto found = point_side(object.object(), p);
+        ASSERT_EQ(found == Point_side::inside, truth == CGAL::ON_BOUNDED_SIDE) << p;
+        ASSERT_EQ(found == Point_side::on_surface, truth == CGAL::ON_BOUNDARY) << p;
         ASSERT_EQ(encloses(object.object(), p), truth == CGAL::ON_BOUNDED_SIDE) << p;
         ++(truth == CGAL::ON_BOUNDED_SIDE ? inside : outside);
       }
@@ -130,6 +134,112 @@ TEST(Containment, follows_the_vertices) {
   EXPECT_TRUE(encloses(outer.object(), inner.object()));
   outer.move_to(moved(ball, 0, 0, 5));
   EXPECT_FALSE(encloses(outer.object(), inner.object()));
+}
+
+TEST(Containment, of_points_on_faces_edges_and_vertices_is_on_the_surface) {
+  for (const auto& mesh : {cube(4), icosphere(4), torus_knot(), cloth(5, 5)}) {
+    const Posed_object object(Face_soup(mesh), 8);
+    const Face_soup& soup = object.soup();
+    for (std::uint32_t face = 0; face < soup.faces.size(); ++face)
+      for (const Point& corner : soup.triangle(face))
+        EXPECT_EQ(point_side(object.object(), corner), Point_side::on_surface);
+  }
+  const Posed_object box(Face_soup(cube(2)), 2);
+  for (const double x : {0.0, 1.0})
+    for (const double y : {0.0, 0.25, 0.5, 0.75})
+      for (const double z : {0.0, 0.125, 0.5, 1.0}) {
+        EXPECT_EQ(point_side(box.object(), Point(x, y, z)), Point_side::on_surface);
+        EXPECT_EQ(point_side(box.object(), Point(y, x, z)), Point_side::on_surface);
+        EXPECT_EQ(point_side(box.object(), Point(z, y, x)), Point_side::on_surface);
+      }
+  EXPECT_EQ(point_side(box.object(), Point(0.5, 0.5, std::nextafter(1.0, 0.0))), Point_side::inside);
+  EXPECT_EQ(point_side(box.object(), Point(0.5, 0.5, std::nextafter(1.0, 2.0))), Point_side::outside);
+}
+
+TEST(Containment, refuses_points_that_are_not_finite) {
+  const Posed_object box(Face_soup(cube(2)), 2);
+  for (const double x : {std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_THROW(point_side(box.object(), Point(0, x, 0)), Bad_argument);
+}
+
+TEST(Containment, of_points_in_bounded_surfaces_equals_that_in_fitted_ones) {
+  std::mt19937_64 random(6);
+  const auto number = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
+  int inside = 0;
+  for (const std::size_t leaf_faces : {4, 40}) {
+    Arm arm(long_potato(8, 1), true, leaf_faces);
+    for (int round = 0; round < 10; ++round) {
+      arm.pose(number(), {number(), 0, 0});
+      const Posed_object fitted{Face_soup(arm.mesh)};
+      for (int trial = 0; trial < 50; ++trial) {
+        const Point v = fitted.soup().point(random() % fitted.soup().vertex_count());
+        const Point p = trial == 0 ? v : Point(0.9 * v.x(), v.y() + 0.3 * number(), v.z() + 0.3 * number());
+        const auto truth = point_side(fitted.object(), p);
+        EXPECT_EQ(point_side(arm.surface, p), truth);
+        inside += truth == Point_side::inside ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(inside, 50);
+}
+
+/// Whether `outer` encloses `inner`, each bounded and each fitted.
+bool encloses_bounded(Bounded_surface& outer, Bounded_surface& inner, const Arm& outer_arm, const Arm& inner_arm) {
+  const bool truth =
+      encloses(Posed_object(Face_soup(outer_arm.mesh)).object(), Posed_object(Face_soup(inner_arm.mesh)).object());
+  EXPECT_EQ(encloses(outer, inner), truth);
+  return truth;
+}
+
+TEST(Containment, of_bounded_surfaces_equals_that_of_fitted_ones) {
+  Surface_mesh small = long_potato(4, 2);
+  for (const auto v : small.vertices()) {
+    const Point& p = small.point(v);
+    small.point(v) = Point(0.05 * p.x() - 1.5, 0.1 * p.y(), 0.1 * p.z());
+  }
+  Arm outer(long_potato(8, 1), true), inner(small, false), open(cloth(5, 5), false);
+  int inside = 0;
+  const auto ask = [](Arm& a, Arm& b) { return encloses_bounded(a.surface, b.surface, a, b); };
+  for (int round = 0; round < 30; ++round) {
+    const double angle = 0.05 * round;
+    outer.pose(angle, {0, 0, 0});
+    inner.pose(angle, {0, 0.2 * (round % 10), 0});
+    open.pose(0, {0, 0, 0});
+    inside += ask(outer, inner) ? 1 : 0;
+    EXPECT_FALSE(ask(inner, outer));
+    EXPECT_FALSE(ask(open, inner));
+  }
+  EXPECT_GT(inside, 5);
+  EXPECT_LT(inside, 25);
+}
+
+TEST(Containment, in_surfaces_far_away_poses_nothing) {
+  Arm outer(long_potato(8, 1), true), inner(long_potato(4, 2), false);
+  outer.pose(0.3, {0, 0, 0});
+  inner.pose(0.3, {9, 0, 0});
+  EXPECT_FALSE(encloses_bounded(outer.surface, inner.surface, outer, inner));
+  EXPECT_EQ(outer.surface.vertices_posed() + inner.surface.vertices_posed(), 0U);
+}
+
+TEST(Containment, is_right_where_a_broken_bound_is_noticed) {
+  Arm arm(long_potato(10, 1), false);
+  arm.pose(0.4, {0, 0, 0});
+  const Posed_object fitted{Face_soup(arm.mesh)};
+  int broken = 0;
+  for (std::uint32_t from = 0; from < arm.bound.node_count(); from += 3) {
+    const Broken_bound lie{arm.bound, from};
+    Tree_surface tree = arm.tree;
+    Bounded_surface surface(tree, arm.points, lie);
+    for (std::uint32_t leaf = 0; leaf < arm.layout.leaf_count(); ++leaf) {
+      const Aabb box = arm.bound.box(arm.layout.leaf_node(leaf));
+      const Point p(box.low[0] / 2 + box.high[0] / 2, box.low[1] / 2 + box.high[1] / 2, 0);  // below a shrunk box
+      const auto found = point_side(surface, p);
+      if (surface.violations() == 0) continue;
+      ++broken;
+      EXPECT_EQ(found, point_side(fitted.object(), p));
+    }
+  }
+  EXPECT_GT(broken, 10);
 }
 
 }  // namespace

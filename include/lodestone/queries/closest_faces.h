@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "lodestone/bounds/bounded_surface.h"
 #include "lodestone/mesh/pairs.h"
 #include "lodestone/queries/node_boxes.h"
 #include "lodestone/triangles/triangle_distance.h"
@@ -21,6 +22,12 @@ struct Closest_faces {
 /// pairs are compared, where the surfaces are nearest at one point; more where they run side by side.
 /// @param a, b  with boxes
 Closest_faces closest_faces(const Layout_view& a, const Layout_view& b);
+
+/// The same for surfaces that are bounded: leaves are posed only where boxes do not prove them farther apart than the
+/// closest faces so far. Where a position is found outside its bound, its surface is posed as a whole; a bound that is
+/// broken elsewhere goes unnoticed.
+/// @throws Bad_mesh  a coordinate that is read is not finite
+Closest_faces closest_faces(Bounded_surface& a, Bounded_surface& b);
 
 template <Bounding_volume Volume>
 Closest_faces closest_faces(const Basic_tree_view<Volume>& a, const Basic_tree_view<Volume>& b) {
