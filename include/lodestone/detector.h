@@ -201,6 +201,18 @@ class Detector {
     if (outer == inner) throw Bad_argument("whether object " + std::to_string(outer) + " contains itself");
     return exact.contains(outer, inner);
   }
+  /// The first face of an object that a ray meets, in mode `exact` or `certified`: see `first_hit` of trees. In mode
+  /// `certified` an object with bounds is posed only where the ray passes.
+  /// @throws Bad_argument  no such object, another mode, a ray that is not as `Ray` says
+  /// @throws Bad_mesh      as `detect`
+  std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) { return ask<Exact>(object).first_hit(object, ray); }
+  /// All faces of an object that a ray meets, in their order along it.
+  /// @throws Bad_argument, Bad_mesh  as `first_hit`
+  std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) { return ask<Exact>(object).all_hits(object, ray); }
+  /// On which side of an object's surface, which is closed, a point is: see `point_side`.
+  /// @throws Bad_argument, Bad_mesh  as `first_hit`
+  Point_side point_side(Object_id object, const Point& point) { return ask<Exact>(object).point_side(object, point); }
+
   /// A short translation of a that parts it from b, or whose opposite parts b from a: afterwards they do not collide,
   /// and neither lies inside the other, in mode `exact`: see `parting`. None if this holds already.
   /// @throws Bad_argument, Bad_mesh  as `closest`

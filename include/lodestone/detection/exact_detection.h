@@ -21,6 +21,7 @@
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/containment.h"
 #include "lodestone/queries/parting.h"
+#include "lodestone/queries/ray_search.h"
 #include "lodestone/queries/surface_triangle.h"
 #include "lodestone/volumes/to_box.h"
 
@@ -101,17 +102,23 @@ class Exact_detection final : public Detection {
     refresh(ids);
     const Visiting visiting(visited_);
     if constexpr (is_bounded)
-      if (on_demand(pair)) {
-        const Visit end = bounded_search_.visit(objects_.bounded(pair.a), objects_.bounded(pair.b),
-                                                options_.exact.tolerance, std::ref(visitor));
-        throw_if_broken(ids);
-        return end;
-      }
+      if (on_demand(pair))
+        return unbroken(ids, bounded_search_.visit(objects_.bounded(pair.a), objects_.bounded(pair.b),
+                                                   options_.exact.tolerance, std::ref(visitor)));
     return visit_contacts(objects_.surface(pair.a).view(), objects_.surface(pair.b).view(), options_.exact.tolerance,
                           std::forward<Visitor>(visitor));
   }
   Closest_faces closest(Object_pair pair);
   bool contains(Object_id outer, Object_id inner);
+  std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) {
+    return of_surface(object, [&ray](auto& surface) { return lodestone::first_hit(surface, ray); });
+  }
+  std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) {
+    return of_surface(object, [&ray](auto& surface) { return lodestone::all_hits(surface, ray); });
+  }
+  Point_side point_side(Object_id object, const Point& point) {
+    return of_surface(object, [&point](auto& surface) { return lodestone::point_side(surface, point); });
+  }
   std::optional<Parting> parting(Object_pair pair);
 
   /// Promises something about the motion of an object: see Motion_promise.
@@ -153,11 +160,28 @@ class Exact_detection final : public Detection {
             .vertices = objects_[object].mesh().vertex_count(),
             .corners = objects_[object].corners()};
   }
+  /// Asks the surface of one object, as it is now.
+  /// @param question  called with a Layout_view or a Bounded_surface
+  template <class Question>
+  auto of_surface(Object_id object, const Question& question) {
+    const Object_id ids[] = {object};
+    refresh(ids);
+    if constexpr (is_bounded)
+      if (objects_.on_demand(object)) return unbroken(ids, question(objects_.bounded(object)));
+    const Node_boxes boxes(objects_.surface(object).view());
+    return question(boxes.layout());
+  }
   bool on_demand(Object_pair pair) const { return objects_.on_demand(pair.a) || objects_.on_demand(pair.b); }
   void start_frame(std::span<const Object_id> ids);
   template <class Answer>
   void until_settled(std::span<const Object_id> ids, Answer answer);
   void throw_if_broken(std::span<const Object_id> ids) const;
+  /// An answer about these objects, unless a broken bound is to be an error.
+  template <class Answer>
+  Answer unbroken(std::span<const Object_id> ids, Answer answer) const {
+    throw_if_broken(ids);
+    return answer;
+  }
   Frame_statistics demand(std::span<const Object_id> ids) const;
   const Frame& finish_frame(std::span<const Object_id> ids);
   void find_candidates(const Collision_filter& filter);
@@ -172,6 +196,7 @@ class Exact_detection final : public Detection {
   Contact_summary search(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
   Contact_summary search_on_demand(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
   Containment containment(const Pair_result& pair);
+  bool inside(Object_pair pair);
 
   Detector_options options_;
   Workers workers_;
@@ -235,7 +260,9 @@ template <Bounding_volume Volume>
 Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
-  for (const auto id : ids) objects_.pose_all(id);
+  if constexpr (is_bounded)
+    if (on_demand(pair))
+      return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
   return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
 }
 
@@ -251,11 +278,9 @@ template <Bounding_volume Volume>
 bool Exact_detection<Volume>::contains(Object_id outer, Object_id inner) {
   const Object_id ids[] = {outer, inner};
   refresh(ids);
-  for (const auto id : ids) objects_.pose_all(id);
   std::vector<Face_pair> none;
-  const auto& out = objects_.surface(outer);
-  const auto& in = objects_.surface(inner);
-  return encloses(out, in) && !search_.between(out, in, {.query = Contact_query::yes_no}, none).found;
+  const auto meet = [&] { return search({outer, inner}, {.query = Contact_query::yes_no}, none).found; };
+  return unbroken(ids, inside({inner, outer}) && !meet());
 }
 
 template <Bounding_volume Volume>
@@ -354,11 +379,10 @@ void Exact_detection<Volume>::check(Object_pair pair) {
 /// Whether one object lies inside the other, and how to part the two.
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::find_way_out(Pair_result& result) {
-  if (options_.exact.containment || options_.exact.parting)
-    for (const auto id : {result.a, result.b}) objects_.pose_all(id);
   if (options_.exact.containment || options_.exact.parting) result.containment = containment(result);
-  if (options_.exact.parting && (result.collides || result.containment != Containment::none))
-    result.parting = lodestone::parting(objects_.surface(result.a), objects_.surface(result.b));
+  if (!options_.exact.parting || (!result.collides && result.containment == Containment::none)) return;
+  for (const auto id : {result.a, result.b}) objects_.pose_all(id);
+  result.parting = lodestone::parting(objects_.surface(result.a), objects_.surface(result.b));
 }
 
 /// What is near may collide or not: a second search tells.
@@ -401,10 +425,16 @@ Contact_summary Exact_detection<Volume>::search_on_demand(Object_pair pair, cons
 template <Bounding_volume Volume>
 Containment Exact_detection<Volume>::containment(const Pair_result& pair) {
   if (pair.collides) return Containment::none;
-  const Surface& a = objects_.surface(pair.a);
-  const Surface& b = objects_.surface(pair.b);
-  if (encloses(b, a)) return Containment::a_in_b;
-  return encloses(a, b) ? Containment::b_in_a : Containment::none;
+  if (inside({pair.a, pair.b})) return Containment::a_in_b;
+  return inside({pair.b, pair.a}) ? Containment::b_in_a : Containment::none;
+}
+
+/// Whether a lies inside b, where their surfaces do not intersect.
+template <Bounding_volume Volume>
+bool Exact_detection<Volume>::inside(Object_pair pair) {
+  if constexpr (is_bounded)
+    if (on_demand(pair)) return encloses(objects_.bounded(pair.b), objects_.bounded(pair.a));
+  return encloses(objects_.surface(pair.b), objects_.surface(pair.a));
 }
 
 }  // namespace lodestone
