@@ -23,7 +23,8 @@ class Landmark_search {
   Landmark_search(const Tree_layout& layout, Coordinates rest);
 
   /// The landmarks of a node, with radii that are not yet made longer for rounding.
-  /// @return none: the paths are too long, or there are none; for the root, which has no parent to turn to, the radius
+  /// @return none: the search has reached too many other vertices, or all that it can; for the root, which has no
+  /// parent to turn to, the radius
   ///         of a vertex that cannot be reached is infinite
   std::span<const Landmark> find(std::uint32_t node);
 
