@@ -106,8 +106,8 @@ void Landmark_search::choose_centres() {
   for (const auto vertex : vertices_) {
     Piece& piece = pieces_[piece_of_[root_of(vertex)]];
     const double squared = (rest(vertex) - piece.box.center()).squaredNorm();
-    if (squared < piece.from_centre) piece.from_centre = squared, piece.centre.vertex = vertex;
-    if (piece.from_centre == infinity) piece.centre.vertex = vertex;  // overflow
+    if (squared < piece.squared_distance) piece.squared_distance = squared, piece.centre.vertex = vertex;
+    if (piece.squared_distance == infinity) piece.centre.vertex = vertex;  // overflow
   }
   const auto count = std::min(most_landmarks, pieces_.size());
   std::ranges::partial_sort(pieces_, pieces_.begin() + static_cast<std::ptrdiff_t>(count), std::greater(),

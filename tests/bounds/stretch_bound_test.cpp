@@ -201,6 +201,45 @@ TEST(Stretch_bound, that_is_broken_is_noticed_where_an_edge_is_read) {
   EXPECT_EQ(surface->violations(), 0U);
 }
 
+/// Shortens the face, and makes one edge after the other longer than it was.
+TEST(Stretch_bound, that_is_broken_by_any_edge_of_a_face_is_noticed) {
+  Given_object object(mesh_of({Point(0, 0, 0), Point(1, 0, 0), Point(0.5, 1, 0)}, {{0, 1, 2}}));
+  const Stretch_promise promise(1);
+  const Stretch_bound bound = promise.bound(object.bounded());
+  EXPECT_TRUE(bound.note_read(0, object.fitted(0), object.now));
+  for (std::uint32_t v = 0; v < 3; ++v) {
+    const std::uint32_t from = (v + 1) % 3, to = (v + 2) % 3;
+    const Eigen::Vector3d along = object.at_rest(to) - object.at_rest(from);
+    object.now = object.rest.coordinates;
+    object.put(v, (object.at_rest(from) + object.at_rest(to)) / 2);
+    EXPECT_TRUE(bound.note_read(0, object.fitted(0), object.now));
+    object.put(to, object.at_rest(from) + 1.01 * along);
+    EXPECT_FALSE(bound.note_read(0, object.fitted(0), object.now)) << v;
+  }
+}
+
+/// A small shape far away is turned and brought to the origin, where it is as rough as its coordinates were there.
+TEST(Stretch_bound, every_vertex_lies_in_its_boxes_if_the_error_of_positions_is_promised) {
+  std::mt19937_64 random(4);
+  std::size_t outside_without = 0;
+  for (int round = 0; round < 50; ++round) {
+    const double far = std::ldexp(1.0, static_cast<int>(random() % 30));
+    Given_object object(placed(potato(4, 1 + random() % 9), std::ldexp(1.0, -20), far), 2 + random() % 4);
+    const Eigen::Isometry3d frame = random_frame(random, 0) * Eigen::Translation3d(Eigen::Vector3d::Constant(-far));
+    object.pose([&](const Eigen::Vector3d& p) { return frame * p; });
+    // Errors of a shape that is almost a point are far larger than it.
+    for (double& x : object.now) x += random_number(random) * 8 * 0x1p-53 * far;
+    Stretch_promise promise(1);
+    const Stretch_bound bound = promise.bound(object.bounded());
+    outside_without += nodes_outside(bound, object);
+    promise.set_stretch(1, 64 * 0x1p-53 * far);
+    EXPECT_EQ(nodes_outside(bound, object), 0U) << round;
+    for (std::uint32_t leaf = 0; leaf < object.layout.leaf_count(); ++leaf)
+      EXPECT_TRUE(bound.note_read(leaf, object.fitted(leaf), object.now));
+  }
+  EXPECT_GT(outside_without, 0U);
+}
+
 /// Faces without area along an axis, so that shortest paths are straight. All edges are longer by what is let pass.
 TEST(Stretch_bound, that_is_not_seen_to_be_broken_holds_every_vertex) {
   Face_soup chain;
