@@ -15,8 +15,8 @@ namespace lodestone {
 inline double next_below(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
 inline double next_above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 
-/// A box that contains every point within `distance` of a box. Unchanged if the distance is 0; axes that overflow, or
-/// that are not finite, are open.
+/// A box that contains every point within `distance` of a box, also points whose coordinates are no doubles. Unchanged
+/// if the distance is 0; axes that overflow, or that are not finite, are open.
 inline Aabb grown(const Aabb& from, double distance) {
   Aabb box = from;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -22,9 +22,9 @@ class Landmark_search {
   /// @param rest  3 V; must outlive this, as must the layout
   Landmark_search(const Tree_layout& layout, Coordinates rest);
 
-  /// The landmarks of a node, with radii that are not yet made longer for rounding.
-  /// @return none: the paths are too long, or there are none; for the root, which has no parent to turn to, the radius
-  ///         of a vertex that cannot be reached is infinite
+  /// The landmarks of a node, with radii that are not yet made longer for rounding. If the root has a vertex that none
+  /// of its landmarks reaches, a radius is infinite.
+  /// @return none: of another node some vertices cannot be reached, or not without coming to too many others
   std::span<const Landmark> find(std::uint32_t node);
 
  private:
@@ -32,9 +32,8 @@ class Landmark_search {
   struct Piece {
     std::uint32_t size = 0;
     Eigen::AlignedBox3d box;
-    Landmark centre;
-    double from_centre =
-        std::numeric_limits<double>::infinity();  ///< squared distance of the landmark from the centre of the box
+    Landmark centre;                                                    ///< the vertex nearest to the centre of the box
+    double squared_distance = std::numeric_limits<double>::infinity();  ///< between the two
   };
   /// A vertex that a path has reached.
   struct Reached {

@@ -6,6 +6,7 @@
 #include "bounds/grown_box.h"
 #include "bounds/landmark_search.h"
 #include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
 
@@ -13,10 +14,20 @@ namespace {
 
 constexpr double slack = 1e-9;
 
-Eigen::Vector3d edge(Coordinates coordinates, std::uint32_t a, std::uint32_t b) {
-  return Eigen::Map<const Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{a}) -
-         Eigen::Map<const Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{b});
-}
+/// The three edges of a face.
+struct Face_edges {
+  Eigen::Vector3d ab, bc, ca;
+
+  Face_edges(Coordinates coordinates, const Corners& face) {
+    const auto at = [&](std::uint32_t v) {
+      return Eigen::Map<const Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{v});
+    };
+    const Eigen::Vector3d a = at(face[0]), b = at(face[1]), c = at(face[2]);
+    ab = b - a;
+    bc = c - b;
+    ca = a - c;
+  }
+};
 
 }  // namespace
 
@@ -57,21 +68,23 @@ Aabb Stretch_bound::box(std::uint32_t node) const {
 }
 
 bool Stretch_bound::note_read(std::uint32_t leaf, const Aabb& /*fitted*/, Coordinates coordinates) const {
+  const double most = (1 + slack) * promise_->stretch(), error = 2 * (1 + slack) * promise_->error();
+  const auto shorter = [&](const Eigen::Vector3d& now, const Eigen::Vector3d& then) {
+    return now.squaredNorm() <= most * most * then.squaredNorm();
+  };
+  // What fails for squares that underflow or overflow, and for the error allowed.
+  const auto kept = [&](const Eigen::Vector3d& now, const Eigen::Vector3d& then) {
+    constexpr double smallest = 1e-150;
+    return shorter(now, then) || now.stableNorm() <= most * (then.stableNorm() + smallest) + error;
+  };
   const auto vertices = layout_->vertices(leaf);
-  for (const auto& [a, b, c] : layout_->corners(leaf))
-    if (!is_kept(vertices[a], vertices[b], coordinates) || !is_kept(vertices[b], vertices[c], coordinates) ||
-        !is_kept(vertices[c], vertices[a], coordinates))
-      return false;
+  for (const auto& [a, b, c] : layout_->corners(leaf)) {
+    const Corners face{vertices[a], vertices[b], vertices[c]};
+    const Face_edges now(coordinates, face), then(rest_, face);
+    if (shorter(now.ab, then.ab) & shorter(now.bc, then.bc) & shorter(now.ca, then.ca)) continue;
+    if (!kept(now.ab, then.ab) || !kept(now.bc, then.bc) || !kept(now.ca, then.ca)) return false;
+  }
   return true;
-}
-
-bool Stretch_bound::is_kept(std::uint32_t a, std::uint32_t b, Coordinates coordinates) const {
-  const Eigen::Vector3d now = edge(coordinates, a, b), then = edge(rest_, a, b);
-  const double most = (1 + slack) * promise_->stretch();
-  if (now.squaredNorm() <= most * most * then.squaredNorm()) return true;
-  // Exceeded, or with squares that underflow or overflow, or with an error allowed.
-  constexpr double smallest = 1e-150;
-  return now.stableNorm() <= most * (then.stableNorm() + smallest) + 2 * (1 + slack) * promise_->error();
 }
 
 void Stretch_promise::set_stretch(double stretch, double error) {

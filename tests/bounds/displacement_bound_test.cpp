@@ -139,6 +139,20 @@ TEST(Displacement_bound, of_a_leaf_that_is_not_read_grows_by_what_was_promised) 
   }
 }
 
+TEST(Displacement_bound, every_vertex_lies_in_its_boxes_if_distances_are_too_small_to_change_their_rounded_sum) {
+  std::mt19937_64 random(7);
+  Given_object object(placed(on_lattice(potato(4)), std::ldexp(1.0, -70)));
+  Displacement_promise promise;
+  promise.move(1);
+  const Displacement_bound bound = promise.bound(object.bounded());
+  for (int frame = 0; frame < 5; ++frame) {
+    const double distance = std::ldexp(1.0, -71);
+    for (std::uint32_t v = 0; v < object.vertex_count(); ++v) step(object.now, v, distance, random);
+    promise.move(distance);
+    EXPECT_EQ(nodes_outside(bound, object), 0U);
+  }
+}
+
 TEST(Displacement_bound, is_tight_where_leaves_are_read_and_above_them) {
   Given_object object(potato(8));
   Displacement_promise promise;

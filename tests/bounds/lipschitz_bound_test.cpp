@@ -198,6 +198,29 @@ TEST(Deformed_points, no_two_vertices_are_farther_apart_than_their_constant_says
   }
 }
 
+/// A flat sheet leaves its plane, or moves away from the axis, before it is bent or twisted.
+TEST(Deformed_points, their_constant_knows_where_earlier_deformations_have_put_the_shape) {
+  const std::vector<Deformation> first{Wobble{.amplitude = 0.7, .waves = 0, .period = 0, .phase = 0.3},
+                                       Wobble{.amplitude = 0.7, .waves = 0, .period = 0, .phase = 0.8},
+                                       Travel{.way_points = {{0, {4, 5, 6}}}},
+                                       Travel{.way_points = {{0, {4, 5, -6}}}},
+                                       Inflate{.factor = 5, .frames = 1},
+                                       Spin{.axis = {1, 0, 0}, .degrees_per_frame = 90},
+                                       Twist{.axis = {1, 0, 0}, .degrees = 170, .period = 0},
+                                       Bend{.axis = {0, 1, 0}, .towards = {0, 0, 1}, .degrees = 120, .period = 0},
+                                       Bend{.axis = {0, 1, 0}, .towards = {0, 0, 1}, .degrees = -120, .period = 0}};
+  const std::vector<Deformation> second{Bend{.axis = {1, 0, 0}, .towards = {0, 0, 1}, .degrees = 90, .period = 0},
+                                        Twist{.axis = {1, 0, 0}, .degrees = 200, .period = 0}};
+  for (std::size_t i = 0; i < first.size(); ++i)
+    for (std::size_t j = 0; j < second.size(); ++j) {
+      Deformed_object object(grid(12, 12), {first[i], second[j]});
+      object.set_frame(1);
+      EXPECT_LE(greatest_ratio(object, object.points.position_error()),
+                object.points.lipschitz_constant() * (1 + 1e-13))
+          << i << ' ' << j;
+    }
+}
+
 /// A fine shape, so that some edge lies where the derivative is largest, and along the direction of largest stretch.
 TEST(Deformed_points, their_constant_is_hardly_larger_than_needed_after_one_deformation) {
   std::mt19937_64 random(4);

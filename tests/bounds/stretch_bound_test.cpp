@@ -152,8 +152,8 @@ TEST(Stretch_bound, of_few_components_is_finite_and_of_many_is_open_above_the_no
 
 /// A crumpled sheet in a small box: its leaves are of many pieces, which only long paths connect.
 TEST(Stretch_bound, every_vertex_lies_in_its_boxes_if_nodes_are_of_many_pieces) {
-  std::mt19937_64 random(2);
-  Face_soup sheet(grid(60, 60));
+  const Face_soup flat(grid(60, 60));
+  Face_soup sheet = flat;
   const double width = 7;
   deform(sheet, [&](const Point& p) {  // folded like a map, with layers that lie close together
     const double layer = std::floor(p.x() / width), along = p.x() - layer * width;
@@ -172,10 +172,7 @@ TEST(Stretch_bound, every_vertex_lies_in_its_boxes_if_nodes_are_of_many_pieces) 
       inherited += bound.landmarks(child).data() == bound.landmarks(node).data() ? 1 : 0;
   }
   EXPECT_GT(inherited, 0U);
-  for (std::uint32_t v = 0; v < object.vertex_count(); ++v) {  // pulled flat
-    const Point p = grid(60, 60).point(Surface_mesh::Vertex_index(v));
-    object.put(v, {p.x(), p.y(), 0});
-  }
+  object.now = flat.coordinates;
   promise.set_stretch(greatest_stretch(object) * (1 + 1e-15));
   EXPECT_EQ(nodes_outside(bound, object), 0U);
 }
@@ -202,6 +199,61 @@ TEST(Stretch_bound, that_is_broken_is_noticed_where_an_edge_is_read) {
   surface->start_frame();
   surface->pose(leaf);
   EXPECT_EQ(surface->violations(), 0U);
+}
+
+/// Shortens the face, and makes one edge after the other longer than it was.
+TEST(Stretch_bound, that_is_broken_by_any_edge_of_a_face_is_noticed) {
+  Given_object object(mesh_of({Point(0, 0, 0), Point(1, 0, 0), Point(0.5, 1, 0)}, {{0, 1, 2}}));
+  const Stretch_promise promise(1);
+  const Stretch_bound bound = promise.bound(object.bounded());
+  EXPECT_TRUE(bound.note_read(0, object.fitted(0), object.now));
+  for (std::uint32_t v = 0; v < 3; ++v) {
+    const std::uint32_t from = (v + 1) % 3, to = (v + 2) % 3;
+    const Eigen::Vector3d along = object.at_rest(to) - object.at_rest(from);
+    object.now = object.rest.coordinates;
+    object.put(v, (object.at_rest(from) + object.at_rest(to)) / 2);
+    EXPECT_TRUE(bound.note_read(0, object.fitted(0), object.now));
+    object.put(to, object.at_rest(from) + 1.01 * along);
+    EXPECT_FALSE(bound.note_read(0, object.fitted(0), object.now)) << v;
+  }
+}
+
+/// A small shape far away is turned and brought to the origin, where it is as rough as its coordinates were there.
+TEST(Stretch_bound, every_vertex_lies_in_its_boxes_if_the_error_of_positions_is_promised) {
+  std::mt19937_64 random(4);
+  std::size_t outside_without = 0;
+  for (int round = 0; round < 50; ++round) {
+    const double far = std::ldexp(1.0, static_cast<int>(random() % 30));
+    Given_object object(placed(potato(4, 1 + random() % 9), std::ldexp(1.0, -20), far), 2 + random() % 4);
+    const Eigen::Isometry3d frame = random_frame(random, 0) * Eigen::Translation3d(Eigen::Vector3d::Constant(-far));
+    object.pose([&](const Eigen::Vector3d& p) { return frame * p; });
+    // Errors of a shape that is almost a point are far larger than it.
+    for (double& x : object.now) x += random_number(random) * 8 * 0x1p-53 * far;
+    Stretch_promise promise(1);
+    const Stretch_bound bound = promise.bound(object.bounded());
+    outside_without += nodes_outside(bound, object);
+    promise.set_stretch(1, 64 * 0x1p-53 * far);
+    EXPECT_EQ(nodes_outside(bound, object), 0U) << round;
+    for (std::uint32_t leaf = 0; leaf < object.layout.leaf_count(); ++leaf)
+      EXPECT_TRUE(bound.note_read(leaf, object.fitted(leaf), object.now));
+  }
+  EXPECT_GT(outside_without, 0U);
+}
+
+/// Faces without area along an axis, so that shortest paths are straight. All edges are longer by what is let pass.
+TEST(Stretch_bound, that_is_not_seen_to_be_broken_holds_every_vertex) {
+  Face_soup chain;
+  for (std::uint32_t v = 0; v < 60; ++v) {
+    chain.coordinates.insert(chain.coordinates.end(), {v + 0.1, 0, 0});
+    if (v >= 2) chain.faces.push_back({v - 2, v - 1, v});
+  }
+  Given_object object(chain, 20);
+  const Stretch_promise promise(1);
+  const Stretch_bound bound = promise.bound(object.bounded());
+  object.pose([](const Eigen::Vector3d& p) { return Eigen::Vector3d((1 + 0.9e-9) * p); });
+  for (std::uint32_t leaf = 0; leaf < object.layout.leaf_count(); ++leaf)
+    EXPECT_TRUE(bound.note_read(leaf, object.fitted(leaf), object.now));
+  EXPECT_EQ(nodes_outside(bound, object), 0U);
 }
 
 TEST(Stretch_bound, contacts_are_those_of_exhaustive_checking) {

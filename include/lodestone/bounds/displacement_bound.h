@@ -22,18 +22,18 @@ class Displacement_promise;
 /// A leaf that has been read has the box fitted to it. The boxes above it are then those around their children's grown
 /// ones, up to where nothing changes. So boxes are tight where surfaces are read, and at first everywhere.
 ///
-/// *Rounding.* In the identity, boxes that have not grown are the fitted ones; others are moved outwards by one double,
-/// since rounding is at most half of that. For other frames let R and t be rotation and translation, u = 2^-53, and let
-/// a position p = R q + t be rounded up to 16 times per term, of which Eigen's `frame * q` needs 4. All sums of
-/// magnitudes below are those along one axis.
+/// *Rounding.* Totals of distances are rounded upwards, and so is what they have grown by. Without a frame, boxes that
+/// have not grown are the fitted ones; others are moved outwards by one double, since rounding is at most half of that.
+/// In a frame let R and t be rotation and translation, u = 2^-53, and let a position p = R q + t be rounded up to 16
+/// times per term, of which Eigen's `frame * q` needs 4.
 ///
-/// - To the world: the ends of R [low, high] + t are sums of four terms, rounded up to 4 times each. With m =
-///   sum |R| max(|low|, |high|) + |t|, they and p differ from the exact values by at most 20 u m. The ends are moved
-///   outwards by 32 u m, which covers its own rounding, and by 2^-1070 for products that underflow.
+/// - To the world: along an axis, the ends of R [low, high] + t are sums of four terms, rounded up to 4 times each. With
+///   m = sum_j |R_ij| max(|low_j|, |high_j|) + |t_i|, they and p differ from the exact values by at most 20 u m. The
+///   ends are moved outwards by 32 u m, which covers its own rounding, and by 2^-1070 for products that underflow.
 /// - To the frame: with s = p - t, the exact R^T s differs from q by (R^T R - I) q, and by R^T times the rounding of p,
-///   which is at most 16 u (1.8 |q| + |t|). Rounding s and R^T s adds 5 u |s|. With |R^T R - I| <= d and |q| <=
-///   1.01 |s| that is at most (1.01 d + 36 u) |s| + 17 u |t|. The ends are moved outwards by (2 d + 64 u) |s| + 64 u
-///   |t|, with norms that are sums of magnitudes and not less than the lengths, and by 2^-1070.
+///   which is at most 16 u (1.8 |q| + |t|). Rounding s and R^T s adds 5 u |s|. With d >= |R^T R - I|, which is at most
+///   10^-5, and |q| <= 1.01 (|s| + 17 u |t|), all this is at most (1.01 d + 36 u) |s| + 18 u |t|. The ends are moved
+///   outwards by (2 d + 64 u) |s| + 64 u |t|, with sums of magnitudes for |s| and |t|, and by 2^-1070.
 class Displacement_bound {
  public:
   /// O(V).

@@ -30,8 +30,8 @@ struct Landmark {
 /// A node whose faces are in one piece has one landmark, the vertex nearest to the centre of its box: more of them give
 /// no smaller boxes than those of its children would. Where a thin body has both its sides in one node, a path from one
 /// to the other is long. So each piece of a node has a landmark of its own, the three largest if there are more.
-/// If the paths are much longer than the node is large, the node uses the landmarks of its parent. A vertex that no
-/// landmark of the root reaches makes the root's box open.
+/// If the search for the paths comes to many more vertices than the node has, or does not come to all of them, the node
+/// uses the landmarks of its parent. A vertex that no landmark of the root reaches makes the root's box open.
 ///
 /// *Rounding.* Lengths of edges at rest are rounded up to 4 times, and by each sum along a path of at most V edges.
 /// Radii are longer by 2 * 10^-9 + 2^-51 V times their length: half of the first covers the rounding of lengths, of
@@ -57,8 +57,6 @@ class Stretch_bound {
   }
 
  private:
-  bool is_kept(std::uint32_t a, std::uint32_t b, Coordinates coordinates) const;
-
   const Stretch_promise* promise_;
   const Tree_layout* layout_;
   const Position_source* positions_;
