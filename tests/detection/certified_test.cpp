@@ -8,6 +8,10 @@
 #include <cmath>
 #include <set>
 
+#include "lodestone/bounds/box_promise.h"
+#include "lodestone/bounds/displacement_bound.h"
+#include "lodestone/bounds/lipschitz_bound.h"
+#include "lodestone/bounds/stretch_bound.h"
 #include "lodestone/detector.h"
 #include "lodestone/mesh/computed_points.h"
 #include "lodestone/mesh/skinned_points.h"
@@ -335,6 +339,120 @@ TEST(Certified, reads_little_where_little_is_near) {
     ++leaves[static_cast<std::size_t>(of_b.leaf_state(leaf))];
   EXPECT_GT(leaves[static_cast<std::size_t>(Bounded_surface::Leaf_state::far)], of_b.layout().leaf_count() / 2);
   EXPECT_EQ(leaves[static_cast<std::size_t>(Bounded_surface::Leaf_state::posed)], of_b.leaves_posed());
+}
+
+/// How far any vertex is from where it was.
+double largest_move(const Surface_mesh& now, const Surface_mesh& before) {
+  double largest = 0;
+  for (const auto v : now.vertices())
+    largest = std::max(largest, std::sqrt(CGAL::squared_distance(now.point(v), before.point(v))));
+  return largest * (1 + 1e-12);
+}
+
+/// Two bodies that crumple and drift towards each other, in meshes.
+struct Drifting {
+  Surface_mesh a = long_body(20, 1), b = long_body(18, 2), a_before = a, b_before = b;
+
+  Drifting() { place_b(gap_at_first); }
+  /// Where b's leftmost vertex is that far beyond a's rightmost.
+  void place_b(double gap) {
+    double right = -1e9, left = 1e9;
+    for (const auto v : a.vertices()) right = std::max(right, a.point(v).x());
+    for (const auto v : b.vertices()) left = std::min(left, b.point(v).x());
+    shift(b, right + gap - left);
+  }
+  static constexpr double gap_at_first = 1;
+  void step(int frame) {
+    a_before = a, b_before = b;
+    crumple(a, 0.004, static_cast<std::uint64_t>(frame));
+    crumple(b, 0.004, static_cast<std::uint64_t>(frame) + 100);
+    shift(b, frame < 30 ? -0.05 : 0.05, 0.01 * std::sin(frame));
+  }
+};
+
+TEST(Certified, meshes_with_a_displacement_have_the_answers_of_mode_exact) {
+  Drifting bodies;
+  Displacement_promise of_a, of_b;
+  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(std::as_const(bodies.a));
+    detector->add(std::as_const(bodies.b));
+  }
+  certified.promise(0, of_a);
+  certified.promise(1, of_b);
+  std::size_t read = 0, colliding = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 2);
+    EXPECT_EQ(found.statistics.violations, 0U);
+    if (frame > 0) read += found.statistics.vertices_read;
+    colliding += found.collides() ? 1 : 0;
+    bodies.step(frame);
+    of_a.move(largest_move(bodies.a, bodies.a_before));
+    of_b.move(largest_move(bodies.b, bodies.b_before));
+  }
+  EXPECT_GT(colliding, 5U);
+  EXPECT_LT(colliding, 55U);
+  EXPECT_LT(read, 59 * (bodies.a.number_of_vertices() + bodies.b.number_of_vertices()) / 3);
+}
+
+TEST(Certified, several_promises_hold_together_and_may_come_late) {
+  Drifting bodies;
+  const Surface_mesh rest_a = bodies.a, rest_b = bodies.b;
+  Displacement_promise of_a;
+  Stretch_promise stretch_of_a(50), stretch_of_b(50);  // crumpling makes short edges much longer
+  Lipschitz_promise of_b(100);
+  const Box_promise somewhere([](Region_index, const Aabb& rest) {
+    Aabb box = rest;
+    for (int axis = 0; axis < 3; ++axis) box.low[axis] -= 20, box.high[axis] += 20;
+    return box;
+  });
+  Detector certified(in_mode(Mode::certified, {.particles = 5})), exact(in_mode(Mode::exact, {.particles = 5}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(std::as_const(bodies.a));
+    detector->add(std::as_const(bodies.b));
+  }
+  for (int frame = 0; frame < 50; ++frame) {
+    if (frame == 0) certified.promise(0, stretch_of_a), certified.promise(1, stretch_of_b);
+    if (frame == 3) certified.promise(0, of_a), certified.promise(1, of_b), certified.promise(1, somewhere);
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 2);
+    EXPECT_EQ(found.statistics.violations, 0U) << frame;
+    bodies.step(frame);
+    of_a.move(largest_move(bodies.a, bodies.a_before));
+  }
+}
+
+TEST(Certified, a_displacement_that_is_larger_than_promised_is_noticed_where_it_is_read) {
+  Drifting bodies;
+  Displacement_promise of_a;
+  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(std::as_const(bodies.a));
+    detector->add(std::as_const(bodies.b));
+  }
+  certified.promise(0, of_a);
+  bodies.place_b(-1);
+  certified.detect();
+  std::size_t violations = 0;
+  for (int frame = 0; frame < 5; ++frame) {
+    crumple(bodies.a, 0.01, static_cast<std::uint64_t>(frame));  // nothing is promised: it may not move
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 2);
+    violations += found.statistics.violations;
+  }
+  EXPECT_GT(violations, 0U);
+}
+
+TEST(Certified, promises_need_the_mode_certified) {
+  const Surface_mesh mesh = potato(5);
+  const Displacement_promise promise;
+  Detector exact, particles({.mode = Mode::particles}), certified({.mode = Mode::certified});
+  for (Detector<>* detector : {&exact, &particles, &certified}) detector->add(mesh);
+  EXPECT_THROW(exact.promise(0, promise), Bad_argument);
+  EXPECT_THROW(particles.promise(0, promise), Bad_argument);
+  EXPECT_THROW(certified.promise(1, promise), Bad_argument);
+  EXPECT_NO_THROW(certified.promise(0, promise));
 }
 
 /// Points that promise a box which ends too early along x.

@@ -86,6 +86,11 @@ class Exact_object {
   void build(std::optional<Numbered_partition> regions, Coordinates coordinates, const Region_tree_options& options,
              Workers& workers);
 
+  /// Takes note that a query begins: positions can have changed since the last one.
+  void begin_query() {
+    if (mesh().pose_number() == 0) ++changes_;
+  }
+
   /// The surface as one that is bounded, in mode `certified`; null: not yet.
   Bounded_surface* bounded() const { return bounded_.get(); }
   /// Whether it is posed only where it is looked at.
@@ -134,8 +139,7 @@ class Exact_object {
 
     std::uint32_t vertex_count() const override { return object_->mesh().vertex_count(); }
     std::uint64_t pose_number() const override {
-      const std::uint64_t of_mesh = object_->mesh().pose_number();
-      return of_mesh > 0 ? of_mesh + object_->changes_ : 0;
+      return 1 + object_->mesh().pose_number() + object_->changes_;
     }
     Eigen::Vector3d operator()(std::uint32_t vertex) const override {
       const Eigen::Vector3d position =
@@ -158,7 +162,7 @@ class Exact_object {
   std::vector<std::uint32_t> unused_;
   std::optional<Positions> given_ = {};
   std::optional<Rigid_motion> placement_ = {};
-  std::uint64_t changes_ = 0;  ///< of both
+  std::uint64_t changes_ = 0;  ///< of both, and of positions of which nobody says whether they have changed
   std::vector<Make_bound> promises_;
   std::vector<double> rest_;  ///< 3 V: the first positions that a promise was about; none before
   std::unique_ptr<Bounded_surface> bounded_;

@@ -103,6 +103,7 @@ template <Bounding_volume Volume>
 void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   work_.seconds.refit = 0;
   work_.vertices_read = 0;
+  for (const auto id : ids) objects_[id]->begin_query();
   start_on_demand(ids);
   whole_.clear();
   for (const auto id : ids)
