@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The C++ of README, manual and concept pages, word for word: docs.snippets compares them. Here it is compiled and run.
 #include <gtest/gtest.h>
-#include <lodestone/bounds/skin_bound.h>
+#include <lodestone/bounds/displacement_bound.h>
 #include <lodestone/detector.h>
 #include <lodestone/find_collisions.h>
 #include <lodestone/io/meshes/mesh_file.h>
@@ -10,7 +10,6 @@
 #include <lodestone/mesh/skinned_points.h>
 #include <lodestone/partition/lbg.h>
 #include <lodestone/partition/partition_measures.h>
-#include <lodestone/queries/bounded_search.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -149,7 +148,24 @@ TEST_F(Snippets, of_more_than_face_pairs) {
   EXPECT_GT(longest_way_out, 0);
 }
 
-TEST_F(Snippets, of_computed_positions) {
+class Certified_snippet : public Snippets {
+ protected:
+  bool certified(const Surface_mesh& arm_mesh, Skinned_points& arm_points, const Eigen::Affine3d& shoulder,
+                 const Eigen::Affine3d& elbow) {
+    const Eigen::Vector3d eye(0, 0, 9), towards(0, 0, -1);
+    lodestone::Detector detector({.mode = lodestone::Mode::certified});
+    const auto arm = detector.add(arm_mesh, point_map(arm_mesh, arm_points));  // bounded by its joints
+    const auto body = detector.add(body_mesh);                                 // read as a whole
+    arm_points.set_joints(std::vector{shoulder, elbow});                       // the next pose
+    const lodestone::Frame& frame = detector.detect();
+    const auto hit = detector.first_hit(arm, {.origin = eye, .direction = towards});
+    EXPECT_NE(arm, body);
+    EXPECT_TRUE(!hit || hit->t > 0);
+    return frame.collides();
+  }
+};
+
+TEST_F(Certified_snippet, of_computed_positions) {
   const Surface_mesh& arm_mesh = cloth_mesh;
   std::vector<double> rest, weights;
   std::vector<std::uint32_t> joints;
@@ -159,15 +175,6 @@ TEST_F(Snippets, of_computed_positions) {
     weights.insert(weights.end(), {0.5, 0.5, 0, 0});
   }
   const Eigen::Affine3d shoulder = Eigen::Affine3d::Identity(), elbow = shoulder;
-  const lodestone::Mesh_numbering<Surface_mesh> other_numbering(body_mesh);
-  std::vector<double> other_rest;
-  for (const auto v : body_mesh.vertices())
-    for (int axis = 0; axis < 3; ++axis) other_rest.push_back(body_mesh.point(v)[axis]);
-  const lodestone::Morphed_points other(other_rest);
-  lodestone::Tree_surface other_tree(other_numbering.corners(), other_rest);
-  const lodestone::Linear_bound other_bound(other, other_tree.tree());
-  lodestone::Bounded_surface other_surface(other_tree, other, other_bound);
-
   lodestone::Skinned_points arm(rest, lodestone::Joint_influences::of(4, joints, weights), 2);
   lodestone::Detector detector;
   detector.add(arm_mesh, point_map(arm_mesh, arm));
@@ -175,14 +182,25 @@ TEST_F(Snippets, of_computed_positions) {
   arm.set_joints(std::vector{shoulder, elbow});  // the next pose
   const bool hit = detector.detect().collides();
 
-  const lodestone::Mesh_numbering<lodestone::Surface_mesh> numbering(arm_mesh);
-  lodestone::Tree_surface tree(numbering.corners(), rest);
-  const lodestone::Skin_bound bound(arm, tree.tree());
-  lodestone::Bounded_surface surface(tree, arm, bound);  // keep it from frame to frame
-  std::vector<lodestone::Face_pair> contacts;
-  lodestone::Bounded_search().run(surface, other_surface, {}, contacts);
-  EXPECT_EQ(hit, !contacts.empty());
-  EXPECT_TRUE(std::ranges::equal(contacts, detector.detect().face_pairs));
+  EXPECT_EQ(hit, !detector.detect().face_pairs.empty());
+  Skinned_points& arm_points = arm;
+  const bool same = certified(arm_mesh, arm_points, shoulder, elbow);
+  EXPECT_EQ(same, hit);
+}
+
+TEST_F(Snippets, of_promises) {
+  std::size_t colliding_frames = 0;
+  const double farthest_step = 10;
+  lodestone::Displacement_promise cloth_moves;
+  lodestone::Detector detector({.mode = lodestone::Mode::certified});
+  const auto cloth = detector.add(cloth_mesh);
+  detector.add(body_mesh);
+  detector.promise(cloth, cloth_moves);
+  while (move(cloth_mesh, body_mesh)) {
+    cloth_moves.move(farthest_step);  // no vertex of the cloth has moved farther since the last call
+    if (detector.detect().collides()) ++colliding_frames;
+  }
+  EXPECT_GT(colliding_frames, 0U);
 }
 
 TEST_F(Snippets, of_saved_objects) {
