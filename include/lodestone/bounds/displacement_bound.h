@@ -27,9 +27,9 @@ class Displacement_promise;
 /// In a frame let R and t be rotation and translation, u = 2^-53, and let a position p = R q + t be rounded up to 16
 /// times per term, of which Eigen's `frame * q` needs 4.
 ///
-/// - To the world: along an axis, the ends of R [low, high] + t are sums of four terms, rounded up to 4 times each. With
-///   m = sum_j |R_ij| max(|low_j|, |high_j|) + |t_i|, they and p differ from the exact values by at most 20 u m. The
-///   ends are moved outwards by 32 u m, which covers its own rounding, and by 2^-1070 for products that underflow.
+/// - To the world: along an axis, the ends of R [low, high] + t are sums of four terms, rounded up to 4 times each. Let
+///   m = sum_j |R_ij| max(|low_j|, |high_j|) + |t_i|. The ends and p differ from the exact values by at most 20 u m.
+///   The ends are moved outwards by 32 u m, which covers its own rounding, and by 2^-1070 for products that underflow.
 /// - To the frame: with s = p - t, the exact R^T s differs from q by (R^T R - I) q, and by R^T times the rounding of p,
 ///   which is at most 16 u (1.8 |q| + |t|). Rounding s and R^T s adds 5 u |s|. With d >= |R^T R - I|, which is at most
 ///   10^-5, and |q| <= 1.01 (|s| + 17 u |t|), all this is at most (1.01 d + 36 u) |s| + 18 u |t|. The ends are moved

@@ -45,9 +45,9 @@ class Lipschitz_bound {
 /// The map from rest to pose has such an L if its derivative is nowhere larger on a convex set around the vertices at
 /// rest. L is 1 for rigid motions, the factor for a scaling; where maps follow each other, their constants multiply.
 ///
-/// The promise is about positions before they were rounded. With e = 0 they are not, or L is large enough for rounded
-/// ones. Where vertices lie close together and far from the origin, rounding moves them apart by more than any factor,
-/// and e must say by how much.
+/// With e = 0 the promise is about positions as they are computed. Otherwise it is about exact ones, and computed ones
+/// are within e of them. Where vertices lie close together and far from the origin, rounding moves them apart by more
+/// than any useful L, so there e is needed.
 class Lipschitz_promise {
  public:
   /// @throws Bad_argument  as `set_constant`

@@ -70,8 +70,8 @@ class Stretch_bound {
 /// The edges are those of the faces. Sigma is 1 for inextensible cloth that can shrink but not stretch. Vertices that
 /// no path of edges connects are not bounded by each other: seams whose vertices are doubled tear a surface apart.
 ///
-/// The promise is about positions before they were rounded: with e = 0 they are not, or sigma is large enough for
-/// rounded ones.
+/// With e = 0 the promise is about positions as they are computed. Otherwise it is about exact ones, and computed ones
+/// are within e of them.
 class Stretch_promise {
  public:
   /// @throws Bad_argument  as `set_stretch`
