@@ -9,16 +9,9 @@
 
 namespace lodestone {
 
-Linear_bound::Linear_bound(const Morphed_points& points, const Tree_layout& layout)
-    : points_(&points), rest_(layout.node_count()) {
+Linear_bound::Linear_bound(const Morphed_points& points, const Tree_layout& layout) : points_(&points) {
   check_layout(layout, points.vertex_count());
-  for (auto node = static_cast<std::uint32_t>(layout.node_count()); node-- > 0;) {
-    Aabb& box = rest_[node];
-    if (layout.is_leaf(node))
-      box.enclose(layout.leaf_faces(layout.node(node).leaf, points.rest()));
-    else
-      box.enclose(rest_[node + 1], rest_[layout.node(node).second_child]);
-  }
+  rest_ = fitted_boxes(layout, points.rest());
   node_lists(
       layout, [&](auto vertices) { return of_leaf(vertices); }, merged, ranges_, range_begin_);
 }

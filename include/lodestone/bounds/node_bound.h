@@ -4,11 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 #include "lodestone/bounds/motion_bound.h"
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/position_source.h"
+#include "lodestone/tree/tree_layout.h"
 
 namespace lodestone {
 
@@ -68,11 +71,16 @@ struct Bounded_object {
   const Position_source& positions;      ///< where they are
 };
 
-/// A promise about the motion of an object, from which a bound is made when the object's tree has been built.
+/// Checks that an object's parts are about the same vertices. O(V).
+/// @throws Bad_argument  the layout has others than the positions, or rest or labels have the wrong length
+void check_object(const Bounded_object& object);
+
+/// A promise about the motion of an object. The caller owns it, and may change it between frames. A bound is made from
+/// it when the object's tree has been built.
 ///
-/// `promise.bound(object)` makes it: a Motion_bound, which may refer to the promise, to the layout and to the positions,
-/// but neither to the labels nor to the rest. Models: Lipschitz_promise, Stretch_promise, Displacement_promise,
-/// Box_promise.
+/// `promise.bound(object)` makes it: a Motion_bound, which may refer to the promise, to the layout and to the
+/// positions, but neither to the labels nor to the rest. Models: Lipschitz_promise, Stretch_promise,
+/// Displacement_promise, Box_promise. They cannot be copied, since bounds refer to them.
 template <class P>
 concept Motion_promise = requires(const P& promise, const Bounded_object& object) {
   { promise.bound(object) } -> Motion_bound;

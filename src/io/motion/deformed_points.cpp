@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/motion/deformed_shape.h"
+#include "io/motion/expansion.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -14,6 +15,8 @@ namespace lodestone {
 struct Deformed_points::State {
   detail::Deformed_shape shape;
   std::vector<detail::Step> steps;  ///< of the current frame
+
+  detail::Expansion expansion() const { return detail::expansion(steps, shape.middle(), shape.box()); }
 };
 
 Deformed_points::Deformed_points(std::vector<Point> rest, std::vector<Deformation> deformations)
@@ -32,6 +35,10 @@ void Deformed_points::set_frame(double frame) {
 }
 
 std::uint32_t Deformed_points::vertex_count() const { return static_cast<std::uint32_t>(state_->shape.rest().size()); }
+
+double Deformed_points::lipschitz_constant() const { return state_->expansion().constant; }
+
+double Deformed_points::position_error() const { return state_->expansion().error; }
 
 Eigen::Vector3d Deformed_points::operator()(std::uint32_t vertex) const {
   Point p = state_->shape.rest()[vertex];

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/motion/deformed_shape.h"
 
-#include <CGAL/Bbox_3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -163,10 +161,10 @@ Deformed_shape::Deformed_shape(std::vector<Point> rest, std::vector<Deformation>
     : rest_(std::move(rest)), deformations_(std::move(deformations)) {
   for (const Deformation& deformation : deformations_) check(deformation);
   if (!rest_.empty()) {
-    CGAL::Bbox_3 box;
-    for (const Point& p : rest_) box += p.bbox();
-    const Point low(box.xmin(), box.ymin(), box.zmin());
-    const Point high(box.xmax(), box.ymax(), box.zmax());
+    box_ = CGAL::Bbox_3();
+    for (const Point& p : rest_) box_ += p.bbox();
+    const Point low(box_.xmin(), box_.ymin(), box_.zmin());
+    const Point high(box_.xmax(), box_.ymax(), box_.zmax());
     middle_ = CGAL::midpoint(low, high);
     half_diagonal_ = std::sqrt(CGAL::squared_distance(low, high)) / 2;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <CGAL/Bbox_3.h>
+
 #include <span>
 #include <variant>
 #include <vector>
@@ -54,12 +56,15 @@ class Deformed_shape {
 
   const std::vector<Point>& rest() const { return rest_; }
   const std::vector<Deformation>& deformations() const { return deformations_; }
+  const CGAL::Bbox_3& box() const { return box_; }  ///< of the points at rest
+  const Point& middle() const { return middle_; }   ///< of the box
   /// What moves the points in a frame. O(deformations).
   std::vector<Step> steps_at(double frame) const;
 
  private:
   std::vector<Point> rest_;
   std::vector<Deformation> deformations_;
+  CGAL::Bbox_3 box_{0, 0, 0, 0, 0, 0};
   Point middle_{0, 0, 0};        ///< of the bounding box
   double half_diagonal_ = 0;     ///< of the bounding box
   std::vector<double> lengths_;  ///< per deformation: how long the shape is along its axis

@@ -30,6 +30,19 @@ class Deformed_points {
   /// @throws Bad_argument  the pose stays as it was
   void set_frame(double frame);
 
+  /// How much farther apart than at rest two vertices can be in this pose: before positions are rounded, at most this
+  /// many times as far. Infinite where numbers overflow. O(deformations).
+  ///
+  /// The constants of deformations that follow each other multiply. For a wobble the constant is
+  /// 1 + pi |amplitude waves|. A bend has it from the part of the shape that lies farthest towards the outside of the
+  /// arc, a twist from the part farthest from the axis. For `Inflate` it is the current factor, for `Travel` and `Spin`
+  /// 1. After a wobble or a bend, only a ball and a box around the shape are known, so constants may be larger than
+  /// needed.
+  double lipschitz_constant() const;
+  /// How far a position of this pose can be from the exact one, through rounding; in units of the coordinates. With
+  /// `lipschitz_constant` what a Lipschitz_promise needs. O(deformations).
+  double position_error() const;
+
   std::uint32_t vertex_count() const;
   std::uint64_t pose_number() const { return pose_number_; }
 
