@@ -7,6 +7,7 @@ namespace lodestone {
 
 // Each in the folder of its name.
 std::string run_teapot_sphere(const Experiment_context& context);
+std::string run_certified(const Experiment_context& context);
 std::string run_scaling(const Experiment_context& context);
 std::string run_predecessor(const Experiment_context& context);
 std::string run_collision_distance(const Experiment_context& context);
@@ -39,6 +40,8 @@ std::span<const Experiment> experiments() {
       {"nested_codebook", "Below the regions: do LBG's own splits find more for less than splits at medians?",
        run_nested_codebook},
       {"many_bodies", "How does the time of a frame grow with the number of bodies?", run_many_bodies},
+      {"certified", "What does a frame cost where objects say how they move, and only what is near is posed?",
+       run_certified},
       {"partitions", "Which partition strategy is best, by its measures and in use?", run_partitions},
       {"rebuild", "When does a tree of the mode exact become too loose, and does a rebuild pay?", run_rebuild},
       {"self_collision", "How fast is self-collision of a deforming mesh, beside CGAL?", run_self_collision},

@@ -28,14 +28,14 @@ void add_options(CLI::App& app, Experiment_command& command) {
   app.add_option(
          "--scenes", command.scenes,
          "Folder of the scene files; modes plays all scenes of another folder than its own, and subfolders with "
-         "meshes NAME.off and their point caches NAME.pc2")
+         "meshes NAME.off and their point caches NAME.pc2; certified plays the glTF files of another folder too")
       ->type_name("DIR")
       ->default_str("data/scenes of the source");
   app.add_option(
          "--only", command.only,
          "Scenes to play in place of all, by name (peers, every_frame, modes, volumes, defaults, nested_codebook); "
          "numbers of bodies (many_bodies); meshes and strategies (partitions); scenes and numbers of triangles "
-         "(first_answer)")
+         "(first_answer); scenes, characters and numbers of triangles (certified)")
       ->delimiter(',')
       ->type_name("NAME");
   app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")
@@ -53,7 +53,8 @@ void add_options(CLI::App& app, Experiment_command& command) {
       ->type_name("PATTERN")
       ->check(not_empty());
   app.add_option("--write-meshes", command.write_meshes,
-                 "Only write the meshes of the experiment into this folder, to be labelled (partitions)")
+                 "Only write the meshes of the experiment into this folder: to be labelled (partitions), or as "
+                 "characters in glTF (certified)")
       ->type_name("DIR")
       ->check(not_empty());
   app.add_option("--out", command.out, "Folder for the figures")
@@ -74,12 +75,13 @@ struct Special_option {
 
 const std::vector<Special_option> special_options{{"--only",
                                                    {"peers", "every_frame", "modes", "many_bodies", "volumes",
-                                                    "defaults", "nested_codebook", "partitions", "first_answer"}},
+                                                    "defaults", "nested_codebook", "partitions", "first_answer",
+                                                    "certified"}},
                                                   {"--jobs", {"partitions"}},
                                                   {"--shard", {"partitions"}},
                                                   {"--merge", {"partitions"}},
                                                   {"--strategy-file", {"partitions"}},
-                                                  {"--write-meshes", {"partitions"}}};
+                                                  {"--write-meshes", {"partitions", "certified"}}};
 
 /// @throws Bad_argument  an option that the experiment would ignore
 void refuse_options_of_other_experiments(const CLI::App& app, const std::string& experiment) {

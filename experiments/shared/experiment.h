@@ -15,9 +15,9 @@ struct Experiment_context {
   std::filesystem::path out;                                       ///< folder that receives all figures as JSON
   std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
   /// Names of the scenes to play, or of meshes and strategies, or numbers of bodies; empty: those of the published
-  /// figures; scenes and numbers of triangles of `first_answer`. Only that one, `peers`, `every_frame`, `modes`,
-  /// `many_bodies`, `volumes`, `defaults`, `nested_codebook` and `partitions` read it. The other experiments always play
-  /// all their scenes.
+  /// figures; scenes and numbers of triangles of `first_answer` and `certified`. Only these, `peers`, `every_frame`,
+  /// `modes`, `many_bodies`, `volumes`, `defaults`, `nested_codebook` and `partitions` read it. The other experiments
+  /// always play all their scenes.
   std::vector<std::string> only = {};
 
   // For experiments that are sweeps of many runs (`partitions`).
@@ -27,7 +27,9 @@ struct Experiment_context {
 
   // For `partitions` alone.
   std::vector<std::filesystem::path> strategy_files = {};  ///< labels made by other tools: see read_given_labels
-  std::filesystem::path write_meshes = {};                 ///< only write the meshes into this folder; empty: measure
+
+  // For `partitions` and `certified`.
+  std::filesystem::path write_meshes = {};  ///< only write the meshes into this folder; empty: measure
 };
 
 /// One question, and the run that answers it.
