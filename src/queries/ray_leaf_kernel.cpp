@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "queries/ray_leaf_kernel.h"
 
+#include <hwy/cache_control.h>
+
+#include <span>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "queries/ray_leaf_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -83,8 +87,15 @@ HWY_INLINE std::uint64_t code_vertices(const Leaf_faces& leaf, const Ray_input& 
   return bits;
 }
 
+/// Fetches what is read after the vertices, meanwhile.
+HWY_INLINE void prefetch(std::span<const Leaf_corners> corners) {
+  constexpr std::size_t faces_per_line = 64 / sizeof(Leaf_corners);
+  for (std::size_t face = 0; face < corners.size(); face += faces_per_line) hwy::Prefetch(&corners[face]);
+}
+
 std::size_t list_ray_candidates_kernel(const Leaf_faces& leaf, const Ray_input& ray, double error, double most_depth,
                                        std::uint8_t* candidates) {
+  prefetch(leaf.corners);
   std::uint64_t codes[most_codes];
   const std::uint64_t common = ray.depth_axis == 0   ? code_vertices<0>(leaf, ray, error, most_depth, codes)
                                : ray.depth_axis == 1 ? code_vertices<1>(leaf, ray, error, most_depth, codes)
