@@ -101,11 +101,14 @@ std::size_t list_ray_candidates_kernel(const Leaf_faces& leaf, const Ray_input& 
                                : ray.depth_axis == 1 ? code_vertices<1>(leaf, ray, error, most_depth, codes)
                                                      : code_vertices<2>(leaf, ray, error, most_depth, codes);
   if (common != 0) return 0;
+  // Hoisted: the stores of bytes may alias the list.
+  const Leaf_corners* const corners = leaf.corners.data();
+  const std::size_t faces = leaf.corners.size();
   std::size_t count = 0;
-  for (std::size_t face = 0; face < leaf.corners.size(); ++face) {
-    const auto [p, q, r] = leaf.corners[face];
+  for (std::size_t face = 0; face < faces; ++face) {
+    const std::uint64_t beyond = codes[corners[face][0]] & codes[corners[face][1]] & codes[corners[face][2]];
     candidates[count] = static_cast<std::uint8_t>(face);
-    count += (codes[p] & codes[q] & codes[r]) == 0 ? 1 : 0;
+    count += beyond == 0 ? 1 : 0;
   }
   return count;
 }

@@ -38,47 +38,50 @@ class Box_entry {
     const double d_z = std::abs(frame.direction[frame.axes[2]]);
     for (int axis = 0; axis < 3; ++axis) {
       inverse_[axis] = d_z / frame.direction[axis];
-      far_side_[axis] = inverse_[axis] >= 0;
+      near_side_[axis] = inverse_[axis] >= 0 ? axis : high + axis;
+      far_side_[axis] = inverse_[axis] >= 0 ? high + axis : axis;
       is_steep_ |= !std::isfinite(inverse_[axis]);
     }
   }
 
-  /// Lower bound on the depth at which the ray enters a box; infinity if it is proven to miss it.
-  double operator()(const Aabb& box) const {
-    const double* const sides[]{box.low, box.high};
-    double enter = 0, leave = infinity;
+  /// Lower bound on the depth at which the ray enters a box; infinity if it is proven to miss it. Without branches,
+  /// since which boxes are hit is unpredictable.
+  [[gnu::always_inline]] double operator()(const Aabb& box) const {
+    if (is_steep_) return with_steep_axes(box);
+    const auto* const sides = reinterpret_cast<const double*>(&box);
+    double enter = 0, leave = largest;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double first = (sides[near_side_[axis]] - frame_.origin[axis]) * inverse_[axis];
+      const double last = (sides[far_side_[axis]] - frame_.origin[axis]) * inverse_[axis];
+      enter = first > enter ? first : enter;
+      leave = last < leave ? last : leave;
+    }
+    return bound(enter, leave);
+  }
+
+ private:
+  static constexpr double roundings = 0x1p-49, underflow = 0x1p-1000;
+  static constexpr int high = 4;  ///< where the high sides of a box begin
+  static_assert(sizeof(Aabb) == 2 * high * sizeof(double));
+
+  static double bound(double enter, double leave) {
+    const double entered = enter < largest ? enter : largest;
+    return entered <= leave * (1 + roundings) + underflow ? entered * (1 - roundings) : infinity;
+  }
+
+  [[gnu::noinline]] double with_steep_axes(const Aabb& box) const {
+    const auto* const sides = reinterpret_cast<const double*>(&box);
+    double enter = 0, leave = largest;
     for (int axis = 0; axis < 3; ++axis) {
       if (!std::isfinite(inverse_[axis])) {
         if (is_beside(box, axis)) return infinity;
         continue;
       }
-      enter = std::max(enter, (sides[1 - far_side_[axis]][axis] - frame_.origin[axis]) * inverse_[axis]);
-      leave = std::min(leave, (sides[far_side_[axis]][axis] - frame_.origin[axis]) * inverse_[axis]);
+      enter = std::max(enter, (sides[near_side_[axis]] - frame_.origin[axis]) * inverse_[axis]);
+      leave = std::min(leave, (sides[far_side_[axis]] - frame_.origin[axis]) * inverse_[axis]);
     }
-    enter = std::min(enter, largest);
-    return enter <= leave * (1 + roundings) + underflow ? enter * (1 - roundings) : infinity;
+    return bound(enter, leave);
   }
-
-  /// The same for two boxes side by side: without branches, since which box is hit is unpredictable.
-  [[gnu::always_inline]] Eigen::Array2d operator()(const Aabb& a, const Aabb& b) const {
-    if (is_steep_) return {(*this)(a), (*this)(b)};
-    const double *const sides_a[]{a.low, a.high}, *const sides_b[]{b.low, b.high};
-    Eigen::Array2d enter = Eigen::Array2d::Zero(), leave = Eigen::Array2d::Constant(infinity);
-    for (int axis = 0; axis < 3; ++axis) {
-      const int far_side = far_side_[axis];
-      const Eigen::Array2d first(sides_a[1 - far_side][axis], sides_b[1 - far_side][axis]);
-      const Eigen::Array2d last(sides_a[far_side][axis], sides_b[far_side][axis]);
-      enter = enter.max((first - frame_.origin[axis]) * inverse_[axis]);
-      leave = leave.min((last - frame_.origin[axis]) * inverse_[axis]);
-    }
-    enter = enter.min(largest);
-    leave = leave * (1 + roundings) + underflow;
-    const Eigen::Array2d bound = enter * (1 - roundings);
-    return {enter[0] <= leave[0] ? bound[0] : infinity, enter[1] <= leave[1] ? bound[1] : infinity};
-  }
-
- private:
-  static constexpr double roundings = 0x1p-49, underflow = 0x1p-1000;
 
   /// Whether a ray that is orthogonal to an axis misses a box.
   bool is_beside(const Aabb& box, int axis) const {
@@ -87,7 +90,8 @@ class Box_entry {
 
   const Ray_frame& frame_;
   std::array<double, 3> inverse_;  ///< change of depth along each axis
-  std::array<int, 3> far_side_;    ///< 1 if the ray leaves by the high side
+  std::array<int, 3> near_side_;   ///< by which the ray enters: indices of numbers of a box
+  std::array<int, 3> far_side_;    ///< by which it leaves
   bool is_steep_ = false;          ///< some inverse is infinite
 };
 
@@ -164,7 +168,7 @@ class Ray_search {
   /// Ends early, with some faces missing, once the surface is broken.
   void run() {
     const Tree_layout& tree = surface_.layout();
-    waiting_.resize(64);
+    waiting_.resize(64, boost::container::default_init);
     waiting_[0] = {0, entry_(surface_.box(0))};
     count_ = waiting_[0].depth < infinity ? 1 : 0;
     while (count_ > 0 && !surface_.is_broken()) {
@@ -189,9 +193,8 @@ class Ray_search {
   void open(std::uint32_t first, std::uint32_t second) {
     prefetch_below(first);
     prefetch_below(second);
-    const Aabb& first_box = surface_.box(first);
-    const Eigen::Array2d depths = entry_(first_box, surface_.box(second));
-    if (count_ + 2 > waiting_.size()) waiting_.resize(2 * waiting_.size());
+    const double depths[]{entry_(surface_.box(first)), entry_(surface_.box(second))};
+    if (count_ + 2 > waiting_.size()) waiting_.resize(2 * waiting_.size(), boost::container::default_init);
     const double most = std::min(collector_.most_depth(), largest);
     const std::uint32_t nodes[]{first, second};
     const int nearer = depths[1] < depths[0] ? 1 : 0;
