@@ -204,13 +204,11 @@ class Ray_search {
     }
   }
 
-  /// What is read next if the ray meets the box of a node.
+  /// What is read next if the ray meets the box of a node. Of a leaf it is the root, which does no harm.
   void prefetch_below(std::uint32_t n) const {
-    const auto& node = surface_.layout().node(n);
-    if (node.second_child != 0) {
-      hwy::Prefetch(&surface_.layout().node(node.second_child));
-      hwy::Prefetch(surface_.view().boxes.data() + node.second_child);
-    }
+    const std::uint32_t second = surface_.layout().node(n).second_child;
+    hwy::Prefetch(&surface_.layout().node(second));
+    hwy::Prefetch(surface_.view().boxes.data() + second);
   }
 
   void visit(std::uint32_t index) {
