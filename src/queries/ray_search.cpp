@@ -204,11 +204,13 @@ class Ray_search {
     }
   }
 
-  /// What is read next if the ray meets the box of a node. Of a leaf it is the root, which does no harm.
+  /// What is read next if the ray meets the box of a node.
   void prefetch_below(std::uint32_t n) const {
-    const std::uint32_t second = surface_.layout().node(n).second_child;
-    hwy::Prefetch(&surface_.layout().node(second));
-    hwy::Prefetch(surface_.view().boxes.data() + second);
+    const auto& node = surface_.layout().node(n);
+    if (node.second_child != 0) {
+      hwy::Prefetch(&surface_.layout().node(node.second_child));
+      hwy::Prefetch(surface_.view().boxes.data() + node.second_child);
+    }
   }
 
   void visit(std::uint32_t index) {
