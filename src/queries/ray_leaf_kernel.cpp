@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "queries/ray_leaf_kernel.h"
 
+#include <hwy/cache_control.h>
+
+#include <span>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "queries/ray_leaf_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -83,18 +87,28 @@ HWY_INLINE std::uint64_t code_vertices(const Leaf_faces& leaf, const Ray_input& 
   return bits;
 }
 
+/// Fetches what is read after the vertices, meanwhile.
+HWY_INLINE void prefetch(std::span<const Leaf_corners> corners) {
+  constexpr std::size_t faces_per_line = 64 / sizeof(Leaf_corners);
+  for (std::size_t face = 0; face < corners.size(); face += faces_per_line) hwy::Prefetch(&corners[face]);
+}
+
 std::size_t list_ray_candidates_kernel(const Leaf_faces& leaf, const Ray_input& ray, double error, double most_depth,
                                        std::uint8_t* candidates) {
+  prefetch(leaf.corners);
   std::uint64_t codes[most_codes];
   const std::uint64_t common = ray.depth_axis == 0   ? code_vertices<0>(leaf, ray, error, most_depth, codes)
                                : ray.depth_axis == 1 ? code_vertices<1>(leaf, ray, error, most_depth, codes)
                                                      : code_vertices<2>(leaf, ray, error, most_depth, codes);
   if (common != 0) return 0;
+  // Hoisted: the stores of bytes may alias the list.
+  const Leaf_corners* const corners = leaf.corners.data();
+  const std::size_t faces = leaf.corners.size();
   std::size_t count = 0;
-  for (std::size_t face = 0; face < leaf.corners.size(); ++face) {
-    const auto [p, q, r] = leaf.corners[face];
+  for (std::size_t face = 0; face < faces; ++face) {
+    const std::uint64_t beyond = codes[corners[face][0]] & codes[corners[face][1]] & codes[corners[face][2]];
     candidates[count] = static_cast<std::uint8_t>(face);
-    count += (codes[p] & codes[q] & codes[r]) == 0 ? 1 : 0;
+    count += beyond == 0 ? 1 : 0;
   }
   return count;
 }

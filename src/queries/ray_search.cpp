@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/queries/ray_search.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
@@ -36,40 +38,60 @@ class Box_entry {
     const double d_z = std::abs(frame.direction[frame.axes[2]]);
     for (int axis = 0; axis < 3; ++axis) {
       inverse_[axis] = d_z / frame.direction[axis];
-      far_side_[axis] = inverse_[axis] >= 0;
+      near_side_[axis] = inverse_[axis] >= 0 ? axis : high + axis;
+      far_side_[axis] = inverse_[axis] >= 0 ? high + axis : axis;
       is_steep_ |= !std::isfinite(inverse_[axis]);
     }
   }
 
-  /// Lower bound on the depth at which the ray enters a box; infinity if it is proven to miss it.
-  double operator()(const Aabb& box) const {
-    const double* const sides[]{box.low, box.high};
-    double enter = 0, leave = infinity;
+  /// Lower bound on the depth at which the ray enters a box; infinity if it is proven to miss it. Without branches,
+  /// since which boxes are hit is unpredictable.
+  [[gnu::always_inline]] double operator()(const Aabb& box) const {
+    if (is_steep_) return with_steep_axes(box);
+    const auto* const sides = reinterpret_cast<const double*>(&box);
+    double enter = 0, leave = largest;
     for (int axis = 0; axis < 3; ++axis) {
-      if (is_steep_ && !std::isfinite(inverse_[axis])) {
-        if (is_beside(box, axis)) return infinity;
-        continue;
-      }
-      const double first = (sides[1 - far_side_[axis]][axis] - frame_.origin[axis]) * inverse_[axis];
-      const double last = (sides[far_side_[axis]][axis] - frame_.origin[axis]) * inverse_[axis];
+      const double first = (sides[near_side_[axis]] - frame_.origin[axis]) * inverse_[axis];
+      const double last = (sides[far_side_[axis]] - frame_.origin[axis]) * inverse_[axis];
       enter = first > enter ? first : enter;
       leave = last < leave ? last : leave;
     }
-    enter = std::min(enter, largest);
-    return enter <= leave * (1 + roundings) + underflow ? enter * (1 - roundings) : infinity;
+    return bound(enter, leave);
   }
 
  private:
   static constexpr double roundings = 0x1p-49, underflow = 0x1p-1000;
+  static constexpr int high = 4;  ///< where the high sides of a box begin
+  static_assert(sizeof(Aabb) == 2 * high * sizeof(double));
 
-  /// Whether a ray that is orthogonal to an axis, or too nearly so for its slope to have an inverse, misses a box.
+  static double bound(double enter, double leave) {
+    const double entered = enter < largest ? enter : largest;
+    return entered <= leave * (1 + roundings) + underflow ? entered * (1 - roundings) : infinity;
+  }
+
+  [[gnu::noinline]] double with_steep_axes(const Aabb& box) const {
+    const auto* const sides = reinterpret_cast<const double*>(&box);
+    double enter = 0, leave = largest;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(inverse_[axis])) {
+        if (is_beside(box, axis)) return infinity;
+        continue;
+      }
+      enter = std::max(enter, (sides[near_side_[axis]] - frame_.origin[axis]) * inverse_[axis]);
+      leave = std::min(leave, (sides[far_side_[axis]] - frame_.origin[axis]) * inverse_[axis]);
+    }
+    return bound(enter, leave);
+  }
+
+  /// Whether a ray that is orthogonal to an axis misses a box.
   bool is_beside(const Aabb& box, int axis) const {
     return frame_.direction[axis] == 0 && (frame_.origin[axis] < box.low[axis] || frame_.origin[axis] > box.high[axis]);
   }
 
   const Ray_frame& frame_;
   std::array<double, 3> inverse_;  ///< change of depth along each axis
-  std::array<int, 3> far_side_;    ///< 1 if the ray leaves by the high side
+  std::array<int, 3> near_side_;   ///< by which the ray enters: indices of numbers of a box
+  std::array<int, 3> far_side_;    ///< by which it leaves
   bool is_steep_ = false;          ///< some inverse is infinite
 };
 
@@ -146,15 +168,16 @@ class Ray_search {
   /// Ends early, with some faces missing, once the surface is broken.
   void run() {
     const Tree_layout& tree = surface_.layout();
-    push({0, entry_(surface_.box(0))});
-    while (!waiting_.empty() && !surface_.is_broken()) {
-      const Node_ahead next = waiting_.back();
-      waiting_.pop_back();
+    waiting_.resize(64, boost::container::default_init);
+    waiting_[0] = {0, entry_(surface_.box(0))};
+    count_ = waiting_[0].depth < infinity ? 1 : 0;
+    while (count_ > 0 && !surface_.is_broken()) {
+      const Node_ahead next = waiting_[--count_];
       if (next.depth > collector_.most_depth()) continue;
-      if (tree.is_leaf(next.node))
-        visit(tree.node(next.node).leaf);
+      if (const auto& node = tree.node(next.node); node.second_child == 0)
+        visit(node.leaf);
       else
-        open(next.node + 1, tree.node(next.node).second_child);
+        open(next.node + 1, node.second_child);
     }
   }
 
@@ -165,21 +188,36 @@ class Ray_search {
     double depth;
   };
 
-  void push(Node_ahead next) {
-    if (next.depth <= collector_.most_depth() && next.depth < infinity) waiting_.push_back(next);
+  /// Pushes the children that the ray meets, the one that it enters first last. Which they are is unpredictable, so
+  /// both are written.
+  void open(std::uint32_t first, std::uint32_t second) {
+    prefetch_below(first);
+    prefetch_below(second);
+    const double depths[]{entry_(surface_.box(first)), entry_(surface_.box(second))};
+    if (count_ + 2 > waiting_.size()) waiting_.resize(2 * waiting_.size(), boost::container::default_init);
+    const double most = std::min(collector_.most_depth(), largest);
+    const std::uint32_t nodes[]{first, second};
+    const int nearer = depths[1] < depths[0] ? 1 : 0;
+    for (const int child : {1 - nearer, nearer}) {
+      waiting_[count_] = {nodes[child], depths[child]};
+      count_ += depths[child] <= most ? 1 : 0;
+    }
   }
 
-  /// The child that the ray enters first is pushed last.
-  void open(std::uint32_t first, std::uint32_t second) {
-    Node_ahead near{first, entry_(surface_.box(first))}, far{second, entry_(surface_.box(second))};
-    if (far.depth < near.depth) std::swap(near, far);
-    push(far);
-    push(near);
+  /// What is read next if the ray meets the box of a node.
+  void prefetch_below(std::uint32_t n) const {
+    const auto& node = surface_.layout().node(n);
+    if (node.second_child != 0) {
+      hwy::Prefetch(&surface_.layout().node(node.second_child));
+      hwy::Prefetch(surface_.view().boxes.data() + node.second_child);
+    }
   }
 
   void visit(std::uint32_t index) {
     const Aabb& box = surface_.pose(index);
-    if (surface_.is_broken() || !(entry_(box) <= collector_.most_depth())) return;
+    if (surface_.is_broken()) return;
+    // A fitted box can be smaller than the bound that led here.
+    if (!std::same_as<Surface, Fitted_surface> && entry_(box) > collector_.most_depth()) return;
     const Leaf_faces leaf = surface_.view().leaf(index);
     std::uint8_t candidates[most_leaf_faces];
     const std::size_t count =
@@ -213,7 +251,8 @@ class Ray_search {
   Box_entry entry_;
   Collector& collector_;
   kernel::Ray_input input_;
-  boost::container::small_vector<Node_ahead, 64> waiting_;
+  boost::container::small_vector<Node_ahead, 64> waiting_;  ///< the first `count_`, the next one last
+  std::size_t count_ = 0;
 };
 
 template <Surface_on_demand Surface>

@@ -112,7 +112,7 @@ TEST_F(Certified_program, a_page_has_a_state_for_each_vertex) {
   if (!LODESTONE_HAS_VIEWER) GTEST_SKIP() << "the program was built without the viewer";
   const auto file = (folder.path() / "page.html").string();
   detect(write_bodies(), "certified", "results", {"--html", file});
-  const auto page = decode_page(read_file(file));
+  const Decoded_page page(data_of(read_bytes(file)));
   EXPECT_EQ(page.header["mode"], "certified");
   EXPECT_EQ(page.header["states"], (Json{"far", "bounded", "posed"}));
   std::size_t partitions = 0;

@@ -121,7 +121,7 @@ void expect_hit(const Ray_hit& found, const Exact_hit& truth, const Ray& ray) {
 
 /// Compares both questions with the truth, for several leaf sizes.
 /// @return number of faces that the ray meets
-std::size_t expect_truth(const std::vector<const Posed_object*>& objects, const Ray& ray) {
+std::size_t expect_hits(const std::vector<const Posed_object*>& objects, const Ray& ray) {
   const auto truth = true_hits(objects.front()->soup(), ray);
   SCOPED_TRACE(testing::Message() << "from " << ray.origin.transpose() << " along " << ray.direction.transpose()
                                   << " as far as " << ray.length);
@@ -189,7 +189,7 @@ std::size_t expect_truth_for_many_rays(const Face_soup& soup, int rays, std::uin
   Ray_maker make(soup, seed);
   std::size_t meeting = 0;
   for (int kind = 0; kind < rays && !testing::Test::HasFailure(); ++kind)
-    meeting += expect_truth({&small, &usual, &large}, make(kind)) > 0 ? 1 : 0;
+    meeting += expect_hits({&small, &usual, &large}, make(kind)) > 0 ? 1 : 0;
   return meeting;
 }
 
@@ -217,12 +217,12 @@ TEST(Ray_search, counts_faces_without_area_as_the_segments_and_points_that_they_
   flat.coordinates = {0, 0, 0, 2, 0, 0, 1, 0, 0, 4, 0, 0};
   flat.faces = {{0, 1, 2}, {3, 3, 3}, {2, 1, 0}};
   const Posed_object object(flat, 2, false);
-  EXPECT_EQ(expect_truth({&object}, {{1, -1, 0}, {0, 1, 0}}), 2U);
-  EXPECT_EQ(expect_truth({&object}, {{1.5, -1, 0}, {0, 0.5, 0}}), 2U);
-  EXPECT_EQ(expect_truth({&object}, {{-1, 0, 0}, {1, 0, 0}}), 3U);
-  EXPECT_EQ(expect_truth({&object}, {{1, 0, 0}, {1, 0, 0}, 2.5}), 2U);
-  EXPECT_EQ(expect_truth({&object}, {{4, 1, 0}, {0, -1, 0}}), 1U);
-  EXPECT_EQ(expect_truth({&object}, {{4, 1, 0}, {1e-17, -1, 0}}), 0U);
+  EXPECT_EQ(expect_hits({&object}, {{1, -1, 0}, {0, 1, 0}}), 2U);
+  EXPECT_EQ(expect_hits({&object}, {{1.5, -1, 0}, {0, 0.5, 0}}), 2U);
+  EXPECT_EQ(expect_hits({&object}, {{-1, 0, 0}, {1, 0, 0}}), 3U);
+  EXPECT_EQ(expect_hits({&object}, {{1, 0, 0}, {1, 0, 0}, 2.5}), 2U);
+  EXPECT_EQ(expect_hits({&object}, {{4, 1, 0}, {0, -1, 0}}), 1U);
+  EXPECT_EQ(expect_hits({&object}, {{4, 1, 0}, {1e-17, -1, 0}}), 0U);
 }
 
 TEST(Ray_search, is_exact_at_any_scale_and_far_from_the_origin) {
@@ -246,7 +246,7 @@ TEST(Ray_search, of_several_faces_at_one_place_the_lowest_is_first) {
   for (const auto v : {0U, 5U, 20U}) {
     const Point p = object.soup().point(v);
     const Ray ray{{3 * p.x(), 3 * p.y(), 3 * p.z()}, {-p.x(), -p.y(), -p.z()}};
-    EXPECT_GE(expect_truth({&object}, ray), 6U);
+    EXPECT_GE(expect_hits({&object}, ray), 6U);
   }
 }
 
@@ -262,10 +262,10 @@ TEST(Ray_search, starts_at_the_origin_and_ends_at_its_length) {
                                (t[0].z() + t[1].z() + 2 * t[2].z()) / 4);
   const Eigen::Vector3d away = Eigen::Vector3d::UnitZ();
   for (const double length : {0.0, 1.0, 2.0, std::numeric_limits<double>::infinity()}) {
-    expect_truth({&object}, {middle, away, length});
-    expect_truth({&object}, {middle - away, away, length});
-    expect_truth({&object}, {middle + away, away, length});
-    expect_truth({&object}, {middle - away, away, std::nextafter(length, 0)});
+    expect_hits({&object}, {middle, away, length});
+    expect_hits({&object}, {middle - away, away, length});
+    expect_hits({&object}, {middle + away, away, length});
+    expect_hits({&object}, {middle - away, away, std::nextafter(length, 0)});
   }
 }
 

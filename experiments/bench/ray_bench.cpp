@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rays and nearest points, on trees that were built for collisions, beside libraries that were made for them.
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <span>
+#include <vector>
+
+#ifdef LODESTONE_EMBREE
+#include <embree3/rtcore.h>
+#endif
+
+#include "bench/worm.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "lodestone/queries/point_search.h"
+#include "lodestone/queries/ray_search.h"
+#include "shared/lap_timer.h"
+#include "shared/measured_run.h"
+
+namespace lodestone {
+
+namespace {
+
+using Cgal_primitive = CGAL::AABB_face_graph_triangle_primitive<Surface_mesh>;
+using Cgal_tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Cgal_primitive>>;
+
+constexpr std::uint32_t no_face = ~std::uint32_t{0};
+
+#ifdef LODESTONE_EMBREE
+enum class Embree_kind { triangles, exact_numbers };
+
+/// Faces as Embree takes them: triangles in float, with the flag `robust`; or primitives of ours, boxed in float and
+/// tested in double.
+class Embree_scene {
+ public:
+  /// @param coordinates  read by every `refit`
+  Embree_scene(Embree_kind kind, std::span<const Corners> corners, Coordinates coordinates)
+      : corners_(corners), coordinates_(coordinates), device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+    const bool in_float = kind == Embree_kind::triangles;
+    geometry_ = rtcNewGeometry(device_, in_float ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
+    if (in_float) {
+      auto* const indices = static_cast<std::uint32_t*>(
+          rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, corners.size()));
+      for (std::size_t i = 0; i < 3 * corners.size(); ++i) indices[i] = corners[i / 3][i % 3];
+      vertices_ = static_cast<float*>(
+          rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, coordinates.size() / 3));
+    } else {
+      rtcSetGeometryUserPrimitiveCount(geometry_, static_cast<unsigned>(corners.size()));
+      rtcSetGeometryUserData(geometry_, this);
+      rtcSetGeometryBoundsFunction(geometry_, bound, nullptr);
+      rtcSetGeometryIntersectFunction(geometry_, intersect);
+    }
+    rtcSetGeometryBuildQuality(geometry_, RTC_BUILD_QUALITY_REFIT);
+    rtcAttachGeometry(scene_, geometry_);
+    rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
+    refit();
+  }
+  ~Embree_scene() {
+    rtcReleaseGeometry(geometry_);
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+  Embree_scene(const Embree_scene&) = delete;
+
+  void refit() {
+    if (vertices_ != nullptr) {
+      std::ranges::transform(coordinates_, vertices_, [](double x) { return static_cast<float>(x); });
+      rtcUpdateGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0);
+    }
+    rtcCommitGeometry(geometry_);
+    rtcCommitScene(scene_);
+  }
+
+  std::uint32_t first_face(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    Query query{};
+    query.best = std::numeric_limits<double>::infinity();
+    query.ray = &ray;
+    RTCRayHit& hit = query.hit;
+    hit.ray.org_x = static_cast<float>(ray.origin.x());
+    hit.ray.org_y = static_cast<float>(ray.origin.y());
+    hit.ray.org_z = static_cast<float>(ray.origin.z());
+    hit.ray.dir_x = static_cast<float>(ray.direction.x());
+    hit.ray.dir_y = static_cast<float>(ray.direction.y());
+    hit.ray.dir_z = static_cast<float>(ray.direction.z());
+    hit.ray.tnear = 0;
+    hit.ray.tfar = std::numeric_limits<float>::infinity();
+    hit.ray.mask = ~0U;
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &hit);
+    return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? no_face : hit.hit.primID;
+  }
+
+ private:
+  /// A ray, and what Embree does not know about it. Callbacks are given the address of `hit`.
+  struct Query {
+    RTCRayHit hit;
+    double best;
+    const Ray* ray;
+  };
+
+  const double* corner(std::uint32_t face, int i) const {
+    return coordinates_.data() + 3 * std::size_t{corners_[face][static_cast<std::size_t>(i)]};
+  }
+
+  static void bound(const RTCBoundsFunctionArguments* arguments) {
+    const auto& scene = *static_cast<const Embree_scene*>(arguments->geometryUserPtr);
+    float low[3], high[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double p = scene.corner(arguments->primID, 0)[axis], q = scene.corner(arguments->primID, 1)[axis],
+                   r = scene.corner(arguments->primID, 2)[axis];
+      const float infinity = std::numeric_limits<float>::infinity();
+      low[axis] = std::nextafter(static_cast<float>(std::min({p, q, r})), -infinity);
+      high[axis] = std::nextafter(static_cast<float>(std::max({p, q, r})), infinity);
+    }
+    *arguments->bounds_o = {low[0], low[1], low[2], 0, high[0], high[1], high[2], 0};
+  }
+
+  /// The test of Moeller and Trumbore, in double.
+  static void intersect(const RTCIntersectFunctionNArguments* arguments) {
+    if (arguments->valid[0] == 0) return;
+    const auto& scene = *static_cast<const Embree_scene*>(arguments->geometryUserPtr);
+    auto& query = *reinterpret_cast<Query*>(arguments->rayhit);
+    const auto vector = [&](int i) { return Eigen::Map<const Eigen::Vector3d>(scene.corner(arguments->primID, i)); };
+    const Eigen::Vector3d p = vector(0), e = vector(1) - p, f = vector(2) - p, &d = query.ray->direction;
+    const Eigen::Vector3d h = d.cross(f), s = query.ray->origin - p, g = s.cross(e);
+    const double inverse = 1 / e.dot(h), u = s.dot(h) * inverse, v = d.dot(g) * inverse, t = f.dot(g) * inverse;
+    if (!(u >= 0 && v >= 0 && u + v <= 1 && t >= 0 && t < query.best)) return;
+    query.best = t;
+    query.hit.ray.tfar = std::nextafter(static_cast<float>(t), std::numeric_limits<float>::infinity());
+    query.hit.hit.primID = arguments->primID;
+    query.hit.hit.geomID = arguments->geomID;
+  }
+
+  std::span<const Corners> corners_;
+  Coordinates coordinates_;
+  float* vertices_ = nullptr;
+  RTCDevice device_;
+  RTCScene scene_;
+  RTCGeometry geometry_;
+};
+#endif
+
+/// A sphere with waves on it, which move.
+struct Wavy_sphere {
+  Surface_mesh mesh;
+  std::vector<Corners> corners;
+  std::vector<double> coordinates;
+  Tree_surface tree;
+
+  explicit Wavy_sphere(std::size_t frequency) : mesh(icosphere(frequency)) {
+    corners = Mesh_numbering<Surface_mesh>(mesh).corners();
+    rest_.reserve(3 * mesh.number_of_vertices());
+    for (const auto v : mesh.vertices()) {
+      const Point& p = mesh.point(v);
+      rest_.insert(rest_.end(), {p.x(), p.y(), p.z()});
+    }
+    coordinates = rest_;
+    tree = Tree_surface(corners, coordinates);
+    move(1);
+  }
+
+  void move(double time) {
+    for (const auto v : mesh.vertices()) {
+      const Eigen::Map<const Eigen::Vector3d> p(rest_.data() + 3 * std::size_t{v});
+      const Eigen::Vector3d moved = (1 + 0.1 * std::sin(5 * p.x() + time) * std::sin(7 * p.y())) * p;
+      mesh.point(v) = Point(moved.x(), moved.y(), moved.z());
+      for (int axis = 0; axis < 3; ++axis)
+        coordinates[3 * std::size_t{v} + static_cast<std::size_t>(axis)] = moved[axis];
+    }
+    Tree_surface* const trees[]{&tree};
+    const Coordinates now[]{coordinates};
+    refit(trees, now, Workers::alone());
+  }
+
+ private:
+  std::vector<double> rest_;
+};
+
+/// Random rays with origins and directions that float represents, so that all libraries get the same ones. Half of the
+/// origins are outside of the sphere.
+std::vector<Ray> random_rays(std::size_t count) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  std::vector<Ray> rays;
+  while (rays.size() < count) {
+    const auto vector = [&] { return Eigen::Vector3d(unit(random), unit(random), unit(random)); };
+    const Eigen::Vector3d origin = (rays.size() % 2 == 0 ? 2.0 : 0.5) * vector(), at = vector();
+    const Eigen::Vector3d direction = (at - origin).cast<float>().cast<double>();
+    if (!direction.isZero()) rays.push_back({origin, direction});
+  }
+  return rays;
+}
+
+std::size_t differences(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i] ? 1 : 0;
+  return count;
+}
+
+/// Nanoseconds per question of one library, pass by pass, and its last answers.
+struct Answers {
+  std::vector<double> nanoseconds = {};
+  std::vector<std::uint32_t> faces = {};
+
+  template <class Questions, class Answer>
+  void ask(const Questions& questions, const Answer& answer) {
+    faces.resize(questions.size());
+    Lap_timer timer;
+    for (std::size_t i = 0; i < questions.size(); ++i) faces[i] = answer(questions[i]);
+    nanoseconds.push_back(1e9 * timer.lap() / static_cast<double>(questions.size()));
+  }
+  double least() const { return *std::ranges::min_element(nanoseconds); }
+};
+
+/// The first face that each of some random rays meets. The libraries take turns in each pass. All have been refitted to
+/// new positions, but for CGAL, which cannot: it has built its tree for them.
+///
+/// Reported time: that of Lodestone. Counters: nanoseconds per ray, the least of all passes; ratios to Lodestone; rays
+/// for which another library names another face.
+void first_hit_of_rays(benchmark::State& state) {
+  Wavy_sphere sphere(static_cast<std::size_t>(state.range(0)));
+#ifdef LODESTONE_EMBREE
+  Embree_scene in_float(Embree_kind::triangles, sphere.corners, sphere.coordinates),
+      in_double(Embree_kind::exact_numbers, sphere.corners, sphere.coordinates);
+#endif
+  sphere.move(2);
+#ifdef LODESTONE_EMBREE
+  in_float.refit();
+  in_double.refit();
+  Answers of_float, of_double;
+#endif
+  Cgal_tree cgal(faces(sphere.mesh).first, faces(sphere.mesh).second, sphere.mesh);
+  cgal.build();
+  const auto rays = random_rays(20000);
+  const std::span<const Ray> few(rays.data(), 2000);
+  const Layout_view view = sphere.tree.view();
+  Answers ours, ours_of_few, of_cgal;
+  for (auto _ : state) {
+    ours.ask(rays, [&](const Ray& ray) {
+      const auto hit = first_hit(view, ray);
+      return hit ? hit->face : no_face;
+    });
+#ifdef LODESTONE_EMBREE
+    of_float.ask(rays, [&](const Ray& ray) { return in_float.first_face(ray); });
+    of_double.ask(rays, [&](const Ray& ray) { return in_double.first_face(ray); });
+#endif
+    of_cgal.ask(few, [&](const Ray& ray) {
+      const auto &o = ray.origin, &d = ray.direction;
+      const auto hit = cgal.first_intersected_primitive(
+          Kernel::Ray_3(Point(o.x(), o.y(), o.z()), Kernel::Vector_3(d.x(), d.y(), d.z())));
+      return hit ? static_cast<std::uint32_t>(*hit) : no_face;
+    });
+    state.SetIterationTime(1e-9 * ours.nanoseconds.back() * static_cast<double>(rays.size()));
+  }
+  state.counters["faces"] = static_cast<double>(sphere.corners.size());
+  state.counters["hits_percent"] =
+      100 - 100 * static_cast<double>(std::ranges::count(ours.faces, no_face)) / static_cast<double>(rays.size());
+  state.counters["lodestone_ns"] = ours.least();
+  state.counters["cgal_ns"] = of_cgal.least();
+  state.counters["cgal_ratio"] = of_cgal.least() / ours.least();
+  state.counters["cgal_other"] = static_cast<double>(differences(of_cgal.faces, ours.faces));
+#ifdef LODESTONE_EMBREE
+  state.counters["embree_ns"] = of_float.least();
+  state.counters["embree_ratio"] = of_float.least() / ours.least();
+  state.counters["embree_other"] = static_cast<double>(differences(of_float.faces, ours.faces));
+  state.counters["double_ns"] = of_double.least();
+  state.counters["double_ratio"] = of_double.least() / ours.least();
+  state.counters["double_other"] = static_cast<double>(differences(of_double.faces, ours.faces));
+#endif
+}
+
+BENCHMARK(first_hit_of_rays)
+    ->Name("ray/first_hit")
+    ->ArgsProduct({{22, 71, 224}})
+    ->ArgNames({"frequency"})
+    ->UseManualTime()
+    ->Iterations(7)
+    ->Unit(benchmark::kMillisecond);
+
+/// The face nearest to each of some random points, beside CGAL's `closest_point_and_primitive`. Where a vertex or an
+/// edge is nearest, all of its faces are, and CGAL may name another of them. `cgal_farther` counts the points for which
+/// CGAL's is farther by more than rounding.
+void closest_points_of_mesh(benchmark::State& state) {
+  Wavy_sphere sphere(static_cast<std::size_t>(state.range(0)));
+  sphere.move(2);
+  Cgal_tree cgal(faces(sphere.mesh).first, faces(sphere.mesh).second, sphere.mesh);
+  cgal.build();
+  cgal.accelerate_distance_queries();
+  std::vector<Point> points;
+  for (const Ray& ray : random_rays(4000)) points.emplace_back(ray.origin.x(), ray.origin.y(), ray.origin.z());
+  const Layout_view view = sphere.tree.view();
+  Answers ours, of_cgal;
+  for (auto _ : state) {
+    ours.ask(points, [&](const Point& p) { return closest_point(view, p).face; });
+    of_cgal.ask(points,
+                [&](const Point& p) { return static_cast<std::uint32_t>(cgal.closest_point_and_primitive(p).second); });
+    state.SetIterationTime(1e-9 * ours.nanoseconds.back() * static_cast<double>(points.size()));
+  }
+  state.counters["faces"] = static_cast<double>(sphere.corners.size());
+  state.counters["lodestone_ns"] = ours.least();
+  state.counters["cgal_ns"] = of_cgal.least();
+  state.counters["cgal_ratio"] = of_cgal.least() / ours.least();
+  state.counters["cgal_other"] = static_cast<double>(differences(of_cgal.faces, ours.faces));
+  state.counters["cgal_farther"] = static_cast<double>(std::ranges::count_if(points, [&](const Point& p) {
+    const double squared = CGAL::squared_distance(cgal.closest_point(p), p), distance = closest_point(view, p).distance;
+    return std::sqrt(squared) > distance + 1e-14;
+  }));
+}
+
+BENCHMARK(closest_points_of_mesh)
+    ->Name("ray/closest_point")
+    ->ArgsProduct({{22, 71, 224}})
+    ->ArgNames({"frequency"})
+    ->UseManualTime()
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+
+/// One ray per frame at a skinned worm, which takes a new pose in each: `first_hit` of its Bounded_surface, beside
+/// posing all vertices, refitting the tree and then `first_hit`. Some of the time is that of `set_joints`, in neither.
+///
+/// Reported time: that of the bounded surface. The counters are medians over the frames; `ray_us` is the part of the
+/// ray in the time of posing all.
+void ray_at_character(benchmark::State& state) {
+  Worm worm(static_cast<std::size_t>(state.range(0)));
+  std::vector<double> coordinates(3 * std::size_t{worm.points.vertex_count()});
+  Tree_surface whole(worm.corners, worm.points.shape().rest());
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<double> bounded, posed, ray_alone, percent;
+  std::size_t others = 0, hits = 0;
+  int frame = 0;
+  for (auto _ : state) {
+    ++frame;
+    worm.pose(0.1 * frame, {0, 0, 0});
+    const Eigen::Vector3d origin(8 * unit(random), 5 * unit(random), 8), at(8 * unit(random), unit(random), 0);
+    const Ray ray{origin, at - origin};
+    Lap_timer timer;
+    const auto found = first_hit(worm.surface, ray);
+    bounded.push_back(timer.lap());
+    worm.points.pose_all(coordinates);
+    Tree_surface* const trees[]{&whole};
+    const Coordinates now[]{coordinates};
+    refit(trees, now, Workers::alone());
+    const double before = timer.lap();
+    const auto truth = first_hit(whole.view(), ray);
+    ray_alone.push_back(timer.lap());
+    posed.push_back(before + ray_alone.back());
+    others += found.has_value() != truth.has_value() || (found && found->face != truth->face) ? 1 : 0;
+    hits += truth ? 1 : 0;
+    percent.push_back(100.0 * static_cast<double>(worm.surface.vertices_posed()) / worm.points.vertex_count());
+    state.SetIterationTime(bounded.back());
+  }
+  state.counters["faces"] = static_cast<double>(worm.corners.size());
+  state.counters["bounded_us"] = 1e6 * median(bounded);
+  state.counters["posed_us"] = 1e6 * median(posed);
+  state.counters["ray_us"] = 1e6 * median(ray_alone);
+  state.counters["ratio"] = median(posed) / median(bounded);
+  state.counters["posed_percent"] = median(percent);
+  state.counters["hits"] = static_cast<double>(hits);
+  state.counters["other"] = static_cast<double>(others);
+}
+
+BENCHMARK(ray_at_character)
+    ->Name("ray/character")
+    ->ArgsProduct({{32, 71, 224}})
+    ->ArgNames({"frequency"})
+    ->UseManualTime()
+    ->Iterations(100)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+}  // namespace lodestone

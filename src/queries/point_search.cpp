@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/queries/point_search.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "lodestone/mesh/errors.h"
+#include "lodestone/queries/leaf_triangle.h"
+#include "lodestone/queries/surface_on_demand.h"
+#include "lodestone/triangles/triangle_distance.h"
+#include "triangles/point_distance.h"
+
+namespace lodestone {
+
+namespace {
+
+/// A face, and how far it is from the query.
+struct Near_face {
+  std::uint32_t face;
+  Triangle triangle;
+  Distance_estimate distance;
+  std::optional<Exact_squared> exact = {};
+
+  const Exact_squared& exact_distance_from(const Point& query) {
+    if (!exact) exact = exact_squared_distance(query, triangle);
+    return *exact;
+  }
+};
+
+/// By distance, then by index. Exact numbers are needed only where the bounds overlap and the faces do not share what
+/// is nearest.
+bool is_nearer(const Point& query, Near_face& a, Near_face& b) {
+  if (a.distance.high < b.distance.low) return true;
+  if (b.distance.high < a.distance.low) return false;
+  if (a.distance.part.is_known() && a.distance.part == b.distance.part) return a.face < b.face;
+  const auto order = CGAL::compare(a.exact_distance_from(query), b.exact_distance_from(query));
+  return order != CGAL::EQUAL ? order == CGAL::SMALLER : a.face < b.face;
+}
+
+Closest_point rounded(const Query_point& query, const Near_face& nearest) {
+  const auto& [low, high, squared, weights, part] = nearest.distance;
+  const Triangle& t = nearest.triangle;
+  if (high - low <= 0x1p-31 * low) {
+    const auto mean = [&](int axis) {
+      return (1 - weights[0] - weights[1]) * t[0][axis] + weights[0] * t[1][axis] + weights[1] * t[2][axis];
+    };
+    return {nearest.face, Point(mean(0), mean(1), mean(2)), std::sqrt(squared) / query.scale};
+  }
+  const auto points = closest_points(t, {query.point, query.point, query.point});
+  return {nearest.face, points.a, points.distance};
+}
+
+/// Distances in here are squared and scaled.
+template <Surface_on_demand Surface>
+class Point_search {
+ public:
+  Point_search(Surface& surface, const Point& point)
+      : surface_(surface), query_(point, surface.box(0).low, surface.box(0).high) {}
+
+  /// @return none if the surface is broken
+  std::optional<Closest_point> run() {
+    const Tree_layout& tree = surface_.layout();
+    waiting_.push_back({0, bound(surface_.box(0))});
+    while (!waiting_.empty()) {
+      const Node_near next = waiting_.back();
+      waiting_.pop_back();
+      if (next.distance > most_) continue;
+      if (!tree.is_leaf(next.node)) {
+        open(next.node + 1, tree.node(next.node).second_child);
+        continue;
+      }
+      compare(tree.node(next.node).leaf);
+      if (surface_.is_broken()) return std::nullopt;
+    }
+    return rounded(query_, *best_);
+  }
+
+ private:
+  /// Six roundings and more.
+  static constexpr double roundings = 0x1p-48, underflow = 0x1p-1000;
+
+  /// A node, and a lower bound on its distance.
+  struct Node_near {
+    std::uint32_t node;
+    double distance;
+  };
+
+  double bound(const Aabb& box) const {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = query_.point[axis] * query_.scale;
+      const double gap = std::max({box.low[axis] * query_.scale - at, at - box.high[axis] * query_.scale, 0.0});
+      sum += gap * gap;
+    }
+    return std::max(sum * (1 - roundings) - underflow, 0.0);
+  }
+
+  /// The nearer child is pushed last.
+  void open(std::uint32_t first, std::uint32_t second) {
+    Node_near near{first, bound(surface_.box(first))}, far{second, bound(surface_.box(second))};
+    if (far.distance < near.distance) std::swap(near, far);
+    if (far.distance <= most_) waiting_.push_back(far);
+    if (near.distance <= most_) waiting_.push_back(near);
+  }
+
+  void compare(std::uint32_t index) {
+    const Aabb& box = surface_.pose(index);
+    if (surface_.is_broken() || bound(box) > most_) return;
+    const Leaf_faces leaf = surface_.view().leaf(index);
+    measure_vertices(leaf);
+    for (std::size_t i = 0; i < leaf.corners.size(); ++i)
+      if (!is_farther(leaf.corners[i])) offer(leaf, i, surface_.layout().faces(index)[i]);
+  }
+
+  /// No face is farther than its corners.
+  void measure_vertices(const Leaf_faces& leaf) {
+    for (std::size_t v = 0; v < leaf.vertices.size(); ++v) {
+      const double* p = leaf.position(v);
+      double sum = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double at = p[axis] * query_.scale, away = at - query_.point[axis] * query_.scale;
+        vertices_[v].at[axis] = at;
+        sum += away * away;
+      }
+      vertices_[v].distance = sum;
+      most_ = std::min(most_, sum * (1 + roundings) + underflow);
+    }
+  }
+
+  /// Whether a face is proven to be farther than `most_`. A point with the weights w_i in the corners c_i has the
+  /// squared distance sum w_i |c_i|^2 - sum_{i<j} w_i w_j |c_i - c_j|^2, and the sum of w_i w_j is 1/3 at most.
+  bool is_farther(const Leaf_corners& corners) const {
+    const Measured_vertex &a = vertices_[corners[0]], &b = vertices_[corners[1]], &c = vertices_[corners[2]];
+    const auto squared_edge = [](const Measured_vertex& p, const Measured_vertex& q) {
+      const double x = p.at[0] - q.at[0], y = p.at[1] - q.at[1], z = p.at[2] - q.at[2];
+      return x * x + y * y + z * z;
+    };
+    const double longest = std::max({squared_edge(a, b), squared_edge(b, c), squared_edge(c, a)});
+    const double farthest = std::max({a.distance, b.distance, c.distance});
+    return std::min({a.distance, b.distance, c.distance}) - longest / 3 - roundings * farthest - underflow > most_;
+  }
+
+  void offer(const Leaf_faces& leaf, std::size_t index, std::uint32_t face) {
+    const Triangle_corners corners = leaf_triangle(leaf, index);
+    const auto [p, q, r] = leaf.corners[index];
+    Near_face next{
+        face, {}, estimate_distance(query_, corners, {leaf.vertices[p], leaf.vertices[q], leaf.vertices[r]})};
+    if (next.distance.low > most_) return;
+    next.triangle = triangle_of(corners);
+    if (best_ && !is_nearer(query_.point, next, *best_)) return;
+    most_ = std::min(most_, next.distance.high);
+    best_ = std::move(next);
+  }
+
+  /// A vertex of a leaf, scaled.
+  struct Measured_vertex {
+    std::array<double, 3> at;
+    double distance;
+  };
+
+  Surface& surface_;
+  Query_point query_;
+  double most_ = std::numeric_limits<double>::infinity();  ///< upper bound on the distance of the nearest face
+  std::optional<Near_face> best_;
+  std::array<Measured_vertex, 3 * most_leaf_faces> vertices_;
+  boost::container::small_vector<Node_near, 64> waiting_;
+};
+
+template <Surface_on_demand Surface>
+Closest_point find_closest_point(Surface& surface, const Point& point) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(point[axis])) throw Bad_argument("the point has a coordinate that is not finite");
+  return *ask_until_settled([&] { return Point_search(surface, point).run(); }, surface);
+}
+
+}  // namespace
+
+Closest_point closest_point(const Layout_view& surface, const Point& point) {
+  Fitted_surface fitted(surface);
+  return find_closest_point(fitted, point);
+}
+
+Closest_point closest_point(Bounded_surface& surface, const Point& point) { return find_closest_point(surface, point); }
+
+}  // namespace lodestone
