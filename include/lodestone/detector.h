@@ -209,6 +209,11 @@ class Detector {
   /// All faces of an object that a ray meets, in their order along it.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) { return ask<Exact>(object).all_hits(object, ray); }
+  /// The face of an object that is nearest to a point: see `closest_point` of trees.
+  /// @throws Bad_argument, Bad_mesh  as `first_hit`
+  Closest_point closest_point(Object_id object, const Point& point) {
+    return ask<Exact>(object).closest_point(object, point);
+  }
   /// On which side of an object's surface, which is closed, a point is: see `point_side`.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   Point_side point_side(Object_id object, const Point& point) { return ask<Exact>(object).point_side(object, point); }

@@ -231,6 +231,8 @@ TEST(Certified, rays_and_points_have_the_answers_of_mode_exact) {
         const Point_side side = certified.point_side(object, beyond);
         EXPECT_EQ(side, exact.point_side(object, beyond));
         inside += side == Point_side::inside ? 1 : 0;
+        EXPECT_EQ(certified.closest_point(object, beyond).face, exact.closest_point(object, beyond).face);
+        EXPECT_EQ(certified.closest_point(object, beyond).distance, exact.closest_point(object, beyond).distance);
       }
   }
   EXPECT_GT(hits, 100U);
@@ -442,6 +444,23 @@ TEST(Certified, a_displacement_that_is_larger_than_promised_is_noticed_where_it_
     violations += found.statistics.violations;
   }
   EXPECT_GT(violations, 0U);
+}
+
+TEST(Certified, a_body_inside_another_is_found_though_its_bound_sticks_out) {
+  const Surface_mesh outer = potato(9), inner = sphere(5, 0.1);
+  const Box_promise loose([](Region_index, const Aabb& rest) {
+    Aabb box = rest;
+    for (int axis = 0; axis < 3; ++axis) box.low[axis] -= 20, box.high[axis] += 20;
+    return box;
+  });
+  Detector certified(in_mode(Mode::certified, {.exact = {.containment = true}}));
+  certified.add(outer);
+  certified.add(inner);
+  certified.promise(1, loose);
+  EXPECT_EQ(certified.detect().pairs.at(0).containment, Containment::b_in_a);
+  EXPECT_EQ(certified.detect().pairs.at(0).containment, Containment::b_in_a);  // the first frame reads everything
+  EXPECT_TRUE(certified.contains(0, 1));
+  EXPECT_FALSE(certified.contains(1, 0));
 }
 
 TEST(Certified, promises_need_the_mode_certified) {

@@ -150,7 +150,7 @@ TEST_F(Snippets, of_more_than_face_pairs) {
 
 class Certified_snippet : public Snippets {
  protected:
-  bool certified(const Surface_mesh& arm_mesh, Skinned_points& arm_points, const Eigen::Affine3d& shoulder,
+  bool certified(const Surface_mesh& arm_mesh, lodestone::Skinned_points& arm_points, const Eigen::Affine3d& shoulder,
                  const Eigen::Affine3d& elbow) {
     const Eigen::Vector3d eye(0, 0, 9), towards(0, 0, -1);
     lodestone::Detector detector({.mode = lodestone::Mode::certified});
@@ -183,7 +183,7 @@ TEST_F(Certified_snippet, of_computed_positions) {
   const bool hit = detector.detect().collides();
 
   EXPECT_EQ(hit, !detector.detect().face_pairs.empty());
-  Skinned_points& arm_points = arm;
+  lodestone::Skinned_points& arm_points = arm;
   const bool same = certified(arm_mesh, arm_points, shoulder, elbow);
   EXPECT_EQ(same, hit);
 }

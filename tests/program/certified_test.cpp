@@ -91,7 +91,7 @@ TEST_F(Certified_program, says_what_it_has_read) {
   const auto result = detect(write_bodies(), "certified", "results");
   EXPECT_NE(result.out.find("vertices read"), std::string::npos);
   EXPECT_NE(result.out.find("nodes bounded"), std::string::npos);
-  const auto summary = Json::parse(read_file(folder.path() / "results" / "summary.json"));
+  const auto summary = Json::parse(read_bytes(folder.path() / "results" / "summary.json"));
   EXPECT_EQ(summary["mode"], "certified");
   EXPECT_TRUE(summary["may_miss"].is_null());
   EXPECT_EQ(summary["mean_violations"], 0);
@@ -102,7 +102,7 @@ TEST_F(Certified_program, writes_the_same_bytes_for_any_number_of_threads_and_wi
   const auto scene = write_characters();
   detect(scene, "certified", "one");
   detect(scene, "certified", "two", {"--threads", "2"});
-  EXPECT_EQ(read_file(folder.path() / "one" / "frames.jsonl"), read_file(folder.path() / "two" / "frames.jsonl"));
+  EXPECT_EQ(read_bytes(folder.path() / "one" / "frames.jsonl"), read_file(folder.path() / "two" / "frames.jsonl"));
   const auto result = detect(scene, "certified", "checked", {"--truth", "--containment", "--closest"});
   for (const auto& frame : frames("checked"))
     for (const auto& pair : frame["pairs"]) EXPECT_EQ(pair["collides"], pair["truth"]);

@@ -21,6 +21,7 @@
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/containment.h"
 #include "lodestone/queries/parting.h"
+#include "lodestone/queries/point_search.h"
 #include "lodestone/queries/ray_search.h"
 #include "lodestone/queries/surface_triangle.h"
 #include "lodestone/volumes/to_box.h"
@@ -115,6 +116,9 @@ class Exact_detection final : public Detection {
   }
   std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) {
     return of_surface(object, [&ray](auto& surface) { return lodestone::all_hits(surface, ray); });
+  }
+  Closest_point closest_point(Object_id object, const Point& point) {
+    return of_surface(object, [&point](auto& surface) { return lodestone::closest_point(surface, point); });
   }
   Point_side point_side(Object_id object, const Point& point) {
     return of_surface(object, [&point](auto& surface) { return lodestone::point_side(surface, point); });
