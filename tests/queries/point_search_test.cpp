@@ -148,6 +148,29 @@ TEST(Point_search, from_the_centre_of_a_ball_decides_exactly_between_all_faces) 
   EXPECT_TRUE(expect_nearest({&box}, {0.5, 0.5, 0.5}));
 }
 
+TEST(Point_search, decides_exactly_between_a_vertex_and_an_edge_that_is_hardly_nearer) {
+  std::mt19937_64 random(9);
+  const auto vector = [&] {
+    std::uniform_real_distribution<double> unit(-1, 1);
+    return Eigen::Vector3d(unit(random), unit(random), unit(random));
+  };
+  int nearer = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Vector3d q = vector(), across = q.cross(vector());
+    Face_soup soup;  // two faces that share a vertex at the origin; an edge of the second is orthogonal up to rounding
+    for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(-q + 0.5 * vector() * q.norm()),
+                                     Eigen::Vector3d(-q + 0.5 * vector() * q.norm()), across})
+      soup.coordinates.insert(soup.coordinates.end(), p.data(), p.data() + 3);
+    soup.faces = {{0, 1, 2}, {0, 3, 2}};
+    const Posed_object object(soup, 2, false);
+    const Point query(q.x(), q.y(), q.z());
+    expect_nearest({&object}, query);
+    nearer += true_nearest(soup, query).face == 1 ? 1 : 0;
+  }
+  EXPECT_GT(nearer, 40);
+  EXPECT_LT(nearer, 160);
+}
+
 TEST(Point_search, at_a_distance_that_overflows_is_infinite) {
   const Posed_object ball(placed(icosphere(1), 1e300, -1.7e308));
   const auto found = closest_point(ball.view(), Point(1.7e308, 1.7e308, 1.7e308));
