@@ -5,11 +5,19 @@
 #include <utility>
 
 #include "lodestone/bounds/linear_bound.h"
+#include "lodestone/bounds/lipschitz_bound.h"
 #include "lodestone/bounds/placed_bound.h"
 #include "lodestone/io/motion/deformed_points.h"
 
 namespace lodestone {
 namespace {
+
+std::vector<double> coordinates_of(const std::vector<Point>& points) {
+  std::vector<double> coordinates;
+  coordinates.reserve(3 * points.size());
+  for (const Point& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+  return coordinates;
+}
 
 /// What stays where it is: its boxes at rest are exact.
 class Still final : public Computed_motion {
@@ -27,38 +35,24 @@ class Still final : public Computed_motion {
   Coordinates pose_all(std::span<double> /*coordinates*/) const override { return points_.rest(); }
 
  private:
-  static std::vector<double> coordinates_of(const std::vector<Point>& points) {
-    std::vector<double> coordinates;
-    coordinates.reserve(3 * points.size());
-    for (const Point& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-    return coordinates;
-  }
-
   Morphed_points points_;
 };
 
-/// Nothing is known about it: all boxes are open.
-struct Open_bound {
-  std::size_t nodes;
-  std::size_t node_count() const { return nodes; }
-  Aabb box(std::uint32_t /*node*/) const {
-    Aabb box{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.high[axis] = std::numeric_limits<double>::infinity();
-      box.low[axis] = -box.high[axis];
-    }
-    return box;
-  }
-};
-
+/// Bounded by the Lipschitz constant of its deformations.
 class Deforming final : public Computed_motion {
  public:
-  Deforming(std::vector<Point> rest, std::vector<Deformation> deformations)
-      : points_(std::move(rest), std::move(deformations)) {}
+  Deforming(const std::vector<Point>& rest, std::vector<Deformation> deformations)
+      : rest_(coordinates_of(rest)), points_(rest, std::move(deformations)) {
+    follow();
+  }
 
-  void set_frame(std::size_t frame) override { points_.set_frame(static_cast<double>(frame)); }
+  void set_frame(std::size_t frame) override {
+    points_.set_frame(static_cast<double>(frame));
+    follow();
+  }
+  /// The constant is about these points at rest, and about where they are before anybody places them.
   Any_bound bound(const Bounded_object& object) const override {
-    return Any_bound(Open_bound{object.layout.node_count()});
+    return Any_bound(promise_.bound({object.layout, object.labels, rest_, *this}));
   }
   std::uint32_t vertex_count() const override { return points_.vertex_count(); }
   std::uint64_t pose_number() const override { return points_.pose_number(); }
@@ -72,7 +66,11 @@ class Deforming final : public Computed_motion {
   }
 
  private:
+  void follow() { promise_.set_constant(points_.lipschitz_constant(), points_.position_error()); }
+
+  std::vector<double> rest_;
   Deformed_points points_;
+  Lipschitz_promise promise_;
 };
 
 /// Another motion, changed.
@@ -159,7 +157,7 @@ class Held final : public Changed {
 
 std::unique_ptr<Computed_motion> computed_deformation(std::vector<Point> rest, std::vector<Deformation> deformations) {
   if (deformations.empty()) return std::make_unique<Still>(rest);
-  return std::make_unique<Deforming>(std::move(rest), std::move(deformations));
+  return std::make_unique<Deforming>(rest, std::move(deformations));
 }
 
 std::unique_ptr<Computed_motion> placed(std::unique_ptr<Computed_motion> motion,
