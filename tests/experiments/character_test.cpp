@@ -59,7 +59,8 @@ TEST(Subdivided_character, weights_and_offsets_are_the_means_of_those_of_the_cor
     EXPECT_NEAR(sum, 1, 1e-15);
     EXPECT_NEAR(found, second, 1e-15) << x << ' ' << y;
     double lifted = 0;
-    fine.points.shape().for_each_offset(v, [&](std::uint32_t, std::span<const double, 3> offset) { lifted += offset[2]; });
+    fine.points.shape().for_each_offset(v,
+                                        [&](std::uint32_t, std::span<const double, 3> offset) { lifted += offset[2]; });
     EXPECT_NEAR(lifted, std::min(x, y), 1e-15);
   }
 }
@@ -110,8 +111,9 @@ TEST(Made_character, each_point_is_moved_by_few_joints_with_weights_of_sum_1) {
     const auto joints = joints_at(hand, 0.5 * (capsule.from + capsule.to));
     EXPECT_LE(joints.size(), 4U);
     EXPECT_EQ(joints.front().first, capsule.joint);
-    EXPECT_NEAR(std::accumulate(joints.begin(), joints.end(), 0.0, [](double s, const auto& j) { return s + j.second; }),
-                1, 1e-15);
+    EXPECT_NEAR(
+        std::accumulate(joints.begin(), joints.end(), 0.0, [](double s, const auto& j) { return s + j.second; }), 1,
+        1e-15);
   }
 }
 
@@ -120,8 +122,7 @@ TEST(Character_scene, characters_touch_at_a_small_part_in_some_frames) {
   ASSERT_TRUE(hand);
   Character_scene scene = touching("hands", *hand, *hand);
   Detector<> exact;
-  for (const auto& character : scene.characters)
-    exact.add(character.mesh, point_map(character.mesh, character.points));
+  for (const auto& character : scene.characters) exact.add(character.mesh, point_map(character.mesh, character.points));
   std::size_t colliding = 0, frames = 0;
   for (std::size_t frame = 0; frame < scene.frames.size(); frame += 3, ++frames) {
     scene.pose(frame);

@@ -36,7 +36,7 @@ TEST(Certified_experiment, measures_characters_and_scenes_with_promises) {
     EXPECT_EQ(promise["wrong_sets"], 0);
     EXPECT_EQ(promise["broken"], 0);
   }
-  EXPECT_LT(tiny["promises"][0]["vertices_read_median"], tiny["exact"]["vertices_read_median"]);
+  EXPECT_LT(tiny["promises"][0]["yes_no_read_median"], tiny["exact"]["yes_no_read_median"]);
   EXPECT_NE(read_bytes(out / "certified.md").find("## Scenes with promises"), std::string::npos);
 }
 
@@ -49,8 +49,8 @@ TEST(Certified_experiment, writes_its_characters_and_plays_those_of_another_fold
   std::filesystem::remove(characters / "face.glb");
   std::filesystem::rename(characters / "hand.glb", characters / "paw.glb");
   const auto out = folder.path() / "out";
-  expect_success(run_program({"experiment", "certified", "--scenes", characters.string(), "--only", "paw,5000", "--out",
-                              out.string()}));
+  expect_success(run_program(
+      {"experiment", "certified", "--scenes", characters.string(), "--only", "paw,5000", "--out", out.string()}));
   const auto figures = read_json(out / "certified.json");
   ASSERT_EQ(figures["characters"].size(), 1U);
   EXPECT_EQ(figures["characters"][0]["scene"], "paw");
