@@ -32,7 +32,10 @@ class Still final : public Computed_motion {
   void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
     points_.pose(vertices, coordinates);
   }
-  Coordinates pose_all(std::span<double> /*coordinates*/) const override { return points_.rest(); }
+  Coordinates pose_all(std::span<double> coordinates) const override {
+    points_.pose_all(coordinates);
+    return coordinates;
+  }
 
  private:
   Morphed_points points_;
