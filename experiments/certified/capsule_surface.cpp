@@ -63,7 +63,8 @@ class Grid {
   Grid(std::span<const Capsule> capsules, const Smooth_union& function, double cell) : cell_(cell) {
     Vector3d low = capsules.front().from, high = low;
     for (const auto& capsule : capsules)
-      for (const auto& [end, radius] : {std::pair(capsule.from, capsule.radius_from), {capsule.to, capsule.radius_to}}) {
+      for (const auto& [end, radius] :
+           {std::pair(capsule.from, capsule.radius_from), {capsule.to, capsule.radius_to}}) {
         low = low.cwiseMin((end.array() - radius).matrix());
         high = high.cwiseMax((end.array() + radius).matrix());
       }

@@ -33,8 +33,10 @@ struct Own_scene {
   double aside = 0;
 };
 /// Where both stretch out their right hands, these meet if the second stands aside.
-constexpr Own_scene own_scenes[] = {
-    {"hands", "hand", "hand"}, {"hand_face", "hand", "face"}, {"faces", "face", "face"}, {"bodies", "body", "body", -0.74}};
+constexpr Own_scene own_scenes[] = {{"hands", "hand", "hand"},
+                                    {"hand_face", "hand", "face"},
+                                    {"faces", "face", "face"},
+                                    {"bodies", "body", "body", -0.74}};
 
 /// A scene that is made when its turn comes.
 struct Scene_source {
@@ -173,7 +175,8 @@ std::string run_certified(const Experiment_context& context) {
     });
     report += (report.empty() ? "" : "\n") + table(promised);
   }
-  if (!plan.skipped.empty()) report += fmt::format("\nSkipped, because nothing moves: {}.\n", fmt::join(plan.skipped, ", "));
+  if (!plan.skipped.empty())
+    report += fmt::format("\nSkipped, because nothing moves: {}.\n", fmt::join(plan.skipped, ", "));
   write_json(context.out, "certified", json);
   return report;
 }

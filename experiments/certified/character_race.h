@@ -11,9 +11,9 @@
 namespace lodestone {
 
 struct Character_race_options {
-  std::size_t most_frames = 31;         ///< of a scene, spread evenly
-  std::size_t passes = 3;               ///< over all frames; the least time of each frame counts
-  double enough_seconds = 4;            ///< per rival and question; beyond, it starts no further pass
+  std::size_t most_frames = 31;  ///< of a scene, spread evenly
+  std::size_t passes = 3;        ///< over all frames; the least time of each frame counts
+  double enough_seconds = 4;     ///< per rival and question; beyond, it starts no further pass
 };
 
 /// What one way took and answered on one scene.
@@ -45,8 +45,8 @@ struct Character_figures {
   std::size_t triangles = 0, vertices = 0;  ///< of both
   double influences = 0;                    ///< joints per vertex, mean
   std::vector<std::size_t> frames = {};
-  std::size_t colliding = 0;         ///< frames
-  double pose_seconds = 0;           ///< posing everything, median
+  std::size_t colliding = 0;  ///< frames
+  double pose_seconds = 0;    ///< posing everything, median
   std::vector<Rival_figures> rivals = {};
   Certified_counts certified = {};
 };

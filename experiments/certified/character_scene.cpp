@@ -84,13 +84,13 @@ Character_scene touching(std::string name, const Character& first, const Charact
   Approach approach(first, second);
   const std::size_t frames = std::min(first.animation.size(), second.animation.size());
   const double size = box_of(first.points).diagonal().norm();
-  const Eigen::Affine3d facing =
-      Eigen::Translation3d(0, aside, 0) * Eigen::Affine3d(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  const Eigen::Affine3d facing = Eigen::Translation3d(0, aside, 0) *
+                                 Eigen::Affine3d(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const Skin_pose& a = first.animation[frame];
     const Skin_pose b = second.animation[(frame + frames / 2) % frames].placed(facing);
-    const double wave = std::sin(2 * std::numbers::pi * waves * (static_cast<double>(frame) + 0.5) /
-                                 static_cast<double>(frames));
+    const double wave =
+        std::sin(2 * std::numbers::pi * waves * (static_cast<double>(frame) + 0.5) / static_cast<double>(frames));
     const double x = approach.meeting(a, b) + deepest * size * wave;
     scene.frames.push_back({a, b.placed(Eigen::Affine3d(Eigen::Translation3d(x, 0, 0)))});
   }
@@ -98,10 +98,11 @@ Character_scene touching(std::string name, const Character& first, const Charact
 }
 
 Character_scene knots_through_each_other() {
-  Character_scene scene{.name = "knots",
-                        .characters = {knot("trefoil", {.p = 2, .q = 3, .segments = 120, .sides = 10}),
-                                       knot("cinquefoil", {.p = 2, .q = 5, .tube = 0.15, .segments = 120, .sides = 10})},
-                        .everything_is_near = true};
+  Character_scene scene{
+      .name = "knots",
+      .characters = {knot("trefoil", {.p = 2, .q = 3, .segments = 120, .sides = 10}),
+                     knot("cinquefoil", {.p = 2, .q = 5, .tube = 0.15, .segments = 120, .sides = 10})},
+      .everything_is_near = true};
   constexpr std::size_t frames = 91;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const double turn = 2 * std::numbers::pi * static_cast<double>(frame) / frames;
@@ -114,9 +115,7 @@ Character_scene knots_through_each_other() {
 }
 
 Character_scene with_triangles(const Character_scene& scene, std::size_t triangles) {
-  const auto fine = [&](const Character& character) {
-    return subdivided(character, parts_for(character, triangles));
-  };
+  const auto fine = [&](const Character& character) { return subdivided(character, parts_for(character, triangles)); };
   return {.name = scene.name,
           .characters = {fine(scene.characters[0]), fine(scene.characters[1])},
           .frames = scene.frames,

@@ -27,8 +27,7 @@ class Glb_buffer {
   std::size_t add(const char* type, const std::vector<std::vector<Number>>& rows, bool with_range = false) {
     bytes_.resize((bytes_.size() + 3) / 4 * 4);
     const std::size_t offset = bytes_.size();
-    for (const auto& row : rows)
-      bytes_.append(reinterpret_cast<const char*>(row.data()), row.size() * sizeof(Number));
+    for (const auto& row : rows) bytes_.append(reinterpret_cast<const char*>(row.data()), row.size() * sizeof(Number));
     views_.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes_.size() - offset}});
     accessors_.push_back({{"bufferView", views_.size() - 1},
                           {"componentType", component_type(Number{})},
@@ -62,7 +61,8 @@ class Glb_buffer {
   void add_range(const std::vector<std::vector<Number>>& rows) {
     auto low = rows.front(), high = rows.front();
     for (const auto& row : rows)
-      for (std::size_t i = 0; i < row.size(); ++i) low[i] = std::min(low[i], row[i]), high[i] = std::max(high[i], row[i]);
+      for (std::size_t i = 0; i < row.size(); ++i)
+        low[i] = std::min(low[i], row[i]), high[i] = std::max(high[i], row[i]);
     accessors_.back()["min"] = low;
     accessors_.back()["max"] = high;
   }

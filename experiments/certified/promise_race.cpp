@@ -53,7 +53,8 @@ class Promised_object {
   }
   double largest_step() const {
     double largest = 0;
-    for (const auto v : object_->mesh.vertices()) largest = std::max(largest, distance(last_[v], object_->mesh.point(v)));
+    for (const auto v : object_->mesh.vertices())
+      largest = std::max(largest, distance(last_[v], object_->mesh.point(v)));
     return largest;
   }
   double largest_stretch() const {
@@ -96,7 +97,8 @@ class Promise_runner {
     row.wrong_answers += truth != nullptr && any.collides() != truth->collides() ? 1 : 0;
     row.wrong_sets += truth != nullptr && all.face_pairs != truth->face_pairs ? 1 : 0;
     if (is_timed) {
-      row.read.push_back(static_cast<double>(any.statistics.vertices_read));
+      row.any_read.push_back(static_cast<double>(any.statistics.vertices_read));
+      row.all_read.push_back(static_cast<double>(all.statistics.vertices_read));
       row.any_seconds.push_back(any_seconds);
       row.all_seconds.push_back(all_seconds);
     }

@@ -17,7 +17,7 @@ namespace lodestone {
 
 /// A motion whose frames need not be posed as a whole: its positions are computed one by one, with the same bits, and
 /// it tells where they can be. A model of Computed_points and of Motion_promise, so mode `certified` reads from it only
-/// what is near.
+/// what is near. As a model of Computed_points it writes all positions to the memory given to `pose_all`.
 class Computed_motion : public Position_source {
  public:
   /// Changes the pose.
