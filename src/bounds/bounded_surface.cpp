@@ -87,7 +87,7 @@ void Bounded_surface::read(std::uint32_t leaf) {
 
 void Bounded_surface::pose_all() {
   if (all_posed_) return;
-  const Coordinates coordinates = positions_->pose_all(coordinates_);
+  const Coordinates coordinates = positions_->all(coordinates_);
   const std::vector<Aabb> promised(boxes_.begin(), boxes_.end());
   Tree_surface* const tree[] = {tree_};
   refit(tree, std::span(&coordinates, 1), *workers_);

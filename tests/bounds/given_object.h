@@ -2,6 +2,7 @@
 // An object whose positions are given, and how its nodes lie in their boxes.
 #pragma once
 
+#include <algorithm>
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <random>
@@ -30,7 +31,8 @@ class Given_positions final : public Position_source {
     for (const auto vertex : vertices)
       Eigen::Map<Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{vertex}) = (*this)(vertex);
   }
-  Coordinates pose_all(std::span<double>) const override { return *coordinates_; }
+  void pose_all(std::span<double> coordinates) const override { std::ranges::copy(*coordinates_, coordinates.begin()); }
+  Coordinates all(std::span<double> /*memory*/) const override { return *coordinates_; }
 
  private:
   const std::vector<double>* coordinates_;

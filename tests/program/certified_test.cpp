@@ -102,7 +102,7 @@ TEST_F(Certified_program, writes_the_same_bytes_for_any_number_of_threads_and_wi
   const auto scene = write_characters();
   detect(scene, "certified", "one");
   detect(scene, "certified", "two", {"--threads", "2"});
-  EXPECT_EQ(read_bytes(folder.path() / "one" / "frames.jsonl"), read_file(folder.path() / "two" / "frames.jsonl"));
+  EXPECT_EQ(read_bytes(folder.path() / "one" / "frames.jsonl"), read_bytes(folder.path() / "two" / "frames.jsonl"));
   const auto result = detect(scene, "certified", "checked", {"--truth", "--containment", "--closest"});
   for (const auto& frame : frames("checked"))
     for (const auto& pair : frame["pairs"]) EXPECT_EQ(pair["collides"], pair["truth"]);

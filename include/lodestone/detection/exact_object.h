@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -147,7 +149,10 @@ class Exact_object {
       return object_->placement_ ? (*object_->placement_)(position) : position;
     }
     void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override;
-    Coordinates pose_all(std::span<double> /*coordinates*/) const override { return object_->read(); }
+    void pose_all(std::span<double> coordinates) const override {
+      std::ranges::copy(object_->read(), coordinates.begin());
+    }
+    Coordinates all(std::span<double> /*memory*/) const override { return object_->read(); }
 
    private:
     Exact_object* object_;

@@ -25,9 +25,15 @@ class Position_source {
   /// @param coordinates  3 V; only those of the list are written
   virtual void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const = 0;
   /// All of them.
-  /// @param coordinates  3 V: memory, which need not be used
-  /// @return where they are: in that memory, or in that of the mesh
-  virtual Coordinates pose_all(std::span<double> coordinates) const = 0;
+  /// @param coordinates  3 V, written
+  virtual void pose_all(std::span<double> coordinates) const = 0;
+  /// All of them, where they lie in memory already.
+  /// @param memory  3 V: written if they do not
+  /// @return where they are: in that memory, or in that of a mesh
+  virtual Coordinates all(std::span<double> memory) const {
+    pose_all(memory);
+    return memory;
+  }
 };
 
 /// Computed points as a Position_source.
@@ -43,10 +49,7 @@ class Computed_source final : public Position_source {
   void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
     points_->pose(vertices, coordinates);
   }
-  Coordinates pose_all(std::span<double> coordinates) const override {
-    points_->pose_all(coordinates);
-    return coordinates;
-  }
+  void pose_all(std::span<double> coordinates) const override { points_->pose_all(coordinates); }
 
  private:
   const Points* points_;

@@ -24,7 +24,7 @@ class Still final : public Computed_motion {
   void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
     points_.pose(vertices, coordinates);
   }
-  Coordinates pose_all(std::span<double> /*coordinates*/) const override { return points_.rest(); }
+  void pose_all(std::span<double> coordinates) const override { points_.pose_all(coordinates); }
 
  private:
   static std::vector<double> coordinates_of(const std::vector<Point>& points) {
@@ -50,10 +50,7 @@ class Deforming final : public Computed_motion {
   void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
     points_.pose(vertices, coordinates);
   }
-  Coordinates pose_all(std::span<double> coordinates) const override {
-    points_.pose_all(coordinates);
-    return coordinates;
-  }
+  void pose_all(std::span<double> coordinates) const override { points_.pose_all(coordinates); }
 
  private:
   Deformed_points points_;
@@ -72,7 +69,7 @@ class Changed : public Computed_motion {
   void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
     inner_->pose(vertices, coordinates);
   }
-  Coordinates pose_all(std::span<double> coordinates) const override { return inner_->pose_all(coordinates); }
+  void pose_all(std::span<double> coordinates) const override { inner_->pose_all(coordinates); }
 
  protected:
   std::unique_ptr<Computed_motion> inner_;
@@ -99,12 +96,12 @@ class Placed final : public Changed {
       position = placed(position);
     }
   }
-  Coordinates pose_all(std::span<double> coordinates) const override {
-    const Coordinates unplaced = inner_->pose_all(coordinates);
-    for (std::size_t i = 0; i < unplaced.size(); i += 3)
-      Eigen::Map<Eigen::Vector3d>(coordinates.data() + i) =
-          placed(Eigen::Map<const Eigen::Vector3d>(unplaced.data() + i));
-    return coordinates;
+  void pose_all(std::span<double> coordinates) const override {
+    inner_->pose_all(coordinates);
+    for (std::size_t i = 0; i < coordinates.size(); i += 3) {
+      Eigen::Map<Eigen::Vector3d> position(coordinates.data() + i);
+      position = placed(position);
+    }
   }
 
  private:
@@ -128,7 +125,8 @@ class Held final : public Changed {
  public:
   Held(std::unique_ptr<Computed_motion> motion, std::size_t last) : Changed(std::move(motion)), last_(last) {}
   void set_frame(std::size_t frame) override {
-    if (frame <= last_) inner_->set_frame(frame);
+    if (frame <= last_)
+      inner_->set_frame(frame);
     else if (!ended_) inner_->set_frame(last_);
     ended_ = frame >= last_;
   }

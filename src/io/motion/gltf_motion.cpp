@@ -120,10 +120,7 @@ class Gltf_computed final : public Computed_motion {
   void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
     points_.points().pose(vertices, coordinates);
   }
-  Coordinates pose_all(std::span<double> coordinates) const override {
-    points_.points().pose_all(coordinates);
-    return coordinates;
-  }
+  void pose_all(std::span<double> coordinates) const override { points_.points().pose_all(coordinates); }
   void pose_all(std::span<Point> positions) const { lodestone::pose_all(points_, scene_->name, positions); }
 
  private:
