@@ -17,7 +17,7 @@ struct Chosen_peer {
   const char *library, *method, *volume;
   std::size_t most_triangles = 0;  ///< as in Rival_kind
 };
-// FCL and ODE were the slowest at 100 000 triangles, and take minutes for more.
+// FCL and ODE were the slowest at 100 000 triangles.
 constexpr Chosen_peer chosen_peers[] = {{"CGAL", "box_intersection_d, overlap only", "boxes, no tree"},
                                         {"Embree", "refit", "AABB"},
                                         {"ODE", "OPCODE, refit", "AABB", 600'000},
