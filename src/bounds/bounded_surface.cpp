@@ -53,11 +53,25 @@ void Bounded_surface::start_frame() {
   const std::uint64_t pose = positions_->pose_number();
   if (pose > 0 && pose_ == pose) return;
   pose_ = pose;
+  plan_frame();
   ++frame_;
-  all_posed_ = false;
+  all_posed_ = much_was_near_ = false;
+  bounded_.clear();
   violations_settled_ = 0;
   violations_ = nodes_bounded_ = leaves_posed_ = vertices_posed_ = 0;
   tree_->follow(coordinates_);
+}
+
+/// From the last frame: whether to try leaf by leaf again.
+void Bounded_surface::plan_frame() {
+  constexpr std::size_t longest_pause = 16;
+  if (pause_left_ > 0) {
+    pause_left_ = much_was_near_ ? pause_left_ - 1 : 0;
+    if (!much_was_near_) pause_ = 0;
+    return;
+  }
+  pause_ = much_was_near_ ? std::clamp<std::size_t>(2 * pause_, 1, longest_pause) : 0;
+  pause_left_ = pause_;
 }
 
 void Bounded_surface::bound(std::uint32_t node) {
@@ -66,11 +80,15 @@ void Bounded_surface::bound(std::uint32_t node) {
   for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node));
   boxes_[node] = box;
   boxed_in_[node] = frame_;
+  bounded_.push_back(node);
   ++nodes_bounded_;
 }
 
 void Bounded_surface::read(std::uint32_t leaf) {
-  if (vertices_posed_ > layout().all_vertices().size() / many_posed) return pose_all();
+  if (pause_left_ > 0 || vertices_posed_ > layout().all_vertices().size() / many_posed) {
+    much_was_near_ = true;
+    return pose_all();
+  }
   const std::uint32_t node = layout().leaf_node(leaf);
   const Aabb promised = box(node), promised_whole = box(0);
   if (all_posed_) return;  // there were no bounds
@@ -88,15 +106,17 @@ void Bounded_surface::read(std::uint32_t leaf) {
 void Bounded_surface::pose_all() {
   if (all_posed_) return;
   const Coordinates coordinates = positions_->all(coordinates_);
-  const std::vector<Aabb> promised(boxes_.begin(), boxes_.end());
+  std::vector<Aabb> promised;
+  promised.reserve(bounded_.size());
+  for (const std::uint32_t node : bounded_) promised.push_back(boxes_[node]);
   Tree_surface* const tree[] = {tree_};
   refit(tree, std::span(&coordinates, 1), *workers_);
   if (!tree_->finite()) {
     pose_ = 0;  // no box means anything: the next frame is a new one, even in this pose
     for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf) check_finite(leaf);
   }
-  for (std::uint32_t node = 0; node < layout().node_count(); ++node)
-    if (boxed_in_[node] == frame_ && !contains(promised[node], boxes_[node])) ++violations_;
+  for (std::size_t i = 0; i < bounded_.size(); ++i)
+    if (!contains(promised[i], boxes_[bounded_[i]])) ++violations_;
   note_refitted();
 }
 

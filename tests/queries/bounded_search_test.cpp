@@ -109,6 +109,34 @@ TEST(Bounded_search, poses_little_where_little_is_near) {
   EXPECT_LT(a.surface.vertices_posed(), a.points.vertex_count() / 10);
 }
 
+TEST(Bounded_surface, that_was_posed_as_a_whole_poses_leaf_by_leaf_again_when_little_is_near) {
+  Arm a(long_potato(16, 1), false), b(long_potato(16, 1), false);
+  Bounded_search search;
+  const auto play = [&](double x, int frame) {
+    a.pose(0.3 + 0.001 * frame, {0, 0, 0});
+    b.pose(0.3, {x, 0.005, 0});
+    std::vector<Face_pair> found;
+    search.run(a.surface, b.surface, {}, found);
+    EXPECT_EQ(found, exhaustive_face_pairs(a.mesh, b.mesh));
+  };
+  int by_leaf = 0;
+  for (int frame = 0; frame < 40; ++frame) {
+    play(0.01, frame);
+    EXPECT_TRUE(a.surface.all_posed());
+    by_leaf += a.surface.nodes_bounded() > 20 ? 1 : 0;  // before it gave up
+  }
+  EXPECT_GE(by_leaf, 3);
+  EXPECT_LE(by_leaf, 8);
+  play(30, 100);  // nothing is near
+  EXPECT_EQ(a.surface.vertices_posed(), 0U);
+  for (double x = 6.5; x > 4; x -= 0.02) {
+    play(x, static_cast<int>(100 * x));
+    if (a.surface.leaves_posed() > 0) break;
+  }
+  EXPECT_GT(a.surface.leaves_posed(), 0U);
+  EXPECT_FALSE(a.surface.all_posed());
+}
+
 TEST(Bounded_search, poses_all_where_much_is_near) {
   Arm a(long_potato(12, 1), false), b(long_potato(12, 1), false);
   a.pose(0.3, {0, 0, 0});
@@ -123,7 +151,7 @@ TEST(Bounded_search, that_notices_a_broken_bound_poses_all_and_is_right) {
   b.pose(0.8, {1.5, 0.3, 0});
   int broken = 0;
   for (std::uint32_t from = 0; from < a.bound.node_count(); ++from) {
-    const Broken_bound lie{a.bound, from};
+    const Shrunk_bound lie{a.bound, from};
     Tree_surface tree = a.tree;
     Bounded_surface surface(tree, a.points, lie);
     Bounded_search search;
@@ -142,7 +170,7 @@ TEST(Bounded_surface, compares_what_it_poses_with_the_boxes_that_were_in_use) {
   Arm a(long_potato(20, 1), false);
   a.pose(0.4, {0, 0, 0});
   const std::uint32_t leaf = 3, node = a.layout.leaf_node(leaf);
-  const Broken_bound lie{a.bound, 1};  // of all nodes but the root
+  const Shrunk_bound lie{a.bound, 1};  // of all nodes but the root
   std::array<Tree_surface, 3> trees{a.tree, a.tree, a.tree};
   Bounded_surface by_leaf(trees[0], a.points, lie), by_node(trees[1], a.points, lie), unused(trees[2], a.points, lie);
   by_leaf.pose(leaf);

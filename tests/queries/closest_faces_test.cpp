@@ -188,7 +188,7 @@ TEST(Closest_faces, are_right_where_a_broken_bound_is_noticed) {
   b.pose(0.8, {1.5, 2.5, 0});
   int broken = 0;
   for (std::uint32_t from = 0; from < a.bound.node_count(); from += 3) {
-    const Broken_bound lie{a.bound, from};
+    const Shrunk_bound lie{a.bound, from};
     Tree_surface tree = a.tree;
     Bounded_surface surface(tree, a.points, lie);
     closest_faces(surface, b.surface);

@@ -226,7 +226,7 @@ TEST(Point_search, is_right_where_a_broken_bound_is_noticed) {
   const Posed_object fitted{Face_soup(arm.mesh)};
   int broken = 0;
   for (std::uint32_t from = 0; from < arm.bound.node_count(); from += 3) {
-    const Broken_bound lie{arm.bound, from};
+    const Shrunk_bound lie{arm.bound, from};
     Tree_surface tree = arm.tree;
     Bounded_surface surface(tree, arm.points, lie);
     const Point query(0.1 * (from % 40) - 2, 1.5, 0.2);

@@ -359,7 +359,7 @@ TEST(Ray_search, is_right_where_a_broken_bound_is_noticed) {
   const Posed_object fitted{Face_soup(arm.mesh)};
   int broken = 0;
   for (std::uint32_t from = 0; from < arm.bound.node_count(); from += 3) {
-    const Broken_bound lie{arm.bound, from};
+    const Shrunk_bound lie{arm.bound, from};
     for (std::uint32_t leaf = 0; leaf < arm.layout.leaf_count(); ++leaf) {
       Tree_surface tree = arm.tree;
       Bounded_surface surface(tree, arm.points, lie);

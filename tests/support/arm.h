@@ -77,7 +77,7 @@ inline Surface_mesh long_potato(int parts, std::uint64_t seed) {
 }
 
 /// Promises a box that is too small for some nodes.
-struct Broken_bound {
+struct Shrunk_bound {
   const Skin_bound& truth;
   std::uint32_t from;  ///< nodes from here on shrink
 
@@ -93,7 +93,7 @@ struct Broken_bound {
     return box;
   }
 };
-static_assert(Motion_bound<Broken_bound>);
+static_assert(Motion_bound<Shrunk_bound>);
 
 /// Promises nothing.
 struct No_bound {

@@ -24,6 +24,10 @@ namespace lodestone {
 /// and where all vertices are posed with all boxes in use. If one lies outside, `is_broken()` says so, and whoever
 /// relied on boxes must `settle` the surface and ask again.
 ///
+/// Where much is near, posing leaf by leaf takes longer than posing all. So all vertices are posed once a seventh of
+/// them has been, and in the next frames as soon as one leaf is needed: for 1 frame, then after another such try for 2,
+/// 4 and at most 16. A frame in which less was needed ends that.
+///
 /// Boxes and positions are written to the tree's surface. Not for several threads at once.
 class Bounded_surface {
  public:
@@ -104,6 +108,7 @@ class Bounded_surface {
     (list.push_back(std::make_unique<Node_bound_of<Bounds&>>(bounds)), ...);
     return list;
   }
+  void plan_frame();
   void bound(std::uint32_t node);
   void read(std::uint32_t leaf);
   void note_refitted();
@@ -121,6 +126,9 @@ class Bounded_surface {
   std::vector<std::uint64_t> posed_in_;  ///< per leaf: the frame in which it was posed
   std::uint64_t frame_ = 0, pose_ = 0;
   bool all_posed_ = false;
+  bool much_was_near_ = false;           ///< all vertices were posed because many were asked for
+  std::size_t pause_ = 0, pause_left_ = 0;  ///< frames in which leaves are not posed one by one
+  std::vector<std::uint32_t> bounded_;   ///< nodes whose boxes come from bounds, in this frame
   std::size_t violations_ = 0, violations_settled_ = 0, nodes_bounded_ = 0, leaves_posed_ = 0, vertices_posed_ = 0;
 };
 
