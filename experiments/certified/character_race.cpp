@@ -20,9 +20,9 @@ namespace {
 
 /// One rival at the start.
 struct Runner {
-  Rival_figures figures;
-  bool lists_pairs;
-  std::unique_ptr<Rival> rival;
+  Rival_figures figures = {};
+  bool lists_pairs = false;
+  std::unique_ptr<Rival> rival = {};
   double any_spent = 0, all_spent = 0;
 };
 

@@ -37,8 +37,8 @@ struct Made_target {
 };
 
 struct Made_character {
-  std::string name;
-  std::vector<Capsule> capsules;
+  std::string name = {};
+  std::vector<Capsule> capsules = {};
   Capsule_surface_options surface = {};
   std::vector<Made_joint> joints = {};  ///< each after its parent; empty: no skin
   double blend = 0.1;                   ///< how far from its border a joint still moves vertices of the next one

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,15 @@ inline void refuse_options_beside_meetings(const CLI::App& detect, std::size_t m
   for (const auto* option : {"--opening-budget", "--opening-reach"})
     if (meetings == 0 && detect.count(option) > 0)
       throw Bad_argument(fmt::format("{} has no effect with --meetings 0", option));
+}
+
+/// `exact`, `exact or particles`, `exact, certified or particles`.
+inline std::string names_of(const std::vector<Mode>& modes) {
+  std::vector<std::string_view> names;
+  for (const auto mode : modes) names.push_back(name_of(mode));
+  const auto last = names.back();
+  names.pop_back();
+  return names.empty() ? std::string(last) : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
 /// Refuses options of `detect` that the mode would ignore.
@@ -59,10 +69,8 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
   };
   for (const auto& option : options) {
     if (detect.count(option.name) == 0 || std::ranges::find(option.modes, mode) != option.modes.end()) continue;
-    std::vector<std::string_view> names;
-    for (const auto taker : option.modes) names.push_back(name_of(taker));
-    throw Bad_argument(fmt::format("{} needs --mode {}: the mode {} ignores it", option.name, fmt::join(names, " or "),
-                                   name_of(mode)));
+    throw Bad_argument(
+        fmt::format("{} needs --mode {}: the mode {} ignores it", option.name, names_of(option.modes), name_of(mode)));
   }
 }
 

@@ -261,10 +261,10 @@ TEST(Stretch_bound, contacts_are_those_of_exhaustive_checking) {
   Given_object a(potato(6, 1)), b(potato(6, 2));
   const Stretch_promise promise(1, 1e-14);
   Stretch_bound bound_a = promise.bound(a.bounded()), bound_b = promise.bound(b.bounded());
-  const auto surface_a = a.surface(bound_a), surface_b = b.surface(bound_b);
   Bounded_search search;
   std::size_t meetings = 0, partly = 0;
   for (int frame = 0; frame < 60; ++frame) {
+    const auto surface_a = a.surface(bound_a), surface_b = b.surface(bound_b);  // with no memory of earlier frames
     a.pose(Folding(random, 1));
     b.pose(Folding(random, 2.5));
     std::vector<Face_pair> found;

@@ -155,7 +155,7 @@ TEST_F(Program_mode, limits_of_particles_out_of_range_are_refused) {
 }
 
 TEST_F(Program_mode, senin_refuses_threads) {
-  expect_error(detect({"--mode", "senin", "--threads", "2"}), 2, "--threads needs --mode exact or particles");
+  expect_error(detect({"--mode", "senin", "--threads", "2"}), 2, "--threads needs --mode exact, certified or particles");
   expect_success(detect({"--mode", "particles", "--threads", "2"}));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/motion/deformed_shape.h"
 #include "lodestone/bounds/linear_bound.h"
 #include "lodestone/bounds/placed_bound.h"
 #include "lodestone/io/motion/deformed_points.h"
@@ -39,8 +40,7 @@ class Still final : public Computed_motion {
 
 class Deforming final : public Computed_motion {
  public:
-  Deforming(std::vector<Point> rest, std::vector<Deformation> deformations)
-      : points_(std::move(rest), std::move(deformations)) {}
+  explicit Deforming(detail::Deformed_shape shape) : points_(std::move(shape)) {}
 
   void set_frame(std::size_t frame) override { points_.set_frame(static_cast<double>(frame)); }
   Any_bound bound(const Bounded_object& object) const override { return points_.bound(object); }
@@ -139,9 +139,11 @@ class Held final : public Changed {
 
 }  // namespace
 
-std::unique_ptr<Computed_motion> computed_deformation(std::vector<Point> rest, std::vector<Deformation> deformations) {
-  if (deformations.empty()) return std::make_unique<Still>(rest);
-  return std::make_unique<Deforming>(std::move(rest), std::move(deformations));
+std::unique_ptr<Computed_motion> computed_deformation(const detail::Deformed_shape& shape,
+                                                      std::span<const std::uint32_t> vertices) {
+  auto part = shape.part(vertices);
+  if (shape.deformations().empty()) return std::make_unique<Still>(part.rest());
+  return std::make_unique<Deforming>(std::move(part));
 }
 
 std::unique_ptr<Computed_motion> placed(std::unique_ptr<Computed_motion> motion,

@@ -108,12 +108,7 @@ Motion deform(std::vector<Point> rest, std::vector<Deformation> deformations) {
           },
           step);
   };
-  auto computed = [shape](std::span<const std::uint32_t> vertices) {
-    std::vector<Point> of_list;
-    of_list.reserve(vertices.size());
-    for (const std::uint32_t vertex : vertices) of_list.push_back(shape->rest().at(vertex));
-    return computed_deformation(std::move(of_list), shape->deformations());
-  };
+  auto computed = [shape](std::span<const std::uint32_t> vertices) { return computed_deformation(*shape, vertices); };
   return {.frames = 0, .pose = std::move(pose), .computed = std::move(computed)};
 }
 

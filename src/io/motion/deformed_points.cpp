@@ -22,7 +22,8 @@ struct Deformed_points::State {
 };
 
 Deformed_points::Deformed_points(std::vector<Point> rest, std::vector<Deformation> deformations)
-    : state_(std::make_unique<State>(detail::Deformed_shape(std::move(rest), std::move(deformations)))) {
+    : Deformed_points(detail::Deformed_shape(std::move(rest), std::move(deformations))) {}
+Deformed_points::Deformed_points(detail::Deformed_shape shape) : state_(std::make_unique<State>(std::move(shape))) {
   set_frame(0);
 }
 Deformed_points::~Deformed_points() = default;

@@ -174,6 +174,14 @@ Deformed_shape::Deformed_shape(std::vector<Point> rest, std::vector<Deformation>
   }
 }
 
+Deformed_shape Deformed_shape::part(std::span<const std::uint32_t> points) const {
+  Deformed_shape result = *this;
+  result.rest_.clear();
+  result.rest_.reserve(points.size());
+  for (const std::uint32_t point : points) result.rest_.push_back(rest_.at(point));
+  return result;
+}
+
 std::vector<Step> Deformed_shape::steps_at(double frame) const {
   std::vector<Step> steps;
   for (std::size_t i = 0; i < deformations_.size(); ++i) {

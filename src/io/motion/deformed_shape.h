@@ -3,6 +3,7 @@
 
 #include <CGAL/Bbox_3.h>
 
+#include <cstdint>
 #include <span>
 #include <variant>
 #include <vector>
@@ -53,6 +54,9 @@ class Deformed_shape {
  public:
   /// @throws Bad_argument  as `check`
   Deformed_shape(std::vector<Point> rest, std::vector<Deformation> deformations);
+
+  /// Some of its points, which the deformations move as they do in the whole shape.
+  Deformed_shape part(std::span<const std::uint32_t> points) const;
 
   const std::vector<Point>& rest() const { return rest_; }
   const std::vector<Deformation>& deformations() const { return deformations_; }

@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "lodestone/bounds/node_bound.h"
-#include "lodestone/io/motion/deformation.h"
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/position_source.h"
 #include "lodestone/mesh/skinned_points.h"
 
 namespace lodestone {
+
+namespace detail {
+class Deformed_shape;
+}
 
 /// A motion whose frames need not be posed as a whole: its positions are computed one by one, with the same bits, and
 /// it tells where they can be. A model of Computed_points and of Motion_promise, so mode `certified` reads from it only
@@ -29,11 +32,10 @@ class Computed_motion : public Position_source {
   virtual const Skinned_points* skin() const { return nullptr; }
 };
 
-/// Built-in deformations.
-/// @param rest           V
-/// @param deformations   applied in order; none: the vertices stay where they are
-/// @throws Bad_argument  as `check`
-std::unique_ptr<Computed_motion> computed_deformation(std::vector<Point> rest, std::vector<Deformation> deformations);
+/// Some vertices of a shape that built-in deformations move.
+/// @param vertices  their indices in the shape
+std::unique_ptr<Computed_motion> computed_deformation(const detail::Deformed_shape& shape,
+                                                      std::span<const std::uint32_t> vertices);
 
 /// A motion that is taken elsewhere by an affine transformation.
 std::unique_ptr<Computed_motion> placed(std::unique_ptr<Computed_motion> motion,

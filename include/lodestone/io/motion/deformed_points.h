@@ -12,6 +12,10 @@
 
 namespace lodestone {
 
+namespace detail {
+class Deformed_shape;
+}
+
 /// Built-in deformations as computed points: the positions that the motion of `deform` gives, vertex by vertex and with
 /// the same bits. A model of Computed_points and of Motion_promise.
 ///
@@ -22,6 +26,7 @@ class Deformed_points {
   /// @param deformations   applied in order
   /// @throws Bad_argument  as `check`
   Deformed_points(std::vector<Point> rest, std::vector<Deformation> deformations);
+  explicit Deformed_points(detail::Deformed_shape shape);
   ~Deformed_points();
   Deformed_points(Deformed_points&&) noexcept;
   Deformed_points& operator=(Deformed_points&&) noexcept;
