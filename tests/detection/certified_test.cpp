@@ -281,6 +281,24 @@ TEST(Certified, placed_given_and_rebuilt_objects_have_the_answers_of_mode_exact)
   }
 }
 
+TEST(Certified, saved_objects_have_the_answers_of_mode_exact) {
+  Scene scene;
+  Detector saving(in_mode(Mode::certified, {})), certified(in_mode(Mode::certified, {})),
+      exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&saving, &certified, &exact}) scene.add_to(*detector);
+  scene.pose(0);
+  saving.detect();
+  scene.pose(1);  // what is saved is not of the last frame
+  for (Object_id object = 0; object < 4; ++object) certified.load(object, saving.save(object));
+  for (int frame = 2; frame < 8; ++frame) {
+    scene.pose(frame);
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 4);
+    EXPECT_EQ(found.statistics.builds, 0U);
+    EXPECT_EQ(found.statistics.nodes_bounded > 0, frame > 2);  // the first frame reads everything
+  }
+}
+
 TEST(Certified, polyhedra_whose_vertices_have_no_ids_are_bounded_too) {
   Scene scene;
   CGAL::Polyhedron_3<Kernel> upper, lower;
