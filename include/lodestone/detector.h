@@ -31,8 +31,8 @@ namespace lodestone {
 /// a mesh's faces, and after any removal of its maps `v:region` and `v:particle`, for instance by `clear`.
 ///
 /// The mode decides how much of a mesh a frame reads, and what it may miss: see `Particle_detection` and
-/// `Exact_detection`. Every query re-reads the vertex positions, so results are never stale. One thread at a time may
-/// use a detector.
+/// `Exact_detection`. What is said of mode `exact` holds for mode `certified` too, unless it says otherwise. Every query
+/// asks for the current vertex positions, so results are never stale. One thread at a time may use a detector.
 ///
 /// As the type of a member, write `Detector<>`.
 ///
@@ -205,7 +205,9 @@ class Detector {
   /// `certified` an object with bounds is posed only where the ray passes.
   /// @throws Bad_argument  no such object, another mode, a ray that is not as `Ray` says
   /// @throws Bad_mesh      as `detect`
-  std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) { return ask<Exact>(object).first_hit(object, ray); }
+  std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) {
+    return ask<Exact>(object).first_hit(object, ray);
+  }
   /// All faces of an object that a ray meets, in their order along it.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) { return ask<Exact>(object).all_hits(object, ray); }

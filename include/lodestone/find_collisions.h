@@ -44,7 +44,7 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
   if (const auto frame = frame_at_once(a, b, options)) return collisions_of(*frame);
   Detector detector(options);
   const Object_id first = detector.add(a), second = detector.add(b);
-  return collisions_of(options.mode == Mode::exact ? detector.detect(first, second) : detector.detect());
+  return collisions_of(finds_all(options.mode) ? detector.detect(first, second) : detector.detect());
 }
 
 /// Finds the faces of one mesh that intersect each other, with one call, in mode `exact`. `Collisions::faces` are face

@@ -44,11 +44,6 @@ Bounded_surface::Bounded_surface(Tree_surface& tree, std::unique_ptr<const Posit
   start_frame();
 }
 
-void Bounded_surface::add(std::unique_ptr<Node_bound> bound) {
-  check_nodes(*bound, layout());
-  bounds_.push_back(std::move(bound));
-}
-
 void Bounded_surface::start_frame() {
   const std::uint64_t pose = positions_->pose_number();
   if (pose > 0 && pose_ == pose) return;
@@ -62,7 +57,7 @@ void Bounded_surface::start_frame() {
   tree_->follow(coordinates_);
 }
 
-/// From the last frame: whether to try leaf by leaf again.
+/// Decides by the last frame whether leaves are posed one by one in this one.
 void Bounded_surface::plan_frame() {
   constexpr std::size_t longest_pause = 16;
   if (pause_left_ > 0) {

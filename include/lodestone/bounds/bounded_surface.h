@@ -51,10 +51,6 @@ class Bounded_surface {
                   std::vector<std::unique_ptr<Node_bound>> bounds, Workers& workers = Workers::alone(),
                   std::string title = {});
 
-  /// One more bound. The boxes in use stay as they are until the next frame.
-  /// @throws Bad_argument  it has fewer nodes than the tree
-  void add(std::unique_ptr<Node_bound> bound);
-
   /// Forgets what was of an earlier pose, unless it is known to be that of now. O(1).
   void start_frame();
   /// Starts a frame to whose positions the tree has just been refitted. O(F).
@@ -126,9 +122,9 @@ class Bounded_surface {
   std::vector<std::uint64_t> posed_in_;  ///< per leaf: the frame in which it was posed
   std::uint64_t frame_ = 0, pose_ = 0;
   bool all_posed_ = false;
-  bool much_was_near_ = false;           ///< all vertices were posed because many were asked for
-  std::size_t pause_ = 0, pause_left_ = 0;  ///< frames in which leaves are not posed one by one
-  std::vector<std::uint32_t> bounded_;   ///< nodes whose boxes come from bounds, in this frame
+  bool much_was_near_ = false;              ///< all vertices were posed because many were asked for
+  std::size_t pause_ = 0, pause_left_ = 0;  ///< frames in which leaves are not posed one by one: planned, still to come
+  std::vector<std::uint32_t> bounded_;      ///< nodes whose boxes come from bounds, in this frame
   std::size_t violations_ = 0, violations_settled_ = 0, nodes_bounded_ = 0, leaves_posed_ = 0, vertices_posed_ = 0;
 };
 

@@ -284,7 +284,9 @@ bool Exact_detection<Volume>::contains(Object_id outer, Object_id inner) {
   refresh(ids);
   std::vector<Face_pair> none;
   const auto meet = [&] { return search({outer, inner}, {.query = Contact_query::yes_no}, none).found; };
-  return unbroken(ids, inside({inner, outer}) && !meet());
+  bool answer = false;
+  until_settled(ids, [&] { answer = inside({inner, outer}) && !meet(); });
+  return answer;
 }
 
 template <Bounding_volume Volume>

@@ -49,13 +49,11 @@ class Exact_object {
   Basic_tree_surface<Volume> surface;   ///< of `corners()`
   bool built = false;                   ///< whether the surface has a tree
 
-  /// Positions that came through `update`, if any.
-  const std::optional<Positions>& given() const { return given_; }
+  /// Takes positions that came through `update`; none: those of the mesh count again.
   void give(std::optional<Positions> positions) {
     if (given_ || positions) ++changes_;
     given_ = std::move(positions);
   }
-  const std::optional<Rigid_motion>& placement() const { return placement_; }
   void place(const std::optional<Rigid_motion>& placement) {
     placement_ = placement;
     ++changes_;
@@ -140,9 +138,7 @@ class Exact_object {
     explicit Object_positions(Exact_object& object) : object_(&object) {}
 
     std::uint32_t vertex_count() const override { return object_->mesh().vertex_count(); }
-    std::uint64_t pose_number() const override {
-      return 1 + object_->mesh().pose_number() + object_->changes_;
-    }
+    std::uint64_t pose_number() const override { return 1 + object_->mesh().pose_number() + object_->changes_; }
     Eigen::Vector3d operator()(std::uint32_t vertex) const override {
       const Eigen::Vector3d position =
           object_->given_ ? Eigen::Vector3d(object_->given_->row(vertex)) : object_->mesh().read(vertex);
@@ -165,7 +161,7 @@ class Exact_object {
   std::optional<Former> former_;  ///< between a change of faces and the next build
   std::optional<Numbered_partition> regions_;
   std::vector<std::uint32_t> unused_;
-  std::optional<Positions> given_ = {};
+  std::optional<Positions> given_ = {};  ///< in place of those of the mesh
   std::optional<Rigid_motion> placement_ = {};
   std::uint64_t changes_ = 0;  ///< of both, and of positions of which nobody says whether they have changed
   std::vector<Make_bound> promises_;
