@@ -18,5 +18,7 @@ Collisions collisions_of(const Frame& frame) {
 
 template std::optional<Frame> frame_at_once(const Surface_mesh&, const Surface_mesh&, const Detector_options&);
 template Frame self_frame_at_once(const Surface_mesh&, Detector_options, std::span<const std::uint32_t>);
+template std::optional<Frame> frame_at_once(const Indexed_mesh&, const Indexed_mesh&, const Detector_options&);
+template Frame self_frame_at_once(const Indexed_mesh&, Detector_options, std::span<const std::uint32_t>);
 
 }  // namespace lodestone

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "lodestone/detection/make_detection.h"
+#include "lodestone/mesh/indexed_mesh.h"
 #include "lodestone/partition/lbg.h"
 #include "lodestone/partition/strategies.h"
 
@@ -194,6 +196,16 @@ class Detector {
     if (a == b) throw Bad_argument("the closest faces of object " + std::to_string(a) + " and itself");
     return exact.closest({a, b});
   }
+  /// Whether two objects have points nearer to each other than a distance, or collide, in mode `exact`. Exact and strict,
+  /// unlike a comparison with the rounded distance of `closest`; mostly faster than that, too.
+  /// @param distance  >= 0, in units of the coordinates; 0: whether they collide
+  /// @throws Bad_argument, Bad_mesh  as `closest`; a distance that is negative or not finite
+  bool within(Object_id a, Object_id b, double distance) {
+    auto& exact = ask<Exact>(a, b);
+    if (a == b) throw Bad_argument("whether object " + std::to_string(a) + " is near itself");
+    if (!(distance >= 0) || !std::isfinite(distance)) throw Bad_argument("the distance must be finite and >= 0");
+    return exact.within({a, b}, distance);
+  }
   /// Whether the surface of `inner` lies inside that of `outer`, which is closed, in mode `exact`: see `encloses`.
   /// @throws Bad_argument, Bad_mesh  as `closest`
   bool contains(Object_id outer, Object_id inner) {
@@ -206,19 +218,40 @@ class Detector {
   /// @throws Bad_argument  no such object, another mode, a ray that is not as `Ray` says
   /// @throws Bad_mesh      as `detect`
   std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) {
-    return ask<Exact>(object).first_hit(object, ray);
+    return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::first_hit(surface, ray); });
   }
   /// All faces of an object that a ray meets, in their order along it.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
-  std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) { return ask<Exact>(object).all_hits(object, ray); }
+  std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) {
+    return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::all_hits(surface, ray); });
+  }
   /// The face of an object that is nearest to a point: see `closest_point` of trees.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   Closest_point closest_point(Object_id object, const Point& point) {
-    return ask<Exact>(object).closest_point(object, point);
+    return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::closest_point(surface, point); });
   }
   /// On which side of an object's surface, which is closed, a point is: see `point_side`.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
-  Point_side point_side(Object_id object, const Point& point) { return ask<Exact>(object).point_side(object, point); }
+  Point_side point_side(Object_id object, const Point& point) {
+    return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::point_side(surface, point); });
+  }
+
+  /// `first_hit` of many rays. Each query of an object reads its positions first; this does so once for all rays.
+  /// @return one per ray, in their order
+  /// @throws Bad_argument, Bad_mesh  as `first_hit`
+  std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {
+    return ask_each(object, rays, [](auto& surface, const Ray& ray) { return lodestone::first_hit(surface, ray); });
+  }
+  /// `closest_point` of many points: see `first_hits`.
+  std::vector<Closest_point> closest_points(Object_id object, std::span<const Point> points) {
+    return ask_each(object, points,
+                    [](auto& surface, const Point& point) { return lodestone::closest_point(surface, point); });
+  }
+  /// `point_side` of many points: see `first_hits`.
+  std::vector<Point_side> point_sides(Object_id object, std::span<const Point> points) {
+    return ask_each(object, points,
+                    [](auto& surface, const Point& point) { return lodestone::point_side(surface, point); });
+  }
 
   /// A short translation of a that parts it from b, or whose opposite parts b from a: afterwards they do not collide,
   /// and neither lies inside the other, in mode `exact`: see `parting`. None if this holds already.
@@ -288,6 +321,17 @@ class Detector {
     throw Bad_argument(Model::needed);
   }
 
+  /// Asks the same about each ray or point, of one surface.
+  template <class Asked, class Question>
+  auto ask_each(Object_id object, std::span<const Asked> asked, const Question& question) {
+    return ask<Exact>(object).of_surface(object, [&](auto& surface) {
+      std::vector<decltype(question(surface, asked.front()))> answers;
+      answers.reserve(asked.size());
+      for (const auto& one : asked) answers.push_back(question(surface, one));
+      return answers;
+    });
+  }
+
   std::shared_ptr<const Strategy> strategy_;
   std::unique_ptr<Detection> detection_;
   Collision_filter filter_;
@@ -299,6 +343,8 @@ extern template class Exact_detection<Aabb>;
 extern template std::unique_ptr<Detection> make_detection<Aabb>(const Detector_options&);
 extern template class Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Lbg>;
 extern template class Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Any_strategy>;
+extern template class Typed_watched_mesh<Indexed_mesh, Indexed_points, Lbg>;
+extern template class Typed_watched_mesh<Indexed_mesh, Indexed_points, Any_strategy>;
 extern template class Detector<Lbg>;
 extern template class Detector<Any_strategy>;
 

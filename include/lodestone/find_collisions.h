@@ -64,5 +64,7 @@ Collisions find_self_collisions(const Mesh& mesh, const Detector_options& option
 
 extern template std::optional<Frame> frame_at_once(const Surface_mesh&, const Surface_mesh&, const Detector_options&);
 extern template Frame self_frame_at_once(const Surface_mesh&, Detector_options, std::span<const std::uint32_t>);
+extern template std::optional<Frame> frame_at_once(const Indexed_mesh&, const Indexed_mesh&, const Detector_options&);
+extern template Frame self_frame_at_once(const Indexed_mesh&, Detector_options, std::span<const std::uint32_t>);
 
 }  // namespace lodestone

@@ -110,18 +110,18 @@ class Exact_detection final : public Detection {
                           std::forward<Visitor>(visitor));
   }
   Closest_faces closest(Object_pair pair);
+  bool within(Object_pair pair, double distance);
   bool contains(Object_id outer, Object_id inner);
-  std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) {
-    return of_surface(object, [&ray](auto& surface) { return lodestone::first_hit(surface, ray); });
-  }
-  std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) {
-    return of_surface(object, [&ray](auto& surface) { return lodestone::all_hits(surface, ray); });
-  }
-  Closest_point closest_point(Object_id object, const Point& point) {
-    return of_surface(object, [&point](auto& surface) { return lodestone::closest_point(surface, point); });
-  }
-  Point_side point_side(Object_id object, const Point& point) {
-    return of_surface(object, [&point](auto& surface) { return lodestone::point_side(surface, point); });
+  /// Asks the surface of one object, as it is now.
+  /// @param question  called with a Layout_view or a Bounded_surface
+  template <class Question>
+  auto of_surface(Object_id object, const Question& question) {
+    const Object_id ids[] = {object};
+    refresh(ids);
+    if constexpr (is_bounded)
+      if (objects_.on_demand(object)) return unbroken(ids, question(objects_.bounded(object)));
+    const Node_boxes boxes(objects_.surface(object).view());
+    return question(boxes.layout());
   }
   std::optional<Parting> parting(Object_pair pair);
 
@@ -163,17 +163,6 @@ class Exact_detection final : public Detection {
     return {.mode = "exact with volumes of kind " + std::string(Volume::name),
             .vertices = objects_[object].mesh().vertex_count(),
             .corners = objects_[object].corners()};
-  }
-  /// Asks the surface of one object, as it is now.
-  /// @param question  called with a Layout_view or a Bounded_surface
-  template <class Question>
-  auto of_surface(Object_id object, const Question& question) {
-    const Object_id ids[] = {object};
-    refresh(ids);
-    if constexpr (is_bounded)
-      if (objects_.on_demand(object)) return unbroken(ids, question(objects_.bounded(object)));
-    const Node_boxes boxes(objects_.surface(object).view());
-    return question(boxes.layout());
   }
   bool on_demand(Object_pair pair) const { return objects_.on_demand(pair.a) || objects_.on_demand(pair.b); }
   void start_frame(std::span<const Object_id> ids);
@@ -268,6 +257,18 @@ Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
     if (on_demand(pair))
       return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
   return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
+}
+
+template <Bounding_volume Volume>
+bool Exact_detection<Volume>::within(Object_pair pair, double distance) {
+  const Object_id ids[] = {pair.a, pair.b};
+  refresh(ids);
+  std::vector<Face_pair> none;
+  bool answer = false;
+  until_settled(ids, [&] {
+    answer = search(pair, {.query = Contact_query::yes_no, .tolerance = distance}, none).found;
+  });
+  return answer;
 }
 
 template <Bounding_volume Volume>

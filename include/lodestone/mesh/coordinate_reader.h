@@ -43,6 +43,10 @@ template <class P, Contiguous_points Points>
 class Coordinate_reader<CGAL::Surface_mesh<P>, Points> {
  public:
   static constexpr bool in_memory = true;
+  /// The coordinates of a mesh with such points.
+  static Coordinates memory(const CGAL::Surface_mesh<P>& mesh, const Points& points) {
+    return {points.data()->cartesian_begin(), 3 * static_cast<std::size_t>(num_vertices(mesh))};
+  }
 
   explicit Coordinate_reader(Points points) : points_(std::move(points)) {}
 

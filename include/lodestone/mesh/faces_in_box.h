@@ -64,7 +64,7 @@ class Box_reader {
   static constexpr bool in_memory = Coordinate_reader<Mesh, Points>::in_memory;
 
   Coordinates memory() const requires in_memory {
-    return {points_.data()->cartesian_begin(), 3 * static_cast<std::size_t>(num_vertices(*mesh_))};
+    return Coordinate_reader<Mesh, Points>::memory(*mesh_, points_);
   }
   /// Whether the numbers of faces and edges prove that every face is a triangle, which they can if there is no border:
   /// a face has at least three edges. O(1).

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CGAL/Iterator_range.h>
+#include <CGAL/boost/graph/properties.h>
+
+#include <boost/iterator/counting_iterator.hpp>
+#include <boost/property_map/property_map.hpp>
+#include <boost/property_map/vector_property_map.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/coordinate_reader.h"
+#include "lodestone/mesh/coordinates.h"
+#include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/region_maps.h"
+
+namespace lodestone {
+
+/// Triangles as two arrays that the caller keeps: the coordinates of the vertices, and the corners of the faces. A model
+/// of Triangle_mesh, for programs that have arrays and no half-edge mesh.
+///
+///     std::vector<double> coordinates = ...;  // x, y, z of each vertex
+///     std::vector<Corners> faces = ...;
+///     Indexed_mesh mesh(coordinates, faces);
+///     detector.add(mesh);
+///
+/// Both arrays are read where they are, so a vertex that is moved in them has moved. Vertices and faces have their places
+/// in the arrays as indices. Everything that a file can hold is possible: an edge with three faces, neighbours of opposite
+/// orientations, a face that names a vertex twice, a vertex without a face.
+class Indexed_mesh {
+ public:
+  using Index_range = CGAL::Iterator_range<boost::counting_iterator<std::uint32_t>>;
+
+  /// O(F).
+  /// @param coordinates  3 V; must outlive the mesh
+  /// @param faces        F; must outlive the mesh
+  /// @throws Bad_mesh    the coordinates do not come in threes; a face names a vertex that does not exist
+  Indexed_mesh(Coordinates coordinates, std::span<const Corners> faces);
+  /// The mesh refers to arrays, not to temporaries.
+  Indexed_mesh(const std::vector<double>&& coordinates, std::span<const Corners> faces) = delete;
+
+  /// Reads the vertices elsewhere from now on. O(1).
+  /// @param coordinates  3 V, of as many vertices as before; must outlive the mesh
+  /// @throws Bad_mesh    another number
+  void set_coordinates(Coordinates coordinates);
+  /// Takes other arrays in place of both. A detector that has the mesh needs a `rebuild`. O(F).
+  /// @throws Bad_mesh    as the constructor; the mesh stays as it was
+  void set_arrays(Coordinates coordinates, std::span<const Corners> faces) { *this = Indexed_mesh(coordinates, faces); }
+
+  Coordinates coordinates() const { return coordinates_; }
+  std::span<const Corners> corners() const { return faces_; }
+
+  Point point(std::uint32_t vertex) const {
+    const double* position = coordinates_.data() + 3 * std::size_t{vertex};
+    return {position[0], position[1], position[2]};
+  }
+
+  // What Triangle_mesh asks for. Halfedge 3 f + i of face f ends at its corner i.
+  friend Index_range vertices(const Indexed_mesh& mesh) { return range(num_vertices(mesh)); }
+  friend Index_range faces(const Indexed_mesh& mesh) { return range(num_faces(mesh)); }
+  friend std::size_t num_vertices(const Indexed_mesh& mesh) { return mesh.coordinates_.size() / 3; }
+  friend std::size_t num_faces(const Indexed_mesh& mesh) { return mesh.faces_.size(); }
+  friend std::size_t num_halfedges(const Indexed_mesh& mesh) { return 3 * num_faces(mesh); }
+  friend std::size_t halfedge(std::uint32_t face, const Indexed_mesh&) { return 3 * std::size_t{face}; }
+  friend std::size_t next(std::size_t halfedge, const Indexed_mesh&) {
+    return halfedge % 3 == 2 ? halfedge - 2 : halfedge + 1;
+  }
+  friend std::uint32_t target(std::size_t halfedge, const Indexed_mesh& mesh) {
+    return mesh.faces_[halfedge / 3][halfedge % 3];
+  }
+
+ private:
+  static Index_range range(std::size_t count) {
+    using Index = boost::counting_iterator<std::uint32_t>;
+    return CGAL::make_range(Index(0), Index(static_cast<std::uint32_t>(count)));
+  }
+
+  Coordinates coordinates_;
+  std::span<const Corners> faces_;
+};
+
+/// The vertex point map of an Indexed_mesh.
+class Indexed_points {
+ public:
+  using key_type = std::uint32_t;
+  using value_type = Point;
+  using reference = Point;
+  using category = boost::readable_property_map_tag;
+
+  explicit Indexed_points(const Indexed_mesh& mesh) : mesh_(&mesh) {}
+  const Indexed_mesh& mesh() const { return *mesh_; }
+  friend Point get(const Indexed_points& points, std::uint32_t vertex) { return points.mesh_->point(vertex); }
+
+ private:
+  const Indexed_mesh* mesh_;
+};
+
+inline Indexed_points get(CGAL::vertex_point_t, const Indexed_mesh& mesh) { return Indexed_points(mesh); }
+inline boost::typed_identity_property_map<std::uint32_t> get(boost::vertex_index_t, const Indexed_mesh&) { return {}; }
+
+}  // namespace lodestone
+
+template <>
+struct boost::graph_traits<lodestone::Indexed_mesh> {
+  using vertex_descriptor = std::uint32_t;
+  using halfedge_descriptor = std::size_t;
+  using face_descriptor = std::uint32_t;
+  using vertices_size_type = std::uint32_t;
+  using halfedges_size_type = std::size_t;
+  using faces_size_type = std::uint32_t;
+};
+template <>
+struct boost::property_map<lodestone::Indexed_mesh, CGAL::vertex_point_t> {
+  using type = lodestone::Indexed_points;
+  using const_type = lodestone::Indexed_points;
+};
+template <>
+struct boost::property_map<lodestone::Indexed_mesh, boost::vertex_index_t> {
+  using type = boost::typed_identity_property_map<std::uint32_t>;
+  using const_type = type;
+};
+template <>
+struct CGAL::graph_has_property<lodestone::Indexed_mesh, CGAL::vertex_point_t> : CGAL::Tag_true {};
+template <>
+struct CGAL::graph_has_property<lodestone::Indexed_mesh, boost::vertex_index_t> : CGAL::Tag_true {};
+
+namespace lodestone {
+
+/// Descriptors are indices.
+template <>
+class Vertex_table<Indexed_mesh> {
+ public:
+  static constexpr bool by_index = true;
+
+  explicit Vertex_table(const Indexed_mesh&) {}
+  std::uint32_t operator[](std::uint32_t index) const { return index; }
+  std::uint32_t index(std::uint32_t vertex) const { return vertex; }
+  std::size_t count(const Indexed_mesh& mesh) const { return num_vertices(mesh); }
+};
+
+/// Refers to the caller's array. O(1).
+template <>
+class Coordinate_reader<Indexed_mesh, Indexed_points> {
+ public:
+  static constexpr bool in_memory = true;
+  static Coordinates memory(const Indexed_mesh& mesh, const Indexed_points&) { return mesh.coordinates(); }
+
+  explicit Coordinate_reader(Indexed_points points) : points_(points) {}
+  Coordinates read(const Mesh_numbering<Indexed_mesh>& numbering) const {
+    return points_.mesh().coordinates().first(3 * std::size_t{numbering.vertex_count()});
+  }
+
+ private:
+  Indexed_points points_;
+};
+
+/// The mesh has no properties of its own, so the maps are beside it.
+template <>
+struct Region_property<Indexed_mesh> {
+  using Map = boost::vector_property_map<Region_index>;
+  static Map add(const Indexed_mesh& mesh, const char* /*name*/) {
+    Map map(static_cast<unsigned>(num_vertices(mesh)));
+    for (std::uint32_t v = 0; v < num_vertices(mesh); ++v) map[v] = no_particle;
+    return map;
+  }
+};
+
+}  // namespace lodestone

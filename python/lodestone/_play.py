@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Plays scenes."""
+
+from ._lodestone import Detector, Scene, read_scene
+
+
+def play(scene, *, frames=None, allow_outside=False, **options):
+    """Plays a scene: yields a Frame per frame of the scene.
+
+    scene: a path of a scene file, or a Scene. frames: which of its frames, such as range(10, 20); None: all. Options are
+    those of Detector. `frame.detector` is the detector; its objects are those of the scene, in order.
+    """
+    if not isinstance(scene, Scene):
+        scene = read_scene(scene, allow_outside=allow_outside)
+    detector = Detector(**options)
+    for number, animation in enumerate(scene.objects):
+        groups, meets = scene.groups(number)
+        detector.add(animation, groups=groups, meets=meets)
+    for a, b in scene.ignored:
+        detector.ignore(a, b)
+    for number in range(scene.frames) if frames is None else frames:
+        for animation in range(len(scene.objects)):
+            detector.set_frame(animation, number)
+        yield detector.detect()

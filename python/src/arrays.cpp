@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "arrays.h"
+
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone::python {
+
+namespace {
+
+/// Such as `(5, 2)`.
+std::string shape_of(const py::array& array) {
+  std::ostringstream text;
+  text << '(';
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) text << (i > 0 ? ", " : "") << array.shape(i);
+  text << (array.ndim() == 1 ? ",)" : ")");
+  return text.str();
+}
+
+/// The argument as an array; empty if numpy makes none of it.
+std::optional<py::array> array_from(const py::object& object) {
+  if (py::isinstance<py::array>(object)) return py::reinterpret_borrow<py::array>(object);
+  auto array = py::array::ensure(object);
+  if (!array) return std::nullopt;  // ensure() has cleared the error
+  return array;
+}
+
+bool has_numbers(const py::array& array) { return std::string("iufb").find(array.dtype().kind()) != std::string::npos; }
+bool has_integers(const py::array& array) { return std::string("iu").find(array.dtype().kind()) != std::string::npos; }
+
+bool is_aligned(const py::array& array) { return (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0; }
+
+/// Integers of any size as indices.
+template <class Integer, class Fail>
+void read_indices(const py::array& array, std::uint32_t* to, const Fail& fail) {
+  const auto* from = static_cast<const Integer*>(array.data());
+  for (py::ssize_t i = 0; i < array.size(); ++i) {
+    // A negative number is beyond the limit, too.
+    if (static_cast<std::uint64_t>(from[i]) > std::numeric_limits<std::uint32_t>::max())
+      fail(i, std::to_string(from[i]));
+    to[i] = static_cast<std::uint32_t>(from[i]);
+  }
+}
+
+/// @param fail  called with the place and the text of an index out of range
+template <class Fail>
+void read_indices(const py::array& array, std::uint32_t* to, const Fail& fail) {
+  if (const auto wide = py::array_t<std::int64_t, py::array::c_style>::ensure(array))
+    return read_indices<std::int64_t>(wide, to, fail);
+  read_indices<std::uint64_t>(py::array_t<std::uint64_t, py::array::c_style | py::array::forcecast>(array), to, fail);
+}
+
+}  // namespace
+
+Live_vertices::Live_vertices(const py::object& vertices) {
+  const auto array = array_from(vertices);
+  if (!array || !has_numbers(*array)) throw Bad_mesh("vertices must be an array of numbers of shape (V, 3)");
+  if (array->ndim() != 2 || array->shape(1) != 3)
+    throw Bad_mesh("vertices must have the shape (V, 3), but have " + shape_of(*array));
+  is_float_ = py::isinstance<py::array_t<float>>(*array);
+  array_ = is_float_ || py::isinstance<py::array_t<double>>(*array)
+               ? *array
+               : py::array(py::array_t<double, py::array::c_style | py::array::forcecast>(*array));
+  count_ = static_cast<std::size_t>(array_.shape(0));
+  data_ = static_cast<const char*>(array_.data());
+  row_ = array_.strides(0);
+  column_ = array_.strides(1);
+  if (!is_float_ && is_aligned(array_) && (array_.flags() & py::array::c_style) != 0)
+    direct_ = reinterpret_cast<const double*>(data_);
+  else
+    refresh();
+}
+
+template <class Number>
+void Live_vertices::copy_from() {
+  copy_.resize(3 * count_);
+  if (row_ == 3 * static_cast<py::ssize_t>(sizeof(Number)) && column_ == sizeof(Number) && is_aligned(array_)) {
+    const auto* from = reinterpret_cast<const Number*>(data_);
+    for (std::size_t i = 0; i < copy_.size(); ++i) copy_[i] = from[i];
+    return;
+  }
+  for (std::size_t v = 0; v < count_; ++v)
+    for (std::size_t i = 0; i < 3; ++i) {
+      Number number;
+      std::memcpy(&number, data_ + static_cast<py::ssize_t>(v) * row_ + static_cast<py::ssize_t>(i) * column_,
+                  sizeof(Number));
+      copy_[3 * v + i] = number;
+    }
+}
+
+void Live_vertices::refresh() {
+  if (direct_ != nullptr) return;
+  if (is_float_)
+    copy_from<float>();
+  else
+    copy_from<double>();
+}
+
+std::vector<Corners> faces_of(const py::object& faces) {
+  const auto array = array_from(faces);
+  if (!array || (array->size() > 0 && !has_integers(*array)))
+    throw Bad_mesh("faces must be an array of integers of shape (F, 3)");
+  if (array->size() == 0) return {};
+  if (array->ndim() != 2 || array->shape(1) != 3)
+    throw Bad_mesh("faces must have the shape (F, 3), but have " + shape_of(*array));
+  std::vector<Corners> corners(static_cast<std::size_t>(array->shape(0)));
+  static_assert(sizeof(Corners) == 3 * sizeof(std::uint32_t));
+  read_indices(*array, corners.front().data(), [](py::ssize_t place, const std::string& index) {
+    throw Bad_mesh("face " + std::to_string(place / 3) + " refers to vertex " + index);
+  });
+  return corners;
+}
+
+std::vector<std::uint32_t> indices_of(const py::object& indices, const std::string& name) {
+  const auto array = array_from(indices);
+  if (!array || array->ndim() != 1 || (array->size() > 0 && !has_integers(*array)))
+    throw Bad_argument(name + " must be a list of integers");
+  std::vector<std::uint32_t> list(static_cast<std::size_t>(array->size()));
+  if (list.empty()) return list;
+  read_indices(*array, list.data(), [&](py::ssize_t place, const std::string& index) {
+    throw Bad_argument(name + "[" + std::to_string(place) + "] is " + index);
+  });
+  return list;
+}
+
+py::array_t<double, py::array::c_style> numbers_of(const py::object& numbers, const std::string& name) {
+  const auto array = array_from(numbers);
+  if (!array || !has_numbers(*array)) throw Bad_argument(name + " must be numbers");
+  return py::array_t<double, py::array::c_style | py::array::forcecast>(*array);
+}
+
+py::array_t<double, py::array::c_style> rows_of(const py::object& rows, const std::string& name) {
+  auto array = numbers_of(rows, name);
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    throw Bad_argument(name + " must have the shape (n, 3), but have " + shape_of(array));
+  return array;
+}
+
+std::array<double, 3> vector_of(const py::object& vector, const std::string& name) {
+  const auto array = numbers_of(vector, name);
+  if (array.ndim() != 1 || array.size() != 3)
+    throw Bad_argument(name + " must be three numbers, but has the shape " + shape_of(array));
+  return {array.at(0), array.at(1), array.at(2)};
+}
+
+Given_mesh given_mesh(const py::object& mesh, const py::object& faces, const std::string& name) {
+  if (!faces.is_none()) return {mesh, faces};
+  if (py::hasattr(mesh, "vertices") && py::hasattr(mesh, "faces")) return {mesh.attr("vertices"), mesh.attr("faces")};
+  if (py::isinstance<py::tuple>(mesh) && py::len(mesh) == 2) {
+    const auto pair = py::reinterpret_borrow<py::tuple>(mesh);
+    return {pair[0], pair[1]};
+  }
+  throw Bad_argument(name + " must be vertices and faces, a tuple of the two, or an object that has both");
+}
+
+py::array_t<double> positions_array(Coordinates coordinates) {
+  py::array_t<double> array({static_cast<py::ssize_t>(coordinates.size() / 3), py::ssize_t{3}});
+  std::copy(coordinates.begin(), coordinates.end(), array.mutable_data());
+  return array;
+}
+
+py::array_t<std::int64_t> faces_array(std::span<const Corners> faces) {
+  py::array_t<std::int64_t> array({static_cast<py::ssize_t>(faces.size()), py::ssize_t{3}});
+  auto* to = array.mutable_data();
+  for (const auto& corners : faces)
+    for (const auto corner : corners) *to++ = corner;
+  return array;
+}
+
+}  // namespace lodestone::python

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "detector.h"
+
+#include <algorithm>
+#include <set>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone::python {
+
+namespace {
+
+std::vector<Corners> faces_of_animation(const Python_animation& animation) {
+  if (animation.animation->faces.empty())
+    throw Bad_argument("the animation " + animation.name + " has no faces: a point cache needs its mesh");
+  return animation.animation->faces;
+}
+
+}  // namespace
+
+Python_object::Python_object(std::string name, const Given_mesh& mesh)
+    : name_(std::move(name)),
+      faces_(faces_of(mesh.faces)),
+      vertices_(std::make_unique<Live_vertices>(mesh.vertices)),
+      mesh_(std::make_unique<Indexed_mesh>(vertices_->coordinates(), faces_)) {}
+
+Python_object::Python_object(std::string name, std::shared_ptr<Python_animation> animation, bool on_demand)
+    : name_(std::move(name)),
+      faces_(faces_of_animation(*animation)),
+      animation_(std::move(animation)),
+      posed_(animation_->pose(0)),
+      mesh_(std::make_unique<Indexed_mesh>(Coordinates(posed_), faces_)) {
+  if (!on_demand || !animation_->animation->motion.computed) return;
+  std::vector<std::uint32_t> all(num_vertices(*mesh_));
+  for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
+  computed_ = animation_->animation->motion.computed(all);
+}
+
+Python_object::Python_object(std::string name, std::shared_ptr<Python_skin> skin, const py::object& faces)
+    : name_(std::move(name)),
+      faces_(faces_of(faces)),
+      skin_(std::move(skin)),
+      posed_(skin_->points.shape().rest().begin(), skin_->points.shape().rest().end()),
+      mesh_(std::make_unique<Indexed_mesh>(Coordinates(posed_), faces_)) {}
+
+Object_id Python_object::add_to(Detector<Any_strategy>& detector, const Object_options& options) const {
+  if (skin_) return detector.add(std::as_const(*mesh_), point_map(*mesh_, skin_->points), options);
+  if (computed_) return detector.add(std::as_const(*mesh_), point_map(*mesh_, *computed_), options);
+  return detector.add(*mesh_, options);
+}
+
+void Python_object::refresh() {
+  if (vertices_) vertices_->refresh();
+}
+
+void Python_object::check_has_arrays() const {
+  if (animation_) throw Bad_argument("its positions come from an animation: use set_frame");
+  if (skin_) throw Bad_argument("its positions come from a skin: change its joints or weights");
+}
+
+void Python_object::exchange(std::unique_ptr<Live_vertices>& vertices) {
+  check_has_arrays();
+  if (vertices->count() != num_vertices(*mesh_))
+    throw Bad_mesh("there are " + std::to_string(num_vertices(*mesh_)) + " vertices, but got " +
+                   std::to_string(vertices->count()) + ": after a change of faces, use rebuild");
+  mesh_->set_coordinates(vertices->coordinates());
+  std::swap(vertices_, vertices);
+}
+
+void Python_object::exchange(std::unique_ptr<Live_vertices>& vertices, std::vector<Corners>& faces) {
+  check_has_arrays();
+  mesh_->set_arrays(vertices->coordinates(), faces);
+  std::swap(vertices_, vertices);
+  std::swap(faces_, faces);  // what spans refer to does not move
+}
+
+void Python_object::set_frame(std::size_t frame) {
+  if (!animation_) throw Bad_argument("it has no animation");
+  if (frame >= animation_->frames)
+    throw Bad_argument("there is no frame " + std::to_string(frame) + ": there are " +
+                       std::to_string(animation_->frames));
+  if (computed_) return computed_->set_frame(frame);
+  std::ranges::copy(animation_->pose(frame), posed_.begin());
+}
+
+std::vector<double> Python_object::positions() const {
+  if (skin_) return skin_->pose();
+  std::vector<double> coordinates(mesh_->coordinates().begin(), mesh_->coordinates().end());
+  if (computed_) computed_->pose_all(coordinates);
+  return coordinates;
+}
+
+Python_detector::Python_detector(const Detector_settings& settings)
+    : settings_(settings),
+      detector_(settings.options, make_strategy(settings.strategy, settings.strategy_settings)) {}
+
+Python_detector::Reading::Reading(Python_detector& detector) : detector_(detector) {
+  detector.check_no_visitor();
+  std::set<Python_skin*> skins;  // in one order for all detectors, so that none waits for the other
+  for (const auto& object : detector.objects_) {
+    if (!object) continue;
+    object->refresh();
+    if (object->skin() != nullptr) skins.insert(object->skin());
+  }
+  for (auto* skin : skins) skins_.emplace_back(skin->in_use);
+  detector.reading_ = true;
+}
+
+void Python_detector::check_no_visitor() const {
+  if (reading_) throw Bad_argument("a visitor called the detector that shows it face pairs");
+}
+
+Python_object& Python_detector::at(Object_id object) const {
+  if (object < objects_.size() && objects_[object]) return *objects_[object];
+  if (object < objects_.size()) throw Bad_argument("object " + std::to_string(object) + " has been removed");
+  throw Bad_argument("there is no object " + std::to_string(object));
+}
+
+Object_id Python_detector::add(const py::object& mesh, const py::object& faces, const std::string& name,
+                               std::size_t particles, std::uint32_t groups, std::uint32_t meets,
+                               const py::object& file_vertex) {
+  Object_options options{.particles = particles, .groups = groups, .meets = meets, .name = name};
+  if (!file_vertex.is_none()) options.file_vertex = indices_of(file_vertex, "file_vertex");
+  std::unique_ptr<Python_object> object;
+  if (py::isinstance<Python_animation>(mesh) && faces.is_none()) {
+    auto animation = mesh.cast<std::shared_ptr<Python_animation>>();
+    if (name.empty()) options.name = animation->name;
+    const py::gil_scoped_release release;
+    object = std::make_unique<Python_object>(options.name, std::move(animation),
+                                             settings_.options.mode == Mode::certified);
+  } else if (py::isinstance<Python_skin>(mesh)) {
+    if (faces.is_none()) throw Bad_argument("a skin needs faces");
+    object = std::make_unique<Python_object>(name, mesh.cast<std::shared_ptr<Python_skin>>(), faces);
+  } else {
+    object = std::make_unique<Python_object>(name, given_mesh(mesh, faces, "a mesh"));
+  }
+  return change([&](auto& detector) {
+    const Object_id id = object->add_to(detector, options);
+    objects_.push_back(std::move(object));
+    kept_.emplace_back();
+    return id;
+  });
+}
+
+void Python_detector::set_vertices(Object_id object, const py::object& vertices) {
+  auto given = std::make_unique<Live_vertices>(vertices);
+  change([&](auto& detector) {
+    at(object).exchange(given);
+    detector.update(object);
+  });
+  // With the GIL again: the former array goes.
+}
+
+void Python_detector::set_frame(Object_id object, std::size_t frame) {
+  change([&](auto& detector) {
+    at(object).set_frame(frame);
+    detector.update(object);
+  });
+}
+
+void Python_detector::update(std::optional<Object_id> object) {
+  ask([&](auto& detector) {
+    if (object)
+      detector.update(*object);
+    else
+      detector.update();
+  });
+}
+
+void Python_detector::place(Object_id object, const py::object& matrix) {
+  const auto numbers = numbers_of(matrix, "matrix");
+  if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
+    throw Bad_argument("matrix must have the shape (4, 4)");
+  const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  if (m.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw Bad_argument("the last row of matrix must be 0, 0, 0, 1");
+  change([&](auto& detector) { detector.place(object, Eigen::Isometry3d(m)); });
+}
+
+void Python_detector::rebuild(Object_id object, const py::object& vertices, const py::object& faces,
+                              const py::object& changed, const py::object& file_vertex) {
+  auto given = std::make_unique<Live_vertices>(vertices);
+  auto corners = faces_of(faces);
+  std::vector<std::uint32_t> changed_faces, doubled;
+  if (!changed.is_none()) changed_faces = indices_of(changed, "changed");
+  if (!file_vertex.is_none()) doubled = indices_of(file_vertex, "file_vertex");
+  if (!changed.is_none() && !file_vertex.is_none()) throw Bad_argument("give changed or file_vertex, not both");
+  change([&](auto& detector) {
+    at(object).exchange(given, corners);
+    try {
+      if (changed.is_none())
+        detector.rebuild(object, doubled);
+      else
+        detector.rebuild(object, Changed_faces{changed_faces});
+    } catch (...) {
+      at(object).exchange(given, corners);
+      throw;
+    }
+  });
+}
+
+Python_frame Python_detector::detect() {
+  std::shared_ptr<const Frame> frame = ask([](auto& detector) { return std::make_shared<Frame>(detector.detect()); });
+  return {std::move(frame), settings_.options.contact_points, settings_.options.contact_normals};
+}
+
+Python_frame Python_detector::detect(Object_id a, Object_id b) {
+  std::shared_ptr<const Frame> frame =
+      ask([&](auto& detector) { return std::make_shared<Frame>(detector.detect(a, b)); });
+  return {std::move(frame), settings_.options.contact_points, settings_.options.contact_normals};
+}
+
+py::array Python_detector::positions(Object_id object) {
+  const auto coordinates = change([&](auto&) {
+    at(object).refresh();
+    return at(object).positions();
+  });
+  return positions_array(coordinates);
+}
+
+std::vector<Python_detector::Shown_object> Python_detector::shown() {
+  return change([&](auto&) {
+    std::vector<Shown_object> all;
+    for (const auto& object : objects_) {
+      if (!object) {
+        all.emplace_back();
+        continue;
+      }
+      object->refresh();
+      const auto corners = object->mesh().corners();
+      all.push_back({object->name(), {corners.begin(), corners.end()}, object->positions()});
+    }
+    return all;
+  });
+}
+
+void Python_detector::remove(Object_id object) {
+  std::unique_ptr<Python_object> removed;
+  change([&](auto& detector) {
+    detector.remove(object);
+    removed = std::move(objects_[object]);
+  });
+  kept_[object].clear();
+}
+
+}  // namespace lodestone::python

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "arrays.h"
+#include "frame.h"
+#include "lodestone/detector.h"
+#include "lodestone/io/motion/computed_motion.h"
+#include "motion.h"
+#include "options.h"
+
+namespace lodestone::python {
+
+/// One object of a detector: where its faces and positions come from.
+class Python_object {
+ public:
+  Python_object(std::string name, const Given_mesh& mesh);
+  /// @param on_demand  whether a motion that can be computed vertex by vertex shall be
+  Python_object(std::string name, std::shared_ptr<Python_animation> animation, bool on_demand);
+  Python_object(std::string name, std::shared_ptr<Python_skin> skin, const py::object& faces);
+
+  const std::string& name() const { return name_; }
+  const Indexed_mesh& mesh() const { return *mesh_; }
+  /// Adds it to a detector.
+  Object_id add_to(Detector<Any_strategy>& detector, const Object_options& options) const;
+
+  /// Takes what Python has written since the last call. Without the GIL.
+  void refresh();
+  /// Takes other arrays, in exchange for its own. Without the GIL.
+  /// @throws Bad_mesh, Bad_argument  it stays as it was
+  void exchange(std::unique_ptr<Live_vertices>& vertices);
+  void exchange(std::unique_ptr<Live_vertices>& vertices, std::vector<Corners>& faces);
+  /// Poses an animation.
+  void set_frame(std::size_t frame);
+
+  /// Where its vertices are. Without the GIL.
+  std::vector<double> positions() const;
+  /// The skin that a query reads; null: none.
+  Python_skin* skin() const { return skin_.get(); }
+
+ private:
+  void check_has_arrays() const;
+
+  std::string name_;
+  std::vector<Corners> faces_;
+  std::unique_ptr<Live_vertices> vertices_;      ///< null: they are computed
+  std::shared_ptr<Python_animation> animation_;  ///< null: there is none
+  std::unique_ptr<Computed_motion> computed_;    ///< its motion, if it is computed on demand
+  std::shared_ptr<Python_skin> skin_;
+  std::vector<double> posed_;  ///< of an animation or a skin: a pose, at first that at rest
+  std::unique_ptr<Indexed_mesh> mesh_;
+};
+
+/// A Detector for Python. Any number of threads may call it: they wait for each other, without the GIL.
+class Python_detector {
+ public:
+  explicit Python_detector(const Detector_settings& settings);
+
+  Object_id add(const py::object& mesh, const py::object& faces, const std::string& name, std::size_t particles,
+                std::uint32_t groups, std::uint32_t meets, const py::object& file_vertex);
+  void set_vertices(Object_id object, const py::object& vertices);
+  void set_frame(Object_id object, std::size_t frame);
+  void update(std::optional<Object_id> object);
+  void place(Object_id object, const py::object& matrix);
+  void rebuild(Object_id object, const py::object& vertices, const py::object& faces, const py::object& changed,
+               const py::object& file_vertex);
+
+  /// A copy of what `Detector::detect` returns.
+  Python_frame detect();
+  Python_frame detect(Object_id a, Object_id b);
+
+  /// Asks the detector without the GIL, once it has read what Python has written.
+  /// @param question  called with the detector; must not touch Python's objects
+  template <class Question>
+  auto ask(const Question& question) {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(mutex_);
+    const Reading reading(*this);
+    return question(detector_);
+  }
+  /// The same for what reads no positions.
+  template <class Change>
+  auto change(const Change& change) {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(mutex_);
+    check_no_visitor();
+    return change(detector_);
+  }
+
+  const Detector_options& options() const { return settings_.options; }
+  const std::string& strategy() const { return settings_.strategy; }
+  std::string name(Object_id object) const { return at(object).name(); }
+  py::array positions(Object_id object);
+  /// Positions and faces of all objects, for a page.
+  struct Shown_object {
+    std::string name;
+    std::vector<Corners> faces;
+    std::vector<double> positions;
+  };
+  std::vector<Shown_object> shown();
+
+  /// Keeps a Python object as long as an object of the detector.
+  void keep(Object_id object, py::object kept) { kept_.at(object).push_back(std::move(kept)); }
+  void remove(Object_id object);
+
+ private:
+  /// While a query reads positions.
+  class Reading {
+   public:
+    explicit Reading(Python_detector& detector);
+    ~Reading() { detector_.reading_ = false; }
+    Reading(const Reading&) = delete;
+
+   private:
+    Python_detector& detector_;
+    std::vector<std::unique_lock<std::mutex>> skins_;
+  };
+
+  /// @throws Bad_argument  a visitor called
+  void check_no_visitor() const;
+  Python_object& at(Object_id object) const;
+
+  Detector_settings settings_;
+  std::recursive_mutex mutex_;  // a visitor that calls the detector gets an error, not a deadlock
+  bool reading_ = false;        ///< a query reads; who gets here then is its visitor
+  std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed
+  std::vector<std::vector<py::object>> kept_;
+  Detector<Any_strategy> detector_;
+};
+
+void add_detector(py::module_& module);
+
+}  // namespace lodestone::python

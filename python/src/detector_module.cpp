@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+
+#include "detector.h"
+#include "lodestone/bounds/displacement_bound.h"
+#include "lodestone/bounds/lipschitz_bound.h"
+#include "lodestone/bounds/stretch_bound.h"
+#include "lodestone/mesh/errors.h"
+#include "one_call.h"
+
+/// The class Detector of the module.
+namespace lodestone::python {
+
+namespace {
+
+using Pointer = std::shared_ptr<Python_detector>;
+
+py::object detect(const py::object& self, std::optional<Object_id> a, std::optional<Object_id> b) {
+  if (a.has_value() != b.has_value()) throw Bad_argument("give two objects, or none");
+  auto& detector = self.cast<Python_detector&>();
+  Python_frame frame = a ? detector.detect(*a, *b) : detector.detect();
+  frame.detector = self;
+  return py::cast(std::move(frame));
+}
+
+py::object self_collisions(const py::object& self, Object_id object) {
+  auto& detector = self.cast<Python_detector&>();
+  Python_frame frame = detector.detect(object, object);
+  frame.detector = self;
+  return only_pair(std::move(frame));
+}
+
+py::object parting(Python_detector& self, Object_id a, Object_id b) {
+  const auto found = self.ask([&](auto& detector) { return detector.parting(a, b); });
+  if (!found) return py::none();
+  return array_of<double>(found->translation);
+}
+
+bool visit(Python_detector& self, Object_id a, Object_id b, const std::function<py::object(std::uint32_t, std::uint32_t)>& visitor) {
+  const Visit end = self.ask([&](auto& detector) {
+    return detector.visit(a, b, [&](Face_pair faces) {
+      const py::gil_scoped_acquire acquire;
+      const py::object stop = visitor(faces.a, faces.b);
+      return py::bool_(stop) ? Visit::stop : Visit::go_on;
+    });
+  });
+  return end == Visit::go_on;
+}
+
+/// Rays from arrays of origins and directions; a single direction is that of all rays.
+std::vector<Ray> rays_of(const py::object& origins, const py::object& directions, double length) {
+  const auto from = rows_of(origins, "origins");
+  auto along = numbers_of(directions, "directions");
+  const bool one_direction = along.ndim() == 1 && along.size() == 3;
+  if (!one_direction && (along.ndim() != 2 || along.shape(1) != 3 || along.shape(0) != from.shape(0)))
+    throw Bad_argument("directions must have the shape (3,), or that of origins");
+  std::vector<Ray> rays;
+  for (py::ssize_t i = 0; i < from.shape(0); ++i) {
+    const double *o = from.data(i, 0), *d = one_direction ? along.data() : along.data(i, 0);
+    rays.push_back({.origin = {o[0], o[1], o[2]}, .direction = {d[0], d[1], d[2]}, .length = length});
+  }
+  return rays;
+}
+
+Ray ray_of(const py::object& origin, const py::object& direction, double length) {
+  const auto o = vector_of(origin, "origin"), d = vector_of(direction, "direction");
+  return {.origin = {o[0], o[1], o[2]}, .direction = {d[0], d[1], d[2]}, .length = length};
+}
+
+py::dict hit_of(const Ray_hit& hit) {
+  py::dict fields;
+  fields["face"] = hit.face;
+  fields["t"] = hit.t;
+  fields["point"] = array_of<double>(hit.point);
+  return fields;
+}
+
+py::object first_hit(Python_detector& self, Object_id object, const py::object& origin, const py::object& direction,
+                     double length) {
+  const Ray ray = ray_of(origin, direction, length);
+  const auto hit = self.ask([&](auto& detector) { return detector.first_hit(object, ray); });
+  if (!hit) return py::none();
+  return hit_of(*hit);
+}
+
+py::list all_hits(Python_detector& self, Object_id object, const py::object& origin, const py::object& direction,
+                  double length) {
+  const Ray ray = ray_of(origin, direction, length);
+  py::list list;
+  for (const auto& hit : self.ask([&](auto& detector) { return detector.all_hits(object, ray); }))
+    list.append(hit_of(hit));
+  return list;
+}
+
+py::dict first_hits(Python_detector& self, Object_id object, const py::object& origins, const py::object& directions,
+                    double length) {
+  const auto rays = rays_of(origins, directions, length);
+  const auto hits = self.ask([&](auto& detector) { return detector.first_hits(object, rays); });
+  const auto count = static_cast<py::ssize_t>(hits.size());
+  py::array_t<std::int64_t> faces(count);
+  py::array_t<double> t(count), points({count, py::ssize_t{3}});
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const auto& hit = hits[static_cast<std::size_t>(i)];
+    faces.mutable_at(i) = hit ? std::int64_t{hit->face} : -1;
+    t.mutable_at(i) = hit ? hit->t : std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis)
+      points.mutable_at(i, axis) = hit ? hit->point[axis] : std::numeric_limits<double>::quiet_NaN();
+  }
+  py::dict fields;
+  fields["faces"] = faces;
+  fields["t"] = t;
+  fields["points"] = points;
+  return fields;
+}
+
+Point point_of(const py::object& point) {
+  const auto p = vector_of(point, "point");
+  return {p[0], p[1], p[2]};
+}
+
+std::vector<Point> points_of(const py::object& points) {
+  const auto rows = rows_of(points, "points");
+  std::vector<Point> list;
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) list.emplace_back(rows.at(i, 0), rows.at(i, 1), rows.at(i, 2));
+  return list;
+}
+
+py::dict closest_point(Python_detector& self, Object_id object, const py::object& point) {
+  const Point asked = point_of(point);
+  const auto found = self.ask([&](auto& detector) { return detector.closest_point(object, asked); });
+  py::dict fields;
+  fields["face"] = found.face;
+  fields["point"] = point_array(found.point);
+  fields["distance"] = found.distance;
+  return fields;
+}
+
+py::dict closest_points(Python_detector& self, Object_id object, const py::object& points) {
+  const auto asked = points_of(points);
+  const auto found = self.ask([&](auto& detector) { return detector.closest_points(object, asked); });
+  const auto count = static_cast<py::ssize_t>(found.size());
+  py::array_t<std::int64_t> faces(count);
+  py::array_t<double> distances(count), nearest({count, py::ssize_t{3}});
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const auto& one = found[static_cast<std::size_t>(i)];
+    faces.mutable_at(i) = one.face;
+    distances.mutable_at(i) = one.distance;
+    for (int axis = 0; axis < 3; ++axis) nearest.mutable_at(i, axis) = one.point[axis];
+  }
+  py::dict fields;
+  fields["faces"] = faces;
+  fields["points"] = nearest;
+  fields["distances"] = distances;
+  return fields;
+}
+
+const char* name_of_side(Point_side side) {
+  if (side == Point_side::on_surface) return "on_surface";
+  return side == Point_side::inside ? "inside" : "outside";
+}
+
+py::array sides_array(Python_detector& self, Object_id object, const py::object& points) {
+  const auto asked = points_of(points);
+  const auto found = self.ask([&](auto& detector) { return detector.point_sides(object, asked); });
+  py::array_t<std::int8_t> sides(static_cast<py::ssize_t>(found.size()));
+  for (std::size_t i = 0; i < found.size(); ++i)
+    sides.mutable_at(static_cast<py::ssize_t>(i)) =
+        found[i] == Point_side::inside ? 1 : (found[i] == Point_side::on_surface ? 0 : -1);
+  return sides;
+}
+
+py::bytes save(Python_detector& self, Object_id object) {
+  const auto bytes = self.ask([&](auto& detector) { return detector.save(object); });
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void load(Python_detector& self, Object_id object, const py::bytes& saved) {
+  const std::string_view bytes = saved;
+  self.change([&](auto& detector) { detector.load(object, std::as_bytes(std::span(bytes))); });
+}
+
+/// Regions of the vertices, or the vertices of the particles.
+py::object regions(Python_detector& self, Object_id object) {
+  return array_of<std::int64_t>(self.change([&](auto& detector) {
+    const auto& map = detector.template maps<Indexed_mesh>(object).region();
+    std::vector<Region_index> labels;
+    for (std::uint32_t v = 0; v < std::size_t(std::distance(map.storage_begin(), map.storage_end())); ++v)
+      labels.push_back(get(map, v));
+    return labels;
+  }));
+}
+
+py::object particles(Python_detector& self, Object_id object) {
+  return array_of<std::int64_t>(
+      self.change([&](auto& detector) { return detector.object(object).particles().at; }));
+}
+
+template <class Promise>
+void promise(Python_detector& self, Object_id object, const py::object& given) {
+  const auto& made = given.cast<const Promise&>();
+  self.change([&](auto& detector) { detector.promise(object, made); });
+  self.keep(object, given);
+}
+
+void promise_any(Python_detector& self, Object_id object, const py::object& given) {
+  if (py::isinstance<Displacement_promise>(given)) return promise<Displacement_promise>(self, object, given);
+  if (py::isinstance<Stretch_promise>(given)) return promise<Stretch_promise>(self, object, given);
+  if (py::isinstance<Lipschitz_promise>(given)) return promise<Lipschitz_promise>(self, object, given);
+  throw py::type_error("a promise is a DisplacementPromise, StretchPromise or LipschitzPromise");
+}
+
+void move(Displacement_promise& promise, const py::object& distance, const py::object& frame) {
+  const auto distances = numbers_of(distance, "distance");
+  const std::span per_region(distances.data(), static_cast<std::size_t>(distances.size()));
+  if (frame.is_none()) {
+    if (distances.ndim() == 0) return promise.move(*distances.data());
+    return promise.move(per_region);
+  }
+  const auto numbers = numbers_of(frame, "frame");
+  if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
+    throw Bad_argument("frame must have the shape (4, 4)");
+  const Eigen::Isometry3d rigid(Eigen::Matrix4d(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data())));
+  if (distances.ndim() == 0) return promise.move(*distances.data(), rigid);
+  promise.move(per_region, rigid);
+}
+
+void add_promises(py::module_& module) {
+  py::class_<Displacement_promise>(module, "DisplacementPromise",
+                                   "A promise, in mode `certified`: how far a vertex can have moved since `move` was last "
+                                   "called. Call `move` before\nyou ask the detector about new positions.")
+      .def(py::init<std::size_t>(), py::arg("regions") = 1)
+      .def("move", move, py::arg("distance"), py::arg("frame") = py::none(),
+           "No vertex has moved farther than `distance`, in units of the coordinates; or, of region i, than "
+           "`distance[i]`.\nframe: (4, 4), a rigid motion that takes all vertices along, and does not count.");
+  py::class_<Stretch_promise>(module, "StretchPromise",
+                              "A promise, in mode `certified`: no edge is ever longer than `stretch` times its length at "
+                              "rest.")
+      .def(py::init<double, double>(), py::arg("stretch") = 1.0, py::arg("error") = 0.0)
+      .def("set_stretch", &Stretch_promise::set_stretch, py::arg("stretch"), py::arg("error") = 0.0,
+           "Promises another factor. error: how far a position may be from the exact one.");
+  py::class_<Lipschitz_promise>(module, "LipschitzPromise",
+                                "A promise, in mode `certified`: no two vertices are farther apart than `constant` times "
+                                "their distance at rest.")
+      .def(py::init<double, double>(), py::arg("constant") = 1.0, py::arg("error") = 0.0)
+      .def("set_constant", &Lipschitz_promise::set_constant, py::arg("constant"), py::arg("error") = 0.0,
+           "Promises another constant. error: how far a position may be from the exact one.");
+}
+
+}  // namespace
+
+void add_detector(py::module_& module) {
+  add_promises(module);
+  const auto infinity = std::numeric_limits<double>::infinity();
+  py::class_<Python_detector, Pointer>(
+      module, "Detector",
+      "Finds collisions between many deforming meshes, frame after frame.\n\n"
+      "    detector = lodestone.Detector()\n"
+      "    cloth = detector.add(vertices, faces)\n"
+      "    ball = detector.add(ball_mesh)              # anything with .vertices and .faces\n"
+      "    for vertices in simulation:\n"
+      "        detector.set_vertices(cloth, vertices)\n"
+      "        for pair in detector.detect().pairs:\n"
+      "            print(pair.a, pair.b, pair.faces)\n\n"
+      "Arrays of float64 or float32 are read where they are, by every query: what is written into them counts. All other\n"
+      "arrays and lists are copied when they are given. Every call works without Python's global lock. Threads that use\n"
+      "one detector wait for each other.\n\n"
+      "Options are given by name; see `help(lodestone)` and the manual:\n"
+      "  mode              'exact' (default), 'certified', 'particles' or 'senin'\n"
+      "  contacts          'all' (default), 'first' or 'yes_no'\n"
+      "  contact_points, contact_normals, patches, containment, parting     what else to find: False\n"
+      "  self_collision    also faces of one object that intersect: False\n"
+      "  tolerance, self_tolerance     report faces nearer than this, in units of the coordinates: 0\n"
+      "  most_contacts     contacts listed per pair of objects: all\n"
+      "  threads           at most so many; 0: all of the machine: 1. Results do not depend on it\n"
+      "  particles         particles, or regions in mode 'exact'; 0: as the mode sees fit\n"
+      "  strategy, seed, normal_weight, lbg_...     how surfaces are divided: 'lbg'\n"
+      "and, of the mode 'particles': least_particles, meetings, opening_budget, opening_reach, collision_distance,\n"
+      "distance_measure, candidates, list_candidates, close_seams, growth, keep_islands; of 'exact' and 'certified':\n"
+      "loosest, throw_if_broken.")
+      .def(py::init([](const py::kwargs& options) { return std::make_shared<Python_detector>(detector_settings(options)); }))
+      .def("add", &Python_detector::add, py::arg("mesh"), py::arg("faces") = py::none(), py::kw_only(),
+           py::arg("name") = "", py::arg("particles") = 0, py::arg("groups") = 1, py::arg("meets") = 0xffffffffu,
+           py::arg("file_vertex") = py::none(),
+           "Adds an object, and returns its id: 0, 1, ...\n\n"
+           "mesh: vertices, an array (V, 3), with `faces` (F, 3); or an object that has both; or an Animation, or a Skin "
+           "with `faces`.\nname: for messages. particles: of this object, 0: as the detector's options say.\n"
+           "groups, meets: bits. Two objects are checked if each belongs to a group that the other meets.\n"
+           "file_vertex: (V,) int; vertices with the same number are one.\n"
+           "Raises BadMesh: no face, or a face of a vertex that does not exist.")
+      .def("set_vertices", &Python_detector::set_vertices, py::arg("object"), py::arg("vertices"),
+           "Takes another array (V, 3) for the positions of an object.")
+      .def("set_frame", &Python_detector::set_frame, py::arg("object"), py::arg("frame"),
+           "Moves an object that has an animation to a frame.")
+      .def("update", &Python_detector::update, py::arg("object") = py::none(),
+           "Tells the mode 'particles' that the vertices of an object, or of all, have been moved in their arrays, so that "
+           "it\nrepartitions what has grown. `set_vertices` does so by itself; other modes do not need it.")
+      .def("place", &Python_detector::place, py::arg("object"), py::arg("matrix"),
+           "Places an object: from now on its vertices are at matrix * p, a rigid motion (4, 4).")
+      .def("rebuild", &Python_detector::rebuild, py::arg("object"), py::arg("vertices"), py::arg("faces"), py::kw_only(),
+           py::arg("changed") = py::none(), py::arg("file_vertex") = py::none(),
+           "Gives an object other faces. changed: the indices of those that are others than before, where they are known;\n"
+           "in mode 'exact' that saves most of the time.")
+      .def("detect", detect, py::arg("a") = py::none(), py::arg("b") = py::none(),
+           "Finds the collisions between all objects where their vertices are now, or of objects a and b: a Frame.\n"
+           "Raises BadMesh: a coordinate that is not finite.")
+      .def("self_collisions", self_collisions, py::arg("object"),
+           "Faces of one object that intersect each other: a Pair, a = b. Modes 'exact' "
+           "and 'certified'.")
+      .def("closest",
+           [](Python_detector& self, Object_id a, Object_id b) {
+             return closest_fields(self.ask([&](auto& detector) { return detector.closest(a, b); }));
+           },
+           py::arg("a"), py::arg("b"),
+           "Where two objects are closest: a dict with distance, faces, points and direction, from b to a.")
+      .def("within",
+           [](Python_detector& self, Object_id a, Object_id b, double distance) {
+             return self.ask([&](auto& detector) { return detector.within(a, b, distance); });
+           },
+           py::arg("a"), py::arg("b"), py::arg("distance"),
+           "Whether two objects are nearer to each other than a distance, or collide. Exact.")
+      .def("contains",
+           [](Python_detector& self, Object_id outer, Object_id inner) {
+             return self.ask([&](auto& detector) { return detector.contains(outer, inner); });
+           },
+           py::arg("outer"), py::arg("inner"), "Whether one object lies inside another, whose surface is closed. Exact.")
+      .def("parting", parting, py::arg("a"), py::arg("b"),
+           "A short translation of a that parts it from b: (3,). None if they are apart.")
+      .def("visit", visit, py::arg("a"), py::arg("b"), py::arg("visitor"),
+           "Calls visitor(face_a, face_b) with contacts, one by one, until it returns something true.\nReturns whether all "
+           "have been shown.")
+      .def("first_hit", first_hit, py::arg("object"), py::arg("origin"), py::arg("direction"),
+           py::arg("length") = infinity,
+           "The first face that a ray meets: a dict with face, t (in multiples of direction) and point; None if there is "
+           "none.")
+      .def("all_hits", all_hits, py::arg("object"), py::arg("origin"), py::arg("direction"), py::arg("length") = infinity,
+           "All faces that a ray meets, in order along it: a list of dicts as of `first_hit`.")
+      .def("first_hits", first_hits, py::arg("object"), py::arg("origins"), py::arg("directions"),
+           py::arg("length") = infinity,
+           "`first_hit` of many rays: a dict of arrays faces (n,), t (n,) and points (n, 3); a ray that meets nothing has "
+           "face -1.")
+      .def("closest_point", closest_point, py::arg("object"), py::arg("point"),
+           "The face that is nearest to a point: a dict with face, point and distance.")
+      .def("closest_points", closest_points, py::arg("object"), py::arg("points"),
+           "`closest_point` of many points: a dict of arrays faces (n,), points (n, 3) and distances (n,).")
+      .def("point_side",
+           [](Python_detector& self, Object_id object, const py::object& point) {
+             const Point asked = point_of(point);
+             return name_of_side(self.ask([&](auto& detector) { return detector.point_side(object, asked); }));
+           },
+           py::arg("object"), py::arg("point"),
+           "On which side of an object's surface, which is closed, a point is: 'inside', 'outside' or 'on_surface'. Exact.")
+      .def("point_sides", sides_array, py::arg("object"), py::arg("points"),
+           "`point_side` of many points: (n,) int8: 1 inside, -1 outside, 0 on the surface.")
+      .def("promise", promise_any, py::arg("object"), py::arg("promise"),
+           "Promises something about how an object moves, in mode 'certified'. Where the promise is broken, that is noticed "
+           "and the\nobject is read as a whole.")
+      .def("ignore",
+           [](Python_detector& self, Object_id a, Object_id b, bool ignored) {
+             self.change([&](auto& detector) { detector.ignore(a, b, ignored); });
+           },
+           py::arg("a"), py::arg("b"), py::arg("ignored") = true,
+           "Leaves out a pair of objects, or takes it in again; a = b: collisions of a with itself.")
+      .def("remove", &Python_detector::remove, py::arg("object"),
+           "Removes an object. The others keep their ids, and none gets this one again.")
+      .def("save", save, py::arg("object"), "What has been built of an object, as bytes for `load`.")
+      .def("load", load, py::arg("object"), py::arg("saved"),
+           "Takes what was saved of an object with the same faces, in place of building it.")
+      .def("regions", regions, py::arg("object"), "The region of each vertex: (V,) int64. After the first `detect`.")
+      .def("particles", particles, py::arg("object"),
+           "The vertex of each particle: (particles,) int64. Modes 'particles' and 'senin', after the first `detect`.")
+      .def("vertices", &Python_detector::positions, py::arg("object"), "Where the vertices of an object are: (V, 3), a copy.")
+      .def("name", &Python_detector::name, py::arg("object"), "The name of an object.")
+      .def("__len__", [](Python_detector& self) { return self.change([](auto& detector) { return detector.size(); }); },
+           "Number of objects added, removed ones included.")
+      .def("__contains__", [](Python_detector& self, Object_id object) {
+        return self.change([&](auto& detector) { return detector.has(object); });
+      }, py::arg("object"), "Whether there is an object with this id.");
+}
+
+}  // namespace lodestone::python

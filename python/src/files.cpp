@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <optional>
+
+#include "arrays.h"
+#include "lodestone/io/motion/animation.h"
+#include "lodestone/io/results/animation_output.h"
+#include "lodestone/io/scenes/given_objects.h"
+#include "lodestone/mesh/errors.h"
+#include "motion.h"
+#include "options.h"
+
+/// Reading and writing meshes, animations and scenes.
+namespace lodestone::python {
+
+namespace {
+
+using Path = std::filesystem::path;
+
+std::shared_ptr<Python_animation> read_animation_file(const Path& path, const std::optional<Path>& mesh,
+                                                      const std::variant<std::size_t, std::string>& animation,
+                                                      std::optional<double> frames_per_second) {
+  const py::gil_scoped_release release;
+  auto read = std::make_shared<Animation>(read_animation(
+      path, {.mesh = mesh.value_or(Path()), .frames_per_second = frames_per_second, .animation = animation}));
+  return std::make_shared<Python_animation>(
+      Python_animation{.name = path.filename().string(), .animation = read, .frames = read->motion.frames});
+}
+
+/// A mesh file is an animation of one frame.
+std::shared_ptr<Python_animation> read_mesh_file(const Path& path) {
+  auto mesh = read_animation_file(path, {}, std::size_t{0}, {});
+  if (mesh->animation->faces.empty()) throw Bad_mesh(path.string() + ": a point cache has no faces");
+  return mesh;
+}
+
+/// A scene of animations.
+struct Python_scene {
+  std::string name, description;
+  std::size_t frames = 0;
+  std::vector<std::shared_ptr<Python_animation>> objects = {};
+  std::vector<Object_pair> ignored = {};
+};
+
+Python_scene read_scene_file(const Path& path, bool allow_outside) {
+  const py::gil_scoped_release release;
+  const Scene scene = read_scene(path, {.allow_outside = allow_outside});
+  Python_scene read{.name = scene.name, .description = scene.description, .frames = scene.frames};
+  for (const auto& object : scene.objects)
+    read.objects.push_back(std::make_shared<Python_animation>(
+        Python_animation{.name = object.name,
+                         .animation = std::make_shared<Animation>(animation_of(object, scene.frames)),
+                         .frames = scene.frames,
+                         .groups = object.collision}));
+  read.ignored = scene.ignored;
+  return read;
+}
+
+/// The frames of an animation to be written, as doubles.
+std::vector<std::vector<double>> frames_of(const py::object& frames) {
+  std::vector<std::vector<double>> all;
+  for (const auto& frame : frames) {
+    const auto rows = rows_of(py::reinterpret_borrow<py::object>(frame), "a frame");
+    all.emplace_back(rows.data(), rows.data() + rows.size());
+    if (all.back().size() != all.front().size())
+      throw Bad_argument("frame " + std::to_string(all.size() - 1) + " has another number of vertices than frame 0");
+  }
+  if (all.empty()) throw Bad_argument("there are no frames");
+  return all;
+}
+
+void write(const Path& path, const py::object& frames, const py::object& faces, double frames_per_second) {
+  Animation animation{.kind = "array"};
+  const auto coordinates = frames_of(frames);
+  animation.vertices = coordinates.front().size() / 3;
+  if (!faces.is_none()) animation.faces = faces_of(faces);
+  for (const auto& corners : animation.faces)
+    for (const auto corner : corners)
+      if (corner >= animation.vertices) throw Bad_mesh("a face refers to vertex " + std::to_string(corner));
+  animation.motion.frames = coordinates.size();
+  animation.motion.pose = [&coordinates](std::size_t frame, std::span<Point> positions) {
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+      const double* p = coordinates[frame].data() + 3 * v;
+      positions[v] = Point(p[0], p[1], p[2]);
+    }
+  };
+  for (std::uint32_t f = 0; f < animation.faces.size(); ++f) animation.file_face.push_back(f);
+  const py::gil_scoped_release release;
+  write_animation(path, animation, {.frames_per_second = frames_per_second});
+}
+
+void write_mesh_file(const Path& path, const py::object& mesh, const py::object& faces) {
+  const auto given = given_mesh(mesh, faces, "mesh");
+  write(path, py::make_tuple(given.vertices), given.faces, 30);
+}
+
+}  // namespace
+
+void add_files(py::module_& module) {
+  module.def("read_mesh", read_mesh_file, py::arg("path"),
+             "Reads a mesh: OFF, OBJ, PLY, STL, glTF at rest, MD2, MD3. An Animation, whose `vertices` and `faces` are those "
+             "of the file.\nRaises BadMesh, with file, line and cause.");
+  module.def("read_animation", read_animation_file, py::arg("path"), py::kw_only(), py::arg("mesh") = py::none(),
+             py::arg("animation") = std::size_t{0}, py::arg("frames_per_second") = py::none(),
+             "Reads an animation: a pattern of mesh files such as 'cloth_*.obj', a point cache (.pc2, .mdd) with its `mesh`, "
+             "glTF,\nMD2, MD3, or a mesh. animation: index or name in a glTF file. frames_per_second: of a glTF animation.\n"
+             "Raises BadMesh, BadMotion.");
+  module.def("write_mesh", write_mesh_file, py::arg("path"), py::arg("mesh"), py::arg("faces") = py::none(),
+             "Writes a mesh: .obj, .off, .ply, .stl, .gltf or .glb. The file appears whole or not at all.\n"
+             "mesh: vertices, an array (V, 3), with `faces`; or an object that has both.");
+  module.def("write_animation", write, py::arg("path"), py::arg("frames"), py::arg("faces") = py::none(), py::kw_only(),
+             py::arg("frames_per_second") = 30.0,
+             "Writes an animation: a point cache (.pc2, .mdd), glTF (.gltf, .glb), or a pattern of mesh files such as "
+             "'cloth_####.ply'.\nframes: arrays (V, 3), one per frame; an Animation will do. faces: (F, 3); point caches have "
+             "none.");
+
+  py::class_<Python_scene>(module, "Scene", "What a scene file describes: objects that move.")
+      .def_readonly("name", &Python_scene::name, "Its name.")
+      .def_readonly("description", &Python_scene::description, "What it is about.")
+      .def_readonly("frames", &Python_scene::frames, "Number of frames.")
+      .def_readonly("objects", &Python_scene::objects, "Its objects: a list of `Animation`.")
+      .def_property_readonly("ignored", [](const Python_scene& self) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+        for (const auto& pair : self.ignored) pairs.emplace_back(pair.a, pair.b);
+        return pairs;
+      }, "Pairs of objects that are left out.")
+      .def("groups", [](const Python_scene& self, std::size_t object) {
+        const auto& [groups, meets] = self.objects.at(object)->groups;
+        return std::pair(groups, meets);
+      }, py::arg("object"), "The collision groups of an object: (groups, meets), for `Detector.add`.")
+      .def("__repr__", [](const Python_scene& self) {
+        return "<lodestone.Scene " + self.name + ": " + std::to_string(self.objects.size()) + " objects, " +
+               std::to_string(self.frames) + " frames>";
+      });
+  module.def("read_scene", read_scene_file, py::arg("path"), py::kw_only(), py::arg("allow_outside") = false,
+             "Reads a scene file (.json). allow_outside: it may name files outside its folder. Raises BadScene, BadMesh, "
+             "BadMotion.");
+}
+
+}  // namespace lodestone::python

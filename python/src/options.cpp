@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options.h"
+
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <utility>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone::python {
+
+namespace {
+
+/// Sets one option from a value.
+using Set_option = std::function<void(const std::string& name, const py::handle& value)>;
+using Option_table = std::map<std::string, Set_option>;
+
+template <class Value>
+constexpr const char* type_name = "a number";
+template <>
+constexpr const char* type_name<std::size_t> = "an integer >= 0";
+template <>
+constexpr const char* type_name<bool> = "True or False";
+template <>
+constexpr const char* type_name<std::string> = "a text";
+
+template <class Value>
+Set_option to(Value& option) {
+  return [&option](const std::string& name, const py::handle& value) {
+    try {
+      // numpy's numbers and bools pass too; True is no number of threads.
+      if constexpr (!std::is_same_v<Value, bool>)
+        if (PyBool_Check(value.ptr())) throw py::cast_error();
+      option = value.cast<Value>();
+    } catch (const py::cast_error&) {
+      throw py::type_error("the option " + name + " must be " + type_name<Value> + ", but is " +
+                           py::repr(value).cast<std::string>());
+    }
+  };
+}
+
+template <class Choice>
+Set_option to_one_of(Choice& option, std::initializer_list<std::pair<const char*, Choice>> choices) {
+  return [&option, choices = std::vector(choices)](const std::string& name, const py::handle& value) {
+    const std::string asked = py::str(value);
+    std::string names;
+    for (const auto& [choice, meaning] : choices) {
+      if (asked == choice) {
+        option = meaning;
+        return;
+      }
+      names += (names.empty() ? "" : ", ") + std::string(choice);
+    }
+    throw Bad_argument("the option " + name + " must be one of " + names + ", but is " +
+                       py::repr(value).cast<std::string>());
+  };
+}
+
+void add_lbg(Option_table& table, Lbg_options& lbg) {
+  table["normal_weight"] = to(lbg.features.normal_weight);
+  table["lbg_split"] = to_one_of(
+      lbg.split_rule, {{"principal_axis", Split::principal_axis}, {"multiplicative", Split::multiplicative}});
+  table["lbg_epsilon"] = to(lbg.split);
+  table["lbg_tolerance"] = to(lbg.tolerance);
+  table["lbg_sample"] = to(lbg.sample);
+}
+
+void set_all(const Option_table& table, const py::kwargs& keywords) {
+  for (const auto& [key, value] : keywords) {
+    const auto name = key.cast<std::string>();
+    const auto found = table.find(name);
+    if (found == table.end()) {
+      std::string names;
+      for (const auto& [known, set] : table) names += (names.empty() ? "" : ", ") + known;
+      throw py::type_error("there is no option " + name + "; there are " + names);
+    }
+    found->second(name, value);
+  }
+}
+
+}  // namespace
+
+Detector_settings detector_settings(const py::kwargs& keywords) {
+  Detector_settings settings;
+  auto& options = settings.options;
+  auto& exact = options.exact;
+  Option_table table{
+      {"mode", to_one_of(options.mode, {{"exact", Mode::exact},
+                                        {"certified", Mode::certified},
+                                        {"particles", Mode::particles},
+                                        {"senin", Mode::senin}})},
+      {"contacts", to_one_of(options.contacts, {{"all", Contact_query::all},
+                                                {"first", Contact_query::first},
+                                                {"yes_no", Contact_query::yes_no}})},
+      {"contact_points", to(options.contact_points)},
+      {"contact_normals", to(options.contact_normals)},
+      {"most_contacts", to(options.most_contacts)},
+      {"tolerance", to(exact.tolerance)},
+      {"self_collision", to(exact.self_collision)},
+      {"self_tolerance", to(exact.self_tolerance)},
+      {"containment", to(exact.containment)},
+      {"parting", to(exact.parting)},
+      {"patches", to(exact.patches)},
+      {"threads", to(exact.threads)},
+      {"throw_if_broken", to(exact.throw_if_broken)},
+      {"loosest", to(exact.loosest)},
+      {"particles", to(options.particles)},
+      {"least_particles", to(options.least_particles)},
+      {"keep_islands", to(options.partition.keep_islands)},
+      {"meetings", to(options.meetings)},
+      {"opening_budget", to(options.opening_budget)},
+      {"opening_reach", to(options.opening_reach)},
+      {"collision_distance", to(options.collision_distance)},
+      {"distance_measure", to_one_of(options.distance_measure,
+                                     {{"adjacent_vertices", Distance_measure::adjacent_vertices},
+                                      {"all_vertices", Distance_measure::all_vertices}})},
+      {"candidates", to_one_of(options.candidates,
+                               {{"all", Candidate_choice::all}, {"closest", Candidate_choice::closest}})},
+      {"list_candidates", to(options.list_candidates)},
+      {"close_seams", to(options.close_seams)},
+      {"growth", to(options.growth)},
+      {"strategy", to(settings.strategy)},
+      {"seed", to(settings.strategy_settings.seed)},
+  };
+  add_lbg(table, settings.strategy_settings.lbg);
+  set_all(table, keywords);
+  options.senin.seed = settings.strategy_settings.seed;
+  settings.strategy_settings.lbg.threads = exact.threads;
+  return settings;
+}
+
+Partition_settings partition_settings(const std::string& strategy, const py::kwargs& keywords) {
+  Partition_settings settings{.strategy = strategy, .strategy_settings = {}, .options = {}};
+  Option_table table{{"seed", to(settings.strategy_settings.seed)},
+                     {"keep_islands", to(settings.options.keep_islands)},
+                     {"threads", to(settings.strategy_settings.lbg.threads)}};
+  add_lbg(table, settings.strategy_settings.lbg);
+  set_all(table, keywords);
+  return settings;
+}
+
+}  // namespace lodestone::python
