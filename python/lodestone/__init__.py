@@ -61,3 +61,9 @@ __all__ = [
     "read_animation", "read_mesh", "read_scene", "self_collisions", "strategies", "within", "write_animation",
     "write_mesh",
 ]
+
+# Messages and help name what users import, not where it is compiled.
+for _name in __all__:
+    if hasattr(globals()[_name], "__module__"):
+        globals()[_name].__module__ = "lodestone"
+del _name

@@ -29,9 +29,9 @@ template <class Value>
 Set_option to(Value& option) {
   return [&option](const std::string& name, const py::handle& value) {
     try {
-      // numpy's numbers and bools pass too; True is no number of threads.
-      if constexpr (!std::is_same_v<Value, bool>)
-        if (PyBool_Check(value.ptr())) throw py::cast_error();
+      // numpy's numbers and bools pass too; True is no number of threads, and 2 is no yes.
+      const bool is_bool = PyBool_Check(value.ptr()) || py::str(py::type::of(value).attr("__name__")).equal(py::str("bool_"));
+      if (is_bool != std::is_same_v<Value, bool>) throw py::cast_error();
       option = value.cast<Value>();
     } catch (const py::cast_error&) {
       throw py::type_error("the option " + name + " must be " + type_name<Value> + ", but is " +

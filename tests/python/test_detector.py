@@ -1,0 +1,435 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The class Detector: how it reads arrays, what it answers, what it refuses."""
+
+import gc
+import threading
+
+import numpy as np
+import pytest
+
+import lodestone
+from conftest import Mesh, cube, sphere
+
+
+def pairs_of(frame):
+    return {(pair.a, pair.b): [tuple(faces) for faces in pair.faces] for pair in frame.pairs if pair.collides}
+
+
+def test_an_array_is_read_where_it_is():
+    detector = lodestone.Detector()
+    a, b = cube(), cube().moved(5)
+    detector.add(a), detector.add(b)
+    assert not detector.detect().collides
+    b.vertices -= [4.5, 0.5, 0.5]
+    frame = detector.detect()
+    assert frame.collides and frame.number == 2
+    assert len(frame.faces) == len(lodestone.find_collisions(a, b).faces) > 0
+
+
+@pytest.mark.parametrize("convert", [
+    lambda v: v.astype(np.float32),
+    lambda v: np.asfortranarray(v),
+    lambda v: np.repeat(v, 2, axis=0)[::2],
+    lambda v: np.hstack([v, v])[:, :3],
+    lambda v: v[:, ::-1].copy()[:, ::-1],
+    lambda v: np.frombuffer(b"\0" + v.tobytes(), dtype=np.uint8)[1:].view(np.float64).reshape(-1, 3).copy(),
+    lambda v: np.lib.format.open_memmap,
+], ids=["float32", "fortran", "strided", "wide", "reversed", "bytes", "memmap"])
+def test_floats_of_any_layout_are_read_by_every_query(convert, tmp_path):
+    ball = sphere(8)
+    ball.vertices = ball.vertices.astype(np.float32).astype(float)
+    other = sphere(6).moved(5)
+    given = convert(ball.vertices)
+    if callable(given):
+        given = np.lib.format.open_memmap(tmp_path / "v.npy", mode="w+", dtype=float, shape=ball.vertices.shape)
+        given[:] = ball.vertices
+    detector = lodestone.Detector()
+    detector.add(given, ball.faces), detector.add(other)
+    assert not detector.detect().collides
+    given += 4.5
+    moved = given.astype(float)
+    expected = lodestone.find_collisions(Mesh(moved, ball.faces), other)
+    assert [tuple(f) for f in detector.detect().faces] == [tuple(f) for f in expected.faces]
+
+
+@pytest.mark.parametrize("vertices, faces", [
+    (cube().vertices.tolist(), cube().faces.tolist()),
+    (cube().vertices.astype(int), cube().faces.astype(np.uint8)),
+    (cube().vertices.astype(">f8"), cube().faces.astype(np.uint64)),
+    (cube().vertices.astype(np.longdouble), cube().faces.astype(">i4")),
+    (cube().vertices, np.asfortranarray(cube().faces.astype(np.int16))),
+])
+def test_numbers_of_any_type_are_taken(vertices, faces):
+    expected = lodestone.find_collisions(cube(), sphere())
+    assert np.array_equal(lodestone.find_collisions((vertices, faces), sphere()).faces, expected.faces)
+    detector = lodestone.Detector()
+    detector.add(vertices, faces), detector.add(sphere())
+    assert np.array_equal(detector.detect().faces, expected.faces)
+
+
+def test_an_array_lives_as_long_as_its_object():
+    detector = lodestone.Detector()
+    detector.add(np.array(cube().vertices), np.array(cube().faces))
+    detector.add(sphere())
+    gc.collect()
+    junk = [np.full((8, 3), 1e9) for _ in range(100)]
+    assert detector.detect().collides and junk
+
+
+def test_set_vertices_takes_another_array():
+    detector = lodestone.Detector()
+    a = detector.add(cube(), name="box")
+    detector.add(cube().moved(5))
+    assert not detector.detect().collides
+    detector.set_vertices(a, cube().moved(4.5).vertices.astype(np.float32))
+    assert detector.detect().collides
+    with pytest.raises(lodestone.BadMesh, match="there are 8 vertices, but got 3"):
+        detector.set_vertices(a, np.zeros((3, 3)))
+    assert detector.detect().collides
+    assert detector.name(a) == "box"
+
+
+def test_frames_outlast_the_next_frame_and_their_detector():
+    detector = lodestone.Detector(contact_points=True, contact_normals=True)
+    a, b = cube(), cube().moved(0.5, 0.25, 0.125)
+    detector.add(a), detector.add(b)
+    frame = detector.detect()
+    faces, pair = np.array(frame.faces), frame.pairs[0]
+    b.vertices += 10
+    assert not detector.detect().collides
+    del detector
+    gc.collect()
+    assert np.array_equal(frame.faces, faces) and frame.faces is frame.faces
+    assert len(pair.points) == len(pair.normals) == len(pair.depths) == len(pair.segments) == len(faces)
+    assert not frame.faces.flags.writeable
+    assert frame.faces.dtype == np.int64 and frame.points.shape == (len(faces), 3)
+    with pytest.raises(ValueError):
+        frame.faces[0, 0] = 7
+
+
+def test_what_was_not_asked_for_is_none():
+    pair = lodestone.find_collisions(cube(), sphere())
+    assert pair.points is None and pair.normals is None and pair.depths is None and pair.segments is None
+    assert pair.parting is None and pair.patches == [] and pair.containment == "none"
+
+
+def test_points_and_normals_of_two_crossing_triangles():
+    flat = Mesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    upright = Mesh([[1, 1, -1], [1, 1, 1], [1, -3, 0]], [[0, 1, 2]])
+    pair = lodestone.find_collisions(flat, upright, contact_points=True, contact_normals=True)
+    assert pair.faces.tolist() == [[0, 0]]
+    assert sorted(pair.segments[0].tolist()) == [[1, 0, 0], [1, 1, 0]]
+    assert pair.points.tolist() == [[1, 0.5, 0]]
+    assert np.allclose(np.linalg.norm(pair.normals, axis=1), 1) and pair.depths[0] > 0
+    assert sorted(pair.frame.outline(0).tolist()) == [[1, 0, 0], [1, 1, 0]]
+    with pytest.raises(IndexError):
+        pair.frame.outline(1)
+
+
+@pytest.mark.parametrize("mode", ["exact", "certified", "particles"])
+def test_many_objects_groups_and_ignored_pairs(mode):
+    detector = lodestone.Detector(mode=mode)
+    for i in range(4):
+        detector.add(sphere(10).moved(1.5 * i), name=f"ball {i}", groups=1 if i < 3 else 2, meets=1)
+    assert set(pairs_of(detector.detect())) == {(0, 1), (1, 2)}
+    detector.ignore(0, 1)
+    assert set(pairs_of(detector.detect())) == {(1, 2)}
+    detector.ignore(1, 0, ignored=False)
+    detector.remove(2)
+    assert set(pairs_of(detector.detect())) == {(0, 1)}
+    assert len(detector) == 4 and 1 in detector and 2 not in detector and 9 not in detector
+    with pytest.raises(lodestone.BadArgument, match="object 2 has been removed"):
+        detector.set_vertices(2, sphere(10).vertices)
+
+
+def test_queries_about_two_objects():
+    detector = lodestone.Detector()
+    outer, inner, far = detector.add(cube(4)), detector.add(cube().moved(1, 1, 1)), detector.add(cube().moved(7, 1, 1))
+    assert detector.contains(outer, inner) and not detector.contains(inner, outer)
+    assert detector.within(outer, far, 3.001) and not detector.within(outer, far, 3)
+    closest = detector.closest(outer, far)
+    assert closest["distance"] == 3 and closest["points"][0][0] == 4 and closest["points"][1][0] == 7
+    assert closest["direction"].tolist() == [-1, 0, 0]
+    assert detector.parting(outer, far) is None
+    shift = detector.parting(outer, inner)
+    moved = Mesh(cube(4).vertices + shift, cube().faces)
+    assert not lodestone.find_collisions(moved, cube().moved(1, 1, 1)).collides
+    assert not lodestone.contains(moved, cube().moved(1, 1, 1))
+    assert detector.detect(outer, far).pairs[0].collides is False
+
+
+def test_rays_and_points():
+    detector = lodestone.Detector()
+    box = detector.add(cube(2))
+    hit = detector.first_hit(box, [1, 0.5, -3], [0, 0, 2])
+    assert hit["t"] == 1.5 and hit["point"].tolist() == [1, 0.5, 0]
+    assert [h["point"][2] for h in detector.all_hits(box, [1, 0.5, -3], [0, 0, 1])] == [0, 2]
+    assert detector.first_hit(box, [1, 0.5, -3], [0, 0, 1], length=2.5) is None
+    origins = [[1, 0.5, -3], [9, 9, 9]]
+    hits = detector.first_hits(box, origins, [0, 0, 1])
+    assert hits["faces"].tolist()[1] == -1 and hits["t"].tolist() == [3, np.inf]
+    assert hits["points"][0].tolist() == [1, 0.5, 0] and np.isnan(hits["points"][1]).all()
+    nearest = detector.closest_point(box, [1, 0.75, -5])
+    assert nearest["distance"] == 5 and nearest["point"].tolist() == [1, 0.75, 0]
+    points = [[1, 0.75, -5], [1, 1, 1.5], [0, 1, 1]]
+    assert detector.closest_points(box, points)["distances"].tolist() == [5, 0.5, 0]
+    assert detector.point_sides(box, points).tolist() == [-1, 1, 0]
+    assert detector.point_side(box, [1, 1, 1]) == "inside"
+    with pytest.raises(lodestone.BadArgument):
+        detector.first_hit(box, [0, 0, 0], [0, 0, 0])
+    with pytest.raises(lodestone.BadArgument, match=r"origins must have the shape \(n, 3\)"):
+        detector.first_hits(box, [0, 0, 0], [0, 0, 1])
+
+
+def test_a_visitor_sees_contacts_and_may_stop():
+    detector = lodestone.Detector()
+    detector.add(cube()), detector.add(cube().moved(0.5, 0.25, 0.125))
+    seen = []
+    assert detector.visit(0, 1, lambda a, b: seen.append((a, b)))
+    assert sorted(seen) == [tuple(faces) for faces in detector.detect().faces]
+    assert not detector.visit(0, 1, lambda a, b: True)
+    with pytest.raises(ZeroDivisionError):
+        detector.visit(0, 1, lambda a, b: 1 / 0)
+    for call in (lambda *_: detector.detect(), lambda *_: detector.set_vertices(0, cube().vertices)):
+        with pytest.raises(lodestone.BadArgument, match="a visitor called the detector"):
+            detector.visit(0, 1, call)
+    assert detector.detect().collides
+
+
+def test_faces_change():
+    detector = lodestone.Detector()
+    shape = detector.add(sphere(8))
+    other = sphere(6).moved(0.5)
+    detector.add(other)
+    detector.detect()
+    finer = sphere(12)
+    detector.rebuild(shape, finer.vertices, finer.faces)
+    assert np.array_equal(detector.detect().faces, lodestone.find_collisions(finer, other).faces)
+    faces = finer.faces.copy()
+    faces[5] = faces[6]
+    detector.rebuild(shape, finer.vertices, faces, changed=[5])
+    assert np.array_equal(detector.detect().faces, lodestone.find_collisions(Mesh(finer.vertices, faces), other).faces)
+    with pytest.raises(lodestone.BadMesh, match="face 0 refers to vertex 7 of 3"):
+        detector.rebuild(shape, np.zeros((3, 3)), [[0, 1, 7]])
+    with pytest.raises(lodestone.BadMesh):
+        detector.rebuild(shape, np.zeros((3, 3)), np.zeros((0, 3), dtype=int))
+    assert np.array_equal(detector.detect().faces, lodestone.find_collisions(Mesh(finer.vertices, faces), other).faces)
+
+
+def test_what_was_built_can_be_saved():
+    detector = lodestone.Detector()
+    ball, other = sphere(), sphere().moved(1.5)
+    detector.add(ball), detector.add(other)
+    expected, saved = detector.detect().faces, detector.save(0)
+    again = lodestone.Detector()
+    again.add(ball), again.add(other)
+    again.load(0, saved)
+    frame = again.detect()
+    assert np.array_equal(frame.faces, expected) and frame.statistics["builds"] == 1
+    with pytest.raises(lodestone.BadSavedObject):
+        again.load(0, saved[:-1])
+
+
+def test_a_placed_object_is_where_its_matrix_says():
+    detector = lodestone.Detector()
+    detector.add(cube()), detector.add(cube())
+    matrix = np.eye(4)
+    matrix[:3, 3] = [5, 0, 0]
+    detector.place(1, matrix)
+    assert not detector.detect().collides and detector.closest(0, 1)["distance"] == 4
+    with pytest.raises(lodestone.BadArgument):
+        detector.place(1, 2 * matrix)
+
+
+def test_regions_and_particles():
+    detector = lodestone.Detector(mode="particles", particles=12, list_candidates=True)
+    detector.add(sphere()), detector.add(sphere().moved(1.5))
+    frame = detector.detect()
+    assert frame.collides
+    regions, particles = detector.regions(0), detector.particles(0)
+    assert set(regions) == set(range(12)) and len(particles) == 12
+    assert regions[particles[3]] == 3 and frame.candidates
+
+
+def test_a_skin_is_posed_where_it_is_near():
+    ball, post = sphere(60), sphere(6, 0.1)
+    joints = (ball.vertices[:, 2:] > 0).astype(int)
+    skin = lodestone.Skin(ball.vertices, joints, np.ones_like(joints, dtype=float), joint_count=2)
+    detector = lodestone.Detector(mode="certified")
+    detector.add(skin, ball.faces), detector.add(post)
+    for z in (5.0, 0.5, 0.95):
+        matrices = np.stack([np.eye(4), np.eye(4)])
+        matrices[:, 2, 3] = [-2, z]
+        skin.set_joints(matrices)
+        posed = ball.vertices + np.where(joints, [0, 0, z], [0, 0, -2.0])
+        assert np.allclose(skin.pose(), posed)
+        frame = detector.detect()
+        expected = lodestone.find_collisions(Mesh(skin.pose(), ball.faces), post)
+        assert frame.collides == expected.collides and np.array_equal(frame.faces, expected.faces)
+    assert frame.statistics["vertices_read"] < len(ball.vertices)
+    with pytest.raises(lodestone.BadArgument):
+        skin.set_joints(np.zeros((3, 4, 4)))
+    with pytest.raises(lodestone.BadArgument, match="use set_frame|come from a skin"):
+        detector.set_vertices(0, ball.vertices)
+
+
+def test_morph_targets_move_a_skin():
+    box = cube()
+    skin = lodestone.Skin(box.vertices, np.zeros((8, 1), int), np.ones((8, 1)), targets=[np.full((8, 3), 2.0)])
+    skin.set_weights([0.5])
+    assert np.array_equal(skin.pose(), box.vertices + 1) and skin.target_count == 1
+    with pytest.raises(lodestone.BadArgument):
+        skin.set_weights([1, 2])
+
+
+def test_promises_save_reading_and_broken_ones_are_noticed():
+    detector = lodestone.Detector(mode="certified")
+    a, b = sphere(60), sphere(60).moved(20)
+    detector.add(a), detector.add(b)
+    promise = lodestone.DisplacementPromise()
+    detector.promise(0, promise)
+    detector.promise(1, promise)
+    detector.detect()
+    promise.move(0.5)
+    a.vertices += [0.25, 0, 0]
+    frame = detector.detect()
+    assert not frame.collides and frame.statistics["vertices_read"] == 0
+    promise.move(12)
+    a.vertices += [18.5, 0, 0]  # farther than promised
+    frame = detector.detect()
+    assert frame.collides and frame.statistics["violations"] > 0
+    strict = lodestone.Detector(mode="certified", throw_if_broken=True)
+    c, d = sphere(60), sphere(60).moved(2.5)
+    strict.add(c), strict.add(d)
+    stretch = lodestone.StretchPromise(1.0)
+    strict.promise(0, stretch)
+    strict.detect()
+    c.vertices *= 2
+    with pytest.raises(lodestone.BrokenBound):
+        strict.detect()
+    with pytest.raises(lodestone.BadArgument, match="certified"):
+        exact = lodestone.Detector()
+        exact.add(cube())
+        exact.promise(0, lodestone.LipschitzPromise(1.0))
+    with pytest.raises(TypeError):
+        detector.promise(0, "nothing moves")
+
+
+@pytest.mark.parametrize("mode", ["exact", "certified", "particles", "senin"])
+def test_a_vertex_that_is_no_number_is_an_error(mode):
+    detector = lodestone.Detector(mode=mode)
+    bad = cube()
+    bad.vertices[3, 1] = np.nan
+    detector.add(bad, name="broken box"), detector.add(sphere())
+    with pytest.raises(lodestone.BadMesh, match="finite"):
+        detector.detect()
+    bad.vertices[3, 1] = 1
+    detector.detect()
+
+
+@pytest.mark.parametrize("arguments, error, text", [
+    (dict(mode="fast"), lodestone.BadArgument, "mode must be one of exact, certified, particles, senin, but is 'fast'"),
+    (dict(tolerence=1), TypeError, "there is no option tolerence"),
+    (dict(threads=-1), TypeError, "threads must be an integer >= 0, but is -1"),
+    (dict(threads=1.5), TypeError, "threads must be"),
+    (dict(threads=True), TypeError, "threads must be"),
+    (dict(tolerance="1"), TypeError, "tolerance must be a number"),
+    (dict(tolerance=-1), lodestone.BadArgument, "tolerance"),
+    (dict(self_collision=2), TypeError, "self_collision must be True or False"),
+    (dict(strategy="voronoy"), lodestone.BadArgument, "voronoy"),
+    (dict(mode="particles", tolerance=1.0), lodestone.BadArgument, "exact"),
+])
+def test_options_are_checked(arguments, error, text):
+    with pytest.raises(error, match=text):
+        lodestone.Detector(**arguments)
+
+
+@pytest.mark.parametrize("vertices, faces, text", [
+    (cube().vertices[:, :2], cube().faces, r"vertices must have the shape \(V, 3\), but have \(8, 2\)"),
+    (cube().vertices, cube().faces.ravel(), r"faces must have the shape \(F, 3\), but have \(36,\)"),
+    (cube().vertices, cube().faces + 0.5, "faces must be an array of integers"),
+    (cube().vertices, cube().faces - 1, "face 0 refers to vertex -1"),
+    (cube().vertices, cube().faces + 1, "face [0-9]+ refers to vertex 8 of 8"),
+    (cube().vertices, [[0, 1, 2**32]], "face 0 refers to vertex 4294967296"),
+    (cube().vertices, np.zeros((0, 3), int), "no face"),
+    (cube().vertices, [], "no face"),
+    (np.zeros((0, 3)), [[0, 1, 2]], "face 0 refers to vertex 2 of 0"),
+    (cube().vertices + 1j, cube().faces, "vertices must be an array of numbers"),
+    ("vertices", "faces", "must be an array"),
+    ([[1, 2, 3], [4, 5]], cube().faces, "vertices must be"),
+    (None, cube().faces, "vertices must be"),
+])
+@pytest.mark.filterwarnings("ignore::numpy.VisibleDeprecationWarning")
+def test_bad_meshes_are_refused(vertices, faces, text):
+    detector = lodestone.Detector()
+    with pytest.raises(lodestone.BadMesh, match=text):
+        detector.add(vertices, faces)
+    assert len(detector) == 0
+
+
+def test_something_without_faces_is_refused():
+    with pytest.raises(lodestone.BadArgument, match="vertices and faces"):
+        lodestone.Detector().add(cube().vertices)
+
+
+def test_errors_are_python_errors_too():
+    assert issubclass(lodestone.BadMesh, lodestone.Error) and issubclass(lodestone.BadMesh, ValueError)
+    assert lodestone.BadMesh.__module__ == "lodestone" and lodestone.Detector.__module__ == "lodestone"
+
+
+def test_answers_do_not_depend_on_the_number_of_threads():
+    found = []
+    for threads in (1, 2, 5):
+        detector = lodestone.Detector(threads=threads, contact_points=True, self_collision=True)
+        for i in range(5):
+            detector.add(sphere(24).moved(0.9 * i, 0.1 * i))
+        frame = detector.detect()
+        found.append((frame.faces.tobytes(), frame.points.tobytes()))
+    assert found[0] == found[1] == found[2]
+
+
+def test_python_threads_share_a_detector():
+    detector = lodestone.Detector()
+    ball = sphere(20)
+    detector.add(ball), detector.add(sphere(20).moved(1.5))
+    expected = detector.detect().faces
+    problems = []
+
+    def work():
+        try:
+            for i in range(50):
+                if i % 5 == 0:
+                    detector.set_vertices(0, ball.vertices.copy())
+                if not np.array_equal(detector.detect().faces, expected):
+                    problems.append("another answer")
+                detector.visit(0, 1, lambda a, b: True)
+        except Exception as error:  # pragma: no cover
+            problems.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not problems
+
+
+def test_the_global_lock_is_free_during_a_query():
+    detector = lodestone.Detector(self_collision=True, contact_points=True)
+    for i in range(6):
+        detector.add(sphere(90).moved(0.3 * i))
+    done = threading.Event()
+    counted = []
+
+    def count():
+        n = 0
+        while not done.is_set():
+            n += 1
+        counted.append(n)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    before = detector.detect().number
+    done.set()
+    thread.join()
+    assert before == 1 and counted[0] > 100

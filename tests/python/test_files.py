@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files: meshes, animations, scenes, pages. Scenes give what the program gives."""
+
+import json
+import re
+import subprocess
+
+import numpy as np
+import pytest
+
+import lodestone
+from conftest import cube, sphere
+
+
+@pytest.mark.parametrize("extension", ["obj", "off", "ply", "stl", "gltf", "glb"])
+def test_a_written_mesh_is_read_again(tmp_path, extension):
+    ball = sphere(8)
+    path = tmp_path / f"ball.{extension}"
+    lodestone.write_mesh(path, ball)
+    read = lodestone.read_mesh(path)
+    assert read.frames == 1 and len(read.faces) == len(ball.faces)
+    corners = lambda mesh: np.sort(mesh.vertices[np.asarray(mesh.faces)].reshape(len(mesh.faces), 9), axis=1)
+    assert np.allclose(corners(read), corners(ball), atol=1e-6)
+    assert lodestone.find_collisions(read, cube()).collides
+
+
+def test_a_polygon_is_cut_and_told(tmp_path):
+    path = tmp_path / "quad.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nf 1 2 3 4\n")
+    read = lodestone.read_mesh(path)
+    assert len(read.vertices) == 5 and len(read.faces) == 2 and read.file_faces.tolist() == [0, 0]
+    assert read.files == [str(path)] and read.kind == "mesh"
+
+
+def test_errors_name_file_place_and_cause(tmp_path):
+    path = tmp_path / "broken.obj"
+    path.write_text("v 0 0 0\nf 1 2 3\n")
+    with pytest.raises(lodestone.BadMesh, match=re.escape(str(path)) + ":2: "):
+        lodestone.read_mesh(path)
+    with pytest.raises(lodestone.BadMesh, match="there is no such file"):
+        lodestone.read_mesh("nowhere.ply")
+    with pytest.raises(lodestone.BadOutput):
+        lodestone.write_mesh("/proc/nowhere/ball.ply", cube())
+    with pytest.raises(lodestone.BadArgument):
+        lodestone.write_mesh(tmp_path / "ball.txt", cube())
+    scene = tmp_path / "scene.json"
+    scene.write_text('{"objects": 3}')
+    with pytest.raises(lodestone.BadScene, match="/objects"):
+        lodestone.read_scene(scene)
+
+
+@pytest.mark.parametrize("extension", ["pc2", "mdd", "glb"])
+def test_an_animation_goes_to_a_file_and_back(tmp_path, extension):
+    box = cube()
+    frames = [box.vertices + [t, 0, 0] for t in range(5)]
+    path = tmp_path / f"box.{extension}"
+    lodestone.write_animation(path, frames, box.faces if extension == "glb" else None, frames_per_second=10)
+    lodestone.write_mesh(tmp_path / "box.obj", box)
+    mesh = {} if extension == "glb" else {"mesh": tmp_path / "box.obj"}
+    read = lodestone.read_animation(path, **mesh)
+    assert len(read) == read.frames == 5 and len(read.faces) == 12
+    for t, frame in enumerate(read):
+        assert np.allclose(frame, frames[t])
+    assert np.array_equal(read[-1], read.pose(4))
+    with pytest.raises(IndexError):
+        read[5]
+    detector = lodestone.Detector()
+    moving = detector.add(read)
+    detector.add(cube().moved(3.5))
+    assert not detector.detect().collides
+    detector.set_frame(moving, 3)
+    assert detector.detect().collides and np.array_equal(detector.vertices(moving), read[3])
+    with pytest.raises(lodestone.BadArgument, match="there is no frame 5"):
+        detector.set_frame(moving, 5)
+
+
+def test_frames_of_other_lengths_are_refused(tmp_path):
+    with pytest.raises(lodestone.BadArgument, match="frame 1 has another number of vertices"):
+        lodestone.write_animation(tmp_path / "a.pc2", [np.zeros((3, 3)), np.zeros((4, 3))])
+    with pytest.raises(lodestone.BadArgument, match="no frames"):
+        lodestone.write_animation(tmp_path / "a.pc2", [])
+
+
+@pytest.mark.parametrize("mode", ["exact", "certified", "particles"])
+@pytest.mark.parametrize("scene", ["teapot_sphere_2", "bodies_20"])
+def test_a_scene_plays_as_in_the_program(scenes, program, tmp_path, scene, mode):
+    options = {"particles": 32} if mode == "particles" else {}
+    command = [program, "detect", str(scenes / f"{scene}.json"), "--mode", mode, "--contacts", "all", "--out",
+               str(tmp_path), "--quiet"]
+    subprocess.run(command + (["--particles", "32"] if options else []), check=True, capture_output=True)
+    lines = [json.loads(line) for line in (tmp_path / "frames.jsonl").read_text().splitlines()]
+    names = [animation.name for animation in lodestone.read_scene(scenes / f"{scene}.json").objects]
+    assert len(lines) > 50
+    for line, frame in zip(lines, lodestone.play(scenes / f"{scene}.json", mode=mode, **options), strict=True):
+        told = {(p["a"], p["b"]): [tuple(f) for f in p["faces"]] for p in line["pairs"]}
+        found = {(names[p.a], names[p.b]): [tuple(f) for f in p.faces] for p in frame.pairs}
+        assert told == found
+
+
+def test_a_scene_has_objects_that_are_animations(scenes):
+    scene = lodestone.read_scene(scenes / "teapot_sphere_1.json")
+    assert scene.frames == 300 and len(scene.objects) == 2 and scene.ignored == []
+    assert scene.objects[0].vertices.shape[1] == 3 and scene.objects[0].frames == 300
+    frames = list(lodestone.play(scene, frames=range(100, 103)))
+    assert len(frames) == 3 and frames[0].detector is frames[2].detector
+
+
+def test_a_page_shows_frames(scenes, tmp_path):
+    path = tmp_path / "page.html"
+    page = lodestone.page(lodestone.play(scenes / "teapot_sphere_1.json", frames=range(110, 114)), path, title="Tea <time>")
+    text = path.read_text()
+    assert len(page) == 4 and "Tea &lt;time&gt;" in text and "lodestone-data" in text
+    shown = page._repr_html_()
+    assert shown.startswith("<iframe srcdoc=") and len(shown) > len(text)
+    with pytest.raises(lodestone.BadArgument, match="there are no frames"):
+        lodestone.page([])
+    with pytest.raises(lodestone.BadArgument, match="written as .html"):
+        page.save(tmp_path / "page.txt")
+
+
+def test_a_frame_shows_itself():
+    detector = lodestone.Detector()
+    detector.add(cube(), name="box"), detector.add(sphere())
+    page = detector.detect().show()
+    assert len(page) == 1 and "<iframe" in page._repr_html_()
+    with pytest.raises(lodestone.BadArgument, match="only a frame of a Detector"):
+        lodestone.find_collisions(cube(), sphere()).frame.show()

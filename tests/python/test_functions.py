@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The functions that keep nothing: one call, one answer."""
+
+import numpy as np
+import pytest
+
+import lodestone
+from conftest import Mesh, cube, sphere
+
+
+def test_a_mesh_is_an_object_with_vertices_and_faces_or_a_tuple():
+    a, b = cube(), cube().moved(0.5, 0.25, 0.125)
+    expected = lodestone.find_collisions(a, b)
+    assert expected.collides and expected.a == 0 and expected.b == 1
+    again = lodestone.find_collisions((a.vertices, a.faces), (b.vertices.tolist(), b.faces.tolist()))
+    assert np.array_equal(again.faces, expected.faces)
+    with pytest.raises(lodestone.BadArgument, match="a must be vertices and faces"):
+        lodestone.find_collisions(7, b)
+    with pytest.raises(lodestone.BadMesh):
+        lodestone.find_collisions((a.vertices[:, :2], a.faces), b)
+
+
+@pytest.mark.parametrize("options", [{}, {"tolerance": 0.1}, {"patches": True}, {"threads": 2}, {"most_contacts": 5},
+                                     {"containment": True, "parting": True}])
+def test_one_call_gives_what_a_detector_gives(options):
+    a, b = sphere(), sphere(12).moved(1.2, 0.2)
+    detector = lodestone.Detector(**options)
+    detector.add(a), detector.add(b)
+    kept, once = detector.detect().pairs[0], lodestone.find_collisions(a, b, **options)
+    assert np.array_equal(kept.faces, once.faces)
+    assert kept.near == once.near and kept.capped == once.capped and kept.containment == once.containment
+    assert [p["contacts"].tolist() for p in kept.patches] == [p["contacts"].tolist() for p in once.patches]
+    assert (kept.parting is None) == (once.parting is None)
+    if kept.parting is not None:
+        assert np.array_equal(kept.parting, once.parting)
+
+
+def test_meshes_that_are_apart_are_a_pair_without_contacts():
+    pair = lodestone.find_collisions(cube(), cube().moved(9), contact_points=True, contact_normals=True)
+    assert not pair.collides and pair.faces.shape == (0, 2) and pair.points.shape == (0, 3)
+    assert pair.segments.shape == (0, 2, 3) and pair.depths.shape == (0,)
+
+
+def test_yes_or_no_lists_no_faces():
+    pair = lodestone.find_collisions(cube(), sphere(), contacts="yes_no")
+    assert pair.collides and len(pair.faces) == 0
+    assert len(lodestone.find_collisions(cube(), sphere(), contacts="first").faces) == 1
+
+
+def test_self_collisions_are_those_beyond_shared_vertices():
+    assert not lodestone.self_collisions(sphere()).collides
+    crossing = Mesh([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [1, -3, 0]], [[0, 1, 2], [3, 4, 5]])
+    pair = lodestone.self_collisions(crossing)
+    assert pair.collides and pair.faces.tolist() == [[0, 1]] and pair.a == pair.b == 0
+    assert lodestone.self_collisions(crossing.vertices, crossing.faces).collides
+    detector = lodestone.Detector()
+    detector.add(crossing)
+    assert detector.self_collisions(0).faces.tolist() == [[0, 1]]
+    # Two faces that share an edge whose vertices are stored twice touch, unless these are one.
+    twice = Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0], [1, 0, 0], [0, -1, 1]], [[0, 1, 2], [4, 3, 5]])
+    assert lodestone.self_collisions(twice).collides
+    assert not lodestone.self_collisions(twice, file_vertex=[0, 1, 2, 0, 1, 5]).collides
+
+
+def test_closest_within_contains():
+    assert lodestone.closest(cube(), cube().moved(3))["distance"] == 2
+    assert lodestone.within(cube(), cube().moved(3), 2.5) and not lodestone.within(cube(), cube().moved(3), 2)
+    assert lodestone.contains(cube(3), cube().moved(1, 1, 1)) and not lodestone.contains(cube(), cube(3))
+
+
+def test_partitions_have_labels_particles_and_measures():
+    ball = sphere(24)
+    divided = lodestone.partition(ball.vertices, ball.faces, strategy="lbg", regions=16)
+    assert divided.regions == 16 and set(divided.labels) == set(range(16)) and divided.strategy == "lbg"
+    assert [divided.labels[p] for p in divided.particles] == list(range(16))
+    assert divided.measures["pieces_per_region"] >= 1 and 0 < divided.measures["distortion"] < 1
+    finer = lodestone.partition(ball, regions=64)
+    assert finer.measures["distortion"] < divided.measures["distortion"]
+    assert np.array_equal(lodestone.partition(ball, regions=16, threads=2).labels, divided.labels)
+    with pytest.raises(lodestone.BadArgument):
+        lodestone.partition(ball, regions=0)
+    with pytest.raises(lodestone.BadArgument, match="nothing"):
+        lodestone.partition(ball, strategy="nothing")
+    with pytest.raises(TypeError, match="there is no option colour"):
+        lodestone.partition(ball, colour="red")
+
+
+@pytest.mark.parametrize("strategy", sorted(lodestone.strategies()))
+def test_every_strategy_divides_a_sphere(strategy):
+    divided = lodestone.partition(sphere(12), strategy=strategy, regions=8)
+    assert 1 <= divided.regions <= 16 and len(divided.labels) == len(sphere(12).vertices)
+    assert lodestone.strategies()[strategy]
