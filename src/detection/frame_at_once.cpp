@@ -37,7 +37,8 @@ bool can_answer_at_once(const Detector_options& options) {
 }
 
 Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading) {
-  const auto& [box_a, box_b, a, b] = surfaces;
+  const Box &box_a = surfaces.box_a, &box_b = surfaces.box_b;
+  const Faces_in_box &a = surfaces.a, &b = surfaces.b;
   Frame_builder builder(options);
   builder.start();
   builder.seconds().broad_phase = reading;

@@ -62,14 +62,14 @@ void list_corners(std::span<const Corners> mesh_corners, std::span<const Region_
       if (labels[patches[region].vertices[i]] == region) index_in_own[patches[region].vertices[i]] = i;
 
   for (Region_index region = 0; region < patches.size(); ++region) {
-    auto& [faces, vertices, corners] = patches[region];
+    Patch& patch = patches[region];
     const auto index = [&](std::uint32_t vertex) {
-      return labels[vertex] == region ? index_in_own[vertex] : index_in(vertices, vertex);
+      return labels[vertex] == region ? index_in_own[vertex] : index_in(patch.vertices, vertex);
     };
-    corners.reserve(faces.size());
-    for (const auto face : faces) {
+    patch.corners.reserve(patch.faces.size());
+    for (const auto face : patch.faces) {
       const auto& [a, b, c] = mesh_corners[face];
-      corners.push_back({index(a), index(b), index(c)});
+      patch.corners.push_back({index(a), index(b), index(c)});
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 #include "lodestone/queries/surface_triangle.h"
 #include "lodestone/triangles/triangle_distance.h"
@@ -31,7 +32,6 @@ struct Partner {
 struct Link {
   std::array<std::uint32_t, 2> vertices;  ///< ascending; the second is `no_vertex` for a vertex
   std::uint32_t contact;
-  auto operator<=>(const Link&) const = default;
 };
 
 /// Sets of contacts, which are merged.
@@ -96,7 +96,9 @@ class Linking {
         if (!is_own(corners[i])) links_.push_back({{corners[i], no_vertex}, contact.contact});
       }
     }
-    std::ranges::sort(links_, {}, [](const Link& l) { return std::pair(l.vertices[1] == no_vertex, l); });
+    std::ranges::sort(links_, {}, [](const Link& l) {
+      return std::tuple(l.vertices[1] == no_vertex, l.vertices[0], l.vertices[1], l.contact);
+    });
   }
 
   bool is_in_contact(const Object_surface& surface, const std::array<std::uint32_t, 2>& vertices,

@@ -43,13 +43,14 @@ bool is_nearer(const Point& query, Near_face& a, Near_face& b) {
 }
 
 Closest_point rounded(const Query_point& query, const Near_face& nearest) {
-  const auto& [low, high, squared, weights, part] = nearest.distance;
+  const auto& distance = nearest.distance;
+  const auto& weights = distance.weights;
   const Triangle& t = nearest.triangle;
-  if (high - low <= 0x1p-31 * low) {
+  if (distance.high - distance.low <= 0x1p-31 * distance.low) {
     const auto mean = [&](int axis) {
       return (1 - weights[0] - weights[1]) * t[0][axis] + weights[0] * t[1][axis] + weights[1] * t[2][axis];
     };
-    return {nearest.face, Point(mean(0), mean(1), mean(2)), std::sqrt(squared) / query.scale};
+    return {nearest.face, Point(mean(0), mean(1), mean(2)), std::sqrt(distance.squared) / query.scale};
   }
   const auto points = closest_points(t, {query.point, query.point, query.point});
   return {nearest.face, points.a, points.distance};

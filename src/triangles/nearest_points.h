@@ -18,8 +18,8 @@ struct Triangle_point {
 template <class Number>
 struct Nearest_points {
   Triangle_point<Number> a, b;
-  Corner_differences<Number>::Vector gap;     ///< from the point on b to the one on a
-  Corner_differences<Number>::Vector across;  ///< along the gap, but computed from what is orthogonal to it
+  typename Corner_differences<Number>::Vector gap;     ///< from the point on b to the one on a
+  typename Corner_differences<Number>::Vector across;  ///< along the gap, but computed from what is orthogonal to it
   Number squared = Number(-1);                ///< squared length of `gap`; negative: none yet
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lodestone/detection/detector_options.h"
+#include "lodestone/detection/frame.h"
 #include "lodestone/detection/meeting_memory.h"
 #include "lodestone/detection/particle_object.h"
 #include "lodestone/particles/contact_curve.h"

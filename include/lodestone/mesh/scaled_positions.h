@@ -22,7 +22,8 @@ inline Positions scaled_positions(const Eigen::Ref<const Positions>& positions) 
 /// The same of coordinates.
 inline Positions scaled_positions(Coordinates coordinates) {
   const auto vertices = static_cast<Eigen::Index>(coordinates.size() / 3);
-  return scaled_positions(Eigen::Map<const Positions>(coordinates.data(), vertices, 3));
+  const Eigen::Ref<const Positions> positions = Eigen::Map<const Positions>(coordinates.data(), vertices, 3);
+  return scaled_positions(positions);
 }
 
 }  // namespace lodestone
