@@ -39,8 +39,9 @@ class Exact_detection final : public Detection {
   /// What a refusal tells a user who asks another mode for this one's answers.
   static constexpr const char* needed = "this needs the mode exact or certified";
 
-  using Surface = Basic_tree_surface<Volume>;
+  using Surface = Basic_tree_surface<Volume>;  ///< of an object
 
+  /// @param options  checked by `make_detection`
   explicit Exact_detection(const Detector_options& options)
       : options_(options),
         workers_(options.exact.threads),
@@ -96,7 +97,10 @@ class Exact_detection final : public Detection {
   }
 
   const Frame& detect(const Collision_filter& filter) override;
+  /// Finds the collisions of one pair; a = b: of an object with itself.
+  /// @return valid until the next call
   const Frame& detect(const Collision_filter& filter, Object_pair pair);
+  /// See `Detector::visit`.
   template <Contact_visitor Visitor>
   Visit visit(Object_pair pair, Visitor&& visitor) {
     const Object_id ids[] = {pair.a, pair.b};
@@ -109,20 +113,27 @@ class Exact_detection final : public Detection {
     return visit_contacts(objects_.surface(pair.a).view(), objects_.surface(pair.b).view(), options_.exact.tolerance,
                           std::forward<Visitor>(visitor));
   }
+  /// See `Detector::closest`.
   Closest_faces closest(Object_pair pair);
+  /// See `Detector::contains`.
   bool contains(Object_id outer, Object_id inner);
+  /// See `Detector::first_hit`.
   std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) {
     return of_surface(object, [&ray](auto& surface) { return lodestone::first_hit(surface, ray); });
   }
+  /// See `Detector::all_hits`.
   std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) {
     return of_surface(object, [&ray](auto& surface) { return lodestone::all_hits(surface, ray); });
   }
+  /// See `Detector::closest_point`.
   Closest_point closest_point(Object_id object, const Point& point) {
     return of_surface(object, [&point](auto& surface) { return lodestone::closest_point(surface, point); });
   }
+  /// See `Detector::point_side`.
   Point_side point_side(Object_id object, const Point& point) {
     return of_surface(object, [&point](auto& surface) { return lodestone::point_side(surface, point); });
   }
+  /// See `Detector::parting`.
   std::optional<Parting> parting(Object_pair pair);
 
   /// Promises something about the motion of an object: see Motion_promise.
@@ -134,6 +145,7 @@ class Exact_detection final : public Detection {
   /// The surface of an object as one that is bounded; null before the first query, and in mode `exact`.
   const Bounded_surface* bounded(Object_id object) const { return objects_[object].bounded(); }
 
+  /// See `Detector::tree`.
   const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_.surface(object).tree(); }
 
  private:
