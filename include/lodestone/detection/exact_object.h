@@ -183,6 +183,7 @@ Coordinates Exact_object<Volume>::read() {
   return placement_ ? (*placement_)(unplaced, placed_) : unplaced;
 }
 
+/// Those of the mesh, unless others are given; then places them.
 template <Bounding_volume Volume>
 void Exact_object<Volume>::Object_positions::pose(std::span<const std::uint32_t> vertices,
                                                   std::span<double> coordinates) const {
