@@ -11,7 +11,11 @@ import posixpath
 import re
 import sys
 
+# Stands for a bar in code that is in a table, until the site is built.
+BAR = "\ue000"
 FRONT_DOOR = "front_door"
+# Pages with more headings than this begin with a list of them.
+LONG_PAGE = 4
 # Folders whose Markdown pages are part of the site, and single pages beside them.
 PAGE_FOLDERS = ("docs/", "experiments/")
 PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "data/README.md", "web/README.md")
@@ -134,6 +138,13 @@ def filter_prose(line, path):
     def image(match):
         return keep(f'<img src="{href(match[2])}" alt="{match[1]}"/>')
 
+    def code(match):
+        # Doxygen takes `a'b'` for a quotation, but not what two backticks enclose; and has no bar for code in a cell.
+        words = match[1]
+        if r"\|" in words:
+            return keep("`" + words.replace(r"\|", BAR) + "`")
+        return keep(f"``{words}``" if "'" in words else match[0])
+
     def link(match):
         text, goal = match[1], match[2]
         if re.match(r"https?:", goal):
@@ -142,8 +153,7 @@ def filter_prose(line, path):
         return f"[{text}]({goal})" if goal else text
 
     line = re.sub(r"!\[([^\]]*)\]\(([^)]*)\)", image, line)
-    # Doxygen takes `a'b'` for a quotation; two backticks are code in any case.
-    line = re.sub(r"(?<!`)`([^`]*)`(?!`)", lambda m: keep(f"``{m[1]}``" if "'" in m[1] else m[0]), line)
+    line = re.sub(r"(?<!`)`([^`]*)`(?!`)", code, line)
     line = re.sub(r"\[([^\]]*)\]\(([^)]*)\)", link, line, flags=re.S)
     line = re.sub(r"--", "&ndash;", without_autolinks(line)) if "|" not in line else line
     for _ in range(2):
@@ -156,6 +166,8 @@ def filter_page(path, text):
     lines = text.split("\n")
     headings = [line.lstrip("# ") for line in without_code(text).split("\n") if re.match(r"#+ ", line)]
     anchors = iter(slugs(headings))
+    if len(headings) > LONG_PAGE and lines[1] == "":
+        lines[1] = "[TOC]"
     chunks, prose, code = [], [], False
 
     def flush():

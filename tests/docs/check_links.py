@@ -101,10 +101,23 @@ def check_site(site):
                 yield f"{file}:{line}: no such anchor: {link}"
 
 
+def check_menus(site):
+    """Links that scripts write: those of menus and of the search."""
+    names = {file.resolve(): Page(file).names for file in site.rglob("*.html")}
+    for file in sorted(site.rglob("*.js")):
+        for link in sorted(set(re.findall(r"""["']((?:\.\./)*[\w.-]+\.html(?:#[\w-]*)?)["']""", file.read_text("utf-8")))):
+            path, _, anchor = link.partition("#")
+            targets = [(folder / path).resolve() for folder in (file.parent, site)]
+            target = next((target for target in targets if target in names), None)
+            if target is None or (anchor and anchor not in names[target]):
+                yield f"{file}: leads nowhere: {link}"
+
+
 def main():
     errors = list(check_markdown(pathlib.Path(sys.argv[1])))
     if len(sys.argv) > 2:
-        errors += check_site(pathlib.Path(sys.argv[2]))
+        site = pathlib.Path(sys.argv[2])
+        errors += [*check_site(site), *check_menus(site)]
     for error in errors:
         print(error)
     sys.exit(1 if errors else 0)
