@@ -31,7 +31,9 @@ def module_of(path):
 def page_of(path):
     """The name of the page of a Markdown file: `decisions_0001_dependencies`."""
     name = path.removeprefix("docs/").removesuffix(".md").removesuffix("/README")
-    return "mainpage" if name == "README" else re.sub(r"\W", "_", name).lower()
+    name = re.sub(r"\W", "_", name).lower()
+    # concepts.html is Doxygen's own list of C++ concepts.
+    return {"readme": "mainpage", "concepts": "concept_pages"}.get(name, name)
 
 
 def is_page(path):
@@ -81,8 +83,30 @@ def without_autolinks(text):
     return re.sub(r"(^|[.:;?!|>] +|\*\*)([A-Z][a-z]+)(?=,? [a-z`*])", r"\1%\2", text)
 
 
-def with_linked_code(text):
-    """Lets Doxygen link names of types, and of their members, that stand in backticks."""
+class Names:
+    """The types and concepts that headers declare, and their pages."""
+
+    def __init__(self, headers):
+        self.pages, self.concepts = {}, set()
+        for text in headers:
+            for kind, name in re.findall(r"^(class|struct|concept) (?:alignas\(\d+\) )?(\w+)(?: final)?(?: [:={]|$)", text, re.M):
+                self.pages[name] = f"{kind}lodestone_1_1{escaped(name)}.html"
+                if kind == "concept":
+                    self.concepts.add(name)
+
+    def linked_code(self, code):
+        """Code in backticks; the name of a type, or of one of its members, becomes a link."""
+        page = self.pages.get(code.strip("`").partition("::")[0])
+        return f"[{code}]({page})" if page and re.fullmatch(r"`\w\w+(::\w+)*`", code) else code
+
+    def with_linked_concepts(self, text):
+        """Links concepts in prose, which Doxygen does not."""
+        link = lambda name: f"[{name[0]}]({self.pages[name[0]]})" if name[0] in self.concepts else name[0]
+        return re.sub(r"(?<![`\w:])[A-Z][a-z]+_\w+(?![`\w])", link, text)
+
+
+def with_marked_code(text):
+    """Lets Doxygen link names of types, and of their members, that stand in backticks of a header."""
     return re.sub(r"(?<!`)`([A-Z]\w+(?:::\w+)*)`(?!`)", r"<code>\1</code>", text)
 
 
@@ -93,7 +117,7 @@ def cited(match):
     return f'\\ref {key} "{words[0].upper() + words[1:]}"'
 
 
-def filter_header(path, text):
+def filter_header(path, text, names):
     lines = text.split("\n")
     begin = lines.index("namespace lodestone {")
     # What stands before the namespace introduces the file.
@@ -117,11 +141,12 @@ def filter_header(path, text):
         words = re.sub(r"\\cite (\w+)", cited, words)
         before = lines[i - 1].strip()
         starts = "///<" in code or not before.startswith("///") or before.endswith((".", ":")) or before == "///"
-        lines[i] = code + with_linked_code(without_autolinks(words) if starts else without_autolinks("\0" + words)[1:])
+        words = without_autolinks(words) if starts else without_autolinks("\0" + words)[1:]
+        lines[i] = code + with_marked_code(names.with_linked_concepts(words))
     return "\n".join(lines)
 
 
-def filter_prose(line, path):
+def filter_prose(line, path, names):
     """A line of Markdown that is no code and no heading."""
     folder = posixpath.dirname(path)
     kept = []
@@ -143,25 +168,27 @@ def filter_prose(line, path):
         words = match[1]
         if r"\|" in words:
             return keep("`" + words.replace(r"\|", BAR) + "`")
-        return keep(f"``{words}``" if "'" in words else match[0])
+        if "'" in words:
+            return keep(f"``{words}``")
+        return keep(names.linked_code(match[0]))
 
     def link(match):
         text, goal = match[1], match[2]
         if re.match(r"https?:", goal):
-            return match[0]
+            return keep(match[0])
         goal = href(goal)
-        return f"[{text}]({goal})" if goal else text
+        return keep(f"[{text}]({goal})" if goal else text)
 
     line = re.sub(r"!\[([^\]]*)\]\(([^)]*)\)", image, line)
+    line = re.sub(r"\[((?:`[^`]*`|[^\]`])*)\]\(([^)]*)\)", link, line)
     line = re.sub(r"(?<!`)`([^`]*)`(?!`)", code, line)
-    line = re.sub(r"\[([^\]]*)\]\(([^)]*)\)", link, line, flags=re.S)
     line = re.sub(r"--", "&ndash;", without_autolinks(line)) if "|" not in line else line
-    for _ in range(2):
+    while "\1" in line:
         line = re.sub("\1(\\d+)\1", lambda m: kept[int(m[1])], line)
-    return with_linked_code(line)
+    return line
 
 
-def filter_page(path, text):
+def filter_page(path, text, names):
     page = page_of(path)
     lines = text.split("\n")
     headings = [line.lstrip("# ") for line in without_code(text).split("\n") if re.match(r"#+ ", line)]
@@ -172,7 +199,7 @@ def filter_page(path, text):
 
     def flush():
         if prose:
-            chunks.append(filter_prose("\n".join(prose), path))
+            chunks.append(filter_prose("\n".join(prose), path, names))
             prose.clear()
 
     for number, line in enumerate(lines):
@@ -210,9 +237,10 @@ def without_code(text):
 
 def main():
     folder, *paths = sys.argv[1:]
-    for path in paths:
-        text = pathlib.Path(path).read_text(encoding="utf-8")
-        seen = filter_header(path, text) if path.endswith(".h") else filter_page(path, text)
+    texts = {path: pathlib.Path(path).read_text(encoding="utf-8") for path in paths}
+    names = Names(text for path, text in texts.items() if path.endswith(".h"))
+    for path, text in texts.items():
+        seen = filter_header(path, text, names) if path.endswith(".h") else filter_page(path, text, names)
         file = pathlib.Path(folder, path)
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(seen, encoding="utf-8")
