@@ -9,10 +9,11 @@ Usage: check_links.py REPOSITORY [SITE]
 import html.parser
 import pathlib
 import re
-import subprocess
 import sys
 import urllib.parse
 
+# Folders of what is built or installed.
+NO_SOURCE = {"build", "out", "node_modules", ".git"}
 OTHER = re.compile(r"[a-z][a-z0-9+.-]*:|//", re.I)
 
 
@@ -44,10 +45,8 @@ def anchors_of(text):
 
 
 def check_markdown(repository):
-    listed = subprocess.run(
-        ["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"],
-        cwd=repository, capture_output=True, text=True, check=True)
-    pages = {page: (repository / page).read_text(encoding="utf-8") for page in listed.stdout.splitlines()}
+    listed = sorted(page.relative_to(repository) for page in repository.rglob("*.md"))
+    pages = {page: (repository / page).read_text(encoding="utf-8") for page in listed if not NO_SOURCE & set(page.parts)}
     anchors = {(repository / page).resolve(): anchors_of(text) for page, text in pages.items()}
     count = 0
     for page, text in pages.items():
