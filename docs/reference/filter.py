@@ -89,7 +89,8 @@ class Names:
     def __init__(self, headers):
         self.pages, self.concepts = {}, set()
         for text in headers:
-            for kind, name in re.findall(r"^(class|struct|concept) (?:alignas\(\d+\) )?(\w+)(?: final)?(?: [:={]|$)", text, re.M):
+            declared = r"^(class|struct|concept) (?:alignas\(\d+\) )?(\w+)(?: final)?(?: [:={]|$)"
+            for kind, name in re.findall(declared, text, re.M):
                 self.pages[name] = f"{kind}lodestone_1_1{escaped(name)}.html"
                 if kind == "concept":
                     self.concepts.add(name)
@@ -101,7 +102,11 @@ class Names:
 
     def with_linked_concepts(self, text):
         """Links concepts in prose, which Doxygen does not."""
-        link = lambda name: f"[{name[0]}]({self.pages[name[0]]})" if name[0] in self.concepts else name[0]
+
+        def link(match):
+            name = match[0]
+            return f"[{name}]({self.pages[name]})" if name in self.concepts else name
+
         return re.sub(r"(?<![`\w:])[A-Z][a-z]+_\w+(?![`\w])", link, text)
 
 

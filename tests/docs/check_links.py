@@ -45,8 +45,9 @@ def anchors_of(text):
 
 
 def check_markdown(repository):
-    listed = sorted(page.relative_to(repository) for page in repository.rglob("*.md"))
-    pages = {page: (repository / page).read_text(encoding="utf-8") for page in listed if not NO_SOURCE & set(page.parts)}
+    found = sorted(page.relative_to(repository) for page in repository.rglob("*.md"))
+    listed = [page for page in found if not NO_SOURCE & set(page.parts)]
+    pages = {page: (repository / page).read_text(encoding="utf-8") for page in listed}
     anchors = {(repository / page).resolve(): anchors_of(text) for page, text in pages.items()}
     count = 0
     for page, text in pages.items():
@@ -104,7 +105,8 @@ def check_menus(site):
     """Links that scripts write: those of menus and of the search."""
     names = {file.resolve(): Page(file).names for file in site.rglob("*.html")}
     for file in sorted(site.rglob("*.js")):
-        for link in sorted(set(re.findall(r"""["']((?:\.\./)*[\w.-]+\.html(?:#[\w-]*)?)["']""", file.read_text("utf-8")))):
+        links = re.findall(r"""["']((?:\.\./)*[\w.-]+\.html(?:#[\w-]*)?)["']""", file.read_text(encoding="utf-8"))
+        for link in sorted(set(links)):
             path, _, anchor = link.partition("#")
             targets = [(folder / path).resolve() for folder in (file.parent, site)]
             target = next((target for target in targets if target in names), None)
