@@ -46,6 +46,7 @@ class Detector {
                 "the first template argument of Detector is the partition strategy, not the type of the meshes");
 
  public:
+  /// A detector without objects.
   /// @throws Bad_argument  an option out of range
   explicit Detector(const Detector_options& options = {}, Strategy strategy = {})
       : strategy_(std::make_shared<const Strategy>(std::move(strategy))), detection_(make_detection<Volume>(options)) {}

@@ -15,13 +15,13 @@ struct Collisions {
   bool collide = false;          ///< the surfaces intersect
   bool near = false;             ///< faces are nearer than the tolerance, or intersect; false without one
   std::vector<Face_pair> faces;  ///< faces of a and b that intersect, or are nearer than the tolerance; sorted
-  std::vector<Intersection_points> points;  ///< parallel to `faces`: where they meet; empty unless asked for
-  std::vector<Contact_normal> normals;      ///< parallel to `faces`; empty unless asked for
-  bool capped = false;                      ///< there are more face pairs than `Detector_options::most_contacts`
-  Containment containment = Containment::none;
-  std::optional<Parting> parting = {};      ///< moves a; none unless asked for and needed
-  std::vector<Contact_patch> patches = {};  ///< of `faces`; empty unless asked for
-  Frame_statistics statistics = {};
+  std::vector<Intersection_points> points;      ///< parallel to `faces`: where they meet; empty unless asked for
+  std::vector<Contact_normal> normals;          ///< parallel to `faces`; empty unless asked for
+  bool capped = false;                          ///< there are more face pairs than `Detector_options::most_contacts`
+  Containment containment = Containment::none;  ///< which mesh lies inside the other; none unless asked for
+  std::optional<Parting> parting = {};          ///< moves a; none unless asked for and needed
+  std::vector<Contact_patch> patches = {};      ///< of `faces`; empty unless asked for
+  Frame_statistics statistics = {};             ///< what it took
 };
 
 /// What a frame says about its only pair.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks that the C++ of README, manual and concept pages is compiled: each block must stand in snippets.cpp.
+"""Checks that the C++ of all Markdown pages is compiled: each block must stand in snippets.cpp.
 
 Indentation does not count. Lines of #include may stand anywhere in the file.
 Usage: check_snippets.py REPOSITORY
@@ -16,7 +16,7 @@ def lines_of(text):
 
 def blocks_of(page):
     text = page.read_text(encoding="utf-8")
-    found = re.finditer(r"```cpp\n(.*?)```", text, re.S)
+    found = re.finditer(r"```(?:cpp|c\+\+|C\+\+)\n(.*?)```", text, re.S)
     return [(text.count("\n", 0, block.start()) + 1, block.group(1)) for block in found]
 
 
@@ -30,11 +30,12 @@ def stands_in(block, source):
 def main():
     repository = pathlib.Path(sys.argv[1])
     source = lines_of((repository / "tests/docs/snippets.cpp").read_text(encoding="utf-8"))
-    concepts = sorted((repository / "docs/concepts").glob("*.md"))
-    pages = [repository / "README.md", repository / "docs/manual.md", *concepts]
+    folders = ["docs", "experiments", "data", "web"]
+    below = [page for folder in folders for page in sorted((repository / folder).rglob("*.md"))]
+    pages = [*sorted(repository.glob("*.md")), *(page for page in below if "node_modules" not in page.parts)]
     blocks = [(page, line, text) for page in pages for line, text in blocks_of(page)]
     if not blocks:
-        sys.exit("no C++ found in README, manual and concept pages")
+        sys.exit("no C++ found in Markdown pages")
     missing = [(page, line) for page, line, text in blocks if not stands_in(lines_of(text), source)]
     for page, line in missing:
         print(f"{page.relative_to(repository)}:{line}: this C++ is not in tests/docs/snippets.cpp")

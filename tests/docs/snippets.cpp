@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The C++ of README, manual and concept pages, word for word: docs.snippets compares them. Here it is compiled and run.
+// The C++ of README and pages, word for word: docs.snippets compares them. Here it is compiled and run.
 #include <gtest/gtest.h>
 #include <lodestone/bounds/displacement_bound.h>
+#include <lodestone/bounds/lipschitz_bound.h>
+#include <lodestone/bounds/motion_bound.h>
 #include <lodestone/detector.h>
 #include <lodestone/find_collisions.h>
 #include <lodestone/io/meshes/mesh_file.h>
@@ -56,6 +58,64 @@ lodestone::Labelling Slices::operator()(const lodestone::Partition_input<lodesto
     labelling.labels[order[i]] = static_cast<lodestone::Region_index>(i * regions / vertices);
   return labelling;
 }
+
+class Falling_bound {
+ public:
+  Falling_bound(const double& fallen, const lodestone::Bounded_object& object);
+  std::size_t node_count() const { return rest_.size(); }
+  lodestone::Aabb box(std::uint32_t node) const;
+
+ private:
+  const double* fallen_;
+  std::vector<lodestone::Aabb> rest_;  // per node
+};
+Falling_bound::Falling_bound(const double& fallen, const lodestone::Bounded_object& object)
+    : fallen_(&fallen), rest_(object.layout.node_count()) {
+  const lodestone::Tree_layout& tree = object.layout;
+  for (auto node = static_cast<std::uint32_t>(rest_.size()); node-- > 0;)
+    if (tree.is_leaf(node))
+      rest_[node].enclose(tree.leaf_faces(tree.node(node).leaf, object.rest));
+    else
+      rest_[node].enclose(rest_[node + 1], rest_[tree.node(node).second_child]);
+}
+lodestone::Aabb Falling_bound::box(std::uint32_t node) const {
+  lodestone::Aabb box = rest_[node];
+  box.low[2] -= *fallen_;
+  box.high[2] -= *fallen_;
+  lodestone::open_if_not_finite(box, 2);
+  return box;
+}
+struct Falling_promise {
+  double fallen = 0;  // since the first query
+  Falling_bound bound(const lodestone::Bounded_object& object) const { return {fallen, object}; }
+};
+
+class Leaning_points {
+ public:
+  explicit Leaning_points(const lodestone::Surface_mesh& rest) : rest_(&rest) {}
+  void set_lean(double lean) { lean_ = lean, ++pose_number_; }
+
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(num_vertices(*rest_)); }
+  std::uint64_t pose_number() const { return pose_number_; }
+  Eigen::Vector3d operator()(std::uint32_t vertex) const {
+    const lodestone::Point& at = rest_->point(lodestone::Surface_mesh::Vertex_index(vertex));
+    return {at.x() + lean_ * at.z(), at.y(), at.z()};
+  }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const {
+    for (const auto vertex : vertices) write(vertex, coordinates);
+  }
+  void pose_all(std::span<double> coordinates) const {
+    for (std::uint32_t vertex = 0; vertex < vertex_count(); ++vertex) write(vertex, coordinates);
+  }
+
+ private:
+  void write(std::uint32_t vertex, std::span<double> coordinates) const {
+    Eigen::Map<Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{vertex}) = (*this)(vertex);
+  }
+  const lodestone::Surface_mesh* rest_;
+  double lean_ = 0;
+  std::uint64_t pose_number_ = 1;
+};
 
 /// Is the working folder while it lives.
 class Working_folder {
@@ -247,6 +307,53 @@ TEST_F(Snippets, of_a_strategy_of_ones_own) {
   EXPECT_EQ(measures.regions, divided.regions);
   detector.add(mesh_a), detector.add(mesh_b);
   EXPECT_TRUE(detector.detect().collides());
+}
+
+TEST_F(Snippets, of_a_promise_of_ones_own) {
+  Surface_mesh stone_mesh = lodestone::sphere(8, 1, {0.1, 0.2, 2.6});
+  const Surface_mesh rest = stone_mesh, ground_mesh = lodestone::sphere(6);
+  const auto lower = [&rest](Surface_mesh& mesh, double fallen) {
+    for (const auto v : mesh.vertices()) {
+      const lodestone::Point& at = rest.point(v);
+      mesh.point(v) = {at.x(), at.y(), at.z() - fallen};
+    }
+  };
+  Falling_promise falls;
+  lodestone::Detector detector({.mode = lodestone::Mode::certified});
+  const auto stone = detector.add(stone_mesh);
+  detector.add(ground_mesh);
+  detector.promise(stone, falls);
+  detector.detect();  // the stone is at rest
+  while (!detector.detect().collides()) {
+    falls.fallen += 0.125;
+    lower(stone_mesh, falls.fallen);  // z is that at rest minus this
+  }
+  EXPECT_GT(falls.fallen, 0);
+  EXPECT_LT(falls.fallen, 2.6);
+  EXPECT_EQ(detector.detect().statistics.violations, 0U);
+  lodestone::Detector exact;
+  exact.add(stone_mesh), exact.add(ground_mesh);
+  EXPECT_EQ(detector.detect().face_pairs, exact.detect().face_pairs);
+}
+
+TEST_F(Snippets, of_points_of_ones_own) {
+  const Surface_mesh reed_mesh = lodestone::sphere(8, 1, {0.4, 0, 1});
+  std::size_t colliding_frames = 0;
+  Leaning_points reed(reed_mesh);
+  lodestone::Lipschitz_promise leans(1, 1e-12);
+  lodestone::Detector detector({.mode = lodestone::Mode::certified});
+  const auto plant = detector.add(reed_mesh, lodestone::point_map(reed_mesh, reed));
+  detector.add(body_mesh);
+  detector.promise(plant, leans);
+  for (const double lean : {0.0, 0.25, 0.5, 0.75}) {
+    reed.set_lean(lean);
+    leans.set_constant(1 + lean, 1e-12);
+    if (detector.detect().collides()) ++colliding_frames;
+  }
+  EXPECT_GT(colliding_frames, 0U);
+  EXPECT_LT(colliding_frames, 4U);
+  EXPECT_EQ(detector.detect().statistics.violations, 0U);
+  EXPECT_NE(detector.bounded(plant), nullptr);
 }
 
 }  // namespace

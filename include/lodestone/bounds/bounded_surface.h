@@ -32,7 +32,11 @@ namespace lodestone {
 class Bounded_surface {
  public:
   /// How much is known about a leaf in the current pose.
-  enum class Leaf_state { far, bounded, posed };
+  enum class Leaf_state {
+    far,      ///< nothing: nobody has asked
+    bounded,  ///< a box around it
+    posed,    ///< where its vertices are
+  };
 
   /// Points and bounds of any type.
   /// @param tree           has been built; must outlive this, as must what follows
@@ -56,9 +60,13 @@ class Bounded_surface {
   /// Starts a frame to whose positions the tree has just been refitted. O(F).
   void take_refitted();
 
+  /// How the faces are grouped.
   const Tree_layout& layout() const { return tree_->tree(); }
+  /// The surface whose boxes and positions are written.
   Tree_surface& tree() const { return *tree_; }
+  /// Where positions come from.
   const Position_source& positions() const { return *positions_; }
+  /// Whether there is any bound; without one, everything is posed at once.
   bool has_bounds() const { return !bounds_.empty(); }
 
   /// A box around the vertices of a node: from the bounds, or fitted where positions are known.
@@ -79,8 +87,11 @@ class Bounded_surface {
   /// The same after a broken bound: all boxes are fitted, so nothing is broken any more.
   void settle();
 
+  /// Whether all vertices have been posed in this frame.
   bool all_posed() const { return all_posed_; }
+  /// Whether a leaf has been posed in this frame.
   bool is_posed(std::uint32_t leaf) const { return posed_in_[leaf] == frame_; }
+  /// How much is known about a leaf in this frame.
   Leaf_state leaf_state(std::uint32_t leaf) const {
     if (is_posed(leaf)) return Leaf_state::posed;
     return boxed_in_[layout().leaf_node(leaf)] == frame_ ? Leaf_state::bounded : Leaf_state::far;
@@ -92,8 +103,9 @@ class Bounded_surface {
   /// Whether a position of this frame was outside a box that was in use, and the surface has not been settled since.
   bool is_broken() const { return violations_ > violations_settled_; }
   // Counts of this frame.
-  std::size_t violations() const { return violations_; }  ///< boxes with positions outside, promises not kept
-  std::size_t nodes_bounded() const { return nodes_bounded_; }
+  std::size_t violations() const { return violations_; }        ///< boxes with positions outside, promises not kept
+  std::size_t nodes_bounded() const { return nodes_bounded_; }  ///< boxes that came from bounds
+  /// Leaves whose vertices were read; all of them once all vertices are posed.
   std::size_t leaves_posed() const { return leaves_posed_; }
   std::size_t vertices_posed() const { return vertices_posed_; }  ///< those of several leaves count for each
 

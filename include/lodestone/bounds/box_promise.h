@@ -23,6 +23,7 @@ class Promised_boxes {
   /// @throws Bad_argument  `object` has other vertices than its positions; rest or labels have the wrong length
   Promised_boxes(const Box_promise& promise, const Bounded_object& object);
 
+  /// Number of nodes of the tree.
   std::size_t node_count() const { return rest_.size(); }
   /// The box of a node in the current pose: one call of the promise.
   Aabb box(std::uint32_t node) const;
@@ -42,6 +43,7 @@ class Promised_boxes {
 /// The function may be called by several threads at once, and several times with the same arguments.
 class Box_promise {
  public:
+  /// The caller's function, as above.
   using Function = std::function<Aabb(Region_index region, const Aabb& rest_box)>;
 
   /// @throws Bad_argument  there is no function
@@ -49,6 +51,7 @@ class Box_promise {
   Box_promise(const Box_promise&) = delete;
   Box_promise& operator=(const Box_promise&) = delete;
 
+  /// Calls the caller's function.
   Aabb box(Region_index region, const Aabb& rest_box) const { return box_(region, rest_box); }
 
   /// The bound for one object, which this must outlive. O(V).

@@ -42,6 +42,7 @@ class Displacement_bound {
   ///                       promise tells regions apart, and a label is of none of them
   Displacement_bound(const Displacement_promise& promise, const Bounded_object& object);
 
+  /// Number of nodes of the tree.
   std::size_t node_count() const { return last_.size(); }
   /// The box of a node in the current pose. O(1).
   Aabb box(std::uint32_t node) const;
@@ -91,6 +92,7 @@ class Displacement_promise {
   /// @param distance       in units of the coordinates; finite, >= 0
   /// @throws Bad_argument  `distance` is out of range; the promise stays as it was
   void move(double distance);
+  /// The same in a rigid frame.
   /// @param frame          the rigid frame from now on
   /// @throws Bad_argument  `frame` is not rigid, see Rigid_motion
   void move(double distance, const Eigen::Isometry3d& frame);
@@ -98,8 +100,10 @@ class Displacement_promise {
   /// by the largest.
   /// @throws Bad_argument  there is not one distance for each region
   void move(std::span<const double> per_region);
+  /// Both: distances by region, in a rigid frame.
   void move(std::span<const double> per_region, const Eigen::Isometry3d& frame);
 
+  /// Number of regions that `move` tells apart.
   std::size_t region_count() const { return totals_.size(); }
   /// All that has been promised for a region, rounded upwards; `several_regions`: for vertices of any.
   double total(Region_index region) const;

@@ -32,8 +32,9 @@ class Linear_bound {
  public:
   /// What a node's vertices can be away from rest, along each axis.
   struct Shift {
-    std::array<double, 3> low = {}, high = {};  ///< enclose the exact sums, but for `margin`
-    std::array<double, 3> margin = {};          ///< for the rounding of both, and of the computed positions
+    std::array<double, 3> low = {};     ///< at most the exact sums, but for `margin`
+    std::array<double, 3> high = {};    ///< at least the exact sums, but for `margin`
+    std::array<double, 3> margin = {};  ///< for the rounding of both, and of the computed positions
   };
 
   /// O(V + T log N) for T offsets and N nodes.
@@ -42,6 +43,7 @@ class Linear_bound {
   /// @throws Bad_argument  it has vertices that `points` does not have
   Linear_bound(const Morphed_points& points, const Tree_layout& layout);
 
+  /// Number of nodes of the tree.
   std::size_t node_count() const { return rest_.size(); }
   /// The box of a node in the current pose. O(targets that move vertices of the node).
   Aabb box(std::uint32_t node) const;

@@ -30,6 +30,7 @@ class Lipschitz_bound {
   /// @throws Bad_argument  `object` has other vertices than its positions; the rest has the wrong length
   Lipschitz_bound(const Lipschitz_promise& promise, const Bounded_object& object);
 
+  /// Number of nodes of the tree.
   std::size_t node_count() const { return anchors_.size(); }
   /// The box of a node in the current pose: one position.
   Aabb box(std::uint32_t node) const;
@@ -60,7 +61,9 @@ class Lipschitz_promise {
   /// @param error          e: how far a position may be from the exact one, in units of the coordinates; >= 0
   /// @throws Bad_argument  one of them is less, or no number; the promise stays as it was
   void set_constant(double constant, double error = 0);
+  /// L.
   double constant() const { return constant_; }
+  /// The distance e, in units of the coordinates.
   double error() const { return error_; }
 
   /// The bound for one object, which this must outlive. O(V).

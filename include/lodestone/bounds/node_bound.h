@@ -19,7 +19,9 @@ namespace lodestone {
 class Node_bound {
  public:
   virtual ~Node_bound() = default;
+  /// Number of nodes of the tree.
   virtual std::size_t node_count() const = 0;
+  /// A box around the vertices of a node in the current pose: see Motion_bound.
   virtual Aabb box(std::uint32_t node) const = 0;
   /// See Watching_bound.
   virtual bool note_read(std::uint32_t /*leaf*/, const Aabb& /*fitted*/, Coordinates /*coordinates*/) { return true; }
@@ -30,9 +32,12 @@ class Node_bound {
 template <class B>
 class Node_bound_of final : public Node_bound {
  public:
+  /// Keeps a bound, or a reference to one.
   explicit Node_bound_of(B bound) : bound_(std::forward<B>(bound)) {}
 
+  /// Number of nodes of the tree.
   std::size_t node_count() const override { return bound_.node_count(); }
+  /// As the bound gives it.
   Aabb box(std::uint32_t node) const override { return bound_.box(node); }
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) override {
     if constexpr (Watching_bound<std::remove_reference_t<B>>)
@@ -48,13 +53,18 @@ class Node_bound_of final : public Node_bound {
 /// A bound whose type is known only when the program runs. A model of Watching_bound.
 class Any_bound {
  public:
+  /// @param bound  not null
   explicit Any_bound(std::unique_ptr<Node_bound> bound) : bound_(std::move(bound)) {}
+  /// Keeps a bound of any type.
   template <Motion_bound B>
   requires(!std::same_as<B, Any_bound>)
   explicit Any_bound(B bound) : bound_(std::make_unique<Node_bound_of<B>>(std::move(bound))) {}
 
+  /// Number of nodes of the tree.
   std::size_t node_count() const { return bound_->node_count(); }
+  /// A box around the vertices of a node in the current pose.
   Aabb box(std::uint32_t node) const { return bound_->box(node); }
+  /// See Watching_bound; true if the bound does not watch.
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
     return bound_->note_read(leaf, fitted, coordinates);
   }
@@ -65,7 +75,7 @@ class Any_bound {
 
 /// What a bound can be made from, once the tree of an object has been built.
 struct Bounded_object {
-  const Tree_layout& layout;
+  const Tree_layout& layout;             ///< of its tree
   std::span<const Region_index> labels;  ///< V: region of each vertex; empty: a single region
   Coordinates rest;                      ///< 3 V: where the vertices were then, which is called at rest
   const Position_source& positions;      ///< where they are

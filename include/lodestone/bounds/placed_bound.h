@@ -30,7 +30,9 @@ class Placed_bound final : public Node_bound {
   Placed_bound(std::unique_ptr<Node_bound> bound, const std::optional<Rigid_motion>& placement)
       : bound_(std::move(bound)), placement_(&placement) {}
 
+  /// Number of nodes of the tree.
   std::size_t node_count() const override { return bound_->node_count(); }
+  /// The box of the bound, placed.
   Aabb box(std::uint32_t node) const override {
     const Aabb box = bound_->box(node);
     return *placement_ ? placed_box((*placement_)->rotation(), (*placement_)->translation(), box) : box;

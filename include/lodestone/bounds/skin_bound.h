@@ -49,6 +49,7 @@ class Skin_bound {
   /// @throws Bad_argument  it has vertices that `points` does not have
   Skin_bound(const Skinned_points& points, const Tree_layout& layout);
 
+  /// Number of nodes of the tree.
   std::size_t node_count() const { return range_begin_.size() - 1; }
   /// The box of a node in the current pose. O(J log J).
   Aabb box(std::uint32_t node) const;

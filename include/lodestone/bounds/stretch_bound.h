@@ -17,8 +17,8 @@ class Stretch_promise;
 
 /// A vertex by whose position others are judged.
 struct Landmark {
-  std::uint32_t vertex = 0;
-  double radius = 0;  ///< rho: the longest of the shortest paths from here to the vertices that it answers for
+  std::uint32_t vertex = 0;  ///< its index
+  double radius = 0;         ///< rho: the longest of the shortest paths from here to the vertices that it answers for
 };
 
 /// Boxes from a Stretch_promise. Reads the positions of one to three landmarks per node. A model of Watching_bound.
@@ -45,9 +45,11 @@ class Stretch_bound {
   /// @throws Bad_argument  `object` has other vertices than its positions; the rest has the wrong length
   Stretch_bound(const Stretch_promise& promise, const Bounded_object& object);
 
+  /// Number of nodes of the tree.
   std::size_t node_count() const { return begin_.size(); }
   /// The box of a node in the current pose: one position for each of its landmarks.
   Aabb box(std::uint32_t node) const;
+  /// Compares the edges of a leaf that has been read with what was promised.
   /// @return false: an edge of the leaf is longer than was promised, by more than 10^-9 of its length. O(faces).
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) const;
 
@@ -84,7 +86,9 @@ class Stretch_promise {
   /// @param error          e: how far a position may be from the exact one, in units of the coordinates; finite, >= 0
   /// @throws Bad_argument  one of them is out of range; the promise stays as it was
   void set_stretch(double stretch, double error = 0);
+  /// Sigma.
   double stretch() const { return stretch_; }
+  /// The distance e, in units of the coordinates.
   double error() const { return error_; }
 
   /// The bound for one object, which this must outlive. O(V log V log N) for N nodes.

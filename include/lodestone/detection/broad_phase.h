@@ -14,6 +14,7 @@ namespace lodestone {
 /// whose surfaces may be nearer than the tolerance.
 class Broad_phase {
  public:
+  /// Makes room for so many objects.
   void reserve(std::size_t objects);
 
   /// Pairs of boxes that overlap when one is grown on all sides by the larger of their two reaches, sorted. Sorts the

@@ -14,6 +14,7 @@ namespace lodestone {
 /// Which object pairs a detector looks at: those that meet each other's groups, without those that are ignored.
 class Collision_filter {
  public:
+  /// Adds an object, with its groups.
   void add(const Object_options& object) { objects_.push_back({object.groups, object.meets}); }
   /// Leaves out all pairs of an object from now on. O(ignored pairs).
   void remove(std::uint32_t object) {

@@ -53,19 +53,20 @@ struct Exact_options {
   bool patches = false;         ///< also group the contacts of a pair into contact patches; not with yes_no
   std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it. Other
                                 ///< modes use them while they measure regions and make trees; LBG has its own option
-  bool throw_if_broken = false;  ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass
-  double loosest = 2;           ///< rebuild an object's tree when its leaves are looser by this factor; > 1
-  Region_tree_options tree = {};
+  bool throw_if_broken = false;   ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass
+  double loosest = 2;             ///< rebuild an object's tree when its leaves are looser by this factor; > 1
+  Region_tree_options tree = {};  ///< of an object's tree
 };
 
+/// Options of a Detector, and of one call.
 struct Detector_options {
-  Mode mode = Mode::exact;
+  Mode mode = Mode::exact;  ///< which method answers
   /// In mode `exact` the regions at the top of an object's tree; 0: none, which is fastest to build: all vertices are
   /// then in region 0. In other modes the particles of an object; 0: as many as the rule of `particle_count` asks for.
   std::size_t particles = 0;
   std::size_t least_particles = 12;            ///< but at least so many; 1: the rule alone, which can ask for very few
   Particle_count_options particle_count = {};  ///< the rule; mode `exact` has none
-  Partition_options partition = {};
+  Partition_options partition = {};            ///< of the division into regions
   /// Mode `particles`: most pairs of particles of two objects that walk towards each other in a frame, nearest first,
   /// past the borders of their regions. What is around the place where they meet is checked, and the next frame begins
   /// there. Also, regions are opened. 0: the published method, whose particles stay in their regions, and which checks
@@ -81,9 +82,9 @@ struct Detector_options {
   double collision_distance = 1;  ///< of particles, in multiples of mu, the larger of the two objects'; > 0
   Distance_measure distance_measure = Distance_measure::adjacent_vertices;  ///< of particles: which mean mu is
   Candidate_choice candidates = Candidate_choice::all;                      ///< of particles
-  Contact_query contacts = Contact_query::all;
-  bool contact_points = false;   ///< where faces meet; not with yes_no
-  bool contact_normals = false;  ///< which way, how deep; not with yes_no
+  Contact_query contacts = Contact_query::all;                              ///< face pairs to list of each object pair
+  bool contact_points = false;                                              ///< where faces meet; not with yes_no
+  bool contact_normals = false;                                             ///< which way, how deep; not with yes_no
   bool list_candidates = false;  ///< also `Frame::candidates`; in mode `exact` there are none
   std::size_t most_contacts = std::numeric_limits<std::size_t>::max();  ///< listed per object pair; >= 1
   /// Of particles: vertices on open borders that lie on each other when the object is built count as one for the
@@ -91,8 +92,8 @@ struct Detector_options {
   bool close_seams = true;
   /// Mode `particles`: repartition when a region exceeds so many times A*; > 0; infinity: never. Published: 1.
   double growth = 1.25;
-  Senin_options senin = {};
-  Exact_options exact = {};
+  Senin_options senin = {};  ///< of mode `senin`
+  Exact_options exact = {};  ///< of the modes `exact` and `certified`; threads also of others
 };
 
 /// What one object has of its own.
@@ -124,6 +125,7 @@ struct Changed_faces {
 /// How messages name an object: `object 3`, or `object 3 (cloth)`.
 std::string title_of(std::uint32_t object, const Object_options& options);
 
+/// Refuses options that are out of range, or that the mode does not have.
 /// @throws Bad_argument  an option out of its range; mode `exact`, and another value than the default for the collision
 ///                       distance, its measure, the choice of candidates, open seams or the growth limit; another mode,
 ///                       and a tolerance of either kind, self-collision, containment, parting or contact patches;

@@ -39,8 +39,9 @@ class Exact_detection final : public Detection {
   /// What a refusal tells a user who asks another mode for this one's answers.
   static constexpr const char* needed = "this needs the mode exact or certified";
 
-  using Surface = Basic_tree_surface<Volume>;
+  using Surface = Basic_tree_surface<Volume>;  ///< of an object
 
+  /// @param options  checked by `make_detection`
   explicit Exact_detection(const Detector_options& options)
       : options_(options),
         workers_(options.exact.threads),
@@ -96,7 +97,10 @@ class Exact_detection final : public Detection {
   }
 
   const Frame& detect(const Collision_filter& filter) override;
+  /// Finds the collisions of one pair; a = b: of an object with itself.
+  /// @return valid until the next call
   const Frame& detect(const Collision_filter& filter, Object_pair pair);
+  /// See `Detector::visit`.
   template <Contact_visitor Visitor>
   Visit visit(Object_pair pair, Visitor&& visitor) {
     const Object_id ids[] = {pair.a, pair.b};
@@ -109,8 +113,11 @@ class Exact_detection final : public Detection {
     return visit_contacts(objects_.surface(pair.a).view(), objects_.surface(pair.b).view(), options_.exact.tolerance,
                           std::forward<Visitor>(visitor));
   }
+  /// See `Detector::closest`.
   Closest_faces closest(Object_pair pair);
+  /// See `Detector::within`.
   bool within(Object_pair pair, double distance);
+  /// See `Detector::contains`.
   bool contains(Object_id outer, Object_id inner);
   /// Asks the surface of one object, as it is now.
   /// @param question  called with a Layout_view or a Bounded_surface
@@ -123,6 +130,7 @@ class Exact_detection final : public Detection {
     const Node_boxes boxes(objects_.surface(object).view());
     return question(boxes.layout());
   }
+  /// See `Detector::parting`.
   std::optional<Parting> parting(Object_pair pair);
 
   /// Promises something about the motion of an object: see Motion_promise.
@@ -134,6 +142,7 @@ class Exact_detection final : public Detection {
   /// The surface of an object as one that is bounded; null before the first query, and in mode `exact`.
   const Bounded_surface* bounded(Object_id object) const { return objects_[object].bounded(); }
 
+  /// See `Detector::tree`.
   const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_.surface(object).tree(); }
 
  private:

@@ -23,6 +23,7 @@
 
 namespace lodestone {
 
+/// Refuses coordinates that are infinite or NaN. O(V).
 /// @param title      names the object in the message
 /// @throws Bad_mesh  one of the coordinates is not finite
 void check_finite(Coordinates coordinates, const std::string& title);
@@ -39,6 +40,8 @@ using Make_bound = std::function<std::unique_ptr<Node_bound>(const Bounded_objec
 template <Bounding_volume Volume>
 class Exact_object {
  public:
+  /// Takes a mesh; its surface has no tree before `build`.
+  /// @throws Bad_argument  `file_vertex` does not have one entry per vertex
   Exact_object(std::uint32_t id, std::unique_ptr<Watched_mesh> mesh, const Object_options& options)
       : title(title_of(id, options)), particles(options.particles), faces_(std::move(mesh), options.file_vertex) {
     surface = Basic_tree_surface<Volume>(corners());
@@ -54,11 +57,13 @@ class Exact_object {
     if (given_ || positions) ++changes_;
     given_ = std::move(positions);
   }
+  /// Places the object elsewhere from now on; none: where its mesh is.
   void place(const std::optional<Rigid_motion>& placement) {
     placement_ = placement;
     ++changes_;
   }
 
+  /// The mesh, whatever its type.
   Watched_mesh& mesh() { return *faces_.mesh; }
   /// The faces of the surface, with doubled vertices as one.
   std::span<const Corners> corners() const { return faces_.corners(); }
@@ -178,6 +183,7 @@ Coordinates Exact_object<Volume>::read() {
   return placement_ ? (*placement_)(unplaced, placed_) : unplaced;
 }
 
+/// Those of the mesh, unless others are given; then places them.
 template <Bounding_volume Volume>
 void Exact_object<Volume>::Object_positions::pose(std::span<const std::uint32_t> vertices,
                                                   std::span<double> coordinates) const {

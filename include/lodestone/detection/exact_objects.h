@@ -21,12 +21,13 @@ namespace lodestone {
 template <Bounding_volume Volume>
 class Exact_objects {
  public:
-  using Object = Exact_object<Volume>;
-  using Surface = Basic_tree_surface<Volume>;
+  using Object = Exact_object<Volume>;         ///< what is kept of an object
+  using Surface = Basic_tree_surface<Volume>;  ///< of an object
 
   /// @param workers  must outlive this
   Exact_objects(const Detector_options& options, Workers& workers) : options_(options), workers_(workers) {}
 
+  /// Adds an object, whose tree is built by the next `refresh`.
   /// @throws Bad_mesh, Bad_argument  nothing has been added
   void add(const Watch_mesh& watch, const Object_options& options) {
     timed(work_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(size(), watch(), options)); });
@@ -36,6 +37,7 @@ class Exact_objects {
   void rebuild(Object_id id, std::span<const std::uint32_t> file_vertex) {
     timed(work_.seconds.build, [&] { objects_[id]->rebuild(file_vertex); });
   }
+  /// The same where it is known which faces have changed.
   void rebuild(Object_id id, const Changed_faces& changed) {
     timed(work_.seconds.build, [&] { objects_[id]->rebuild(changed); });
   }
@@ -49,14 +51,18 @@ class Exact_objects {
     timed(work_.seconds.build, [&] { objects_[id]->load(state, options_.exact.self_tolerance > 0); });
   }
 
+  /// Forgets an object.
   void remove(Object_id id) { objects_[id].reset(); }
 
   /// Objects added, removed ones included.
   Object_id size() const { return static_cast<Object_id>(objects_.size()); }
   /// Whether an object has not been removed. All other calls are about such objects.
   bool has(Object_id id) const { return objects_[id] != nullptr; }
+  /// An object by its id.
   Object& operator[](Object_id id) { return *objects_[id]; }
+  /// The same, not to be changed.
   const Object& operator[](Object_id id) const { return *objects_[id]; }
+  /// The surface of an object.
   const Surface& surface(Object_id id) const { return objects_[id]->surface; }
   /// In mode `certified`: the surface as one that is bounded.
   Bounded_surface& bounded(Object_id id) const { return *objects_[id]->bounded(); }

@@ -33,11 +33,13 @@ struct Stage_times {
 
   /// All stages but `build`: what a frame takes once its objects stand.
   double without_build() const { return repartition + refit + broad_phase + relaxation + candidates + confirmation; }
+  /// All stages.
   double total() const { return build + without_build(); }
 };
 
+/// What a frame took, and what it did.
 struct Frame_statistics {
-  Stage_times seconds = {};
+  Stage_times seconds = {};           ///< per stage
   std::size_t object_candidates = 0;  ///< object pairs that passed the broad phase, those with themselves included
   std::size_t iterations = 0;         ///< of the relaxation
   std::size_t moves = 0;              ///< steps of all particles together
@@ -56,32 +58,36 @@ struct Frame_statistics {
 };
 
 /// Whether one object lies inside the other: their surfaces are apart, and every piece of it is enclosed.
-enum class Containment { none, a_in_b, b_in_a };
+enum class Containment {
+  none,    ///< neither inside the other
+  a_in_b,  ///< the first inside the second
+  b_in_a,  ///< the second inside the first
+};
 
 /// What was found for one candidate object pair, a < b; or, with a = b, within one object.
 struct Pair_result {
-  Object_id a = 0;
-  Object_id b = 0;
+  Object_id a = 0;                ///< first object
+  Object_id b = 0;                ///< second object, or the first again
   bool collides = false;          ///< two faces intersect
   bool near = false;              ///< two faces are nearer than the tolerance, or intersect; false without a tolerance.
                                   ///< Within one object faces that were near when it was built do not count
   std::size_t candidates = 0;     ///< candidate region pairs
   std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
-  std::size_t contacts = 0;
-  bool capped = false;  ///< there are more face pairs than `Detector_options::most_contacts`
-  Containment containment = Containment::none;
-  std::optional<Parting> parting = {};  ///< `a` is moved; none unless asked for and needed
-  std::size_t first_patch = 0;          ///< place of the pair's contact patches in `Frame::patches`
-  std::size_t patches = 0;
+  std::size_t contacts = 0;       ///< number of its face pairs in `Frame::face_pairs`
+  bool capped = false;            ///< there are more face pairs than `Detector_options::most_contacts`
+  Containment containment = Containment::none;  ///< which object lies inside the other; none unless asked for
+  std::optional<Parting> parting = {};          ///< `a` is moved; none unless asked for and needed
+  std::size_t first_patch = 0;                  ///< place of the pair's contact patches in `Frame::patches`
+  std::size_t patches = 0;                      ///< number of its contact patches in `Frame::patches`
 };
 
 /// Two regions that may touch, so that their faces were to be checked: their particles came nearer than the collision
 /// distance, or, with meetings, parts of the surfaces are near.
 struct Candidate_regions {
-  Object_id a = 0;
+  Object_id a = 0;            ///< first object
   Region_index region_a = 0;  ///< its number within `a`; in mode senin the particle's, which has no region
-  Object_id b = 0;
-  Region_index region_b = 0;
+  Object_id b = 0;            ///< second object
+  Region_index region_b = 0;  ///< the same within `b`
   double distance = 0;  ///< of the two particles after their walk, in units of the coordinates; with meetings of the
                         ///< vertices by which the regions were found to be near
 };
@@ -107,19 +113,23 @@ struct Frame {
   /// Per object: iterations of the relaxation in which one of its particles looked at its steps; the others were at
   /// rest. Empty if no particle walked.
   std::vector<std::size_t> object_iterations = {};
-  Frame_statistics statistics = {};
+  Frame_statistics statistics = {};  ///< what it took, and what it did
 
+  /// The contacts of one of `pairs`.
   std::span<const Face_pair> contacts(const Pair_result& pair) const {
     return std::span(face_pairs).subspan(pair.first_contact, pair.contacts);
   }
+  /// The contact patches of one of `pairs`.
   std::span<const Contact_patch> patches_of(const Pair_result& pair) const {
     return std::span(patches).subspan(pair.first_patch, pair.patches);
   }
+  /// Whether any pair collides.
   bool collides() const {
     for (const auto& pair : pairs)
       if (pair.collides) return true;
     return false;
   }
+  /// Whether any pair is near.
   bool near() const {
     for (const auto& pair : pairs)
       if (pair.near) return true;

@@ -23,8 +23,10 @@ bool can_answer_at_once(const Detector_options& options);
 
 /// Two surfaces, as far as they can meet.
 struct Overlapping_surfaces {
-  Box box_a, box_b;  ///< around all their vertices
-  Faces_in_box a, b;
+  Box box_a;       ///< around all vertices of the first
+  Box box_b;       ///< around all vertices of the second
+  Faces_in_box a;  ///< faces of the first that meet the overlap of both boxes
+  Faces_in_box b;  ///< and of the second
 };
 /// The frame of two surfaces, the objects 0 and 1.
 /// @param reading  seconds that it took to read them

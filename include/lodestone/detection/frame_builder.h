@@ -14,21 +14,27 @@ class Frame_builder {
  public:
   /// @param options  which points and normals a frame has; the tolerance below which faces are contacts
   explicit Frame_builder(const Detector_options& options);
+  /// Makes room for so many pairs and contacts.
   void reserve(std::size_t pairs, std::size_t face_pairs);
 
   /// Starts the next frame: without pairs.
   /// @param statistics  what happened since the frame before
   void start(const Frame_statistics& statistics = {});
 
+  /// Of the current frame, to be added to.
   Frame_statistics& statistics() { return frame_.statistics; }
+  /// Of the current frame, to be added to.
   Stage_times& seconds() { return frame_.statistics.seconds; }
   /// Number of the frame, from 1.
   std::uint64_t number() const { return frame_.number; }
   /// The contacts of all pairs so far. A stage appends those of its pair between `start_pair` and `end_pair`.
   std::vector<Face_pair>& face_pairs() { return frame_.face_pairs; }
+  /// Candidate regions of all pairs so far, to be appended to.
   std::vector<Candidate_regions>& candidates() { return frame_.candidates; }
+  /// `Frame::object_iterations`, to be written.
   std::vector<std::size_t>& object_iterations() { return frame_.object_iterations; }
 
+  /// Starts a pair: what is appended from now on is its own.
   Pair_result start_pair(Object_pair pair) const {
     return {.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size(), .first_patch = frame_.patches.size()};
   }

@@ -12,7 +12,7 @@ namespace lodestone {
 
 /// A meeting as the next frame recalls it.
 struct Remembered_meeting {
-  Meeting at;
+  Meeting at;         ///< where the particles were
   Face_pair contact;  ///< two faces that intersected there
 };
 
@@ -21,6 +21,7 @@ struct Remembered_meeting {
 /// In a frame pairs must be kept in ascending order. They can be recalled in any order, and again.
 class Meeting_memory {
  public:
+  /// What was kept can now be recalled; what could be recalled is forgotten.
   void start_frame();
   /// The meetings of a pair that the last frame kept, in the order in which it kept them. O(log n) for n pairs.
   std::span<const Remembered_meeting> recall(Object_pair pair) const;

@@ -25,12 +25,14 @@ struct Meeting_counts {
 
 /// An object pair, and what the search knows of it in this frame.
 struct Met_pair {
-  Object_pair ids;
-  Particle_object* a = nullptr;
-  Particle_object* b = nullptr;
-  std::size_t first_near = 0, near_count = 0;  ///< of `Meeting_search::near_regions`
-  std::size_t first_seed = 0, seed_count = 0;  ///< of `Meeting_search::seeds`
-  bool out_of_budget = false;                  ///< the regions could not all be opened
+  Object_pair ids;               ///< the two objects
+  Particle_object* a = nullptr;  ///< the first
+  Particle_object* b = nullptr;  ///< the second
+  std::size_t first_near = 0;    ///< place of its regions in the list of all pairs: see `Meeting_search::near_regions`
+  std::size_t near_count = 0;    ///< how many they are
+  std::size_t first_seed = 0;    ///< place of its contacts in the list of all pairs: see `Meeting_search::seeds`
+  std::size_t seed_count = 0;    ///< how many they are
+  bool out_of_budget = false;    ///< the regions could not all be opened
 };
 
 /// The search for contacts of object pairs in mode `particles`, from what is cheapest to what finds most:
@@ -42,9 +44,12 @@ struct Met_pair {
 /// In each of these calls the pairs of a frame must come in ascending order.
 class Meeting_search {
  public:
+  /// @param options  which contacts are asked for; how many meetings, and how much to open
   explicit Meeting_search(const Detector_options& options) : options_(options) {}
 
+  /// Starts a frame: counts begin at 0.
   void start_frame();
+  /// Searches where particles met in the last frame, then below the regions.
   void look(Met_pair& pair);
   /// Lets the particles of near regions meet, and checks the faces around: the nearest first, as many as the options
   /// allow.
@@ -62,6 +67,7 @@ class Meeting_search {
   std::span<const Remembered_meeting> seeds(const Met_pair& pair) const {
     return std::span(seeds_).subspan(pair.first_seed, pair.seed_count);
   }
+  /// What the search has cost in this frame.
   Meeting_counts counts() const;
 
   /// Forgets an object, which has been rebuilt or removed.

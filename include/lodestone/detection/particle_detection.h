@@ -31,6 +31,7 @@ class Particle_detection final : public Detection {
   /// What a refusal tells a user who asks another mode for this one's answers.
   static constexpr const char* needed = "this needs a mode with particles";
 
+  /// @param options  checked by `make_detection`
   explicit Particle_detection(const Detector_options& options)
       : options_(options), workers_(options.exact.threads), frame_(options), meeting_search_(options) {}
 
@@ -53,6 +54,7 @@ class Particle_detection final : public Detection {
   }
   const Frame& detect(const Collision_filter& filter) override;
 
+  /// See `Detector::object`.
   const Particle_object& object(Object_id object) const { return objects_[object]->particle_object; }
 
  private:

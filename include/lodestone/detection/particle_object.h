@@ -28,6 +28,7 @@ namespace lodestone {
 /// particles, and how large its regions may grow.
 class Particle_object {
  public:
+  /// Takes a mesh. O(V + F).
   explicit Particle_object(std::unique_ptr<Watched_mesh> mesh);
 
   /// Places the object elsewhere from now on; none: where its mesh is.
@@ -66,6 +67,7 @@ class Particle_object {
   /// @throws Bad_saved_object  the object stays as it was
   void load(State_reader& state);
 
+  /// Spheres around the parts of the surface: see `lodestone::sphere_collection`.
   std::vector<Sphere> sphere_collection(const Positions& positions, const Particle_count_options& options) const {
     return lodestone::sphere_collection(edges_.graph, positions, walked_corners(), options);
   }
@@ -77,6 +79,7 @@ class Particle_object {
   /// Reads the anchors of the regions in this frame, after `prepare_meetings`.
   /// @throws Bad_mesh  as `read_particles`
   void read_regions(double reach);
+  /// Where the regions are, as of the last `read_regions`.
   const Region_anchors& regions() const { return regions_; }
   /// The surface, for particles that may walk anywhere, after `prepare_meetings`.
   Walked_surface walked_surface() const { return {&edges_.graph, &vertex_faces_, walked_corners(), corners(), &read_}; }
@@ -101,18 +104,29 @@ class Particle_object {
   /// Whether `posed_patch` has read their positions in this frame.
   bool is_posed(std::size_t particle, std::uint64_t frame) const { return posed_[particle].frame == frame; }
 
+  /// The mesh, whatever its type.
   Watched_mesh& mesh() { return *mesh_; }
+  /// The same, not to be changed.
   const Watched_mesh& mesh() const { return *mesh_; }
+  /// Where the object is placed; none: where its mesh is.
   const std::optional<Rigid_motion>& placement() const { return placement_; }
+  /// The faces of the mesh, F.
   const std::vector<Corners>& corners() const { return mesh_->corners(); }
   /// Where its vertices are, as of the last `read_particles`.
   const Live_positions& positions() const { return read_; }
+  /// Where a particle can step.
   const Region_steps& steps() const { return steps_; }
+  /// V: region of each vertex; 0 everywhere for scattered particles.
   const std::vector<Region_index>& labels() const { return labels_; }
+  /// What the last partition took.
   const Partition_statistics& partition_statistics() const { return statistics_; }
+  /// Per particle: the faces that it stands for. After `prepare_patches` or `scatter`.
   const std::vector<Patch>& patches() const { return patches_; }
+  /// A*, the largest area of a region when it was made; in squared units of the coordinates.
   double largest_area() const { return largest_area_; }
+  /// The particles of this frame.
   Particles& particles() { return particles_; }
+  /// The same, not to be changed.
   const Particles& particles() const { return particles_; }
 
  private:

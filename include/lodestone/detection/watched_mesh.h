@@ -29,9 +29,11 @@ class Watched_mesh {
  public:
   virtual ~Watched_mesh() = default;
 
+  /// Number of vertices, V.
   virtual std::uint32_t vertex_count() const = 0;
   /// Corners of every face, in the order of `faces(mesh)`.
   virtual const std::vector<Corners>& corners() const = 0;
+  /// Notices that the mesh has changed since it was numbered: see `lodestone::check_connectivity`.
   /// @param title      names the mesh in the message
   /// @throws Bad_mesh  the mesh has another number of vertices or faces than when it was numbered, or removed elements
   virtual void check_connectivity(const std::string& title) const = 0;
@@ -110,19 +112,21 @@ class Watched_mesh_of : public Watched_mesh {
   }
 
  protected:
+  /// Has the maps of another numbering of the same mesh.
   void renew_maps_of(const Watched_mesh_of& other) {
     maps_ = other.maps_;
     if (maps_) maps_->renew();
   }
 
-  const Mesh* mesh_;
-  Mesh_numbering<Mesh> numbering_;
-  std::optional<Region_maps<Mesh>> maps_;
+  const Mesh* mesh_;                       ///< the mesh that is watched
+  Mesh_numbering<Mesh> numbering_;         ///< of its vertices and faces
+  std::optional<Region_maps<Mesh>> maps_;  ///< none: the mesh cannot be written to
 };
 
 /// Computed points behind a point map, if there are any.
 template <class Points>
 inline constexpr bool is_computed = false;
+/// The points of such a map are computed.
 template <class Mesh, class Points>
 inline constexpr bool is_computed<Computed_point_map<Mesh, Points>> = true;
 
@@ -130,6 +134,8 @@ inline constexpr bool is_computed<Computed_point_map<Mesh, Points>> = true;
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points, Partition_strategy<Mesh> Strategy>
 class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
  public:
+  /// @param mesh, points  must outlive this
+  /// @param strategy      shared by the meshes of a detector
   Typed_watched_mesh(const Mesh& mesh, Points points, std::shared_ptr<const Strategy> strategy)
       : Watched_mesh_of<Mesh>(mesh),
         points_(points),

@@ -24,9 +24,12 @@ struct Filter_request;
 /// Holds the memory that it needs, so each thread needs its own.
 class Face_filter {
  public:
+  /// Has no trees yet: see `begin`.
   Face_filter();
   ~Face_filter();
+  /// Takes over the memory of another filter, which can then only be assigned to or destroyed.
   Face_filter(Face_filter&&) noexcept;
+  /// Takes over the memory of another filter, in place of its own.
   Face_filter& operator=(Face_filter&&) noexcept;
 
   /// Sets the two trees whose leaves the next calls compare.

@@ -26,6 +26,7 @@ struct Filter_request;
 /// Holds the memory that it needs, so each thread needs its own.
 class Face_group_filter {
  public:
+  /// Has no positions yet: see `begin`.
   Face_group_filter();
   ~Face_group_filter();
   Face_group_filter(const Face_group_filter&) = delete;

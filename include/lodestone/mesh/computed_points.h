@@ -44,20 +44,24 @@ concept Computed_points = requires(const P& points, std::uint32_t vertex, std::s
 template <Triangle_mesh Mesh, Computed_points Points>
 class Computed_point_map {
  public:
-  using key_type = Vertex<Mesh>;
-  using value_type = Point;
-  using reference = Point;
-  using category = boost::readable_property_map_tag;
+  using key_type = Vertex<Mesh>;                      ///< a vertex of the mesh
+  using value_type = Point;                           ///< its position
+  using reference = Point;                            ///< positions are computed, so there is nothing to refer to
+  using category = boost::readable_property_map_tag;  ///< of property maps: to be read only
+  /// Maps vertices to indices from 0: the mesh's own map, or one that was made for it.
   using Index_map = decltype(CGAL::get_initialized_vertex_index_map(std::declval<const Mesh&>()));
 
+  /// See `point_map`.
   Computed_point_map(const Mesh& mesh, const Points& points)
       : points_(&points), index_(CGAL::get_initialized_vertex_index_map(mesh)) {}
 
+  /// Computes the position of a vertex.
   friend Point get(const Computed_point_map& map, key_type vertex) {
     const Eigen::Vector3d position = (*map.points_)(map.index(vertex));
     return {position.x(), position.y(), position.z()};
   }
 
+  /// What computes the positions.
   const Points& points() const { return *points_; }
   /// Whether the points are numbered as the vertices of the mesh are. O(1) for Surface_mesh, else O(V).
   bool in_order(const Mesh_numbering<Mesh>& numbering) const {
@@ -89,10 +93,12 @@ Computed_point_map<Mesh, Points> point_map(const Mesh& mesh, const Points&& poin
 template <Triangle_mesh Mesh, Computed_points Points>
 class Coordinate_reader<Mesh, Computed_point_map<Mesh, Points>> {
  public:
-  static constexpr bool in_memory = false;
+  static constexpr bool in_memory = false;  ///< positions are written to memory of the reader
 
+  /// Reads through a map, which is copied.
   explicit Coordinate_reader(Computed_point_map<Mesh, Points> map) : map_(std::move(map)) {}
 
+  /// The current coordinates of all vertices.
   /// @return valid until the next call. O(V)
   /// @throws Bad_argument  there are fewer points than vertices
   Coordinates read(const Mesh_numbering<Mesh>& numbering) {

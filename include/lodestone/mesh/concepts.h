@@ -16,14 +16,18 @@ namespace lodestone {
 
 /// Kernel of the meshes that Lodestone itself reads and makes: double coordinates, exact predicates.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+/// A point of space: three double coordinates.
 using Point = Kernel::Point_3;
 /// The mesh type of the program, and the one the compiled part is instantiated for.
 using Surface_mesh = CGAL::Surface_mesh<Point>;
 
+/// Vertex descriptor of a mesh type.
 template <class Mesh>
 using Vertex = typename boost::graph_traits<Mesh>::vertex_descriptor;
+/// Halfedge descriptor of a mesh type.
 template <class Mesh>
 using Halfedge = typename boost::graph_traits<Mesh>::halfedge_descriptor;
+/// Face descriptor of a mesh type.
 template <class Mesh>
 using Face = typename boost::graph_traits<Mesh>::face_descriptor;
 

@@ -10,6 +10,7 @@ namespace lodestone {
 
 /// Throws the error of `check_connectivity`.
 [[noreturn]] void fail_removed_elements(const std::string& who);
+/// The same for other numbers of vertices or faces than the numbering has.
 [[noreturn]] void fail_other_counts(const std::string& who, std::size_t vertices, std::size_t faces,
                                     std::size_t numbered_vertices, std::size_t numbered_faces);
 

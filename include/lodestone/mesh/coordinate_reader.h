@@ -22,8 +22,10 @@ class Coordinate_reader {
  public:
   static constexpr bool in_memory = false;  ///< whether `read` refers to the memory of the mesh
 
+  /// Reads through a point map, which is copied.
   explicit Coordinate_reader(Points points) : points_(std::move(points)) {}
 
+  /// The current coordinates of all vertices.
   /// @return valid until the next call. O(V)
   Coordinates read(const Mesh_numbering<Mesh>& numbering) {
     coordinates_.resize(3 * std::size_t{numbering.vertex_count()});
@@ -42,14 +44,17 @@ class Coordinate_reader {
 template <class P, Contiguous_points Points>
 class Coordinate_reader<CGAL::Surface_mesh<P>, Points> {
  public:
-  static constexpr bool in_memory = true;
+  static constexpr bool in_memory = true;  ///< `read` refers to the memory of the mesh
   /// The coordinates of a mesh with such points.
   static Coordinates memory(const CGAL::Surface_mesh<P>& mesh, const Points& points) {
     return {points.data()->cartesian_begin(), 3 * static_cast<std::size_t>(num_vertices(mesh))};
   }
 
+  /// Reads through a point map, which is copied.
   explicit Coordinate_reader(Points points) : points_(std::move(points)) {}
 
+  /// The current coordinates of all vertices.
+  /// @return the memory of the mesh, valid until its vertices change in number. O(1)
   Coordinates read(const Mesh_numbering<CGAL::Surface_mesh<P>>& numbering) const {
     return {points_.data()->cartesian_begin(), 3 * std::size_t{numbering.vertex_count()}};
   }

@@ -29,13 +29,17 @@ class Vertex_table {
  public:
   static constexpr bool by_index = false;  ///< whether descriptors of vertices and faces are indices
 
+  /// Lists the vertices in the order of `vertices(mesh)`. O(V).
   explicit Vertex_table(const Mesh& mesh)
       : table_(vertices(mesh).begin(), vertices(mesh).end()),
         index_(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh)) {
     for (std::uint32_t i = 0; i < table_.size(); ++i) put(index_, table_[i], i);
   }
+  /// Descriptor of the vertex with an index.
   Vertex<Mesh> operator[](std::uint32_t index) const { return table_[index]; }
+  /// Index of a vertex.
   std::uint32_t index(Vertex<Mesh> v) const { return get(index_, v); }
+  /// Number of vertices.
   std::size_t count(const Mesh& /*mesh*/) const { return table_.size(); }
 
  private:
@@ -47,17 +51,22 @@ class Vertex_table {
 template <class P>
 class Vertex_table<CGAL::Surface_mesh<P>> {
  public:
-  using Mesh = CGAL::Surface_mesh<P>;
-  static constexpr bool by_index = true;
+  using Mesh = CGAL::Surface_mesh<P>;     ///< the mesh type
+  static constexpr bool by_index = true;  ///< descriptors are indices
 
+  /// @throws Bad_mesh  the mesh holds removed elements
   explicit Vertex_table(const Mesh& mesh) {
     if (mesh.has_garbage()) throw Bad_mesh("the mesh holds removed elements: call collect_garbage() on it first");
   }
+  /// Descriptor of the vertex with an index.
   Vertex<Mesh> operator[](std::uint32_t index) const { return Vertex<Mesh>(index); }
+  /// Index of a vertex.
   std::uint32_t index(Vertex<Mesh> v) const { return v; }
+  /// Number of vertices of the mesh, as it is now.
   std::size_t count(const Mesh& mesh) const { return num_vertices(mesh); }
 };
 
+/// Refuses indices of faces that do not exist.
 /// @throws Bad_argument  one of the indices is not below the number of faces
 inline void check_faces(std::span<const std::uint32_t> indices, std::size_t face_count) {
   for (const auto face : indices)
@@ -75,8 +84,11 @@ class Mesh_numbering {
   /// elements in a CGAL::Surface_mesh
   explicit Mesh_numbering(const Mesh& mesh);
 
+  /// Number of vertices, V.
   std::uint32_t vertex_count() const { return vertex_count_; }
+  /// Descriptor of the vertex with an index.
   Vertex<Mesh> vertex(std::uint32_t index) const { return table_[index]; }
+  /// Index of a vertex.
   std::uint32_t index(Vertex<Mesh> v) const { return table_.index(v); }
   /// Corners of every face, in the order of `faces(mesh)`.
   const std::vector<Corners>& corners() const { return corners_; }

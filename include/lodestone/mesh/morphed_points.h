@@ -32,8 +32,11 @@ class Morphed_points {
   /// @throws Bad_argument  the pose stays as it was
   void set_weights(std::span<const double> weights);
 
+  /// Number of vertices, V.
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rest_.size() / 3); }
+  /// Number of morph targets.
   std::size_t target_count() const { return weights_.size(); }
+  /// Above 0; grows whenever the pose changes.
   std::uint64_t pose_number() const { return pose_number_; }
   /// 3 V coordinates.
   std::span<const double> rest() const { return rest_; }
@@ -59,6 +62,7 @@ class Morphed_points {
 
   /// Consecutive vertices whose offsets lie together. Targets that move none of a block take no time there.
   static constexpr std::uint32_t block_vertices = 64;
+  /// Number of blocks; the last may have fewer vertices.
   std::uint32_t block_count() const { return (vertex_count() + block_vertices - 1) / block_vertices; }
   /// The positions of one block.
   /// @param coordinates  three for each of its vertices: `block_vertices`, or what is left of all in the last block

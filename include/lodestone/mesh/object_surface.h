@@ -20,8 +20,11 @@ class Object_surface {
   /// @param corners  F >= 1 faces; must outlive this object
   explicit Object_surface(std::span<const Corners> corners) : corners_(corners) {}
 
+  /// The faces, F.
   std::span<const Corners> corners() const { return corners_; }
+  /// Number of vertices, V; 0 before positions are known.
   std::size_t vertex_count() const { return coordinates_.size() / 3; }
+  /// Where the vertices are in the current frame: 3 V; empty before positions are known.
   Coordinates coordinates() const { return coordinates_; }
 
   /// Where the vertices are at rest; empty unless kept.
@@ -37,9 +40,10 @@ class Object_surface {
   std::span<const std::uint32_t> piece_vertices() const;
 
  protected:
+  /// Takes 3 V coordinates as those at rest; none: they are not kept.
   void set_rest(std::vector<double> rest) { rest_ = std::move(rest); }
 
-  Coordinates coordinates_;
+  Coordinates coordinates_;  ///< of the current frame: 3 V, or empty
 
  private:
   std::span<const Corners> corners_;

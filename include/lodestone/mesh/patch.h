@@ -29,10 +29,10 @@ std::vector<Patch> region_patches(std::span<const Corners> mesh_corners, std::sp
 
 /// A patch with the positions of its vertices in the current frame.
 struct Posed_patch {
-  const Patch* patch = nullptr;
+  const Patch* patch = nullptr;            ///< must outlive this
   std::vector<Eigen::Vector3d> positions;  ///< parallel to `patch->vertices`
-  Box box;
-  std::uint64_t frame = 0;  ///< the frame of these positions; 0: none yet
+  Box box;                                 ///< around the positions
+  std::uint64_t frame = 0;                 ///< the frame of these positions; 0: none yet
 };
 
 /// Reads the positions of a patch, unless it already holds those of `frame`. O(vertices of the patch).

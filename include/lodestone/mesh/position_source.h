@@ -16,6 +16,7 @@ class Position_source {
  public:
   virtual ~Position_source() = default;
 
+  /// Number of vertices, V.
   virtual std::uint32_t vertex_count() const = 0;
   /// Grows whenever positions change; 0: nobody knows, they may have changed since the last look.
   virtual std::uint64_t pose_number() const = 0;

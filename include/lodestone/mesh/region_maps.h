@@ -15,7 +15,9 @@ inline constexpr Region_index no_particle = std::numeric_limits<Region_index>::m
 /// Type of the property maps that hold the regions and particles of a mesh.
 template <class Mesh>
 struct Region_property {
+  /// Property map from vertices to regions.
   using Map = typename boost::property_map<Mesh, CGAL::dynamic_vertex_property_t<Region_index>>::const_type;
+  /// Makes a map; the mesh does not keep it, and it has no name.
   static Map add(const Mesh& mesh, const char* /*name*/) {
     return get(CGAL::dynamic_vertex_property_t<Region_index>(), mesh);
   }
@@ -24,8 +26,10 @@ struct Region_property {
 /// The properties of CGAL::Surface_mesh have names, so other code finds `v:region` and `v:particle` on the mesh.
 template <class P>
 struct Region_property<CGAL::Surface_mesh<P>> {
-  using Mesh = CGAL::Surface_mesh<P>;
+  using Mesh = CGAL::Surface_mesh<P>;  ///< the mesh type
+  /// Property map from vertices to regions.
   using Map = typename Mesh::template Property_map<typename Mesh::Vertex_index, Region_index>;
+  /// The map of this name, which is added to the mesh if it has none: `no_particle` everywhere.
   static Map add(Mesh& mesh, const char* name) {
     return mesh.template add_property_map<typename Mesh::Vertex_index, Region_index>(name, no_particle).first;
   }
@@ -36,8 +40,10 @@ struct Region_property<CGAL::Surface_mesh<P>> {
 template <Triangle_mesh Mesh>
 class Region_maps {
  public:
-  using Map = typename Region_property<Mesh>::Map;
+  using Map = typename Region_property<Mesh>::Map;  ///< from vertices to regions
 
+  /// Gets the maps from the mesh, or adds them.
+  /// @param mesh  must outlive this
   explicit Region_maps(Mesh& mesh)
       : mesh_(&mesh),
         region_(Region_property<Mesh>::add(mesh, "v:region")),
@@ -46,7 +52,9 @@ class Region_maps {
   /// Gets the maps from the mesh again, or adds them. Needed after `Surface_mesh::clear`, which frees them.
   void renew() { *this = Region_maps(*mesh_); }
 
+  /// Region of each vertex.
   const Map& region() const { return region_; }
+  /// Region whose particle is on a vertex, or `no_particle`.
   const Map& particle() const { return particle_; }
 
   /// Writes the label of every vertex, and all particles. O(V).

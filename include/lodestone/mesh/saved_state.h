@@ -20,8 +20,10 @@ template <class T>
 concept Savable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> &&
                   (std::floating_point<T> || std::has_unique_object_representations_v<T>);
 
+/// Turns numbers and lists into bytes, one after the other.
 class State_writer {
  public:
+  /// One number, or a struct of numbers without padding.
   template <Savable T>
   void value(const T& value) {
     bytes(std::as_bytes(std::span(&value, 1)));
@@ -32,11 +34,13 @@ class State_writer {
     value(std::uint64_t{values.size()});
     bytes(std::as_bytes(values));
   }
+  /// The same for a vector.
   template <Savable T, typename Allocator>
   void list(const std::vector<T, Allocator>& values) {
     list(std::span<const T>(values));
   }
 
+  /// All that was written; the writer is empty afterwards.
   std::vector<std::byte> take() { return std::exchange(bytes_, {}); }
 
  private:
@@ -51,6 +55,7 @@ class State_reader {
   /// @param bytes  must outlive this
   explicit State_reader(std::span<const std::byte> bytes) : left_(bytes) {}
 
+  /// The next number, or struct of numbers.
   /// @throws Bad_saved_object  the bytes end too early
   template <Savable T>
   T value() {
@@ -65,6 +70,7 @@ class State_reader {
     require(std::isfinite(number), "a number is not finite");
     return number;
   }
+  /// The next list.
   /// @throws Bad_saved_object  the bytes end too early
   template <Savable T>
   std::vector<T> list() {
@@ -72,6 +78,7 @@ class State_reader {
     list(values);
     return values;
   }
+  /// The next list, written to a vector of any allocator.
   /// @throws Bad_saved_object  the bytes end too early
   template <Savable T, typename Allocator>
   void list(std::vector<T, Allocator>& values) {
@@ -80,11 +87,14 @@ class State_reader {
     values.resize(count);
     if (count > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
   }
+  /// Checks that all has been read.
   /// @throws Bad_saved_object  there are more bytes
   void end() const;
 
+  /// Refuses the bytes.
   /// @throws Bad_saved_object, always
   [[noreturn]] static void fail(std::string_view cause);
+  /// Refuses the bytes unless they are right.
   /// @throws Bad_saved_object  `right` is false
   static void require(bool right, std::string_view cause) {
     if (!right) fail(cause);

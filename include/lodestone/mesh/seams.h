@@ -21,6 +21,7 @@ struct Closed_seams {
 
   /// The mesh vertex that stands for mesh vertex v.
   std::uint32_t joined(std::uint32_t v) const { return vertices[index[v]]; }
+  /// Number of mesh vertices that are joined to another one.
   std::size_t joined_count() const { return index.size() - vertices.size(); }
 };
 

@@ -50,15 +50,20 @@ class Skinned_points {
   /// Changes the pose: see `Morphed_points::set_weights`.
   void set_weights(std::span<const double> weights) { shape_.set_weights(weights); }
 
+  /// Number of vertices, V.
   std::uint32_t vertex_count() const { return shape_.vertex_count(); }
+  /// Number of joints.
   std::size_t joint_count() const { return columns_.size() / 16; }
+  /// Above 0; grows whenever the pose changes.
   std::uint64_t pose_number() const { return pose_number_ + shape_.pose_number(); }
+  /// What the joints move: the vertices at rest, or morphed.
   const Morphed_points& shape() const { return shape_; }
   /// The joints that move a vertex, and their normalised weights, all above 0.
   struct Influences {
-    std::span<const std::uint32_t> joints;
-    std::span<const double> weights;
+    std::span<const std::uint32_t> joints;  ///< joint indices, in the order of the list
+    std::span<const double> weights;        ///< of each, with a sum of 1 up to rounding
   };
+  /// What moves a vertex. O(1).
   Influences influences(std::uint32_t vertex) const {
     const std::size_t begin = begin_[vertex], count = begin_[vertex + 1] - begin;
     return {std::span(joints_).subspan(begin, count), std::span(weights_).subspan(begin, count)};

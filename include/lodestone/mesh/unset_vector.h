@@ -12,15 +12,18 @@ namespace lodestone {
 /// Leaves new elements as the memory was, unless they are given a value.
 template <typename T>
 struct Unset_allocator : std::allocator<T> {
+  /// The same for elements of another type.
   template <typename U>
   struct rebind {
-    using other = Unset_allocator<U>;
+    using other = Unset_allocator<U>;  ///< the allocator
   };
+  /// Makes an element without setting it.
   template <typename U>
   void construct(U* element) noexcept {
     static_assert(std::is_trivially_copyable_v<U>);
     ::new (static_cast<void*>(element)) U;
   }
+  /// Makes an element from values.
   template <typename U, typename... Values>
   void construct(U* element, Values&&... values) {
     ::new (static_cast<void*>(element)) U(std::forward<Values>(values)...);

@@ -17,6 +17,7 @@ class Vertex_faces {
   /// O(V + F).
   Vertex_faces(std::uint32_t vertex_count, std::span<const Corners> corners);
 
+  /// Number of vertices, V.
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(offsets_.size() - 1); }
   /// Ascending; a face with two corners at the vertex twice.
   std::span<const std::uint32_t> at(std::uint32_t vertex) const {

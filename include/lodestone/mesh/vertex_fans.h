@@ -20,6 +20,7 @@ class Vertex_fans {
   /// @param faces  corners of every face, each below `vertex_count`
   Vertex_fans(std::uint32_t vertex_count, std::span<const Corners> faces);
 
+  /// Number of vertices, V.
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(starts_.size() - 1); }
 
   /// Indices of the faces that use `vertex`, each once: in the order of the rim if there is one, otherwise ascending.

@@ -19,7 +19,7 @@ using Vertex_graph = boost::compressed_sparse_row_graph<boost::directedS, boost:
 
 /// The edges of a surface.
 struct Surface_edges {
-  Vertex_graph graph;
+  Vertex_graph graph;             ///< both directions of every edge
   std::vector<bool> open_border;  ///< V: whether a vertex lies on an open border, that is, on an edge of only one face
 };
 

@@ -13,11 +13,13 @@ class Workers {
   /// @param threads  number of threads, limited to as many as the machine has; 0: as many as it has
   explicit Workers(std::size_t threads);
   ~Workers();
+  /// Takes over the threads of another group, which then works alone.
   Workers(Workers&&) noexcept;
 
   /// A single worker. It has no state, so any number of threads may use it at once.
   static Workers& alone();
 
+  /// Number of workers, at least 1.
   std::size_t count() const { return count_; }
 
   /// Calls `task(index, worker)` for each index below `tasks`; `worker` is below `count()`. A single worker runs the

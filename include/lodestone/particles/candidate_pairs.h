@@ -18,9 +18,9 @@ enum class Candidate_choice {
 
 /// Two regions whose particles are nearer than the collision distance.
 struct Candidate_pair {
-  double squared_distance = 0;
-  Region_index a = 0;
-  Region_index b = 0;
+  double squared_distance = 0;  ///< of the two particles, in squared units of the coordinates
+  Region_index a = 0;           ///< region of the first object
+  Region_index b = 0;           ///< region of the second object
 };
 
 /// Lexicographic order of distance and region indices.

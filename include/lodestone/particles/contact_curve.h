@@ -25,7 +25,9 @@ class Contact_curve {
   void follow(Face_pair contact, std::vector<Face_pair>& found);
 
   /// Face pairs given to exact predicates, and positions read, since `begin`.
+  /// Face pairs given to exact predicates since `begin`.
   std::size_t exact_tests() const { return exact_tests_; }
+  /// Positions read since `begin`, some more than once.
   std::size_t vertices_read() const { return vertices_read_; }
 
  private:

@@ -11,6 +11,7 @@
 
 namespace lodestone {
 
+/// Stands for the hops to a vertex of another component.
 inline constexpr std::uint32_t unreached = std::numeric_limits<std::uint32_t>::max();
 
 /// Hops from `source` to every vertex: the fewest edges between them, by Boost.Graph's breadth-first search. O(V + E).

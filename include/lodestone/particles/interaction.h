@@ -14,9 +14,13 @@ double effective_radius(std::span<const Eigen::Vector3d> particles);
 /// The particles whose force one object feels: their positions, and the reach of each one's force.
 class Attractors {
  public:
+  /// Makes room for so many.
   void reserve(std::size_t count);
+  /// Leaves none; the memory is kept.
   void clear();
+  /// @param squared_reach  of the force, in squared units of the coordinates
   void add(const Eigen::Vector3d& position, double squared_reach);
+  /// Number of attractors.
   std::size_t size() const { return x_.size(); }
 
   /// Number of points per call of `forces`.

@@ -16,8 +16,8 @@ struct Meeting {
 
 /// A meeting that has ended: neither particle can get nearer to the other by one step.
 struct Ended_meeting {
-  Meeting at;
-  double squared_distance = 0;
+  Meeting at;                     ///< where both are at the end
+  double squared_distance = 0;    ///< of the two vertices, in squared units of the coordinates
   std::size_t hops = 0;           ///< of both particles together
   std::size_t vertices_read = 0;  ///< positions read, some of them more than once
 };

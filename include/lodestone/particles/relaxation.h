@@ -36,18 +36,18 @@ struct Particles {
 
 /// One particle that feels another.
 struct Pull {
-  std::uint32_t particle = 0;  ///< of the object that feels
-  std::uint32_t object = 0;    ///< whose particle is felt
-  std::uint32_t by = 0;        ///< that particle
-  auto operator<=>(const Pull&) const = default;
+  std::uint32_t particle = 0;                     ///< of the object that feels
+  std::uint32_t object = 0;                       ///< whose particle is felt
+  std::uint32_t by = 0;                           ///< that particle
+  auto operator<=>(const Pull&) const = default;  ///< by particle, then by what it feels
 };
 
 /// One object as relaxation sees it.
 template <Position_reader Reader>
 struct Walking_object {
-  Particles* particles = nullptr;
-  const Region_steps* steps = nullptr;
-  const Reader* reader = nullptr;
+  Particles* particles = nullptr;            ///< those that walk; moved by `relax`
+  const Region_steps* steps = nullptr;       ///< where they can step
+  const Reader* reader = nullptr;            ///< where vertices are in this frame
   std::span<const std::uint32_t> opponents;  ///< indices of the objects whose particles this one feels
   bool siblings_repel = false;               ///< particles of the object push each other away: only for the predecessor
   /// Which particles feel which, in ascending order; then forces have no limit of distance. None: all particles of the
@@ -55,17 +55,18 @@ struct Walking_object {
   std::optional<std::span<const Pull>> pulls = {};
 };
 
+/// What `relax` has done.
 struct Relaxation {
-  std::size_t iterations = 0;
-  std::size_t moves = 0;  ///< steps taken by all particles together
-  bool relaxed = true;    ///< false: R_max stopped the iterations
+  std::size_t iterations = 0;     ///< each is over all objects
+  std::size_t moves = 0;          ///< steps taken by all particles together
+  bool relaxed = true;            ///< false: R_max stopped the iterations
   std::size_t vertices_read = 0;  ///< positions read, some more than once
 };
 
 /// What is known of a particle at rest: it stayed when its steps were last compared. The comparison need not be made
 /// again before an attractor moves whose force reaches one of these steps.
 struct Rest {
-  bool stayed = false;
+  bool stayed = false;      ///< false: it moved, or nothing is known
   double step_length = -1;  ///< from the particle to the farthest vertex in reach of a step; negative: not measured
 };
 
@@ -75,21 +76,23 @@ struct Moved_particles {
   std::vector<std::uint32_t> from;          ///< parallel to `which`: the vertex on which each was
   std::vector<Eigen::Vector3d> from_there;  ///< its position
 
+  /// Makes room for so many.
   void reserve(std::size_t count) { which.reserve(count), from.reserve(count), from_there.reserve(count); }
+  /// Leaves none; the memory is kept.
   void clear() { which.clear(), from.clear(), from_there.clear(); }
 };
 
 /// Working memory of the relaxation, kept so that a frame allocates nothing.
 struct Relaxation_scratch {
-  Attractors attractors;
-  Attractors siblings;
-  std::vector<std::vector<std::uint32_t>> next_at;
-  std::vector<std::vector<Eigen::Vector3d>> next_positions;
-  std::vector<std::vector<Rest>> rests;
-  std::vector<Moved_particles> moved;         ///< per object: in the last iteration
-  std::vector<Moved_particles> moved_before;  ///< in the one before
-  std::vector<std::size_t> iterations;        ///< per object: in which one of its particles was evaluated
-  std::size_t vertices_read = 0;              ///< since `start`
+  Attractors attractors;                            ///< what the particles of the current object feel
+  Attractors siblings;                              ///< the particles of the object itself, where these repel
+  std::vector<std::vector<std::uint32_t>> next_at;  ///< per object and particle: the vertex after this iteration
+  std::vector<std::vector<Eigen::Vector3d>> next_positions;  ///< of these vertices
+  std::vector<std::vector<Rest>> rests;                      ///< per object and particle
+  std::vector<Moved_particles> moved;                        ///< per object: in the last iteration
+  std::vector<Moved_particles> moved_before;                 ///< in the one before
+  std::vector<std::size_t> iterations;  ///< per object: in which one of its particles was evaluated
+  std::size_t vertices_read = 0;        ///< since `start`
 
   /// Makes room for objects with so many particles each.
   void reserve(std::span<const std::size_t> particles);
@@ -169,7 +172,7 @@ template <Position_reader Reader>
 double measure_step_length(const Walking_object<Reader>& object, std::size_t particle) {
   double squared = 0;
   for (const auto vertex : object.steps->from(object.particles->at[particle]))
-    squared = std::max(squared, ((*object.reader)(vertex) - object.particles->positions[particle]).squaredNorm());
+    squared = std::max(squared, ((*object.reader)(vertex)-object.particles->positions[particle]).squaredNorm());
   return std::sqrt(squared);
 }
 
@@ -224,8 +227,8 @@ bool choose_step(std::span<const Walking_object<Reader>> objects, std::size_t o,
 /// Whether a particle that is pulled stays without another comparison of its steps: nothing that it feels has moved.
 inline bool rests(std::span<const Pull> pulls, const Rest& rest, const Relaxation_scratch& scratch) {
   return rest.stayed && std::ranges::none_of(pulls, [&](const Pull& pull) {
-    return std::ranges::binary_search(scratch.moved[pull.object].which, pull.by);
-  });
+           return std::ranges::binary_search(scratch.moved[pull.object].which, pull.by);
+         });
 }
 
 /// Chooses the next steps of the particles of an object that are pulled.

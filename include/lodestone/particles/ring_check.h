@@ -22,8 +22,11 @@ class Ring_check {
   bool check(const Walked_surface& a, const Walked_surface& b, Meeting at, std::size_t rings, Face_pair& found);
 
   /// Face pairs that went to the exact test, and positions read, since `reset_counts`.
+  /// Face pairs that went to the exact test since `reset_counts`.
   std::size_t exact_tests() const { return exact_tests_; }
+  /// Positions read since `reset_counts`, some more than once.
   std::size_t vertices_read() const { return vertices_read_; }
+  /// Sets both counts to 0.
   void reset_counts() { exact_tests_ = vertices_read_ = 0; }
 
  private:

@@ -18,6 +18,7 @@
 /// than the collision distance, the faces around both are tested, as many as a region would hold.
 namespace lodestone {
 
+/// Options of the mode `senin`.
 struct Senin_options {
   std::uint64_t seed = 1;                    ///< of the scattering
   std::optional<Eigen::Vector3d> side = {};  ///< scatter only where the surface lies farthest in this direction

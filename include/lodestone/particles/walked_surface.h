@@ -18,16 +18,17 @@ struct Walked_surface {
   const Vertex_faces* vertex_faces = nullptr;  ///< of `walked`
   std::span<const Corners> walked;             ///< F: the faces, with the vertices of closed seams as one
   std::span<const Corners> faces;              ///< F: the faces as they are
-  const Live_positions* positions = nullptr;
+  const Live_positions* positions = nullptr;   ///< of the vertices in this frame
 
+  /// Where a vertex is in this frame.
   Eigen::Vector3d position(std::uint32_t vertex) const { return (*positions)(vertex); }
 };
 
 /// A face with the positions of its corners.
 struct Read_face {
-  std::uint32_t face = 0;
-  Triangle triangle;
-  Box box;
+  std::uint32_t face = 0;  ///< its index
+  Triangle triangle;       ///< its corners
+  Box box;                 ///< around them
 };
 
 /// Reads the corners of a face.

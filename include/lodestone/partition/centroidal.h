@@ -10,12 +10,16 @@
 namespace lodestone {
 
 /// How the first seeds of centroidal cells are chosen.
-enum class Centroidal_start { farthest_points, random_vertices };
+enum class Centroidal_start {
+  farthest_points,  ///< far apart along the edges: `farthest_points`
+  random_vertices,  ///< drawn at random: `random_vertices`
+};
 
+/// Options of `centroidal_seeds`.
 struct Centroidal_options {
-  std::uint64_t seed = 1;  ///< of the draw of the first seeds
-  Centroidal_start start = Centroidal_start::farthest_points;
-  std::size_t max_iterations = 100;  ///< >= 1; the seeds mostly settle in fewer
+  std::uint64_t seed = 1;                                      ///< of the draw of the first seeds
+  Centroidal_start start = Centroidal_start::farthest_points;  ///< where the first seeds are
+  std::size_t max_iterations = 100;                            ///< >= 1; the seeds mostly settle in fewer
 };
 
 /// Seeds near the centroids of their cells, and the course of the iterations.
@@ -43,14 +47,17 @@ Centroidal_seeds centroidal_seeds(const Numbered_surface& surface, std::size_t c
 
 /// Partition strategy: the vertices nearest along the edges to each of N `centroidal_seeds`. See `Geodesic_voronoi`.
 struct Centroidal {
-  static constexpr std::string_view name = "centroidal";
+  static constexpr std::string_view name = "centroidal";  ///< for `make_strategy`, tables and messages
 
-  Centroidal_options options = {};
+  Centroidal_options options = {};  ///< of `centroidal_seeds`
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
+  /// @throws Bad_argument  an option out of range
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 

@@ -7,6 +7,7 @@
 
 namespace lodestone {
 
+/// Options of `mean_curvatures`.
 struct Curvature_options {
   std::size_t rings = 2;  ///< rings of neighbours to which a paraboloid is fitted; [1, 10]
 };

@@ -23,20 +23,23 @@ namespace lodestone {
 std::vector<std::uint32_t> farthest_points(const Vertex_graph& graph, const Positions& positions, std::size_t count,
                                            std::uint64_t seed);
 
+/// Options of Farthest_point.
 struct Farthest_point_options {
   std::uint64_t seed = 1;  ///< of the draw of the first vertex
 };
 
 /// Partition strategy: the vertices nearest along the edges to each of N `farthest_points`. See `Geodesic_voronoi`.
 struct Farthest_point {
-  static constexpr std::string_view name = "farthest_point";
+  static constexpr std::string_view name = "farthest_point";  ///< for `make_strategy`, tables and messages
 
-  Farthest_point_options options = {};
+  Farthest_point_options options = {};  ///< the seed
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 

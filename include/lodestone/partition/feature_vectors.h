@@ -20,6 +20,7 @@ using Feature_vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Ei
 /// overflow.
 inline constexpr double largest_weight = 1e6;
 
+/// Weights of the factors of a feature vector.
 struct Feature_options {
   double position_weight = 1;  ///< of positions scaled to the unit ball around their mean; [0, 1e6]
   double normal_weight = 1;    ///< of unit vertex normals; [0, 1e6]; 0 leaves the normals out, so that k = 3

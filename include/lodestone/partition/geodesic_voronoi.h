@@ -21,6 +21,7 @@ namespace lodestone {
 /// marks of the search.
 class Geodesic_voronoi {
  public:
+  /// Stands for the seed of a vertex that none reaches.
   static constexpr Region_index no_seed = std::numeric_limits<Region_index>::max();
 
   /// Both arguments must outlive the object. Cost O(V + E).
@@ -34,7 +35,9 @@ class Geodesic_voronoi {
   /// Forgets all seeds. Cost O(V).
   void clear();
 
+  /// Vertices of the seeds, in the order in which they were added.
   const std::vector<std::uint32_t>& seeds() const { return seeds_; }
+  /// Whether a vertex is a seed.
   bool is_seed(std::uint32_t vertex) const { return is_seed_[vertex]; }
 
   /// Distance from the nearest seed along the edges, in units of the positions; infinity if no seed reaches the vertex.

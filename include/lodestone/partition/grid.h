@@ -17,12 +17,14 @@ namespace lodestone {
 /// sorted by the x, then y, then z of their cubes. A translation or uniform scale of the mesh changes no more than
 /// rounding does. O(V log V) per size tried; at most 51 sizes are tried.
 struct Grid {
-  static constexpr std::string_view name = "grid";
+  static constexpr std::string_view name = "grid";  ///< for `make_strategy`, tables and messages
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 

@@ -14,12 +14,14 @@ namespace lodestone {
 /// the surface: the vertices of a run are near in space, but may lie on two sides of a thin part. The sizes of runs
 /// differ by at most one vertex. O(V log V).
 struct Hilbert {
-  static constexpr std::string_view name = "hilbert";
+  static constexpr std::string_view name = "hilbert";  ///< for `make_strategy`, tables and messages
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 

@@ -8,6 +8,7 @@
 
 namespace lodestone {
 
+/// What `repair_islands` has done.
 struct Island_repair {
   std::size_t regions = 0;         ///< number of regions afterwards
   std::size_t pieces_before = 0;   ///< `count_pieces` of the labels as they were

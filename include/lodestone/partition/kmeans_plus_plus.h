@@ -19,11 +19,12 @@ namespace lodestone {
 /// @return row indices of different vectors, in the order of the draw
 std::vector<std::size_t> kmeans_plus_plus_start(const Feature_vectors& vectors, std::size_t count, std::uint64_t seed);
 
+/// Options of Kmeans_plus_plus.
 struct Kmeans_plus_plus_options {
   std::uint64_t seed = 1;  ///< of the draw of the first code vectors
   double tolerance = 0;    ///< iterations stop at this relative drop of the distortion, >= 0; 0: when no label changes
   std::size_t max_iterations = 1000;  ///< >= 1
-  Feature_options features = {};
+  Feature_options features = {};      ///< what is compared
 };
 
 /// Partition strategy: the cells of Lloyd iterations from a k-means++ start, over the feature vectors of `Lbg`.
@@ -32,14 +33,16 @@ struct Kmeans_plus_plus_options {
 /// re-seeded with the vector that is farthest from its code vector. Each iteration computes M N distances at worst,
 /// each of O(k) for k components; `Bounded_assignment` avoids most of them.
 struct Kmeans_plus_plus {
-  static constexpr std::string_view name = "kmeans++";
+  static constexpr std::string_view name = "kmeans++";  ///< for `make_strategy`, tables and messages
 
-  Kmeans_plus_plus_options options = {};
+  Kmeans_plus_plus_options options = {};  ///< seed, features, and when iterations stop
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   /// @throws Bad_argument  an option out of range
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };

@@ -17,15 +17,18 @@ enum class Split {
 };
 
 /// How the nearest code vector is found. Both give the same labels.
-enum class Nearest_search { bounded, plain };
+enum class Nearest_search {
+  bounded,  ///< `Bounded_assignment`: skips distances that bounds make needless
+  plain,    ///< `assign_plain`: compares every vector with every code vector
+};
 
 /// Options of LBG. The equations are those of \cite saenghaengtham2006.
 struct Lbg_options {
   double split = 0.005;      ///< e of the split, eq. (3) and (4); dimensionless, > 0
   double tolerance = 0.005;  ///< relative drop of the distortion, eq. (9), at which Lloyd iterations stop; > 0
-  Split split_rule = Split::principal_axis;
-  Nearest_search search = Nearest_search::bounded;
-  Feature_options features = {};
+  Split split_rule = Split::principal_axis;         ///< how one code vector becomes two
+  Nearest_search search = Nearest_search::bounded;  ///< changes times only
+  Feature_options features = {};                    ///< of the strategy `Lbg`; `quantise` takes vectors as they are
   /// Vectors to train on at most, but 128 per code vector if that is more. Where there are more vectors, a sample is
   /// trained on, drawn evenly along their order, and then all are assigned once. 0: all are trained on, as published.
   std::size_t sample = 32768;
@@ -35,16 +38,16 @@ struct Lbg_options {
 
 /// Lloyd iterations between two splits.
 struct Lloyd_run {
-  std::size_t code_vectors = 0;
+  std::size_t code_vectors = 0;    ///< how many there were
   std::vector<double> distortion;  ///< per iteration: sum |X - Q(X)|^2 / (k M), \cite saenghaengtham2006, eq. (8)
 };
 
 /// Result of quantising M vectors of k components.
 struct Quantisation {
-  Feature_vectors code_vectors;      ///< n x k, n <= N: each the mean of its cell
-  std::vector<Region_index> labels;  ///< M, each below n; no cell is empty
-  std::vector<Lloyd_run> runs;       ///< of the training, one per number of code vectors: 1, 2, 4, ... N
-  std::uint64_t distance_evaluations = 0;
+  Feature_vectors code_vectors;            ///< n x k, n <= N: each the mean of its cell
+  std::vector<Region_index> labels;        ///< M, each below n; no cell is empty
+  std::vector<Lloyd_run> runs;             ///< of the training, one per number of code vectors: 1, 2, 4, ... N
+  std::uint64_t distance_evaluations = 0;  ///< between a vector and a code vector
 };
 
 /// LBG vector quantisation: split, then Lloyd iterations, until there are N code vectors.
@@ -77,15 +80,18 @@ Quantisation quantise(const Feature_vectors& vectors, std::size_t cells, const L
 
 /// Partition strategy: the cells of LBG quantisation over position, normal and further factors of each vertex.
 struct Lbg {
-  static constexpr std::string_view name = "lbg";
+  static constexpr std::string_view name = "lbg";  ///< for `make_strategy`, tables and messages
 
-  Lbg_options options = {};
+  Lbg_options options = {};            ///< of `quantise`, and the weights of position and normal
   Feature_vectors extra_factors = {};  ///< V rows with any number of columns, from `factors()`; empty for none
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
+  /// @throws Bad_argument  as `quantise`; the extra factors do not have one row per vertex
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 

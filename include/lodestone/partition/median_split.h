@@ -13,12 +13,14 @@ namespace lodestone {
 /// between equal coordinates go to the lower vertex index. So two halves differ by at most one vertex, and if N is a
 /// power of two, all parts do. Ties between parts and between axes go to the lowest. O(V log N).
 struct Median_split {
-  static constexpr std::string_view name = "median_split";
+  static constexpr std::string_view name = "median_split";  ///< for `make_strategy`, tables and messages
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 

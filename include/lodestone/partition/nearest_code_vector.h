@@ -54,6 +54,7 @@ void assign_plain(const Feature_vectors& vectors, const Feature_vectors& codes, 
 /// Memory O(k (M + N^2)). With more than `max_codes` code vectors the plain loop is used.
 class Bounded_assignment {
  public:
+  /// Above so many code vectors the plain loop is used.
   static constexpr Eigen::Index max_codes = 1024;
 
   /// Both arguments must outlive this object.

@@ -9,7 +9,7 @@ namespace lodestone {
 
 /// A surface as a mesh that CGAL's algorithms accept, with the indices of its elements on the surface.
 struct Oriented_mesh {
-  Surface_mesh mesh;
+  Surface_mesh mesh;                          ///< a manifold, its faces oriented alike where they can be
   std::vector<std::uint32_t> vertex_indices;  ///< per vertex of `mesh`; the first V are those of the surface in order
   std::vector<std::uint32_t> face_indices;    ///< per face of `mesh`
   std::vector<bool> turned;  ///< per face of `mesh`: its orientation is opposite to that on the surface

@@ -13,11 +13,12 @@ namespace lodestone {
 
 /// A sphere around a part of a surface.
 struct Sphere {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  double radius = 0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< in units of the coordinates
+  double radius = 0;                                 ///< in the same units
   double roundness = 1;  ///< distance of the nearest vertex from the centre, in radii; 1: all are on the sphere
 };
 
+/// Options of the rule that says how many particles an object gets.
 struct Particle_count_options {
   double crease_degrees = 40;        ///< a vertex whose normal differs by more from a neighbour's is critical; (0, 180]
   double smallest_part = 0.02;       ///< parts with a smaller share of the vertices are ignored; [0, 1]

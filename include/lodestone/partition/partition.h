@@ -19,19 +19,20 @@ namespace lodestone {
 /// A surface by index, independent of the mesh type. Strategies that need no more than this are compiled once, and give
 /// the same labels on every mesh type.
 struct Numbered_surface {
-  const Vertex_graph& graph;
-  const Positions& positions;  ///< V x 3
-  std::span<const Corners> faces;
+  const Vertex_graph& graph;       ///< of its edges, V vertices
+  const Positions& positions;      ///< V x 3
+  std::span<const Corners> faces;  ///< F
 };
 
 /// Input of a partition strategy: the mesh, its vertices and faces by index, and the current positions.
 template <Triangle_mesh Mesh>
 struct Partition_input {
-  const Mesh& mesh;
-  const Mesh_numbering<Mesh>& numbering;
-  const Vertex_graph& graph;
-  const Positions& positions;  ///< V x 3
+  const Mesh& mesh;                       ///< as the caller has it
+  const Mesh_numbering<Mesh>& numbering;  ///< of its vertices and faces
+  const Vertex_graph& graph;              ///< of its edges
+  const Positions& positions;             ///< V x 3
 
+  /// The same without the mesh.
   Numbered_surface surface() const { return {graph, positions, numbering.corners()}; }
 };
 
@@ -58,14 +59,16 @@ concept Labels_by_index = requires(const Strategy& strategy, const Numbered_surf
   { strategy.label(surface, regions) } -> std::same_as<Labelling>;
 };
 
+/// Options of `partition()`, for any strategy.
 struct Partition_options {
   bool keep_islands = false;  ///< leave regions in several pieces, as the strategy made them
 };
 
+/// What a strategy, and the repair after it, took.
 struct Partition_statistics {
   std::size_t iterations = 0;              ///< see Labelling
   std::uint64_t distance_evaluations = 0;  ///< see Labelling
-  Island_repair repair = {};
+  Island_repair repair = {};               ///< of regions in several pieces
 };
 
 /// A mesh divided into regions, by index. Each region holds one particle.
@@ -73,15 +76,15 @@ struct Numbered_partition {
   std::vector<Region_index> labels;      ///< V: region of each vertex
   std::size_t regions = 0;               ///< number of regions, each with at least one face
   std::vector<std::uint32_t> particles;  ///< per region: the vertex at which its particle starts
-  Partition_statistics statistics = {};
+  Partition_statistics statistics = {};  ///< what it took
 };
 
 /// The same with the descriptors of the mesh; the labels are in the region map.
 template <Triangle_mesh Mesh>
 struct Partition {
-  std::size_t regions = 0;
-  std::vector<Vertex<Mesh>> particles;
-  Partition_statistics statistics = {};
+  std::size_t regions = 0;               ///< number of regions, each with at least one face
+  std::vector<Vertex<Mesh>> particles;   ///< per region: the vertex at which its particle starts
+  Partition_statistics statistics = {};  ///< what it took
 };
 
 /// The vertex of each region that is nearest to the region's mean vector. Ties go to the lowest index. Vertices without

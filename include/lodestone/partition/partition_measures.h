@@ -10,7 +10,7 @@ namespace lodestone {
 
 /// Quality of a partition, for comparing strategies. No figure depends on the units of the mesh.
 struct Partition_measures {
-  std::size_t regions = 0;
+  std::size_t regions = 0;  ///< number of regions
   double distortion = 0;    ///< sum |X - Q(X)|^2 / (k M) over position + normal of equal weight, k = 6, where Q(X) is
                             ///< the mean vector of the region of X
   double size_balance = 1;  ///< vertices of the largest region over the mean number of vertices; 1: all equal

@@ -14,6 +14,7 @@ namespace lodestone {
 /// @param count  number of vertices; above V it is reduced to V
 std::vector<std::uint32_t> random_vertices(const Vertex_graph& graph, std::size_t count, std::uint64_t seed);
 
+/// Options of Random_voronoi.
 struct Random_voronoi_options {
   std::uint64_t seed = 1;  ///< of the draw
 };
@@ -23,14 +24,16 @@ struct Random_voronoi_options {
 ///
 /// Vertices of a component in which none was drawn go to the seeds nearest in a straight line. O((V + E) log V).
 struct Random_voronoi {
-  static constexpr std::string_view name = "random_voronoi";
+  static constexpr std::string_view name = "random_voronoi";  ///< for `make_strategy`, tables and messages
 
-  Random_voronoi_options options = {};
+  Random_voronoi_options options = {};  ///< the seed
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 

@@ -33,7 +33,7 @@ struct Region_extent {
 
 /// What the extents of a region are measured on.
 struct Extent_input {
-  const Vertex_graph& graph;
+  const Vertex_graph& graph;             ///< of the surface that is walked along
   std::span<const Region_index> labels;  ///< V
   const std::vector<bool>& open_border;  ///< V, see `open_border`
   const Live_positions& position;        ///< in the current frame

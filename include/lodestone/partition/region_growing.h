@@ -7,6 +7,7 @@
 
 namespace lodestone {
 
+/// Options of Region_growing.
 struct Region_growing_options {
   double angle = 25;  ///< largest angle between the normals of a face and of its region's plane, degrees; [0, 90]
   double distance =
@@ -24,14 +25,16 @@ struct Region_growing_options {
 /// A face without area is a region of its own at first, and then goes to its neighbours. Nothing is random. O(F r) for
 /// regions that are r rings across.
 struct Region_growing {
-  static constexpr std::string_view name = "region_growing";
+  static constexpr std::string_view name = "region_growing";  ///< for `make_strategy`, tables and messages
 
-  Region_growing_options options = {};
+  Region_growing_options options = {};  ///< what counts as flat
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   /// @throws Bad_argument  no region wanted, or an option out of range
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };

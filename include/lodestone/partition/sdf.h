@@ -8,6 +8,7 @@
 
 namespace lodestone {
 
+/// Options of Sdf.
 struct Sdf_options {
   double cone_angle = 2 * std::numbers::pi / 3;  ///< opening of the cone of rays, in radians; (0, pi)
   std::size_t rays = 25;                         ///< per face; [1, 1000]
@@ -35,14 +36,16 @@ struct Sdf_options {
 ///
 /// Nothing is random. O(F log F) for the rays, with a large factor: 200 000 faces take about two minutes.
 struct Sdf {
-  static constexpr std::string_view name = "sdf";
+  static constexpr std::string_view name = "sdf";  ///< for `make_strategy`, tables and messages
 
-  Sdf_options options = {};
+  Sdf_options options = {};  ///< of the rays and of the clusters
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   /// @throws Bad_argument  no region wanted, or an option out of range
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };

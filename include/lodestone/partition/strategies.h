@@ -21,9 +21,12 @@ struct Strategy_settings {
 /// A partition strategy chosen at run time.
 class Any_strategy {
  public:
+  /// Labels a surface by index: `label` of some strategy.
   using Label = std::function<Labelling(const Numbered_surface&, std::size_t regions)>;
 
+  /// LBG with default options.
   Any_strategy() : Any_strategy(Lbg{}) {}
+  /// Takes a strategy of any type.
   /// @param strategy  one that needs no more than the surface by index
   template <Labels_by_index Strategy>
   explicit Any_strategy(Strategy strategy)
@@ -31,13 +34,15 @@ class Any_strategy {
           return strategy.label(surface, n);
         }) {}
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   Labelling label(const Numbered_surface& surface, std::size_t regions) const { return label_(surface, regions); }
 
-  std::string_view name;
+  std::string_view name;  ///< of the strategy that was chosen
 
  private:
   Label label_;
@@ -45,15 +50,16 @@ class Any_strategy {
 
 /// An entry of the registry.
 struct Strategy_entry {
-  std::string_view name;
-  std::string_view summary;  ///< what a region is, in a few words
-  Any_strategy (*make)(const Strategy_settings& settings);
-  std::size_t most_vertices;  ///< with more vertices the strategy throws Bad_argument
+  std::string_view name;                                    ///< as `make_strategy` takes it
+  std::string_view summary;                                 ///< what a region is, in a few words
+  Any_strategy (*make)(const Strategy_settings& settings);  ///< makes the strategy
+  std::size_t most_vertices;                                ///< with more vertices the strategy throws Bad_argument
 };
 
 /// All strategies, `lbg` first.
 std::span<const Strategy_entry> strategies();
 
+/// The strategy of a name, with these settings.
 /// @throws Bad_argument  there is no strategy of that name
 Any_strategy make_strategy(std::string_view name, const Strategy_settings& settings = {});
 

@@ -7,6 +7,7 @@
 
 namespace lodestone {
 
+/// Options of Vsa.
 struct Vsa_options {
   std::size_t relaxations = 2;         ///< after each inserted proxy, and after each doubling; [1, 100]
   std::size_t single_insertions = 64;  ///< proxies inserted one by one, before their number doubles; <= 1e6
@@ -26,14 +27,16 @@ struct Vsa_options {
 /// the missing regions, also for labels that no vertex could keep. Nothing is random. O(N (F log F)) up to
 /// `single_insertions`: 200 000 faces and 64 regions take about 20 s.
 struct Vsa {
-  static constexpr std::string_view name = "vsa";
+  static constexpr std::string_view name = "vsa";  ///< for `make_strategy`, tables and messages
 
-  Vsa_options options = {};
+  Vsa_options options = {};  ///< of the approximation
 
+  /// See Partition_strategy.
   template <Triangle_mesh Mesh>
   Labelling operator()(const Partition_input<Mesh>& input, std::size_t regions) const {
     return label(input.surface(), regions);
   }
+  /// The same for a surface by index.
   /// @throws Bad_argument  no region wanted, or an option out of range
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };

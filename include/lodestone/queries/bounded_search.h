@@ -27,6 +27,7 @@ class Bounded_search {
   /// @param workers  must outlive this
   explicit Bounded_search(Workers& workers = Workers::alone()) : whole_(workers) {}
 
+  /// Finds the contacts of two surfaces.
   /// @param a, b   two surfaces
   /// @param found  contacts are appended, sorted; none for the query `yes_no`
   /// @throws Bad_argument  the tolerance is not finite or below 0

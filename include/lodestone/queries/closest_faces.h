@@ -10,7 +10,7 @@ namespace lodestone {
 
 /// The closest faces of two objects, one of each.
 struct Closest_faces {
-  Face_pair faces = {};
+  Face_pair faces = {};        ///< one of each object
   Closest_points points = {};  ///< with their distance, in units of the coordinates; 0 if and only if they intersect
 };
 
@@ -29,6 +29,7 @@ Closest_faces closest_faces(const Layout_view& a, const Layout_view& b);
 /// @throws Bad_mesh  a coordinate that is read is not finite
 Closest_faces closest_faces(Bounded_surface& a, Bounded_surface& b);
 
+/// The same for trees of any volumes: `Node_boxes` are fitted where they are no boxes.
 template <Bounding_volume Volume>
 Closest_faces closest_faces(const Basic_tree_view<Volume>& a, const Basic_tree_view<Volume>& b) {
   return closest_faces(Node_boxes(a).layout(), Node_boxes(b).layout());

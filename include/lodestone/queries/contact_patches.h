@@ -24,9 +24,9 @@ struct Contact_patch {
 
 /// Contacts with their geometry, all three lists of one length.
 struct Contact_geometry {
-  std::span<const Face_pair> faces;
-  std::span<const Intersection_points> points;
-  std::span<const Contact_normal> normals;
+  std::span<const Face_pair> faces;             ///< the contacts
+  std::span<const Intersection_points> points;  ///< of each: where its faces meet
+  std::span<const Contact_normal> normals;      ///< of each: direction and depth
 };
 
 /// The contact patches of two surfaces, or of one with itself, in the order of their first contacts.

@@ -16,8 +16,9 @@
 
 namespace lodestone {
 
+/// What a search for contacts is to find.
 struct Contact_request {
-  Contact_query query = Contact_query::all;
+  Contact_query query = Contact_query::all;  ///< whether, one, or all
   double tolerance = 0;  ///< distance below which two faces are a contact, in units of the coordinates; >= 0; 0: they
                          ///< must intersect
   std::size_t most = std::numeric_limits<std::size_t>::max();  ///< contacts listed at most; >= 1
@@ -25,7 +26,7 @@ struct Contact_request {
 
 /// What a search found. The same for any number of workers.
 struct Contact_summary {
-  bool found = false;
+  bool found = false;           ///< whether there is a contact
   bool capped = false;          ///< there are more contacts than `Contact_request::most`
   std::size_t leaf_tests = 0;   ///< leaf pairs tested
   std::size_t exact_tests = 0;  ///< face pairs given to exact predicates
@@ -33,9 +34,9 @@ struct Contact_summary {
 
 /// What one task of a search found.
 struct Task_contacts {
-  std::vector<Face_pair> found;
-  std::size_t leaf_tests = 0;
-  std::size_t exact_tests = 0;
+  std::vector<Face_pair> found;  ///< in no particular order
+  std::size_t leaf_tests = 0;    ///< leaf pairs tested
+  std::size_t exact_tests = 0;   ///< face pairs given to exact predicates
 };
 
 /// Contacts after which a search can end: one more than may be listed tells whether the list is complete.
@@ -54,7 +55,7 @@ Contact_summary join_tasks(std::span<const Task_contacts> tasks, const Contact_r
 template <Bounding_volume Volume>
 class Basic_contact_search {
  public:
-  using Surface = Basic_tree_surface<Volume>;
+  using Surface = Basic_tree_surface<Volume>;  ///< an object to be searched
 
   /// @param workers  must outlive this
   explicit Basic_contact_search(Workers& workers) : workers_(workers), memory_(workers.count()), tasks_(1) {}
@@ -113,7 +114,7 @@ class Basic_contact_search {
   std::size_t task_count_ = 0;              ///< of this search
 };
 
-using Contact_search = Basic_contact_search<Aabb>;
+using Contact_search = Basic_contact_search<Aabb>;  ///< over trees of boxes
 
 /// One thread begins and usually finishes: waking others takes longer than a small walk. What is left is shared.
 template <Bounding_volume Volume>

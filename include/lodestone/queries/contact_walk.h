@@ -34,7 +34,7 @@ concept Contact_visitor = requires(Visitor& visitor, Face_pair pair) {
 template <Bounding_volume Volume>
 class Contact_walk {
  public:
-  using View = Basic_tree_view<Volume>;
+  using View = Basic_tree_view<Volume>;  ///< a tree with its coordinates
 
   /// A walk over two trees, from their roots. Neither trees nor coordinates may change before the last `run`.
   /// @param distance  0: contacts are the face pairs that intersect; > 0: those nearer than this, in units of the
@@ -74,6 +74,7 @@ class Contact_walk {
         budget);
   }
 
+  /// Whether no leaf pair is left.
   bool done() const { return walk_.done(); }
   /// Leaf pairs tested since `start`.
   std::size_t leaf_tests() const { return walk_.leaf_tests(); }

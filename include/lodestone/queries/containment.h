@@ -9,7 +9,11 @@ namespace lodestone {
 
 /// Where a point is with respect to a closed surface. A point inside an even number of shells, nested or overlapping,
 /// is outside.
-enum class Point_side { outside, inside, on_surface };
+enum class Point_side {
+  outside,     ///< inside an even number of shells
+  inside,      ///< inside an odd number of shells
+  on_surface,  ///< in a face
+};
 
 /// On which side of a closed surface a point is: on the surface if a face contains it, else inside if the ray from the
 /// point along +z crosses an odd number of faces. Exact. O(log F + leaves that the ray meets).
@@ -40,16 +44,19 @@ bool encloses(const Object_surface& outer, const Layout_view& outer_layout, cons
 /// @throws Bad_mesh  a coordinate that is read is not finite
 bool encloses(Bounded_surface& outer, Bounded_surface& inner);
 
+/// The same for trees of any volumes: `Node_boxes` are fitted where they are no boxes.
 template <Bounding_volume Volume>
 Point_side point_side(const Basic_tree_surface<Volume>& surface, const Point& point) {
   return point_side(Node_boxes(surface.view()).layout(), point);
 }
 
+/// The same for trees of any volumes.
 template <Bounding_volume Volume>
 bool encloses(const Basic_tree_surface<Volume>& surface, const Point& point) {
   return encloses(Node_boxes(surface.view()).layout(), point);
 }
 
+/// The same for trees of any volumes.
 template <Bounding_volume Volume>
 bool encloses(const Basic_tree_surface<Volume>& outer, const Basic_tree_surface<Volume>& inner) {
   return encloses(outer, Node_boxes(outer.view()).layout(), inner, Node_boxes(inner.view()).layout());

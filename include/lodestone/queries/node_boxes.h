@@ -27,6 +27,7 @@ class Node_boxes {
   Node_boxes(const Node_boxes&) = delete;
   Node_boxes& operator=(const Node_boxes&) = delete;
 
+  /// The tree's layout with boxes. Valid as long as this.
   const Layout_view& layout() const { return layout_; }
 
  private:

@@ -12,6 +12,7 @@
 
 namespace lodestone {
 
+/// What a search by openings is to find, and at what price.
 struct Opening_request {
   bool all = false;  ///< every contact that can be found; false: one
   double reach = 1;  ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are

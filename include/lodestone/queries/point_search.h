@@ -11,8 +11,8 @@ namespace lodestone {
 
 /// The face of a surface that is nearest to a point.
 struct Closest_point {
-  std::uint32_t face = 0;
-  Point point = {};     ///< nearest point of the face, up to rounding
+  std::uint32_t face = 0;  ///< its index
+  Point point = {};        ///< nearest point of the face, up to rounding
   double distance = 0;  ///< relative error below 2^-30 if it is a normal number; 0 if and only if the face contains the
                         ///< query; infinity if it exceeds the largest double
 };
@@ -34,6 +34,7 @@ Closest_point closest_point(const Layout_view& surface, const Point& point);
 /// @throws Bad_mesh      a coordinate that is read is not finite
 Closest_point closest_point(Bounded_surface& surface, const Point& point);
 
+/// The same for trees of any volumes: `Node_boxes` are fitted where they are no boxes.
 template <Bounding_volume Volume>
 Closest_point closest_point(const Basic_tree_view<Volume>& surface, const Point& point) {
   return closest_point(Node_boxes(surface).layout(), point);

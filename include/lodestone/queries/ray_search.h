@@ -25,7 +25,7 @@ struct Ray {
 /// the plane of a face, or the face is a segment or a point, this is the first common point. `t` and `point` are
 /// rounded.
 struct Ray_hit {
-  std::uint32_t face = 0;
+  std::uint32_t face = 0;  ///< its index
   double t = 0;  ///< relative error below 2^-30; in multiples of `direction`; infinity if it exceeds the largest double
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< origin + t direction
 };
@@ -53,11 +53,13 @@ std::vector<Ray_hit> all_hits(const Layout_view& surface, const Ray& ray);
 /// The same for a surface that is bounded: see `first_hit`.
 std::vector<Ray_hit> all_hits(Bounded_surface& surface, const Ray& ray);
 
+/// The same for trees of any volumes: `Node_boxes` are fitted where they are no boxes.
 template <Bounding_volume Volume>
 std::optional<Ray_hit> first_hit(const Basic_tree_view<Volume>& surface, const Ray& ray) {
   return first_hit(Node_boxes(surface).layout(), ray);
 }
 
+/// The same for trees of any volumes.
 template <Bounding_volume Volume>
 std::vector<Ray_hit> all_hits(const Basic_tree_view<Volume>& surface, const Ray& ray) {
   return all_hits(Node_boxes(surface).layout(), ray);

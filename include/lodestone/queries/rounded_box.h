@@ -8,15 +8,19 @@ namespace lodestone {
 /// The box of a face, or of several, in rounded coordinates. Its highest corner is negated, so that one kind of
 /// comparison serves all six sides.
 struct alignas(32) Rounded_box {
-  float low[3];
-  std::uint32_t index;  ///< of the face in a list; of no meaning for a box around several
-  float negated_high[3];
-  std::uint32_t unused;  ///< padding: a vector holds a whole box
+  float low[3];           ///< lower corner, rounded down
+  std::uint32_t index;    ///< of the face in a list; of no meaning for a box around several
+  float negated_high[3];  ///< upper corner, rounded up, times -1
+  std::uint32_t unused;   ///< padding: a vector holds a whole box
 
+  /// Upper end along an axis.
   float high(int axis) const { return -negated_high[axis]; }
+  /// Length along an axis.
   float side(int axis) const { return high(axis) - low[axis]; }
+  /// Twice the middle along an axis.
   float twice_centre(int axis) const { return low[axis] + high(axis); }
 
+  /// Whether two boxes have a point in common.
   friend bool meet(const Rounded_box& a, const Rounded_box& b) {
     for (int axis = 0; axis < 3; ++axis)
       if (a.low[axis] > b.high(axis) || b.low[axis] > a.high(axis)) return false;

@@ -36,12 +36,19 @@ class Fitted_surface {
   /// @param view  with boxes
   explicit Fitted_surface(const Layout_view& view) : view_(view) {}
 
+  /// Does nothing.
   void start_frame() {}
+  /// How the faces are grouped.
   const Tree_layout& layout() const { return *view_.layout; }
+  /// The fitted box of a node.
   const Aabb& box(std::uint32_t node) const { return view_.boxes[node]; }
+  /// The fitted box of a leaf, which is posed already.
   const Aabb& pose(std::uint32_t leaf) const { return view_.boxes[layout().leaf_node(leaf)]; }
+  /// The tree with its coordinates.
   const Layout_view& view() const { return view_; }
+  /// Never.
   bool is_broken() const { return false; }
+  /// Does nothing.
   void settle() {}
 
  private:

@@ -10,8 +10,8 @@ namespace lodestone {
 
 /// Two nodes by index, of two trees or of one.
 struct Node_pair {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
+  std::uint32_t a = 0;  ///< of the first tree
+  std::uint32_t b = 0;  ///< of the second tree
 };
 
 /// The two roots.

@@ -12,7 +12,8 @@ namespace lodestone {
 
 /// Two regions that may touch, by their places in two lists of Region_anchors.
 struct Near_regions {
-  std::uint32_t a = 0, b = 0;
+  std::uint32_t a = 0;  ///< place in the list of the first object
+  std::uint32_t b = 0;  ///< place in the list of the second
   double distance = 0;  ///< of the anchors, in units of the coordinates
   float order = 0;      ///< its square, relative to that of the sum of the radii
 };
@@ -30,6 +31,7 @@ class Region_anchors {
   Region_anchors(Tree_on_demand& tree, std::span<const Corners> corners, std::span<const Region_index> labels,
                  Coordinates rest);
 
+  /// Writes what cannot be told from the tree. O(regions).
   void save(State_writer& state) const;
   /// Reads what `save` has written. O(regions).
   /// @param regions            how many the surface is divided into
@@ -42,8 +44,11 @@ class Region_anchors {
   /// @throws Bad_mesh  a coordinate is not finite
   void read(Tree_on_demand& tree, double reach);
 
+  /// Number of regions that are listed.
   std::size_t size() const { return nodes_.size(); }
+  /// The node of the region at a place of the list.
   std::uint32_t node(std::uint32_t place) const { return nodes_[place]; }
+  /// The region at a place of the list.
   Region_index region(std::uint32_t place) const { return regions_[place]; }
   /// Encloses the surface, as far as the anchors tell.
   const Box& box() const { return box_; }
@@ -53,6 +58,7 @@ class Region_anchors {
     return (a.middle_ - b.middle_).squaredNorm() <= radii * radii;
   }
 
+  /// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
   /// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
   friend void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
 
@@ -74,6 +80,7 @@ class Region_anchors {
   double rest_radius_ = 0;                            ///< from the mean to the farthest vertex, at rest
 };
 
+/// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
 void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
 
 }  // namespace lodestone

@@ -37,6 +37,7 @@ Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::si
   }
   return sums;
 }
+/// The same for boxes, with vector instructions.
 Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::size_t first, std::size_t end,
                      std::span<Aabb> boxes);
 
@@ -86,10 +87,15 @@ class Basic_region_tree : public Tree_layout {
   /// A refit in parts. They can be refitted in any order and by several threads. `finish_refit` then fits the nodes
   /// above them and returns what `refit` would. The volumes are the same, too.
   std::size_t part_count() const { return parts().size(); }
+  /// Fits the nodes of one part. O(vertices of the part).
   void refit_part(std::size_t part, Coordinates coordinates);
+  /// Fits the nodes above all parts.
+  /// @return as `refit`
   bool finish_refit(Coordinates coordinates);
 
+  /// Volume of a node.
   const Volume& volume(std::uint32_t n) const { return volumes_[n]; }
+  /// Volumes of all nodes, by index.
   std::span<const Volume> volumes() const { return volumes_; }
   /// The same, for whoever fits single nodes.
   std::span<Volume> volumes() { return volumes_; }

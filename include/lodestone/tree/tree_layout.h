@@ -15,6 +15,7 @@
 
 namespace lodestone {
 
+/// Options of a tree.
 struct Region_tree_options {
   std::size_t leaf_faces = 96;  ///< most faces per leaf, 2 .. 128; the leaves of large regions are nearly full
 };
@@ -36,8 +37,10 @@ class Tree_layout {
   };
   /// A subtree that is refitted in one go. Its nodes and its leaves are consecutive.
   struct Part {
-    std::uint32_t first_node = 0, end_node = 0;
-    std::uint32_t first_leaf = 0, end_leaf = 0;
+    std::uint32_t first_node = 0;  ///< its topmost node
+    std::uint32_t end_node = 0;    ///< one past its last node
+    std::uint32_t first_leaf = 0;  ///< its first leaf
+    std::uint32_t end_leaf = 0;    ///< one past its last leaf
   };
 
   Tree_layout() = default;
@@ -77,11 +80,16 @@ class Tree_layout {
   /// @throws Bad_saved_object  the bytes are no layout of these faces
   static Tree_layout load(State_reader& state, std::span<const Corners> corners, std::size_t vertex_count);
 
+  /// Number of nodes: one less than twice that of leaves.
   std::size_t node_count() const { return nodes_.size(); }
+  /// What lies below a node.
   const Node& node(std::uint32_t n) const { return nodes_[n]; }
+  /// Whether a node has no children.
   bool is_leaf(std::uint32_t n) const { return nodes_[n].second_child == 0; }
 
+  /// Number of leaves, at least 1.
   std::size_t leaf_count() const { return leaf_nodes_.size(); }
+  /// The node of a leaf.
   std::uint32_t leaf_node(std::size_t leaf) const { return leaf_nodes_[leaf]; }
   /// Indices of the faces of a leaf.
   std::span<const std::uint32_t> faces(std::size_t leaf) const {
@@ -95,6 +103,7 @@ class Tree_layout {
   std::span<const Leaf_corners> corners(std::size_t leaf) const {
     return {corners_.data() + face_begin_[leaf], corners_.data() + face_begin_[leaf + 1]};
   }
+  /// The faces of a leaf, at these coordinates.
   Leaf_faces leaf_faces(std::size_t leaf, Coordinates coordinates) const {
     return {coordinates, vertices(leaf), corners(leaf)};
   }

@@ -35,7 +35,9 @@ class Tree_on_demand {
   /// Forgets what was read. O(1).
   void start_frame(const Live_positions& positions);
 
+  /// How the faces are grouped.
   const Tree_layout& layout() const { return layout_; }
+  /// Number of vertices, V.
   std::size_t vertex_count() const { return vertex_count_; }
 
   /// Where the anchor of a node is.
@@ -55,6 +57,7 @@ class Tree_on_demand {
     if (posed_[leaf] != frame_) read_leaf(leaf);
     return boxes_[layout_.leaf_node(leaf)];
   }
+  /// Whether a leaf has been posed in this frame.
   bool is_posed(std::uint32_t leaf) const { return posed_[leaf] == frame_; }
   /// What has been posed. Only leaves that were posed in this frame may be read.
   Layout_view view() const { return {&layout_, coordinates_, bounds_, boxes_}; }

@@ -16,6 +16,7 @@ namespace lodestone {
 template <Bounding_volume Volume>
 class Basic_tree_surface : public Object_surface {
  public:
+  /// As those of Object_surface: a surface without a tree.
   using Object_surface::Object_surface;
 
   /// A surface with a tree, without regions: see `build`.
@@ -66,11 +67,14 @@ class Basic_tree_surface : public Object_surface {
     set_rest(std::move(rest));
   }
 
+  /// The tree, with the volumes of the last refit.
   const Basic_region_tree<Volume>& tree() const { return tree_; }
+  /// The tree with the current positions.
   Basic_tree_view<Volume> view() const { return {&tree_, coordinates_}; }
 
-  // For whoever fits single nodes, instead of refitting the tree.
+  /// Volumes of all nodes, for whoever fits single nodes instead of refitting the tree.
   std::span<Volume> volumes_to_fit() { return tree_.volumes(); }
+  /// Takes other coordinates without refitting the tree.
   /// @param coordinates  3 V; must stay where they are until the next refit
   void follow(Coordinates coordinates) { coordinates_ = coordinates; }
 
@@ -116,6 +120,7 @@ void refit(std::span<Basic_tree_surface<Volume>* const> objects, std::span<const
     workers.run(first_part.back(), refit_part);
   for (std::size_t o = 0; o < objects.size(); ++o) objects[o]->finite_ = objects[o]->tree_.finish_refit(coordinates[o]);
 }
+/// The same for boxes, where the volume cannot be deduced from the arguments.
 inline void refit(std::span<Tree_surface* const> objects, std::span<const Coordinates> coordinates, Workers& workers) {
   refit<Aabb>(objects, coordinates, workers);
 }

@@ -14,7 +14,10 @@
 namespace lodestone {
 
 /// What a visitor answers: whether the walk goes on. Also what a walk returns.
-enum class Visit { go_on, stop };
+enum class Visit {
+  go_on,  ///< there may be more
+  stop,   ///< no more is wanted
+};
 
 /// A budget that no walk uses up.
 inline constexpr std::size_t no_budget = std::numeric_limits<std::size_t>::max();
@@ -34,7 +37,7 @@ void list_leaf_candidates(const Region_tree& a, const Region_tree& b, Node_pair 
 template <Bounding_volume Volume>
 class Tree_walk {
  public:
-  using Tree = Basic_region_tree<Volume>;
+  using Tree = Basic_region_tree<Volume>;  ///< what is walked
 
   /// A walk over two trees, from their roots.
   /// @param a, b    not refitted, and not destroyed, before the last `run`
@@ -82,6 +85,7 @@ class Tree_walk {
   bool done() const { return stack_.empty(); }
   /// Leaf pairs visited since `start`.
   std::size_t leaf_tests() const { return leaf_tests_; }
+  /// Whether the walk is one of a tree against itself.
   bool self_walk() const { return self_walk_; }
 
   /// Cuts the rest of the walk into pieces, for others to walk from, and ends it. Walks that start from these node

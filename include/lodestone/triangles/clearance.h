@@ -31,8 +31,8 @@ struct Clearance {
 
 /// A triangle with the box around it.
 struct Boxed_triangle {
-  std::array<Eigen::Vector3d, 3> corners;
-  Box box;
+  std::array<Eigen::Vector3d, 3> corners;  ///< their positions
+  Box box;                                 ///< around the corners
 };
 
 /// An upper bound on the clearance of box a from box b: the exact one, but for slack and rounding. It does not decrease

@@ -11,6 +11,7 @@ namespace lodestone {
 /// larger by 6 if the edge starts below the other triangle. Above is the side from which the corners of a triangle are
 /// seen counter-clockwise.
 using Crossing = std::uint8_t;
+/// No guess.
 inline constexpr Crossing no_crossing = 12;
 
 }  // namespace lodestone

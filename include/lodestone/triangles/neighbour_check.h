@@ -44,6 +44,7 @@ class Neighbour_check {
 
   /// Face pairs that went to the exact test since `reset_count`.
   std::size_t exact_tests() const { return exact_tests_; }
+  /// Sets `exact_tests` to 0.
   void reset_count() { exact_tests_ = 0; }
 
  private:

@@ -11,6 +11,7 @@
 
 namespace lodestone {
 
+/// The corners of a triangle, in the order of its face.
 using Triangle = std::array<Point, 3>;
 
 /// The triangle of a face.
@@ -28,6 +29,7 @@ Triangle face_triangle(const Face_corners& corners, const Position& position) {
 /// Pointers to x, y and z of each corner of a triangle.
 using Triangle_corners = std::array<const double*, 3>;
 
+/// The triangle with these corners.
 inline Triangle triangle_of(const Triangle_corners& corners) {
   return face_triangle(corners, [](const double* corner) { return corner; });
 }
@@ -52,8 +54,10 @@ using Intersection_points = boost::container::static_vector<Point, 6>;
 /// corner or an edge of one touches the other, for coplanar triangles, and where rounding is in doubt: some 0.1 ms.
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b);
 
+/// Two triangles that are asked about together.
 struct Triangle_pair {
-  Triangle a, b;
+  Triangle a;  ///< the first
+  Triangle b;  ///< the second
 };
 
 /// Appends the intersection of each pair: faster than one after the other.

@@ -13,12 +13,14 @@ namespace lodestone {
 ///
 /// Padded to four lanes, so that one vector instruction handles all three axes; the fourth lane is unspecified.
 struct alignas(64) Aabb {
-  static constexpr std::string_view name = "aabb";
+  static constexpr std::string_view name = "aabb";  ///< in tables and messages
 
-  double low[4];
-  double high[4];
+  double low[4];   ///< x, y, z of the lower corner
+  double high[4];  ///< x, y, z of the upper corner
 
+  /// The smallest box around the faces. O(V) for V vertices.
   void enclose(const Leaf_faces& faces);
+  /// The smallest box around both.
   void enclose(const Aabb& a, const Aabb& b) {
     for (int lane = 0; lane < 4; ++lane) {
       low[lane] = a.low[lane] < b.low[lane] ? a.low[lane] : b.low[lane];
@@ -27,9 +29,12 @@ struct alignas(64) Aabb {
   }
   /// Sum of the three side lengths; infinite on overflow.
   double extent() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
+  /// Product of the three side lengths; infinite on overflow.
   double volume() const { return (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]); }
+  /// The box itself.
   Aabb bounds() const { return *this; }
 
+  /// Whether both corners are the same; the fourth lane does not count.
   friend bool operator==(const Aabb& a, const Aabb& b) {
     bool equal = true;
     for (int axis = 0; axis < 3; ++axis) equal &= (a.low[axis] == b.low[axis]) & (a.high[axis] == b.high[axis]);

@@ -15,10 +15,10 @@ namespace lodestone {
 /// above it (Bounding_sphere::enclose). A ball is rotation-invariant, so rotating a leaf does not change how tight it
 /// is. The test of two balls is the cheapest of all volumes.
 struct alignas(32) Bounding_sphere {
-  static constexpr std::string_view name = "bounding_sphere";
+  static constexpr std::string_view name = "bounding_sphere";  ///< in tables and messages
 
-  double centre[3];
-  double radius;
+  double centre[3];  ///< in units of the coordinates
+  double radius;     ///< >= 0, or infinite
 
   /// Smallest ball around a few of the vertices, as in \cite gaertner1999: the farthest vertex is added to these until
   /// it is at most one per cent outside their ball. No ball around all vertices is smaller than that around a few,
@@ -31,9 +31,12 @@ struct alignas(32) Bounding_sphere {
 
   /// Diameter.
   double extent() const { return 2 * radius; }
+  /// Of the ball, up to rounding.
   double volume() const;
+  /// The box around the ball, with its sides rounded outwards.
   Aabb bounds() const;
 
+  /// Whether centres and radii are the same.
   friend bool operator==(const Bounding_sphere&, const Bounding_sphere&) = default;
 };
 

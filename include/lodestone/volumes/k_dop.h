@@ -43,12 +43,13 @@ constexpr std::array<std::array<int, 3>, K / 2> dop_directions() {
 template <int K>
 struct K_dop {
   static_assert(K == 14 || K == 18 || K == 26);
+  /// In tables and messages.
   static constexpr std::string_view name = K == 14 ? "k_dop_14" : K == 18 ? "k_dop_18" : "k_dop_26";
-  static constexpr int slabs = K / 2;
-  static constexpr std::array<std::array<int, 3>, K / 2> directions = dop_directions<K>();
+  static constexpr int slabs = K / 2;  ///< how many pairs of planes
+  static constexpr std::array<std::array<int, 3>, K / 2> directions = dop_directions<K>();  ///< normals of the planes
 
-  double low[slabs];
-  double high[slabs];
+  double low[slabs];   ///< per direction: the least projection
+  double high[slabs];  ///< per direction: the greatest projection
 
   /// Cost: K / 2 projections per vertex.
   void enclose(const Leaf_faces& faces);
@@ -63,8 +64,10 @@ struct K_dop {
   double extent() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
   /// Of the polytope, up to rounding. O(K^3), for experiments.
   double volume() const;
+  /// Its first three slabs.
   Aabb bounds() const { return {{low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}}; }
 
+  /// Whether all slabs are the same.
   friend bool operator==(const K_dop& a, const K_dop& b) {
     bool equal = true;
     for (int i = 0; i < slabs; ++i) equal &= (a.low[i] == b.low[i]) & (a.high[i] == b.high[i]);

@@ -18,9 +18,9 @@ namespace lodestone {
 /// Gottschalk et al. derive the axes from the convex hull of the faces, integrated over its area. Here they are derived
 /// from the vertices, which is cheap enough for a refit.
 struct Oriented_box {
-  static constexpr std::string_view name = "oriented_box";
+  static constexpr std::string_view name = "oriented_box";  ///< in tables and messages
 
-  double centre[3];
+  double centre[3];   ///< in units of the coordinates
   double half[3];     ///< half-widths
   double axes[3][3];  ///< by axis, then x, y, z
 
@@ -34,8 +34,10 @@ struct Oriented_box {
   double extent() const { return 2 * ((half[0] + half[1]) + half[2]); }
   /// Product of the three widths.
   double volume() const { return 2 * half[0] * (2 * half[1]) * (2 * half[2]); }
+  /// The axis-aligned box around it, with its sides rounded outwards.
   Aabb bounds() const;
 
+  /// Whether centres, half-widths and axes are the same.
   friend bool operator==(const Oriented_box& a, const Oriented_box& b) {
     bool equal = true;
     for (int i = 0; i < 3; ++i) {

@@ -17,8 +17,12 @@ namespace lodestone {
 /// the coordinate axes by a rotation with |x|, |y|, |z| <= (sqrt(2) - 1) w. For w = 16 these round to integers from -7
 /// to 7, and every frame is within about 6 degrees of the rotation that it rounds to.
 struct Quantised_turn {
-  std::int16_t w = 16, x = 0, y = 0, z = 0;
+  std::int16_t w = 16;  ///< the real component
+  std::int16_t x = 0;   ///< of i
+  std::int16_t y = 0;   ///< of j
+  std::int16_t z = 0;   ///< of k
 
+  /// Whether all components are the same.
   friend bool operator==(const Quantised_turn&, const Quantised_turn&) = default;
 
   /// The length of each direction: w^2 + x^2 + y^2 + z^2.
@@ -44,11 +48,13 @@ struct Quantised_turn {
 /// directions. This library's own are the set of frames with integer components, how a frame is chosen, and the bounds
 /// of one volume along the directions of another.
 struct Quospo {
-  static constexpr std::string_view name = "quospo";
+  static constexpr std::string_view name = "quospo";  ///< in tables and messages
 
-  double low[3], high[3];
-  double turned_low[3], turned_high[3];
-  Quantised_turn turn;
+  double low[3];          ///< of the slabs along the coordinate axes
+  double high[3];         ///< of the same slabs
+  double turned_low[3];   ///< of the slabs along the turned directions
+  double turned_high[3];  ///< of the same slabs
+  Quantised_turn turn;    ///< of the coordinate axes to the turned directions
 
   /// The turned slabs are wider than necessary by less than 2^-48 of the largest coordinate times the length of a
   /// direction; where they could overflow, they are unbounded.
@@ -60,8 +66,10 @@ struct Quospo {
   double extent() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
   /// Of the polytope, up to rounding; for experiments.
   double volume() const;
+  /// The slabs along the coordinate axes.
   Aabb bounds() const { return {{low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}}; }
 
+  /// Whether turns and slabs are the same.
   friend bool operator==(const Quospo& a, const Quospo& b) {
     bool equal = a.turn == b.turn;
     for (int i = 0; i < 3; ++i) {

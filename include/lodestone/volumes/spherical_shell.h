@@ -19,14 +19,14 @@ namespace lodestone {
 /// If no shell is smaller than the ball, it is the ball alone: inner = 0 and cosine = -1, and the spheres and the cone
 /// exclude nothing of the ball.
 struct Spherical_shell {
-  static constexpr std::string_view name = "spherical_shell";
+  static constexpr std::string_view name = "spherical_shell";  ///< in tables and messages
 
-  Bounding_sphere ball;
-  double centre[3];
-  double inner;    ///< radius, >= 0
-  double outer;    ///< radius
-  double axis[3];  ///< unit vector, up to rounding; 0: there is no cone
-  double cosine;   ///< of half the cone's opening angle: > 0, so that the cone is convex; -1: there is no cone
+  Bounding_sphere ball;  ///< everything lies in it
+  double centre[3];      ///< of the two spheres, and apex of the cone
+  double inner;          ///< radius, >= 0
+  double outer;          ///< radius
+  double axis[3];        ///< unit vector, up to rounding; 0: there is no cone
+  double cosine;         ///< of half the cone's opening angle: > 0, so that the cone is convex; -1: there is no cone
 
   /// The centre c is that of the sphere that fits the vertices best in the sense of \cite taubin1991, at most 2^10
   /// radii of the ball away; the axis points towards the ball's centre.
@@ -44,6 +44,7 @@ struct Spherical_shell {
   /// from the bounds that `near` states.
   void enclose(const Spherical_shell& a, const Spherical_shell& b);
 
+  /// Whether spheres or cone exclude anything of the ball.
   bool has_shell() const { return inner > 0 || cosine > 0; }
 
   /// Diameter of the ball.
@@ -53,6 +54,7 @@ struct Spherical_shell {
   /// Of the ball.
   Aabb bounds() const { return ball.bounds(); }
 
+  /// Whether all numbers are the same.
   friend bool operator==(const Spherical_shell&, const Spherical_shell&) = default;
 };
 

@@ -21,6 +21,7 @@ class Atomic_file {
   /// Without `commit` nothing is left behind.
   ~Atomic_file();
 
+  /// Appends bytes to the file.
   /// @throws Bad_output  the disk is full, or any other error of the system
   void write(std::string_view bytes);
   /// Waits until everything is on disk. Of several files that belong together, finish each before the first `commit`:

@@ -5,6 +5,7 @@
 
 namespace lodestone {
 
+/// Options of `read_mesh`.
 struct Mesh_file_options {
   std::size_t max_faces = 50'000'000;  ///< files that have or announce more faces are refused
 };

@@ -27,6 +27,7 @@ struct Animation {
   std::vector<std::filesystem::path> files = {};  ///< all files that it is read from
 };
 
+/// Options of `read_animation`.
 struct Animation_options {
   std::filesystem::path mesh = {};  ///< for a point cache: the mesh file that it moves; empty: positions only
   std::optional<double> frames_per_second = {};  ///< of a glTF animation, as in Gltf_motion_options
@@ -35,7 +36,8 @@ struct Animation_options {
 
 /// The two files of `MESH+CACHE`, such as `cloth.obj+cloth.pc2`.
 struct Mesh_and_cache {
-  std::filesystem::path mesh, cache;
+  std::filesystem::path mesh;   ///< faces, and one position per vertex
+  std::filesystem::path cache;  ///< positions per frame
 };
 
 /// Splits `MESH+CACHE`; nothing if `input` is not of that form, or is the name of a file.

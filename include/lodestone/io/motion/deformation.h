@@ -66,6 +66,7 @@ struct Way_point {
   Kernel::Vector_3 at{0, 0, 0};  ///< offset from where the preceding deformations put it
 };
 
+/// How `Travel` moves between way points.
 enum class Path {
   linear,  ///< straight and at constant speed between way points
   smooth,  ///< a cubic through the way points; the velocity at each is the mean velocity between its two neighbours
@@ -75,7 +76,7 @@ enum class Path {
 /// Moves the shape along way points. It rests before the first and after the last, unless the path is closed.
 struct Travel {
   std::vector<Way_point> way_points;  ///< at least one (closed: three), frames strictly increasing
-  Path path = Path::smooth;
+  Path path = Path::smooth;           ///< between the way points
 };
 
 /// Rotates the shape around the line through c along `axis`, by `degrees_per_frame` t.
@@ -84,8 +85,10 @@ struct Spin {
   double degrees_per_frame = 1;    ///< finite
 };
 
+/// Any built-in deformation.
 using Deformation = std::variant<Wobble, Bend, Twist, Inflate, Travel, Spin>;
 
+/// Refuses a deformation with a field out of range.
 /// @throws Bad_argument  a field is outside its documented range
 void check(const Deformation& deformation);
 

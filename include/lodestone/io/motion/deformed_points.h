@@ -26,9 +26,12 @@ class Deformed_points {
   /// @param deformations   applied in order
   /// @throws Bad_argument  as `check`
   Deformed_points(std::vector<Point> rest, std::vector<Deformation> deformations);
+  /// Takes a shape with its deformations.
   explicit Deformed_points(detail::Deformed_shape shape);
   ~Deformed_points();
+  /// Takes over the points of another, which can then only be assigned to or destroyed.
   Deformed_points(Deformed_points&&) noexcept;
+  /// Takes over the points of another, in place of its own.
   Deformed_points& operator=(Deformed_points&&) noexcept;
 
   /// Changes the pose. O(deformations).
@@ -53,7 +56,9 @@ class Deformed_points {
   /// @param object  of this must only the layout be; positions and rest are those of the points
   Any_bound bound(const Bounded_object& object) const;
 
+  /// Number of vertices, V.
   std::uint32_t vertex_count() const;
+  /// Above 0; grows whenever the pose changes.
   std::uint64_t pose_number() const { return pose_number_; }
 
   /// One position. O(deformations).

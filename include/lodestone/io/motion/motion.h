@@ -58,6 +58,7 @@ Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices)
 ///                     number of vertices, faces that differ from those of the first file
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices);
 
+/// Options of `read_gltf_motion`.
 struct Gltf_motion_options {
   /// Sampling rate, > 0. Not given: one frame per key, from the first on, if the keys of all curves follow each other
   /// at equal distances, up to rounding, and there are at least 5 per second; else 30.

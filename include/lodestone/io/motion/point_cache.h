@@ -8,14 +8,17 @@ namespace lodestone {
 
 /// PC2: Blender, 3ds Max, Maya; little endian, with a signature. MDD: LightWave, Blender, Houdini; big endian, no
 /// signature.
-enum class Cache_format { pc2, mdd };
+enum class Cache_format {
+  pc2,  ///< Blender, 3ds Max, Maya
+  mdd,  ///< LightWave, Blender, Houdini
+};
 
 /// The header of a point cache.
 struct Point_cache {
-  Cache_format format = Cache_format::pc2;
-  std::size_t vertices = 0;
-  std::size_t frames = 0;
-  double frames_per_second = 0;  ///< from the times of an MDD cache; 0: unknown
+  Cache_format format = Cache_format::pc2;  ///< by the extension
+  std::size_t vertices = 0;                 ///< positions per frame
+  std::size_t frames = 0;                   ///< how many the file has
+  double frames_per_second = 0;             ///< from the times of an MDD cache; 0: unknown
 };
 
 /// Reads the header of a point cache, in the format of its extension (`.pc2`, `.mdd`), and checks it against the file's

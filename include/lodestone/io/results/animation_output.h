@@ -10,6 +10,7 @@
 
 namespace lodestone {
 
+/// Options of `write_animation`.
 struct Animation_output_options {
   std::vector<std::size_t> frames = {};    ///< frames of the motion, in output order; empty: all
   double frames_per_second = 30;           ///< of the output; > 0

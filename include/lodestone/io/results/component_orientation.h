@@ -37,13 +37,14 @@ struct Orientation_words {
   std::string_view phrase;  ///< as text has it: `open and inconsistent`
 };
 
+/// How reports write this one.
 Orientation_words words_of(Face_orientation orientation);
 
 /// A set of faces connected through shared vertices.
 struct Component_orientation {
-  std::uint32_t first_face = 0;  ///< the lowest index of its faces
-  std::size_t faces = 0;
-  Face_orientation orientation = Face_orientation::open;
+  std::uint32_t first_face = 0;                           ///< the lowest index of its faces
+  std::size_t faces = 0;                                  ///< how many it has
+  Face_orientation orientation = Face_orientation::open;  ///< to which side they look
 };
 
 /// The orientation of each component, in the order of their first faces. The sign of a volume is exact: where interval

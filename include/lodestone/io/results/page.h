@@ -14,27 +14,33 @@
 
 namespace lodestone {
 
-enum class Page_kind { detect, partition, experiment };
+/// What a page shows.
+enum class Page_kind {
+  detect,      ///< a run: frames with contacts
+  partition,   ///< one surface and its regions
+  experiment,  ///< a report with plots
+};
 
 /// What applies to a page as a whole.
 struct Page_head {
-  Page_kind kind = Page_kind::detect;
-  std::string title;
-  std::optional<std::string> mode = {}, strategy = {};
-  std::vector<std::string> states = {};  ///< what the labels of vertices mean; empty: they are regions
-  std::size_t first_frame = 0;  ///< frame of the scene that is the page's first
-  std::size_t frame_step = 1;   ///< frames of the scene per frame of the page
-  double frames_per_second = 30;
-  std::optional<std::string> note = {};    ///< what a reader must know of all frames: plain sentences
-  std::optional<std::string> report = {};  ///< Markdown
+  Page_kind kind = Page_kind::detect;        ///< what the viewer shows first
+  std::string title;                         ///< plain text
+  std::optional<std::string> mode = {};      ///< its name, for a run
+  std::optional<std::string> strategy = {};  ///< its name, if surfaces are divided
+  std::vector<std::string> states = {};      ///< what the labels of vertices mean; empty: they are regions
+  std::size_t first_frame = 0;               ///< frame of the scene that is the page's first
+  std::size_t frame_step = 1;                ///< frames of the scene per frame of the page
+  double frames_per_second = 30;             ///< of the page, when it plays
+  std::optional<std::string> note = {};      ///< what a reader must know of all frames: plain sentences
+  std::optional<std::string> report = {};    ///< Markdown
 };
 
 /// Two faces in contact, with the ends of their common segment. If they are coplanar: one side of their common polygon.
 struct Page_contact {
-  Object_id a = 0;
-  std::uint32_t face_a = 0;
-  Object_id b = 0;
-  std::uint32_t face_b = 0;
+  Object_id a = 0;                                 ///< first object
+  std::uint32_t face_a = 0;                        ///< its face
+  Object_id b = 0;                                 ///< second object
+  std::uint32_t face_b = 0;                        ///< its face
   std::optional<std::array<double, 6>> ends = {};  ///< x y z of each; equal ends: a point
 };
 
@@ -44,13 +50,16 @@ struct Page_frame {
   std::vector<std::vector<std::uint32_t>> particles = {};  ///< per object: vertex of each particle, in region order
   std::string numbers = {};                                ///< the frame's line of frames.jsonl, with its line break
   std::string stages = {};                                 ///< times and truth, as a JSON object
-  std::optional<std::vector<Candidate_regions>> candidates = {};
-  std::optional<std::vector<Page_contact>> contacts = {};
+  std::optional<std::vector<Candidate_regions>> candidates = {};  ///< none: the run does not list them
+  std::optional<std::vector<Page_contact>> contacts = {};         ///< none: the run does not list them
 };
 
+/// A plot beside a report.
 struct Page_plot {
-  std::string name, title, description;
-  std::string spec;  ///< Vega-Lite as JSON, with inline data
+  std::string name;         ///< that of its file, without the extension
+  std::string title;        ///< plain text
+  std::string description;  ///< what a reader sees in it, in plain sentences
+  std::string spec;         ///< Vega-Lite as JSON, with inline data
 };
 
 /// The data that the viewer shows, collected frame by frame and packed as docs/page_format.md describes.
@@ -59,6 +68,7 @@ struct Page_plot {
 /// until the end: 24 bytes per vertex and frame. The same calls give the same bytes.
 class Page {
  public:
+  /// A page without objects and frames.
   explicit Page(Page_head head) : head_(std::move(head)) {}
 
   /// Adds an object. All objects come before the first frame.
@@ -68,15 +78,20 @@ class Page {
   /// nothing.
   /// @throws Bad_argument  no such object, not one label per vertex
   void set_regions(Object_id object, const std::vector<Region_index>& labels);
+  /// Adds the next frame.
   /// @throws Bad_argument  the frame differs from the page in its objects or vertices, or from the first frame in its
   ///                       parts
   /// @throws Bad_mesh      a coordinate that is not finite
   void add_frame(Page_frame frame);
+  /// Adds a plot, below those added before.
   /// @throws Bad_argument  the specification is not JSON
   void add_plot(Page_plot plot);
 
+  /// The title of the head.
   const std::string& title() const { return head_.title; }
+  /// Number of frames added.
   std::size_t frames() const { return frames_.size(); }
+  /// The faces of an object.
   const std::vector<Corners>& corners(Object_id object) const { return objects_.at(object).corners; }
 
   /// The container of docs/page_format.md.

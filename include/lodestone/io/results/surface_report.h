@@ -11,8 +11,8 @@ namespace lodestone {
 
 /// The properties of a triangle surface that decide what can be expected of it.
 struct Surface_report {
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
+  std::size_t vertices = 0;            ///< those of no face included
+  std::size_t faces = 0;               ///< number of triangles
   std::size_t components = 0;          ///< sets of faces connected through shared vertices
   std::size_t unused_vertices = 0;     ///< vertices of no face
   std::size_t duplicate_vertices = 0;  ///< vertices with the position of one with a lower index

@@ -9,8 +9,11 @@ namespace lodestone {
 /// A table that has aligned columns in a terminal and is valid Markdown.
 class Text_table {
  public:
+  /// A table without rows.
+  /// @param header  one title per column
   explicit Text_table(std::vector<std::string> header);
 
+  /// Adds a row.
   /// @throws Bad_argument  the number of cells differs from that of the header
   void add(std::vector<std::string> row);
 

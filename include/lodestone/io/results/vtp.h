@@ -15,18 +15,19 @@ namespace lodestone {
 
 /// A named array with one number per point or per cell.
 struct Vtp_array {
-  std::string name;
+  std::string name;  ///< as ParaView lists it
+  /// In the order of points, or of cells.
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint32_t>, std::vector<double>> values;
 };
 
 /// The contents of a .vtp file. Cells are in VTK's order: first all vertices, then all lines, then all polygons.
 struct Vtp_data {
-  std::vector<Point> points = {};
+  std::vector<Point> points = {};                         ///< of all cells
   std::vector<std::vector<std::uint32_t>> vertices = {};  ///< cells of one point each
   std::vector<std::vector<std::uint32_t>> lines = {};     ///< of two points or more
   std::vector<std::vector<std::uint32_t>> polygons = {};  ///< of three points or more
-  std::vector<Vtp_array> point_data = {};
-  std::vector<Vtp_array> cell_data = {};
+  std::vector<Vtp_array> point_data = {};                 ///< arrays with one number per point
+  std::vector<Vtp_array> cell_data = {};                  ///< arrays with one number per cell
 };
 
 /// Writes XML PolyData: a text header, followed by all numbers as raw little-endian bytes (`appended` data). The file
@@ -37,7 +38,7 @@ void write_vtp(const std::filesystem::path& file, const Vtp_data& data);
 
 /// One moment of a .pvd file.
 struct Pvd_step {
-  double time = 0;
+  double time = 0;   ///< as ParaView shows it
   std::string file;  ///< relative to the .pvd file
 };
 

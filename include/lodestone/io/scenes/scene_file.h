@@ -18,7 +18,7 @@ namespace lodestone {
 
 /// A mesh, its motion, and what an experiment needs to know about it.
 struct Scene_object {
-  std::string name;
+  std::string name;                        ///< unique in its scene
   Surface_mesh mesh;                       ///< at rest, until `pose` moves it
   std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its index in the positions of `motion`
   std::size_t file_vertices = 0;           ///< number of those positions
@@ -33,12 +33,13 @@ struct Scene_object {
   std::vector<std::filesystem::path> files;  ///< that the mesh and its motion are read from; some may be patterns
 };
 
+/// Objects that move, as a file describes them.
 struct Scene {
-  std::string name;
-  std::string description;
-  std::size_t frames = 1;
-  std::vector<Scene_object> objects;
-  std::vector<Object_pair> ignored;  ///< object pairs to skip, a <= b, sorted; a = b: self-collisions of an object
+  std::string name;                   ///< as the file says, else the name of the file without extension
+  std::string description;            ///< plain text; may be empty
+  std::size_t frames = 1;             ///< how long the motion lasts
+  std::vector<Scene_object> objects;  ///< in the order of the file
+  std::vector<Object_pair> ignored;   ///< object pairs to skip, a <= b, sorted; a = b: self-collisions of an object
 
   /// Whether a pair is skipped: it is listed, or one of its objects does not meet the other.
   /// @param pair  a <= b
@@ -47,6 +48,7 @@ struct Scene {
   }
 };
 
+/// Options of `read_scene`.
 struct Scene_options {
   bool allow_outside = false;  ///< whether the scene may name files outside its folder
 };

@@ -45,6 +45,7 @@ Surface_mesh uv_sphere(std::size_t slices, std::size_t stacks);
 /// equal size.
 Surface_mesh icosphere(std::size_t frequency);
 
+/// Options of `torus_knot`.
 struct Torus_knot_options {
   std::size_t p = 2;           ///< turns around the z-axis; >= 1
   std::size_t q = 3;           ///< turns around the torus's tube; coprime to p; (1, 0) is a torus
