@@ -14,7 +14,8 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 root = pathlib.Path(__file__).parent.resolve()
-version = re.search(r"project\(lodestone VERSION (\S+)", (root / "CMakeLists.txt").read_text()).group(1)
+header = (root / "include" / "lodestone" / "version.h").read_text()
+version = ".".join(re.search(rf"LODESTONE_VERSION_{part} (\d+)", header)[1] for part in ("MAJOR", "MINOR", "PATCH"))
 
 
 class Build_with_cmake(build_ext):

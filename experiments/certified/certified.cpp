@@ -14,6 +14,7 @@
 #include "certified/made_character.h"
 #include "lodestone/io/files/made_folders.h"
 #include "lodestone/mesh/errors.h"
+#include "program/installed_files.h"
 #include "program/measurement.h"
 #include "shared/experiment.h"
 #include "shared/race_figures.h"
@@ -45,7 +46,7 @@ struct Scene_source {
 };
 
 Character own_character(const std::string& name) {
-  return *read_character(fs::path(LODESTONE_CHARACTERS) / (name + ".glb"));
+  return *read_character(installed_files() / "characters" / (name + ".glb"));
 }
 
 std::vector<Scene_source> own_sources() {

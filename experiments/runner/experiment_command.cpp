@@ -7,6 +7,7 @@
 #include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "program/exit_codes.h"
+#include "program/installed_files.h"
 #include "program/page_file.h"
 #include "program/progress.h"
 #include "runner/experiment_command.h"
@@ -32,7 +33,7 @@ std::pair<std::size_t, std::size_t> parts_of(const std::string& shard) {
 Page page_of(const Experiment& experiment, const std::filesystem::path& out, const std::string& report) {
   const std::string name(experiment.name);
   Page page({.kind = Page_kind::experiment, .title = name + ": " + std::string(experiment.question), .report = report});
-  for (auto& plot : experiment_plots(std::filesystem::path(LODESTONE_EXPERIMENTS) / name / "plots", out))
+  for (auto& plot : experiment_plots(installed_files() / "experiments" / name / "plots", out))
     page.add_plot(std::move(plot));
   return page;
 }
@@ -41,6 +42,8 @@ Page page_of(const Experiment& experiment, const std::filesystem::path& out, con
 
 int run(const Experiment_command& command) {
   const auto experiment = std::ranges::find_if(experiments(), [&](const auto& e) { return e.name == command.name; });
+  const auto own_scenes = installed_files() / "scenes";
+  const auto scenes = command.scenes.empty() ? own_scenes : command.scenes;
   const std::filesystem::path out = command.out.empty() ? std::filesystem::path("out") / command.name : command.out;
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, out);
@@ -49,8 +52,8 @@ int run(const Experiment_command& command) {
   {
     Progress_bar bar(command.name, command.quiet);
     const auto [shard, shards] = parts_of(command.shard);
-    report = experiment->run({.scenes = command.scenes,
-                              .scenes_given = !equivalent(command.scenes, LODESTONE_SCENES, no_such_folder),
+    report = experiment->run({.scenes = scenes,
+                              .scenes_given = !equivalent(scenes, own_scenes, no_such_folder),
                               .out = out,
                               .progress = std::ref(bar),
                               .only = command.only,

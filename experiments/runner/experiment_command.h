@@ -10,7 +10,8 @@ namespace lodestone {
 
 struct Experiment_command {
   std::string name;
-  std::filesystem::path scenes, out;
+  std::filesystem::path scenes;   ///< empty: those of the program
+  std::filesystem::path out;      ///< empty: out/NAME
   std::vector<std::string> only;  ///< see Experiment_context, as the others here
   std::size_t jobs = 1;
   std::string shard = "1/1";

@@ -24,13 +24,13 @@ void add_options(CLI::App& app, Experiment_command& command) {
     names.emplace_back(experiment.name);
     list += fmt::format("\n  {:<20} {}", experiment.name, experiment.question);
   }
-  app.add_option("NAME", command.name, "Which one")->required()->check(CLI::IsMember(names).description(""));
+  app.add_option("NAME", command.name, "Which one")->required()->check(one_word_of(names));
   app.add_option(
          "--scenes", command.scenes,
          "Folder of the scene files; modes plays all scenes of another folder than its own, and subfolders with "
          "meshes NAME.off and their point caches NAME.pc2; certified plays the glTF files of another folder too")
       ->type_name("DIR")
-      ->default_str("data/scenes of the source");
+      ->default_str("those of the program");
   app.add_option(
          "--only", command.only,
          "Scenes to play in place of all, by name (peers, every_frame, modes, volumes, defaults, nested_codebook); "
@@ -95,7 +95,6 @@ int run_experiment(int argc, char** argv) {
   CLI::App app("Run one of the experiments");
   app.name("lodestone experiment");
   Experiment_command command;
-  command.scenes = LODESTONE_SCENES;
   add_options(app, command);
   if (const auto done = parse(app, argc, argv)) return *done;
   refuse_options_of_other_experiments(app, command.name);

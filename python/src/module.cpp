@@ -3,6 +3,7 @@
 
 #include "frame.h"
 #include "lodestone/mesh/errors.h"
+#include "lodestone/version.h"
 #include "motion.h"
 #include "one_call.h"
 
@@ -41,7 +42,7 @@ void add_errors(py::module_& module) {
 PYBIND11_MODULE(_lodestone, module) {
   using namespace lodestone::python;
   module.doc() = "The compiled part of the package lodestone.";
-  module.attr("__version__") = LODESTONE_VERSION;
+  module.attr("__version__") = LODESTONE_VERSION_TEXT;
   add_errors(module);
   add_motions(module);
   add_frames(module);

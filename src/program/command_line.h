@@ -10,9 +10,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/files/small_text.h"
+#include "program/command_description.h"
 #include "program/exit_codes.h"
 #include "program/suggestion.h"
 
@@ -65,9 +67,14 @@ inline std::string unknown_word(const CLI::App& program, std::span<char* const> 
   return fmt::format("there is no command {}{}", words[0], did_you_mean(words[0], commands));
 }
 
-/// Parses the command line. Prints help or version if asked for, else one line about what is wrong.
+/// Parses the command line. Prints help or version if asked for, else one line about what is wrong. The help does not
+/// list `--describe`, which prints JSON for the build: see command_description.h.
 /// @return the exit code, if there is nothing left to do
 inline std::optional<int> parse(CLI::App& program, int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "--describe") {
+    fmt::print("{}\n", description_of(program).dump(2));
+    return exit_code::success;
+  }
   try {
     program.parse(argc, argv);
     return std::nullopt;

@@ -71,7 +71,7 @@ int run(const Partition_command& command);
 int run(const Info_command& command);
 int run(const Convert_command& command);
 
-/// Replaces this process by the program of the experiments, which is in the same folder. Returns only by an exception.
+/// Replaces this process by the program of the experiments, see experiments_program. Returns only by an exception.
 /// @throws Bad_argument  that program has not been built
 [[noreturn]] void run_experiments(std::vector<char*> arguments);
 

@@ -7,6 +7,7 @@
 
 #include "io/files/small_text.h"
 #include "lodestone/mesh/errors.h"
+#include "lodestone/version.h"
 #include "program/command_line.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
@@ -22,6 +23,8 @@ namespace {
 /// Converts a name to its value, which CLI11 expects as a number.
 template <class Value>
 CLI::Validator one_of(const std::map<std::string, Value>& names) {
+  std::vector<std::string> choices;
+  for (const auto& entry : names) choices.push_back(entry.first);
   return {[names](std::string& text) -> std::string {
             const auto found = names.find(CLI::detail::to_lower(text));
             if (found == names.end()) {
@@ -33,7 +36,7 @@ CLI::Validator one_of(const std::map<std::string, Value>& names) {
             text = std::to_string(static_cast<int>(found->second));
             return {};
           },
-          ""};
+          "", choices_name(choices)};
 }
 
 /// Limits the weight so that squared weighted vectors cannot overflow.
@@ -51,7 +54,7 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
   for (const auto& strategy : strategies()) names.emplace_back(strategy.name);
   app.add_option("--strategy", choice.name, "Partition strategy, see below")
       ->type_name("NAME")
-      ->check(CLI::IsMember(names).description(""))
+      ->check(one_word_of(names))
       ->capture_default_str();
   app.add_option("--seed", choice.settings.seed, seed_of)
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"))
@@ -96,7 +99,7 @@ void add_exact_options(CLI::App& app, Exact_options& options) {
 
 void add_format(CLI::App& app, std::string& format) {
   app.add_option("--format", format, "Format of the mesh on the standard input (-): off, obj, ply, stl, glb, md2, md3")
-      ->check(CLI::IsMember({"off", "obj", "ply", "stl", "glb", "md2", "md3"}).description(""))
+      ->check(one_word_of({"off", "obj", "ply", "stl", "glb", "md2", "md3"}))
       ->type_name("NAME");
 }
 
@@ -271,7 +274,7 @@ void add_convert(CLI::App& program, Convert_command& command, std::string& forma
 int run_commands(int argc, char** argv) {
   CLI::App program("lodestone: collision detection for triangle meshes that deform");
   program.name("lodestone");
-  program.set_version_flag("--version", LODESTONE_VERSION);
+  program.set_version_flag("--version", "lodestone " + std::string(version()));
   program.set_help_all_flag("--help-all", "Show the help of all commands");
   program.require_subcommand(1);
   program.footer(exit_code::help);

@@ -118,7 +118,7 @@ TEST(Made_character, each_point_is_moved_by_few_joints_with_weights_of_sum_1) {
 }
 
 TEST(Character_scene, characters_touch_at_a_small_part_in_some_frames) {
-  const auto hand = read_character(std::filesystem::path(LODESTONE_CHARACTERS) / "hand.glb");
+  const auto hand = read_character(std::filesystem::path(LODESTONE_DATA) / "characters" / "hand.glb");
   ASSERT_TRUE(hand);
   Character_scene scene = touching("hands", *hand, *hand);
   Detector<> exact;
@@ -136,7 +136,7 @@ TEST(Character_scene, characters_touch_at_a_small_part_in_some_frames) {
 }
 
 TEST(Character_race, all_ways_agree_and_certified_reads_little_of_what_is_far) {
-  const auto body = read_character(std::filesystem::path(LODESTONE_CHARACTERS) / "body.glb");
+  const auto body = read_character(std::filesystem::path(LODESTONE_DATA) / "characters" / "body.glb");
   ASSERT_TRUE(body);
   Character_scene coarse = touching("bodies", *body, *body);
   coarse.frames.resize(12);

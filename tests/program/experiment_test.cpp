@@ -210,7 +210,7 @@ TEST(Experiment_command, states_how_to_build_the_experiments_if_they_are_missing
   const auto alone = folder.path() / "lodestone";
   std::filesystem::copy_file(LODESTONE_PROGRAM, alone);
   expect_error(run_program({"experiment", "modes"}, {.program = alone.string()}), 2,
-               "'scripts/build release lodestone_experiments' makes it");
+               "'scripts/build release lodestone_experiments' builds them");
 }
 
 }  // namespace

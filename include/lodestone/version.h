@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string_view>
+
+// Version of these headers. CMake reads it from here.
+#define LODESTONE_VERSION_MAJOR 0
+#define LODESTONE_VERSION_MINOR 1
+#define LODESTONE_VERSION_PATCH 0
+
+/// A number that grows with the version: 10203 for 1.2.3. Write `#if LODESTONE_VERSION >= 10203`.
+#define LODESTONE_VERSION (LODESTONE_VERSION_MAJOR * 10000 + LODESTONE_VERSION_MINOR * 100 + LODESTONE_VERSION_PATCH)
+
+#define LODESTONE_VERSION_TEXT_OF(major, minor, patch) #major "." #minor "." #patch
+#define LODESTONE_VERSION_TEXT_EXPANDED(major, minor, patch) LODESTONE_VERSION_TEXT_OF(major, minor, patch)
+/// Such as "1.2.3".
+#define LODESTONE_VERSION_TEXT \
+  LODESTONE_VERSION_TEXT_EXPANDED(LODESTONE_VERSION_MAJOR, LODESTONE_VERSION_MINOR, LODESTONE_VERSION_PATCH)
+
+namespace lodestone {
+
+/// Version of the library that the program runs with, such as "1.2.3". A shared library can be another one than
+/// that of the headers, LODESTONE_VERSION_TEXT; both must agree in major and minor number.
+std::string_view version();
+
+}  // namespace lodestone
