@@ -189,7 +189,7 @@ void Tree_builder::add_leaf(const Branch& branch, Leaf_maker& maker) {
   }
   const auto numbered = numbers.vertices();
   maker.sort(numbered.data(), numbered.size(), hwy::SortAscending());
-  const auto vertices = vertices_.begin() + 3 * std::ptrdiff_t{branch.begin};
+  const auto vertices = vertices_.begin() + 3 * static_cast<std::ptrdiff_t>(branch.begin);
   std::array<std::uint16_t, 3 * most_leaf_faces> places;  // by number
   for (std::uint16_t place = 0; place < numbered.size(); ++place) {
     vertices[place] = static_cast<std::uint32_t>(numbered[place] >> 32U);
@@ -220,7 +220,7 @@ void Tree_builder::size_vertices() {
 void Tree_builder::gather_vertices(std::size_t first_leaf, std::size_t end_leaf) {
   for (std::size_t leaf = first_leaf; leaf < end_leaf; ++leaf) {
     const auto begin = tree_.vertex_begin_[leaf], end = tree_.vertex_begin_[leaf + 1];
-    std::copy_n(vertices_.begin() + 3 * std::ptrdiff_t{item_begin_[leaf]}, end - begin,
+    std::copy_n(vertices_.begin() + 3 * static_cast<std::ptrdiff_t>(item_begin_[leaf]), end - begin,
                 tree_.vertices_.begin() + begin);
   }
 }

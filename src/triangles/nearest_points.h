@@ -33,7 +33,7 @@ struct Nearest_points {
 template <class Number>
 class Nearest_points_search {
  public:
-  using Vector = Corner_differences<Number>::Vector;
+  using Vector = typename Corner_differences<Number>::Vector;
 
   explicit Nearest_points_search(const Corner_differences<Number>& differences) : d_(differences) {}
 

@@ -17,18 +17,12 @@
 #include "lodestone/detection/detector_options.h"
 #include "lodestone/detection/saved_object.h"
 #include "lodestone/detection/watched_mesh.h"
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/joined_vertices.h"
 #include "lodestone/mesh/rigid_motion.h"
 #include "lodestone/tree/tree_surface.h"
 
 namespace lodestone {
-
-/// Refuses coordinates that are infinite or NaN. O(V).
-/// @param title      names the object in the message
-/// @throws Bad_mesh  one of the coordinates is not finite
-void check_finite(Coordinates coordinates, const std::string& title);
-/// The same for the coordinates of some vertices.
-void check_finite(Coordinates coordinates, std::span<const std::uint32_t> vertices, const std::string& title);
 
 /// The faces whose corners differ, ascending, with those that only `now` has. O(F).
 std::vector<std::uint32_t> changed_faces(std::span<const Corners> former, std::span<const Corners> now);

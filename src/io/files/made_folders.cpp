@@ -2,7 +2,6 @@
 #include "lodestone/io/files/made_folders.h"
 
 #include <algorithm>
-#include <ranges>
 #include <system_error>
 
 #include "lodestone/mesh/errors.h"
@@ -23,8 +22,8 @@ Made_folders::Made_folders(const std::filesystem::path& folder) {
 
 Made_folders::~Made_folders() {
   std::error_code ignored;
-  for (const auto& folder : std::views::reverse(folders_))
-    if (std::filesystem::is_directory(folder, ignored)) std::filesystem::remove(folder, ignored);  // if it is empty
+  for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder)
+    if (std::filesystem::is_directory(*folder, ignored)) std::filesystem::remove(*folder, ignored);  // if it is empty
 }
 
 }  // namespace lodestone
