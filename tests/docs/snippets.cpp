@@ -9,6 +9,7 @@
 #include <lodestone/io/meshes/mesh_file.h>
 #include <lodestone/io/objects/object_file.h>
 #include <lodestone/mesh/computed_points.h>
+#include <lodestone/mesh/indexed_mesh.h>
 #include <lodestone/mesh/skinned_points.h>
 #include <lodestone/partition/lbg.h>
 #include <lodestone/partition/partition_measures.h>
@@ -174,6 +175,28 @@ TEST_F(Snippets, of_meshes_that_move) {
   }
   EXPECT_LT(cloth, body);
   EXPECT_GT(responses, 0U);
+}
+
+TEST_F(Snippets, of_arrays) {
+  const auto arrays_of = [](const Surface_mesh& mesh) {
+    std::vector<double> coordinates;
+    for (const auto& p : mesh.points()) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+    return coordinates;
+  };
+  auto cloth_coordinates = arrays_of(cloth_mesh);
+  const auto body_coordinates = arrays_of(body_mesh);
+  const auto cloth_faces = lodestone::Mesh_numbering(cloth_mesh).corners();
+  const auto body_faces = lodestone::Mesh_numbering(body_mesh).corners();
+  std::size_t colliding_frames = 0;
+  {
+    const lodestone::Indexed_mesh cloth(cloth_coordinates, cloth_faces);  // x, y, z per vertex; corners per face
+    const lodestone::Indexed_mesh body(body_coordinates, body_faces);
+    lodestone::Detector detector;
+    detector.add(cloth), detector.add(body);
+    for (std::size_t i = 0; i < cloth_coordinates.size(); i += 3) cloth_coordinates[i] += 0.75;  // read where they are
+    if (detector.detect().collides()) ++colliding_frames;
+  }
+  EXPECT_EQ(colliding_frames, 1U);
 }
 
 TEST_F(Snippets, of_particles) {

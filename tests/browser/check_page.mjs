@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Checks the page of scripts/build_browser in a headless browser against the program: check_page PAGE PROGRAM FOLDER.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { start_browser } from '../../web/src/browser.mjs';
+
+const [page_file, program, folder] = process.argv.slice(2).map((word) => path.resolve(word));
+fs.mkdirSync(folder, { recursive: true });
+const in_folder = (name) => path.join(folder, name);
+const make = (shape, name) => execFileSync(program, ['convert', `shape:${shape}`, in_folder(name), '--quiet']);
+make('teapot', 'teapot.obj');
+make('{"icosphere": {"frequency": 12}}', 'ball.stl');
+make('{"icosphere": {"frequency": 8, "radius": 0.01, "center": [9, 9, 9]}}', 'far.ply');
+fs.writeFileSync(in_folder('broken.off'), 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n');
+// Coordinates that are subnormal, or huge: exact numbers decide.
+const triangles = (scale) => `OFF\n6 2 0\n0 0 0\n${4 * scale} 0 0\n0 ${4 * scale} 0\n${scale} ${scale} ${-scale}\n${scale} ${scale} ${scale}\n${scale} ${-3 * scale} 0\n3 0 1 2\n3 3 4 5\n`;
+fs.writeFileSync(in_folder('tiny.off'), triangles(2 ** -1070));
+fs.writeFileSync(in_folder('huge.off'), triangles(2 ** 1000));
+
+/** What the program says: the number of face pairs. */
+function pairs_by_program(names) {
+  const out = in_folder('out');
+  const self = names.length === 1 ? ['--self'] : [];
+  execFileSync(program, ['detect', ...names.map(in_folder), '--contacts', 'all', ...self, '--out', out, '--quiet']);
+  const { pairs } = JSON.parse(fs.readFileSync(path.join(out, 'frames.jsonl'), 'utf8'));
+  return pairs.reduce((sum, { faces }) => sum + faces.length, 0);
+}
+
+const browser = await start_browser();
+try {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
+  const problems = [];
+  page.on('pageerror', (error) => problems.push(error.message));
+  await page.goto(`file://${page_file}`);
+  const ask = async (names) => {
+    if (await page.isVisible('#clear')) await page.click('#clear');
+    await page.setInputFiles('#files', names.map(in_folder));
+    await page.waitForFunction(() => !['', 'Checking …'].includes(document.getElementById('answer').textContent), null, { timeout: 60_000 });
+    return page.textContent('#answer');
+  };
+  for (const names of [['teapot.obj', 'ball.stl'], ['teapot.obj', 'far.ply'], ['teapot.obj'], ['ball.stl'], ['tiny.off'], ['huge.off']]) {
+    const expected = pairs_by_program(names);
+    const answer = await ask(names);
+    console.log(`${names.join(', ')}: ${answer}`);
+    if (expected > 0) assert.match(answer, new RegExp(`intersects?( itself)?: ${expected} face pairs?,`));
+    else assert.match(answer, /(do|does) not intersect/);
+  }
+  assert.equal(await ask(['teapot.obj', 'broken.off']), 'broken.off:6: face refers to vertex 7 of 3');
+  await ask(['teapot.obj', 'ball.stl']);
+  const viewer = page.frameLocator('#viewer');
+  await viewer.locator('#title').filter({ hasText: 'teapot.obj and ball.stl' }).waitFor({ timeout: 30_000 });
+  await page.waitForTimeout(1500);
+  await page.screenshot({ path: in_folder('page.png') });
+  await page.setViewportSize({ width: 390, height: 844 });
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth > innerWidth), false, 'the page is too wide for a phone');
+  await page.screenshot({ path: in_folder('phone.png') });
+  assert.deepEqual(problems, []);
+} finally {
+  await browser.close();
+}

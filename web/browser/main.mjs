@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs in the page: takes files, asks the library, and shows the answer in the viewer.
+const by_id = (id) => document.getElementById(id);
+const text_of = (id) => new TextDecoder().decode(Uint8Array.from(atob(by_id(id).textContent.trim()), (c) => c.charCodeAt(0)));
+
+/** What the worker runs, behind the library's own script. */
+function serve() {
+  // eslint-disable-next-line no-undef
+  const ready = lodestone_module();
+  self.onmessage = async ({ data: files }) => {
+    try {
+      const library = await ready;
+      const paths = files.map(({ name, bytes }, i) => {
+        library.FS.mkdirTree(`/${i}`);
+        library.FS.writeFile(`/${i}/${name}`, new Uint8Array(bytes));
+        return `/${i}/${name}`;
+      });
+      const answer = library.check(paths[0], paths[1] ?? '');
+      for (const path of paths) library.FS.unlink(path);
+      self.postMessage(answer);
+    } catch (error) {
+      self.postMessage({ error: `The check failed: ${error.message ?? error}` });
+    }
+  };
+}
+
+let worker = null;
+/** @returns {Promise<any>} what the library says of the files */
+function ask(files) {
+  worker ??= new Worker(URL.createObjectURL(new Blob([text_of('module'), `;(${serve})();`], { type: 'text/javascript' })));
+  return new Promise((resolve) => {
+    worker.onmessage = ({ data }) => resolve(data);
+    worker.onerror = (event) => {
+      worker = null;  // the library may be broken: the next question starts it anew
+      resolve({ error: `The check failed: ${event.message}` });
+    };
+    worker.postMessage(files);
+  });
+}
+
+function base64(bytes) {
+  let binary = '';
+  for (let i = 0; i < bytes.length; i += 0x8000) binary += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
+  return btoa(binary);
+}
+
+const escaped = (text) => text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
+
+function show(answer, names) {
+  by_id('answer').classList.toggle('problem', Boolean(answer.error));
+  if (answer.error) {
+    by_id('answer').textContent = answer.error.replaceAll(/\/[01]\//g, '');
+    return;
+  }
+  const subject = names.length > 1 ? 'They' : 'It';
+  const time = `${answer.milliseconds < 10 ? answer.milliseconds.toFixed(1) : Math.round(answer.milliseconds)} ms`;
+  const count = `${answer.contacts} face ${answer.contacts === 1 ? 'pair' : 'pairs'}`;
+  by_id('answer').textContent = answer.collides
+    ? `${subject} intersect${names.length > 1 ? '' : 's itself'}: ${count}, found in ${time}.`
+    : `${subject} ${names.length > 1 ? 'do not intersect' : 'does not intersect itself'}: checked in ${time}.`;
+  by_id('viewer').srcdoc = text_of('template')
+    .replaceAll('@LODESTONE_TITLE@', () => escaped(names.join(' and ')))
+    .replace('@LODESTONE_DATA@', () => base64(answer.data));
+  by_id('viewer').hidden = false;
+}
+
+let chosen = [];
+let asked = 0;
+async function take(list) {
+  const files = [...list];
+  if (files.length === 0) return;
+  chosen = [...(chosen.length === 1 ? chosen : []), ...files].slice(-2);
+  by_id('chosen').textContent = chosen.map(({ name }) => name).join(' and ') + (chosen.length === 1 ? '; add a second one?' : '');
+  by_id('clear').hidden = false;
+  by_id('answer').classList.remove('problem');
+  by_id('answer').textContent = 'Checking …';
+  const question = ++asked;
+  const names = chosen.map(({ name }) => name);
+  const contents = await Promise.all(chosen.map(async (file) => ({ name: file.name.replaceAll('/', '_'), bytes: await file.arrayBuffer() })));
+  const answer = await ask(contents);
+  if (question === asked) show(answer, names);
+}
+
+function clear() {
+  chosen = [];
+  ++asked;
+  by_id('chosen').textContent = 'or drop them anywhere here';
+  by_id('answer').textContent = '';
+  by_id('clear').hidden = by_id('viewer').hidden = true;
+  by_id('viewer').srcdoc = '';
+}
+
+by_id('files').addEventListener('change', ({ target }) => {
+  take(target.files);
+  target.value = '';
+});
+by_id('clear').addEventListener('click', clear);
+document.addEventListener('dragover', (event) => {
+  event.preventDefault();
+  by_id('zone').classList.add('over');
+});
+document.addEventListener('dragleave', () => by_id('zone').classList.remove('over'));
+document.addEventListener('drop', (event) => {
+  event.preventDefault();
+  by_id('zone').classList.remove('over');
+  take(event.dataTransfer.files);
+});
