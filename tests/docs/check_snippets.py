@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks that the C++ of README, manual and concept pages is compiled: each block must stand in snippets.cpp.
+"""Checks that the C++ of README, manual and other pages is compiled.
 
+Each block of README, manual and concept pages must stand in snippets.cpp, each of the first steps in an example.
 Indentation does not count. Lines of #include may stand anywhere in the file.
 Usage: check_snippets.py REPOSITORY
 """
@@ -27,17 +28,26 @@ def stands_in(block, source):
     return all(line in source for line in includes) and any(source[i : i + len(code)] == code for i in starts)
 
 
+def missing_blocks(pages, sources):
+    """Blocks of pages that stand in none of the sources: (page, line)."""
+    texts = [lines_of(source.read_text(encoding="utf-8")) for source in sources]
+    blocks = [(page, line, lines_of(text)) for page in pages for line, text in blocks_of(page)]
+    if not blocks:
+        sys.exit(f"no C++ found in {', '.join(page.name for page in pages)}")
+    return [(page, line) for page, line, block in blocks if not any(stands_in(block, text) for text in texts)]
+
+
 def main():
     repository = pathlib.Path(sys.argv[1])
-    source = lines_of((repository / "tests/docs/snippets.cpp").read_text(encoding="utf-8"))
-    concepts = sorted((repository / "docs/concepts").glob("*.md"))
-    pages = [repository / "README.md", repository / "docs/manual.md", *concepts]
-    blocks = [(page, line, text) for page in pages for line, text in blocks_of(page)]
-    if not blocks:
-        sys.exit("no C++ found in README, manual and concept pages")
-    missing = [(page, line) for page, line, text in blocks if not stands_in(lines_of(text), source)]
-    for page, line in missing:
-        print(f"{page.relative_to(repository)}:{line}: this C++ is not in tests/docs/snippets.cpp")
+    docs = repository / "docs"
+    manual = [repository / "README.md", docs / "manual.md", *sorted((docs / "concepts").glob("*.md"))]
+    missing = [(*place, "tests/docs/snippets.cpp")
+               for place in missing_blocks(manual, [repository / "tests/docs/snippets.cpp"])]
+    missing += [(*place, "any of examples/*.cpp")
+                for place in missing_blocks(sorted((docs / "first_steps").glob("*.md")),
+                                            sorted((repository / "examples").glob("*.cpp")))]
+    for page, line, where in missing:
+        print(f"{page.relative_to(repository)}:{line}: this C++ is not in {where}")
     sys.exit(1 if missing else 0)
 
 
