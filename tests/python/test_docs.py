@@ -11,9 +11,9 @@ import re
 import shlex
 import subprocess
 
-import numpy as np
 import pytest
 
+import lodestone
 from conftest import cube, root, sphere
 
 first_steps = sorted((root / "docs" / "first_steps").glob("*.md"))
@@ -70,3 +70,16 @@ def test_the_commands_of_the_first_steps_run(page, folder, program):
             run = subprocess.run([program, *words[1:]], capture_output=True, text=True)
             expected = 1 if "--exit-code" in words else 0
             assert run.returncode == expected, f"{page.name}:{line}: {command}\n{run.stderr}"
+
+
+def test_the_calls_and_options_in_the_tables_of_the_manual_exist():
+    text = (root / "docs" / "python.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| .*\|$", text, re.M)
+    calls = {name for row in rows for name in re.findall(r"`(\w+)\(", row)}
+    assert len(calls) > 25
+    assert not {name for name in calls if not hasattr(lodestone, name) and not hasattr(lodestone.Detector, name)}
+    section = re.search(r"^## Modes and options\n(.*?)^## ", text, re.S | re.M).group(1)
+    options = set(re.findall(r"^\| `(\w+)(?:=\w+)?` \|", section, re.M))
+    with pytest.raises(TypeError) as error:
+        lodestone.Detector(no_such_option=1)
+    assert len(options) == 13 and options <= set(str(error.value).split("there are ")[1].split(", "))
