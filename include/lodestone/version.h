@@ -4,15 +4,20 @@
 #include <string_view>
 
 // Version of these headers. CMake reads it from here.
+/// Grows with changes that break users; see CONTRIBUTING.md.
 #define LODESTONE_VERSION_MAJOR 0
+/// Grows with additions; before 1.0.0 also with changes that break users.
 #define LODESTONE_VERSION_MINOR 1
+/// Grows with corrections.
 #define LODESTONE_VERSION_PATCH 0
 
 /// A number that grows with the version: 10203 for 1.2.3. Write `#if LODESTONE_VERSION >= 10203`.
 #define LODESTONE_VERSION (LODESTONE_VERSION_MAJOR * 10000 + LODESTONE_VERSION_MINOR * 100 + LODESTONE_VERSION_PATCH)
 
+/// @cond  helpers
 #define LODESTONE_VERSION_TEXT_OF(major, minor, patch) #major "." #minor "." #patch
 #define LODESTONE_VERSION_TEXT_EXPANDED(major, minor, patch) LODESTONE_VERSION_TEXT_OF(major, minor, patch)
+/// @endcond
 /// Such as "1.2.3".
 #define LODESTONE_VERSION_TEXT \
   LODESTONE_VERSION_TEXT_EXPANDED(LODESTONE_VERSION_MAJOR, LODESTONE_VERSION_MINOR, LODESTONE_VERSION_PATCH)

@@ -34,6 +34,7 @@ namespace lodestone {
 /// orientations, a face that names a vertex twice, a vertex without a face.
 class Indexed_mesh {
  public:
+  /// Indices of vertices or faces, from 0.
   using Index_range = CGAL::Iterator_range<boost::counting_iterator<std::uint32_t>>;
 
   /// O(F).
@@ -52,24 +53,36 @@ class Indexed_mesh {
   /// @throws Bad_mesh    as the constructor; the mesh stays as it was
   void set_arrays(Coordinates coordinates, std::span<const Corners> faces) { *this = Indexed_mesh(coordinates, faces); }
 
+  /// 3 V, where they are read.
   Coordinates coordinates() const { return coordinates_; }
+  /// The corners of each face.
   std::span<const Corners> corners() const { return faces_; }
 
+  /// Where a vertex is now.
   Point point(std::uint32_t vertex) const {
     const double* position = coordinates_.data() + 3 * std::size_t{vertex};
     return {position[0], position[1], position[2]};
   }
 
-  // What Triangle_mesh asks for. Halfedge 3 f + i of face f ends at its corner i.
+  // What Triangle_mesh asks for.
+
+  /// All vertices.
   friend Index_range vertices(const Indexed_mesh& mesh) { return range(num_vertices(mesh)); }
+  /// All faces.
   friend Index_range faces(const Indexed_mesh& mesh) { return range(num_faces(mesh)); }
+  /// V.
   friend std::size_t num_vertices(const Indexed_mesh& mesh) { return mesh.coordinates_.size() / 3; }
+  /// F.
   friend std::size_t num_faces(const Indexed_mesh& mesh) { return mesh.faces_.size(); }
+  /// 3 F: no two faces share a halfedge.
   friend std::size_t num_halfedges(const Indexed_mesh& mesh) { return 3 * num_faces(mesh); }
+  /// The halfedge of a face that ends at its first corner: 3 f + i ends at corner i of face f.
   friend std::size_t halfedge(std::uint32_t face, const Indexed_mesh&) { return 3 * std::size_t{face}; }
+  /// The next halfedge around the same face.
   friend std::size_t next(std::size_t halfedge, const Indexed_mesh&) {
     return halfedge % 3 == 2 ? halfedge - 2 : halfedge + 1;
   }
+  /// The vertex at which a halfedge ends.
   friend std::uint32_t target(std::size_t halfedge, const Indexed_mesh& mesh) {
     return mesh.faces_[halfedge / 3][halfedge % 3];
   }
@@ -87,24 +100,30 @@ class Indexed_mesh {
 /// The vertex point map of an Indexed_mesh.
 class Indexed_points {
  public:
-  using key_type = std::uint32_t;
-  using value_type = Point;
-  using reference = Point;
-  using category = boost::readable_property_map_tag;
+  using key_type = std::uint32_t;                      ///< index of a vertex
+  using value_type = Point;                            ///< its position
+  using reference = Point;                             ///< by value
+  using category = boost::readable_property_map_tag;  ///< it cannot be written through
 
+  /// @param mesh  must outlive the map
   explicit Indexed_points(const Indexed_mesh& mesh) : mesh_(&mesh) {}
+  /// The mesh whose points these are.
   const Indexed_mesh& mesh() const { return *mesh_; }
+  /// Where a vertex is now.
   friend Point get(const Indexed_points& points, std::uint32_t vertex) { return points.mesh_->point(vertex); }
 
  private:
   const Indexed_mesh* mesh_;
 };
 
+/// The vertex point map of a mesh.
 inline Indexed_points get(CGAL::vertex_point_t, const Indexed_mesh& mesh) { return Indexed_points(mesh); }
+/// The vertex index map of a mesh: vertices are indices.
 inline boost::typed_identity_property_map<std::uint32_t> get(boost::vertex_index_t, const Indexed_mesh&) { return {}; }
 
 }  // namespace lodestone
 
+/// @cond  what Boost's and CGAL's graphs ask for
 template <>
 struct boost::graph_traits<lodestone::Indexed_mesh> {
   using vertex_descriptor = std::uint32_t;
@@ -128,6 +147,7 @@ template <>
 struct CGAL::graph_has_property<lodestone::Indexed_mesh, CGAL::vertex_point_t> : CGAL::Tag_true {};
 template <>
 struct CGAL::graph_has_property<lodestone::Indexed_mesh, boost::vertex_index_t> : CGAL::Tag_true {};
+/// @endcond
 
 namespace lodestone {
 
@@ -135,11 +155,15 @@ namespace lodestone {
 template <>
 class Vertex_table<Indexed_mesh> {
  public:
-  static constexpr bool by_index = true;
+  static constexpr bool by_index = true;  ///< descriptors are indices
 
+  /// Keeps nothing.
   explicit Vertex_table(const Indexed_mesh&) {}
+  /// The vertex with an index.
   std::uint32_t operator[](std::uint32_t index) const { return index; }
+  /// Index of a vertex.
   std::uint32_t index(std::uint32_t vertex) const { return vertex; }
+  /// Number of vertices.
   std::size_t count(const Indexed_mesh& mesh) const { return num_vertices(mesh); }
 };
 
@@ -147,10 +171,13 @@ class Vertex_table<Indexed_mesh> {
 template <>
 class Coordinate_reader<Indexed_mesh, Indexed_points> {
  public:
-  static constexpr bool in_memory = true;
+  static constexpr bool in_memory = true;  ///< `read` refers to the caller's array
+  /// The coordinates of a mesh.
   static Coordinates memory(const Indexed_mesh& mesh, const Indexed_points&) { return mesh.coordinates(); }
 
+  /// Reads through a point map, which is copied.
   explicit Coordinate_reader(Indexed_points points) : points_(points) {}
+  /// The current coordinates of all vertices, in the caller's array.
   Coordinates read(const Mesh_numbering<Indexed_mesh>& numbering) const {
     return points_.mesh().coordinates().first(3 * std::size_t{numbering.vertex_count()});
   }
@@ -162,7 +189,9 @@ class Coordinate_reader<Indexed_mesh, Indexed_points> {
 /// The mesh has no properties of its own, so the maps are beside it.
 template <>
 struct Region_property<Indexed_mesh> {
+  /// Property map from vertices to regions; copies share their values.
   using Map = boost::vector_property_map<Region_index>;
+  /// Makes a map, `no_particle` everywhere; it has no name.
   static Map add(const Indexed_mesh& mesh, const char* /*name*/) {
     Map map(static_cast<unsigned>(num_vertices(mesh)));
     for (std::uint32_t v = 0; v < num_vertices(mesh); ++v) map[v] = no_particle;
