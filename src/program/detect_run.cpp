@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program/detect_run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
-#include <span>
 
 #include "lodestone/detection/frame_at_once.h"
 #include "lodestone/io/scenes/given_objects.h"
-#include "lodestone/mesh/saved_state.h"
 #include "lodestone/queries/exhaustive.h"
 #include "program/notes.h"
 
@@ -65,23 +61,6 @@ void Detect_run::note_seams() const {
   for (Object_id id = 0; id < scene_.objects.size(); ++id)
     note_joined_vertices(scene_.objects[id].name, detector_->object(id).joined_vertices(),
                          scene_.objects[id].mesh.number_of_vertices());
-}
-
-std::string Detect_run::hash_of_inputs() {
-  std::vector<std::uint64_t> hashes{scene_.frames};
-  for (auto& object : scene_.objects) {
-    hashes.push_back(hash_of(std::as_bytes(std::span(object.name))));
-    for (const std::size_t frame : {scene_.frames - 1, std::size_t{0}}) {
-      pose(object, frame);
-      const auto* const points = reinterpret_cast<const double*>(object.mesh.points().data());
-      hashes.push_back(hash_of(std::as_bytes(std::span(points, 3 * object.mesh.number_of_vertices()))));
-    }
-    std::vector<std::uint32_t> corners;
-    for (const auto face : object.mesh.faces())
-      for (const auto v : object.mesh.vertices_around_face(object.mesh.halfedge(face))) corners.push_back(v);
-    hashes.push_back(hash_of(std::as_bytes(std::span(corners))));
-  }
-  return fmt::format("{:016x}", hash_of(std::as_bytes(std::span(hashes))));
 }
 
 /// What need not be posed as a whole is posed by the detector, where it looks.

@@ -15,6 +15,7 @@
 #include "program/frame_tally.h"
 #include "program/page_log.h"
 #include "program/paraview_log.h"
+#include "program/scene_hash.h"
 
 namespace lodestone {
 
@@ -35,8 +36,8 @@ class Detect_run {
   void add(const Frame_tally& tally);
   /// The objects as they were in the process that has played the last frame.
   void set_objects(nlohmann::ordered_json objects) { objects_ = std::move(objects); }
-  /// Of the faces of all objects, and of their positions in the first and the last frame.
-  std::string hash_of_inputs();
+  /// See hash_of(Scene&).
+  std::string hash_of_inputs() { return hash_of(scene_); }
   nlohmann::ordered_json objects() const { return objects_json(subject()); }
   nlohmann::ordered_json summary() const { return summary_json(subject(), summary_); }
   void print() const { print_summary(subject(), summary_); }

@@ -67,7 +67,7 @@ void check_shard_options(const Detect_command& command) {
 int run_shard(const Detect_command& command) {
   const Shard& shard = *command.shard;
   Detect_run scene_run(command);
-  const Shard_folder folder(command.out, work_of(command, scene_run, shard.count));
+  const Shard_folder folder(command.out, work_of(command, scene_run, shard.count), Shard_use::make);
   const auto frames = shard.neighbours(scene_run.frames());
   if (folder.is_done(shard.index)) {
     if (!command.quiet) fmt::print("shard {} of {} is done already\n", shard.index, shard.count);
@@ -88,7 +88,7 @@ int run_shard(const Detect_command& command) {
 
 void merge_shards(Detect_run& scene_run, Atomic_file& frames, const Detect_command& command) {
   const std::size_t shards = Shard_folder(command.out).shards();
-  const Shard_folder folder(command.out, work_of(command, scene_run, shards));
+  const Shard_folder folder(command.out, work_of(command, scene_run, shards), Shard_use::merge);
   bool is_tally = false;
   const auto records = folder.read_all([&](std::string_view line) {
     check_interrupt();

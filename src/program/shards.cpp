@@ -123,7 +123,8 @@ std::vector<std::string> words_of_work(const std::vector<std::string>& words) {
 
 Shard_folder::Shard_folder(std::filesystem::path results) : results_(std::move(results)) { read_manifest(); }
 
-Shard_folder::Shard_folder(std::filesystem::path results, const Work& work) : results_(std::move(results)) {
+Shard_folder::Shard_folder(std::filesystem::path results, const Work& work, Shard_use use)
+    : results_(std::move(results)) {
   const Json wanted{{"command", work.command},       {"folder", std::filesystem::current_path().string()},
                     {"revision", source_revision()}, {"shards", work.shards},
                     {"pieces", work.pieces},         {"inputs", work.inputs}};
@@ -132,7 +133,7 @@ Shard_folder::Shard_folder(std::filesystem::path results, const Work& work) : re
   if (!exists(file)) write_whole(file, wanted.dump(2) + "\n");
   read_manifest();
   for (const char* key : {"command", "revision", "shards", "pieces", "inputs"})
-    if (manifest_[key] != wanted[key])
+    if (manifest_[key] != wanted[key] && (use == Shard_use::make || std::string_view(key) != "revision"))
       throw Bad_argument(fmt::format("{}: these are shards of other work: {} is {}, not {}", folder().string(), key,
                                      manifest_[key].dump(), wanted[key].dump()));
 }

@@ -60,6 +60,9 @@ struct Shard_status {
 /// How much of a finished shard is looked at.
 enum class Shard_check { record, all };
 
+/// Shards are merged by any revision, but made by one.
+enum class Shard_use { make, merge };
+
 /// The shards of a folder of results: `FOLDER/shards/manifest.json`, and one file per finished shard.
 class Shard_folder {
  public:
@@ -69,7 +72,7 @@ class Shard_folder {
   /// Opens a folder for this work, and writes its manifest if it has none.
   /// @throws Bad_argument  the folder has shards of another command, revision, number of shards or input
   /// @throws Bad_output    the manifest cannot be written
-  Shard_folder(std::filesystem::path results, const Work& work);
+  Shard_folder(std::filesystem::path results, const Work& work, Shard_use use);
 
   const std::filesystem::path& results() const { return results_; }
   const nlohmann::ordered_json& manifest() const { return manifest_; }
