@@ -89,7 +89,10 @@ inline std::vector<std::string> merging_words(const Merge_command& command) {
   if (words.size() < 2 || (words[1] != "detect" && words[1] != "experiment"))
     throw Bad_shard((folder.results() / "shards").string() + ": its shards are of neither detect nor an experiment");
   words.insert(words.end(), {"--out", folder.results().string(), "--merge-shards"});
-  if (command.quiet) words.emplace_back("--quiet");
+  if (command.quiet) {
+    std::erase(words, "--json");
+    words.emplace_back("--quiet");
+  }
   if (const auto& begun = folder.manifest()["folder"]; begun.is_string() && is_directory(std::filesystem::path(begun)))
     std::filesystem::current_path(std::filesystem::path(begun));
   return words;

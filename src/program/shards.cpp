@@ -219,8 +219,7 @@ std::vector<Json> Shard_folder::read_all(const std::function<void(std::string_vi
   for (std::size_t index = 1; index <= shards(); ++index)
     if (!exists(file(index))) missing.push_back(index);
   if (!missing.empty())
-    fail(folder(),
-         fmt::format("{} of {} are missing: {}", counted(missing.size(), "shard"), shards(), ranges_of(missing)));
+    fail(folder(), fmt::format("{} of {} missing: {}", missing.size(), counted(shards(), "shard"), ranges_of(missing)));
   std::vector<Json> records;
   for (std::size_t index = 1; index <= shards(); ++index) records.push_back(read(index, visit));
   return records;

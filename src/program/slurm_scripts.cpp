@@ -14,15 +14,17 @@ namespace lodestone {
 
 namespace {
 
-/// A file name as sbatch reads it: within quotes, where % begins a pattern.
-std::string sbatch_name(const std::filesystem::path& path) {
+/// The name of a log as sbatch reads it: within quotes, where % begins a pattern.
+/// @param log  may be a pattern
+std::string sbatch_log(const std::filesystem::path& out, const std::string& log) {
+  const auto path = out / "slurm";
   std::string name;
   for (const char c : path.string()) {
     if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20)
-      throw Bad_argument("--out " + printable(path.string()) + ": sbatch cannot write into a folder of such a name");
+      throw Bad_argument("--out " + printable(out.string()) + ": sbatch cannot write into a folder of such a name");
     name += c == '%' ? "%%" : std::string(1, c);
   }
-  return '"' + name + '"';
+  return fmt::format("\"{}/{}\"", name, log);
 }
 
 struct Limits {
@@ -34,7 +36,7 @@ std::string head(const Slurm_job& job, const std::string& name, const Limits& li
   if (!job.partition.empty()) text += fmt::format("#SBATCH --partition={}\n", job.partition);
   if (!job.account.empty()) text += fmt::format("#SBATCH --account={}\n", job.account);
   return text + fmt::format(
-                    "#SBATCH --nodes=1 --ntasks=1 --cpus-per-task={}\n#SBATCH --time={}  # minutes\n"
+                    "#SBATCH --nodes=1 --ntasks=1 --cpus-per-task={}\n# Minutes:\n#SBATCH --time={}\n"
                     "#SBATCH --mem={}M\n#SBATCH --requeue\n#SBATCH --open-mode=append\n",
                     limits.cores, limits.minutes, limits.megabytes);
 }
@@ -67,7 +69,7 @@ std::string array_script(const Slurm_job& job) {
       "# that is done is skipped, so this may be submitted, cancelled and requeued at any time.\n";
   text += head(job, "lodestone", {job.minutes, job.megabytes, job.cores});
   text += fmt::format("#SBATCH --array={}\n", ranges_of(job.to_do, ","));
-  text += fmt::format("#SBATCH --output={}\n", sbatch_name(job.out / "slurm" / "task-") + "%a.log");
+  text += fmt::format("#SBATCH --output={}\n", sbatch_log(job.out, "task-%a.log"));
   text += fmt::format("set -euo pipefail\ncd {}\n", shell_word(job.folder.string()));
   if (job.tasks >= job.shards)
     return text + fmt::format("exec {} \"${{SLURM_ARRAY_TASK_ID}}/{}\"\n", command, job.shards);
@@ -83,7 +85,7 @@ std::string merge_script(const Slurm_job& job) {
       "# Written by lodestone submit: joins the shards once the array has ended, however it ended. If shards are\n"
       "# missing, it says which, changes nothing and fails.\n";
   text += head(job, "lodestone-merge", {job.merge_minutes, job.merge_megabytes, 1});
-  text += fmt::format("#SBATCH --output={}\n", sbatch_name(job.out / "slurm" / "merge.log"));
+  text += fmt::format("#SBATCH --output={}\n", sbatch_log(job.out, "merge.log"));
   const auto program = shell_word(job.program), out = shell_word(job.out.string());
   return text + fmt::format("set -euo pipefail\ncd {}\n{} status --quick {}\nexec {} merge --quiet {}\n",
                             shell_word(job.folder.string()), program, out, program, out);

@@ -224,8 +224,8 @@ int run(const Submit_command& command) {
   const auto array = job.out / "slurm" / "array.sh", merge = job.out / "slurm" / "merge.sh";
   write_whole(array, array_script(job));
   write_whole(merge, merge_script(job));
-  fmt::print("{}: {} minutes and {} MB per task; scripts: {} and {}\n", counted(to_do.shards.size(), "shard"),
-             job.minutes, job.megabytes, printable(array.string()), printable(merge.string()));
+  fmt::print("{}: {} and {} MB per task; scripts: {} and {}\n", counted(to_do.shards.size(), "shard"),
+             counted(job.minutes, "minute"), job.megabytes, printable(array.string()), printable(merge.string()));
   if (command.dry_run)
     fmt::print("nothing was submitted: sbatch array.sh, then sbatch --dependency=afterany:JOB merge.sh\n");
   else
