@@ -43,10 +43,15 @@ std::vector<std::size_t> chosen_pieces(const Experiment_context& context, const 
 }
 
 Shard_folder shard_folder(const Experiment_context& context, const Sharded_experiment& work) {
-  const std::size_t shards = context.shard ? context.shard->count : Shard_folder(context.out).shards();
-  return {context.out,
-          {.command = context.words, .shards = shards, .pieces = work.pieces, .inputs = work.inputs},
-          context.merge_shards ? Shard_use::merge : Shard_use::make};
+  Work made{.command = context.words, .shards = 1, .pieces = work.pieces, .inputs = work.inputs};
+  if (context.shard) {
+    made.shards = context.shard->count;
+    return {context.out, made, Shard_use::make};
+  }
+  const Shard_folder folder(context.out);
+  made.command = folder.command();
+  made.shards = folder.shards();
+  return {context.out, made, Shard_use::merge};
 }
 
 std::string said_of_shard(const Shard_folder& folder, std::size_t index, std::size_t made) {

@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Work work_of(const Detect_command& command, Detect_run& scene_run, std::size_t shards) {
-  return {.command = command.words,
+Work work_of(std::vector<std::string> words, std::size_t shards, Detect_run& scene_run) {
+  return {.command = std::move(words),
           .shards = shards,
           .pieces = scene_run.frames(),
           .inputs = {{"scene", scene_run.hash_of_inputs()}}};
@@ -67,7 +67,7 @@ void check_shard_options(const Detect_command& command) {
 int run_shard(const Detect_command& command) {
   const Shard& shard = *command.shard;
   Detect_run scene_run(command);
-  const Shard_folder folder(command.out, work_of(command, scene_run, shard.count), Shard_use::make);
+  const Shard_folder folder(command.out, work_of(command.words, shard.count, scene_run), Shard_use::make);
   const auto frames = shard.neighbours(scene_run.frames());
   if (folder.is_done(shard.index)) {
     if (!command.quiet) fmt::print("shard {} of {} is done already\n", shard.index, shard.count);
@@ -87,8 +87,8 @@ int run_shard(const Detect_command& command) {
 }
 
 void merge_shards(Detect_run& scene_run, Atomic_file& frames, const Detect_command& command) {
-  const std::size_t shards = Shard_folder(command.out).shards();
-  const Shard_folder folder(command.out, work_of(command, scene_run, shards), Shard_use::merge);
+  const Shard_folder made(command.out);
+  const Shard_folder folder(command.out, work_of(made.command(), made.shards(), scene_run), Shard_use::merge);
   bool is_tally = false;
   const auto records = folder.read_all([&](std::string_view line) {
     check_interrupt();
