@@ -7,4 +7,4 @@ if(failed)
   set(revision "unknown")
 endif()
 file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT
-  "#pragma once\n\ninline constexpr const char* source_revision = \"@revision@\";\n")
+  "#pragma once\n\ninline constexpr const char* revision_of_source = \"@revision@\";\n")

@@ -15,7 +15,7 @@
 #include "lodestone/mesh/errors.h"
 #include "partitions/hash.h"
 #include "partitions/partition_plan.h"
-#include "revision.h"
+#include "program/source_revision.h"
 
 namespace lodestone {
 
@@ -52,7 +52,7 @@ Json partition_manifest() {
     inputs[std::string(mesh.name)] = hash_of(mesh.make());
     inputs[std::string(mesh.name) + "/ball"] = hash_of(mesh.make_ball());
   }
-  return {{"revision", source_revision}, {"compiler", "GCC " __VERSION__}, {"processors", {processor()}},
+  return {{"revision", source_revision()}, {"compiler", "GCC " __VERSION__}, {"processors", {processor()}},
           {"regions", partition_counts}, {"seeds", partition_seeds},       {"inputs", std::move(inputs)}};
 }
 

@@ -16,6 +16,7 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <numeric>
 
 #include "lodestone/mesh/errors.h"
 
@@ -126,21 +127,14 @@ std::vector<Child> ended(std::vector<Child>& children) {
   return result;
 }
 
-std::vector<std::size_t> runs_of(const Shard& shard, std::size_t runs) {
-  std::vector<std::size_t> chosen;
-  for (std::size_t run = shard.k - 1; run < runs; run += shard.n) chosen.push_back(run);
-  return chosen;
-}
-
 }  // namespace
 
 std::vector<std::string> sweep(const std::vector<std::string>& ids, Row_file& rows, const Sweep_options& options,
                                const Execute& execute, const std::function<void(std::size_t, std::size_t)>& progress) {
   if (options.jobs == 0) throw Bad_argument("the number of jobs must be at least 1");
-  if (options.shard.k == 0 || options.shard.k > options.shard.n)
-    throw Bad_argument(fmt::format("there is no shard {} of {}", options.shard.k, options.shard.n));
-  auto waiting = runs_of(options.shard, ids.size());
-  const std::size_t all = waiting.size();
+  const std::size_t all = ids.size();
+  std::vector<std::size_t> waiting(all);
+  std::iota(waiting.begin(), waiting.end(), std::size_t{0});
   std::erase_if(waiting, [&](std::size_t run) { return rows.has(ids[run]); });
   std::ranges::reverse(waiting);
 

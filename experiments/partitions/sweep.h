@@ -10,23 +10,16 @@
 
 namespace lodestone {
 
-/// A part of a sweep: every n-th run, beginning with the k-th.
-struct Shard {
-  std::size_t k = 1;  ///< 1 to n
-  std::size_t n = 1;
-};
-
 struct Sweep_options {
   std::size_t jobs = 1;  ///< runs at a time; >= 1
-  Shard shard = {};
 };
 
 /// Executes the runs that have no row yet. Each has a process of its own, so that its memory is measured separately,
 /// and a crash loses only that run.
 ///
-/// @param ids       of all runs, all shards together, in order
+/// @param ids       of all runs, in order
 /// @param execute   makes the row of a run, without its id; called in the child process
-/// @param progress  called with the number of finished runs and of all runs of the shard; may throw to stop, which
+/// @param progress  called with the number of finished runs and of all runs; may throw to stop, which
 ///                  ends the runs in progress
 /// @return `id: cause` for each run that failed; these have no row and are tried again next time
 std::vector<std::string> sweep(const std::vector<std::string>& ids, Row_file& rows, const Sweep_options& options,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <optional>
 
 #include "io/files/small_text.h"
@@ -17,18 +17,6 @@
 namespace lodestone {
 
 namespace {
-
-/// K and N of `K/N`.
-std::pair<std::size_t, std::size_t> parts_of(const std::string& shard) {
-  std::size_t k = 0, n = 0;
-  const char* const end = shard.data() + shard.size();
-  const auto first = std::from_chars(shard.data(), end, k);
-  if (first.ec == std::errc() && first.ptr != end && *first.ptr == '/') {
-    const auto second = std::from_chars(first.ptr + 1, end, n);
-    if (second.ec == std::errc() && second.ptr == end && k >= 1 && k <= n) return {k, n};
-  }
-  throw Bad_argument("--shard: expected K/N with 1 <= K <= N, found '" + shard + "'");
-}
 
 Page page_of(const Experiment& experiment, const std::filesystem::path& out, const std::string& report) {
   const std::string name(experiment.name);
@@ -51,20 +39,20 @@ int run(const Experiment_command& command) {
   std::error_code no_such_folder;  // the experiment reports that
   {
     Progress_bar bar(command.name, command.quiet);
-    const auto [shard, shards] = parts_of(command.shard);
     report = experiment->run({.scenes = scenes,
                               .scenes_given = !equivalent(scenes, own_scenes, no_such_folder),
                               .out = out,
                               .progress = std::ref(bar),
                               .only = command.only,
+                              .shard = command.shard,
+                              .merge_shards = command.merge_shards,
+                              .words = command.words,
                               .jobs = command.jobs,
-                              .shard = shard,
-                              .shards = shards,
-                              .merge = command.merge,
+                              .seeds = command.seeds,
                               .strategy_files = command.strategy_files,
                               .write_meshes = command.write_meshes});
   }
-  if (!command.write_meshes.empty()) {  // nothing was measured: the report of an earlier run stays
+  if (!command.write_meshes.empty() || command.shard) {  // nothing to report: the report of an earlier run stays
     if (!command.quiet) fmt::print("{}", report);
     return exit_code::success;
   }

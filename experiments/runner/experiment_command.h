@@ -3,8 +3,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "program/shards.h"
 
 namespace lodestone {
 
@@ -14,8 +17,11 @@ struct Experiment_command {
   std::filesystem::path out;      ///< empty: out/NAME
   std::vector<std::string> only;  ///< see Experiment_context, as the others here
   std::size_t jobs = 1;
-  std::string shard = "1/1";
-  std::vector<std::filesystem::path> merge, strategy_files;
+  std::optional<Shard> shard;
+  bool merge_shards = false;
+  std::vector<std::string> words;
+  std::size_t seeds = 1;
+  std::vector<std::filesystem::path> strategy_files;
   std::filesystem::path write_meshes;
   std::filesystem::path html;  ///< empty: not written
   bool quiet = false;

@@ -41,12 +41,15 @@ void add_options(CLI::App& app, Experiment_command& command) {
   app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1024}))
       ->capture_default_str();
-  app.add_option("--shard", command.shard, "Only the K-th of N parts of the runs (partitions)")
-      ->type_name("K/N")
+  app.add_option_function<std::string>(
+         "--shard", [&command](const std::string& text) { command.shard = parse_shard(text); },
+         "Only the I-th of N parts, into --out; lodestone merge joins the parts (partitions, soak, every_frame)")
+      ->type_name("I/N");
+  app.add_flag("--merge-shards", command.merge_shards)->group("");  // lodestone merge gives it
+  app.add_option("--seeds", command.seeds, "Seeds 1 to N, each with its own meshes (soak)")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
+      ->type_name("N")
       ->capture_default_str();
-  app.add_option("--merge", command.merge, "Take over the rows of these folders first (partitions)")
-      ->delimiter(',')
-      ->type_name("DIR");
   app.add_option("--strategy-file", command.strategy_files,
                  "Labels made by another tool, such as 'labels/NAME/*.labels': they take part as strategy NAME "
                  "(partitions)")
@@ -62,7 +65,9 @@ void add_options(CLI::App& app, Experiment_command& command) {
       ->default_str("out/NAME")
       ->check(not_empty());
   // With --write-meshes there is no report.
-  add_html(app, command.html, "One page (.html) with the report and plots of the figures")->excludes("--write-meshes");
+  add_html(app, command.html, "One page (.html) with the report and plots of the figures")
+      ->excludes("--write-meshes")
+      ->excludes("--shard");
   app.add_flag("--quiet", command.quiet, "No progress bar, no report on the terminal");
   app.footer(list + "\n\n" + exit_code::help);
 }
@@ -73,15 +78,16 @@ struct Special_option {
   std::vector<std::string> experiments;
 };
 
-const std::vector<Special_option> special_options{{"--only",
-                                                   {"peers", "every_frame", "modes", "many_bodies", "volumes",
-                                                    "defaults", "nested_codebook", "partitions", "first_answer",
-                                                    "certified"}},
-                                                  {"--jobs", {"partitions"}},
-                                                  {"--shard", {"partitions"}},
-                                                  {"--merge", {"partitions"}},
-                                                  {"--strategy-file", {"partitions"}},
-                                                  {"--write-meshes", {"partitions", "certified"}}};
+const std::vector<Special_option> special_options{
+    {"--only",
+     {"peers", "every_frame", "modes", "many_bodies", "volumes", "defaults", "nested_codebook", "partitions",
+      "first_answer", "certified"}},
+    {"--jobs", {"partitions"}},
+    {"--shard", {"partitions", "soak", "every_frame"}},
+    {"--merge-shards", {"partitions", "soak", "every_frame"}},
+    {"--seeds", {"soak"}},
+    {"--strategy-file", {"partitions"}},
+    {"--write-meshes", {"partitions", "certified"}}};
 
 /// @throws Bad_argument  an option that the experiment would ignore
 void refuse_options_of_other_experiments(const CLI::App& app, const std::string& experiment) {
@@ -98,6 +104,8 @@ int run_experiment(int argc, char** argv) {
   add_options(app, command);
   if (const auto done = parse(app, argc, argv)) return *done;
   refuse_options_of_other_experiments(app, command.name);
+  command.words = words_of_work({argv + 1, argv + argc});
+  command.words.insert(command.words.begin(), "experiment");
   return run(command);
 }
 

@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "program/shards.h"
 
 namespace lodestone {
 
@@ -20,10 +23,13 @@ struct Experiment_context {
   /// always play all their scenes.
   std::vector<std::string> only = {};
 
-  // For experiments that are sweeps of many runs (`partitions`).
-  std::size_t jobs = 1;                           ///< runs at a time
-  std::size_t shard = 1, shards = 1;              ///< the part of the runs to make, and how many parts there are
-  std::vector<std::filesystem::path> merge = {};  ///< folders whose rows are taken over first
+  // For long experiments (`partitions`, `soak`, `every_frame`).
+  std::optional<Shard> shard = {};      ///< make only this part
+  bool merge_shards = false;            ///< take all rows from the shards in `out`
+  std::vector<std::string> words = {};  ///< of the command line, see words_of_work
+
+  std::size_t jobs = 1;   ///< runs at a time (`partitions`)
+  std::size_t seeds = 1;  ///< seeds 1 to this (`soak`)
 
   // For `partitions` alone.
   std::vector<std::filesystem::path> strategy_files = {};  ///< labels made by other tools: see read_given_labels

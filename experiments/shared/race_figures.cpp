@@ -32,7 +32,8 @@ std::vector<std::string> names_of_scenes(const std::filesystem::path& folder) {
   return names;
 }
 
-/// @throws Bad_scene  a name that no scene has
+}  // namespace
+
 std::vector<std::string> scene_names(const Experiment_context& context) {
   std::vector<std::string> names = context.only;
   if (names.empty()) names.assign(default_scenes.begin(), default_scenes.end());
@@ -43,8 +44,6 @@ std::vector<std::string> scene_names(const Experiment_context& context) {
                                   fmt::join(names_of_scenes(context.scenes), ", ")));
   return names;
 }
-
-}  // namespace
 
 void for_each_scene(const Experiment_context& context,
                     const std::function<void(Scene& scene, const Scene_progress& progress)>& visit) {

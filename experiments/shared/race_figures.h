@@ -15,6 +15,10 @@ namespace lodestone {
 /// Called with the share of a scene's work that is done; may throw to stop.
 using Scene_progress = std::function<void(double share)>;
 
+/// The scenes that the caller asked for, or those of the published figures.
+/// @throws Bad_scene  a name that no scene has
+std::vector<std::string> scene_names(const Experiment_context& context);
+
 /// Reads the scenes that the caller asked for, or those of the published figures, and visits each in turn.
 /// @throws Bad_scene  a name that no scene has, before the first visit
 void for_each_scene(const Experiment_context& context,

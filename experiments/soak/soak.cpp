@@ -14,6 +14,7 @@
 #include "lodestone/triangles/neighbour_check.h"
 #include "shared/experiment.h"
 #include "shared/measured_run.h"
+#include "shared/sharded_rows.h"
 #include "soak/soak_meshes.h"
 
 namespace lodestone {
@@ -158,22 +159,61 @@ class Round {
 
 }  // namespace
 
-Soak_result soak(std::uint64_t seed, std::size_t pairs, const std::function<void(std::size_t)>& progress) {
+std::size_t soak_kinds() { return soak_recipes().size(); }
+
+Soak_kind soak_one_kind(std::uint64_t seed, std::size_t kind_index, std::size_t share,
+                        const std::function<void(std::size_t)>& progress) {
   const auto recipes = soak_recipes();
-  const std::size_t share = (pairs + recipes.size() - 1) / recipes.size();
+  const auto& recipe = recipes[kind_index];
+  Soak_kind kind{.name = recipe.name};
+  std::mt19937_64 random(seed * recipes.size() + kind_index);
+  // Every kind meets every frame of reference, even if few pairs are asked for.
+  while (kind.pairs < share || kind.rounds < soak_frames_of_reference) {
+    auto meshes = recipe.make(random);
+    for (auto& mesh : meshes) move_to_frame_of_reference(mesh, kind.rounds % soak_frames_of_reference);
+    const std::size_t regions = 1 + random() % 16, leaf_faces = 2 + random() % 127;
+    const std::size_t threads = random() % 4 == 0 ? 3 : 1;
+    Round(meshes, regions, leaf_faces, threads).run(kind);
+    if (progress) progress(std::min(kind.pairs, share));
+  }
+  return kind;
+}
+
+namespace {
+
+/// Each kind has the same share of the pairs.
+std::size_t share_of(std::size_t pairs) { return (pairs + soak_kinds() - 1) / soak_kinds(); }
+
+void add(Soak_kind& sum, const Soak_kind& kind) {
+  sum.rounds += kind.rounds;
+  sum.pairs += kind.pairs;
+  sum.intersecting += kind.intersecting;
+  sum.differences += kind.differences;
+  sum.invalid_trees += kind.invalid_trees;
+}
+
+nlohmann::ordered_json to_json(const Soak_kind& kind) {
+  return {{"kind", kind.name},
+          {"rounds", kind.rounds},
+          {"pairs", kind.pairs},
+          {"intersecting", kind.intersecting},
+          {"differences", kind.differences},
+          {"invalid_trees", kind.invalid_trees}};
+}
+
+void add_row(Text_table& table, const Soak_kind& kind) {
+  table.add({std::string(kind.name), std::to_string(kind.rounds), std::to_string(kind.pairs),
+             std::to_string(kind.intersecting), std::to_string(kind.differences), std::to_string(kind.invalid_trees)});
+}
+
+}  // namespace
+
+Soak_result soak(std::uint64_t seed, std::size_t pairs, const std::function<void(std::size_t)>& progress) {
   Soak_result result;
-  for (const auto& recipe : recipes) {
-    Soak_kind kind{.name = recipe.name};
-    std::mt19937_64 random(seed * recipes.size() + result.kinds.size());
-    // Every kind meets every frame of reference, even if few pairs are asked for.
-    while (kind.pairs < share || kind.rounds < soak_frames_of_reference) {
-      auto meshes = recipe.make(random);
-      for (auto& mesh : meshes) move_to_frame_of_reference(mesh, kind.rounds % soak_frames_of_reference);
-      const std::size_t regions = 1 + random() % 16, leaf_faces = 2 + random() % 127;
-      const std::size_t threads = random() % 4 == 0 ? 3 : 1;
-      Round(meshes, regions, leaf_faces, threads).run(kind);
-      if (progress) progress(result.pairs + std::min(kind.pairs, share));
-    }
+  for (std::size_t index = 0; index < soak_kinds(); ++index) {
+    const auto kind = soak_one_kind(seed, index, share_of(pairs), [&](std::size_t done) {
+      if (progress) progress(result.pairs + done);
+    });
     result.pairs += kind.pairs;
     result.intersecting += kind.intersecting;
     result.differences += kind.differences;
@@ -184,35 +224,48 @@ Soak_result soak(std::uint64_t seed, std::size_t pairs, const std::function<void
 }
 
 std::string run_soak(const Experiment_context& context) {
-  constexpr std::size_t pairs = 100'000'000;
-  constexpr std::uint64_t seed = 1;
-  const auto result = soak(seed, pairs, [&](std::size_t done) {
-    if (context.progress) context.progress(std::min(done, pairs), pairs);
+  constexpr std::size_t pairs = 100'000'000;  // of each seed
+  const std::size_t kinds = soak_kinds(), share = share_of(pairs);
+  const Sharded_experiment work{
+      .pieces = kinds * context.seeds, .neighbours = false, .inputs = {{"pairs", pairs}, {"kinds", kinds}}};
+  const auto made = rows_of(context, work, [&](const auto& pieces, const auto& add_row_of) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const std::uint64_t seed = pieces[i] / kinds + 1;
+      auto row = to_json(soak_one_kind(seed, pieces[i] % kinds, share, [&](std::size_t done) {
+        if (context.progress) context.progress(i * share + done, pieces.size() * share);
+      }));
+      row["seed"] = seed;
+      add_row_of(std::move(row));
+    }
   });
+  if (made.shard) return *made.shard;
 
+  std::vector<Soak_kind> sums;
+  for (const auto& recipe : soak_recipes()) sums.push_back({.name = recipe.name});
+  for (std::size_t piece = 0; piece < work.pieces; ++piece) {
+    const auto& row = made.rows.at(piece);
+    add(sums[piece % kinds], {.name = {},
+                              .rounds = row.at("rounds"),
+                              .pairs = row.at("pairs"),
+                              .intersecting = row.at("intersecting"),
+                              .differences = row.at("differences"),
+                              .invalid_trees = row.at("invalid_trees")});
+  }
   Text_table table({"kind", "rounds", "pairs with overlapping boxes", "intersecting", "differences", "invalid trees"});
   nlohmann::ordered_json json;
-  std::size_t rounds = 0;
-  for (const auto& kind : result.kinds) {
-    table.add({std::string(kind.name), std::to_string(kind.rounds), std::to_string(kind.pairs),
-               std::to_string(kind.intersecting), std::to_string(kind.differences),
-               std::to_string(kind.invalid_trees)});
-    json.push_back({{"kind", kind.name},
-                    {"rounds", kind.rounds},
-                    {"pairs", kind.pairs},
-                    {"intersecting", kind.intersecting},
-                    {"differences", kind.differences},
-                    {"invalid_trees", kind.invalid_trees}});
-    rounds += kind.rounds;
+  Soak_kind all{.name = "all"};
+  for (const auto& kind : sums) {
+    add_row(table, kind);
+    json.push_back(to_json(kind));
+    add(all, kind);
   }
-  table.add({"all", std::to_string(rounds), std::to_string(result.pairs), std::to_string(result.intersecting),
-             std::to_string(result.differences), std::to_string(result.invalid_trees)});
+  add_row(table, all);
   write_json(context.out, "soak", json);
   return fmt::format(
              "Each round makes two meshes of 200 to 2000 triangles in {} poses. Their trees are built on the first "
              "pose and refitted to the others. The truth checks every pair of faces whose boxes overlap, one by one, "
-             "between the two meshes and within one of them. Seed {}.\n\n",
-             soak_poses, seed) +
+             "between the two meshes and within one of them. {}.\n\n",
+             soak_poses, context.seeds == 1 ? "Seed 1" : fmt::format("Seeds 1 to {}", context.seeds)) +
          table.text();
 }
 

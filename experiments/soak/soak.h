@@ -34,4 +34,11 @@ struct Soak_result {
 /// @param progress  called with the pairs checked so far
 Soak_result soak(std::uint64_t seed, std::size_t pairs, const std::function<void(std::size_t)>& progress = {});
 
+/// The part of a soak that checks one kind of mesh, which depends on no other.
+/// @param kind   0 to `soak_kinds()` - 1
+/// @param share  at least so many face pairs with overlapping boxes
+Soak_kind soak_one_kind(std::uint64_t seed, std::size_t kind, std::size_t share,
+                        const std::function<void(std::size_t)>& progress = {});
+std::size_t soak_kinds();
+
 }  // namespace lodestone

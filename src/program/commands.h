@@ -9,6 +9,7 @@
 
 #include "lodestone/detector.h"
 #include "lodestone/partition/strategies.h"
+#include "program/shards.h"
 
 namespace lodestone {
 
@@ -33,6 +34,13 @@ struct Detect_command {
   bool all_rows = false;                      ///< print a row for each pair, however many
   bool exit_code = false;                     ///< the exit code tells whether anything collides
   bool allow_outside = false;                 ///< whether a scene may name files outside its folder
+
+  /// Frames do not depend on earlier ones: loose trees are kept, and statistics that depend are not written.
+  bool independent_frames = false;
+  std::optional<Shard> shard;           ///< play only the frames of this shard
+  std::optional<std::size_t> warm_up;   ///< modes with particles: frames that a shard plays before its own
+  bool merge_shards = false;            ///< take the frames from the shards in `out` in place of playing them
+  std::vector<std::string> words = {};  ///< of the command line, see words_of_work
 };
 
 struct Partition_command {
@@ -65,11 +73,31 @@ struct Convert_command {
   bool quiet = false;
 };
 
+struct Status_command {
+  std::filesystem::path folder;
+  bool json = false;
+  bool quick = false;  ///< do not read all of each shard
+};
+
+struct Submit_command {
+  std::filesystem::path out;
+  std::vector<std::string> words;  ///< the command to shard: `detect ...` or `experiment ...`
+  std::size_t shards = 16;
+  std::size_t tasks = 1000;        ///< at most, in one array; each makes several shards if there are more
+  std::string partition, account;  ///< of the cluster; empty: its default
+  double time_factor = 3, memory_factor = 2;
+  std::size_t minutes = 0, megabytes = 0;  ///< of a shard; 0: measured by a pilot
+  bool slurm = false;                      ///< the only kind of cluster so far
+  bool dry_run = false;
+};
+
 /// Runs a command: prints its table to the standard output and returns the program's exit code.
 int run(const Detect_command& command);
 int run(const Partition_command& command);
 int run(const Info_command& command);
 int run(const Convert_command& command);
+int run(const Status_command& command);
+int run(const Submit_command& command);
 
 /// Replaces this process by the program of the experiments, see experiments_program. Returns only by an exception.
 /// @throws Bad_argument  that program has not been built

@@ -189,24 +189,28 @@ void Pair_summary::add(std::size_t frame, const Pair_result& pair) {
   last_colliding = frame;
 }
 
-void Run_summary::add(std::size_t number, const Frame& frame, bool timed) {
-  for (const auto& pair : frame.pairs) pairs[{pair.a, pair.b}].add(number, pair);
-  if (timed) measurement.frames.push_back(frame.statistics);
-  builds += frame.statistics.builds;
-  measurement.build_seconds += frame.statistics.seconds.build;
-}
-
-void Run_summary::add(std::size_t number, std::span<const Pair_closest> closest) {
-  for (const auto& [a, b, found] : closest) {
-    auto& least = pairs[{a, b}].least_distance;
-    const double distance = found.points.distance;
-    if (!least || distance < least->distance) least = {.distance = distance, .frame = number};
+void Run_summary::add(const Frame_tally& tally, bool timed) {
+  for (const auto& pair : tally.pairs) pairs[{pair.a, pair.b}].add(tally.frame, pair);
+  for (const auto& [pair, truth, seen] : tally.scores) pairs[pair].score.add(pair, truth, seen);
+  for (const auto& [pair, distance] : tally.distances) {
+    auto& least = pairs[pair].least_distance;
+    if (!least || distance < least->distance) least = {.distance = distance, .frame = tally.frame};
   }
+  if (timed) measurement.frames.push_back(tally.statistics);
+  builds += tally.statistics.builds;
+  measurement.build_seconds += tally.statistics.seconds.build;
 }
 
 bool Run_summary::finds_any() const {
   return std::ranges::any_of(
       pairs, [](const auto& pair) { return pair.second.colliding_frames > 0 || pair.second.near_frames > 0; });
+}
+
+Json objects_json(const Run_subject& subject) {
+  if (!subject.objects.is_null()) return subject.objects;
+  Json objects = Json::array();
+  for (Object_id o = 0; o < subject.scene.objects.size(); ++o) objects.push_back(object_summary_json(subject, o));
+  return objects;
 }
 
 Json summary_json(const Run_subject& subject, const Run_summary& summary) {
@@ -216,10 +220,8 @@ Json summary_json(const Run_subject& subject, const Run_summary& summary) {
             {"mode", name_of(mode)},
             {"may_miss", misses_json(subject.command.options)},
             {"strategy", subject.command.partition.name},
-            {"objects", Json::array()},
+            {"objects", objects_json(subject)},
             {"pairs", Json::array()}};
-  for (Object_id o = 0; o < subject.scene.objects.size(); ++o)
-    json["objects"].push_back(object_summary_json(subject, o));
   for (const auto& [pair, results] : summary.pairs) json["pairs"].push_back(pair_summary_json(subject, pair, results));
   const Json measured = to_json(summary.measurement);
   for (const char* key : {"mean_iterations", "mean_moves", "mean_candidates", "mean_exact_tests", "mean_repartitions",

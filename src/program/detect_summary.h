@@ -4,7 +4,6 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "lodestone/mesh/pairs.h"
 #include "program/commands.h"
 #include "program/frame_log.h"
+#include "program/frame_tally.h"
 #include "program/measurement.h"
 #include "program/page_log.h"
 
@@ -45,10 +45,8 @@ struct Run_summary {
   Measurement measurement;
   std::size_t builds = 0;  ///< objects built, in all frames
 
-  /// @param number  of the frame
   /// @param timed   whether the frame counts in the means and medians; building always counts
-  void add(std::size_t number, const Frame& frame, bool timed);
-  void add(std::size_t number, std::span<const Pair_closest> closest);
+  void add(const Frame_tally& tally, bool timed);
   /// Whether any pair collides, or is near, in any frame.
   bool finds_any() const;
 };
@@ -57,13 +55,17 @@ struct Run_summary {
 struct Run_subject {
   const Detect_command& command;
   const Scene& scene;
-  const Scene_detector* detector;  ///< null: the frame has been made without one
+  const Scene_detector* detector;         ///< null: the frames have been made without one
+  const nlohmann::ordered_json& objects;  ///< as objects_json, if another process has made the frames; else null
 
   /// Whether the truth about a pair is known. It is not known for self-collisions.
   bool has_truth(Object_pair pair) const { return command.truth && pair.a != pair.b; }
 };
 
-/// The content of `summary.json`, of a run with a detector.
+/// The objects of `summary.json`, as the detector has built them.
+nlohmann::ordered_json objects_json(const Run_subject& subject);
+
+/// The content of `summary.json`, of a run with a detector or with objects.
 nlohmann::ordered_json summary_json(const Run_subject& subject, const Run_summary& summary);
 
 /// One line: how many pairs collide, and when.

@@ -16,7 +16,7 @@ inline constexpr const char* help = R"(Exit codes:
   0    done; with detect --exit-code: nothing collides
   1    detect --exit-code: something collides, or is near with --within
   2    the command line is wrong
-  3    a mesh, motion or scene cannot be used
+  3    a mesh, motion, scene or shard cannot be used
   4    a result cannot be written
   5    --truth: a reported collision is not true, or mode exact missed one
   70   an error that should not happen: please report it

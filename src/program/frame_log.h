@@ -47,8 +47,9 @@ inline bool has_tolerance(const Detector_options& options) {
 /// @param options  of the detector that gave the result; they determine which keys are written
 /// @param truth  of all pairs; adds the key `truth` to each pair, and adds pairs that collide but were not reported
 /// @param closest  of all pairs; adds the key `closest`, a list of its own, since `pairs` omits those far apart
+/// @param independent  leave out the statistics of mode `certified` that depend on earlier frames
 std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objects, const Frame& result,
                        const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth,
-                       const std::optional<std::vector<Pair_closest>>& closest);
+                       const std::optional<std::vector<Pair_closest>>& closest, bool independent = false);
 
 }  // namespace lodestone

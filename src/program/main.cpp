@@ -13,6 +13,7 @@
 #include "program/exit_codes.h"
 #include "program/mode_options.h"
 #include "program/run_reported.h"
+#include "program/shard_options.h"
 #include "program/standard_input.h"
 #include "program/strategy_options.h"
 
@@ -198,6 +199,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   app.add_option("--paraview", command.paraview, "Folder for meshes.pvd, particles.pvd and contacts.pvd")
       ->type_name("DIR")
       ->check(not_empty());
+  add_shard_options(app, command);
   app.add_flag("--all-rows", command.all_rows, "Print all rows of the table, not only the first 20");
   auto* const json = app.add_flag("--json", command.json, "Print the summary as JSON in place of the table");
   app.add_flag("--quiet", command.quiet, "No progress bar, one line in place of the table")->excludes(json);
@@ -271,6 +273,17 @@ void add_convert(CLI::App& program, Convert_command& command, std::string& forma
   add_format(app, format);
 }
 
+int run_commands(int argc, char** argv);
+
+/// Runs the command that has made the shards once more, to merge them.
+int run_merge(const Merge_command& command) {
+  auto words = merging_words(command);
+  std::vector<char*> pointers;
+  for (auto& word : words) pointers.push_back(word.data());
+  if (words[1] == "experiment") run_experiments({pointers.begin() + 2, pointers.end()});
+  return run_commands(static_cast<int>(pointers.size()), pointers.data());
+}
+
 int run_commands(int argc, char** argv) {
   CLI::App program("lodestone: collision detection for triangle meshes that deform");
   program.name("lodestone");
@@ -283,11 +296,17 @@ int run_commands(int argc, char** argv) {
   Partition_command partition;
   Info_command info;
   Convert_command convert;
+  Status_command status;
+  Submit_command submit;
+  Merge_command merge;
   std::string format;
   add_detect(program, detect, format);
   add_partition(program, partition, format);
   add_info(program, info, format);
   add_convert(program, convert, format);
+  add_submit(program, submit);
+  add_status(program, status);
+  add_merge(program, merge);
   // Registered for the help only: the program of the experiments parses its arguments.
   program.add_subcommand("experiment", "Run one of the experiments, see lodestone experiment --help")
       ->prefix_command()
@@ -302,6 +321,9 @@ int run_commands(int argc, char** argv) {
   if (program.got_subcommand("detect")) {
     const auto& app = *program.get_subcommand("detect");
     refuse_options_of_other_modes(app, detect.options.mode);
+    detect.words = words_of_work({argv + 1, argv + argc});
+    // Shards cannot know what earlier frames have done to the trees.
+    detect.independent_frames |= finds_all(detect.options.mode) && (detect.shard || detect.merge_shards);
     if (detect.options.mode == Mode::particles) refuse_options_beside_meetings(app, detect.options.meetings);
     refuse_options_of_other_strategies(app, detect.partition.name, !finds_all(detect.options.mode));
     detect.chooses_strategy = chooses_strategy(app);
@@ -325,6 +347,12 @@ int run_commands(int argc, char** argv) {
     code = run(info);
   else if (program.got_subcommand("convert"))
     code = run(convert);
+  else if (program.got_subcommand("submit"))
+    code = run(submit);
+  else if (program.got_subcommand("status"))
+    code = run(status);
+  else if (program.got_subcommand("merge"))
+    code = run_merge(merge);
   else
     run_experiments({argv + 2, argv + argc});
   return code;

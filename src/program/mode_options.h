@@ -58,6 +58,8 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
       {"--meetings", {Mode::particles}},
       {"--opening-budget", {Mode::particles}},
       {"--opening-reach", {Mode::particles}},
+      {"--independent-frames", {Mode::exact, Mode::certified}},
+      {"--warm-up", {Mode::particles, Mode::senin}},
       {"--open-seams", {Mode::particles, Mode::senin}},
       {"--strategy", {Mode::exact, Mode::certified, Mode::particles}},
       {"--normal-weight", {Mode::exact, Mode::certified, Mode::particles}},

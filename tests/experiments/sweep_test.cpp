@@ -79,16 +79,6 @@ TEST_F(Sweep, stopping_a_sweep_loses_only_the_runs_in_progress) {
   EXPECT_EQ(rows.rows().size(), ids.size());
 }
 
-TEST_F(Sweep, the_shards_together_are_the_whole_and_no_run_is_in_two) {
-  std::multiset<std::string> all;
-  for (std::size_t k = 1; k <= 3; ++k) {
-    Row_file rows(file("rows" + std::to_string(k)));
-    sweep(ids, rows, {.jobs = 2, .shard = {.k = k, .n = 3}}, marking(), no_progress);
-    for (const auto& [id, row] : rows.rows()) all.insert(id);
-  }
-  EXPECT_EQ(all, std::multiset<std::string>(ids.begin(), ids.end()));
-}
-
 TEST_F(Sweep, a_run_that_fails_or_crashes_is_named_and_the_others_go_on) {
   Row_file rows(file());
   const auto execute = [](std::size_t run) -> Row {
@@ -145,11 +135,9 @@ TEST_F(Sweep, reports_its_progress) {
   EXPECT_TRUE(std::ranges::is_sorted(seen));
 }
 
-TEST_F(Sweep, shards_and_jobs_that_do_not_exist_are_refused) {
+TEST_F(Sweep, a_number_of_jobs_that_does_not_exist_is_refused) {
   Row_file rows(file());
   EXPECT_THROW(sweep(ids, rows, {.jobs = 0}, marking(), no_progress), Bad_argument);
-  EXPECT_THROW(sweep(ids, rows, {.shard = {.k = 0, .n = 2}}, marking(), no_progress), Bad_argument);
-  EXPECT_THROW(sweep(ids, rows, {.shard = {.k = 3, .n = 2}}, marking(), no_progress), Bad_argument);
 }
 
 }  // namespace

@@ -31,6 +31,26 @@ TEST(Every_frame_experiment, counts_what_it_checked_in_each_scene) {
   EXPECT_EQ(figures[0]["wrong_sets"], 0);
 }
 
+TEST(Every_frame_experiment, gives_the_same_files_in_shards) {
+  const Temporary_folder folder;
+  for (const std::string name : {"a", "b"})
+    folder.write(name + ".json", R"({"frames": 7, "objects": [
+        {"name": "still", "shape": {"icosphere": {"frequency": 5}}},
+        {"name": "moving", "shape": {"icosphere": {"frequency": 4}}, "motion": {"deform": [{"travel":
+          {"path": "linear", "way_points": [{"frame": 0, "at": [5, 0, 0]}, {"frame": 6, "at": [1.4, 0, 0]}]}}]}}]})");
+  const auto run = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"experiment", "every_frame", "--scenes", folder.path().string(),
+                                   "--only",     "b,a",         "--out",    (folder.path() / out).string()};
+    words.insert(words.end(), more.begin(), more.end());
+    expect_success(run_program(words));
+  };
+  run("whole", {});
+  for (const std::string shard : {"3/4", "1/4", "4/4", "2/4"}) run("parts", {"--shard", shard});
+  expect_success(run_program({"merge", (folder.path() / "parts").string(), "--quiet"}));
+  for (const std::string file : {"every_frame.json", "every_frame.md"})
+    EXPECT_EQ(read_bytes(folder.path() / "parts" / file), read_bytes(folder.path() / "whole" / file));
+}
+
 TEST(Every_frame_experiment, refuses_a_scene_that_does_not_exist) {
   const Temporary_folder folder;
   expect_error(run_program({"experiment", "every_frame", "--scenes", folder.path().string(), "--only", "none", "--out",

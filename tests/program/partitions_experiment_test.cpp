@@ -26,6 +26,9 @@ struct Partitions_experiment : ::testing::Test {
   }
   std::filesystem::path rows(const std::string& out) const { return folder.path() / out / "rows.jsonl"; }
 
+  std::filesystem::path shard(const std::string& name) const { return folder.path() / "parts" / "shards" / name; }
+  Program_result merge() const { return run_program({"merge", (folder.path() / "parts").string()}); }
+
   /// By id, without the fields that differ between two equal runs.
   std::map<std::string, nlohmann::json> results(const std::string& out) const {
     std::map<std::string, nlohmann::json> by_id;
@@ -93,20 +96,54 @@ TEST_F(Partitions_experiment, an_interrupt_ends_it_with_a_message_and_keeps_the_
   EXPECT_FALSE(read_json_lines(rows("a")).empty());
 }
 
-TEST_F(Partitions_experiment, shards_that_ran_separately_are_merged) {
-  const auto first = run_program(command("a", {"--shard", "1/2"}));
-  expect_success(first);
-  EXPECT_NE(first.out.find("12 of 25 runs are still to do"), std::string::npos) << first.out;
-  expect_success(run_program(command("b", {"--shard", "2/2"})));
-  EXPECT_EQ(results("a").size(), 13U);
-  EXPECT_EQ(results("b").size(), 12U);
-  const auto merged =
-      run_program(command("c", {"--merge", (folder.path() / "a").string() + "," + (folder.path() / "b").string()}));
-  expect_success(merged);
-  EXPECT_EQ(merged.out.find("still to do"), std::string::npos);
-  auto expected = results("a");
-  expected.merge(results("b"));
-  EXPECT_EQ(results("c"), expected);
+TEST_F(Partitions_experiment, shards_that_ran_separately_are_merged_to_the_rows_of_one_sweep) {
+  const auto second = run_program(command("parts", {"--shard", "2/2", "--jobs", "2"}));
+  expect_success(second);
+  EXPECT_EQ(second.out, "shard 2 of 2: 12 of 25 pieces, in " + shard("2-of-2.jsonl").string() + "\n");
+  EXPECT_EQ(content_of(folder.path() / "parts"), std::set<std::string>{"shards"});
+  expect_error(merge(), 3, "1 of 2 shards missing: 1");
+  expect_success(run_program(command("parts", {"--shard", "1/2"})));
+  expect_success(merge());
+  expect_success(run_program(command("whole")));
+  EXPECT_EQ(results("parts"), results("whole"));
+  std::vector<std::string> parts, whole;  // in the same order, too
+  for (const auto& row : read_json_lines(rows("parts"))) parts.push_back(row["id"]);
+  for (const auto& row : read_json_lines(rows("whole"))) whole.push_back(row["id"]);
+  EXPECT_EQ(parts, whole);
+  EXPECT_EQ(read_json(folder.path() / "parts" / "manifest.json"), read_json(folder.path() / "whole" / "manifest.json"));
+  const auto files = content_of(folder.path() / "parts");
+  EXPECT_TRUE(files.contains("figures.json") && files.contains("partitions.md"));
+}
+
+TEST_F(Partitions_experiment, a_shard_that_is_killed_keeps_its_finished_runs) {
+  const auto begun = shard("1-of-1.begun.jsonl");
+  Running_program program(command("parts", {"--shard", "1/1"}));
+  std::size_t kept = 0;
+  for (int wait = 0; wait < 2000 && kept < 3; ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (exists(begun)) kept = static_cast<std::size_t>(std::ranges::count(read_bytes(begun), '\n'));
+  }
+  program.send(SIGKILL);
+  EXPECT_EQ(program.wait().signal, SIGKILL);
+  const auto before = read_json_lines(begun);
+  ASSERT_GE(before.size(), 3U);
+  const auto status = run_program({"status", (folder.path() / "parts").string()});
+  EXPECT_NE(status.out.find("missing: 1; of these with finished runs: 1;"), std::string::npos) << status.out;
+  expect_success(run_program(command("parts", {"--shard", "1/1"})));
+  EXPECT_FALSE(exists(begun));
+  expect_success(merge());
+  const auto after = read_json_lines(rows("parts"));
+  ASSERT_EQ(after.size(), 25U);
+  for (std::size_t run = 0; run < before.size(); ++run) EXPECT_EQ(after[run], before[run]);  // times too
+}
+
+TEST_F(Partitions_experiment, a_damaged_shard_is_not_merged) {
+  for (const std::string index : {"1/2", "2/2"}) expect_success(run_program(command("parts", {"--shard", index})));
+  auto text = read_bytes(shard("1-of-2.jsonl"));
+  text[text.find("\"id\"") + 1] = 'x';
+  folder.write("parts/shards/1-of-2.jsonl", text);
+  expect_error(merge(), 3, "1-of-2.jsonl: is damaged");
+  EXPECT_FALSE(exists(rows("parts")));
 }
 
 TEST_F(Partitions_experiment, a_finished_sweep_is_reported_by_any_program) {
@@ -122,13 +159,17 @@ TEST_F(Partitions_experiment, a_finished_sweep_is_reported_by_any_program) {
 }
 
 TEST_F(Partitions_experiment, rows_of_another_program_are_not_mixed_in) {
-  expect_success(run_program(command("a", {"--shard", "1/20"})));
+  Running_program program(command("a"));
+  for (int wait = 0; wait < 2000; ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (exists(rows("a")) && !read_bytes(rows("a")).empty()) break;
+  }
+  program.send(SIGKILL);
+  program.wait();
   auto manifest = read_json(folder.path() / "a" / "manifest.json");
   manifest["revision"] = "another";
   std::ofstream(folder.path() / "a" / "manifest.json") << manifest;
-  expect_error(run_program(command("a", {"--shard", "1/20"})), 2, "another revision");
-  expect_error(run_program(command("b", {"--merge", (folder.path() / "a").string()})), 2, "another revision");
-  expect_error(run_program(command("b", {"--merge", (folder.path() / "none").string()})), 2, "manifest.json");
+  expect_error(run_program(command("a")), 2, "another revision");
 }
 
 TEST_F(Partitions_experiment, labels_of_another_tool_take_part) {
@@ -172,8 +213,8 @@ TEST_F(Partitions_experiment, writing_the_meshes_leaves_the_report_of_an_earlier
 }
 
 TEST_F(Partitions_experiment, bad_options_are_refused_in_one_line) {
-  for (const std::string shard : {"0/2", "3/2", "1", "a/b", "1/2/3", "1/", "-1/2"})
-    expect_error(run_program(command("a", {"--shard", shard})), 2, "--shard");
+  for (const std::string text : {"0/2", "3/2", "1", "a/b", "1/2/3", "1/", "-1/2"})
+    expect_error(run_program(command("a", {"--shard", text})), 2, "--shard");
   expect_error(run_program(command("a", {"--jobs", "0"})), 2, "jobs");
   expect_error(run_program({"experiment", "partitions", "--only", "nothing"}), 2, "nothing");
 }

@@ -39,5 +39,16 @@ TEST(Soak, checks_at_least_the_requested_pairs_and_reports_its_progress) {
   for (const auto& kind : result.kinds) EXPECT_GE(kind.pairs, 75'000U) << kind.name;
 }
 
+TEST(Soak, is_the_sum_of_its_kinds_in_any_order) {
+  const auto whole = soak(5, 1);
+  ASSERT_EQ(whole.kinds.size(), soak_kinds());
+  for (std::size_t kind = soak_kinds(); kind-- > 0;) {
+    const auto alone = soak_one_kind(5, kind, 1);
+    EXPECT_EQ(alone.name, whole.kinds[kind].name);
+    EXPECT_EQ(alone.pairs, whole.kinds[kind].pairs);
+    EXPECT_EQ(alone.intersecting, whole.kinds[kind].intersecting);
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

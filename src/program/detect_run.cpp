@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program/detect_run.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "lodestone/detection/frame_at_once.h"
+#include "lodestone/io/scenes/given_objects.h"
+#include "lodestone/queries/exhaustive.h"
+#include "program/notes.h"
+
+namespace lodestone {
+
+namespace {
+
+bool is_scene(const std::filesystem::path& input) { return input.extension() == ".json"; }
+
+Scene load(const Detect_command& command) {
+  const auto& inputs = command.inputs;
+  if (inputs.size() == 1 && is_scene(inputs[0])) return read_scene(inputs[0], {.allow_outside = command.allow_outside});
+  for (const auto& input : inputs)
+    if (is_scene(input)) throw Bad_argument(input.string() + ": a scene must be the only input");
+  Scene scene = scene_of(inputs, {.allow_outside = command.allow_outside});
+  if (inputs.size() == 1 && !command.options.exact.self_collision)
+    throw Bad_argument(inputs[0].string() +
+                       ": one mesh alone has nothing to collide with; give a scene or two meshes, or --self for "
+                       "collisions with itself");
+  return scene;
+}
+
+/// The page also shows the candidates, which are listed outside the timed stages.
+Detector_options detector_options(const Detect_command& command) {
+  Detector_options options = command.options;
+  options.list_candidates = !command.html.empty();
+  if (command.independent_frames) options.exact.loosest = std::numeric_limits<double>::infinity();
+  return options;
+}
+
+/// Whether the first frame may be made without a detector. Files of results tell what the detector has built.
+bool asks_once(const Detect_command& command, const Scene& scene) {
+  const bool prints_only = command.out.empty() && command.html.empty() && command.paraview.empty() && !command.json;
+  return scene.frames == 1 && scene.objects.size() == 2 && !scene.ignores({0, 1}) && prints_only &&
+         !command.chooses_strategy && !command.closest && !command.options.exact.self_collision &&
+         can_answer_at_once(command.options);
+}
+
+}  // namespace
+
+Detect_run::Detect_run(const Detect_command& command) : command_(command), scene_(load(command)) {
+  summary_.measurement.setting.options = command.options;
+  if (command.merge_shards) return;  // others have played the frames
+  asks_once_ = asks_once(command, scene_);
+  if (command.options.mode == Mode::certified) compute_motions();
+  if (!asks_once_) make_detector();
+  if (!command.html.empty()) page_.emplace(command, scene_, *detector_);
+  if (!command.paraview.empty()) paraview_.emplace(command.paraview, scene_.frames);
+}
+
+void Detect_run::note_seams() const {
+  if (finds_all(command_.options.mode) || !detector_) return;
+  for (Object_id id = 0; id < scene_.objects.size(); ++id)
+    note_joined_vertices(scene_.objects[id].name, detector_->object(id).joined_vertices(),
+                         scene_.objects[id].mesh.number_of_vertices());
+}
+
+/// What need not be posed as a whole is posed by the detector, where it looks.
+void Detect_run::compute_motions() {
+  for (const auto& object : scene_.objects)
+    computed_.push_back(object.motion.computed ? object.motion.computed(object.file_vertex) : nullptr);
+}
+
+void Detect_run::make_detector() {
+  detector_.emplace(detector_options(command_), make_strategy(command_.partition.name, command_.partition.settings));
+  for (std::size_t number = 0; number < scene_.objects.size(); ++number) {
+    auto& object = scene_.objects[number];
+    Object_options options{.particles = command_.options.particles > 0 ? 0 : object.particles,
+                           .groups = object.collision.groups,
+                           .meets = object.collision.meets};
+    if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
+    options.file_vertex = object.file_vertex;
+    options.name = object.name;
+    if (number < computed_.size() && computed_[number])
+      detector_->add(object.mesh, point_map(object.mesh, *computed_[number]), options);
+    else
+      detector_->add(object.mesh, options);
+  }
+  for (const auto& pair : scene_.ignored) detector_->ignore(pair.a, pair.b);
+}
+
+const Frame& Detect_run::detect() {
+  if (asks_once_) {
+    only_frame_ = frame_at_once(scene_.objects[0].mesh, scene_.objects[1].mesh, command_.options);
+    if (only_frame_) return *only_frame_;
+    make_detector();
+  }
+  detector_->update();
+  return detector_->detect();
+}
+
+/// Moves all objects; only those meshes whose positions somebody reads.
+void Detect_run::pose_all(std::size_t frame) {
+  const bool shown = command_.truth || !command_.html.empty() || !command_.paraview.empty();
+  for (std::size_t number = 0; number < scene_.objects.size(); ++number) {
+    const bool computed = number < computed_.size() && computed_[number];
+    if (computed) computed_[number]->set_frame(frame);
+    if (!computed || shown) pose(scene_.objects[number], frame);
+  }
+}
+
+void Detect_run::warm_up(std::size_t frame) {
+  pose_all(frame);
+  detect();
+}
+
+std::string Detect_run::play(std::size_t frame) {
+  pose_all(frame);
+  const Frame& result = detect();
+  tally_ = {.frame = frame, .pairs = result.pairs, .statistics = result.statistics};
+  if (paraview_) paraview_->add(frame, scene_, result);
+  const auto truth = find_truth();
+  if (truth) compare(result, *truth);
+  const auto closest = find_closest();
+  if (closest)
+    for (const auto& [a, b, found] : *closest) tally_.distances.push_back({{a, b}, found.points.distance});
+  add(tally_);
+  std::string line =
+      frame_line(frame, scene_.objects, result, command_.options, truth, closest, command_.independent_frames);
+  if (page_) page_->add(frame, result, line, any_truth(truth));
+  return line;
+}
+
+void Detect_run::add(const Frame_tally& tally) {
+  // The first frame builds, and finds all positions outside the caches.
+  summary_.add(tally, tally.frame > 0 || scene_.frames == 1);
+  contradicted_ |= tally.contradicted;
+  missed_ |= tally.missed;
+}
+
+/// Whether any surfaces intersect, if exhaustive checking decides it: it does not check for self-collisions.
+std::optional<bool> Detect_run::any_truth(const std::optional<std::vector<Pair_truth>>& truth) const {
+  if (!truth || command_.options.exact.self_collision) return std::nullopt;
+  return std::ranges::any_of(*truth, [](const auto& pair) { return !pair.faces.empty(); });
+}
+
+/// Calls `visit` with each pair of two objects that may collide.
+template <class Visit>
+void Detect_run::for_each_pair(const Visit& visit) const {
+  for (Object_id a = 0; a < scene_.objects.size(); ++a)
+    for (Object_id b = a + 1; b < scene_.objects.size(); ++b)
+      if (!scene_.ignores({a, b})) visit(a, b);
+}
+
+std::optional<std::vector<Pair_truth>> Detect_run::find_truth() const {
+  if (!command_.truth) return std::nullopt;
+  std::vector<Pair_truth> truth;
+  for_each_pair([&](Object_id a, Object_id b) {
+    truth.push_back({a, b, exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh)});
+  });
+  return truth;
+}
+
+std::optional<std::vector<Pair_closest>> Detect_run::find_closest() {
+  if (!command_.closest) return std::nullopt;
+  std::vector<Pair_closest> closest;
+  for_each_pair([&](Object_id a, Object_id b) { closest.push_back({a, b, detector_->closest(a, b)}); });
+  return closest;
+}
+
+void Detect_run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {
+  for (const auto& real : truth) {
+    const auto found =
+        std::ranges::find_if(result.pairs, [&](const auto& p) { return p.a == real.a && p.b == real.b; });
+    const bool listed = found != result.pairs.end();
+    const bool seen = listed && found->collides;
+    tally_.scores.push_back({{real.a, real.b}, !real.faces.empty(), seen});
+    tally_.missed |= !real.faces.empty() && !seen;
+    if (!listed) continue;
+    tally_.contradicted |= found->collides && real.faces.empty();
+    const auto contacts = result.contacts(*found);
+    // With a tolerance the contacts include faces that are only near.
+    tally_.contradicted |= command_.options.exact.tolerance == 0 && !std::ranges::includes(real.faces, contacts);
+    if (command_.options.contacts == Contact_query::all && !found->capped)
+      tally_.missed |= !std::ranges::includes(contacts, real.faces);
+  }
+}
+
+}  // namespace lodestone

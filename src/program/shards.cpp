@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program/shards.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <fstream>
+#include <span>
+
+#include "io/files/small_text.h"
+#include "lodestone/mesh/saved_state.h"
+#include "program/source_revision.h"
+
+namespace lodestone {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_shards = 100'000;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+const double program_start = now();
+
+/// Of this process, and of the largest of its children.
+long peak_kib() {
+  rusage self{}, children{};
+  ::getrusage(RUSAGE_SELF, &self);
+  ::getrusage(RUSAGE_CHILDREN, &children);
+  return self.ru_maxrss + children.ru_maxrss;
+}
+
+/// Hash of lines, one after the other.
+std::uint64_t add_to(std::uint64_t hash, std::string_view line) {
+  const std::array<std::uint64_t, 2> both{hash, hash_of(std::as_bytes(std::span(line)))};
+  return hash_of(std::as_bytes(std::span(both)));
+}
+
+std::string text_of(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+/// What a manifest says but for where the work was begun.
+std::string hash_of_work(Json manifest) {
+  manifest.erase("folder");
+  return text_of(add_to(0, manifest.dump()));
+}
+
+void write_whole(const std::filesystem::path& target, const std::string& text) {
+  Atomic_file file(target);
+  file.write(text);
+  file.commit();
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& cause) {
+  throw Bad_shard(file.string() + ": " + cause);
+}
+
+/// The last line, which must end with a line break; empty if there is none.
+std::string last_line(std::ifstream& in) {
+  in.seekg(0, std::ios::end);
+  std::string tail;
+  for (std::streamoff end = in.tellg(); end > 0;) {
+    const std::streamoff begin = std::max<std::streamoff>(0, end - 4096);
+    std::string part(static_cast<std::size_t>(end - begin), '\0');
+    in.seekg(begin);
+    in.read(part.data(), end - begin);
+    tail = part + tail;
+    if (tail.back() != '\n') return {};
+    const auto cut = tail.rfind('\n', tail.size() - 2);
+    if (tail.size() > 1 && cut != std::string::npos) return tail.substr(cut + 1);
+    end = begin;
+  }
+  return tail;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Shard::neighbours(std::size_t pieces) const {
+  std::vector<std::size_t> chosen;
+  for (std::size_t piece = pieces * (index - 1) / count; piece < pieces * index / count; ++piece)
+    chosen.push_back(piece);
+  return chosen;
+}
+
+std::vector<std::size_t> Shard::every_nth(std::size_t pieces) const {
+  std::vector<std::size_t> chosen;
+  for (std::size_t piece = index - 1; piece < pieces; piece += count) chosen.push_back(piece);
+  return chosen;
+}
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.index);
+  if (first.ec == std::errc() && first.ptr != end && *first.ptr == '/') {
+    const auto second = std::from_chars(first.ptr + 1, end, shard.count);
+    const bool read = second.ec == std::errc() && second.ptr == end;
+    if (read && shard.index >= 1 && shard.index <= shard.count && shard.count <= most_shards) return shard;
+  }
+  throw Bad_argument(
+      fmt::format("--shard: expected I/N with 1 <= I <= N <= {}, found '{}'", most_shards, printable(text)));
+}
+
+std::vector<std::string> words_of_work(const std::vector<std::string>& words) {
+  const auto is_one_of = [](const std::string& word, std::initializer_list<const char*> names) {
+    return std::ranges::any_of(names, [&](const char* name) { return word == name; });
+  };
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto name = words[i].substr(0, words[i].find('='));
+    const bool takes_value = is_one_of(name, {"--out", "--shard", "--jobs", "--threads"});
+    if (takes_value && name == words[i]) ++i;
+    if (!takes_value && !is_one_of(words[i], {"--quiet", "--merge-shards"})) kept.push_back(words[i]);
+  }
+  return kept;
+}
+
+Shard_folder::Shard_folder(std::filesystem::path results) : results_(std::move(results)) { read_manifest(); }
+
+Shard_folder::Shard_folder(std::filesystem::path results, const Work& work, Shard_use use)
+    : results_(std::move(results)) {
+  const Json wanted{{"command", work.command},       {"folder", std::filesystem::current_path().string()},
+                    {"revision", source_revision()}, {"shards", work.shards},
+                    {"pieces", work.pieces},         {"inputs", work.inputs}};
+  const auto file = folder() / "manifest.json";
+  // Shards that start together write the same bytes. Each shard also holds the hash of its own work.
+  if (!exists(file)) write_whole(file, wanted.dump(2) + "\n");
+  read_manifest();
+  for (const char* key : {"command", "revision", "shards", "pieces", "inputs"})
+    if (manifest_[key] != wanted[key] && (use == Shard_use::make || std::string_view(key) != "revision"))
+      throw Bad_argument(fmt::format("{}: these are shards of other work: {} is {}, not {}", folder().string(), key,
+                                     manifest_[key].dump(), wanted[key].dump()));
+}
+
+void Shard_folder::read_manifest() {
+  const auto file = folder() / "manifest.json";
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Bad_argument(file.string() + ": cannot be read: the folder has no shards");
+  manifest_ = Json::parse(in, nullptr, false);
+  const auto is_list = [](const Json& json) {
+    return json.is_array() && !json.empty() && std::ranges::all_of(json, [](const Json& j) { return j.is_string(); });
+  };
+  const bool right = manifest_.is_object() && manifest_.contains("command") && is_list(manifest_["command"]) &&
+                     manifest_.value("shards", Json()).is_number_unsigned() && manifest_["shards"] >= 1 &&
+                     manifest_["shards"] <= most_shards && manifest_.value("pieces", Json()).is_number_unsigned();
+  if (!right) throw Bad_argument(file.string() + ": is no manifest of shards");
+  work_ = hash_of_work(manifest_);
+}
+
+std::filesystem::path Shard_folder::file(std::size_t index) const {
+  const auto digits = std::to_string(shards()).size();
+  return folder() / fmt::format("{:0{}}-of-{}.jsonl", index, digits, shards());
+}
+
+std::filesystem::path Shard_folder::journal(std::size_t index) const {
+  return std::filesystem::path(file(index)).replace_extension(".begun.jsonl");
+}
+
+/// Checks what the record says of the whole file, but not the hash.
+Json Shard_folder::read_record(std::size_t index) const {
+  const auto path = file(index);
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail(path, "is missing");
+  const auto line = last_line(in);
+  Json record = Json::parse(line, nullptr, false);
+  const bool whole = record.is_object() && record.value("bytes", Json()).is_number_unsigned() &&
+                     record.value("lines", Json()).is_number_unsigned() && record.value("hash", Json()).is_string() &&
+                     record.value("work", Json()).is_string();
+  if (!whole) fail(path, "is damaged: it does not end with the record of a shard");
+  in.clear();
+  in.seekg(0, std::ios::end);
+  const auto bytes = static_cast<std::size_t>(in.tellg()) - line.size();
+  if (record["bytes"] != bytes)
+    fail(path, fmt::format("is damaged: it holds {} bytes before its record, expected {}", bytes,
+                           record["bytes"].get<std::size_t>()));
+  if (record["work"] != work_ || record["shard"] != index || record["of"] != shards())
+    fail(path, "is a shard of other work than manifest.json says");
+  return record;
+}
+
+Json Shard_folder::read(std::size_t index, const std::function<void(std::string_view)>& visit) const {
+  Json record = read_record(index);
+  std::ifstream in(file(index), std::ios::binary);
+  const std::size_t lines = record["lines"];
+  std::uint64_t hash = 0;
+  std::string line;
+  for (std::size_t number = 0; number < lines; ++number) {
+    if (!std::getline(in, line)) fail(file(index), "is damaged: it has fewer lines than its record says");
+    hash = add_to(hash, line);
+    try {
+      visit(line);
+    } catch (const Json::exception&) {
+      fail(file(index), fmt::format("is damaged: line {} is not what was written", number + 1));
+    }
+  }
+  if (record["hash"] != text_of(hash)) fail(file(index), "is damaged: its lines are not those that were written");
+  return record;
+}
+
+Shard_status Shard_folder::status(std::size_t index, Shard_check check) const {
+  if (!exists(file(index))) return {};
+  try {
+    return {.state = Shard_state::done,
+            .cause = {},
+            .record = check == Shard_check::all ? read(index, [](std::string_view) {}) : read_record(index)};
+  } catch (const Bad_shard& error) {
+    return {.state = Shard_state::broken, .cause = error.what(), .record = {}};
+  }
+}
+
+std::vector<Json> Shard_folder::read_all(const std::function<void(std::string_view)>& visit) const {
+  std::vector<std::size_t> missing;
+  for (std::size_t index = 1; index <= shards(); ++index)
+    if (!exists(file(index))) missing.push_back(index);
+  if (!missing.empty())
+    fail(folder(), fmt::format("{} of {} missing: {}", missing.size(), counted(shards(), "shard"), ranges_of(missing)));
+  std::vector<Json> records;
+  for (std::size_t index = 1; index <= shards(); ++index) records.push_back(read(index, visit));
+  return records;
+}
+
+void Shard_folder::note_merged() const {
+  write_whole(folder() / "merged", work_ + "\n");
+  for (const auto& entry : std::filesystem::directory_iterator(folder()))
+    if (entry.path().filename().string().starts_with('.')) {
+      std::error_code ignored;
+      std::filesystem::remove(entry.path(), ignored);
+    }
+}
+
+bool Shard_folder::is_merged() const {
+  std::string work;
+  std::ifstream(folder() / "merged") >> work;
+  return work == work_;
+}
+
+Shard_writer::Shard_writer(const Shard_folder& folder, std::size_t index)
+    : index_(index), count_(folder.shards()), work_(folder.work_), file_(folder.file(index)) {}
+
+void Shard_writer::add(std::string_view line) {
+  file_.write(line);
+  file_.write("\n");
+  hash_ = add_to(hash_, line);
+  ++lines_;
+  bytes_ += line.size() + 1;
+}
+
+void Shard_writer::commit(const Json& more) {
+  Json record{
+      {"shard", index_},
+      {"of", count_},
+      {"work", work_},
+      {"lines", lines_},
+      {"bytes", bytes_},
+      {"hash", text_of(hash_)},
+      {"seconds", now() - program_start},
+      {"peak_kib", peak_kib()},
+      {"finished",
+       fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())))}};
+  record.update(more);
+  file_.write(record.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  file_.commit();
+}
+
+std::string ranges_of(const std::vector<std::size_t>& numbers, std::string_view separator) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t last = i;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    parts.push_back(last == i ? std::to_string(numbers[i]) : fmt::format("{}-{}", numbers[i], numbers[last]));
+    i = last + 1;
+  }
+  return fmt::format("{}", fmt::join(parts, separator));
+}
+
+}  // namespace lodestone

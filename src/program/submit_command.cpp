@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "io/files/small_text.h"
+#include "lodestone/io/files/atomic_file.h"
+#include "program/commands.h"
+#include "program/exit_codes.h"
+#include "program/shards.h"
+#include "program/slurm_scripts.h"
+
+namespace lodestone {
+
+namespace {
+
+bool is_on_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (::access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
+
+/// Runs a program, found on the PATH, and waits for it.
+/// @return what it wrote to its standard output
+/// @throws Error  it cannot be started, or fails: it has then said why
+std::string output_of(std::vector<std::string> words) {
+  std::vector<char*> pointers;
+  for (auto& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe can be made");
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  pid_t process = 0;
+  const int cause = ::posix_spawnp(&process, pointers[0], &actions, nullptr, pointers.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[1]);
+  std::string text;
+  std::array<char, 4096> bytes{};
+  for (;;) {
+    const auto count = cause == 0 ? ::read(ends[0], bytes.data(), bytes.size()) : 0;
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    text.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+  ::close(ends[0]);
+  if (cause != 0) throw Error(words[0] + " cannot be started: " + std::generic_category().message(cause));
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw Error(fmt::format("{} failed, with {} {}", words[0], WIFEXITED(status) ? "exit code" : "signal",
+                            WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status)));
+  return text;
+}
+
+/// The number that an option of the command has, such as --threads; 1 if it is not there.
+std::size_t number_of(const std::vector<std::string>& words, const std::string& option) {
+  std::size_t number = 1;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    std::string text;
+    if (words[i].starts_with(option + "=")) text = words[i].substr(option.size() + 1);
+    if (words[i] == option && i + 1 < words.size()) text = words[i + 1];
+    if (!text.empty()) std::from_chars(text.data(), text.data() + text.size(), number);
+  }
+  if (number == 0) throw Bad_argument(option + " 0 takes a whole node: give the number of cores");
+  return number;
+}
+
+void check(const Submit_command& command) {
+  if (command.words.front() != "detect" && command.words.front() != "experiment")
+    throw Bad_argument("only detect and experiment can run in shards, found '" + command.words.front() + "'");
+  for (const auto& word : command.words)
+    for (const std::string option : {"--out", "--shard"})
+      if (word == option || word.starts_with(option + "="))
+        throw Bad_argument(fmt::format("{} belongs to submit: give it before --", option));
+  if (!command.dry_run && !is_on_path("sbatch"))
+    throw Bad_argument(
+        "sbatch is not on the PATH: submit on a node of a Slurm cluster, or write the scripts with "
+        "--dry-run");
+}
+
+/// What the shards that are done have needed at most.
+struct Needs {
+  double seconds = 0, kib = 0, bytes = 0;
+};
+
+struct Shards_to_do {
+  std::vector<std::size_t> shards;
+  Needs needs;
+};
+
+Shards_to_do look_at(const Shard_folder& folder) {
+  Shards_to_do result;
+  for (std::size_t index = 1; index <= folder.shards(); ++index) {
+    const auto status = folder.status(index, Shard_check::all);
+    if (status.state != Shard_state::done) {
+      result.shards.push_back(index);
+      continue;
+    }
+    auto& needs = result.needs;
+    needs.seconds = std::max(needs.seconds, status.record["seconds"].get<double>());
+    needs.kib = std::max(needs.kib, status.record["peak_kib"].get<double>());
+    needs.bytes = std::max(needs.bytes, status.record["bytes"].get<double>());
+  }
+  return result;
+}
+
+/// Makes one shard, which counts.
+void run_pilot(const Submit_command& command, std::size_t shards) {
+  std::vector<std::string> words{this_program()};
+  words.insert(words.end(), command.words.begin(), command.words.end());
+  const auto shard = fmt::format("{}/{}", (shards + 1) / 2, shards);
+  words.insert(words.end(), {"--out", command.out.string(), "--quiet", "--shard", shard});
+  fmt::print("pilot: shard {}\n", shard);
+  std::fflush(stdout);
+  output_of(words);
+}
+
+std::size_t rounded_up(double value, std::size_t least) {
+  return std::max(least, static_cast<std::size_t>(std::ceil(value)));
+}
+
+Slurm_job job_of(const Submit_command& command, std::size_t shards, const Shards_to_do& to_do) {
+  Slurm_job job{.program = this_program(),
+                .folder = std::filesystem::current_path(),
+                .out = absolute(command.out),
+                .words = command.words,
+                .shards = shards,
+                .tasks = std::min(command.tasks, shards),
+                .to_do = {},
+                .cores = std::max(number_of(command.words, "--threads"), number_of(command.words, "--jobs")),
+                .partition = command.partition,
+                .account = command.account};
+  for (const auto shard : to_do.shards) job.to_do.push_back((shard - 1) % job.tasks + 1);
+  std::ranges::sort(job.to_do);
+  const auto [first, last] = std::ranges::unique(job.to_do);
+  job.to_do.erase(first, last);
+
+  const auto& needs = to_do.needs;
+  const auto jobs = static_cast<double>(number_of(command.words, "--jobs"));
+  const auto shards_per_task = static_cast<double>((shards + job.tasks - 1) / job.tasks);
+  job.minutes = command.minutes > 0 ? command.minutes : rounded_up(command.time_factor * needs.seconds / 60, 1);
+  job.minutes = rounded_up(static_cast<double>(job.minutes) * shards_per_task, 1);
+  job.megabytes =
+      command.megabytes > 0 ? command.megabytes : rounded_up(command.memory_factor * jobs * needs.kib / 1024, 100);
+  // A merge holds the rows of experiments as JSON, and copies frames: see docs/scale.md.
+  constexpr double least_merged_bytes_per_minute = 60 * 5e6, memory_per_byte = 12;
+  const double bytes = needs.bytes * static_cast<double>(shards);
+  job.merge_minutes = rounded_up(command.time_factor * bytes / least_merged_bytes_per_minute, 10);
+  const bool keeps_rows = command.words.front() == "experiment";
+  job.merge_megabytes = job.megabytes + rounded_up(keeps_rows ? memory_per_byte * bytes / 1e6 : 0, 100);
+  return job;
+}
+
+void write_whole(const std::filesystem::path& target, const std::string& text) {
+  Atomic_file file(target);
+  file.write(text);
+  file.commit();
+}
+
+/// @return the number of the job
+std::string submitted(std::vector<std::string> words) {
+  auto answer = output_of(std::move(words));
+  answer = answer.substr(0, answer.find_first_of(";\n"));  // --parsable: JOB[;CLUSTER]
+  if (answer.empty()) throw Error("sbatch has not said which job it has made");
+  return answer;
+}
+
+void submit(const std::filesystem::path& array, const std::filesystem::path& merge, const Submit_command& command,
+            std::size_t shards) {
+  const auto job = submitted({"sbatch", "--parsable", array.string()});
+  const auto merging = submitted({"sbatch", "--parsable", "--dependency=afterany:" + job, merge.string()});
+  fmt::print("job {}: {}; job {}: merge\nwatch: squeue --jobs {},{}; lodestone status {}\n", job,
+             counted(shards, "shard"), merging, job, merging, printable(shell_word(command.out.string())));
+}
+
+}  // namespace
+
+int run(const Submit_command& command) {
+  check(command);
+  const auto manifest = command.out / "shards" / "manifest.json";
+  const bool measured = command.minutes > 0 && command.megabytes > 0;
+  std::size_t shards = command.shards;
+  Shards_to_do to_do;
+  for (std::size_t shard = 1; shard <= shards; ++shard) to_do.shards.push_back(shard);
+  if (exists(manifest)) {
+    const Shard_folder folder(command.out);
+    if (folder.command() != words_of_work(command.words))
+      throw Bad_argument(fmt::format("{}: these are shards of other work: lodestone {}",
+                                     manifest.parent_path().string(), shell_words(folder.command())));
+    shards = folder.shards();
+    to_do = look_at(folder);
+  }
+  if (to_do.shards.size() == shards && !measured) {
+    run_pilot(command, shards);
+    to_do = look_at(Shard_folder(command.out));
+  }
+  if (to_do.shards.empty()) {
+    fmt::print("all shards are done; next: lodestone merge {}\n", printable(shell_word(command.out.string())));
+    return exit_code::success;
+  }
+  const auto job = job_of(command, shards, to_do);
+  const auto array = job.out / "slurm" / "array.sh", merge = job.out / "slurm" / "merge.sh";
+  write_whole(array, array_script(job));
+  write_whole(merge, merge_script(job));
+  fmt::print("{}: {} and {} MB per task; scripts: {} and {}\n", counted(to_do.shards.size(), "shard"),
+             counted(job.minutes, "minute"), job.megabytes, printable(array.string()), printable(merge.string()));
+  if (command.dry_run)
+    fmt::print("nothing was submitted: sbatch array.sh, then sbatch --dependency=afterany:JOB merge.sh\n");
+  else
+    submit(array, merge, command, to_do.shards.size());
+  return exit_code::success;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Long work in shards, as a user runs it: made in any order, stopped, damaged, merged.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "program/run_program.h"
+#include "program/shards.h"
+#include "support/temporary_folder.h"
+
+namespace lodestone::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// Two spheres that wobble and meet, and one that stays apart from frame 30 on.
+constexpr std::string_view three_spheres = R"({"frames": 50, "objects": [
+    {"name": "still", "shape": {"icosphere": {"frequency": 6}},
+     "motion": {"deform": [{"wobble": {"amplitude": 0.05, "waves": 1, "period": 20, "phase": 0}}]}},
+    {"name": "moving", "shape": {"icosphere": {"frequency": 5}}, "motion": {"deform": [{"travel":
+      {"path": "smooth", "way_points": [{"frame": 0, "at": [3, 0, 0]}, {"frame": 20, "at": [1.6, 0, 0]},
+                                        {"frame": 49, "at": [3, 1, 0]}]}}]}},
+    {"name": "leaving", "shape": {"icosphere": {"frequency": 3}}, "motion": {"deform": [{"travel":
+      {"path": "smooth", "way_points": [{"frame": 0, "at": [-1, 0, 0]}, {"frame": 30, "at": [-4, 0, 0]}]}}]}}]})";
+
+struct Shards : ::testing::Test {
+  Temporary_folder folder;
+  const std::string scene = folder.write("scene.json", three_spheres).string();
+
+  std::filesystem::path path(const std::string& name) const { return folder.path() / name; }
+  Words detect(const std::string& out, const Words& more = {}) const {
+    Words words{"detect", scene, "--out", path(out).string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  void make(const std::string& out, std::size_t index, std::size_t count, Words more = {}) const {
+    more.insert(more.end(), {"--shard", std::to_string(index) + "/" + std::to_string(count)});
+    expect_success(run_program(detect(out, more)));
+  }
+  std::string frames(const std::string& out) const { return read_bytes(path(out) / "frames.jsonl"); }
+  Program_result merge(const std::string& out, const Words& more = {}) const {
+    Words words{"merge", path(out).string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  }
+  nlohmann::json status(const std::string& out) const {
+    const auto result = run_program({"status", path(out).string(), "--json"});
+    expect_success(result);
+    return nlohmann::json::parse(result.out);
+  }
+  /// Without what was measured.
+  nlohmann::json summary(const std::string& out) const {
+    auto json = read_json(path(out) / "summary.json");
+    EXPECT_EQ(json.erase("median_microseconds"), 1U);
+    EXPECT_EQ(json.erase("build_microseconds"), 1U);
+    return json;
+  }
+};
+
+TEST_F(Shards, merged_are_the_bytes_of_one_run_whatever_is_asked_for) {
+  const std::vector<Words> asked{
+      {},
+      {"--contacts", "all", "--points", "--normals", "--closest", "--truth"},
+      {"--within", "0.05", "--containment", "--parting", "--patches"},
+      {"--contacts", "yes_no", "--self", "--particles", "4"},
+  };
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const auto whole = "whole" + std::to_string(i), parts = "parts" + std::to_string(i);
+    const auto one = run_program(detect(whole, asked[i]));
+    expect_success(one);
+    for (const std::size_t index : {4, 1, 3, 2}) make(parts, index, 4, asked[i]);
+    const auto merged = merge(parts);
+    expect_success(merged);
+    EXPECT_EQ(frames(parts), frames(whole));
+    EXPECT_EQ(summary(parts), summary(whole));
+    EXPECT_NE(merged.out.find("colliding"), std::string::npos);
+  }
+}
+
+TEST_F(Shards, of_mode_certified_are_the_bytes_of_one_run_with_independent_frames) {
+  expect_success(run_program(detect("plain", {"--mode", "certified", "--contacts", "all"})));
+  expect_success(run_program(detect("whole", {"--mode", "certified", "--contacts", "all", "--independent-frames"})));
+  for (const std::size_t index : {1, 2, 3}) make("parts", index, 3, {"--mode", "certified", "--contacts", "all"});
+  expect_success(merge("parts"));
+  EXPECT_EQ(frames("parts"), frames("whole"));
+  auto plain = read_json_lines(path("plain") / "frames.jsonl"), parts = read_json_lines(path("parts") / "frames.jsonl");
+  ASSERT_EQ(plain.size(), parts.size());
+  for (std::size_t frame = 0; frame < plain.size(); ++frame) EXPECT_EQ(plain[frame]["pairs"], parts[frame]["pairs"]);
+}
+
+TEST_F(Shards, of_particles_need_a_warm_up_and_are_the_same_each_time) {
+  expect_error(run_program(detect("a", {"--mode", "particles", "--shard", "1/2"})), 2, "--warm-up W");
+  expect_error(run_program(detect("a", {"--mode", "particles", "--warm-up", "3"})), 2, "--warm-up is for --shard");
+  expect_error(run_program(detect("a", {"--warm-up", "3", "--shard", "1/2"})), 2, "--warm-up needs --mode particles");
+  for (const std::string out : {"a", "b"}) {
+    for (const std::size_t index : {1, 2}) make(out, index, 2, {"--mode", "particles", "--warm-up", "3"});
+    expect_success(merge(out));
+  }
+  EXPECT_EQ(frames("a"), frames("b"));
+  expect_success(run_program(detect("whole", {"--mode", "particles"})));
+  // From the first frame on a shard with a long warm-up has walked the same way.
+  for (const std::size_t index : {1, 2}) make("long", index, 2, {"--mode", "particles", "--warm-up", "50"});
+  expect_success(merge("long"));
+  EXPECT_EQ(frames("long"), frames("whole"));
+}
+
+TEST_F(Shards, more_than_there_are_frames_are_merged_too) {
+  expect_success(run_program(detect("whole")));
+  for (std::size_t index = 1; index <= 53; ++index) make("parts", index, 53);
+  expect_success(merge("parts"));
+  EXPECT_EQ(frames("parts"), frames("whole"));
+  EXPECT_EQ(summary("parts"), summary("whole"));
+}
+
+TEST_F(Shards, that_are_done_are_not_made_again) {
+  make("a", 2, 3);
+  const auto file = path("a") / "shards" / "2-of-3.jsonl";
+  const auto before = read_bytes(file);
+  const auto again = run_program(detect("a", {"--shard", "2/3"}));
+  expect_success(again);
+  EXPECT_EQ(again.out, "shard 2 of 3 is done already\n");
+  EXPECT_EQ(read_bytes(file), before);
+}
+
+TEST_F(Shards, of_other_work_are_refused_in_the_same_folder) {
+  make("a", 1, 3);
+  expect_error(run_program(detect("a", {"--shard", "2/4"})), 2, "shards is 3, not 4");
+  expect_error(run_program(detect("a", {"--shard", "2/3", "--self"})), 2, "other work: command is");
+  make("a", 2, 3, {"--threads", "2"});  // changes no result
+  folder.write("scene.json", std::string(three_spheres).replace(three_spheres.find("1.6"), 3, "1.7"));
+  make("a", 2, 3);  // the first and the last frame are the same: see docs/scale.md
+  folder.write("scene.json", std::string(three_spheres).replace(three_spheres.find("[3, 1, 0]"), 9, "[3, 2, 0]"));
+  expect_error(run_program(detect("a", {"--shard", "3/3"})), 2, "other work: inputs is");
+  auto manifest = read_json(path("a") / "shards" / "manifest.json");
+  manifest["revision"] = "another";
+  std::ofstream(path("a") / "shards" / "manifest.json") << manifest;
+  folder.write("scene.json", three_spheres);
+  expect_error(run_program(detect("a", {"--shard", "3/3"})), 2, "other work: revision is");
+  EXPECT_EQ(status("a")["broken"].size(), 2U);  // they are not of what the manifest says
+}
+
+TEST_F(Shards, that_are_missing_stop_a_merge_and_status_names_them) {
+  for (const std::size_t index : {2, 3, 7}) make("a", index, 9);
+  const auto refused = merge("a");
+  expect_error(refused, 3, "6 of 9 shards missing: 1, 4-6, 8-9");
+  EXPECT_EQ(content_of(path("a")), std::set<std::string>{"shards"});
+  const auto json = status("a");
+  EXPECT_EQ(json["shards"], 9);
+  EXPECT_EQ(json["done"], 3);
+  EXPECT_EQ(json["missing"], (std::vector<int>{1, 4, 5, 6, 8, 9}));
+  EXPECT_EQ(json["last"]["shard"], 7);
+  EXPECT_EQ(json["merged"], false);
+  EXPECT_NE(json["next"].get<std::string>().find("lodestone submit --slurm --out "), std::string::npos);
+  const auto text = run_program({"status", path("a").string()});
+  expect_success(text);
+  EXPECT_NE(text.out.find("3 of 9 shards done; missing: 1, 4-6, 8-9; not merged"), std::string::npos) << text.out;
+}
+
+TEST_F(Shards, that_are_damaged_are_found_and_made_again) {
+  expect_success(run_program(detect("whole")));
+  for (const std::size_t index : {1, 2, 3}) make("a", index, 3);
+  const auto file = path("a") / "shards" / "2-of-3.jsonl";
+  const auto whole = read_bytes(file);
+  auto changed = whole;
+  changed[changed.find("\"collides\":") + 12] ^= 1;
+  const std::vector<std::string> damages{whole.substr(0, whole.size() / 2),
+                                         whole.substr(0, whole.size() - 1),
+                                         "",
+                                         "\n",
+                                         whole + "x\n",
+                                         whole.substr(whole.find('\n') + 1),
+                                         changed};
+  for (const auto& damage : damages) {
+    folder.write("a/shards/2-of-3.jsonl", damage);
+    expect_error(merge("a"), 3, "2-of-3.jsonl: is damaged");
+    const auto json = status("a");
+    ASSERT_EQ(json["broken"].size(), 1U);
+    EXPECT_EQ(json["broken"][0]["shard"], 2);
+    make("a", 2, 3);
+    expect_success(merge("a"));
+    EXPECT_EQ(frames("a"), frames("whole"));
+    EXPECT_EQ(status("a")["merged"], true);
+    EXPECT_EQ(status("a")["next"], "");
+  }
+}
+
+TEST_F(Shards, that_are_interrupted_or_find_a_full_disk_leave_nothing_that_counts) {
+  Program_options small;
+  small.largest_file = 2000;
+  const auto full = run_program(detect("a", {"--contacts", "all", "--shard", "1/2"}), small);
+  EXPECT_EQ(full.exit_code, 4) << full.err;
+  EXPECT_NE(full.err.find("1-of-2.jsonl: cannot be written"), std::string::npos) << full.err;
+  EXPECT_EQ(content_of(path("a") / "shards"), std::set<std::string>{"manifest.json"});
+  Running_program killed(detect("a", {"--contacts", "all", "--shard", "1/2"}));
+  killed.send(SIGKILL);
+  EXPECT_EQ(killed.wait().signal, SIGKILL);
+  EXPECT_EQ(status("a")["done"], 0);
+  folder.write("a/shards/.1-of-2.jsonl.17.0", "left by a killed process");
+  for (const std::size_t index : {1, 2}) make("a", index, 2, {"--contacts", "all"});
+  expect_success(merge("a"));
+  EXPECT_EQ(content_of(path("a") / "shards"),
+            (std::set<std::string>{"1-of-2.jsonl", "2-of-2.jsonl", "manifest.json", "merged"}));
+}
+
+TEST_F(Shards, answer_when_merged_as_one_run_would) {
+  for (const std::size_t index : {1, 2}) make("a", index, 2, {"--exit-code", "--json"});
+  const auto merged = merge("a");
+  EXPECT_EQ(merged.exit_code, 1);
+  EXPECT_EQ(nlohmann::json::parse(merged.out)["frames"], 50);
+  const auto quiet = merge("a", {"--quiet"});
+  EXPECT_EQ(quiet.exit_code, 1);
+}
+
+TEST_F(Shards, refuse_options_that_need_all_frames) {
+  expect_error(run_program({"detect", scene, "--shard", "1/2"}), 2, "--shard needs --out");
+  expect_error(run_program(detect("a", {"--shard", "1/2", "--html", path("a.html").string()})), 2, "--html");
+  expect_error(run_program(detect("a", {"--shard", "1/2", "--paraview", path("p").string()})), 2, "ParaView");
+  for (const std::string shard : {"0/2", "3/2", "1", "a/b", "1/2/3", "1/", "-1/2", "1/100001"})
+    expect_error(run_program(detect("a", {"--shard", shard})), 2, "--shard: expected I/N");
+  EXPECT_FALSE(exists(path("a")));
+}
+
+TEST_F(Shards, of_no_folder_are_refused) {
+  expect_error(run_program({"status", path("none").string()}), 2, "the folder has no shards");
+  expect_error(run_program({"merge", path("none").string()}), 2, "the folder has no shards");
+  create_directories(path("a") / "shards");
+  folder.write("a/shards/manifest.json", R"({"command": ["convert"], "shards": 0, "pieces": 1})");
+  expect_error(run_program({"status", path("a").string()}), 2, "is no manifest of shards");
+  folder.write("a/shards/manifest.json", R"({"command": ["convert"], "shards": 1, "pieces": 1, "folder": "/"})");
+  expect_error(run_program({"merge", path("a").string()}), 3, "neither detect nor an experiment");
+}
+
+TEST(Shard, parts_hold_each_piece_once) {
+  for (const std::size_t pieces : {0, 1, 7, 24})
+    for (const std::size_t count : {1, 3, 8}) {
+      std::vector<std::size_t> in_order, of_all;
+      for (std::size_t index = 1; index <= count; ++index) {
+        for (const auto piece : Shard{index, count}.neighbours(pieces)) in_order.push_back(piece);
+        for (const auto piece : Shard{index, count}.every_nth(pieces)) of_all.push_back(piece);
+      }
+      std::ranges::sort(of_all);
+      std::vector<std::size_t> expected(pieces);
+      std::iota(expected.begin(), expected.end(), std::size_t{0});
+      EXPECT_EQ(in_order, expected);
+      EXPECT_EQ(of_all, expected);
+    }
+}
+
+TEST(Shard, words_of_work_leave_out_what_changes_no_result) {
+  EXPECT_EQ(words_of_work({"detect", "a b", "--out", "x", "--shard=1/2", "--quiet", "--threads", "2", "--self"}),
+            (Words{"detect", "a b", "--self"}));
+  EXPECT_EQ(ranges_of({1, 2, 3, 5, 8, 9}), "1-3, 5, 8-9");
+  EXPECT_EQ(ranges_of({4}, ","), "4");
+}
+
+}  // namespace
+}  // namespace lodestone::test
