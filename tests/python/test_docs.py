@@ -17,12 +17,12 @@ import lodestone
 from conftest import cube, root, sphere
 
 first_steps = sorted((root / "docs" / "first_steps").glob("*.md"))
-pages = [root / "python" / "README.md", root / "docs" / "python.md", *first_steps]
+pages = [root / "README.md", root / "python" / "README.md", root / "docs" / "python.md", *first_steps]
 
 
 def names_for(page):
     """What a page takes for granted."""
-    if page.parent.name != "python":
+    if page.name != "README.md":
         return {}
     a, b = cube(), cube().moved(0.5, 0.25, 0.125)
     return {"vertices_a": a.vertices, "faces_a": a.faces, "vertices_b": b.vertices, "faces_b": b.faces,
