@@ -240,7 +240,7 @@ TEST(Shard, parts_hold_each_piece_once) {
       std::vector<std::size_t> in_order, of_all;
       for (std::size_t index = 1; index <= count; ++index) {
         for (const auto piece : Shard{index, count}.neighbours(pieces)) in_order.push_back(piece);
-        for (const auto piece : Shard{index, count}.every_nth(pieces)) of_all.push_back(piece);
+        for (const auto piece : Shard{index, count}.scattered(pieces)) of_all.push_back(piece);
       }
       std::ranges::sort(of_all);
       std::vector<std::size_t> expected(pieces);
