@@ -164,12 +164,12 @@ Slurm_job job_of(const Submit_command& command, std::size_t shards, const Shards
   job.minutes = rounded_up(static_cast<double>(job.minutes) * shards_per_task, 1);
   job.megabytes =
       command.megabytes > 0 ? command.megabytes : rounded_up(command.memory_factor * jobs * needs.kib / 1024, 100);
-  // A merge holds the rows of experiments as JSON, and copies frames: see docs/scale.md.
-  constexpr double least_merged_bytes_per_minute = 60 * 5e6, memory_per_byte = 12;
-  const double bytes = needs.bytes * static_cast<double>(shards);
-  job.merge_minutes = rounded_up(command.time_factor * bytes / least_merged_bytes_per_minute, 10);
+  // A merge of an experiment holds all rows and reports about them; that of detect copies frames: see docs/scale.md.
   const bool keeps_rows = command.words.front() == "experiment";
-  job.merge_megabytes = job.megabytes + rounded_up(keeps_rows ? memory_per_byte * bytes / 1e6 : 0, 100);
+  const double least_bytes_per_second = keeps_rows ? 1e6 : 1e7, memory_per_byte = keeps_rows ? 12 : 0;
+  const double bytes = needs.bytes * static_cast<double>(shards);
+  job.merge_minutes = rounded_up(command.time_factor * bytes / least_bytes_per_second / 60, 10);
+  job.merge_megabytes = job.megabytes + rounded_up(memory_per_byte * bytes / 1e6, 100);
   return job;
 }
 
