@@ -24,6 +24,7 @@
 #include "program/exit_codes.h"
 #include "program/shards.h"
 #include "program/slurm_scripts.h"
+#include "program/source_revision.h"
 
 namespace lodestone {
 
@@ -209,6 +210,9 @@ int run(const Submit_command& command) {
     if (folder.command() != words_of_work(command.words))
       throw Bad_argument(fmt::format("{}: these are shards of other work: lodestone {}",
                                      manifest.parent_path().string(), shell_words(folder.command())));
+    if (folder.manifest()["revision"] != source_revision())
+      throw Bad_argument(fmt::format("{}: these shards were made by revision {}, which must make the others too",
+                                     manifest.parent_path().string(), folder.manifest()["revision"].dump()));
     shards = folder.shards();
     to_do = look_at(folder);
   }
