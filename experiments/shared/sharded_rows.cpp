@@ -21,7 +21,7 @@ std::vector<Row> merged_rows(const Experiment_context& context, const Sharded_ex
   std::vector<std::size_t> order;
   for (std::size_t index = 1; index <= folder.shards(); ++index) {
     const auto shard = folder.shard(index);
-    const auto pieces = work.neighbours ? shard.neighbours(work.pieces) : shard.every_nth(work.pieces);
+    const auto pieces = work.neighbours ? shard.neighbours(work.pieces) : shard.scattered(work.pieces);
     order.insert(order.end(), pieces.begin(), pieces.end());
   }
   std::size_t line_number = 0;
@@ -39,7 +39,7 @@ std::vector<Row> merged_rows(const Experiment_context& context, const Sharded_ex
 
 std::vector<std::size_t> chosen_pieces(const Experiment_context& context, const Sharded_experiment& work) {
   const Shard shard = context.shard.value_or(Shard());
-  return work.neighbours ? shard.neighbours(work.pieces) : shard.every_nth(work.pieces);
+  return work.neighbours ? shard.neighbours(work.pieces) : shard.scattered(work.pieces);
 }
 
 Shard_folder shard_folder(const Experiment_context& context, const Sharded_experiment& work) {

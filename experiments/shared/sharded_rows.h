@@ -16,7 +16,7 @@ namespace lodestone {
 /// An experiment as pieces, each of which gives one row, whichever process makes it.
 struct Sharded_experiment {
   std::size_t pieces = 0;
-  bool neighbours = false;        ///< the pieces of a shard follow each other; else a shard has every n-th
+  bool neighbours = false;        ///< the pieces of a shard follow each other; else they are scattered
   nlohmann::ordered_json inputs;  ///< see Work
 };
 

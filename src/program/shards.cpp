@@ -43,6 +43,14 @@ std::uint64_t add_to(std::uint64_t hash, std::string_view line) {
   return hash_of(std::as_bytes(std::span(both)));
 }
 
+/// A permutation of all numbers, the same everywhere: the end of SplitMix64.
+std::uint64_t scrambled(std::uint64_t number) {
+  number += 0x9e3779b97f4a7c15;
+  number = (number ^ number >> 30) * 0xbf58476d1ce4e5b9;
+  number = (number ^ number >> 27) * 0x94d049bb133111eb;
+  return number ^ number >> 31;
+}
+
 std::string text_of(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 /// What a manifest says but for where the work was begun.
@@ -88,9 +96,14 @@ std::vector<std::size_t> Shard::neighbours(std::size_t pieces) const {
   return chosen;
 }
 
-std::vector<std::size_t> Shard::every_nth(std::size_t pieces) const {
+std::vector<std::size_t> Shard::scattered(std::size_t pieces) const {
+  // Every count-th piece would often be of one kind: pieces are listed by their settings.
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (std::size_t piece = 0; piece < pieces; ++piece) order.emplace_back(scrambled(piece), piece);
+  std::ranges::sort(order);
   std::vector<std::size_t> chosen;
-  for (std::size_t piece = index - 1; piece < pieces; piece += count) chosen.push_back(piece);
+  for (std::size_t i = index - 1; i < pieces; i += count) chosen.push_back(order[i].second);
+  std::ranges::sort(chosen);
   return chosen;
 }
 

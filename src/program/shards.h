@@ -30,8 +30,8 @@ struct Shard {
 
   /// Pieces that follow each other. All shards together have each piece once, in order.
   std::vector<std::size_t> neighbours(std::size_t pieces) const;
-  /// Every count-th piece, for pieces that take longer and longer.
-  std::vector<std::size_t> every_nth(std::size_t pieces) const;
+  /// Pieces from everywhere, in order: shards then take about the same time, and one is a sample of all.
+  std::vector<std::size_t> scattered(std::size_t pieces) const;
 };
 
 /// Reads `I/N`.

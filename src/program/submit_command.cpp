@@ -24,6 +24,7 @@
 #include "program/exit_codes.h"
 #include "program/shards.h"
 #include "program/slurm_scripts.h"
+#include "program/source_revision.h"
 
 namespace lodestone {
 
@@ -164,12 +165,12 @@ Slurm_job job_of(const Submit_command& command, std::size_t shards, const Shards
   job.minutes = rounded_up(static_cast<double>(job.minutes) * shards_per_task, 1);
   job.megabytes =
       command.megabytes > 0 ? command.megabytes : rounded_up(command.memory_factor * jobs * needs.kib / 1024, 100);
-  // A merge holds the rows of experiments as JSON, and copies frames: see docs/scale.md.
-  constexpr double least_merged_bytes_per_minute = 60 * 5e6, memory_per_byte = 12;
-  const double bytes = needs.bytes * static_cast<double>(shards);
-  job.merge_minutes = rounded_up(command.time_factor * bytes / least_merged_bytes_per_minute, 10);
+  // A merge of an experiment holds all rows and reports about them; that of detect copies frames: see docs/scale.md.
   const bool keeps_rows = command.words.front() == "experiment";
-  job.merge_megabytes = job.megabytes + rounded_up(keeps_rows ? memory_per_byte * bytes / 1e6 : 0, 100);
+  const double least_bytes_per_second = keeps_rows ? 1e6 : 1e7, memory_per_byte = keeps_rows ? 12 : 0;
+  const double bytes = needs.bytes * static_cast<double>(shards);
+  job.merge_minutes = rounded_up(command.time_factor * bytes / least_bytes_per_second / 60, 10);
+  job.merge_megabytes = job.megabytes + rounded_up(memory_per_byte * bytes / 1e6, 100);
   return job;
 }
 
@@ -209,6 +210,9 @@ int run(const Submit_command& command) {
     if (folder.command() != words_of_work(command.words))
       throw Bad_argument(fmt::format("{}: these are shards of other work: lodestone {}",
                                      manifest.parent_path().string(), shell_words(folder.command())));
+    if (folder.manifest()["revision"] != source_revision())
+      throw Bad_argument(fmt::format("{}: these shards were made by revision {}, which must make the others too",
+                                     manifest.parent_path().string(), folder.manifest()["revision"].dump()));
     shards = folder.shards();
     to_do = look_at(folder);
   }

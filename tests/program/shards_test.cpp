@@ -92,6 +92,44 @@ TEST_F(Shards, of_mode_certified_are_the_bytes_of_one_run_with_independent_frame
   for (std::size_t frame = 0; frame < plain.size(); ++frame) EXPECT_EQ(plain[frame]["pairs"], parts[frame]["pairs"]);
 }
 
+/// A strip of triangles, or the same faces with their vertices anywhere.
+std::string strip_off(std::size_t faces, bool crumpled) {
+  std::string text = "OFF\n" + std::to_string(faces + 2) + " " + std::to_string(faces) + " 0\n";
+  for (std::size_t v = 0; v < faces + 2; ++v) {
+    const std::size_t place = crumpled ? v * 7919 % (faces + 2) : v;
+    text += std::to_string(place) + " " + std::to_string(v % 2) + " " + std::to_string(place % 3) + "\n";
+  }
+  for (std::size_t f = 0; f < faces; ++f)
+    text += "3 " + std::to_string(f) + " " + std::to_string(f + 1) + " " + std::to_string(f + 2) + "\n";
+  return text;
+}
+
+TEST_F(Shards, keep_trees_that_one_run_rebuilds_and_answer_alike) {
+  for (std::size_t frame = 0; frame < 8; ++frame)
+    folder.write("strip_" + std::to_string(frame) + ".off", strip_off(400, frame >= 3));
+  const auto strips = path("strip_*.off").string();
+  const auto run = [&](const std::string& out, const Words& more) {
+    Words words{"detect", strips, "shape:teapot", "--contacts", "all", "--self", "--out", path(out).string()};
+    words.insert(words.end(), more.begin(), more.end());
+    expect_success(run_program(words));
+  };
+  run("plain", {});
+  run("independent", {"--independent-frames"});
+  for (const std::string index : {"1/3", "2/3", "3/3"}) run("parts", {"--shard", index});
+  expect_success(merge("parts"));
+  EXPECT_EQ(frames("parts"), frames("independent"));
+  std::size_t rebuilds = 0;
+  const auto plain = read_json_lines(path("plain") / "frames.jsonl");
+  const auto parts = read_json_lines(path("parts") / "frames.jsonl");
+  ASSERT_EQ(plain.size(), 8U);
+  for (std::size_t frame = 0; frame < plain.size(); ++frame) {
+    EXPECT_EQ(plain[frame]["pairs"], parts[frame]["pairs"]);
+    EXPECT_EQ(parts[frame]["statistics"]["rebuilds"], 0);
+    rebuilds += plain[frame]["statistics"]["rebuilds"].get<std::size_t>();
+  }
+  EXPECT_GT(rebuilds, 0U);
+}
+
 TEST_F(Shards, of_particles_need_a_warm_up_and_are_the_same_each_time) {
   expect_error(run_program(detect("a", {"--mode", "particles", "--shard", "1/2"})), 2, "--warm-up W");
   expect_error(run_program(detect("a", {"--mode", "particles", "--warm-up", "3"})), 2, "--warm-up is for --shard");
@@ -240,7 +278,7 @@ TEST(Shard, parts_hold_each_piece_once) {
       std::vector<std::size_t> in_order, of_all;
       for (std::size_t index = 1; index <= count; ++index) {
         for (const auto piece : Shard{index, count}.neighbours(pieces)) in_order.push_back(piece);
-        for (const auto piece : Shard{index, count}.every_nth(pieces)) of_all.push_back(piece);
+        for (const auto piece : Shard{index, count}.scattered(pieces)) of_all.push_back(piece);
       }
       std::ranges::sort(of_all);
       std::vector<std::size_t> expected(pieces);

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -123,6 +124,10 @@ TEST_F(Submit, says_what_is_wrong_in_one_line) {
   expect_error(run_program({"submit", "--out", out.string(), "--", "detect", scene}), 2, "--slurm is required");
   expect_success(submit({"--dry-run", "--shards", "2"}));
   expect_error(submit({"--dry-run"}, {"--self"}), 2, "shards of other work");
+  auto manifest = read_json(out / "shards" / "manifest.json");
+  manifest["revision"] = "another";
+  std::ofstream(out / "shards" / "manifest.json") << manifest;
+  expect_error(submit({"--dry-run"}), 2, "made by revision \"another\"");
 }
 
 TEST_F(Submit, of_a_command_that_fails_writes_no_scripts) {
