@@ -127,7 +127,8 @@ void add_files(py::module_& module) {
         return pairs;
       }, "Pairs of objects that are left out.")
       .def("groups", [](const Python_scene& self, std::size_t object) {
-        const auto& [groups, meets] = self.objects.at(object)->groups;
+        if (object >= self.objects.size()) throw py::index_error("there is no object " + std::to_string(object));
+        const auto& [groups, meets] = self.objects[object]->groups;
         return std::pair(groups, meets);
       }, py::arg("object"), "The collision groups of an object: (groups, meets), for `Detector.add`.")
       .def("__repr__", [](const Python_scene& self) {

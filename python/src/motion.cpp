@@ -57,6 +57,7 @@ void set_joints(Python_skin& skin, const py::object& matrices) {
   std::vector<Eigen::Affine3d> joints;
   for (py::ssize_t j = 0; j < numbers.shape(0); ++j) {
     const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data(j, 0, 0));
+    if (!matrix.allFinite()) throw Bad_argument("matrix " + std::to_string(j) + " has a number that is not finite");
     if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
       throw Bad_argument("the last row of matrix " + std::to_string(j) + " must be 0, 0, 0, 1");
     joints.emplace_back(matrix);

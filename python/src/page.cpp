@@ -6,6 +6,7 @@
 #include "detector.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/io/results/page.h"
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
 #include "program/meeting_points.h"
 #include "program/viewer.h"
@@ -40,9 +41,13 @@ void add_contacts(std::vector<Page_contact>& contacts, const Page_contact& faces
 std::vector<Page_contact> contacts_of(const Frame& frame, const std::vector<Shown_object>& objects) {
   std::vector<Page_contact> contacts;
   for (const auto& pair : frame.pairs)
-    for (const auto& [a, b] : frame.contacts(pair))
+    for (const auto& [a, b] : frame.contacts(pair)) {
+      if (pair.a >= objects.size() || pair.b >= objects.size() || a >= objects[pair.a].faces.size() ||
+          b >= objects[pair.b].faces.size())
+        throw Bad_argument("objects of the frame have been removed or rebuilt since it was found");
       add_contacts(contacts, {.a = pair.a, .face_a = a, .b = pair.b, .face_b = b},
                    meeting_points(triangle_of_face(objects[pair.a], a), triangle_of_face(objects[pair.b], b)));
+    }
   return contacts;
 }
 
@@ -50,6 +55,7 @@ std::vector<Page_contact> contacts_of(const Frame& frame, const std::vector<Show
 std::string numbers_of_frame(const Frame& frame, const std::vector<Shown_object>& objects) {
   Json pairs = Json::array();
   for (const auto& pair : frame.pairs) {
+    if (pair.a >= objects.size() || pair.b >= objects.size()) continue;  // removed since
     Json faces = Json::array();
     for (const auto& [a, b] : frame.contacts(pair)) faces.push_back({a, b});
     pairs.push_back({{"a", title_of_object(objects[pair.a], pair.a)},
@@ -97,14 +103,19 @@ class Python_page {
                .frames_per_second = frames_per_second}) {
     std::size_t id = 0;
     for (auto& object : detector_->shown()) {
+      sizes_.push_back({object.positions.size(), object.faces.size()});
       page_.add_object(title_of_object(object, id++), static_cast<std::uint32_t>(object.positions.size() / 3),
                        std::move(object.faces));
     }
   }
 
   void add(const Python_frame& frame) {
+    if (!py::isinstance<Python_detector>(frame.detector) ||
+        &frame.detector.cast<const Python_detector&>() != detector_.get())
+      throw Bad_argument("the frame is not one of the page's detector");
     const auto& options = detector_->options();
     auto objects = detector_->shown();
+    check_objects(objects);
     const py::gil_scoped_release release;
     Page_frame shown{.positions = {}, .numbers = numbers_of_frame(*frame.frame, objects)};
     if (finds_all(options.mode)) shown.stages = stages_of(*frame.frame, options.exact.tolerance > 0);
@@ -127,8 +138,20 @@ class Python_page {
   std::size_t frames() const { return page_.frames(); }
 
  private:
+  /// @throws Bad_argument  the detector has other objects than when the page was begun
+  /// @throws Bad_mesh      a coordinate that is not finite
+  void check_objects(const std::vector<Shown_object>& objects) const {
+    bool same = objects.size() == sizes_.size();
+    for (std::size_t i = 0; same && i < objects.size(); ++i)
+      same = sizes_[i] == std::pair(objects[i].positions.size(), objects[i].faces.size());
+    if (!same)
+      throw Bad_argument("the detector has other objects or faces than when the page was begun: begin another page");
+    for (std::size_t i = 0; i < objects.size(); ++i) check_finite(objects[i].positions, title_of_object(objects[i], i));
+  }
+
   std::shared_ptr<Python_detector> detector_;
   Page page_;
+  std::vector<std::pair<std::size_t, std::size_t>> sizes_;  ///< per object: coordinates and faces
 };
 
 }  // namespace

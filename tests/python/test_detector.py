@@ -269,6 +269,8 @@ def test_a_skin_is_posed_where_it_is_near():
     assert frame.statistics["vertices_read"] < len(ball.vertices)
     with pytest.raises(lodestone.BadArgument):
         skin.set_joints(np.zeros((3, 4, 4)))
+    with pytest.raises(lodestone.BadArgument, match="matrix 1 has a number that is not finite"):
+        skin.set_joints([np.eye(4), np.full((4, 4), np.nan)])
     with pytest.raises(lodestone.BadArgument, match="use set_frame|come from a skin"):
         detector.set_vertices(0, ball.vertices)
 

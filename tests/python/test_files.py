@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import lodestone
-from conftest import cube, sphere
+from conftest import cube, root, sphere
 
 
 @pytest.mark.parametrize("extension", ["obj", "off", "ply", "stl", "gltf", "glb"])
@@ -125,3 +125,38 @@ def test_a_frame_shows_itself():
     assert len(page) == 1 and "<iframe" in page._repr_html_()
     with pytest.raises(lodestone.BadArgument, match="only a frame of a Detector"):
         lodestone.find_collisions(cube(), sphere()).frame.show()
+
+
+def test_a_page_takes_only_frames_of_its_detector():
+    detector, other = lodestone.Detector(), lodestone.Detector()
+    for each, count in ((detector, 2), (other, 3)):
+        for _ in range(count):
+            each.add(cube())
+    page = lodestone.Page(detector)
+    with pytest.raises(lodestone.BadArgument, match="not one of the page's detector"):
+        page.add(other.detect())
+    with pytest.raises(lodestone.BadArgument, match="not one of the page's detector"):
+        page.add(lodestone.find_collisions(cube(), cube()).frame)
+    page.add(detector.detect())
+    assert len(page) == 1
+
+
+def test_a_page_refuses_what_changed_after_the_frame():
+    detector = lodestone.Detector()
+    box, ball = cube(), sphere(8)
+    detector.add(box), detector.add(ball)
+    page, frame = lodestone.Page(detector), detector.detect()
+    box.vertices[0, 0] = np.nan
+    with pytest.raises(lodestone.BadMesh, match="finite"):
+        frame.show()
+    box.vertices[0, 0] = 0
+    detector.rebuild(1, ball.vertices, ball.faces[:3])
+    with pytest.raises(lodestone.BadArgument, match="removed or rebuilt"):
+        frame.show()
+    with pytest.raises(lodestone.BadArgument, match="begin another page"):
+        page.add(detector.detect())
+    detector.remove(1)
+    with pytest.raises(lodestone.BadArgument, match="removed or rebuilt"):
+        frame.show()
+    with pytest.raises(IndexError, match="there is no object 7"):
+        lodestone.read_scene(root / "data" / "scenes" / "teapot_sphere_1.json").groups(7)
