@@ -12,7 +12,24 @@ const in_folder = (name) => path.join(folder, name);
 const make = (shape, name) => execFileSync(program, ['convert', `shape:${shape}`, in_folder(name), '--quiet']);
 make('teapot', 'teapot.obj');
 make('{"icosphere": {"frequency": 12}}', 'ball.stl');
-make('{"icosphere": {"frequency": 8, "radius": 0.01, "center": [9, 9, 9]}}', 'far.ply');
+fs.writeFileSync(in_folder('far.ply'), `ply
+format ascii 1.0
+element vertex 4
+property double x
+property double y
+property double z
+element face 4
+property list uchar int vertex_indices
+end_header
+9 9 9
+10 9 9
+9 10 9
+9 9 10
+3 0 2 1
+3 0 1 3
+3 1 2 3
+3 2 0 3
+`);
 fs.writeFileSync(in_folder('broken.off'), 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n');
 // Coordinates that are subnormal, or huge: exact numbers decide.
 const triangles = (scale) => `OFF\n6 2 0\n0 0 0\n${4 * scale} 0 0\n0 ${4 * scale} 0\n${scale} ${scale} ${-scale}\n${scale} ${scale} ${scale}\n${scale} ${-3 * scale} 0\n3 0 1 2\n3 3 4 5\n`;

@@ -23,7 +23,7 @@ struct Split_double<boost::multiprecision::cpp_int> {
       numerator <<= exponent;
     else
       denominator <<= -exponent;
-    const auto common = gcd(numerator, denominator);
+    const boost::multiprecision::cpp_int common = gcd(numerator, denominator);  // `auto` would be an expression
     numerator /= common;
     denominator /= common;
   }
