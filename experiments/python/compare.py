@@ -65,7 +65,7 @@ def compare_frames(vertices, faces, poses, contacts, rounds, dtype):
     in_cpp, in_python = [], []
     for turn in range(rounds):
         for number, pose in enumerate(poses):
-            given = pose.astype(dtype)
+            given = pose.astype(dtype, copy=False)
 
             def frame():
                 np.copyto(moving, given)
