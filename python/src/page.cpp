@@ -8,7 +8,7 @@
 #include "lodestone/io/results/page.h"
 #include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
-#include "program/meeting_points.h"
+#include "program/page_contacts.h"
 #include "program/viewer.h"
 
 /// The viewer's page of the frames of a detector.
@@ -28,16 +28,6 @@ Triangle triangle_of_face(const Shown_object& object, std::uint32_t face) {
                        [&](std::uint32_t corner) { return object.positions.data() + 3 * std::size_t{corner}; });
 }
 
-/// One contact per side of a polygon, or one for a segment or a point.
-void add_contacts(std::vector<Page_contact>& contacts, const Page_contact& faces, const Intersection_points& points) {
-  const std::size_t sides = points.size() > 2 ? points.size() : 1;
-  for (std::size_t i = 0; i < sides; ++i) {
-    const Point &from = points[i], &to = points[(i + 1) % points.size()];
-    contacts.push_back(faces);
-    contacts.back().ends = {from.x(), from.y(), from.z(), to.x(), to.y(), to.z()};
-  }
-}
-
 std::vector<Page_contact> contacts_of(const Frame& frame, const std::vector<Shown_object>& objects) {
   std::vector<Page_contact> contacts;
   for (const auto& pair : frame.pairs)
@@ -45,8 +35,8 @@ std::vector<Page_contact> contacts_of(const Frame& frame, const std::vector<Show
       if (pair.a >= objects.size() || pair.b >= objects.size() || a >= objects[pair.a].faces.size() ||
           b >= objects[pair.b].faces.size())
         throw Bad_argument("objects of the frame have been removed or rebuilt since it was found");
-      add_contacts(contacts, {.a = pair.a, .face_a = a, .b = pair.b, .face_b = b},
-                   meeting_points(triangle_of_face(objects[pair.a], a), triangle_of_face(objects[pair.b], b)));
+      add_page_contacts(contacts, {.a = pair.a, .face_a = a, .b = pair.b, .face_b = b},
+                        triangle_of_face(objects[pair.a], a), triangle_of_face(objects[pair.b], b));
     }
   return contacts;
 }

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "program/frame_log.h"
-#include "program/meeting_points.h"
+#include "program/page_contacts.h"
 #include "program/missed_frames.h"
 
 namespace lodestone {
@@ -52,16 +52,6 @@ Positions positions_of(const Surface_mesh& mesh) {
 Triangle triangle_of(const Surface_mesh& mesh, const Corners& corners) {
   const auto point = [&](std::uint32_t vertex) { return mesh.point(Surface_mesh::Vertex_index(vertex)); };
   return {point(corners[0]), point(corners[1]), point(corners[2])};
-}
-
-/// One contact per side of a polygon, or one for a segment or a point.
-void add_contacts(std::vector<Page_contact>& contacts, const Page_contact& faces, const Intersection_points& points) {
-  const std::size_t sides = points.size() > 2 ? points.size() : 1;
-  for (std::size_t i = 0; i < sides; ++i) {
-    const Point &from = points[i], &to = points[(i + 1) % points.size()];
-    contacts.push_back(faces);
-    contacts.back().ends = {from.x(), from.y(), from.z(), to.x(), to.y(), to.z()};
-  }
 }
 
 Json microseconds(const Stage_times& seconds) {
@@ -146,9 +136,9 @@ std::vector<Page_contact> Page_log::contacts(const Frame& result) const {
   std::vector<Page_contact> contacts;
   for (const auto& pair : result.pairs)
     for (const auto& [a, b] : result.contacts(pair))
-      add_contacts(contacts, {.a = pair.a, .face_a = a, .b = pair.b, .face_b = b},
-                   meeting_points(triangle_of(scene_.objects[pair.a].mesh, page_.corners(pair.a)[a]),
-                                  triangle_of(scene_.objects[pair.b].mesh, page_.corners(pair.b)[b])));
+      add_page_contacts(contacts, {.a = pair.a, .face_a = a, .b = pair.b, .face_b = b},
+                        triangle_of(scene_.objects[pair.a].mesh, page_.corners(pair.a)[a]),
+                        triangle_of(scene_.objects[pair.b].mesh, page_.corners(pair.b)[b]));
   return contacts;
 }
 

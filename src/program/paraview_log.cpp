@@ -9,7 +9,7 @@
 
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/region_maps.h"
-#include "program/meeting_points.h"
+#include "program/page_contacts.h"
 
 namespace lodestone {
 

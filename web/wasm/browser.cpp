@@ -10,7 +10,7 @@
 #include "lodestone/io/results/page.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/indexed_mesh.h"
-#include "program/meeting_points.h"
+#include "program/page_contacts.h"
 
 namespace lodestone {
 
@@ -42,13 +42,9 @@ struct Read_mesh {
 /// The ends of the segments in which faces meet, for the viewer.
 std::vector<Page_contact> contacts_of(const Frame& frame, const Read_mesh& a, const Read_mesh& b, Object_id id_b) {
   std::vector<Page_contact> contacts;
-  for (const auto& [face_a, face_b] : frame.face_pairs) {
-    const auto points = meeting_points(a.triangle(face_a), b.triangle(face_b));
-    for (std::size_t i = 0; i < (points.size() > 2 ? points.size() : 1); ++i) {
-      const Point &from = points[i], &to = points[(i + 1) % points.size()];
-      contacts.push_back({0, face_a, id_b, face_b, {{from.x(), from.y(), from.z(), to.x(), to.y(), to.z()}}});
-    }
-  }
+  for (const auto& [face_a, face_b] : frame.face_pairs)
+    add_page_contacts(contacts, {.a = 0, .face_a = face_a, .b = id_b, .face_b = face_b}, a.triangle(face_a),
+                      b.triangle(face_b));
   return contacts;
 }
 
