@@ -40,11 +40,11 @@ Python_object::Python_object(std::string name, std::shared_ptr<Python_skin> skin
     : name_(std::move(name)),
       faces_(faces_of(faces)),
       skin_(std::move(skin)),
-      posed_(skin_->points.shape().rest().begin(), skin_->points.shape().rest().end()),
+      posed_(skin_->points().shape().rest().begin(), skin_->points().shape().rest().end()),
       mesh_(std::make_unique<Indexed_mesh>(Coordinates(posed_), faces_)) {}
 
 Object_id Python_object::add_to(Detector<Any_strategy>& detector, const Object_options& options) const {
-  if (skin_) return detector.add(std::as_const(*mesh_), point_map(*mesh_, skin_->points), options);
+  if (skin_) return detector.add(std::as_const(*mesh_), point_map(*mesh_, skin_->points()), options);
   if (computed_) return detector.add(std::as_const(*mesh_), point_map(*mesh_, *computed_), options);
   return detector.add(*mesh_, options);
 }
@@ -102,7 +102,7 @@ Python_detector::Reading::Reading(Python_detector& detector) : detector_(detecto
     object->refresh();
     if (object->skin() != nullptr) skins.insert(object->skin());
   }
-  for (auto* skin : skins) skins_.emplace_back(skin->in_use);
+  for (auto* skin : skins) skins_.push_back(std::make_unique<Python_skin::Reading>(*skin));
   detector.reading_ = true;
 }
 
@@ -137,7 +137,6 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
   return change([&](auto& detector) {
     const Object_id id = object->add_to(detector, options);
     objects_.push_back(std::move(object));
-    kept_.emplace_back();
     return id;
   });
 }
@@ -239,7 +238,7 @@ void Python_detector::remove(Object_id object) {
     detector.remove(object);
     removed = std::move(objects_[object]);
   });
-  kept_[object].clear();
+  // With the GIL again: what it keeps goes.
 }
 
 }  // namespace lodestone::python

@@ -39,6 +39,9 @@ class Python_object {
   /// Poses an animation.
   void set_frame(std::size_t frame);
 
+  /// Keeps a Python object as long as this lives.
+  void keep(py::object kept) { kept_.push_back(std::move(kept)); }
+
   /// Where its vertices are. Without the GIL.
   std::vector<double> positions() const;
   /// The skin that a query reads; null: none.
@@ -53,6 +56,7 @@ class Python_object {
   std::shared_ptr<Python_animation> animation_;  ///< null: there is none
   std::unique_ptr<Computed_motion> computed_;    ///< its motion, if it is computed on demand
   std::shared_ptr<Python_skin> skin_;
+  std::vector<py::object> kept_;
   std::vector<double> posed_;  ///< of an animation or a skin: a pose, at first that at rest
   std::unique_ptr<Indexed_mesh> mesh_;
 };
@@ -93,9 +97,19 @@ class Python_detector {
     return change(detector_);
   }
 
+  /// The same for what a visitor may know.
+  template <class Question>
+  auto look(const Question& question) {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(mutex_);
+    return question(detector_);
+  }
+
   const Detector_options& options() const { return settings_.options; }
   const std::string& strategy() const { return settings_.strategy; }
-  std::string name(Object_id object) const { return at(object).name(); }
+  std::string name(Object_id object) {
+    return look([&](auto&) { return at(object).name(); });
+  }
   py::array positions(Object_id object);
   /// Positions and faces of all objects, for a page.
   struct Shown_object {
@@ -105,8 +119,14 @@ class Python_detector {
   };
   std::vector<Shown_object> shown();
 
-  /// Keeps a Python object as long as an object of the detector.
-  void keep(Object_id object, py::object kept) { kept_.at(object).push_back(std::move(kept)); }
+  /// Promises something about the motion of an object, which keeps the promise.
+  template <class Promise>
+  void promise(Object_id object, const Promise& promise, py::object kept) {
+    change([&](auto& detector) {
+      detector.promise(object, promise);
+      at(object).keep(std::move(kept));
+    });
+  }
   void remove(Object_id object);
 
  private:
@@ -119,7 +139,7 @@ class Python_detector {
 
    private:
     Python_detector& detector_;
-    std::vector<std::unique_lock<std::mutex>> skins_;
+    std::vector<std::unique_ptr<Python_skin::Reading>> skins_;
   };
 
   /// @throws Bad_argument  a visitor called
@@ -130,7 +150,6 @@ class Python_detector {
   std::recursive_mutex mutex_;  // a visitor that calls the detector gets an error, not a deadlock
   bool reading_ = false;        ///< a query reads; who gets here then is its visitor
   std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed
-  std::vector<std::vector<py::object>> kept_;
   Detector<Any_strategy> detector_;
 };
 

@@ -200,9 +200,7 @@ py::object particles(Python_detector& self, Object_id object) {
 
 template <class Promise>
 void promise(Python_detector& self, Object_id object, const py::object& given) {
-  const auto& made = given.cast<const Promise&>();
-  self.change([&](auto& detector) { detector.promise(object, made); });
-  self.keep(object, given);
+  self.promise(object, given.cast<const Promise&>(), given);
 }
 
 void promise_any(Python_detector& self, Object_id object, const py::object& given) {
@@ -373,10 +371,10 @@ void add_detector(py::module_& module) {
            "The vertex of each particle: (particles,) int64. Modes 'particles' and 'senin', after the first `detect`.")
       .def("vertices", &Python_detector::positions, py::arg("object"), "Where the vertices of an object are: (V, 3), a copy.")
       .def("name", &Python_detector::name, py::arg("object"), "The name of an object.")
-      .def("__len__", [](Python_detector& self) { return self.change([](auto& detector) { return detector.size(); }); },
+      .def("__len__", [](Python_detector& self) { return self.look([](auto& detector) { return detector.size(); }); },
            "Number of objects added, removed ones included.")
       .def("__contains__", [](Python_detector& self, Object_id object) {
-        return self.change([&](auto& detector) { return detector.has(object); });
+        return self.look([&](auto& detector) { return detector.has(object); });
       }, py::arg("object"), "Whether there is an object with this id.");
 }
 

@@ -96,7 +96,7 @@ py::object depths_of_frame(const Python_frame& self) {
   return array;
 }
 
-py::object pairs_of_frame(const py::object& self) {
+py::tuple pairs_of_frame(const py::object& self) {
   py::list pairs;
   for (const auto& result : self.cast<const Python_frame&>().frame->pairs)
     pairs.append(py::cast(Python_pair{self, result}));
@@ -203,10 +203,7 @@ void add_frames(py::module_& module) {
       .def_property_readonly("capped", [](const Python_frame& self) { return self.frame->capped(); },
                              "Whether contacts are missing because of `most_contacts`.")
       .def_property_readonly(
-          "pairs",
-          [](const py::object& self) {
-            return kept(self, "_pairs", [&](const Python_frame&) { return pairs_of_frame(self); });
-          },
+          "pairs", pairs_of_frame,  // not kept: a pair holds its frame, and neither would ever be freed
           "The object pairs that the broad phase let pass, in the order of (a, b): a tuple of `Pair`.")
       .def_property_readonly(
           "faces", [](const py::object& self) { return kept(self, "_faces", faces_of_frame); },

@@ -63,15 +63,15 @@ void set_joints(Python_skin& skin, const py::object& matrices) {
     joints.emplace_back(matrix);
   }
   py::gil_scoped_release release;
-  const std::lock_guard lock(skin.in_use);
-  skin.points.set_joints(joints);
+  skin.change([&](Skinned_points& points) { points.set_joints(joints); });
 }
 
 void set_weights(Python_skin& skin, const py::object& weights) {
   const auto numbers = numbers_of(weights, "weights");
   py::gil_scoped_release release;
-  const std::lock_guard lock(skin.in_use);
-  skin.points.set_weights({numbers.data(), static_cast<std::size_t>(numbers.size())});
+  skin.change([&](Skinned_points& points) {
+    points.set_weights({numbers.data(), static_cast<std::size_t>(numbers.size())});
+  });
 }
 
 py::array pose_array(const Python_animation& self, py::ssize_t frame) {
@@ -98,9 +98,9 @@ std::vector<double> Python_animation::pose(std::size_t frame) const {
 }
 
 std::vector<double> Python_skin::pose() const {
-  const std::lock_guard lock(in_use);
-  std::vector<double> coordinates(3 * std::size_t{points.vertex_count()});
-  points.pose_all(coordinates);
+  const std::lock_guard lock(mutex_);
+  std::vector<double> coordinates(3 * std::size_t{points_.vertex_count()});
+  points_.pose_all(coordinates);
   return coordinates;
 }
 
@@ -150,9 +150,9 @@ void add_motions(py::module_& module) {
       .def("set_joints", set_joints, py::arg("matrices"),
            "The motions of all joints, from rest to where they are now: (joints, 4, 4), affine, column vectors.")
       .def("set_weights", set_weights, py::arg("weights"), "The weight of each morph target: (targets,).")
-      .def_property_readonly("joint_count", [](const Python_skin& self) { return self.points.joint_count(); },
+      .def_property_readonly("joint_count", [](const Python_skin& self) { return self.points().joint_count(); },
                              "Number of joints.")
-      .def_property_readonly("target_count", [](const Python_skin& self) { return self.points.shape().target_count(); },
+      .def_property_readonly("target_count", [](const Python_skin& self) { return self.points().shape().target_count(); },
                              "Number of morph targets.")
       .def("pose",
            [](const Python_skin& self) {

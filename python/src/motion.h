@@ -11,6 +11,7 @@
 
 #include "lodestone/detection/collision_groups.h"
 #include "lodestone/io/motion/animation.h"
+#include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/skinned_points.h"
 
 /// Surfaces that move by themselves: animations from files, and skins.
@@ -31,13 +32,38 @@ struct Python_animation {
 };
 
 /// Joints and morph targets that move vertices. A change of the pose waits until no query reads it.
-struct Python_skin {
-  Python_skin(Skinned_points skinned) : points(std::move(skinned)) {}
+class Python_skin {
+ public:
+  explicit Python_skin(Skinned_points points) : points_(std::move(points)) {}
 
+  const Skinned_points& points() const { return points_; }
+  /// All positions. Without the GIL.
   std::vector<double> pose() const;
+  /// Changes the pose. Without the GIL.
+  /// @throws Bad_argument  a visitor calls, whose query reads the pose
+  template <class Change>
+  void change(const Change& change) {
+    const std::lock_guard lock(mutex_);
+    if (readers_ > 0) throw Bad_argument("a visitor changed a skin that its detector reads");
+    change(points_);
+  }
 
-  Skinned_points points;
-  mutable std::mutex in_use;
+  /// While a query reads the pose.
+  class Reading {
+   public:
+    explicit Reading(Python_skin& skin) : skin_(skin), lock_(skin.mutex_) { ++skin_.readers_; }
+    ~Reading() { --skin_.readers_; }
+    Reading(const Reading&) = delete;
+
+   private:
+    Python_skin& skin_;
+    std::unique_lock<std::recursive_mutex> lock_;
+  };
+
+ private:
+  Skinned_points points_;
+  mutable std::recursive_mutex mutex_;  // a visitor may look at the pose, and ask other detectors
+  int readers_ = 0;                     ///< queries of the thread that holds the mutex
 };
 
 void add_motions(py::module_& module);

@@ -3,6 +3,7 @@
 
 import gc
 import threading
+import weakref
 
 import numpy as np
 import pytest
@@ -105,6 +106,18 @@ def test_frames_outlast_the_next_frame_and_their_detector():
     assert frame.faces.dtype == np.int64 and frame.points.shape == (len(faces), 3)
     with pytest.raises(ValueError):
         frame.faces[0, 0] = 7
+
+
+def test_frames_are_freed():
+    detector = lodestone.Detector(contact_points=True)
+    detector.add(cube()), detector.add(sphere())
+    frame = detector.detect()
+    pair = frame.pairs[0]
+    assert len(pair.points) == len(frame.faces) and frame.statistics
+    known = weakref.ref(frame), weakref.ref(detector)
+    del frame, pair, detector
+    gc.collect()
+    assert [ref() for ref in known] == [None, None]
 
 
 def test_what_was_not_asked_for_is_none():
@@ -273,6 +286,20 @@ def test_a_skin_is_posed_where_it_is_near():
         skin.set_joints([np.eye(4), np.full((4, 4), np.nan)])
     with pytest.raises(lodestone.BadArgument, match="use set_frame|come from a skin"):
         detector.set_vertices(0, ball.vertices)
+
+
+def test_a_visitor_may_look_at_a_skin_but_not_move_it():
+    box = cube()
+    skin = lodestone.Skin(box.vertices, np.zeros((8, 1), int), np.ones((8, 1)))
+    detector = lodestone.Detector()
+    detector.add(skin, box.faces, name="box"), detector.add(sphere())
+    seen = []
+    detector.visit(0, 1, lambda a, b: seen.append((len(skin.pose()), len(detector), detector.name(0), 1 in detector)))
+    assert set(seen) == {(8, 2, "box", True)}
+    with pytest.raises(lodestone.BadArgument, match="a visitor changed a skin"):
+        detector.visit(0, 1, lambda a, b: skin.set_joints([np.eye(4)]))
+    skin.set_joints([np.eye(4)])
+    assert detector.detect().collides
 
 
 def test_morph_targets_move_a_skin():
