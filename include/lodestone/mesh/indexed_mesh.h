@@ -29,9 +29,9 @@ namespace lodestone {
 ///     Indexed_mesh mesh(coordinates, faces);
 ///     detector.add(mesh);
 ///
-/// Both arrays are read where they are, so a vertex that is moved in them has moved. Vertices and faces have their places
-/// in the arrays as indices. Everything that a file can hold is possible: an edge with three faces, neighbours of opposite
-/// orientations, a face that names a vertex twice, a vertex without a face.
+/// Every query reads both arrays where they lie, so results follow what the caller writes into them. Vertices and faces
+/// are numbered as in the arrays. Everything that a file can hold is legal: an edge with three faces, neighbours of
+/// opposite orientations, a face that names a vertex twice, a vertex without a face.
 class Indexed_mesh {
  public:
   /// Indices of vertices or faces, from 0.
