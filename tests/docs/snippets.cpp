@@ -178,9 +178,9 @@ TEST_F(Snippets, of_meshes_that_move) {
 }
 
 TEST_F(Snippets, of_arrays) {
-  const auto arrays_of = [](const Surface_mesh& mesh) {
+  const auto arrays_of = [](const Surface_mesh& given) {
     std::vector<double> coordinates;
-    for (const auto& p : mesh.points()) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+    for (const auto& p : given.points()) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
     return coordinates;
   };
   auto cloth_coordinates = arrays_of(cloth_mesh);

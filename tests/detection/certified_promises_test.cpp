@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Promises in mode certified, kept and broken.
+#include "detection/certified_scene.h"
+#include "lodestone/bounds/box_promise.h"
+#include "lodestone/bounds/displacement_bound.h"
+#include "lodestone/bounds/lipschitz_bound.h"
+#include "lodestone/bounds/stretch_bound.h"
+#include "support/message_of.h"
+
+namespace lodestone {
+namespace {
+
+/// How far any vertex is from where it was.
+double largest_move(const Surface_mesh& now, const Surface_mesh& before) {
+  double largest = 0;
+  for (const auto v : now.vertices())
+    largest = std::max(largest, std::sqrt(CGAL::squared_distance(now.point(v), before.point(v))));
+  return largest * (1 + 1e-12);
+}
+
+/// Two bodies that crumple and drift towards each other, in meshes.
+struct Drifting {
+  Surface_mesh a = long_body(20, 1), b = long_body(18, 2), a_before = a, b_before = b;
+
+  Drifting() { place_b(gap_at_first); }
+  /// Where b's leftmost vertex is that far beyond a's rightmost.
+  void place_b(double gap) {
+    double right = -1e9, left = 1e9;
+    for (const auto v : a.vertices()) right = std::max(right, a.point(v).x());
+    for (const auto v : b.vertices()) left = std::min(left, b.point(v).x());
+    shift(b, right + gap - left);
+  }
+  static constexpr double gap_at_first = 1;
+  void step(int frame) {
+    a_before = a, b_before = b;
+    crumple(a, 0.004, static_cast<std::uint64_t>(frame));
+    crumple(b, 0.004, static_cast<std::uint64_t>(frame) + 100);
+    shift(b, frame < 30 ? -0.05 : 0.05, 0.01 * std::sin(frame));
+  }
+};
+
+TEST(Certified, meshes_with_a_displacement_have_the_answers_of_mode_exact) {
+  Drifting bodies;
+  Displacement_promise of_a, of_b;
+  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(std::as_const(bodies.a));
+    detector->add(std::as_const(bodies.b));
+  }
+  certified.promise(0, of_a);
+  certified.promise(1, of_b);
+  std::size_t read = 0, colliding = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 2);
+    EXPECT_EQ(found.statistics.violations, 0U);
+    if (frame > 0) read += found.statistics.vertices_read;
+    colliding += found.collides() ? 1 : 0;
+    bodies.step(frame);
+    of_a.move(largest_move(bodies.a, bodies.a_before));
+    of_b.move(largest_move(bodies.b, bodies.b_before));
+  }
+  EXPECT_GT(colliding, 5U);
+  EXPECT_LT(colliding, 55U);
+  EXPECT_LT(read, 59 * (bodies.a.number_of_vertices() + bodies.b.number_of_vertices()) / 3);
+}
+
+TEST(Certified, several_promises_hold_together_and_may_come_late) {
+  Drifting bodies;
+  const Surface_mesh rest_a = bodies.a, rest_b = bodies.b;
+  Displacement_promise of_a;
+  Stretch_promise stretch_of_a(50), stretch_of_b(50);  // crumpling makes short edges much longer
+  Lipschitz_promise of_b(100);
+  const Box_promise somewhere([](Region_index, const Aabb& rest) {
+    Aabb box = rest;
+    for (int axis = 0; axis < 3; ++axis) box.low[axis] -= 20, box.high[axis] += 20;
+    return box;
+  });
+  Detector certified(in_mode(Mode::certified, {.particles = 5})), exact(in_mode(Mode::exact, {.particles = 5}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(std::as_const(bodies.a));
+    detector->add(std::as_const(bodies.b));
+  }
+  for (int frame = 0; frame < 50; ++frame) {
+    if (frame == 0) certified.promise(0, stretch_of_a), certified.promise(1, stretch_of_b);
+    if (frame == 3) certified.promise(0, of_a), certified.promise(1, of_b), certified.promise(1, somewhere);
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 2);
+    EXPECT_EQ(found.statistics.violations, 0U) << frame;
+    bodies.step(frame);
+    of_a.move(largest_move(bodies.a, bodies.a_before));
+  }
+}
+
+TEST(Certified, a_displacement_that_is_larger_than_promised_is_noticed_where_it_is_read) {
+  Drifting bodies;
+  Displacement_promise of_a;
+  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(std::as_const(bodies.a));
+    detector->add(std::as_const(bodies.b));
+  }
+  certified.promise(0, of_a);
+  bodies.place_b(-1);
+  certified.detect();
+  std::size_t violations = 0;
+  for (int frame = 0; frame < 5; ++frame) {
+    crumple(bodies.a, 0.01, static_cast<std::uint64_t>(frame));  // nothing is promised: it may not move
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 2);
+    violations += found.statistics.violations;
+  }
+  EXPECT_GT(violations, 0U);
+}
+
+TEST(Certified, a_body_inside_another_is_found_though_its_bound_sticks_out) {
+  const Surface_mesh outer = potato(9), inner = sphere(5, 0.1);
+  const Box_promise loose([](Region_index, const Aabb& rest) {
+    Aabb box = rest;
+    for (int axis = 0; axis < 3; ++axis) box.low[axis] -= 20, box.high[axis] += 20;
+    return box;
+  });
+  Detector certified(in_mode(Mode::certified, {.exact = {.containment = true}}));
+  certified.add(outer);
+  certified.add(inner);
+  certified.promise(1, loose);
+  EXPECT_EQ(certified.detect().pairs.at(0).containment, Containment::b_in_a);
+  EXPECT_EQ(certified.detect().pairs.at(0).containment, Containment::b_in_a);  // the first frame reads everything
+  EXPECT_TRUE(certified.contains(0, 1));
+  EXPECT_FALSE(certified.contains(1, 0));
+}
+
+TEST(Certified, promises_need_the_mode_certified) {
+  const Surface_mesh mesh = potato(5);
+  const Displacement_promise promise;
+  Detector exact, particles({.mode = Mode::particles}), certified({.mode = Mode::certified});
+  for (Detector<>* detector : {&exact, &particles, &certified}) detector->add(mesh);
+  EXPECT_THROW(exact.promise(0, promise), Bad_argument);
+  EXPECT_THROW(particles.promise(0, promise), Bad_argument);
+  EXPECT_THROW(certified.promise(1, promise), Bad_argument);
+  EXPECT_NO_THROW(certified.promise(0, promise));
+}
+
+/// Points that promise a box which ends too early along x.
+struct Liar {
+  Skinned_points points;
+  double end = -0.5;
+
+  std::uint32_t vertex_count() const { return points.vertex_count(); }
+  std::uint64_t pose_number() const { return points.pose_number(); }
+  Eigen::Vector3d operator()(std::uint32_t vertex) const { return points(vertex); }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> to) const { points.pose(vertices, to); }
+  void pose_all(std::span<double> to) const { points.pose_all(to); }
+
+  struct Lie {
+    Skin_bound truth;
+    const double* end;
+    std::size_t node_count() const { return truth.node_count(); }
+    Aabb box(std::uint32_t node) const {
+      Aabb box = truth.box(node);
+      box.high[0] = std::min(box.high[0], *end);
+      box.low[0] = std::min(box.low[0], box.high[0]);
+      return box;
+    }
+  };
+  Lie bound(const Bounded_object& object) const { return {{points, object.layout}, &end}; }
+};
+
+TEST(Certified, a_broken_bound_is_counted_and_answered_by_an_exact_pass) {
+  Surface_mesh a = long_body(12, 1), b = potato(8, 2), c = potato(8, 3);
+  Liar a_points{limb(a)};
+  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(a, point_map(a, a_points));
+    detector->add(std::as_const(b));
+    detector->add(std::as_const(c));
+  }
+  deform(b, [](const Point& p) { return Point(p.x() + 2.4, p.y(), p.z()); });  // beyond the box that is promised
+  deform(c, [](const Point& p) { return Point(p.x() - 1.5, p.y(), p.z()); });
+  for (int frame = 0; frame < 4; ++frame) {
+    bend(a_points.points, 0.1 * frame, {0, 0, 0});
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 3);
+    EXPECT_EQ(found.pairs.size(), exact.detect().pairs.size());
+    EXPECT_EQ(found.statistics.violations > 0, frame > 0) << frame;  // the first frame builds: nothing relies on bounds
+  }
+  a_points.end = 100;  // the truth
+  bend(a_points.points, 0.7, {0, 0, 0});
+  EXPECT_EQ(certified.detect().statistics.violations, 0U);
+  expect_same_answers(certified.detect(), exact.detect(), 3);
+}
+
+TEST(Certified, a_broken_bound_is_an_error_on_request) {
+  Surface_mesh a = long_body(12, 1), c = potato(8, 3);
+  Liar a_points{limb(a)};
+  Detector detector({.mode = Mode::certified, .exact = {.throw_if_broken = true}});
+  detector.add(a, point_map(a, a_points), {.name = "a liar"});
+  detector.add(std::as_const(c));
+  deform(c, [](const Point& p) { return Point(p.x() - 1, p.y(), p.z()); });
+  detector.detect();
+  bend(a_points.points, 0.2, {0, 0, 0});
+  const auto message = message_of<Broken_bound>([&] { detector.detect(); });
+  EXPECT_NE(message.find("object 0 (a liar)"), std::string::npos) << message;
+  bend(a_points.points, 0.3, {0, 0, 0});
+  EXPECT_THROW(detector.visit(0, 1, [](Face_pair) { return Visit::go_on; }), Broken_bound);
+  a_points.end = 100;
+  bend(a_points.points, 0.2, {0, 0, 0});
+  EXPECT_TRUE(detector.detect().collides());
+}
+
+}  // namespace
+}  // namespace lodestone

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rays and points in mode certified.
+#include "detection/certified_scene.h"
+
+namespace lodestone {
+namespace {
+
+TEST(Certified, rays_and_points_have_the_answers_of_mode_exact) {
+  Certified_scene scene;
+  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  scene.add_to(certified);
+  scene.add_to(exact);
+  std::size_t hits = 0, inside = 0;
+  const auto same = [](const Ray_hit& a, const Ray_hit& b) { return a.face == b.face && a.t == b.t; };
+  for (int frame = 0; frame < 6; ++frame) {
+    scene.pose(frame);
+    for (Object_id object = 0; object < 4; ++object)
+      for (int i = 0; i < 12; ++i) {
+        const Ray ray{.origin = {3 * std::cos(i), 3 * std::sin(i), 0.3 * i},
+                      .direction = {-std::cos(i), -std::sin(i) + 0.05 * i, -0.12 * i}};
+        const auto hit = certified.first_hit(object, ray), true_hit = exact.first_hit(object, ray);
+        ASSERT_EQ(hit.has_value(), true_hit.has_value());
+        if (!hit) continue;
+        ++hits;
+        EXPECT_TRUE(same(*hit, *true_hit));
+        EXPECT_TRUE(std::ranges::equal(certified.all_hits(object, ray), exact.all_hits(object, ray), same));
+        const Point beyond(hit->point.x() - 0.1 * std::cos(i), hit->point.y() - 0.1 * std::sin(i), hit->point.z());
+        const Point_side side = certified.point_side(object, beyond);
+        EXPECT_EQ(side, exact.point_side(object, beyond));
+        inside += side == Point_side::inside ? 1 : 0;
+        EXPECT_EQ(certified.closest_point(object, beyond).face, exact.closest_point(object, beyond).face);
+        EXPECT_EQ(certified.closest_point(object, beyond).distance, exact.closest_point(object, beyond).distance);
+      }
+  }
+  EXPECT_GT(hits, 100U);
+  EXPECT_GT(inside, 30U);
+}
+
+TEST(Certified, a_ray_poses_only_what_it_passes) {
+  Surface_mesh mesh = long_body(40, 1);
+  Skinned_points points = limb(mesh);
+  Detector detector({.mode = Mode::certified});
+  detector.add(mesh, point_map(mesh, points));
+  detector.detect();
+  bend(points, 0.4, {0, 0, 0});
+  EXPECT_TRUE(detector.first_hit(0, {.origin = {0.3, 9, 0.1}, .direction = {0, -1, 0}}).has_value());
+  EXPECT_GT(detector.bounded(0)->vertices_posed(), 0U);
+  EXPECT_LT(detector.bounded(0)->vertices_posed(), mesh.number_of_vertices() / 8);
+  EXPECT_FALSE(detector.first_hit(0, {.origin = {0, 9, 0}, .direction = {0, 1, 0}}).has_value());
+  EXPECT_THROW(detector.first_hit(0, {.direction = {0, 0, 0}}), Bad_argument);
+  EXPECT_THROW(detector.first_hit(1, {}), Bad_argument);
+  EXPECT_THROW(Detector<>({.mode = Mode::particles}).point_side(0, Point(0, 0, 0)), Bad_argument);
+}
+
+}  // namespace
+}  // namespace lodestone
