@@ -335,10 +335,10 @@ TEST_F(Snippets, of_a_strategy_of_ones_own) {
 TEST_F(Snippets, of_a_promise_of_ones_own) {
   Surface_mesh stone_mesh = lodestone::sphere(8, 1, {0.1, 0.2, 2.6});
   const Surface_mesh rest = stone_mesh, ground_mesh = lodestone::sphere(6);
-  const auto lower = [&rest](Surface_mesh& mesh, double fallen) {
-    for (const auto v : mesh.vertices()) {
+  const auto lower = [&rest](Surface_mesh& fallen_mesh, double fallen) {
+    for (const auto v : fallen_mesh.vertices()) {
       const lodestone::Point& at = rest.point(v);
-      mesh.point(v) = {at.x(), at.y(), at.z() - fallen};
+      fallen_mesh.point(v) = {at.x(), at.y(), at.z() - fallen};
     }
   };
   Falling_promise falls;
