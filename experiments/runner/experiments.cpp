@@ -23,6 +23,7 @@ std::string run_rebuild(const Experiment_context& context);
 std::string run_peers(const Experiment_context& context);
 std::string run_self_collision(const Experiment_context& context);
 std::string run_soak(const Experiment_context& context);
+std::string run_threads(const Experiment_context& context);
 std::string run_volumes(const Experiment_context& context);
 
 std::span<const Experiment> experiments() {
@@ -46,6 +47,7 @@ std::span<const Experiment> experiments() {
       {"rebuild", "When does a tree of the mode exact become too loose, and does a rebuild pay?", run_rebuild},
       {"self_collision", "How fast is self-collision of a deforming mesh, beside CGAL?", run_self_collision},
       {"soak", "Does the exact mode ever differ from exhaustive checking?", run_soak},
+      {"threads", "How much faster are several threads than one?", run_threads},
       {"volumes", "What does refitting bounding volumes cost per frame, and which are tightest?", run_volumes},
 #ifdef LODESTONE_PEERS
       {"peers", "How do other collision libraries fare on the same frames?", run_peers},

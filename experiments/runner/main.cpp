@@ -81,7 +81,7 @@ struct Special_option {
 const std::vector<Special_option> special_options{
     {"--only",
      {"peers", "every_frame", "modes", "many_bodies", "volumes", "defaults", "nested_codebook", "partitions",
-      "first_answer", "certified"}},
+      "first_answer", "certified", "threads"}},
     {"--jobs", {"partitions"}},
     {"--shard", {"partitions", "soak", "every_frame"}},
     {"--merge-shards", {"partitions", "soak", "every_frame"}},

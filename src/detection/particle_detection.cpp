@@ -221,11 +221,12 @@ void Particle_detection::walk() {
     walking_.push_back({.particles = &particle_object.particles(),
                         .steps = &particle_object.steps(),
                         .reader = &particle_object.positions(),
+                        .shared_reader = particle_object.positions().is_shared(),
                         .opponents = opponents_[o],
                         .siblings_repel = options_.mode == Mode::senin,
                         .pulls = meets() ? std::optional(std::span<const Pull>(pulls_[o])) : std::nullopt});
   }
-  const Relaxation relaxation = relax(std::span<const Walking_object<Live_positions>>(walking_), relaxation_);
+  const Relaxation relaxation = relax(std::span<const Walking_object<Live_positions>>(walking_), relaxation_, workers_);
   frame_.statistics().iterations = relaxation.iterations;
   frame_.object_iterations().assign(relaxation_.iterations.begin(), relaxation_.iterations.end());
   frame_.statistics().moves = relaxation.moves;
@@ -252,8 +253,8 @@ void Particle_detection::check(Object_pair pair) {
   timed(frame_.seconds().candidates, [&] {
     const double distance =
         options_.collision_distance * std::max(a.particles().collision_distance, b.particles().collision_distance);
-    candidate_pairs(a.particles().positions, b.particles().positions, distance, options_.candidates,
-                    region_candidates_);
+    candidate_pairs(a.particles().positions, b.particles().positions, distance, options_.candidates, region_candidates_,
+                    workers_);
   });
   result.candidates = region_candidates_.size();
   frame_.statistics().candidates += region_candidates_.size();
@@ -262,7 +263,7 @@ void Particle_detection::check(Object_pair pair) {
   timed(frame_.seconds().confirmation, [&] {
     for (const auto& candidate : region_candidates_) {
       result.collides |= confirmation_.confirm(posed_patch(pair.a, candidate.a), posed_patch(pair.b, candidate.b),
-                                               options_.contacts, frame_.face_pairs());
+                                               options_.contacts, frame_.face_pairs(), workers_);
       if (result.collides && options_.contacts != Contact_query::all) break;
     }
     end_pair(result);

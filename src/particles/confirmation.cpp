@@ -2,6 +2,8 @@
 #include "lodestone/particles/confirmation.h"
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
 
 #include "lodestone/triangles/triangle_intersection.h"
 
@@ -24,6 +26,16 @@ Triangle triangle(const Posed_patch& posed, std::uint32_t index) {
   return face_triangle(posed.patch->corners[index], [&](auto corner) { return posed.positions[corner]; });
 }
 
+/// Where a face begins along an axis.
+struct Begin {
+  int axis;
+
+  template <class Boxed>
+  double operator()(const Boxed& face) const {
+    return face.box.min()[axis];
+  }
+};
+
 bool overlap_across(int axis, const Box& a, const Box& b) {
   const int second = (axis + 1) % 3, third = (axis + 2) % 3;
   return a.min()[second] <= b.max()[second] && b.min()[second] <= a.max()[second] && a.min()[third] <= b.max()[third] &&
@@ -36,6 +48,7 @@ void Confirmation::reserve(std::size_t faces, std::size_t vertices) {
   outcodes_.reserve(vertices);
   faces_a_.reserve(faces);
   faces_b_.reserve(faces);
+  turns_.reserve(2 * faces);
 }
 
 void Confirmation::faces_within(const Posed_patch& posed, const Box& overlap, std::vector<Boxed_face>& faces) {
@@ -52,8 +65,7 @@ void Confirmation::faces_within(const Posed_patch& posed, const Box& overlap, st
 }
 
 bool Confirmation::confirm(const Posed_patch& a, const Posed_patch& b, Contact_query query,
-                           std::vector<Face_pair>& found) {
-  const std::size_t before = found.size();
+                           std::vector<Face_pair>& found, Workers& workers) {
   const Box overlap = a.box.intersection(b.box);
   if (overlap.isEmpty()) return false;
   faces_within(a, overlap, faces_a_);
@@ -65,35 +77,80 @@ bool Confirmation::confirm(const Posed_patch& a, const Posed_patch& b, Contact_q
   // Along the axis on which the overlap is longest, the fewest faces overlap each other.
   int axis = 0;
   overlap.sizes().maxCoeff(&axis);
-  const auto begin = [axis](const Boxed_face& face) { return face.box.min()[axis]; };
-  std::ranges::sort(faces_a_, {}, begin);
-  std::ranges::sort(faces_b_, {}, begin);
+  sort_faces(axis, workers);
+  list_turns(axis);
+  const Question question{.a = a, .b = b, .axis = axis, .all = query == Contact_query::all};
+  if (workers.count() > 1) return sweep_in_parts(question, found, workers);
+  return sweep(question, turns_, found, exact_tests_);
+}
 
-  /// Tests `face` against those of `others` that begin within its extent along the axis. True if the sweep may stop.
-  const auto sweep = [&](const Boxed_face& face, std::span<const Boxed_face> others, bool face_is_a) {
-    for (const Boxed_face& other : others) {
-      if (begin(other) > face.box.max()[axis]) break;
-      if (!overlap_across(axis, face.box, other.box)) continue;
-      const auto index_a = face_is_a ? face.index : other.index;
-      const auto index_b = face_is_a ? other.index : face.index;
-      ++exact_tests_;
-      if (!triangles_intersect(triangle(a, index_a), triangle(b, index_b))) continue;
-      found.push_back({a.patch->faces[index_a], b.patch->faces[index_b]});
-      if (query != Contact_query::all) return true;
-    }
-    return false;
+void Confirmation::sort_faces(int axis, Workers& workers) {
+  const auto sort_one = [&](std::size_t index, std::size_t) {
+    std::ranges::sort(index == 0 ? faces_a_ : faces_b_, {}, Begin{axis});
   };
+  constexpr std::size_t worth_sharing = 2048;
+  const bool shared = std::min(faces_a_.size(), faces_b_.size()) >= worth_sharing;
+  (shared ? workers : Workers::alone()).run(2, std::cref(sort_one));
+}
 
-  // Of two faces that overlap along the axis, one begins first. It is tested against the other, which is still ahead in
-  // its list.
+/// Of two faces that overlap along the axis, one begins first. It is tested against the other, which is still ahead in
+/// its list.
+void Confirmation::list_turns(int axis) {
+  const Begin begin{axis};
+  turns_.clear();
   std::span<const Boxed_face> ahead_a = faces_a_;
   std::span<const Boxed_face> ahead_b = faces_b_;
   while (!ahead_a.empty() && !ahead_b.empty()) {
     const bool a_first = begin(ahead_a.front()) <= begin(ahead_b.front());
     auto& leading = a_first ? ahead_a : ahead_b;
-    const Boxed_face& face = leading.front();
+    turns_.push_back({.face = &leading.front(), .ahead = a_first ? ahead_b : ahead_a, .of_a = a_first});
     leading = leading.subspan(1);
-    if (sweep(face, a_first ? ahead_b : ahead_a, a_first)) return true;
+  }
+}
+
+/// Tests the face of each turn against those ahead that begin within its extent along the axis.
+/// @return whether a pair was found
+bool Confirmation::sweep(const Question& question, std::span<const Turn> turns, std::vector<Face_pair>& found,
+                         std::size_t& exact_tests) {
+  const Begin begin{question.axis};
+  const std::size_t before = found.size();
+  for (const Turn& turn : turns)
+    for (const Boxed_face& other : turn.ahead) {
+      if (begin(other) > turn.face->box.max()[question.axis]) break;
+      if (!overlap_across(question.axis, turn.face->box, other.box)) continue;
+      const auto index_a = turn.of_a ? turn.face->index : other.index;
+      const auto index_b = turn.of_a ? other.index : turn.face->index;
+      ++exact_tests;
+      if (!triangles_intersect(triangle(question.a, index_a), triangle(question.b, index_b))) continue;
+      found.push_back({question.a.patch->faces[index_a], question.b.patch->faces[index_b]});
+      if (!question.all) return true;
+    }
+  return found.size() > before;
+}
+
+/// Parts after one that has found what was asked for do not count.
+bool Confirmation::sweep_in_parts(const Question& question, std::vector<Face_pair>& found, Workers& workers) {
+  constexpr std::size_t turns_per_part = 128;
+  const std::size_t count = (turns_.size() + turns_per_part - 1) / turns_per_part;
+  parts_.resize(std::max(parts_.size(), count));
+  std::atomic<std::size_t> last = count;
+  const auto sweep_part = [&](std::size_t index, std::size_t) {
+    if (index > last) return;
+    Part& part = parts_[index];
+    part.found.clear();
+    part.exact_tests = 0;
+    const auto turns = std::span(turns_).subspan(index * turns_per_part);
+    const bool any = sweep(question, turns.first(std::min(turns_per_part, turns.size())), part.found, part.exact_tests);
+    if (!any || question.all) return;
+    std::size_t before = last;
+    while (index < before && !last.compare_exchange_weak(before, index)) {
+    }
+  };
+  workers.run(count, std::cref(sweep_part));
+  const std::size_t counted = std::min(count, last + 1), before = found.size();
+  for (const Part& part : std::span(parts_).first(counted)) {
+    exact_tests_ += part.exact_tests;
+    found.insert(found.end(), part.found.begin(), part.found.end());
   }
   return found.size() > before;
 }

@@ -8,6 +8,7 @@ namespace lodestone {
 void Relaxation_scratch::reserve(std::span<const std::size_t> particles) {
   attractors.reserve(std::accumulate(particles.begin(), particles.end(), std::size_t{0}));
   siblings.reserve(particles.empty() ? 0 : *std::ranges::max_element(particles));
+  awake.reserve(particles.empty() ? 0 : *std::ranges::max_element(particles));
   next_at.resize(particles.size());
   next_positions.resize(particles.size());
   rests.resize(particles.size());

@@ -2,7 +2,12 @@
 #include "lodestone/queries/parting.h"
 
 #include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <functional>
 #include <limits>
+#include <mutex>
+#include <utility>
 
 #include "lodestone/queries/closest_faces.h"
 #include "lodestone/queries/contact_patches.h"
@@ -31,30 +36,89 @@ std::vector<Eigen::Vector3d> contact_normals(const Object_surface& a, const Obje
   return directions;
 }
 
+/// Searches along several directions at once: one search for each worker, each of which keeps the leaves that it has
+/// read.
+class Shared_search {
+ public:
+  Shared_search(const Layout_view& a, const Layout_view& b, Workers& workers) : workers_(workers) {
+    searches_.reserve(workers.count());
+    for (std::size_t i = 0; i < workers.count(); ++i) searches_.emplace_back(a, b);
+  }
+
+  const Clearance_search& any() const { return searches_.front(); }
+
+  /// The clearance along each of some directions, none where it is not below the limit, or not below that along an
+  /// earlier direction. The last that is there is the least.
+  void along(std::span<const Eigen::Vector3d> directions, double limit,
+             std::vector<std::optional<Clearance>>& clearances) {
+    clearances.assign(directions.size(), std::nullopt);
+    Limit least(limit);
+    const auto search = [&](std::size_t index, std::size_t worker) {
+      clearances[index] = searches_[worker](directions[index], least.before(index));
+      if (clearances[index]) least.lower(clearances[index]->length, index);
+    };
+    workers_.run(directions.size(), std::cref(search));
+    for (auto& clearance : clearances) {
+      if (clearance && clearance->length < limit)
+        limit = clearance->length;
+      else
+        clearance.reset();
+    }
+  }
+
+ private:
+  /// The least length so far. An earlier direction may still be as long as a later one that was faster to search.
+  class Limit {
+   public:
+    explicit Limit(double length) : length_(length) {}
+
+    double before(std::size_t index) {
+      const std::lock_guard lock(mutex_);
+      return index < index_ ? std::nextafter(length_, std::numeric_limits<double>::infinity()) : length_;
+    }
+    void lower(double length, std::size_t index) {
+      const std::lock_guard lock(mutex_);
+      if (std::pair(length, index) < std::pair(length_, index_)) length_ = length, index_ = index;
+    }
+
+   private:
+    std::mutex mutex_;
+    double length_;
+    std::size_t index_ = 0;  ///< of the direction that has it
+  };
+
+  Workers& workers_;
+  std::vector<Clearance_search> searches_;
+};
+
 /// The shortest way found so far.
 class Best_way {
  public:
-  explicit Best_way(Clearance_search& search) : search_(search) {}
+  explicit Best_way(Shared_search& search) : search_(search) {}
 
-  /// @return whether it is shorter
-  bool try_along(const Eigen::Vector3d& vector) {
-    const Eigen::Vector3d direction = vector.stableNormalized();
-    if (!(direction.norm() > 0.5)) return false;  // zero, or not finite
-    const auto clearance = search_(direction, clearance_.length);
-    if (!clearance) return false;
-    direction_ = direction;
-    clearance_ = *clearance;
-    return true;
-  }
-  void try_both_ways(const Eigen::Vector3d& vector) {
-    try_along(vector);
-    try_along(-vector);
+  /// Tries each in turn, in effect: of directions with the same length the first wins.
+  /// @return whether one is shorter
+  bool try_along(std::span<const Eigen::Vector3d> vectors) {
+    directions_.clear();
+    for (const auto& vector : vectors) {
+      const Eigen::Vector3d direction = vector.stableNormalized();
+      if (direction.norm() > 0.5) directions_.push_back(direction);  // otherwise zero, or not finite
+    }
+    search_.along(directions_, clearance_.length, found_);
+    bool shorter = false;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      if (!found_[i]) continue;
+      direction_ = directions_[i];
+      clearance_ = *found_[i];
+      shorter = true;
+    }
+    return shorter;
   }
 
   /// Goes on to the normal of the plane in which the two touch last. The planes of convex bodies bound them, so there
   /// each step is shorter.
   void follow_normals() {
-    for (int step = 0; step < 8 && try_along(clearance_.normal); ++step) {
+    for (int step = 0; step < 8 && try_along(std::array{clearance_.normal}); ++step) {
     }
   }
   /// Turns to directions beside it, by ever smaller angles.
@@ -64,40 +128,48 @@ class Best_way {
   }
 
   Parting parting() const {
-    const Eigen::Vector3d translation = search_.unscaled(clearance_.length * direction_);
+    const Eigen::Vector3d translation = search_.any().unscaled(clearance_.length * direction_);
     return {.translation = translation, .length = translation.stableNorm()};
   }
 
  private:
   bool turn_by(double angle) {
     const Eigen::Vector3d from = direction_, u = from.unitOrthogonal(), v = from.cross(u);
-    bool shorter = false;
-    for (const Eigen::Vector3d& side : {u, v, Eigen::Vector3d(-u), Eigen::Vector3d(-v)})
-      shorter |= try_along(from + angle * side);
-    return shorter;
+    return try_along(
+        std::array<Eigen::Vector3d, 4>{from + angle * u, from + angle * v, from - angle * u, from - angle * v});
   }
 
-  Clearance_search& search_;
+  Shared_search& search_;
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();
   Clearance clearance_{.length = std::numeric_limits<double>::infinity()};
+  // Memory of `try_along`.
+  std::vector<Eigen::Vector3d> directions_;
+  std::vector<std::optional<Clearance>> found_;
 };
 
-void try_axes_and_diagonals(Best_way& best) {
-  for (int axis = 0; axis < 3; ++axis) best.try_both_ways(Eigen::Vector3d::Unit(axis));
+void add_both_ways(const Eigen::Vector3d& vector, std::vector<Eigen::Vector3d>& vectors) {
+  vectors.push_back(vector);
+  vectors.push_back(-vector);
+}
+
+void add_axes_and_diagonals(std::vector<Eigen::Vector3d>& vectors) {
+  for (int axis = 0; axis < 3; ++axis) add_both_ways(Eigen::Vector3d::Unit(axis), vectors);
   for (const double y : {-1.0, 1.0})
-    for (const double z : {-1.0, 1.0}) best.try_both_ways({1, y, z});
+    for (const double z : {-1.0, 1.0}) add_both_ways({1, y, z}, vectors);
 }
 
 }  // namespace
 
 Parting parting(const Object_surface& surface_a, const Layout_view& a, const Object_surface& surface_b,
-                const Layout_view& b, std::span<const Face_pair> contacts) {
-  Clearance_search search(a, b);
+                const Layout_view& b, std::span<const Face_pair> contacts, Workers& workers) {
+  Shared_search search(a, b, workers);
+  std::vector<Eigen::Vector3d> ways;
+  for (const Eigen::Vector3d& normal : contact_normals(surface_a, surface_b, contacts)) add_both_ways(normal, ways);
+  add_both_ways(search.any().centre_difference(), ways);
+  if (contacts.empty()) add_both_ways(closest_faces(a, b).points.direction, ways);
+  add_axes_and_diagonals(ways);
   Best_way best(search);
-  for (const Eigen::Vector3d& normal : contact_normals(surface_a, surface_b, contacts)) best.try_both_ways(normal);
-  best.try_both_ways(search.centre_difference());
-  if (contacts.empty()) best.try_both_ways(closest_faces(a, b).points.direction);
-  try_axes_and_diagonals(best);
+  best.try_along(ways);
   best.follow_normals();
   best.turn();
   return best.parting();

@@ -99,6 +99,21 @@ TEST(Workers, rethrow_an_exception_of_a_task_and_can_be_used_again) {
   }
 }
 
+TEST(Workers, rethrow_what_the_first_of_several_failing_tasks_throws) {
+  for (const std::size_t threads : {1, 2, 4})
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      const auto task = [](std::size_t index, std::size_t) {
+        if (index % 10 == 7) throw std::out_of_range("task " + std::to_string(index));
+      };
+      try {
+        Workers(threads).run(100, task);
+        FAIL() << "nothing thrown";
+      } catch (const std::out_of_range& error) {
+        EXPECT_STREQ(error.what(), "task 7");
+      }
+    }
+}
+
 TEST(Workers, can_be_nested) {
   Workers outer(2);
   std::atomic<int> done = 0;

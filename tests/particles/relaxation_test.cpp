@@ -66,9 +66,13 @@ struct Grid_walker : Walker {
                std::vector<Region_index>(std::size_t{columns} * rows, 0), {at}, hop_limit) {}
 };
 
+Relaxation relax_alone(std::span<const Walking_object<Reader>> objects, Relaxation_scratch& scratch) {
+  return relax(objects, scratch);
+}
+
 /// Relaxes objects that all feel each other.
 using Relax = Relaxation (*)(std::span<const Walking_object<Reader>>, Relaxation_scratch&);
-Relaxation relax_all(const std::vector<Walker*>& walkers, bool siblings_repel = false, Relax run = relax<Reader>) {
+Relaxation relax_all(const std::vector<Walker*>& walkers, bool siblings_repel = false, Relax run = relax_alone) {
   std::vector<std::vector<std::uint32_t>> near(walkers.size());
   std::vector<Walking_object<Reader>> objects;
   std::vector<std::size_t> counts;

@@ -263,8 +263,7 @@ Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
   if constexpr (is_bounded)
-    if (on_demand(pair))
-      return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
+    if (on_demand(pair)) return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
   return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
 }
 
@@ -274,9 +273,8 @@ bool Exact_detection<Volume>::within(Object_pair pair, double distance) {
   refresh(ids);
   std::vector<Face_pair> none;
   bool answer = false;
-  until_settled(ids, [&] {
-    answer = search(pair, {.query = Contact_query::yes_no, .tolerance = distance}, none).found;
-  });
+  until_settled(ids,
+                [&] { answer = search(pair, {.query = Contact_query::yes_no, .tolerance = distance}, none).found; });
   return answer;
 }
 
@@ -285,7 +283,7 @@ std::optional<Parting> Exact_detection<Volume>::parting(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
   for (const auto id : ids) objects_.pose_all(id);
-  return lodestone::parting(objects_.surface(pair.a), objects_.surface(pair.b));
+  return lodestone::parting(objects_.surface(pair.a), objects_.surface(pair.b), workers_);
 }
 
 template <Bounding_volume Volume>
@@ -398,7 +396,7 @@ void Exact_detection<Volume>::find_way_out(Pair_result& result) {
   if (options_.exact.containment || options_.exact.parting) result.containment = containment(result);
   if (!options_.exact.parting || (!result.collides && result.containment == Containment::none)) return;
   for (const auto id : {result.a, result.b}) objects_.pose_all(id);
-  result.parting = lodestone::parting(objects_.surface(result.a), objects_.surface(result.b));
+  result.parting = lodestone::parting(objects_.surface(result.a), objects_.surface(result.b), workers_);
 }
 
 /// What is near may collide or not: a second search tells.

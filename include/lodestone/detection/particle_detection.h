@@ -107,7 +107,7 @@ class Particle_detection final : public Detection {
   void sort_contacts(Pair_result& result);
 
   Detector_options options_;
-  Workers workers_;                               ///< only while objects are built
+  Workers workers_;
   std::vector<std::unique_ptr<Object>> objects_;  ///< null: removed
   Frame_builder frame_;
   Frame_statistics since_last_frame_;  ///< what other calls have to tell the next frame

@@ -30,6 +30,9 @@ class Live_positions {
   /// All positions, if they lie in memory as they are; null: each is to be read, or placed.
   const double* memory() const { return placement_ ? nullptr : memory_; }
 
+  /// Whether several threads may read at once: what a mesh computes may not allow it.
+  bool is_shared() const { return memory_ != nullptr; }
+
   /// Where a vertex is now, placement included.
   Eigen::Vector3d operator()(std::uint32_t vertex) const {
     const Eigen::Vector3d position = memory_ != nullptr

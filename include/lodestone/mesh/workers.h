@@ -24,7 +24,8 @@ class Workers {
 
   /// Calls `task(index, worker)` for each index below `tasks`; `worker` is below `count()`. A single worker runs the
   /// tasks in order, in the calling thread. Several workers run them in any order, but no two tasks of one worker at
-  /// the same time. Rethrows what a task throws.
+  /// the same time. Rethrows what the first of the tasks that fail throws, in the order of their indices; tasks after it
+  /// may be left out.
   void run(std::size_t tasks, const std::function<void(std::size_t, std::size_t)>& task);
 
  private:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/workers.h"
 
 namespace lodestone {
 
@@ -31,7 +32,9 @@ inline bool is_nearer(const Candidate_pair& p, const Candidate_pair& q) {
 /// Finds the pairs of particles of two objects that are nearer than `distance`, \cite saenghaengtham2006, eq. (14). The
 /// result is in lexicographic order of distance and region indices. O(N N') and the sorting of what is found.
 /// @param candidates  receives the pairs; its memory is reused
+/// @param workers     share what is compared; the result does not depend on their number
 void candidate_pairs(std::span<const Eigen::Vector3d> a, std::span<const Eigen::Vector3d> b, double distance,
-                     Candidate_choice choice, std::vector<Candidate_pair>& candidates);
+                     Candidate_choice choice, std::vector<Candidate_pair>& candidates,
+                     Workers& workers = Workers::alone());
 
 }  // namespace lodestone

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lodestone/mesh/pairs.h"
 #include "lodestone/mesh/patch.h"
+#include "lodestone/mesh/workers.h"
 
 namespace lodestone {
 
@@ -24,8 +26,10 @@ class Confirmation {
   /// other; O(n + m + s log s + pairs that overlap along the axis) for the s faces within the overlap; all n m pairs at
   /// worst.
   ///
+  /// @param workers  share the sweep; what is found does not depend on their number
   /// @return whether a pair was found
-  bool confirm(const Posed_patch& a, const Posed_patch& b, Contact_query query, std::vector<Face_pair>& found);
+  bool confirm(const Posed_patch& a, const Posed_patch& b, Contact_query query, std::vector<Face_pair>& found,
+               Workers& workers = Workers::alone());
 
   /// Face pairs that went to the exact test since `reset_count`.
   std::size_t exact_tests() const { return exact_tests_; }
@@ -38,10 +42,36 @@ class Confirmation {
     std::uint32_t index;  ///< in the patch
   };
 
+  /// A face of the sweep, and the first face of the other patch that begins after it.
+  struct Turn {
+    const Boxed_face* face;
+    std::span<const Boxed_face> ahead;
+    bool of_a;
+  };
+  /// What a part of the sweep found.
+  struct Part {
+    std::vector<Face_pair> found;
+    std::size_t exact_tests = 0;
+  };
+  /// The two patches that are being confirmed.
+  struct Question {
+    const Posed_patch& a;
+    const Posed_patch& b;
+    int axis;  ///< of the sweep
+    bool all;  ///< all contacts; false: one
+  };
+
   void faces_within(const Posed_patch& posed, const Box& overlap, std::vector<Boxed_face>& faces);
+  void sort_faces(int axis, Workers& workers);
+  void list_turns(int axis);
+  static bool sweep(const Question& question, std::span<const Turn> turns, std::vector<Face_pair>& found,
+                    std::size_t& exact_tests);
+  bool sweep_in_parts(const Question& question, std::vector<Face_pair>& found, Workers& workers);
 
   std::vector<std::uint8_t> outcodes_;
   std::vector<Boxed_face> faces_a_, faces_b_;
+  std::vector<Turn> turns_;
+  std::vector<Part> parts_;
   std::size_t exact_tests_ = 0;
 };
 

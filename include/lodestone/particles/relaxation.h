@@ -6,6 +6,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/workers.h"
 #include "lodestone/particles/interaction.h"
 #include "lodestone/particles/region_steps.h"
 
@@ -48,6 +50,7 @@ struct Walking_object {
   Particles* particles = nullptr;            ///< those that walk; moved by `relax`
   const Region_steps* steps = nullptr;       ///< where they can step
   const Reader* reader = nullptr;            ///< where vertices are in this frame
+  bool shared_reader = false;                ///< several threads may call the reader at once
   std::span<const std::uint32_t> opponents;  ///< indices of the objects whose particles this one feels
   bool siblings_repel = false;               ///< particles of the object push each other away: only for the predecessor
   /// Which particles feel which, in ascending order; then forces have no limit of distance. None: all particles of the
@@ -91,6 +94,7 @@ struct Relaxation_scratch {
   std::vector<std::vector<Rest>> rests;                      ///< per object and particle
   std::vector<Moved_particles> moved;                        ///< per object: in the last iteration
   std::vector<Moved_particles> moved_before;                 ///< in the one before
+  std::vector<std::uint32_t> awake;     ///< the particles of the current object that compare their steps, ascending
   std::vector<std::size_t> iterations;  ///< per object: in which one of its particles was evaluated
   std::size_t vertices_read = 0;        ///< since `start`
 
@@ -109,11 +113,10 @@ struct Step {
 };
 
 template <Position_reader Reader>
-Step best_step(const Walking_object<Reader>& object, std::size_t particle, Relaxation_scratch& scratch) {
+Step best_step(const Walking_object<Reader>& object, std::size_t particle, const Relaxation_scratch& scratch) {
   constexpr int lanes = Attractors::lanes;
   const std::uint32_t here = object.particles->at[particle];
   const auto reach = object.steps->from(here);
-  scratch.vertices_read += reach.size();
   Step best{.vertex = here, .position = object.particles->positions[particle]};
   double largest = -std::numeric_limits<double>::infinity();
   bool pulled = false;
@@ -211,17 +214,20 @@ bool rests(std::span<const Walking_object<Reader>> objects, std::size_t o, std::
   return !objects[o].siblings_repel || !disturbed_by(o);
 }
 
-/// Chooses the next step of a particle, given its attractors.
-/// @return whether it will move
+/// Chooses the next step of a particle, given its attractors. Several threads may do so for different particles.
 template <Position_reader Reader>
-bool choose_step(std::span<const Walking_object<Reader>> objects, std::size_t o, std::size_t p,
+void choose_step(std::span<const Walking_object<Reader>> objects, std::size_t o, std::size_t p,
                  Relaxation_scratch& scratch) {
   const Step step = best_step(objects[o], p, scratch);
-  const bool moves = step.vertex != objects[o].particles->at[p];
-  scratch.rests[o][p] = {.stayed = !moves};
+  scratch.rests[o][p] = {.stayed = step.vertex == objects[o].particles->at[p]};
   scratch.next_at[o][p] = step.vertex;
   scratch.next_positions[o][p] = step.position;
-  return moves;
+}
+
+/// Counts the positions that a particle reads to choose its step.
+template <Position_reader Reader>
+void count_reads(const Walking_object<Reader>& object, std::size_t particle, Relaxation_scratch& scratch) {
+  scratch.vertices_read += object.steps->from(object.particles->at[particle]).size();
 }
 
 /// Whether a particle that is pulled stays without another comparison of its steps: nothing that it feels has moved.
@@ -246,27 +252,53 @@ std::size_t choose_pulled_steps(std::span<const Walking_object<Reader>> objects,
     if (rests(felt, scratch.rests[o][p], scratch)) continue;
     scratch.attractors.clear();
     for (const Pull& pull : felt) scratch.attractors.add(objects[pull.object].particles->positions[pull.by], no_limit);
-    moving += choose_step(objects, o, p, scratch) ? 1 : 0;
+    count_reads(objects[o], p, scratch);
+    choose_step(objects, o, p, scratch);
+    moving += scratch.rests[o][p].stayed ? 0 : 1;
   }
   return moving;
+}
+
+/// Lists the particles of an object that are not at rest.
+template <Position_reader Reader>
+void list_awake(std::span<const Walking_object<Reader>> objects, std::size_t o, Relaxation_scratch& scratch) {
+  scratch.awake.clear();
+  for (std::uint32_t p = 0; p < objects[o].particles->at.size(); ++p)
+    if (!rests(objects, o, p, scratch)) scratch.awake.push_back(p);
+}
+
+/// Chooses the next steps of the particles that are awake, given their attractors.
+template <Position_reader Reader>
+void choose_awake_steps(std::span<const Walking_object<Reader>> objects, std::size_t o, Relaxation_scratch& scratch,
+                        Workers& workers) {
+  // A task takes some tens of microseconds: pairs of a particle and an attractor cost some 10 nanoseconds each.
+  constexpr std::size_t pairs_per_task = 4096;
+  const auto& awake = scratch.awake;
+  const std::size_t per_task = pairs_per_task / std::min(pairs_per_task, scratch.attractors.size() + 1) + 1;
+  const auto choose_some = [&](std::size_t task, std::size_t) {
+    const std::size_t end = std::min(awake.size(), (task + 1) * per_task);
+    for (std::size_t i = task * per_task; i < end; ++i) choose_step(objects, o, awake[i], scratch);
+  };
+  Workers& those = objects[o].shared_reader ? workers : Workers::alone();
+  those.run((awake.size() + per_task - 1) / per_task, std::cref(choose_some));
 }
 
 /// Chooses the next step of each particle of an object.
 /// @return number of particles that will move
 template <Position_reader Reader>
-std::size_t choose_steps(std::span<const Walking_object<Reader>> objects, std::size_t o, Relaxation_scratch& scratch) {
+std::size_t choose_steps(std::span<const Walking_object<Reader>> objects, std::size_t o, Relaxation_scratch& scratch,
+                         Workers& workers = Workers::alone()) {
   const Particles& particles = *objects[o].particles;
   std::ranges::copy(particles.at, scratch.next_at[o].begin());
   std::ranges::copy(particles.positions, scratch.next_positions[o].begin());
   if (objects[o].pulls) return choose_pulled_steps(objects, o, scratch);
-  std::size_t moving = 0;
-  bool gathered = false;
-  for (std::size_t p = 0; p < particles.at.size(); ++p) {
-    if (rests(objects, o, p, scratch)) continue;
-    if (!std::exchange(gathered, true)) gather_attractors(objects, objects[o], scratch);
-    moving += choose_step(objects, o, p, scratch) ? 1 : 0;
-  }
-  return moving;
+  list_awake(objects, o, scratch);
+  if (scratch.awake.empty()) return 0;
+  gather_attractors(objects, objects[o], scratch);
+  for (const auto p : scratch.awake) count_reads(objects[o], p, scratch);
+  choose_awake_steps(objects, o, scratch, workers);
+  return static_cast<std::size_t>(
+      std::ranges::count_if(scratch.awake, [&](std::uint32_t p) { return !scratch.rests[o][p].stayed; }));
 }
 
 /// Takes the steps, and notes who moved.
@@ -331,8 +363,11 @@ void swing_to_the_end(std::span<const Walking_object<Reader>> objects, std::size
 ///
 /// @throws Bad_mesh  a coordinate that is read is not finite
 /// @param objects  the `positions` of their particles must be those of this frame; `at` and `positions` are updated
+/// @param workers  share the comparisons of an iteration where a reader may be shared; the result does not depend on
+///                 their number
 template <Position_reader Reader>
-Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scratch& scratch) {
+Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scratch& scratch,
+                 Workers& workers = Workers::alone()) {
   Relaxation result;
   std::size_t iteration_limit = 1;
   for (const auto& object : objects)
@@ -344,7 +379,7 @@ Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scr
     for (std::size_t o = 0; o < objects.size(); ++o) {
       if (objects[o].opponents.empty()) continue;
       const std::size_t read = scratch.vertices_read;
-      const std::size_t moving = internal::choose_steps(objects, o, scratch);
+      const std::size_t moving = internal::choose_steps(objects, o, scratch, workers);
       if (scratch.vertices_read > read) ++scratch.iterations[o];
       result.moves += moving;
       result.relaxed &= 10 * moving < objects[o].particles->at.size();

@@ -46,13 +46,15 @@ struct Parting {
 /// @param surface_a, surface_b  that intersect, or one of which lies inside the other
 /// @param a, b                  of the two, with boxes
 /// @param contacts              all face pairs that intersect, sorted
+/// @param workers               search along several directions at once; the answer does not depend on their number
 Parting parting(const Object_surface& surface_a, const Layout_view& a, const Object_surface& surface_b,
-                const Layout_view& b, std::span<const Face_pair> contacts);
+                const Layout_view& b, std::span<const Face_pair> contacts, Workers& workers = Workers::alone());
 
 /// The same for two objects whose surfaces intersect, or one of which lies inside the other.
 /// @return none for any others
 template <Bounding_volume Volume>
-std::optional<Parting> parting(const Basic_tree_surface<Volume>& a, const Basic_tree_surface<Volume>& b) {
+std::optional<Parting> parting(const Basic_tree_surface<Volume>& a, const Basic_tree_surface<Volume>& b,
+                               Workers& workers = Workers::alone()) {
   std::vector<Face_pair> contacts;
   visit_contacts(a.view(), b.view(), 0, [&](Face_pair contact) {
     contacts.push_back(contact);
@@ -62,7 +64,7 @@ std::optional<Parting> parting(const Basic_tree_surface<Volume>& a, const Basic_
   const Node_boxes boxes_a(a.view()), boxes_b(b.view());
   const Layout_view &view_a = boxes_a.layout(), &view_b = boxes_b.layout();
   if (contacts.empty() && !encloses(a, view_a, b, view_b) && !encloses(b, view_b, a, view_a)) return std::nullopt;
-  return parting(a, view_a, b, view_b, contacts);
+  return parting(a, view_a, b, view_b, contacts, workers);
 }
 
 }  // namespace lodestone

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "threads/threaded_work.h"
+
+#include <memory>
+#include <utility>
+
+#include "lodestone/detector.h"
+#include "lodestone/mesh/computed_points.h"
+#include "shared/lap_timer.h"
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t rounds_of_builds = 5, rounds_of_frames = 15;
+
+/// Options, and where the second sphere is.
+struct Pair_case {
+  std::string name;
+  Detector_options options = {};
+  Moving_pair::Place place = Moving_pair::Place::sunk;
+};
+
+Detector<> detector_of(const Moving_pair& pair, Detector_options options, std::size_t threads) {
+  options.exact.threads = threads;
+  Lbg_options lbg;
+  lbg.threads = threads;
+  Detector<> detector(options, Lbg{.options = lbg});
+  for (const auto& mesh : pair.meshes()) detector.add(std::as_const(mesh));
+  return detector;
+}
+
+/// Seconds of a function.
+template <class Function>
+double seconds_of(const Function& function) {
+  const Lap_timer timer;
+  function();
+  return timer.seconds();
+}
+
+/// The first answer of a new detector.
+Threaded_work build(Moving_pair& pair, const Pair_case& given) {
+  return {.name = given.name,
+          .rounds = rounds_of_builds,
+          .pose = [&pair, place = given.place](std::size_t round) { pair.pose(7 * round, place); },
+          .make = [&pair, options = given.options](std::size_t threads) -> std::function<double()> {
+            return
+                [&pair, options, threads] { return seconds_of([&] { detector_of(pair, options, threads).detect(); }); };
+          }};
+}
+
+/// A frame of a detector whose objects stand.
+Threaded_work frame(Moving_pair& pair, const Pair_case& given) {
+  return {.name = given.name,
+          .rounds = rounds_of_frames,
+          .pose = [&pair, place = given.place](std::size_t round) { pair.pose(round, place); },
+          .make = [&pair, options = given.options](std::size_t threads) -> std::function<double()> {
+            auto detector = std::make_shared<Detector<>>(detector_of(pair, options, threads));
+            detector->detect();
+            return [detector] {
+              return seconds_of([&] {
+                detector->update();
+                detector->detect();
+              });
+            };
+          }};
+}
+
+/// The distance of two spheres that are apart.
+Threaded_work distance(Moving_pair& pair) {
+  return {.name = "exact: closest faces",
+          .rounds = rounds_of_frames,
+          .pose = [&pair](std::size_t round) { pair.pose(round, Moving_pair::Place::apart); },
+          .make = [&pair](std::size_t threads) -> std::function<double()> {
+            auto detector = std::make_shared<Detector<>>(detector_of(pair, {}, threads));
+            detector->detect();
+            return [detector] { return seconds_of([&] { detector->closest(0, 1); }); };
+          }};
+}
+
+/// A frame of two characters whose points know how they move.
+Threaded_work certified_frame(Character_scene& scene, std::string name, Contact_query contacts) {
+  return {.name = std::move(name),
+          .rounds = rounds_of_frames,
+          .pose = [&scene](std::size_t round) { scene.pose((2 * round) % scene.frames.size()); },
+          .make = [&scene, contacts](std::size_t threads) -> std::function<double()> {
+            auto detector = std::make_shared<Detector<>>(
+                Detector_options{.mode = Mode::certified, .contacts = contacts, .exact = {.threads = threads}});
+            for (const auto& character : scene.characters)
+              detector->add(character.mesh, point_map(character.mesh, character.points));
+            detector->detect();
+            return [detector] { return seconds_of([&] { detector->detect(); }); };
+          }};
+}
+
+}  // namespace
+
+std::vector<Threaded_work> works_on(Moving_pair& pair) {
+  using enum Moving_pair::Place;
+  constexpr auto yes_no = Contact_query::yes_no;
+  std::vector<Threaded_work> works{
+      build(pair, {"exact: first answer", {}}),
+      build(pair, {"exact: first answer, 12 regions by LBG", {.particles = 12}}),
+      frame(pair, {"exact: yes or no, apart", {.contacts = yes_no}, apart}),
+      frame(pair, {"exact: all pairs", {}}),
+      frame(pair, {"exact: all pairs, points and normals", {.contact_points = true, .contact_normals = true}}),
+      frame(pair, {"exact: all pairs and contact patches", {.exact = {.patches = true}}}),
+      frame(pair, {"exact: nearer than 0.02", {.exact = {.tolerance = 0.02}}, apart}),
+      frame(pair, {"exact: self-collision", {.exact = {.self_collision = true}}, apart}),
+      frame(pair, {"exact: containment", {.contacts = yes_no, .exact = {.containment = true}}, inside}),
+      frame(pair, {"exact: parting", {.contacts = yes_no, .exact = {.parting = true}}}),
+      distance(pair),
+      build(pair, {"particles: first answer", {.mode = Mode::particles, .contacts = yes_no}}),
+      frame(pair, {"particles: yes or no", {.mode = Mode::particles, .contacts = yes_no}}),
+      frame(pair, {"particles: all pairs", {.mode = Mode::particles}})};
+  for (const std::size_t particles : {12, 64, 1024})
+    works.push_back(frame(pair, {"published particles, " + std::to_string(particles) + ": all pairs",
+                                 {.mode = Mode::particles, .particles = particles, .meetings = 0}}));
+  return works;
+}
+
+std::vector<Threaded_work> works_on(Character_scene& scene) {
+  return {certified_frame(scene, "certified: yes or no", Contact_query::yes_no),
+          certified_frame(scene, "certified: all pairs", Contact_query::all)};
+}
+
+}  // namespace lodestone
