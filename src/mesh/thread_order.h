@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(LODESTONE_TSAN)
 #include <sanitizer/tsan_interface.h>
 #endif
 
@@ -11,14 +11,14 @@ namespace lodestone {
 /// `comes_after` with the same address. For oneTBB, which is not instrumented: it guarantees this order, and the
 /// sanitizer cannot see it. Otherwise nothing.
 inline void comes_before([[maybe_unused]] const void* address) {
-#if defined(__SANITIZE_THREAD__)
+#if defined(LODESTONE_TSAN)
   __tsan_release(const_cast<void*>(address));
 #endif
 }
 
 /// See `comes_before`.
 inline void comes_after([[maybe_unused]] const void* address) {
-#if defined(__SANITIZE_THREAD__)
+#if defined(LODESTONE_TSAN)
   __tsan_acquire(const_cast<void*>(address));
 #endif
 }
