@@ -18,8 +18,10 @@ struct Tried_mode {
 
 /// All modes, with one thread and with two.
 std::vector<Tried_mode> tried_modes();
-/// Those that find everything, and answer the other queries.
+/// Those that find everything.
 std::vector<Tried_mode> exact_modes();
+/// Those whose frames find nothing but face pairs, for the other queries that they answer.
+std::vector<Tried_mode> plain_modes();
 
 /// Two bodies, in mode `certified` of computed points, and their detector.
 class Trial {
