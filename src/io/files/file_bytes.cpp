@@ -16,7 +16,7 @@ namespace lodestone {
 namespace {
 
 /// Enough for 50 million faces as text.
-constexpr std::uintmax_t most_bytes = std::uintmax_t{16} << 30U;
+constexpr std::uintmax_t longest_file = std::uintmax_t{16} << 30U;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ File_bytes::File_bytes(const std::filesystem::path& file) : name_(file.string())
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw Bad_mesh(fmt::format("{}: the file cannot be read: {}", name_, error.message()));
   if (size == 0) throw Bad_mesh(fmt::format("{}: the file is empty", name_));
-  if (size > most_bytes) throw Bad_mesh(fmt::format("{}: the file is longer than 16 GiB", name_));
+  if (size > longest_file) throw Bad_mesh(fmt::format("{}: the file is longer than 16 GiB", name_));
   size_ = size;
   bytes_ = std::make_unique_for_overwrite<char[]>(size_);
   read(file);
