@@ -36,8 +36,8 @@ namespace lodestone {
 /// `Exact_detection`. What is said of mode `exact` holds for mode `certified` too, unless it says otherwise. Every query
 /// asks for the current vertex positions, so results are never stale. One thread at a time may use a detector.
 ///
-/// A call that runs out of memory throws std::bad_alloc, and nothing leaks. The next `detect` answers as a detector would
-/// that had never been asked. What was being built of an object is built anew, and `rebuild` may have been done or not.
+/// A call that runs out of memory throws std::bad_alloc, and nothing leaks. Repeat it, or go on without it: the next
+/// `detect` is right. A `rebuild` may or may not have taken effect.
 ///
 /// As the type of a member, write `Detector<>`.
 ///

@@ -29,7 +29,8 @@ void choose_instruction_set(std::string_view wanted) {
     hwy::GetChosenTarget().Update(target);
     return;
   }
-  throw Bad_argument(fmt::format("LODESTONE_INSTRUCTION_SET: expected {}, found '{}'", fmt::join(names, " or "), wanted));
+  throw Bad_argument(
+      fmt::format("LODESTONE_INSTRUCTION_SET: expected {}, found '{}'", fmt::join(names, " or "), wanted));
 }
 
 std::size_t thread_count(std::string_view text) {
@@ -44,7 +45,8 @@ std::size_t thread_count(std::string_view text) {
 }  // namespace
 
 Assumed_machine::Assumed_machine() {
-  const auto instruction_set = environment("LODESTONE_INSTRUCTION_SET"), threads = environment("LODESTONE_MOST_THREADS");
+  const auto instruction_set = environment("LODESTONE_INSTRUCTION_SET"),
+             threads = environment("LODESTONE_MOST_THREADS");
   if (!instruction_set.empty()) choose_instruction_set(instruction_set);
   if (!threads.empty()) threads_.emplace(tbb::global_control::max_allowed_parallelism, thread_count(threads));
 }

@@ -11,8 +11,8 @@ namespace lodestone {
 struct Interrupted {};
 
 /// From now on SIGINT, SIGTERM and SIGHUP end the run at the next frame and leave no partial file, unless they were
-/// ignored. A second signal ends it at once, and may leave a hidden temporary file behind. Writing where nobody reads is
-/// an error, not a signal.
+/// ignored. A second signal ends it at once, and may leave a hidden temporary file behind. To write where nobody reads
+/// is an error, not a signal.
 void handle_interrupts();
 /// @throws Interrupted  the user has asked to stop
 void check_interrupt();

@@ -48,10 +48,10 @@ class Trial {
 
 /// One call that runs out of memory.
 struct Tried_call {
-  std::function<void(Trial&)> before;                ///< what comes before it
-  std::function<void(Trial&)> call;                  ///< the call
-  std::function<void(Trial&)> after = nullptr;       ///< what must hold when it has failed
-  bool repeated = true;                              ///< it is made again before the next frame
+  std::function<void(Trial&)> before;           ///< what comes before it
+  std::function<void(Trial&)> call;             ///< the call
+  std::function<void(Trial&)> after = nullptr;  ///< what must hold when it has failed
+  bool repeated = true;                         ///< it is made again before the next frame
   /// Property maps are added to a CGAL::Surface_mesh, which loses one that there was no memory for.
   bool maps_are_made = false;
 };

@@ -35,12 +35,10 @@ TEST(Out_of_memory, in_the_first_frame_leaves_a_detector_whose_next_frame_is_rig
 }
 
 TEST(Out_of_memory, in_a_later_frame_leaves_a_detector_whose_next_frame_is_right) {
-  expect_to_survive_in_all_modes({.before = after_frames,
-                                  .call =
-                                      [](Trial& trial) {
-                                        trial.detector.update();
-                                        trial.detector.detect();
-                                      }});
+  expect_to_survive_in_all_modes({.before = after_frames, .call = [](Trial& trial) {
+                                    trial.detector.update();
+                                    trial.detector.detect();
+                                  }});
 }
 
 TEST(Out_of_memory, while_an_object_is_added_leaves_the_others) {
@@ -114,15 +112,15 @@ TEST(Out_of_memory, while_an_object_is_removed_leaves_a_detector_whose_next_fram
                                         trial.detector.ignore(0, 2);
                                         trial.detector.detect();
                                       },
-                                  .call = [](Trial& trial) {
-                                    if (trial.detector.has(2)) trial.detector.remove(2);
-                                    trial.detector.detect();
-                                  }});
+                                  .call =
+                                      [](Trial& trial) {
+                                        if (trial.detector.has(2)) trial.detector.remove(2);
+                                        trial.detector.detect();
+                                      }});
 }
 
 TEST(Out_of_memory, while_a_pair_is_ignored_leaves_it) {
-  expect_to_survive_in_all_modes(
-      {.before = after_frames, .call = [](Trial& trial) { trial.detector.ignore(0, 1); }});
+  expect_to_survive_in_all_modes({.before = after_frames, .call = [](Trial& trial) { trial.detector.ignore(0, 1); }});
 }
 
 TEST(Out_of_memory, while_an_object_is_placed_leaves_a_detector_whose_next_frame_is_right) {

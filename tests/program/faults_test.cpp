@@ -29,12 +29,10 @@ class Faults : public testing::Test {
 
   /// Two bodies that wobble, for so many frames.
   std::string scene(int frames) const {
-    const std::string motion = R"("motion": {"deform": [{"wobble": {"amplitude": 0.1, "waves": 1, "period": 9}}]}})";
-    return folder
-        .write("scene.json", R"({"frames": )" + std::to_string(frames) + R"(, "objects": [
-          {"name": "a", "shape": {"icosphere": {"frequency": 6}}, )" + motion + R"(,
-          {"name": "b", "shape": {"icosphere": {"frequency": 5}}, )" + motion + "]}")
-        .string();
+    const std::string object = R"({"shape": {"icosphere": {"frequency": 6}}, "motion": {"deform": [
+      {"wobble": {"amplitude": 0.1, "waves": 1, "period": 9}}]}, "name": )";
+    const std::string text = R"({"frames": )" + std::to_string(frames) + R"(, "objects": [)";
+    return folder.write("scene.json", text + object + R"("a"}, )" + object + R"("b"}]})").string();
   }
 
   /// Every command that writes files as it plays these frames.
@@ -98,8 +96,9 @@ TEST_F(Faults, a_signal_in_the_middle_of_any_command_leaves_no_file_and_ends_wit
 TEST_F(Faults, a_terminal_that_closes_does_not_end_a_run_under_nohup) {
   const auto input = scene(1'000'000);
   const auto before = files();
-  Running_program program({"-c", "trap '' HUP; exec \"$0\" detect " + input + " --out " + path("out"), LODESTONE_PROGRAM},
-                          {.program = "/bin/bash"});
+  Running_program program(
+      {"-c", "trap '' HUP; exec \"$0\" detect " + input + " --out " + path("out"), LODESTONE_PROGRAM},
+      {.program = "/bin/bash"});
   wait_until_files_differ_from(before);
   program.send(SIGHUP);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -162,8 +161,8 @@ TEST_F(Faults, an_output_below_a_file_is_an_error_in_any_command) {
 
 TEST_F(Faults, a_reader_that_leaves_ends_the_program_quietly_after_the_results_are_written) {
   const auto input = scene(400);
-  const auto result = run_in_shell("\"$0\" detect " + input + " --all-rows --out " + path("out") +
-                                   " | true; exit ${PIPESTATUS[0]}");
+  const auto result =
+      run_in_shell("\"$0\" detect " + input + " --all-rows --out " + path("out") + " | true; exit ${PIPESTATUS[0]}");
   EXPECT_EQ(result.exit_code, 141);
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(content_of(folder.path() / "out"), (std::set<std::string>{"frames.jsonl", "summary.json"}));
