@@ -13,7 +13,7 @@ namespace lodestone::test {
 namespace {
 
 /// Allocations of a call that are made to fail at most.
-constexpr std::size_t most_failures = 200;
+constexpr std::size_t most_failures = 160;
 
 Tried_mode tried(std::string name, std::size_t threads, Detector_options options) {
   options.exact.threads = threads;
