@@ -9,8 +9,8 @@
 
 namespace lodestone {
 
-/// The bytes of a mesh file, as they were when it was read. Not memory-mapped: a mapped file that another process cuts off
-/// ends the program.
+/// The bytes of a mesh file, as they were when it was read. Not memory-mapped: a mapped file that another process cuts
+/// off ends the program.
 class File_bytes {
  public:
   /// @throws Bad_mesh  the file does not exist, or is a directory, empty or unreadable, or has become shorter meanwhile
