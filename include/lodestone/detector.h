@@ -36,6 +36,9 @@ namespace lodestone {
 /// `Exact_detection`. What is said of mode `exact` holds for mode `certified` too, unless it says otherwise. Every query
 /// asks for the current vertex positions, so results are never stale. One thread at a time may use a detector.
 ///
+/// A call that runs out of memory throws std::bad_alloc, and nothing leaks. Repeat it, or go on without it: the next
+/// `detect` is right. A `rebuild` may or may not have taken effect.
+///
 /// As the type of a member, write `Detector<>`.
 ///
 /// @tparam Strategy  how surfaces are divided: a Partition_strategy for the type of each mesh
@@ -59,28 +62,27 @@ class Detector {
   template <class Mesh>
   requires(!std::is_const_v<Mesh> && Triangle_mesh<Mesh>)
   Object_id add(Mesh& mesh, const Object_options& options = {}) {
-    const Object_id object = add(std::as_const(mesh), options);
-    static_cast<Watched_mesh_of<Mesh>&>(detection_->mesh(object)).add_maps(mesh);
-    return object;
+    check_new(&mesh);
+    return add_watched(
+        &mesh,
+        [&] {
+          auto watched = watch(mesh, CGAL::get_const_property_map(CGAL::vertex_point, std::as_const(mesh)));
+          watched->add_maps(mesh);
+          return watched;
+        },
+        options);
   }
   /// Adds an object whose mesh cannot be written to.
   template <Triangle_mesh Mesh>
   Object_id add(const Mesh& mesh, const Object_options& options = {}) {
-    if (std::ranges::find(meshes_, &mesh) != meshes_.end()) throw Bad_argument("the mesh has been added before");
+    check_new(&mesh);
     return add(mesh, CGAL::get_const_property_map(CGAL::vertex_point, mesh), options);
   }
   /// Adds an object whose positions are read through `points`, a vertex point map, which must outlive the object. One
   /// mesh may be added several times with other points; its property maps are not written.
   template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
   Object_id add(const Mesh& mesh, Points points, const Object_options& options = {}) {
-    detection_->add(
-        [&] {
-          return std::make_unique<Typed_watched_mesh<Mesh, Points, Strategy>>(mesh, std::move(points), strategy_);
-        },
-        options);
-    filter_.add(options);
-    meshes_.push_back(&mesh);
-    return static_cast<Object_id>(meshes_.size() - 1);
+    return add_watched(&mesh, [&] { return watch(mesh, std::move(points)); }, options);
   }
   /// Temporaries are rejected.
   template <Triangle_mesh Mesh>
@@ -307,6 +309,28 @@ class Detector {
 
  private:
   using Exact = Exact_detection<Volume>;
+
+  void check_new(const void* mesh) const {
+    if (std::ranges::find(meshes_, mesh) != meshes_.end()) throw Bad_argument("the mesh has been added before");
+  }
+  template <class Mesh, class Points>
+  auto watch(const Mesh& mesh, Points points) const {
+    return std::make_unique<Typed_watched_mesh<Mesh, Points, Strategy>>(mesh, std::move(points), strategy_);
+  }
+  /// Adds an object to all that lists objects, or to nothing.
+  template <class Watch>
+  Object_id add_watched(const void* mesh, const Watch& watch, const Object_options& options) {
+    meshes_.reserve(meshes_.size() + 1 + meshes_.size() / 2);
+    filter_.add(options);
+    try {
+      detection_->add(watch, options);
+    } catch (...) {
+      filter_.take_back();
+      throw;
+    }
+    meshes_.push_back(mesh);
+    return static_cast<Object_id>(meshes_.size() - 1);
+  }
 
   Object_id checked(Object_id object) const {
     if (has(object)) return object;

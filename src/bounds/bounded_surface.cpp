@@ -73,9 +73,9 @@ void Bounded_surface::bound(std::uint32_t node) {
   if (bounds_.empty()) return pose_all();
   Aabb box = bounds_.front()->box(node);
   for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node));
+  bounded_.push_back(node);  // first: a box that is in use is also one that is compared with what is read
   boxes_[node] = box;
   boxed_in_[node] = frame_;
-  bounded_.push_back(node);
   ++nodes_bounded_;
 }
 

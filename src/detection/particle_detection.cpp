@@ -21,9 +21,11 @@ void Particle_detection::update(Object_id id) {
   timed(since_last_frame_.seconds.repartition, [&] {
     if (!object.named([&] { return has_outgrown(object.particle_object); })) return;
     const Positions positions = object.named([&] { return object.particle_object.read_positions(); });
+    object.prepared = false;  // until all is done: if memory runs out, the next frame begins anew
     measure(object, positions);
     partition(object, positions);
     make_room();
+    object.prepared = true;
     ++since_last_frame_.repartitions;
   });
 }
@@ -67,23 +69,50 @@ void Particle_detection::load(Object_id id, State_reader& state) {
   timed(since_last_frame_.seconds.build, [&] {
     check_origin(origin(object), title_of(id, object.options), state);
     const double radius = state.finite();
-    object.particle_object.load(state);
+    const bool was_prepared = std::exchange(object.prepared, false);  // if memory runs out, it is built anew
+    try {
+      object.particle_object.load(state);
+    } catch (const Bad_saved_object&) {
+      object.prepared = was_prepared;
+      throw;
+    }
     object.radius = radius;
-    object.prepared = true;
     write_maps(object);
     meeting_search_.forget(id);
     make_room();
+    object.prepared = true;
   });
 }
 
 const Frame& Particle_detection::detect(const Collision_filter& filter) {
   prepare();
+  note_places();
   frame_.start(std::exchange(since_last_frame_, {}));
-  if (meets())
-    detect_by_meetings(filter);
-  else
-    detect_as_published(filter);
+  try {
+    if (meets())
+      detect_by_meetings(filter);
+    else
+      detect_as_published(filter);
+  } catch (...) {
+    return_to_places();
+    throw;
+  }
   return frame_.finish();
+}
+
+/// Where the particles are before the frame.
+void Particle_detection::note_places() {
+  for (auto& object : objects_)
+    if (object) object->before = object->particle_object.particles().at;
+}
+
+/// A frame that fails leaves the particles where they were, so that the next one answers as if it had not been begun.
+void Particle_detection::return_to_places() {
+  for (auto& object : objects_) {
+    if (!object || object->before == object->particle_object.particles().at) continue;
+    object->particle_object.particles().at.swap(object->before);
+    object->particle_object.mesh().move_particles(object->particle_object.particles().at);
+  }
 }
 
 /// The method of \cite saenghaengtham2006, or its predecessor.
@@ -111,6 +140,7 @@ void Particle_detection::prepare() {
     }
     for (std::size_t i = 0; i < fresh.size(); ++i) partition(*fresh[i], positions[i]);
     make_room();
+    for (Object* object : fresh) object->prepared = true;
   });
   since_last_frame_.builds += fresh.size();
 }
@@ -137,7 +167,6 @@ void Particle_detection::partition(Object& object, const Positions& positions) {
         object.particle_object.prepare_patches();
     });
   }
-  object.prepared = true;
   write_maps(object);
 }
 
@@ -163,6 +192,7 @@ void Particle_detection::make_room() {
   for (const auto& object : objects_) {
     counts.push_back(object ? object->particle_object.particles().at.size() : 0);
     if (!object) continue;
+    object->before.reserve(counts.back());
     for (const auto& patch : object->particle_object.patches()) {
       faces = std::max(faces, patch.faces.size());
       vertices = std::max(vertices, patch.vertices.size());

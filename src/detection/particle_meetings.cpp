@@ -12,7 +12,18 @@ namespace lodestone {
 
 void Particle_detection::detect_by_meetings(const Collision_filter& filter) {
   meeting_search_.start_frame();
-  timed(frame_.seconds().broad_phase, [&] { find_near_objects(filter); });
+  try {
+    timed(frame_.seconds().broad_phase, [&] { find_near_objects(filter); });
+    search_near_objects();
+    move_to_meetings();
+  } catch (...) {
+    meeting_search_.undo_frame();
+    throw;
+  }
+  add_counts();
+}
+
+void Particle_detection::search_near_objects() {
   try {
     timed(frame_.seconds().confirmation, [&] {
       for (auto& pair : met_pairs_) meeting_search_.look(pair);
@@ -25,8 +36,6 @@ void Particle_detection::detect_by_meetings(const Collision_filter& filter) {
     name_the_bad_object();
     throw;
   }
-  move_to_meetings();
-  add_counts();
 }
 
 void Particle_detection::add_counts() {

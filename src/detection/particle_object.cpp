@@ -192,9 +192,9 @@ bool Particle_object::move_particle(std::uint32_t vertex) {
 const Posed_patch& Particle_object::posed_patch(std::size_t particle, std::uint64_t frame) {
   Posed_patch& posed = posed_[particle];
   if (!patch_centres_.empty() && patch_centres_[particle] != particles_.at[particle]) {
-    patch_centres_[particle] = particles_.at[particle];
-    patches_[particle] = ring_patch(edges_.graph, vertex_faces_, corners(), particles_.at[particle], rings_);
     posed.frame = 0;
+    patches_[particle] = ring_patch(edges_.graph, vertex_faces_, corners(), particles_.at[particle], rings_);
+    patch_centres_[particle] = particles_.at[particle];
   }
   pose_patch(posed, read_, frame);
   return posed;
@@ -264,18 +264,20 @@ bool Particle_object::has_outgrown(double growth, std::size_t most_regions) {
   constexpr double rounding = 1 + 1e-9;
   if (largest_area_ == 0) return std::pow(longest_compass(read_), 2) > growth * rounding * std::pow(rest_compass_, 2);
   const double limit = growth * rounding * largest_area_;
-  for (std::size_t checked = 0; checked < std::min(most_regions, extents_.size()); ++checked) {
-    last_checked_ = last_checked_ + 1 < extents_.size() ? last_checked_ + 1 : 0;
-    const Region_index region = last_checked_;
+  Region_index region = last_checked_;
+  bool outgrown = false;
+  for (std::size_t checked = 0; checked < std::min(most_regions, extents_.size()) && !outgrown; ++checked) {
+    region = region + 1 < extents_.size() ? region + 1 : 0;
     const double area = stretched_area(extents_[region], read_);
     if (!std::isfinite(area))
       throw Bad_mesh("region " + std::to_string(region) + " has a coordinate that is not finite");
     if (area <= limit) continue;
     // The measured paths become the new samples, so that one that was merely no longer the shortest alarms only once.
     extents_[region] = std::move(extents_of({&homes_[region], 1}, read_).front());
-    if (extents_[region].area() > limit) return true;
+    outgrown = extents_[region].area() > limit;
   }
-  return false;
+  last_checked_ = region;  // not before: a call that fails is repeated from where it began
+  return outgrown;
 }
 
 }  // namespace lodestone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/mesh/workers.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -59,8 +60,9 @@ struct Workers::Threads {
 
 Workers::Workers(std::size_t threads)
     : count_(static_cast<std::size_t>(std::max(1, tbb::this_task_arena::max_concurrency()))) {
-  // oneTBB prints a warning and ignores the excess when it is asked for more threads than the machine has.
-  if (threads > 0) count_ = std::min(count_, threads);
+  // oneTBB prints a warning and ignores the excess when it is asked for more threads than it allows.
+  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  if (threads > 0) count_ = std::min(std::max(count_, allowed), threads);
   if (count_ > 1)
     threads_ =
         std::make_unique<Threads>(Threads{tbb::task_arena(static_cast<int>(count_)), std::vector<char>(count_ + 1)});

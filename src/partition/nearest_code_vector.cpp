@@ -68,6 +68,13 @@ void assign_chunks(std::size_t vectors, const Feature_vectors& codes, Assignment
   assignment.distance_evaluations += std::accumulate(evaluations.begin(), evaluations.end(), std::uint64_t{0});
 }
 
+/// Makes room for another number of rows. Eigen frees the old memory first, and would free it again if it gets none.
+void make_room(Feature_vectors& matrix, Eigen::Index rows, Eigen::Index columns) {
+  if (matrix.rows() == rows && matrix.cols() == columns) return;
+  Feature_vectors other(rows, columns);
+  matrix.swap(other);
+}
+
 }  // namespace
 
 std::size_t chunk_size(std::size_t vectors, std::size_t cells) {
@@ -79,7 +86,8 @@ std::size_t chunk_size(std::size_t vectors, std::size_t cells) {
 void Assignment::start(std::size_t vectors, std::size_t cells, std::size_t components) {
   labels.resize(vectors, 0);
   squared_distances.resize(vectors);
-  cell_sums.setZero(static_cast<Eigen::Index>(cells), static_cast<Eigen::Index>(components));
+  make_room(cell_sums, static_cast<Eigen::Index>(cells), static_cast<Eigen::Index>(components));
+  cell_sums.setZero();
   cell_sizes.assign(cells, 0);
 }
 
@@ -165,6 +173,7 @@ void Bounded_assignment::assign(const Feature_vectors& codes, Assignment& assign
     kernel::bounded_pass(pass);
     return pass.distance_evaluations;
   });
+  make_room(previous_, codes.rows(), codes.cols());
   previous_ = codes;
 }
 

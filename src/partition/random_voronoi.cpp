@@ -13,8 +13,9 @@ namespace lodestone {
 std::vector<std::uint32_t> random_vertices(const Vertex_graph& graph, std::size_t count, std::uint64_t seed) {
   std::vector<std::uint32_t> order(num_vertices(graph));
   std::iota(order.begin(), order.end(), 0);
-  const auto isolated = std::ranges::stable_partition(order, [&](auto v) { return out_degree(v, graph) > 0; });
-  const std::size_t with_edges = order.size() - isolated.size();
+  const auto isolated =
+      std::stable_partition(order.begin(), order.end(), [&](auto v) { return out_degree(v, graph) > 0; });
+  const auto with_edges = static_cast<std::size_t>(isolated - order.begin());
 
   // The first steps of a shuffle. It uses remainders, because they are the same on every platform, unlike the
   // distributions of the standard library.

@@ -11,6 +11,7 @@ inline constexpr int bad_output = 4;
 inline constexpr int contradicts_truth = 5;
 inline constexpr int unexpected = 70;
 inline constexpr int interrupted = 130;
+inline constexpr int reader_left = 141;
 
 inline constexpr const char* help = R"(Exit codes:
   0    done; with detect --exit-code: nothing collides
@@ -20,6 +21,7 @@ inline constexpr const char* help = R"(Exit codes:
   4    a result cannot be written
   5    --truth: a reported collision is not true, or mode exact missed one
   70   an error that should not happen: please report it
-  130  interrupted)";
+  130  interrupted
+  141  nobody reads the standard output any more)";
 
 }  // namespace lodestone::exit_code

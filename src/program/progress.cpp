@@ -23,10 +23,10 @@ void note_interrupt(int signal) {
 }  // namespace
 
 void handle_interrupts() {
-  std::signal(SIGINT, note_interrupt);
-  std::signal(SIGTERM, note_interrupt);
-  // Ignored, so that a write past the file-size limit fails with an error that is reported.
-  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, note_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);  // as under nohup
+  // Ignored, so that a write past the file-size limit, or to a pipe that nobody reads, fails with an error.
+  for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
 }
 
 void check_interrupt() {

@@ -10,8 +10,9 @@ namespace lodestone {
 /// Thrown to end a run at the user's request.
 struct Interrupted {};
 
-/// From now on, an interrupt or termination signal ends the run at the next frame and leaves no partial file. A second
-/// signal ends it at once, and may leave a hidden temporary file behind.
+/// From now on SIGINT, SIGTERM and SIGHUP end the run at the next frame and leave no partial file, unless they were
+/// ignored. A second signal ends it at once, and may leave a hidden temporary file behind. To write where nobody reads
+/// is an error, not a signal.
 void handle_interrupts();
 /// @throws Interrupted  the user has asked to stop
 void check_interrupt();

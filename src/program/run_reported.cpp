@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <new>
 #include <system_error>
 
 #include "io/files/small_text.h"
 #include "lodestone/mesh/errors.h"
+#include "program/assumed_machine.h"
 #include "program/exit_codes.h"
 #include "program/progress.h"
 
@@ -16,10 +18,16 @@ namespace lodestone {
 
 namespace {
 
-/// Always one line, even if file names contain line breaks.
+/// Always one line, even if file names contain line breaks. Nobody can be told if the line cannot be written.
 int report(const char* what, int code) {
-  fmt::print(stderr, "lodestone: {}\n", printable(what));
+  std::fputs(fmt::format("lodestone: {}\n", printable(what)).c_str(), stderr);
   return code;
+}
+
+/// Ends quietly where nobody reads on, as `lodestone info FILE | head` does.
+int report_output(const std::system_error& error) {
+  if (error.code() == std::errc::broken_pipe) return exit_code::reader_left;
+  return report(error.what(), exit_code::bad_output);
 }
 
 }  // namespace
@@ -27,8 +35,12 @@ int report(const char* what, int code) {
 int run_reported(const std::function<int()>& program) {
   try {
     handle_interrupts();
+    const Assumed_machine machine;
     const int code = program();
-    if (std::fflush(stdout) != 0) throw Bad_output("the standard output cannot be written");
+    if (std::fflush(stdout) != 0) {
+      if (errno == EPIPE) return exit_code::reader_left;
+      throw Bad_output("the standard output cannot be written");
+    }
     return code;
   } catch (const Interrupted&) {
     return report("interrupted", exit_code::interrupted);
@@ -42,7 +54,7 @@ int run_reported(const std::function<int()>& program) {
     return report("not enough memory for this input", exit_code::bad_input);
   } catch (const std::system_error& error) {
     // Readers throw their own error types: this one comes from a folder or the standard output.
-    return report(error.what(), exit_code::bad_output);
+    return report_output(error);
   } catch (const std::exception& error) {
     return report(error.what(), exit_code::unexpected);
   }

@@ -155,8 +155,7 @@ Slurm_job job_of(const Submit_command& command, std::size_t shards, const Shards
                 .account = command.account};
   for (const auto shard : to_do.shards) job.to_do.push_back((shard - 1) % job.tasks + 1);
   std::ranges::sort(job.to_do);
-  const auto [first, last] = std::ranges::unique(job.to_do);
-  job.to_do.erase(first, last);
+  job.to_do.erase(std::unique(job.to_do.begin(), job.to_do.end()), job.to_do.end());
 
   const auto& needs = to_do.needs;
   const auto jobs = static_cast<double>(number_of(command.words, "--jobs"));

@@ -115,9 +115,10 @@ bool Tree_mender::place_waiting_faces(Vertex_leaves& leaf_of, std::vector<std::u
   while (!queue.empty()) {
     const std::uint32_t vertex = queue.back();
     queue.pop_back();
-    for (const auto& [at, face] : std::ranges::equal_range(faces_at, vertex, {}, &Vertex_and_face::first))
-      if (waits[face] && place(face, leaf_of, queue)) {
-        waits[face] = false;
+    auto next = std::ranges::lower_bound(faces_at, vertex, {}, &Vertex_and_face::first);
+    for (; next != faces_at.end() && next->first == vertex; ++next)
+      if (waits[next->second] && place(next->second, leaf_of, queue)) {
+        waits[next->second] = false;
         --left;
       }
   }
@@ -226,8 +227,9 @@ void Tree_mender::fill_items(std::uint32_t former_leaf, std::uint32_t begin, boo
   std::vector<std::uint32_t> faces;
   for (const auto face : former_.faces(former_leaf))
     if (!left_.test(face)) faces.push_back(face);
-  for (const auto placed : std::ranges::equal_range(placed_, former_leaf, {}, leaf_with))
-    faces.push_back(static_cast<std::uint32_t>(placed));
+  auto placed = std::ranges::lower_bound(placed_, former_leaf, {}, leaf_with);
+  for (; placed != placed_.end() && leaf_with(*placed) == former_leaf; ++placed)
+    faces.push_back(static_cast<std::uint32_t>(*placed));
   if (!with_centres) {
     for (const auto face : faces) *item++ = {{}, face};
     return;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <atomic>
@@ -76,6 +77,24 @@ TEST(Workers, are_never_more_than_the_machine_has_and_do_not_print) {
     EXPECT_EQ(workers.count(), std::min(threads, processors()));
     workers.run(100, [](std::size_t, std::size_t) {});
   }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Workers, are_more_than_the_machine_has_where_a_global_control_allows_it) {
+  using namespace std::chrono_literals;
+  const std::size_t count = processors() + 3;
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, count);
+  testing::internal::CaptureStderr();
+  Workers workers(count);
+  EXPECT_EQ(workers.count(), count);
+  // Each task waits for all others, so that all must run at once.
+  std::atomic<std::size_t> running = 0;
+  const auto end = std::chrono::steady_clock::now() + 20s;
+  workers.run(count, [&](std::size_t, std::size_t) {
+    ++running;
+    while (running < count && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    EXPECT_EQ(running, count);
+  });
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 

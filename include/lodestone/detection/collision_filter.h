@@ -16,6 +16,8 @@ class Collision_filter {
  public:
   /// Adds an object, with its groups.
   void add(const Object_options& object) { objects_.push_back({object.groups, object.meets}); }
+  /// Undoes the last `add`.
+  void take_back() { objects_.pop_back(); }
   /// Leaves out all pairs of an object from now on. O(ignored pairs).
   void remove(std::uint32_t object) {
     objects_[object] = {.groups = 0, .meets = 0};

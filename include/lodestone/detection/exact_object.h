@@ -85,6 +85,14 @@ class Exact_object {
   void build(std::optional<Numbered_partition> regions, Coordinates coordinates, const Region_tree_options& options,
              Workers& workers);
 
+  /// Takes the positions with which it has been built as those at rest, unless it has some.
+  void keep_rest() {
+    if (!surface.rest().empty()) return;
+    built = false;  // without them it is not, if memory runs out
+    surface.keep_rest();
+    built = true;
+  }
+
   /// Takes note that a query begins: positions can have changed since the last one.
   void begin_query() {
     if (mesh().pose_number() == 0) ++changes_;
@@ -111,6 +119,12 @@ class Exact_object {
   void load(State_reader& state, bool with_rest);
 
  private:
+  /// Until `finish`: whoever runs out of memory in between leaves an object that is built anew.
+  void forget_tree() {
+    built = false;
+    former_.reset();
+    bounded_.reset();
+  }
   void finish();
   void write_maps();
 
@@ -154,7 +168,7 @@ class Exact_object {
   };
 
   void replace(Faces anew);
-  void start_anew(const std::vector<std::uint32_t>& changed);
+  void start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces);
 
   Faces faces_;
   std::optional<Former> former_;  ///< between a change of faces and the next build
@@ -214,39 +228,40 @@ void Exact_object<Volume>::make_bounds(Workers& workers) {
 
 template <Bounding_volume Volume>
 void Exact_object<Volume>::replace(Faces anew) {
-  const auto changed = changed_faces(corners(), anew.corners());
-  // From here on nothing can fail but for want of memory.
+  auto changed = changed_faces(corners(), anew.corners());
   faces_ = std::move(anew);
-  start_anew(changed);
+  start_anew(std::move(changed), corners().size());
 }
 
 template <Bounding_volume Volume>
 void Exact_object<Volume>::rebuild(const Changed_faces& changed) {
   const std::size_t former_faces = corners().size();
+  std::vector<std::uint32_t> all(changed.faces.begin(), changed.faces.end());
   if (!faces_.joined.empty() || !mesh().renumber(changed.faces)) {
     Faces anew(mesh().renumbered(), {});
     check_faces(changed.faces, anew.corners().size());
     return replace(std::move(anew));
   }
-  std::vector<std::uint32_t> all(changed.faces.begin(), changed.faces.end());
-  for (std::size_t face = former_faces; face < corners().size(); ++face)
-    all.push_back(static_cast<std::uint32_t>(face));
-  start_anew(all);
+  start_anew(std::move(all), former_faces);
 }
 
-/// The surface of the faces as they are now has no tree yet; that of the former ones waits to be mended.
+/// The surface of the faces as they are now has no tree yet; that of the former ones waits to be mended. If memory runs
+/// out it does not wait: a new tree is built.
+/// @param changed       faces of `corners()`; those from `former_faces` on need not be listed
 template <Bounding_volume Volume>
-void Exact_object<Volume>::start_anew(const std::vector<std::uint32_t>& changed) {
-  if (built) former_ = Former{std::move(surface), {}};
-  if (former_) {
-    std::erase_if(former_->changed, [&](std::uint32_t face) { return face >= corners().size(); });
-    former_->changed.insert(former_->changed.end(), changed.begin(), changed.end());
-  }
+void Exact_object<Volume>::start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces) {
+  if (std::exchange(built, false)) former_ = Former{std::move(surface), {}};
   bounded_.reset();
   rest_.clear();
   surface = Basic_tree_surface<Volume>(corners());
   give({});
-  built = false;
+  auto former = std::exchange(former_, std::nullopt);
+  if (!former) return;
+  std::erase_if(former->changed, [&](std::uint32_t face) { return face >= corners().size(); });
+  former->changed.insert(former->changed.end(), changed.begin(), changed.end());
+  for (std::size_t face = former_faces; face < corners().size(); ++face)
+    former->changed.push_back(static_cast<std::uint32_t>(face));
+  former_ = std::move(former);
 }
 
 template <Bounding_volume Volume>
@@ -261,7 +276,7 @@ bool Exact_object<Volume>::mend(Coordinates coordinates, const Region_tree_optio
 template <Bounding_volume Volume>
 void Exact_object<Volume>::build(std::optional<Numbered_partition> regions, Coordinates coordinates,
                                  const Region_tree_options& options, Workers& workers) {
-  former_.reset();
+  forget_tree();
   surface.build(regions ? std::span<const Region_index>(regions->labels) : std::span<const Region_index>(), coordinates,
                 options, workers);
   regions_ = std::move(regions);
@@ -271,7 +286,6 @@ void Exact_object<Volume>::build(std::optional<Numbered_partition> regions, Coor
 /// What follows from the tree and the regions.
 template <Bounding_volume Volume>
 void Exact_object<Volume>::finish() {
-  bounded_.reset();
   unused_ = unused_vertices(surface.tree().all_vertices(), mesh().vertex_count());
   write_maps();
   built = true;
@@ -301,10 +315,10 @@ void Exact_object<Volume>::load(State_reader& state, bool with_rest) {
   state.end();
   if (with_rest && loaded.rest().empty())
     throw Bad_saved_object("the object was saved without positions at rest, which a tolerance within one object needs");
-  // From here on nothing can fail but for want of memory.
+  // From here on nothing can fail but for want of memory. Then the object is built anew.
+  forget_tree();
   surface = std::move(loaded);
   regions_ = std::move(regions);
-  former_.reset();
   finish();
 }
 

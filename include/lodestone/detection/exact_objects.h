@@ -173,7 +173,7 @@ void Exact_objects<Volume>::build_new(std::span<const Object_id> ids) {
     if (objects_[id]->built) continue;
     timed(work_.seconds.build, [&] {
       build(id, objects_[id]->read());
-      if (options_.exact.self_tolerance > 0) objects_[id]->surface.keep_rest();
+      if (options_.exact.self_tolerance > 0) objects_[id]->keep_rest();
     });
     ++work_.builds;
     // A mended tree has looked at the vertices of its faces only.

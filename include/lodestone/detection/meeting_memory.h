@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lodestone/mesh/pairs.h"
@@ -23,6 +24,8 @@ class Meeting_memory {
  public:
   /// What was kept can now be recalled; what could be recalled is forgotten.
   void start_frame();
+  /// As if the current frame had not been started: what it could recall can be recalled by the next one.
+  void undo_frame() { std::swap(last_, current_); }
   /// The meetings of a pair that the last frame kept, in the order in which it kept them. O(log n) for n pairs.
   std::span<const Remembered_meeting> recall(Object_pair pair) const;
   /// Remembers a meeting for the next frame.

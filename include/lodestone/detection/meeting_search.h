@@ -49,6 +49,8 @@ class Meeting_search {
 
   /// Starts a frame: counts begin at 0.
   void start_frame();
+  /// As if the frame had not been started, for the next one.
+  void undo_frame() { memory_.undo_frame(); }
   /// Searches where particles met in the last frame, then below the regions.
   void look(Met_pair& pair);
   /// Lets the particles of near regions meet, and checks the faces around: the nearest first, as many as the options

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,6 +65,7 @@ class Particle_detection final : public Detection {
     Particle_object particle_object;
     double radius = 0;  ///< of the bounding sphere at the last partition, if numbers of particles depend on it
     bool prepared = false;
+    std::vector<std::uint32_t> before = {};  ///< where its particles were before the frame
 
     Object(Object_id i, std::unique_ptr<Watched_mesh> mesh, const Object_options& o)
         : id(i), options(o), particle_object(std::move(mesh)) {}
@@ -81,6 +83,8 @@ class Particle_detection final : public Detection {
 
   Saved_origin origin(const Object& object) const;
   void prepare();
+  void note_places();
+  void return_to_places();
   void measure(Object& object, const Positions& positions);
   void partition(Object& object, const Positions& positions);
   bool has_outgrown(Particle_object& object);
@@ -93,6 +97,7 @@ class Particle_detection final : public Detection {
   void walk();
   void check(Object_pair pair);
   void find_near_objects(const Collision_filter& filter);
+  void search_near_objects();
   void detect_as_published(const Collision_filter& filter);
   void detect_by_meetings(const Collision_filter& filter);
   void walk_undecided_particles();

@@ -93,8 +93,8 @@ class Watched_mesh_of : public Watched_mesh {
 
   bool renumber(std::span<const std::uint32_t> changed) override {
     if constexpr (Vertex_table<Mesh>::by_index) {
+      if (maps_) maps_->renew();  // first, since what follows is done as a whole or not at all
       numbering_.renumber(*mesh_, changed);
-      if (maps_) maps_->renew();
     }
     return Vertex_table<Mesh>::by_index;
   }

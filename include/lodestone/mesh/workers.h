@@ -10,7 +10,8 @@ namespace lodestone {
 /// A group of threads that share tasks.
 class Workers {
  public:
-  /// @param threads  number of threads, limited to as many as the machine has; 0: as many as it has
+  /// @param threads  number of threads, limited to as many as the machine has, or as a `tbb::global_control` allows if
+  ///                 that is more; 0: as many as the machine has
   explicit Workers(std::size_t threads);
   ~Workers();
   /// Takes over the threads of another group, which then works alone.

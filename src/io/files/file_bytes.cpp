@@ -3,34 +3,46 @@
 
 #include <fmt/format.h>
 
-#include <boost/interprocess/file_mapping.hpp>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
 #include <system_error>
 
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
+
 namespace {
 
-boost::interprocess::mapped_region mapped(const std::filesystem::path& file) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(file, ignored);
-  const auto name = file.string();
-  if (!exists(status)) throw Bad_mesh(fmt::format("{}: there is no such file", name));
-  if (is_directory(status)) throw Bad_mesh(fmt::format("{}: this is a directory, not a mesh file", name));
-  // A pipe or a device could deliver bytes without end.
-  if (!is_regular_file(status)) throw Bad_mesh(fmt::format("{}: this is not a regular file", name));
-  if (std::filesystem::file_size(file, ignored) == 0) throw Bad_mesh(fmt::format("{}: the file is empty", name));
-  try {
-    const boost::interprocess::file_mapping mapping(name.c_str(), boost::interprocess::read_only);
-    return {mapping, boost::interprocess::read_only};
-  } catch (const boost::interprocess::interprocess_exception& error) {
-    throw Bad_mesh(fmt::format("{}: the file cannot be read: {}", name, error.what()));
-  }
-}
+/// Enough for 50 million faces as text.
+constexpr std::uintmax_t longest_file = std::uintmax_t{16} << 30U;
 
 }  // namespace
 
-File_bytes::File_bytes(const std::filesystem::path& file) : name_(file.string()), region_(mapped(file)) {}
+File_bytes::File_bytes(const std::filesystem::path& file) : name_(file.string()) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!exists(status)) throw Bad_mesh(fmt::format("{}: there is no such file", name_));
+  if (is_directory(status)) throw Bad_mesh(fmt::format("{}: this is a directory, not a mesh file", name_));
+  // A pipe or a device could deliver bytes without end.
+  if (!is_regular_file(status)) throw Bad_mesh(fmt::format("{}: this is not a regular file", name_));
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) throw Bad_mesh(fmt::format("{}: the file cannot be read: {}", name_, error.message()));
+  if (size == 0) throw Bad_mesh(fmt::format("{}: the file is empty", name_));
+  if (size > longest_file) throw Bad_mesh(fmt::format("{}: the file is longer than 16 GiB", name_));
+  size_ = size;
+  bytes_ = std::make_unique_for_overwrite<char[]>(size_);
+  read(file);
+}
+
+void File_bytes::read(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Bad_mesh(fmt::format("{}: the file cannot be read: {}", name_, std::strerror(errno)));
+  in.read(bytes_.get(), static_cast<std::streamsize>(size_));
+  if (static_cast<std::size_t>(in.gcount()) < size_)
+    throw Bad_mesh(fmt::format("{}: the file has become shorter while it was read", name_));
+}
 
 void File_bytes::fail_at(std::size_t offset, std::string_view cause) const {
   throw Bad_mesh(fmt::format("{}: byte {}: {}", name_, offset, cause));

@@ -1,30 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <boost/interprocess/mapped_region.hpp>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace lodestone {
 
-/// The bytes of a mesh file. Memory-mapped: a huge file costs nothing before it is checked.
+/// The bytes of a mesh file, as they were when it was read. Not memory-mapped: a mapped file that another process cuts
+/// off ends the program.
 class File_bytes {
  public:
-  /// @throws Bad_mesh  the file does not exist, or is a directory, empty or unreadable
+  /// @throws Bad_mesh  the file does not exist, or is a directory, empty or unreadable, or has become shorter meanwhile
   explicit File_bytes(const std::filesystem::path& file);
 
   /// The file's name as the user gave it.
   const std::string& name() const { return name_; }
-  std::string_view view() const { return {static_cast<const char*>(region_.get_address()), region_.get_size()}; }
+  std::string_view view() const { return {bytes_.get(), size_}; }
 
   /// @throws Bad_mesh, always: `NAME: byte OFFSET: cause`
   [[noreturn]] void fail_at(std::size_t offset, std::string_view cause) const;
 
  private:
+  void read(const std::filesystem::path& file);
+
   std::string name_;
-  boost::interprocess::mapped_region region_;
+  std::size_t size_ = 0;
+  std::unique_ptr<char[]> bytes_;
 };
 
 /// `text` in quotes, for a one-line message: unprintable characters as `?`, truncated to 40 characters.

@@ -14,6 +14,8 @@
 namespace lodestone {
 
 struct Deformed_points::State {
+  explicit State(detail::Deformed_shape rest_and_deformations) : shape(std::move(rest_and_deformations)) {}
+
   detail::Deformed_shape shape;
   std::vector<detail::Step> steps;  ///< of the current frame
 

@@ -45,7 +45,7 @@ std::size_t count_duplicates(std::span<const Point> points) {
   sorted.reserve(points.size());
   for (const Point& p : points) sorted.push_back({p.x() + 0.0, p.y() + 0.0, p.z() + 0.0});  // minus zero is zero
   std::ranges::sort(sorted);
-  return static_cast<std::size_t>(std::ranges::unique(sorted).size());
+  return static_cast<std::size_t>(sorted.end() - std::unique(sorted.begin(), sorted.end()));
 }
 
 }  // namespace

@@ -182,7 +182,7 @@ std::vector<Object_pair> read_ignored(const Json_value& scene, const std::vector
     ignored.push_back({a, b});
   }
   std::ranges::sort(ignored);
-  ignored.erase(std::ranges::unique(ignored).begin(), ignored.end());
+  ignored.erase(std::unique(ignored.begin(), ignored.end()), ignored.end());
   return ignored;
 }
 
