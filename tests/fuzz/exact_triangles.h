@@ -8,7 +8,7 @@
 
 namespace lodestone::fuzz {
 
-/// The test for points of exact numbers: integers that do not overflow, or rationals.
+/// The test for points of exact numbers: integers that do not overflow.
 template <class Number>
 class Exact_triangles {
  public:
