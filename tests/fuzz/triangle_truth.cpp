@@ -63,7 +63,7 @@ bool truly_meet(const Six_corners& corners) {
       const Odd odd(x);
       return Wide_integer(odd.factor).shifted(odd.factor == 0 ? 0 : static_cast<std::size_t>(odd.exponent - bits.lowest));
     });
-  return meet<CGAL::Exact_integer>(corners, [&](double x) {
+  return meet<CGAL::Exact_integer>(corners, [&](double x) -> CGAL::Exact_integer {
     const Odd odd(x);
     return CGAL::Exact_integer(static_cast<double>(odd.factor)) << (odd.factor == 0 ? 0 : odd.exponent - bits.lowest);
   });
