@@ -15,7 +15,6 @@ namespace {
 
 using namespace lodestone::fuzz;
 using lodestone::Shard_folder;
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_shards = 4;
 
@@ -42,7 +41,7 @@ std::string merged(const Shard_folder& folder) {
   std::string lines;
   bool is_tally = false;
   folder.read_all([&](std::string_view line) {
-    if (is_tally) to_json(lodestone::frame_tally_of(Json::parse(line)));
+    if (is_tally) to_json(lodestone::frame_tally_of(lodestone::parse_shard_line(line)));
     lines.append(line) += '\n';
     is_tally = !is_tally;
   });
