@@ -23,10 +23,10 @@ void write_neighbours() {
   scratch().write("mesh.pc2", cache);
 }
 
-/// Large shapes and long lists of files are legal, and would only take time.
+/// Large shapes are legal, and would only take time.
 bool is_small(const Json& json) {
   constexpr std::string_view sizes[] = {"u",    "v",       "slices", "stacks", "frequency", "p",    "q",
-                                        "rows", "columns", "sides",  "segments", "first",   "last"};
+                                        "rows", "columns", "sides",  "segments"};
   constexpr std::size_t most_elements = 12;
   constexpr double largest = 40;
   if (json.is_array() && json.size() > most_elements) return false;
