@@ -85,7 +85,10 @@ void check_pair(const Frame& frame, const Detector_options& options, Object_pair
 }
 
 void check_lists(const Frame& frame, const Detector_options& options) {
-  require(std::ranges::is_sorted(frame.pairs, {}, [](const auto& pair) { return Object_pair{pair.a, pair.b}; }),
+  require(std::ranges::is_sorted(frame.pairs, {},
+                                 [](const auto& pair) {
+                                   return Object_pair{pair.a, pair.b};
+                                 }),
           "the pairs of a frame are not in order");
   std::size_t contacts = 0;
   for (const auto& pair : frame.pairs) {

@@ -57,7 +57,8 @@ void take(std::vector<double> coordinates, Drawn_object& object) {
   double farthest = 0;
   for (std::size_t v = 0; v < coordinates.size(); v += 3) {
     double steps = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) steps += std::abs(coordinates[v + axis] - object.coordinates[v + axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      steps += std::abs(coordinates[v + axis] - object.coordinates[v + axis]);
     farthest = std::max(farthest, steps);
   }
   const double promised = 2 * farthest;
@@ -69,7 +70,8 @@ void take(std::vector<double> coordinates, Drawn_object& object) {
 }  // namespace
 
 Triangle Drawn_object::triangle(std::size_t face) const {
-  return face_triangle(faces[face], [this](std::uint32_t vertex) { return coordinates.data() + 3 * std::size_t{vertex}; });
+  return face_triangle(faces[face],
+                       [this](std::uint32_t vertex) { return coordinates.data() + 3 * std::size_t{vertex}; });
 }
 
 void draw_object(Byte_source& bytes, Drawn_object& object) {
@@ -131,7 +133,9 @@ std::vector<std::uint32_t> change_faces(Byte_source& bytes, Drawn_object& object
   std::vector<std::uint32_t> changed;
   const auto choice = bytes.below(4);
   const auto face = bytes.below(std::min<std::size_t>(object.faces.size(), 256));
-  const auto vertex = [&] { return static_cast<std::uint32_t>(bytes.below(std::min<std::size_t>(object.vertices(), 256))); };
+  const auto vertex = [&] {
+    return static_cast<std::uint32_t>(bytes.below(std::min<std::size_t>(object.vertices(), 256)));
+  };
   if (choice == 0 && object.faces.size() > 1) {
     // The last face takes the place of one that is removed.
     object.faces[face] = object.faces.back();

@@ -53,11 +53,12 @@ class Triangle_drawer {
   }
   /// In the plane of the first triangle, rounded.
   Coordinate_point in_plane(const Six_corners& corners) {
-    const double u = (static_cast<double>(bytes_.below(13)) - 4) / 4, v = (static_cast<double>(bytes_.below(13)) - 4) / 4;
+    const double u = (static_cast<double>(bytes_.below(13)) - 4) / 4,
+                 v = (static_cast<double>(bytes_.below(13)) - 4) / 4;
     Coordinate_point result{};
     for (std::size_t axis = 0; axis < 3; ++axis)
-      result[axis] = corners[0][axis] + u * (corners[1][axis] - corners[0][axis]) +
-                     v * (corners[2][axis] - corners[0][axis]);
+      result[axis] =
+          corners[0][axis] + u * (corners[1][axis] - corners[0][axis]) + v * (corners[2][axis] - corners[0][axis]);
     return finite(result);
   }
   /// Makes all of it tiny or huge, or takes it far from the origin.
@@ -67,7 +68,8 @@ class Triangle_drawer {
     const int exponent = static_cast<int>(bytes_.byte()) * 8 - 1064;
     const double offset = choice >= 224 ? std::ldexp(1.0, static_cast<int>(bytes_.below(64))) : 0;
     for (auto& corner : corners) {
-      for (auto& coordinate : corner) coordinate = choice >= 224 ? coordinate + offset : std::ldexp(coordinate, exponent);
+      for (auto& coordinate : corner)
+        coordinate = choice >= 224 ? coordinate + offset : std::ldexp(coordinate, exponent);
       corner = finite(corner);
     }
   }

@@ -22,7 +22,8 @@ void make_cloth(double height, Drawn_object& object) {
     for (std::uint32_t j = 0; j < side; ++j)
       object.coordinates.insert(object.coordinates.end(), {double(i), double(j), height + std::sin(i * 2 + j)});
   for (std::uint32_t v = 0; v + side + 1 < side * side; ++v)
-    if (v % side != side - 1) object.faces.insert(object.faces.end(), {{v, v + side, v + side + 1}, {v, v + side + 1, v + 1}});
+    if (v % side != side - 1)
+      object.faces.insert(object.faces.end(), {{v, v + side, v + side + 1}, {v, v + side + 1, v + 1}});
   object.make_mesh();
 }
 

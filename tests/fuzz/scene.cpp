@@ -25,8 +25,8 @@ void write_neighbours() {
 
 /// Large shapes are legal, and would only take time.
 bool is_small(const Json& json) {
-  constexpr std::string_view sizes[] = {"u",    "v",       "slices", "stacks", "frequency", "p",    "q",
-                                        "rows", "columns", "sides",  "segments"};
+  constexpr std::string_view sizes[] = {"u", "v",    "slices",  "stacks", "frequency", "p",
+                                        "q", "rows", "columns", "sides",  "segments"};
   constexpr std::size_t most_elements = 12;
   constexpr double largest = 40;
   if (json.is_array() && json.size() > most_elements) return false;
@@ -47,7 +47,9 @@ void check_scene(Scene& scene) {
   }
 }
 
-bool nests_little(std::string_view text) { return std::ranges::count_if(text, [](char c) { return c == '[' || c == '{'; }) < 1000; }
+bool nests_little(std::string_view text) {
+  return std::ranges::count_if(text, [](char c) { return c == '[' || c == '{'; }) < 1000;
+}
 
 }  // namespace
 

@@ -37,7 +37,8 @@ class Scratch_folder {
   /// Writes a file of exactly these bytes.
   std::filesystem::path write(const std::string& name, std::string_view bytes) const {
     auto file = path_ / name;
-    std::ofstream(file, std::ios::binary | std::ios::trunc).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(file, std::ios::binary | std::ios::trunc)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return file;
   }
   std::filesystem::path write(const std::string& name, Input bytes) const {

@@ -54,16 +54,16 @@ bool accepts(const Call& call) {
 // Defines a target: LODESTONE_FUZZ_TARGET(off) { ... input ... }. Built with libFuzzer, a program has one target, which
 // libFuzzer calls. Else a program has several, each of which `replay.cpp` calls by its name.
 #ifdef LODESTONE_WITH_LIBFUZZER
-#define LODESTONE_FUZZ_TARGET(NAME)                                                 \
-  static void run_##NAME(lodestone::fuzz::Input input);                             \
+#define LODESTONE_FUZZ_TARGET(NAME)                                                   \
+  static void run_##NAME(lodestone::fuzz::Input input);                               \
   extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { \
-    run_##NAME({data, size});                                                       \
-    return 0;                                                                       \
-  }                                                                                 \
+    run_##NAME({data, size});                                                         \
+    return 0;                                                                         \
+  }                                                                                   \
   static void run_##NAME([[maybe_unused]] lodestone::fuzz::Input input)
 #else
-#define LODESTONE_FUZZ_TARGET(NAME)                                                                \
-  static void run_##NAME(lodestone::fuzz::Input input);                                            \
+#define LODESTONE_FUZZ_TARGET(NAME)                                                                      \
+  static void run_##NAME(lodestone::fuzz::Input input);                                                  \
   [[maybe_unused]] static const bool NAME##_is_added = lodestone::fuzz::add_target({#NAME, run_##NAME}); \
   static void run_##NAME([[maybe_unused]] lodestone::fuzz::Input input)
 #endif

@@ -57,11 +57,13 @@ bool truly_meet(const Six_corners& corners) {
   const Bits bits(corners);
   // A determinant has three factors, which are differences, and six terms.
   if (bits.count() <= 18)
-    return meet<std::int64_t>(corners, [&](double x) { return static_cast<std::int64_t>(std::ldexp(x, -bits.lowest)); });
+    return meet<std::int64_t>(corners,
+                              [&](double x) { return static_cast<std::int64_t>(std::ldexp(x, -bits.lowest)); });
   if (bits.count() <= 80)
     return meet<Wide_integer>(corners, [&](double x) {
       const Odd odd(x);
-      return Wide_integer(odd.factor).shifted(odd.factor == 0 ? 0 : static_cast<std::size_t>(odd.exponent - bits.lowest));
+      return Wide_integer(odd.factor)
+          .shifted(odd.factor == 0 ? 0 : static_cast<std::size_t>(odd.exponent - bits.lowest));
     });
   return meet<CGAL::Exact_integer>(corners, [&](double x) -> CGAL::Exact_integer {
     const Odd odd(x);

@@ -16,8 +16,7 @@ using lodestone::Triangle;
 lodestone::Aabb box_of(const Six_corners& corners, std::size_t first) {
   lodestone::Aabb box{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [low, high] =
-        std::minmax({corners[first][axis], corners[first + 1][axis], corners[first + 2][axis]});
+    const auto [low, high] = std::minmax({corners[first][axis], corners[first + 1][axis], corners[first + 2][axis]});
     box.low[axis] = low, box.high[axis] = high;
   }
   return box;
@@ -33,7 +32,8 @@ void check_filter(const Six_corners& corners, bool truth) {
   const auto candidates = filter.face_candidates(face, face);
   if (truth && candidates.empty()) fail("the filter has discarded triangles that meet:" + text_of(corners));
   if (candidates.empty()) return;
-  const bool answer = lodestone::triangles_intersect_given({a, a + 3, a + 6}, {b, b + 3, b + 6}, candidates[0].crossing);
+  const bool answer =
+      lodestone::triangles_intersect_given({a, a + 3, a + 6}, {b, b + 3, b + 6}, candidates[0].crossing);
   if (answer != truth) fail("the guess of the filter misleads:" + text_of(corners));
 }
 

@@ -38,7 +38,8 @@ double numbers_of_mesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
     positions += own;
     corners += primitive.indices < 0 ? own / 3 : numbers_of_accessor(model, primitive.indices);
     const auto is_joints = [](const auto& attribute) { return attribute.first.starts_with("JOINTS_"); };
-    influences = std::max(influences, 4 * static_cast<std::size_t>(std::ranges::count_if(primitive.attributes, is_joints)));
+    influences =
+        std::max(influences, 4 * static_cast<std::size_t>(std::ranges::count_if(primitive.attributes, is_joints)));
   }
   // A strip has three corners of a face for each corner that is listed.
   return positions + 3 * corners + 2 * positions / 3 * static_cast<double>(influences) +
@@ -70,8 +71,9 @@ void check_gltf_size(const tinygltf::Model& model, const std::string& name, cons
   for (const auto& animation : model.animations) numbers += numbers_of_animation(model, animation);
   const double most = std::max(1e6, 20 * static_cast<double>(options.max_faces));
   if (numbers > most)
-    throw Bad_mesh(fmt::format("{}: the shown meshes and the animations have {:.0f} numbers, where at most {:.0f} are allowed",
-                               name, numbers, most));
+    throw Bad_mesh(
+        fmt::format("{}: the shown meshes and the animations have {:.0f} numbers, where at most {:.0f} are allowed",
+                    name, numbers, most));
 }
 
 }  // namespace lodestone

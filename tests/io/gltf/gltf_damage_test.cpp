@@ -123,8 +123,9 @@ TEST_F(Gltf_damage, a_short_file_that_describes_too_many_numbers_is_refused) {
     read_mesh(file, {.max_faces = 1000});
     ADD_FAILURE() << "expected an error";
   } catch (const Bad_mesh& error) {
-    EXPECT_EQ(error.what(), file.string() + ": the shown meshes and the animations have 1200030 numbers, where at most "
-                                            "1000000 are allowed");
+    EXPECT_EQ(error.what(), file.string() +
+                                ": the shown meshes and the animations have 1200030 numbers, where at most "
+                                "1000000 are allowed");
   }
 }
 

@@ -203,7 +203,8 @@ TEST(Bad_scene_file, a_sequence_is_refused_at_its_first_missing_file) {
   const Temporary_folder folder;
   folder.write("a.off", tetrahedron_off());
   try {
-    read(folder, with_object(R"("mesh": "a.off", "motion": {"sequence": {"pattern": "a#.off", "first": 7, "last": 1000000}})"));
+    read(folder,
+         with_object(R"("mesh": "a.off", "motion": {"sequence": {"pattern": "a#.off", "first": 7, "last": 1000000}})"));
     ADD_FAILURE() << "expected an error";
   } catch (const Bad_motion& error) {
     EXPECT_EQ(error.what(), (folder.path() / "a7.off").string() + ": there is no such file");
