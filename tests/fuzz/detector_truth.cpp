@@ -23,7 +23,7 @@ std::vector<Face_pair> contacts_within(const Drawn_object& object) {
 std::string text_of(const std::vector<Face_pair>& pairs) {
   std::string text = std::to_string(pairs.size()) + ":";
   for (std::size_t i = 0; i < std::min<std::size_t>(pairs.size(), 20); ++i)
-    text += " " + std::to_string(pairs[i].a) + "-" + std::to_string(pairs[i].b);
+    text.append(" ").append(std::to_string(pairs[i].a)).append("-").append(std::to_string(pairs[i].b));
   return text;
 }
 
