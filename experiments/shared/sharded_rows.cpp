@@ -28,7 +28,7 @@ std::vector<Row> merged_rows(const Experiment_context& context, const Sharded_ex
   folder.read_all([&](std::string_view line) {
     check_interrupt();
     if (line_number == order.size()) throw Bad_shard(folder.results().string() + ": its shards have too many rows");
-    rows[order[line_number++]] = Row::parse(line);
+    rows[order[line_number++]] = parse_shard_line(line);
   });
   if (line_number < order.size()) throw Bad_shard(folder.results().string() + ": its shards have too few rows");
   folder.note_merged();

@@ -129,7 +129,8 @@ void Particle_detection::prepare() {
   std::vector<Object*> fresh;
   for (auto& object : objects_)
     if (object && !object->prepared) fresh.push_back(object.get());
-  if (fresh.empty()) return;
+  // An object that was removed before it was built has left a place, for which there is no room yet.
+  if (fresh.empty() && boxes_.size() == objects_.size()) return;
   timed(since_last_frame_.seconds.build, [&] {
     std::vector<Positions> positions;
     for (Object* object : fresh)

@@ -229,7 +229,9 @@ std::vector<Region_extent> Particle_object::extents_of(std::span<const Home> hom
 void Particle_object::find_homes(const std::vector<std::uint32_t>& vertices, const Live_positions& at) {
   homes_.clear();
   for (const auto vertex : vertices) {
-    Home home{.vertex = vertex, .compass = neighbours(edges_.graph, vertex).front()};
+    const auto around = neighbours(edges_.graph, vertex);
+    // Without an edge, where all faces are points, there is no direction to keep.
+    Home home{.vertex = vertex, .compass = around.empty() ? vertex : around.front()};
     home.angle = angle_to_axis(normal_at(home, at), at(home.compass) - at(home.vertex));
     homes_.push_back(home);
   }

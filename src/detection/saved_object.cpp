@@ -58,11 +58,23 @@ void save_origin(const Saved_origin& origin, State_writer& state) {
   state.value(hash_of_faces(origin.corners));
 }
 
+namespace {
+
+/// The name of a mode, for a message on one line: the bytes can have anything in its place.
+std::string shown(std::span<const char> mode) {
+  constexpr std::size_t longest = 40;
+  std::string result;
+  for (const char c : mode.first(std::min(mode.size(), longest))) result += c >= ' ' && c <= '~' ? c : '?';
+  return result;
+}
+
+}  // namespace
+
 void check_origin(const Saved_origin& origin, const std::string& title, State_reader& state) {
   const auto mode = state.list<char>();
   if (!std::ranges::equal(mode, origin.mode))
-    throw Bad_saved_object(fmt::format("the object was saved in mode {}, but {} is in mode {}",
-                                       std::string_view(mode.data(), mode.size()), title, origin.mode));
+    throw Bad_saved_object(
+        fmt::format("the object was saved in mode {}, but {} is in mode {}", shown(mode), title, origin.mode));
   const auto vertices = state.value<std::uint64_t>(), faces = state.value<std::uint64_t>();
   if (vertices != origin.vertices || faces != origin.corners.size())
     throw Bad_saved_object(

@@ -180,7 +180,7 @@ std::size_t drop_regions_without_edges(const Vertex_graph& graph, std::vector<Re
   for (std::size_t region = 0; region < regions; ++region)
     if (used[region]) renumbered[region] = kept++;
   for (auto& label : labels) label = renumbered[label];
-  return kept;
+  return std::max<std::size_t>(kept, 1);
 }
 
 }  // namespace lodestone

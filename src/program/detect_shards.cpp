@@ -93,7 +93,7 @@ void merge_shards(Detect_run& scene_run, Atomic_file& frames, const Detect_comma
   const auto records = folder.read_all([&](std::string_view line) {
     check_interrupt();
     if (is_tally) {
-      scene_run.add(frame_tally_of(Json::parse(line)));
+      scene_run.add(frame_tally_of(parse_shard_line(line)));
     } else {
       frames.write(line);
       frames.write("\n");

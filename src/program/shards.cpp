@@ -69,22 +69,39 @@ void write_whole(const std::filesystem::path& target, const std::string& text) {
   throw Bad_shard(file.string() + ": " + cause);
 }
 
+/// Where the last line begins, of a file of so many bytes that ends with a line break.
+std::streamoff begin_of_last_line(std::ifstream& in, std::streamoff bytes) {
+  std::string block;
+  for (std::streamoff end = bytes - 1; end > 0;) {
+    const std::streamoff begin = std::max<std::streamoff>(0, end - 4096);
+    block.resize(static_cast<std::size_t>(end - begin));
+    in.seekg(begin);
+    in.read(block.data(), end - begin);
+    const auto cut = block.rfind('\n');
+    if (cut != std::string::npos) return begin + static_cast<std::streamoff>(cut) + 1;
+    end = begin;
+  }
+  return 0;
+}
+
 /// The last line, which must end with a line break; empty if there is none.
 std::string last_line(std::ifstream& in) {
   in.seekg(0, std::ios::end);
-  std::string tail;
-  for (std::streamoff end = in.tellg(); end > 0;) {
-    const std::streamoff begin = std::max<std::streamoff>(0, end - 4096);
-    std::string part(static_cast<std::size_t>(end - begin), '\0');
-    in.seekg(begin);
-    in.read(part.data(), end - begin);
-    tail = part + tail;
-    if (tail.back() != '\n') return {};
-    const auto cut = tail.rfind('\n', tail.size() - 2);
-    if (tail.size() > 1 && cut != std::string::npos) return tail.substr(cut + 1);
-    end = begin;
-  }
-  return tail;
+  const std::streamoff bytes = in.tellg();
+  if (bytes == 0) return {};
+  in.seekg(bytes - 1);
+  if (in.get() != '\n') return {};
+  const auto begin = begin_of_last_line(in, bytes);
+  std::string line(static_cast<std::size_t>(bytes - begin), '\0');
+  in.seekg(begin);
+  in.read(line.data(), bytes - begin);
+  return line;
+}
+
+/// For the parser: what lies deeper is left out.
+bool is_shallow(int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
+  constexpr int deepest = 64;
+  return depth <= deepest;
 }
 
 }  // namespace
@@ -155,13 +172,14 @@ void Shard_folder::read_manifest() {
   const auto file = folder() / "manifest.json";
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Bad_argument(file.string() + ": cannot be read: the folder has no shards");
-  manifest_ = Json::parse(in, nullptr, false);
+  manifest_ = Json::parse(in, is_shallow, false);
   const auto is_list = [](const Json& json) {
     return json.is_array() && !json.empty() && std::ranges::all_of(json, [](const Json& j) { return j.is_string(); });
   };
   const bool right = manifest_.is_object() && manifest_.contains("command") && is_list(manifest_["command"]) &&
                      manifest_.value("shards", Json()).is_number_unsigned() && manifest_["shards"] >= 1 &&
-                     manifest_["shards"] <= most_shards && manifest_.value("pieces", Json()).is_number_unsigned();
+                     manifest_["shards"] <= most_shards && manifest_.value("pieces", Json()).is_number_unsigned() &&
+                     manifest_.value("folder", Json()).is_string() && manifest_.value("revision", Json()).is_string();
   if (!right) throw Bad_argument(file.string() + ": is no manifest of shards");
   work_ = hash_of_work(manifest_);
 }
@@ -181,10 +199,11 @@ Json Shard_folder::read_record(std::size_t index) const {
   std::ifstream in(path, std::ios::binary);
   if (!in) fail(path, "is missing");
   const auto line = last_line(in);
-  Json record = Json::parse(line, nullptr, false);
+  Json record = Json::parse(line, is_shallow, false);
   const bool whole = record.is_object() && record.value("bytes", Json()).is_number_unsigned() &&
                      record.value("lines", Json()).is_number_unsigned() && record.value("hash", Json()).is_string() &&
-                     record.value("work", Json()).is_string();
+                     record.value("work", Json()).is_string() && record.value("seconds", Json()).is_number() &&
+                     record.value("peak_kib", Json()).is_number() && record.value("finished", Json()).is_string();
   if (!whole) fail(path, "is damaged: it does not end with the record of a shard");
   in.clear();
   in.seekg(0, std::ios::end);
@@ -280,6 +299,8 @@ void Shard_writer::commit(const Json& more) {
   file_.write(record.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
   file_.commit();
 }
+
+Json parse_shard_line(std::string_view line) { return Json::parse(line, is_shallow); }
 
 std::string ranges_of(const std::vector<std::size_t>& numbers, std::string_view separator) {
   std::vector<std::string> parts;

@@ -129,6 +129,11 @@ class Shard_writer {
   Atomic_file file_;
 };
 
+/// A line that was added to a shard. What is nested deeper than 64 levels is left out: to copy it would exhaust the
+/// stack.
+/// @throws nlohmann::json::exception  it is no JSON
+nlohmann::ordered_json parse_shard_line(std::string_view line);
+
 /// `1-4, 9`: numbers in ascending order.
 std::string ranges_of(const std::vector<std::size_t>& numbers, std::string_view separator = ", ");
 

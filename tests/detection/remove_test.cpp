@@ -181,5 +181,21 @@ TEST(Removal, in_self_collision_leaves_the_object_out) {
   EXPECT_FALSE(frame.collides());
 }
 
+TEST(Removal, of_an_object_that_was_never_detected_leaves_no_place_without_room) {
+  for (const auto& options : {Detector_options{.mode = Mode::particles, .particles = 4, .meetings = 0},
+                              Detector_options{.mode = Mode::particles, .particles = 4},
+                              Detector_options{.mode = Mode::senin, .particles = 4}, Detector_options{}}) {
+    auto scene = two_spheres(1);
+    Detector<> detector(options);
+    add_all(detector, scene);
+    detector.detect();
+    std::deque<Surface_mesh> later(40, sphere(4, 1, {9, 0, 0}));
+    for (const auto& mesh : later) detector.remove(detector.add(mesh));
+    const Frame& frame = detector.detect();
+    ASSERT_EQ(frame.pairs.size(), 1U);
+    EXPECT_EQ(frame.pairs[0].b, 1U);
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -51,6 +51,18 @@ TEST(Saved_bytes, say_what_is_wrong_with_them) {
   EXPECT_EQ(refusal_of(changed(100)), "the saved object is broken: its bytes have changed");
 }
 
+TEST(Saved_bytes, cannot_put_other_lines_or_a_long_text_into_a_message) {
+  Surface_mesh mesh = sphere(4);
+  Detector<> detector;
+  detector.add(mesh);
+  State_writer writer;
+  writer.list(std::vector<char>{'a', '\n', '\x1b', 'b'});
+  EXPECT_EQ(refusal_of([&] { detector.load(0, seal_saved(writer.take())); }),
+            "the object was saved in mode a??b, but object 0 is in mode exact with volumes of kind aabb");
+  writer.list(std::vector<char>(100'000, 'x'));
+  EXPECT_LT(refusal_of([&] { detector.load(0, seal_saved(writer.take())); }).size(), 200U);
+}
+
 TEST(Saved_regions, that_do_not_fit_are_refused) {
   const auto refusal = [](const Numbered_partition& regions) {
     State_writer writer;

@@ -34,7 +34,8 @@ std::size_t count_pieces(const Vertex_graph& graph, const std::vector<Region_ind
 Island_repair repair_islands(const Vertex_graph& graph, std::vector<Region_index>& labels, std::size_t regions);
 
 /// Removes the regions that own no vertex with edges. The indices of the other regions close up, and the isolated
-/// vertices of a removed region go to region 0.
+/// vertices of a removed region go to region 0, which stays even if no vertex has an edge, as where all faces are
+/// points.
 /// @return the number of regions left
 std::size_t drop_regions_without_edges(const Vertex_graph& graph, std::vector<Region_index>& labels,
                                        std::size_t regions);

@@ -12,6 +12,13 @@
 
 namespace lodestone {
 
+template <Bounding_volume Volume>
+class Basic_tree_surface;
+
+template <Bounding_volume Volume>
+void refit(std::span<Basic_tree_surface<Volume>* const> objects, std::span<const Coordinates> coordinates,
+           Workers& workers);
+
 /// The surface of one object and a tree over it, kept from frame to frame.
 template <Bounding_volume Volume>
 class Basic_tree_surface : public Object_surface {
@@ -84,9 +91,9 @@ class Basic_tree_surface : public Object_surface {
   bool looser_than(double factor) const { return tree_.looseness() > factor * built_looseness_; }
 
  private:
-  template <Bounding_volume V>
-  friend void refit(std::span<Basic_tree_surface<V>* const> objects, std::span<const Coordinates> coordinates,
-                    Workers& workers);
+  // One specialisation: Clang 16 takes a friend that is a template with a concept for another function.
+  friend void refit<Volume>(std::span<Basic_tree_surface* const> objects, std::span<const Coordinates> coordinates,
+                            Workers& workers);
 
   Basic_region_tree<Volume> tree_;
   bool finite_ = true;

@@ -15,6 +15,7 @@
 #include "io/gltf/gltf_guard.h"
 #include "io/gltf/gltf_numbers.h"
 #include "io/gltf/gltf_points.h"
+#include "io/gltf/gltf_size.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -353,6 +354,7 @@ std::shared_ptr<const Gltf_scene> read_gltf_scene(const std::filesystem::path& f
     auto guarded = guard_gltf(file);
     const auto scene = std::make_shared<Gltf_scene>(Gltf_scene{.name = file.string()});
     const auto model = read_model(guarded, scene->name);
+    check_gltf_size(model, scene->name, options);
     read_nodes(model, *scene);
     read_skins(model, *scene);
     read_parts(model, options, *scene);

@@ -45,7 +45,12 @@ std::vector<fs::path> Scene_folder::numbered_files(const Json_value& value) {
   const std::size_t last = value.at("last").count(first, most_scene_frames);
 
   std::vector<fs::path> files;
-  for (std::size_t i = first; i <= last; ++i) files.push_back(path_of(numbered(name, i), pattern));
+  std::error_code ignored;
+  for (std::size_t i = first; i <= last; ++i) {
+    files.push_back(path_of(numbered(name, i), pattern));
+    // The reader of the sequence will name this file. Those behind it could be a million.
+    if (!fs::exists(files.back(), ignored)) break;
+  }
   return files;
 }
 

@@ -114,6 +114,21 @@ TEST_F(Gltf_damage, random_damage_gives_a_mesh_or_an_error) {
   EXPECT_GT(bad, 1000U);
 }
 
+TEST_F(Gltf_damage, a_short_file_that_describes_too_many_numbers_is_refused) {
+  auto sample = square_gltf();
+  auto& primitive = sample.json["meshes"][0]["primitives"][0];
+  for (int target = 0; target < 100'000; ++target) primitive["targets"].push_back(primitive["attributes"]);
+  const auto file = folder.write("a.gltf", sample.gltf());
+  try {
+    read_mesh(file, {.max_faces = 1000});
+    ADD_FAILURE() << "expected an error";
+  } catch (const Bad_mesh& error) {
+    EXPECT_EQ(error.what(), file.string() +
+                                ": the shown meshes and the animations have 1200030 numbers, where at most "
+                                "1000000 are allowed");
+  }
+}
+
 TEST_F(Gltf_damage, wrong_sizes_in_the_container_are_refused) {
   const auto glb = square_gltf().glb();
   const auto changed = [&](std::size_t at, double value) {

@@ -198,6 +198,19 @@ TEST(Bad_scene_file, more_frames_than_a_motion_has_are_refused) {
             "scene.json: /frames: 4 frames are more than the 3 of the shortest motion");
 }
 
+// To look for a million files takes a minute.
+TEST(Bad_scene_file, a_sequence_is_refused_at_its_first_missing_file) {
+  const Temporary_folder folder;
+  folder.write("a.off", tetrahedron_off());
+  try {
+    read(folder,
+         with_object(R"("mesh": "a.off", "motion": {"sequence": {"pattern": "a#.off", "first": 7, "last": 1000000}})"));
+    ADD_FAILURE() << "expected an error";
+  } catch (const Bad_motion& error) {
+    EXPECT_EQ(error.what(), (folder.path() / "a7.off").string() + ": there is no such file");
+  }
+}
+
 TEST(Bad_scene_file, a_missing_number_of_frames_is_refused_if_no_motion_ends) {
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "motion": {"deform": [{"spin": {}}]})")),
             R"(scene.json: /: missing key "frames": no motion ends by itself)");
