@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lodestone/detector.h"
+#include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/partition/strategies.h"
 #include "program/shards.h"
 
@@ -33,7 +34,7 @@ struct Detect_command {
   bool json = false;                          ///< print the summary in place of the table
   bool all_rows = false;                      ///< print a row for each pair, however many
   bool exit_code = false;                     ///< the exit code tells whether anything collides
-  bool allow_outside = false;                 ///< whether a scene may name files outside its folder
+  Scene_options reading = {};                 ///< limits of the inputs; where a scene may name files
 
   /// Frames do not depend on earlier ones: loose trees are kept, and statistics that depend are not written.
   bool independent_frames = false;
@@ -45,6 +46,7 @@ struct Detect_command {
 
 struct Partition_command {
   std::filesystem::path mesh;
+  Mesh_file_options limits = {};  ///< of the mesh
   Strategy_choice strategy = {};
   std::size_t regions = 12;
   Partition_options options = {};
@@ -56,7 +58,7 @@ struct Info_command {
   std::filesystem::path file;
   std::filesystem::path mesh;  ///< of a point cache; may be empty
   bool json = false;
-  bool allow_outside = false;  ///< whether a scene may name files outside its folder
+  Scene_options reading = {};  ///< limits of the input; where a scene may name files
 };
 
 struct Convert_command {
@@ -69,7 +71,7 @@ struct Convert_command {
   std::optional<double> weld;  ///< distance below which vertices are merged
   std::size_t subdivisions = 0;
   double scale = 1;
-  bool allow_outside = false;  ///< whether a scene may name files outside its folder
+  Scene_options reading = {};  ///< limits of the input; where a scene may name files
   bool quiet = false;
 };
 

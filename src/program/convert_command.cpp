@@ -28,11 +28,11 @@ namespace fs = std::filesystem;
 constexpr double usual_rate = 30;
 
 Animation read_input(const Convert_command& command) {
-  const Scene_options options{.allow_outside = command.allow_outside};
-  if (const auto object = named_object(command.input, options)) return animation_of(*object, 1);
-  if (command.input.extension() == ".json") return animation_of(object_of_scene(command.input, "", options), 1);
+  if (const auto object = named_object(command.input, command.reading)) return animation_of(*object, 1);
+  if (command.input.extension() == ".json") return animation_of(object_of_scene(command.input, "", command.reading), 1);
   const auto rate = command.rate > 0 ? std::optional(command.rate) : std::nullopt;
-  return read_animation(command.input, {.mesh = command.mesh, .frames_per_second = rate});
+  return read_animation(command.input,
+                        {.mesh = command.mesh, .frames_per_second = rate, .limits = command.reading.limits});
 }
 
 Animation edited(Animation animation, const Convert_command& command) {

@@ -17,10 +17,10 @@ bool is_scene(const std::filesystem::path& input) { return input.extension() == 
 
 Scene load(const Detect_command& command) {
   const auto& inputs = command.inputs;
-  if (inputs.size() == 1 && is_scene(inputs[0])) return read_scene(inputs[0], {.allow_outside = command.allow_outside});
+  if (inputs.size() == 1 && is_scene(inputs[0])) return read_scene(inputs[0], command.reading);
   for (const auto& input : inputs)
     if (is_scene(input)) throw Bad_argument(input.string() + ": a scene must be the only input");
-  Scene scene = scene_of(inputs, {.allow_outside = command.allow_outside});
+  Scene scene = scene_of(inputs, command.reading);
   if (inputs.size() == 1 && !command.options.exact.self_collision)
     throw Bad_argument(inputs[0].string() +
                        ": one mesh alone has nothing to collide with; give a scene or two meshes, or --self for "

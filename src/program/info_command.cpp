@@ -117,12 +117,12 @@ Object_report report_of(Scene_object& object, std::size_t frames) {
 
 Info look_at(const Info_command& command) {
   if (command.file.extension() == ".json") {
-    Scene scene = read_scene(command.file, {.allow_outside = command.allow_outside});
+    Scene scene = read_scene(command.file, command.reading);
     Info info{.kind = "scene", .frames = scene.frames};
     for (auto& object : scene.objects) info.objects.push_back(report_of(object, scene.frames));
     return info;
   }
-  const auto animation = read_animation(command.file, {.mesh = command.mesh});
+  const auto animation = read_animation(command.file, {.mesh = command.mesh, .limits = command.reading.limits});
   return {.kind = animation.kind,
           .frames_per_second = animation.frames_per_second,
           .frames = animation.motion.frames,

@@ -104,8 +104,16 @@ void add_format(CLI::App& app, std::string& format) {
       ->type_name("NAME");
 }
 
-void add_allow_outside(CLI::App& app, bool& allow_outside) {
-  app.add_flag("--allow-outside", allow_outside, "A scene may name files outside its folder");
+void add_max_faces(CLI::App& app, Mesh_file_options& limits) {
+  app.add_option("--max-faces", limits.max_faces, "Refuse files with more faces, before memory is taken for them")
+      ->check(CLI::Range(std::size_t{1}, Mesh_file_options().max_faces))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+void add_reading(CLI::App& app, Scene_options& reading) {
+  app.add_flag("--allow-outside", reading.allow_outside, "A scene may name files outside its folder");
+  add_max_faces(app, reading.limits);
 }
 
 void add_threads(CLI::App& app, std::size_t& threads, const char* of) {
@@ -204,7 +212,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   auto* const json = app.add_flag("--json", command.json, "Print the summary as JSON in place of the table");
   app.add_flag("--quiet", command.quiet, "No progress bar, one line in place of the table")->excludes(json);
   app.add_flag("--exit-code", command.exit_code, "Exit with 1 if anything collides");
-  add_allow_outside(app, command.allow_outside);
+  add_reading(app, command.reading);
   add_format(app, format);
   app.footer(strategy_list() + "\n\n" + exit_code::help);
 }
@@ -217,6 +225,7 @@ void add_partition(CLI::App& program, Partition_command& command, std::string& f
   app.add_option("--regions", command.regions, "Number of regions")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->capture_default_str();
+  add_max_faces(app, command.limits);
   add_strategy_options(app, command.strategy, "Seed, for random strategies");
   add_threads(app, command.strategy.settings.lbg.threads, "Maximum number of threads, for lbg; 0: all of the machine");
   app.add_flag("--keep-islands", command.options.keep_islands, "Do not repair regions that consist of several islands");
@@ -237,7 +246,7 @@ void add_info(CLI::App& program, Info_command& command, std::string& format) {
       ->type_name("FILE");
   app.add_option("--mesh", command.mesh, "The mesh that a point cache moves")->type_name("FILE")->check(not_empty());
   app.add_flag("--json", command.json, "Print JSON");
-  add_allow_outside(app, command.allow_outside);
+  add_reading(app, command.reading);
   add_format(app, format);
 }
 
@@ -269,7 +278,7 @@ void add_convert(CLI::App& program, Convert_command& command, std::string& forma
       ->check(CLI::Range(std::size_t{0}, std::size_t{12}));
   app.add_option("--scale", command.scale, "Multiply all coordinates")->type_name("FACTOR");
   app.add_flag("--quiet", command.quiet, "No progress bar, no report");
-  add_allow_outside(app, command.allow_outside);
+  add_reading(app, command.reading);
   add_format(app, format);
 }
 

@@ -132,7 +132,7 @@ int run(const Partition_command& command) {
     throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics cannot be the same file");
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, command.json);
-  Mesh_file file = read_mesh(command.mesh);
+  Mesh_file file = read_mesh(command.mesh, command.limits);
   const Divided divided = divide(file.mesh, command);
   check_interrupt();
   // Both on disk before the first appears: if one cannot be written, neither appears.

@@ -182,5 +182,29 @@ TEST_F(Detect_files, outside_the_folder_of_the_scene_are_used_if_allowed) {
   expect_success(run_program({"convert", scene + "#a", path("b.off"), "--allow-outside", "--quiet"}));
 }
 
+TEST_F(Detect_files, with_more_faces_than_allowed_are_refused_by_every_command) {
+  write("a.off", tetrahedron_off());
+  write("step_1.off", tetrahedron_off());
+  write("step_2.off", tetrahedron_off());
+  const auto scene = write("scene.json", R"({"objects": [{"name": "a", "mesh": "a.off"},
+                                                          {"name": "b", "mesh": "a.off"}]})");
+  const auto a = path("a.off");
+  const std::vector<std::vector<std::string>> commands{{"detect", a, a},
+                                                       {"detect", scene},
+                                                       {"detect", scene + "#a", a},
+                                                       {"detect", path("step_#.off"), path("step_#.off")},
+                                                       {"info", a},
+                                                       {"info", scene},
+                                                       {"partition", a, "--regions", "1"},
+                                                       {"convert", a, path("b.obj"), "--quiet"}};
+  for (auto command : commands) {
+    SCOPED_TRACE(testing::PrintToString(command));
+    command.insert(command.end(), {"--max-faces", "3"});
+    expect_error(run_program(command), 3, "at most 3 are allowed");
+    command.back() = "4";
+    expect_success(run_program(command));
+  }
+}
+
 }  // namespace
 }  // namespace lodestone::test

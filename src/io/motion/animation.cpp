@@ -36,30 +36,30 @@ Motion rest(std::vector<Point> points) {
   return motion;
 }
 
-Animation still(const fs::path& file) {
+Animation still(const fs::path& file, const Mesh_file_options& limits) {
   Animation result{.kind = "mesh", .files = {file}};
-  Mesh_soup soup = read_mesh_soup(file);
+  Mesh_soup soup = read_mesh_soup(file, limits);
   result.motion = rest(soup.points);
   set_surface(result, std::move(soup));
   return result;
 }
 
 Animation gltf(const fs::path& file, const Animation_options& options) {
-  auto scene = read_gltf_scene(file);
+  auto scene = read_gltf_scene(file, options.limits);
   Animation result{.kind = "gltf", .files = scene->files};
   auto soup = triangulated(soup_of(scene));
   if (scene->animations.empty()) {
     result.motion = rest(soup.points);
   } else {
-    result.motion = motion_of(std::move(scene), {options.frames_per_second, options.animation});
+    result.motion = motion_of(std::move(scene), {options.frames_per_second, options.animation, options.limits});
     result.frames_per_second = result.motion.frames_per_second;
   }
   set_surface(result, std::move(soup));
   return result;
 }
 
-Animation game_model(const fs::path& file) {
-  auto model = read_game_model(file);
+Animation game_model(const fs::path& file, const Mesh_file_options& limits) {
+  auto model = read_game_model(file, limits);
   Animation result{.kind = model->is_md2 ? "md2" : "md3",
                    .vertices = model->vertices,
                    .faces = model->faces,
@@ -71,22 +71,22 @@ Animation game_model(const fs::path& file) {
   return result;
 }
 
-Animation sequence(const fs::path& pattern) {
+Animation sequence(const fs::path& pattern, const Mesh_file_options& limits) {
   auto files = find_numbered_files(pattern);
   Animation result{.kind = "sequence", .files = files};
-  set_surface(result, read_mesh_soup(files.front()));
-  result.motion = read_mesh_sequence(std::move(files), result.vertices);
+  set_surface(result, read_mesh_soup(files.front(), limits));
+  result.motion = read_mesh_sequence(std::move(files), result.vertices, limits);
   return result;
 }
 
-Animation cache(const fs::path& file, const fs::path& mesh) {
+Animation cache(const fs::path& file, const fs::path& mesh, const Mesh_file_options& limits) {
   const auto header = read_point_cache_header(file);
   Animation result{.kind = header.format == Cache_format::pc2 ? "pc2" : "mdd",
                    .vertices = header.vertices,
                    .frames_per_second = header.frames_per_second,
                    .files = {file}};
   if (!mesh.empty()) {
-    set_surface(result, read_mesh_soup(mesh));
+    set_surface(result, read_mesh_soup(mesh, limits));
     result.files.push_back(mesh);
   }
   const auto read = header.format == Cache_format::pc2 ? read_point_cache : read_mdd_cache;
@@ -121,13 +121,14 @@ std::optional<Mesh_and_cache> mesh_and_cache(const fs::path& input) {
 }
 
 Animation read_animation(const fs::path& input, const Animation_options& options) {
-  if (const auto parts = mesh_and_cache(input); parts && options.mesh.empty()) return cache(parts->cache, parts->mesh);
-  if (is_cache(input)) return cache(input, options.mesh);
+  if (const auto parts = mesh_and_cache(input); parts && options.mesh.empty())
+    return cache(parts->cache, parts->mesh, options.limits);
+  if (is_cache(input)) return cache(input, options.mesh, options.limits);
   if (!options.mesh.empty())
     throw Bad_argument(fmt::format("{}: only a point cache needs a mesh beside it", input.string()));
-  if (is_pattern(input)) return sequence(input);
-  if (is_game_model(input)) return game_model(input);
-  return is_gltf(input) ? gltf(input, options) : still(input);
+  if (is_pattern(input)) return sequence(input, options.limits);
+  if (is_game_model(input)) return game_model(input, options.limits);
+  return is_gltf(input) ? gltf(input, options) : still(input, options.limits);
 }
 
 }  // namespace lodestone

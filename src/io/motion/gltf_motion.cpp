@@ -167,7 +167,7 @@ Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_opti
 Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices, const Gltf_motion_options& options) {
   std::shared_ptr<const Gltf_scene> scene;
   try {
-    scene = read_gltf_scene(file);
+    scene = read_gltf_scene(file, options.limits);
   } catch (const Bad_mesh& error) {
     throw Bad_motion(error.what());
   }

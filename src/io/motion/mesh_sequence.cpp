@@ -18,9 +18,9 @@ namespace {
 using Faces = std::vector<std::vector<std::size_t>>;
 
 /// Faces as the file lists them: the triangles of a polygon depend on its shape, which changes from frame to frame.
-Polygon_soup read_frame(const std::filesystem::path& file) {
+Polygon_soup read_frame(const std::filesystem::path& file, const Mesh_file_options& limits) {
   try {
-    return read_polygon_soup(file);
+    return read_polygon_soup(file, limits);
   } catch (const Bad_mesh& error) {
     throw Bad_motion(error.what());
   }
@@ -56,18 +56,19 @@ void check_files(const std::vector<std::filesystem::path>& files) {
 
 }  // namespace
 
-Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices) {
+Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices,
+                          const Mesh_file_options& limits) {
   check_files(files);
-  auto soup = read_frame(files.front());
+  auto soup = read_frame(files.front(), limits);
   check_vertices(files.front(), soup.points.size(), vertices);
   const auto first = std::make_shared<const First_frame>(First_frame{files.front(), std::move(soup.faces)});
 
   const auto frames = files.size();
-  const auto pose = [files = std::move(files), first, vertices](std::size_t frame, std::span<Point> positions) {
+  const auto pose = [files = std::move(files), first, vertices, limits](std::size_t frame, std::span<Point> positions) {
     if (frame >= files.size())
       throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is requested, the sequence has {}",
                                    first->file.string(), frame, files.size()));
-    const auto posed = read_frame(files[frame]);
+    const auto posed = read_frame(files[frame], limits);
     check_vertices(files[frame], posed.points.size(), vertices);
     check_vertices(files[frame], posed.points.size(), positions.size());
     check_same_faces(files[frame], posed.faces, *first);

@@ -42,7 +42,7 @@ std::string name_of(const std::filesystem::path& input) {
 /// Whatever the input is.
 Scene_object any_object(const std::filesystem::path& input, const Scene_options& options) {
   auto named = named_object(input, options);
-  return named ? std::move(*named) : read_object(name_of(input), input);
+  return named ? std::move(*named) : read_object(name_of(input), input, options.limits);
 }
 
 void hold_last_pose(Motion& motion) {
@@ -55,8 +55,8 @@ void hold_last_pose(Motion& motion) {
 
 }  // namespace
 
-Scene_object read_object(std::string name, const std::filesystem::path& input) {
-  auto animation = read_animation(input);
+Scene_object read_object(std::string name, const std::filesystem::path& input, const Mesh_file_options& limits) {
+  auto animation = read_animation(input, {.limits = limits});
   if (animation.faces.empty())
     throw Bad_argument(
         fmt::format("{0}: a point cache has no faces: give its mesh beside it, as MESH+{0}", input.string()));

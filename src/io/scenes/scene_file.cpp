@@ -60,7 +60,7 @@ Scene_object object_of(Surface_mesh&& shape) {
 
 Scene_object read_rest(const Json_value& value, Scene_folder& folder) {
   if (value.exactly_one_of({"mesh", "shape"}) == "shape") return object_of(detail::read_shape(value.at("shape")));
-  return object_of(read_mesh(folder.file(value.at("mesh"))));
+  return object_of(read_mesh(folder.file(value.at("mesh")), folder.limits()));
 }
 
 /// Positions in file order. Vertices that no face uses are not in the mesh: they get the position of the first vertex,
@@ -102,9 +102,9 @@ Motion placed(Motion motion, const Placement& placement) {
 
 /// "walk.glb", or {"file": "walk.glb", "animation": "walk", "frames_per_second": 60}.
 Motion read_gltf(const Json_value& value, std::size_t vertices, Scene_folder& folder) {
-  if (value.is_string()) return read_gltf_motion(folder.file(value), vertices);
+  Gltf_motion_options options{.limits = folder.limits()};
+  if (value.is_string()) return read_gltf_motion(folder.file(value), vertices, options);
   value.expect_keys({"file", "animation", "frames_per_second"});
-  Gltf_motion_options options;
   if (const auto animation = value.find("animation")) {
     if (animation->is_string())
       options.animation = animation->text();
@@ -128,7 +128,7 @@ Motion read_motion(const Json_value& value, const Scene_object& object, const Pl
   if (kind == "mdd") return placed(read_mdd_cache(folder.file(source), object.file_vertices), placement);
   if (kind == "gltf") return placed(read_gltf(source, object.file_vertices, folder), placement);
   if (kind == "keyframes") return placed(read_game_motion(folder.file(source), object.file_vertices), placement);
-  return placed(read_mesh_sequence(folder.sequence(source), object.file_vertices), placement);
+  return placed(read_mesh_sequence(folder.sequence(source), object.file_vertices, folder.limits()), placement);
 }
 
 // ---- Objects and scene ----
@@ -220,7 +220,7 @@ Scene read_scene(const std::filesystem::path& file, const Scene_options& options
   const detail::Json document = detail::parse_json(file);
   const Json_value value(document, file.string());
   value.expect_keys({"name", "description", "frames", "objects", "ignore"});
-  Scene_folder folder(file.has_parent_path() ? file.parent_path() : ".", options.allow_outside);
+  Scene_folder folder(file.has_parent_path() ? file.parent_path() : ".", options);
 
   Scene scene;
   const auto name = value.find("name");

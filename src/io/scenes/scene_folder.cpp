@@ -27,7 +27,8 @@ fs::path Scene_folder::path_of(const std::string& name, const Json_value& value)
   std::error_code error;
   const bool inside = is_inside(folder_, name, error);
   if (error) value.fail(fmt::format("{} cannot be followed: {}", in_quotes(name), error.message()));
-  if (!inside && !allow_outside_) value.fail(fmt::format("{} is not inside the scene's folder", in_quotes(name)));
+  if (!inside && !options_.allow_outside)
+    value.fail(fmt::format("{} is not inside the scene's folder", in_quotes(name)));
   found_.push_back(folder_ / name);
   return found_.back();
 }

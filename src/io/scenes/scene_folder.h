@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/files/json_reader.h"
+#include "lodestone/io/scenes/scene_file.h"
 
 namespace lodestone::detail {
 
@@ -16,9 +17,8 @@ inline constexpr std::size_t most_scene_frames = 1'000'000;
 /// Finds the files that a scene names, relative to the scene's folder, and remembers them.
 class Scene_folder {
  public:
-  /// @param allow_outside  whether files may lie outside the folder
-  Scene_folder(std::filesystem::path folder, bool allow_outside)
-      : folder_(std::move(folder)), allow_outside_(allow_outside) {}
+  Scene_folder(std::filesystem::path folder, const Scene_options& options)
+      : folder_(std::move(folder)), options_(options) {}
 
   /// The file that `value` names.
   /// @throws Bad_scene  the file is not inside the folder after symbolic links are resolved
@@ -26,6 +26,9 @@ class Scene_folder {
   /// The files of a sequence: a pattern such as "walk_*.obj", a list of names, or
   /// {"pattern": "walk_####.obj", "first": 1, "last": 40}.
   std::vector<std::filesystem::path> sequence(const Json_value& value);
+
+  /// Limits of the files that have faces.
+  const Mesh_file_options& limits() const { return options_.limits; }
 
   /// The files that were found since the last call.
   std::vector<std::filesystem::path> take_found() { return std::exchange(found_, {}); }
@@ -36,7 +39,7 @@ class Scene_folder {
   std::vector<std::filesystem::path> files_of_pattern(const Json_value& value);
 
   std::filesystem::path folder_;
-  bool allow_outside_;
+  Scene_options options_;
   std::vector<std::filesystem::path> found_;
 };
 

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "lodestone/io/formats/mesh_file_options.h"
 #include "lodestone/mesh/concepts.h"
 
 namespace lodestone {
@@ -54,9 +55,11 @@ Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices)
 /// Motion from one mesh file per frame, all with the same faces. The first file is read at once, for its faces; `pose`
 /// reads the file of each frame on demand. Any format of `read_mesh`; positions come in file order.
 /// @param vertices  number of vertices each file must have
+/// @param limits    of each file
 /// @throws Bad_motion  no file, a file that does not exist, a broken first file; from `pose`: a broken file, a wrong
 ///                     number of vertices, faces that differ from those of the first file
-Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices);
+Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices,
+                          const Mesh_file_options& limits = {});
 
 /// Options of `read_gltf_motion`.
 struct Gltf_motion_options {
@@ -65,6 +68,7 @@ struct Gltf_motion_options {
   std::optional<double> frames_per_second = {};
   /// Which animation of the file: its index or its name.
   std::variant<std::size_t, std::string> animation = std::size_t{0};
+  Mesh_file_options limits = {};  ///< of the file's meshes
 };
 
 /// Motion from an animation of a glTF 2.0 file (.gltf, .glb): nodes, skins and morph targets. Frame t is sampled at

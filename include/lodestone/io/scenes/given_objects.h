@@ -14,9 +14,10 @@
 namespace lodestone {
 
 /// An object from any input of `read_animation` that has faces. Its mesh is in the pose of frame 0.
+/// @param limits  of every file with faces
 /// @throws Bad_mesh, Bad_motion  as read_animation
 /// @throws Bad_argument          a point cache without its mesh
-Scene_object read_object(std::string name, const std::filesystem::path& input);
+Scene_object read_object(std::string name, const std::filesystem::path& input, const Mesh_file_options& limits = {});
 
 /// An object that `input` names: `SCENE.json#OBJECT`, or `shape:SHAPE` as for `shape_object`. Nothing if `input` is of
 /// neither form. An object of a scene is alone: groups and ignored pairs are dropped.

@@ -50,7 +50,8 @@ struct Scene {
 
 /// Options of `read_scene`.
 struct Scene_options {
-  bool allow_outside = false;  ///< whether the scene may name files outside its folder
+  bool allow_outside = false;     ///< whether the scene may name files outside its folder
+  Mesh_file_options limits = {};  ///< of every file with faces that it names
 };
 
 /// Reads a scene: JSON as described by docs/scene.schema.json.
