@@ -275,9 +275,10 @@ TEST_F(Shards, of_no_folder_are_refused) {
     expect_error(run_program({"merge", path("a").string()}), 2, "is no manifest of shards");
   }
   const std::string deep = std::string(300'000, '[') + std::string(300'000, ']');
-  folder.write("a/shards/manifest.json",
-               R"({"command": ["detect"], "shards": 1, "pieces": 1, "inputs": )" + deep + "}");
-  expect_error(run_program({"status", path("a").string()}), 2, "is no manifest of shards");
+  folder.write(
+      "a/shards/manifest.json",
+      R"({"command": ["detect"], "shards": 1, "pieces": 1, "folder": "/", "revision": "", "inputs": )" + deep + "}");
+  EXPECT_EQ(run_program({"status", path("a").string()}).exit_code, 0);
   folder.write("a/shards/manifest.json",
                R"({"command": ["convert"], "shards": 1, "pieces": 1, "folder": "/", "revision": ""})");
   expect_error(run_program({"merge", path("a").string()}), 3, "neither detect nor an experiment");
