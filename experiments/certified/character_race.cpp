@@ -97,9 +97,11 @@ class Character_race {
     pose_meshes(scene_);
     for (const auto& kind : kinds) {
       if (kind.most_triangles > 0 && figures_.triangles > kind.most_triangles) continue;
-      auto& runner = runners_.emplace_back(Runner{.figures = {.name = kind.name, .is_library = kind.is_library},
-                                                  .lists_pairs = kind.lists_pairs,
-                                                  .rival = kind.make(scene_)});
+      Runner& runner = runners_.emplace_back();
+      runner.figures.name = kind.name;
+      runner.figures.is_library = kind.is_library;
+      runner.lists_pairs = kind.lists_pairs;
+      runner.rival = kind.make(scene_);
       runner.figures.any_seconds.assign(frame_count(), std::numeric_limits<double>::infinity());
       if (kind.lists_pairs) runner.figures.all_seconds = runner.figures.any_seconds;
       runner.rival->any();  // the first question builds
