@@ -29,6 +29,13 @@ void draw_exact_options(Byte_source& bytes, Exact_options& exact) {
   exact.tree.leaf_faces = 2 + bytes.below(16);
 }
 
+/// Mostly all objects meet.
+Collision_groups draw_groups(Byte_source& bytes) {
+  const auto choice = bytes.byte();
+  if (choice < 224) return {};
+  return {.groups = choice & 3U, .meets = (choice >> 2U) & 7U};
+}
+
 }  // namespace
 
 Detector_options draw_options(Byte_source& bytes) {
@@ -57,7 +64,10 @@ void Detector_play::run(Byte_source& bytes) {
 }
 
 void Detector_play::act(Byte_source& bytes) {
-  switch (bytes.below(12)) {
+  const auto choice = bytes.byte();
+  if (choice >= 248) return place(bytes);
+  if (choice >= 240) return give(bytes);
+  switch (choice % 12) {
     case 0:
     case 1:
       return add(bytes);
@@ -87,7 +97,10 @@ void Detector_play::add(Byte_source& bytes) {
   if (present() == most_objects) return;
   auto& object = objects_.emplace_back();
   draw_object(bytes, object);
-  const Object_id id = detector_.add(std::as_const(*object.mesh));
+  const auto groups = draw_groups(bytes);
+  groups_.push_back(groups);
+  const Object_id id =
+      detector_.add(std::as_const(*object.mesh), Object_options{.groups = groups.groups, .meets = groups.meets});
   object.is_promised = options_.mode == Mode::certified && bytes.flag();
   if (object.is_promised) detector_.promise(id, object.promise);
 }
@@ -121,6 +134,32 @@ void Detector_play::ignore(Byte_source& bytes) {
 void Detector_play::save_and_load(Byte_source& bytes) {
   const auto object = one_of(bytes);
   accepts([&] { detector_.load(object, detector_.save(object)); });
+}
+
+/// An object whose motion is promised is not placed: the promise is about where its vertices are.
+void Detector_play::place(Byte_source& bytes) {
+  const auto id = one_of(bytes);
+  auto& object = objects_[id];
+  const auto placement = draw_placement(bytes);
+  if (object.is_promised || !object.change(object.coordinates, object.given, placement)) return;
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  if (placement) motion.linear() = placement->rotation(), motion.translation() = placement->translation();
+  detector_.place(id, motion);
+}
+
+/// Gives an object coordinates in place of those of its mesh, or ends that.
+void Detector_play::give(Byte_source& bytes) {
+  const auto id = one_of(bytes);
+  auto& object = objects_[id];
+  if (options_.mode != Mode::exact || bytes.flag()) {
+    if (accepts([&] { detector_.update(id); })) object.change(object.coordinates, {}, object.placement);
+    return;
+  }
+  auto given = object.coordinates;
+  const double step = bytes.coordinate();
+  for (std::size_t i = bytes.below(3); i < given.size(); i += 3) given[i] += step;
+  if (object.change(object.coordinates, given, object.placement))
+    detector_.update(id, Eigen::Map<const Positions>(given.data(), static_cast<Eigen::Index>(object.vertices()), 3));
 }
 
 /// A coordinate that is no number must be refused where a face uses it, and harm nothing.
@@ -196,7 +235,7 @@ Object_id Detector_play::one_of(Byte_source& bytes) const {
 
 bool Detector_play::may_collide(Object_id a, Object_id b) const {
   if (objects_[a].is_removed || objects_[b].is_removed || ignored_.contains({a, b})) return false;
-  return a != b || options_.exact.self_collision;
+  return meet(groups_[a], groups_[b]) && (a != b || options_.exact.self_collision);
 }
 
 std::size_t Detector_play::present() const {

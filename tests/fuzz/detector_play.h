@@ -28,6 +28,8 @@ class Detector_play {
   void rebuild(Byte_source& bytes);
   void ignore(Byte_source& bytes);
   void save_and_load(Byte_source& bytes);
+  void place(Byte_source& bytes);
+  void give(Byte_source& bytes);
   void detect_without_a_number(Byte_source& bytes);
   void query(Byte_source& bytes);
   void query_two(Byte_source& bytes, Object_id a, Object_id b);
@@ -43,6 +45,7 @@ class Detector_play {
   std::deque<Drawn_object> objects_;  ///< before the detector, which refers to them
   Detector<> detector_;
   std::set<Object_pair> ignored_;
+  std::vector<Collision_groups> groups_;
 };
 
 }  // namespace lodestone::fuzz

@@ -63,15 +63,32 @@ void take(std::vector<double> coordinates, Drawn_object& object) {
   }
   const double promised = 2 * farthest;
   if (object.is_promised && !std::isfinite(promised)) return;
-  if (object.is_promised) object.promise.move(promised);
-  std::ranges::copy(coordinates, object.coordinates.begin());  // in place: the mesh refers to them
+  if (object.change(std::move(coordinates), object.given, object.placement) && object.is_promised)
+    object.promise.move(promised);
 }
 
 }  // namespace
 
 Triangle Drawn_object::triangle(std::size_t face) const {
-  return face_triangle(faces[face],
-                       [this](std::uint32_t vertex) { return coordinates.data() + 3 * std::size_t{vertex}; });
+  return face_triangle(faces[face], [this](std::uint32_t vertex) { return shown.data() + 3 * std::size_t{vertex}; });
+}
+
+bool Drawn_object::change(std::vector<double> coordinates_now, std::optional<std::vector<double>> given_now,
+                          std::optional<Rigid_motion> placement_now) {
+  const auto all_finite = [](const auto& list) {
+    return std::ranges::all_of(list, [](double x) { return std::isfinite(x); });
+  };
+  // The mesh's own must stay finite, and so must what is placed of both: given coordinates can be taken back.
+  const auto placed = [&](const std::vector<double>& from) {
+    std::vector<double> memory = from;
+    if (placement_now) (*placement_now)(Coordinates(from.data(), from.size()), memory);
+    return memory;
+  };
+  auto of_mesh = placed(coordinates_now), of_given = given_now ? placed(*given_now) : of_mesh;
+  if (!all_finite(coordinates_now) || !all_finite(of_mesh) || !all_finite(of_given)) return false;
+  std::ranges::copy(coordinates_now, coordinates.begin());  // in place: the mesh refers to them
+  given = std::move(given_now), placement = std::move(placement_now), shown = std::move(of_given);
+  return true;
 }
 
 void draw_object(Byte_source& bytes, Drawn_object& object) {
@@ -94,6 +111,7 @@ void draw_object(Byte_source& bytes, Drawn_object& object) {
       make_soup(bytes, bytes.flag(), object);
   }
   place(bytes, object);
+  object.shown = object.coordinates;
   object.make_mesh();
 }
 
@@ -116,7 +134,7 @@ void move_vertices(Byte_source& bytes, Drawn_object& object, const Drawn_object&
   } else {
     for (std::size_t i = 0; i < 3; ++i) moved[vertex + i] = bytes.coordinate();
   }
-  if (std::ranges::all_of(moved, [](double x) { return std::isfinite(x); })) take(std::move(moved), object);
+  take(std::move(moved), object);
 }
 
 void collapse_face(Byte_source& bytes, Drawn_object& object) {
@@ -148,7 +166,23 @@ std::vector<std::uint32_t> change_faces(Byte_source& bytes, Drawn_object& object
     changed.push_back(static_cast<std::uint32_t>(face));
   }
   object.mesh->set_arrays(object.coordinates, object.faces);
+  object.change(object.coordinates, {}, object.placement);
   return changed;
+}
+
+std::optional<Rigid_motion> draw_placement(Byte_source& bytes) {
+  const Eigen::Vector3d axis(bytes.coordinate(), bytes.coordinate(), bytes.coordinate());
+  const Eigen::Vector3d shift(bytes.coordinate(), bytes.coordinate(), bytes.coordinate());
+  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();
+  // A quarter turn about an axis, which maps a lattice onto itself, or any other turn.
+  const double angle = bytes.flag() ? 2 * std::atan(1) : bytes.coordinate();
+  const double length = axis.stableNorm();
+  if (length > 0 && std::isfinite(length) && std::isfinite(angle))
+    placement.linear() = Eigen::AngleAxisd(angle, axis / length).toRotationMatrix();
+  placement.translation() = shift;
+  std::optional<Rigid_motion> motion;
+  accepts([&] { motion = make_rigid_motion(placement); });
+  return motion;
 }
 
 }  // namespace lodestone::fuzz

@@ -8,6 +8,7 @@
 #include "fuzz/byte_source.h"
 #include "lodestone/bounds/displacement_bound.h"
 #include "lodestone/mesh/indexed_mesh.h"
+#include "lodestone/mesh/rigid_motion.h"
 #include "lodestone/triangles/triangle_intersection.h"
 
 namespace lodestone::fuzz {
@@ -17,6 +18,9 @@ struct Drawn_object {
   std::vector<double> coordinates = {};
   std::vector<Corners> faces = {};
   std::optional<Indexed_mesh> mesh = {};
+  std::optional<std::vector<double>> given = {};  ///< in place of the mesh's coordinates
+  std::optional<Rigid_motion> placement = {};
+  std::vector<double> shown = {};  ///< where the vertices are: given, placed
   Displacement_promise promise = Displacement_promise();
   bool is_promised = false;
   bool is_removed = false;
@@ -24,6 +28,11 @@ struct Drawn_object {
   void make_mesh() { mesh.emplace(coordinates, faces); }
   std::size_t vertices() const { return coordinates.size() / 3; }
   Triangle triangle(std::size_t face) const;
+
+  /// Takes a change, and computes where the vertices are.
+  /// @return false if they would not be finite: the object stays as it was
+  bool change(std::vector<double> coordinates_now, std::optional<std::vector<double>> given_now,
+              std::optional<Rigid_motion> placement_now);
 };
 
 /// Fills an object: cloth, closed bodies, loose or tangled faces, somewhere and of some size.
@@ -35,7 +44,10 @@ void move_vertices(Byte_source& bytes, Drawn_object& object, const Drawn_object&
 /// Makes a face a segment or a point.
 void collapse_face(Byte_source& bytes, Drawn_object& object);
 
-/// Adds, removes or turns a face.
+/// A rotation and a translation, or none.
+std::optional<Rigid_motion> draw_placement(Byte_source& bytes);
+
+/// Adds, removes or turns a face. Given coordinates are no longer.
 /// @return the faces whose corners are others than before
 std::vector<std::uint32_t> change_faces(Byte_source& bytes, Drawn_object& object);
 

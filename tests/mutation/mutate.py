@@ -2,183 +2,233 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Breaks single lines of the library, and tells which of these mutants the tests notice.
 
-Each mutant replaces one operator, constant or keyword of one line. It is built in a copy of the sources, and the tests
-run until one fails: first those of the line's own folder, then those of the floors above. The sample depends on the
-seed alone. Every result is appended to a file at once, so a run that was interrupted goes on where it ended.
+Each mutant changes one operator, constant or keyword of one line. The sample depends on the seed alone. One build holds
+all of them, each behind a switch (switches.h), so that none needs a build of its own. A first run of all tests tells
+which of them come to which mutant; each mutant is then tried by these until one fails. Every result is kept at once:
+a run that was interrupted goes on where it ended.
 """
 import argparse
+import dataclasses
 import json
+import os
 import pathlib
-import random
 import re
 import resource
 import shutil
 import subprocess
 import sys
+import tempfile
 import threading
+import time
 
-# Floors from below; the tests of a floor notice what is broken on those below it.
-FLOORS = ["mesh", "triangles", "volumes", "partition", "particles", "tree", "bounds", "filter", "queries", "detection"]
-TESTS_ABOVE = ["queries", "detection", "threads", "contract", "io", "program"]
+from mutants import Mutant, folder_of, sample, switched_text
 
-# What is replaced by what, outside of strings and comments.
-RULES = [(re.compile(pattern), replacement) for pattern, replacement in [
-    (r"(?<=[\w)\]] )<=(?= )", "<"), (r"(?<=[\w)\]] )>=(?= )", ">"), (r"(?<=[\w)\]] )<(?= )", "<="),
-    (r"(?<=[\w)\]] )>(?= )", ">="), (r"(?<= )==(?= )", "!="), (r"(?<= )!=(?= )", "=="), (r"(?<= )&&(?= )", "||"),
-    (r"(?<= )\|\|(?= )", "&&"), (r"(?<=[\w)\]] )\+(?= )", "-"), (r"(?<=[\w)\]] )-(?= )", "+"),
-    (r"(?<=[\w)\]] )\*(?= )", "/"), (r"(?<=[\w)\]] )/(?= )", "*"), (r"(?<= )\+=(?= )", "-="), (r"(?<= )-=(?= )", "+="),
-    (r"\btrue\b", "false"), (r"\bfalse\b", "true"), (r"\bstd::min\b", "std::max"), (r"\bstd::max\b", "std::min"),
-    (r"\bcontinue;", "break;"), (r"\bbreak;", "continue;"), (r"(?<![\w.])0(?![\w.])", "1"),
-    (r"(?<![\w.])1(?![\w.])", "2"), (r"(?<![\w.])([2-9]|\d\d+)(?![\w.])", r"(\1 + 1)"), (r"!(?=[a-z_(])", ""),
-    (r"\.front\(\)", ".back()"), (r"\.back\(\)", ".front()"),
-]]
-# Lines whose mutants say nothing about behaviour.
-SKIPPED = re.compile(r"^\s*(//|\*|#|template|using|static_assert|namespace|requires|concept|typedef|friend)|concept ")
-
-MOST_MEMORY = 8 << 30  # bytes of a test program: a mutant may ask for any amount
-
-
-def code_of(line):
-    """The line without its comment and with blanked strings, of the same length up to the comment."""
-    line = re.sub(r'"(\\.|[^"\\])*"', lambda text: " " * len(text.group()), line)
-    return line.split("//")[0]
-
-
-def mutants_of(root, file):
-    for number, line in enumerate((root / file).read_text().splitlines()):
-        code = code_of(line)
-        if SKIPPED.search(code):
-            continue
-        for pattern, replacement in RULES:
-            for match in pattern.finditer(code):
-                changed = line[:match.start()] + match.expand(replacement) + line[match.end():]
-                yield {"file": str(file), "line": number + 1, "from": line.strip(), "to": changed.strip(),
-                       "changed": changed}
-
-
-def library_files(root):
-    files = [path.relative_to(root) for folder in ("include/lodestone", "src") for path in (root / folder).rglob("*")
-             if path.suffix in (".h", ".cpp")]
-    return sorted(path for path in files if folder_of(path) in FLOORS + ["io"])
-
-
-def folder_of(file):
-    parts = pathlib.PurePath(file).parts
-    return parts[2] if parts[0] == "include" else parts[1]
-
-
-def sample(root, count, seed):
-    """One mutant of each of so many lines, from all lines that have one."""
-    lines = {}
-    for file in library_files(root):
-        for mutant in mutants_of(root, file):
-            lines.setdefault((mutant["file"], mutant["line"]), []).append(mutant)
-    chosen = random.Random(seed)
-    keys = sorted(lines)
-    chosen.shuffle(keys)
-    return [chosen.choice(lines[key]) for key in keys[:count]]
-
-
-def programs_for(file):
-    folder = folder_of(file)
-    return [folder] + [name for name in TESTS_ABOVE if name != folder]
-
-
-def limit_memory():
-    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+PROGRAMS = ["mesh", "triangles", "volumes", "partition", "particles", "tree", "bounds", "filter", "queries", "detection",
+            "contract", "threads", "io", "program"]
+MOST_MEMORY, MOST_FILE = 8 << 30, 1 << 30  # bytes of a test: a mutant may ask for any amount
+LONG = 2.0  # seconds; longer tests run by themselves, after the others
 
 
 class Workplace:
-    """A copy of the sources with a build folder of its own."""
+    """A copy of the sources with the switches in it, and what is known of its tests."""
 
-    def __init__(self, root, folder):
-        self.folder = folder
-        if not (folder / "CMakePresets.json").exists():
-            shutil.copytree(root, folder, ignore=shutil.ignore_patterns("build", "out", ".git"), dirs_exist_ok=True)
-        self.build_folder = folder / "build" / "mutation"
-        if not (self.build_folder / "build.ninja").exists():
-            self.call(["cmake", "--preset", "mutation"], check=True)
+    def __init__(self, root, folder, spare):
+        self.root, self.folder, self.spare = root, folder, spare
+        self.copy, self.build_folder = folder / "copy", folder / "copy" / "build" / "mutation"
 
-    def call(self, command, check=False, **options):
-        return subprocess.run(command, cwd=self.folder, check=check, **options, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
+    def prepare(self, lines, seed):
+        """Builds until everything compiles. Returns the mutants that do, at most so many."""
+        kept = self.folder / "mutants.json"
+        if not kept.exists():
+            kept.write_text(json.dumps([dataclasses.asdict(mutant) for mutant in self.compile(lines, seed)], indent=1))
+        return [Mutant(**record) for record in json.loads(kept.read_text())][:lines]
 
-    def build(self, programs):
-        return self.call(["ninja", "-C", str(self.build_folder), "-j", "1", *[f"{name}_tests" for name in programs],
-                          *(["lodestone_program"] if "program" in programs else [])]).returncode == 0
+    def compile(self, lines, seed):
+        chosen = {mutant.number: mutant for mutant in sample(self.root, lines + self.spare, seed)}
+        shutil.rmtree(self.copy, ignore_errors=True)
+        shutil.copytree(self.root, self.copy, ignore=shutil.ignore_patterns("build", "out", ".git"))
+        self.originals = {mutant.file: (self.root / mutant.file).read_text() for mutant in chosen.values()}
+        for file in self.originals:
+            self.write(file, chosen.values())
+        subprocess.run(["cmake", "--preset", "mutation"], cwd=self.copy, check=True, stdout=subprocess.DEVNULL)
+        while (output := self.build()) is not None:
+            wrong = blamed(output, chosen.values())
+            if not wrong:
+                sys.exit(f"the build fails for another reason:\n{output[-4000:]}")
+            print(f"{len(wrong)} mutants do not compile", flush=True)
+            files = {chosen.pop(number).file for number in wrong}
+            for file in files:
+                self.write(file, chosen.values())
+        return chosen.values()
 
-    def test(self, program, seconds):
-        """Whether the tests pass; a mutant that hangs does not."""
-        try:
-            return self.call([str(self.build_folder / "tests" / f"{program}_tests"), "--gtest_fail_fast",
-                              "--gtest_brief=1"], timeout=seconds, preexec_fn=limit_memory).returncode == 0
-        except subprocess.TimeoutExpired:
-            return False
+    def write(self, file, mutants):
+        """Keeps the time of a file that was there: what has compiled with a mutant need not do so again without it."""
+        path = self.copy / file
+        before = path.stat()
+        path.write_text(switched_text(self.copy, self.originals[file],
+                                      [mutant for mutant in mutants if mutant.file == file]))
+        os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
 
-    def judge(self, mutant, seconds):
-        """`caught by PROGRAM`, `does not compile`, or `survived`."""
-        path = self.folder / mutant["file"]
-        text = path.read_text()
-        lines = text.split("\n")
-        lines[mutant["line"] - 1] = mutant["changed"]
-        path.write_text("\n".join(lines))
-        try:
-            for program in programs_for(mutant["file"]):
-                if not self.build([program]):
-                    return "does not compile"
-                if not self.test(program, seconds):
-                    return f"caught by {program}"
-            return "survived"
-        finally:
-            path.write_text(text)
+    def build(self):
+        """None, or what was printed if something did not compile."""
+        done = subprocess.run(["ninja", "-C", str(self.build_folder), "-k", "0", "-j", os.environ.get("JOBS", "2"),
+                               *[f"{name}_tests" for name in PROGRAMS], "lodestone_program"],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        return None if done.returncode == 0 else done.stdout
+
+    def list_tests(self):
+        """Name, program and filter of each test."""
+        listed = subprocess.run(["ctest", "--show-only=json-v1"], cwd=self.build_folder, check=True,
+                                stdout=subprocess.PIPE, text=True)
+        tests = []
+        for test in json.loads(listed.stdout)["tests"]:
+            command = test.get("command", [""])
+            if command[0].endswith("_tests") and pathlib.Path(command[0]).exists():
+                tests.append({"name": test["name"], "program": command[0],
+                              "filter": command[1].removeprefix("--gtest_filter=")})
+        return tests
+
+    def run(self, program, filters, seconds, **variables):
+        """Whether the tests pass in time."""
+        with tempfile.TemporaryDirectory() as temporary:
+            try:
+                return subprocess.run(
+                    [program, f"--gtest_filter={':'.join(filters)}", "--gtest_fail_fast", "--gtest_brief=1"],
+                    cwd=self.build_folder / "tests", env=os.environ | variables | {"TMPDIR": temporary},
+                    timeout=seconds, preexec_fn=limit, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL, start_new_session=True).returncode == 0
+            except subprocess.TimeoutExpired:
+                return False
+
+
+def blamed(output, mutants):
+    """The mutants on the lines that errors name; if they name none, those that anything printed names."""
+    for pattern in (r"([\w./-]+):(\d+):\d+: error", r"([\w./-]+):(\d+):\d+"):
+        places = {(match[1], int(match[2])) for match in re.finditer(pattern, output)}
+        wrong = {mutant.number for mutant in mutants
+                 if any(line == mutant.line and path.endswith(mutant.file) for path, line in places)}
+        if wrong:
+            return wrong
+    return set()
+
+
+def limit():
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (MOST_FILE, MOST_FILE))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def each(items, workers, function):
+    """Calls a function for all items, in so many threads."""
+    items, lock = list(items), threading.Lock()
+
+    def work():
+        while True:
+            with lock:
+                if not items:
+                    return
+                item = items.pop(0)
+            function(item)
+
+    threads = [threading.Thread(target=work) for _ in range(workers)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+class Kept:
+    """Records in a file of a line each, which grows from run to run."""
+
+    def __init__(self, path):
+        self.path, self.lock = path, threading.Lock()
+        self.records = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+
+    def add(self, record):
+        with self.lock:
+            self.records.append(record)
+            with self.path.open("a") as file:
+                file.write(json.dumps(record) + "\n")
+
+
+def measure(place, kept, workers):
+    """Which mutants each test comes to, and how long it takes."""
+    known = {record["name"] for record in kept.records}
+
+    def measure_one(test):
+        with tempfile.NamedTemporaryFile() as reached:
+            begin = time.monotonic()
+            passed = place.run(test["program"], [test["filter"]], 900, LODESTONE_REACHED=reached.name)
+            seconds = time.monotonic() - begin
+            numbers = sorted({int(line) for line in pathlib.Path(reached.name).read_text().split()})
+        kept.add(test | {"passed": passed, "seconds": round(seconds, 3), "reached": numbers})
+
+    each([test for test in place.list_tests() if test["name"] not in known], workers, measure_one)
+
+
+def batches_for(mutant, tests):
+    """The tests that come to the mutant, those of its own folder first: (program, filters, expected seconds)."""
+    def order(test):
+        program = test["name"].split(".")[0]
+        return test["seconds"] > LONG, program != folder_of(mutant.file), PROGRAMS.index(program)
+
+    batches = []
+    for test in sorted((test for test in tests if test["passed"] and mutant.number in test["reached"]), key=order):
+        last = batches[-1] if batches else None
+        if last and last[0] == test["program"] and test["seconds"] <= LONG and last[2] + test["seconds"] < 20:
+            last[1].append(test["filter"])
+            last[2] += test["seconds"]
+        else:
+            batches.append([test["program"], [test["filter"]], test["seconds"]])
+    return batches
+
+
+def judge(place, mutant, tests, most_seconds):
+    """How the mutant fared: a verdict, and the seconds that it took."""
+    begin = time.monotonic()
+    batches = batches_for(mutant, tests)
+    if not batches:
+        return "no test comes to it", 0
+    for program, filters, expected in batches:
+        if time.monotonic() - begin + expected > most_seconds:
+            return "survived as long as it was tried", time.monotonic() - begin
+        if not place.run(program, filters, 10 + 5 * expected, LODESTONE_MUTANT=str(mutant.number)):
+            return f"caught by {pathlib.Path(program).name}", time.monotonic() - begin
+    return "survived", time.monotonic() - begin
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--lines", type=int, default=300, help="lines to break (default: 300)")
     parser.add_argument("--seed", type=int, default=1, help="of the sample (default: 1)")
-    parser.add_argument("--workers", type=int, default=2, help="builds at a time (default: 2)")
-    parser.add_argument("--seconds", type=int, default=600, help="limit of one test program (default: 600)")
+    parser.add_argument("--workers", type=int, default=2, help="tests at a time (default: 2)")
+    parser.add_argument("--seconds", type=int, default=300, help="most seconds of tests for a mutant (default: 300)")
     parser.add_argument("--most", type=int, default=10**9, help="stop after so many new results")
-    parser.add_argument("--out", type=pathlib.Path, help="file of the results (default: build/mutation/results.jsonl)")
+    parser.add_argument("--out", type=pathlib.Path, help="folder of the results (default: build/mutation)")
     arguments = parser.parse_args()
     root = pathlib.Path(__file__).resolve().parents[2]
-    work = root / "build" / "mutation"
-    work.mkdir(parents=True, exist_ok=True)
-    out = arguments.out or work / "results.jsonl"
+    folder = arguments.out or root / "build" / "mutation"
+    folder.mkdir(parents=True, exist_ok=True)
 
-    done = [json.loads(line) for line in out.read_text().splitlines()] if out.exists() else []
-    known = {(result["file"], result["line"], result["to"]) for result in done}
-    waiting = [mutant for mutant in sample(root, arguments.lines, arguments.seed)
-               if (mutant["file"], mutant["line"], mutant["to"]) not in known][:arguments.most]
-    lock = threading.Lock()
+    place = Workplace(root, folder.resolve(), spare=arguments.lines // 3 + 10)
+    mutants = place.prepare(arguments.lines, arguments.seed)
+    tests = Kept(folder / "tests.jsonl")
+    measure(place, tests, arguments.workers)
+    for test in tests.records:
+        if not test["passed"]:
+            print(f"left out, for it fails without a mutant: {test['name']}")
 
-    def work_on(index):
-        place = Workplace(root, work / f"copy_{index}")
-        while True:
-            with lock:
-                if not waiting:
-                    return
-                mutant = waiting.pop(0)
-            verdict = place.judge(mutant, arguments.seconds)
-            result = {key: mutant[key] for key in ("file", "line", "from", "to")} | {"verdict": verdict}
-            with lock:
-                done.append(result)
-                with out.open("a") as file:
-                    file.write(json.dumps(result) + "\n")
-                print(f"{verdict:24} {mutant['file']}:{mutant['line']}: {mutant['to']}", flush=True)
+    results = Kept(folder / "results.jsonl")
+    known = {result["number"] for result in results.records}
 
-    threads = [threading.Thread(target=work_on, args=(index,)) for index in range(arguments.workers)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    def judge_one(mutant):
+        verdict, seconds = judge(place, mutant, tests.records, arguments.seconds)
+        results.add({"number": mutant.number, "verdict": verdict, "seconds": round(seconds, 1), "mutant": str(mutant)})
+        print(f"{verdict}: {mutant}", flush=True)
 
-    caught = sum(result["verdict"].startswith("caught") for result in done)
-    survived = sum(result["verdict"] == "survived" for result in done)
-    if caught + survived > 0:
-        print(f"{caught} of {caught + survived} mutants caught ({100 * caught / (caught + survived):.1f} %), "
-              f"{len(done) - caught - survived} did not compile: {out}")
+    each([mutant for mutant in mutants if mutant.number not in known][:arguments.most], arguments.workers, judge_one)
+    caught = sum(result["verdict"].startswith("caught") for result in results.records)
+    print(f"{caught} of {len(results.records)} mutants caught: {results.path}")
     return 0
 
 
