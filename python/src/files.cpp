@@ -21,17 +21,19 @@ using Path = std::filesystem::path;
 
 std::shared_ptr<Python_animation> read_animation_file(const Path& path, const std::optional<Path>& mesh,
                                                       const std::variant<std::size_t, std::string>& animation,
-                                                      std::optional<double> frames_per_second) {
+                                                      std::optional<double> frames_per_second, std::size_t max_faces) {
   const py::gil_scoped_release release;
-  auto read = std::make_shared<Animation>(read_animation(
-      path, {.mesh = mesh.value_or(Path()), .frames_per_second = frames_per_second, .animation = animation}));
+  auto read = std::make_shared<Animation>(read_animation(path, {.mesh = mesh.value_or(Path()),
+                                                                .frames_per_second = frames_per_second,
+                                                                .animation = animation,
+                                                                .limits = {.max_faces = max_faces}}));
   return std::make_shared<Python_animation>(
       Python_animation{.name = path.filename().string(), .animation = read, .frames = read->motion.frames});
 }
 
 /// A mesh file is an animation of one frame.
-std::shared_ptr<Python_animation> read_mesh_file(const Path& path) {
-  auto mesh = read_animation_file(path, {}, std::size_t{0}, {});
+std::shared_ptr<Python_animation> read_mesh_file(const Path& path, std::size_t max_faces) {
+  auto mesh = read_animation_file(path, {}, std::size_t{0}, {}, max_faces);
   if (mesh->animation->faces.empty()) throw Bad_mesh(path.string() + ": a point cache has no faces");
   return mesh;
 }
@@ -44,9 +46,9 @@ struct Python_scene {
   std::vector<Object_pair> ignored = {};
 };
 
-Python_scene read_scene_file(const Path& path, bool allow_outside) {
+Python_scene read_scene_file(const Path& path, bool allow_outside, std::size_t max_faces) {
   const py::gil_scoped_release release;
-  const Scene scene = read_scene(path, {.allow_outside = allow_outside});
+  const Scene scene = read_scene(path, {.allow_outside = allow_outside, .limits = {.max_faces = max_faces}});
   Python_scene read{.name = scene.name, .description = scene.description, .frames = scene.frames};
   for (const auto& object : scene.objects)
     read.objects.push_back(std::make_shared<Python_animation>(
@@ -99,14 +101,16 @@ void write_mesh_file(const Path& path, const py::object& mesh, const py::object&
 }  // namespace
 
 void add_files(py::module_& module) {
-  module.def("read_mesh", read_mesh_file, py::arg("path"),
+  const std::size_t max_faces = Mesh_file_options().max_faces;
+  module.def("read_mesh", read_mesh_file, py::arg("path"), py::kw_only(), py::arg("max_faces") = max_faces,
              "Reads a mesh: OFF, OBJ, PLY, STL, glTF at rest, MD2, MD3. An Animation, whose `vertices` and `faces` are those "
-             "of the file.\nRaises BadMesh, with file, line and cause.");
+             "of the file.\nmax_faces: a file with more is refused. Raises BadMesh, with file, line and cause.");
   module.def("read_animation", read_animation_file, py::arg("path"), py::kw_only(), py::arg("mesh") = py::none(),
              py::arg("animation") = std::size_t{0}, py::arg("frames_per_second") = py::none(),
+             py::arg("max_faces") = max_faces,
              "Reads an animation: a pattern of mesh files such as 'cloth_*.obj', a point cache (.pc2, .mdd) with its `mesh`, "
              "glTF,\nMD2, MD3, or a mesh. animation: index or name in a glTF file. frames_per_second: of a glTF animation.\n"
-             "Raises BadMesh, BadMotion.");
+             "max_faces: a file with more is refused. Raises BadMesh, BadMotion.");
   module.def("write_mesh", write_mesh_file, py::arg("path"), py::arg("mesh"), py::arg("faces") = py::none(),
              "Writes a mesh: .obj, .off, .ply, .stl, .gltf or .glb. The file appears whole or not at all.\n"
              "mesh: vertices, an array (V, 3), with `faces`; or an object that has both.");
@@ -136,8 +140,9 @@ void add_files(py::module_& module) {
                std::to_string(self.frames) + " frames>";
       });
   module.def("read_scene", read_scene_file, py::arg("path"), py::kw_only(), py::arg("allow_outside") = false,
-             "Reads a scene file (.json). allow_outside: it may name files outside its folder. Raises BadScene, BadMesh, "
-             "BadMotion.");
+             py::arg("max_faces") = max_faces,
+             "Reads a scene file (.json). allow_outside: it may name files outside its folder. max_faces: of each of its "
+             "files.\nRaises BadScene, BadMesh, BadMotion.");
 }
 
 }  // namespace lodestone::python

@@ -49,6 +49,21 @@ def test_errors_name_file_place_and_cause(tmp_path):
         lodestone.read_scene(scene)
 
 
+def test_files_with_more_faces_than_allowed_are_refused(tmp_path, scenes):
+    path = tmp_path / "box.obj"
+    lodestone.write_mesh(path, cube())
+    assert len(lodestone.read_mesh(path, max_faces=12).faces) == 12
+    with pytest.raises(lodestone.BadMesh, match="box.obj.*11"):
+        lodestone.read_mesh(path, max_faces=11)
+    with pytest.raises(lodestone.BadMesh, match="11"):
+        lodestone.read_animation(path, max_faces=11)
+    scene = tmp_path / "scene.json"
+    scene.write_text('{"frames": 2, "objects": [{"name": "box", "mesh": "box.obj"}]}')
+    assert sum(1 for _ in lodestone.play(scene, max_faces=12)) == 2
+    with pytest.raises(lodestone.BadMesh, match="11"):
+        next(lodestone.play(scene, max_faces=11))
+
+
 @pytest.mark.parametrize("extension", ["pc2", "mdd", "glb"])
 def test_an_animation_goes_to_a_file_and_back(tmp_path, extension):
     box = cube()
