@@ -10,7 +10,7 @@
 
 #include "lodestone/mesh/errors.h"
 #include "modes/mode_report.h"
-#include "modes/scene_sources.h"
+#include "shared/scene_sources.h"
 #include "shared/experiment.h"
 #include "shared/measured_run.h"
 #include "shared/scene_detector.h"

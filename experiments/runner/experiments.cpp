@@ -33,7 +33,7 @@ std::span<const Experiment> experiments() {
       {"scaling", "How do partition, detection and repartition check grow with k, M and N?", run_scaling},
       {"predecessor", "Where does the predecessor fail, and does this method hold there?", run_predecessor},
       {"collision_distance", "Why is mu the mean over adjacent vertices, not over all?", run_collision_distance},
-      {"every_frame", "Does the exact mode equal exhaustive checking in every frame of the scenes?", run_every_frame},
+      {"every_frame", "Do the modes equal exhaustive checking in every frame of the scenes?", run_every_frame},
       {"growth", "Does repartitioning keep an inflating object detectable, and what does it cost?", run_growth},
       {"modes", "What does a frame cost in each mode, and what does it miss?", run_modes},
       {"defaults", "What do particles find, and what does a frame take, with other options than the defaults?",

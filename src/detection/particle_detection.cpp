@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "lodestone/mesh/side_by_side.h"
 #include "lodestone/mesh/stopwatch.h"
 
 namespace lodestone {
@@ -20,12 +21,8 @@ void Particle_detection::update(Object_id id) {
   if (!object.prepared || options_.mode != Mode::particles) return;
   timed(since_last_frame_.seconds.repartition, [&] {
     if (!object.named([&] { return has_outgrown(object.particle_object); })) return;
-    const Positions positions = object.named([&] { return object.particle_object.read_positions(); });
-    object.prepared = false;  // until all is done: if memory runs out, the next frame begins anew
-    measure(object, positions);
-    partition(object, positions);
-    make_room();
-    object.prepared = true;
+    Object* const outgrown[] = {&object};
+    prepare(outgrown, false);  // its seams stay as they are
     ++since_last_frame_.repartitions;
   });
 }
@@ -131,51 +128,67 @@ void Particle_detection::prepare() {
     if (object && !object->prepared) fresh.push_back(object.get());
   // An object that was removed before it was built has left a place, for which there is no room yet.
   if (fresh.empty() && boxes_.size() == objects_.size()) return;
-  timed(since_last_frame_.seconds.build, [&] {
-    std::vector<Positions> positions;
-    for (Object* object : fresh)
-      positions.push_back(object->named([&] { return object->particle_object.read_positions(); }));
-    for (std::size_t i = 0; i < fresh.size(); ++i) {
-      if (options_.close_seams) fresh[i]->particle_object.close_seams(positions[i]);
-      measure(*fresh[i], positions[i]);
-    }
-    for (std::size_t i = 0; i < fresh.size(); ++i) partition(*fresh[i], positions[i]);
-    make_room();
-    for (Object* object : fresh) object->prepared = true;
-  });
+  timed(since_last_frame_.seconds.build, [&] { prepare(fresh, options_.close_seams); });
   since_last_frame_.builds += fresh.size();
 }
 
-void Particle_detection::measure(Object& object, const Positions& positions) {
-  if (options_.particles == 0) object.radius = bounding_sphere(positions).radius;
+/// What calls the user's code, to read a mesh or to divide a surface, is done in this thread, object by object.
+void Particle_detection::prepare(std::span<Object* const> objects, bool close_seams) {
+  std::vector<Positions> positions;
+  std::vector<std::size_t> faces, particles(objects.size());
+  for (Object* object : objects) {
+    positions.push_back(object->named([&] { return object->particle_object.read_positions(); }));
+    faces.push_back(object->particle_object.corners().size());
+  }
+  for (Object* object : objects) object->prepared = false;  // until all is done: the next frame begins anew
+  const auto share = [&](const std::function<void(std::size_t, Workers&)>& work) {
+    side_by_side(faces, workers_,
+                 [&](std::size_t i, Workers& workers) { objects[i]->named([&] { work(i, workers); }); });
+  };
+
+  share([&](std::size_t i, Workers&) {
+    if (close_seams) objects[i]->particle_object.close_seams(positions[i]);
+    if (options_.particles == 0) objects[i]->radius = bounding_sphere(positions[i]).radius;
+  });
+  share([&](std::size_t i, Workers&) {
+    objects[i]->particle_object.measure_distance(positions[i], options_.distance_measure);
+    particles[i] = particles_of(*objects[i], positions[i]);
+  });
+  std::vector<Numbered_partition> divisions(objects.size());
+  for (std::size_t i = 0; i < objects.size() && options_.mode != Mode::senin; ++i)
+    divisions[i] = objects[i]->named(
+        [&] { return objects[i]->particle_object.divide(positions[i], particles[i], options_.partition); });
+  share([&](std::size_t i, Workers& workers) {
+    start(*objects[i], positions[i], particles[i], std::move(divisions[i]), workers);
+  });
+
+  for (Object* object : objects) write_maps(*object);
+  make_room();
+  for (Object* object : objects) object->prepared = true;
 }
 
-void Particle_detection::partition(Object& object, const Positions& positions) {
+/// @param division  unused in mode `senin`
+void Particle_detection::start(Object& object, const Positions& positions, std::size_t particles,
+                               Numbered_partition division, Workers& workers) {
   if (options_.mode == Mode::senin) {
     Senin_options scattering = options_.senin;
     scattering.seed += object.id;  // objects of one shape must not start alike
     if (object.options.scattered_side) scattering.side = object.options.scattered_side;
-    object.named([&] {
-      object.particle_object.scatter(positions, particles_of(object, positions), scattering, options_.distance_measure);
-    });
-  } else {
-    object.named([&] {
-      object.particle_object.partition(positions, particles_of(object, positions), options_.partition,
-                                       options_.distance_measure, workers_);
-      if (meets())
-        object.particle_object.prepare_meetings(positions, options_.exact.tree, workers_);
-      else
-        object.particle_object.prepare_patches();
-    });
+    object.particle_object.scatter(positions, particles, scattering);
+    return;
   }
-  write_maps(object);
+  object.particle_object.settle(std::move(division), positions, workers);
+  if (meets())
+    object.particle_object.prepare_meetings(positions, options_.exact.tree, workers);
+  else
+    object.particle_object.prepare_patches();
 }
 
 void Particle_detection::write_maps(Object& object) {
   object.particle_object.mesh().write_maps(object.particle_object.labels(), object.particle_object.particles().at);
 }
 
-std::size_t Particle_detection::particles_of(Object& object, const Positions& positions) {
+std::size_t Particle_detection::particles_of(const Object& object, const Positions& positions) const {
   if (object.options.particles > 0) return object.options.particles;
   if (options_.particles > 0) return options_.particles;
   std::vector<double> radii;

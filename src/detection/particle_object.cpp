@@ -67,24 +67,19 @@ Numbered_partition Particle_object::divide(const Positions& positions, std::size
   return result;
 }
 
-void Particle_object::partition(const Positions& positions, std::size_t regions, const Partition_options& options,
-                                Distance_measure measure, Workers& workers) {
-  measure_distance(positions, measure);
-  auto result = divide(positions, regions, options);
-  labels_ = std::move(result.labels);
-  statistics_ = result.statistics;
+void Particle_object::settle(Numbered_partition division, const Positions& positions, Workers& workers) {
+  labels_ = std::move(division.labels);
+  statistics_ = division.statistics;
   steps_ = Region_steps(edges_.graph, labels_);
   patches_.clear();
   posed_.clear();
   const Live_positions at(positions.data());
-  find_homes(result.particles, at);
-  start_particles(std::move(result.particles), positions);
+  find_homes(division.particles, at);
+  start_particles(std::move(division.particles), positions);
   measure_extents(at, workers);
 }
 
-void Particle_object::scatter(const Positions& positions, std::size_t particles, const Senin_options& options,
-                              Distance_measure measure) {
-  measure_distance(positions, measure);
+void Particle_object::scatter(const Positions& positions, std::size_t particles, const Senin_options& options) {
   labels_.assign(mesh_->vertex_count(), 0);
   steps_ = Region_steps(edges_.graph, labels_);
   auto vertices = scatter_particles(edges_.graph, positions, particles, options);
@@ -104,7 +99,8 @@ void Particle_object::start_patches(std::size_t rings) {
 
 void Particle_object::start_particles(std::vector<std::uint32_t> vertices, const Positions& positions) {
   particles_.at = std::move(vertices);
-  read_particles();
+  particles_.positions.clear();
+  for (const auto vertex : particles_.at) particles_.positions.emplace_back(positions.row(vertex));
   if (particles_.at.size() == 1) {
     // One particle has no other to measure its reach by: it feels as far as the object is wide, and may walk all of it.
     particles_.effective_radius = 2 * lodestone::bounding_sphere(positions).radius;
@@ -147,7 +143,6 @@ Positions Particle_object::read_positions() {
   throw Bad_mesh("the mesh has a coordinate beyond 1e150");
 }
 
-/// Measures mu, before anything else changes: whatever is wrong with the edges shows here.
 void Particle_object::measure_distance(const Positions& positions, Distance_measure measure) {
   const double mu = collision_distance(edges_.graph, positions, measure);
   if (mu > 0 && mu < 1e-150) throw Bad_mesh("the edges of the mesh are shorter than 1e-150 on average");
@@ -172,8 +167,9 @@ void Particle_object::prepare_meetings(const Positions& positions, const Region_
                                        Workers& workers) {
   const Coordinates coordinates(positions.data(), static_cast<std::size_t>(positions.size()));
   tree_ = Tree_on_demand(corners(), labels_, coordinates, options, workers);
-  tree_.start_frame(read_);
+  tree_.start_frame(Live_positions(positions.data()));  // as they were read: other threads may be reading the mesh
   regions_ = Region_anchors(tree_, corners(), labels_, coordinates);
+  tree_.start_frame(read_);
 }
 
 void Particle_object::read_regions(double reach) {

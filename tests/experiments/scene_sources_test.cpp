@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "modes/scene_sources.h"
+#include "shared/scene_sources.h"
 
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/boost/graph/helpers.h>

@@ -46,7 +46,8 @@ class Workplace:
     def compile(self, lines, seed):
         chosen = {mutant.number: mutant for mutant in sample(self.root, lines + self.spare, seed)}
         shutil.rmtree(self.copy, ignore_errors=True)
-        shutil.copytree(self.root, self.copy, ignore=shutil.ignore_patterns("build", "out", ".git"))
+        shutil.copytree(self.root, self.copy, symlinks=True, ignore=lambda folder, names: {
+            "build", "out", ".git"} if pathlib.Path(folder) == self.root else set())
         self.originals = {mutant.file: (self.root / mutant.file).read_text() for mutant in chosen.values()}
         for file in self.originals:
             self.write(file, chosen.values())

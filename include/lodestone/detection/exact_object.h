@@ -41,10 +41,10 @@ class Exact_object {
     surface = Basic_tree_surface<Volume>(corners());
   }
 
-  const std::string title;              ///< names the object in messages
-  const std::size_t particles;          ///< Object_options::particles
-  Basic_tree_surface<Volume> surface;   ///< of `corners()`
-  bool built = false;                   ///< whether the surface has a tree
+  const std::string title;             ///< names the object in messages
+  const std::size_t particles;         ///< Object_options::particles
+  Basic_tree_surface<Volume> surface;  ///< of `corners()`
+  bool built = false;                  ///< whether the surface has a tree
 
   /// Takes positions that came through `update`; none: those of the mesh count again.
   void give(std::optional<Positions> positions) {
@@ -79,11 +79,13 @@ class Exact_object {
   /// @param coordinates  3 V; must stay unchanged until the next refit
   /// @return false if the surface needs a new tree, or if a coordinate that faces use is not finite
   bool mend(Coordinates coordinates, const Region_tree_options& options, Workers& workers);
-  /// Gives the surface a new tree.
+  /// Gives the surface a new tree; `finish` is still to be called. Reads nothing but the coordinates.
   /// @param regions      none: without regions
   /// @param coordinates  3 V, all finite; must stay unchanged until the next refit
   void build(std::optional<Numbered_partition> regions, Coordinates coordinates, const Region_tree_options& options,
              Workers& workers);
+  /// Writes the regions of what has been built to the mesh.
+  void finish();
 
   /// Takes the positions with which it has been built as those at rest, unless it has some.
   void keep_rest() {
@@ -125,8 +127,7 @@ class Exact_object {
     former_.reset();
     bounded_.reset();
   }
-  void finish();
-  void write_maps();
+  void list_unused() { unused_ = unused_vertices(surface.tree().all_vertices(), mesh().vertex_count()); }
 
   /// The mesh, and what depends on its faces alone.
   struct Faces {
@@ -207,14 +208,13 @@ void Exact_object<Volume>::Object_positions::pose(std::span<const std::uint32_t>
 template <Bounding_volume Volume>
 void Exact_object<Volume>::make_bounds(Workers& workers) {
   if constexpr (std::same_as<Volume, Aabb>) {
-    if (!promises_.empty() && rest_.empty())
-      rest_.assign(surface.coordinates().begin(), surface.coordinates().end());
+    if (!promises_.empty() && rest_.empty()) rest_.assign(surface.coordinates().begin(), surface.coordinates().end());
     auto positions = std::make_unique<Object_positions>(*this);
-    const Bounded_object object{.layout = surface.tree(),
-                                .labels = regions_ ? std::span<const Region_index>(regions_->labels)
-                                                   : std::span<const Region_index>(),
-                                .rest = rest_,
-                                .positions = *positions};
+    const Bounded_object object{
+        .layout = surface.tree(),
+        .labels = regions_ ? std::span<const Region_index>(regions_->labels) : std::span<const Region_index>(),
+        .rest = rest_,
+        .positions = *positions};
     std::vector<std::unique_ptr<Node_bound>> bounds;
     if (auto own = mesh().own_bound(object))
       bounds.push_back(std::make_unique<Placed_bound>(std::move(own), placement_));
@@ -269,6 +269,7 @@ bool Exact_object<Volume>::mend(Coordinates coordinates, const Region_tree_optio
   auto former = std::exchange(former_, std::nullopt);
   if (!former || regions_) return false;
   if (!surface.mend(std::move(former->surface), former->changed, coordinates, options, workers)) return false;
+  list_unused();
   finish();
   return true;
 }
@@ -280,25 +281,19 @@ void Exact_object<Volume>::build(std::optional<Numbered_partition> regions, Coor
   surface.build(regions ? std::span<const Region_index>(regions->labels) : std::span<const Region_index>(), coordinates,
                 options, workers);
   regions_ = std::move(regions);
-  finish();
-}
-
-/// What follows from the tree and the regions.
-template <Bounding_volume Volume>
-void Exact_object<Volume>::finish() {
-  unused_ = unused_vertices(surface.tree().all_vertices(), mesh().vertex_count());
-  write_maps();
-  built = true;
+  list_unused();
 }
 
 /// Without regions all vertices are marked as one.
 template <Bounding_volume Volume>
-void Exact_object<Volume>::write_maps() {
-  if (!mesh().has_maps()) return;
-  if (regions_)
-    mesh().write_maps(regions_->labels, regions_->particles);
-  else
-    mesh().write_maps(std::vector<Region_index>(mesh().vertex_count(), 0), {});
+void Exact_object<Volume>::finish() {
+  if (mesh().has_maps()) {
+    if (regions_)
+      mesh().write_maps(regions_->labels, regions_->particles);
+    else
+      mesh().write_maps(std::vector<Region_index>(mesh().vertex_count(), 0), {});
+  }
+  built = true;
 }
 
 template <Bounding_volume Volume>
@@ -319,6 +314,7 @@ void Exact_object<Volume>::load(State_reader& state, bool with_rest) {
   forget_tree();
   surface = std::move(loaded);
   regions_ = std::move(regions);
+  list_unused();
   finish();
 }
 

@@ -11,13 +11,14 @@
 #include "lodestone/detection/exact_object.h"
 #include "lodestone/detection/frame.h"
 #include "lodestone/mesh/scaled_positions.h"
+#include "lodestone/mesh/side_by_side.h"
 #include "lodestone/mesh/stopwatch.h"
 
 namespace lodestone {
 
 /// The objects of the modes `exact` and `certified`, whose trees follow their meshes: built once, refitted in every
-/// frame, rebuilt where they have become loose. In mode `certified` an object with bounds is not refitted: its nodes are
-/// bounded, and its leaves posed, when somebody looks at them.
+/// frame, rebuilt where they have become loose. In mode `certified` an object with bounds is not refitted: its nodes
+/// are bounded, and its leaves posed, when somebody looks at them.
 template <Bounding_volume Volume>
 class Exact_objects {
  public:
@@ -87,7 +88,7 @@ class Exact_objects {
   void build_new(std::span<const Object_id> ids);
   void rebuild_loose(std::span<const Object_id> ids);
   void bound_refitted(std::span<const Object_id> ids);
-  void build(Object_id id, Coordinates coordinates);
+  void build(std::span<const Object_id> ids, std::span<const Coordinates> coordinates);
   /// How many regions are asked for; 0: none.
   std::size_t region_count(const Object& object) const {
     return object.particles > 0 ? object.particles : options_.particles;
@@ -169,36 +170,60 @@ void Exact_objects<Volume>::refit_built(std::span<const Object_id> ids) {
 
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::build_new(std::span<const Object_id> ids) {
-  for (const auto id : ids) {
-    if (objects_[id]->built) continue;
-    timed(work_.seconds.build, [&] {
-      build(id, objects_[id]->read());
-      if (options_.exact.self_tolerance > 0) objects_[id]->keep_rest();
-    });
-    ++work_.builds;
-    // A mended tree has looked at the vertices of its faces only.
-    check_finite(surface(id).coordinates(), objects_[id]->unused(), objects_[id]->title);
-  }
+  std::vector<Object_id> fresh;
+  for (const auto id : ids)
+    if (!objects_[id]->built) fresh.push_back(id);
+  if (fresh.empty()) return;
+  timed(work_.seconds.build, [&] {
+    std::vector<Coordinates> coordinates;
+    for (const auto id : fresh) coordinates.push_back(objects_[id]->read());
+    build(fresh, coordinates);
+    if (options_.exact.self_tolerance > 0)
+      for (const auto id : fresh) objects_[id]->keep_rest();
+  });
+  work_.builds += fresh.size();
+  // A mended tree has looked at the vertices of its faces only.
+  for (const auto id : fresh) check_finite(surface(id).coordinates(), objects_[id]->unused(), objects_[id]->title);
 }
 
 /// New trees for objects whose leaves have grown too much in comparison with the whole.
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
+  std::vector<Object_id> loose;
+  std::vector<Coordinates> coordinates;
   for (const auto id : ids) {
     const bool has_bounds = objects_[id]->bounded() != nullptr && bounded(id).has_bounds();  // of the tree's nodes
     if (has_bounds || !surface(id).looser_than(options_.exact.loosest)) continue;
-    timed(work_.seconds.repartition, [&] { build(id, surface(id).coordinates()); });
-    ++work_.repartitions;
+    loose.push_back(id);
+    coordinates.push_back(surface(id).coordinates());
   }
+  if (loose.empty()) return;
+  timed(work_.seconds.repartition, [&] { build(loose, coordinates); });
+  work_.repartitions += loose.size();
 }
 
-/// Mends the tree of an object of which some faces have changed, or builds one, over regions if they are asked for.
+/// Mends the trees of objects of which some faces have changed, and builds those of others, over regions if they are
+/// asked for. What calls the user's code, to divide a surface or to write its maps, is done in this thread.
 template <Bounding_volume Volume>
-void Exact_objects<Volume>::build(Object_id id, Coordinates coordinates) {
-  Object& object = *objects_[id];
-  if (region_count(object) == 0 && object.mend(coordinates, options_.exact.tree, workers_)) return;
-  check_finite(coordinates, object.title);
-  object.build(divide(object, coordinates), coordinates, options_.exact.tree, workers_);
+void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<const Coordinates> coordinates) {
+  struct Build {
+    Object* object;
+    std::optional<Numbered_partition> regions;
+    Coordinates coordinates;
+  };
+  std::vector<Build> builds;
+  std::vector<std::size_t> faces;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    Object& object = *objects_[ids[i]];
+    if (region_count(object) == 0 && object.mend(coordinates[i], options_.exact.tree, workers_)) continue;
+    check_finite(coordinates[i], object.title);
+    builds.push_back({&object, divide(object, coordinates[i]), coordinates[i]});
+    faces.push_back(object.corners().size());
+  }
+  side_by_side(faces, workers_, [&](std::size_t i, Workers& workers) {
+    builds[i].object->build(std::move(builds[i].regions), builds[i].coordinates, options_.exact.tree, workers);
+  });
+  for (const auto& build : builds) build.object->finish();
 }
 
 /// @return none if no regions are asked for

@@ -85,10 +85,11 @@ class Particle_detection final : public Detection {
   void prepare();
   void note_places();
   void return_to_places();
-  void measure(Object& object, const Positions& positions);
-  void partition(Object& object, const Positions& positions);
+  void prepare(std::span<Object* const> objects, bool close_seams);
+  void start(Object& object, const Positions& positions, std::size_t particles, Numbered_partition division,
+             Workers& workers);
   bool has_outgrown(Particle_object& object);
-  std::size_t particles_of(Object& object, const Positions& positions);
+  std::size_t particles_of(const Object& object, const Positions& positions) const;
   void write_maps(Object& object);
   void make_room();
   bool meets() const { return options_.mode == Mode::particles && options_.meetings > 0; }

@@ -46,20 +46,21 @@ class Particle_object {
   /// Number of vertices that were joined to another one.
   std::size_t joined_vertices() const { return seams_ ? seams_->joined_count() : 0; }
 
-  /// Divides the surface into `regions` regions, and puts a particle in each. O(V) and more.
+  /// Measures mu, the distance at which particles collide. First of all: whatever is wrong with the edges shows here.
   /// @throws Bad_mesh  edges are shorter than 1e-150 on average
-  void partition(const Positions& positions, std::size_t regions, const Partition_options& options,
-                 Distance_measure measure, Workers& workers = Workers::alone());
-  /// Lists the faces of each region, for `posed_patch`. After `partition`. O(V + F).
+  void measure_distance(const Positions& positions, Distance_measure measure);
+  /// Divides the surface into `regions` regions, by the strategy, which is the caller's. O(V) and more.
+  Numbered_partition divide(const Positions& positions, std::size_t regions, const Partition_options& options) const;
+  /// Takes a division, and puts a particle in each of its regions. O(V).
+  void settle(Numbered_partition division, const Positions& positions, Workers& workers = Workers::alone());
+  /// Lists the faces of each region, for `posed_patch`. After `settle`. O(V + F).
   void prepare_patches();
-  /// Builds what meetings need: the tree below the regions. After `partition`. O(F log F).
+  /// Builds what meetings need: the tree below the regions. After `settle`. O(F log F).
   void prepare_meetings(const Positions& positions, const Region_tree_options& options,
                         Workers& workers = Workers::alone());
 
-  /// Scatters `particles` over the surface: the predecessor's start.
-  /// @throws Bad_mesh  as `partition`
-  void scatter(const Positions& positions, std::size_t particles, const Senin_options& options,
-               Distance_measure measure);
+  /// Scatters `particles` over the surface: the predecessor's start, in place of `divide` and `settle`.
+  void scatter(const Positions& positions, std::size_t particles, const Senin_options& options);
 
   /// Writes what was built. Only if something was.
   void save(State_writer& state) const;
@@ -132,11 +133,9 @@ class Particle_object {
  private:
   std::span<const Corners> walked_corners() const;
   void walk_along(std::optional<Closed_seams> seams);
-  Numbered_partition divide(const Positions& positions, std::size_t regions, const Partition_options& options) const;
   void look();
   void start_patches(std::size_t rings);
   void make_poses();
-  void measure_distance(const Positions& positions, Distance_measure measure);
   void start_particles(std::vector<std::uint32_t> vertices, const Positions& positions);
   /// Where a region's particle started, and an edge from there by which directions are found again.
   struct Home {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "modes/component_objects.h"
+#include "shared/component_objects.h"
 
 #include <fmt/format.h>
 

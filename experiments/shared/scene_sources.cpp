@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "modes/scene_sources.h"
+#include "shared/scene_sources.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "io/files/small_text.h"
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/mesh/errors.h"
-#include "modes/component_objects.h"
+#include "shared/component_objects.h"
 
 namespace lodestone {
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "lodestone/mesh/workers.h"
+
+namespace lodestone {
+
+/// Works on several items, such as objects to build, where the work on a single one can be shared too. Items of like
+/// sizes are done side by side, each by one worker; where one of them outweighs the others, and for those that are left
+/// over at the end, one after the other by all workers.
+/// @param sizes    of the items, such as numbers of faces
+/// @param work     called with the index of an item and the workers that may share it; its result must not depend on
+/// how
+///                 many these are. Several threads call it at once
+/// @throws what the work on the first item that fails throws; items after it may be left out
+void side_by_side(std::span<const std::size_t> sizes, Workers& workers,
+                  const std::function<void(std::size_t, Workers&)>& work);
+
+}  // namespace lodestone
