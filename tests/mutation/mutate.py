@@ -15,6 +15,7 @@ import pathlib
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -25,7 +26,7 @@ from mutants import Mutant, folder_of, sample, switched_text
 
 PROGRAMS = ["mesh", "triangles", "volumes", "partition", "particles", "tree", "bounds", "filter", "queries", "detection",
             "contract", "threads", "io", "program"]
-MOST_MEMORY, MOST_FILE = 8 << 30, 1 << 30  # bytes of a test: a mutant may ask for any amount
+MOST_MEMORY, MOST_FILE = 8 << 30, 4 << 30  # bytes of a test: a mutant may ask for any amount
 LONG = 2.0  # seconds; longer tests run by themselves, after the others
 
 
@@ -91,14 +92,16 @@ class Workplace:
 
     def run(self, program, filters, seconds, **variables):
         """Whether the tests pass in time."""
-        with tempfile.TemporaryDirectory() as temporary:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
+            test = subprocess.Popen(
+                [program, f"--gtest_filter={':'.join(filters)}", "--gtest_fail_fast", "--gtest_brief=1"],
+                cwd=self.build_folder / "tests", env=os.environ | variables | {"TMPDIR": temporary}, preexec_fn=limit,
+                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
             try:
-                return subprocess.run(
-                    [program, f"--gtest_filter={':'.join(filters)}", "--gtest_fail_fast", "--gtest_brief=1"],
-                    cwd=self.build_folder / "tests", env=os.environ | variables | {"TMPDIR": temporary},
-                    timeout=seconds, preexec_fn=limit, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                    stderr=subprocess.DEVNULL, start_new_session=True).returncode == 0
+                return test.wait(seconds) == 0
             except subprocess.TimeoutExpired:
+                os.killpg(test.pid, signal.SIGKILL)  # with the programs that it has started
+                test.wait()
                 return False
 
 
@@ -117,6 +120,7 @@ def limit():
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     resource.setrlimit(resource.RLIMIT_FSIZE, (MOST_FILE, MOST_FILE))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # which is ignored by what a shell starts in the background
 
 
 def each(items, workers, function):

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <set>
 
@@ -49,6 +50,19 @@ TEST(Region_count, a_strip_is_cut_in_the_middle_of_its_length) {
   adjust(mesh, labels, 4);
   for (std::uint32_t v = 0; v < 48; ++v) EXPECT_EQ(labels[v], labels[v % 16 / 4 * 4]) << v;
   EXPECT_EQ(std::set<Region_index>(labels.begin(), labels.end()).size(), 4U);
+}
+
+TEST(Region_count, a_strip_is_cut_across_whichever_way_it_lies) {
+  const auto along_x = grid(16, 3);
+  Labels expected(48, 0);
+  adjust(along_x, expected, 2);
+  for (const auto& [x, y, z] : {std::array{1, 0, 2}, std::array{2, 1, 0}}) {
+    auto mesh = along_x;
+    for (auto& p : mesh.points()) p = {p[x], p[y], p[z]};
+    Labels labels(48, 0);
+    adjust(mesh, labels, 2);
+    for (std::uint32_t v = 0; v < 48; ++v) EXPECT_EQ(labels[v] == labels[0], expected[v] == expected[0]) << v;
+  }
 }
 
 TEST(Region_count, the_cuts_of_a_strip_do_not_depend_on_its_position) {

@@ -59,6 +59,9 @@ TEST(Vsa, relaxations_are_counted) {
   const auto labelling = Vsa{.options = {.relaxations = 3, .max_iterations = 0}}.label(
       {numbered.graph, numbered.positions, numbered.faces}, 5);
   EXPECT_EQ(labelling.iterations, 4 * 3 + 1U);  // four further proxies, and the last pass
+  const auto doubled = Vsa{.options = {.relaxations = 3, .single_insertions = 0, .max_iterations = 0}}.label(
+      {numbered.graph, numbered.positions, numbered.faces}, 4);
+  EXPECT_EQ(doubled.iterations, 2 * 3 + 1U);  // from one to two, and to four
 }
 
 TEST(Vsa, options_out_of_range_are_refused) {

@@ -156,6 +156,25 @@ TEST_F(Gltf_damage, counts_too_large_for_the_file_are_refused) {
   expect_error("/accessors/3/sparse/values/byteOffset", 4, "/accessors/3/sparse/values: 2 elements of 12 bytes");
 }
 
+TEST_F(Gltf_damage, sparse_indices_must_be_in_order_and_below_the_number_of_elements) {
+  const auto with_indices = [](std::initializer_list<double> indices) {
+    auto sample = rich_gltf();
+    const auto view = sample.add_view(packed<std::uint16_t>(indices));
+    sample.json["accessors"][3]["sparse"]["indices"]["bufferView"] = view;
+    return sample.gltf();
+  };
+  EXPECT_NO_THROW(read_mesh(folder.write("right.gltf", with_indices({0, 3}))));
+  expect_error(with_indices({0, 4}), "sparse index 4 is out of order, or not below 4");
+  expect_error(with_indices({3, 3}), "sparse index 3 is out of order, or not below 4");
+  expect_error(with_indices({3, 2}), "sparse index 2 is out of order, or not below 4");
+}
+
+TEST_F(Gltf_damage, a_scene_where_there_are_none_is_refused) {
+  auto sample = rich_gltf();
+  sample.json.erase("scenes");
+  expect_error(sample.gltf(), "/scene: refers to one of the scenes, but there are none");
+}
+
 TEST_F(Gltf_damage, dangling_references_are_refused) {
   expect_error("/meshes/0/primitives/0/indices", 99, "/meshes/0/primitives/0/indices: 99 is not a whole number");
   expect_error("/nodes/0/mesh", 1, "/nodes/0/mesh: 1 is not a whole number from 0 to 0");

@@ -211,6 +211,20 @@ TEST_F(Gltf, morph_targets_add_up) {
   expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 0}, {1.5, 1, 0}, {0, 1.5, 0}});
 }
 
+TEST_F(Gltf, morph_targets_move_only_the_primitives_that_have_them) {
+  auto sample = rich_gltf();
+  sample.json.erase("animations");
+  sample.json.erase("skins");
+  sample.json["nodes"] = {{{"mesh", 0}, {"weights", {2, 3}}}};
+  // A second square above the first; only the second has targets, which come after those that the first lacks.
+  auto& primitives = sample.json["meshes"][0]["primitives"];
+  auto still = primitives[0];
+  still.erase("targets");
+  still["attributes"] = {{"POSITION", sample.add_points({0, 0, 9, 1, 0, 9, 1, 1, 9, 0, 1, 9})}};
+  primitives = nlohmann::json::array({still, primitives[0], still});
+  expect_near(at_rest(sample), {{0, 0, 9}, {1, 0, 9}, {1, 1, 9}, {0, 1, 9}, {0, 0, 2}, {1, 0, 2}, {4, 1, 2}, {0, 4, 2}});
+}
+
 TEST_F(Gltf, weights_of_a_curve_replace_all_others) {
   auto sample = rich_gltf();
   sample.json.erase("animations");

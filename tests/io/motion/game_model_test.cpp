@@ -113,6 +113,8 @@ TEST_F(Game_models, with_wrong_counts_and_offsets_are_refused) {
   expect_error("a.md2", changed(md2, 16, 55), ": byte 16: frames of 55 bytes cannot hold 4 vertices");
   expect_error("a.md2", changed(md2, 24, 2e9), ": byte 16: frames of 56 bytes cannot hold 2000000000 vertices");
   expect_error("a.md2", changed(md2, 32, 2e9), ": byte 32: 2000000000 triangles from byte 68 on do not fit");
+  for (const std::size_t count_at : {24, 32, 40})
+    expect_error("a.md2", changed(md2, count_at, 0), ": byte 24: the file holds no face or no frame");
   expect_error("a.md2", changed(md2, 40, 3), ": byte 40: 3 frames from byte 92 on do not fit into a file of 204");
   expect_error("a.md2", changed(md2, 40, -1), ": byte 40: expected a number of 0 or more, found -1");
   expect_error("a.md2", changed(md2, 68, 7), ": byte 68: face refers to vertex 7 of 4 (counted from 0)");

@@ -144,6 +144,29 @@ TEST_F(Animation_output, gltf_of_one_frame_is_read_back_as_one_frame) {
   expect_frames(read_animation(folder.path() / "a.glb"), {2}, 1e-6);
 }
 
+TEST_F(Animation_output, gltf_refers_only_to_what_it_holds) {
+  write_animation(folder.path() / "a.gltf", square, {.regions = {0, 0, 1, 1, 2}});
+  const auto json = read_json(folder.path() / "a.gltf");
+  const auto expect_one_of = [&json](const char* list, const nlohmann::json& index) {
+    EXPECT_LT(index.get<std::size_t>(), json.at(list).size()) << list;
+  };
+  const auto& primitive = json["meshes"][0]["primitives"][0];
+  expect_one_of("materials", primitive["material"]);
+  expect_one_of("accessors", primitive["indices"]);
+  for (const auto& attribute : primitive["attributes"]) expect_one_of("accessors", attribute);
+  for (const auto& target : primitive["targets"]) expect_one_of("accessors", target["POSITION"]);
+  for (const auto& accessor : json["accessors"]) expect_one_of("bufferViews", accessor["bufferView"]);
+  for (const auto& view : json["bufferViews"]) expect_one_of("buffers", view["buffer"]);
+  for (const auto& sampler : json["animations"][0]["samplers"]) {
+    expect_one_of("accessors", sampler["input"]);
+    expect_one_of("accessors", sampler["output"]);
+  }
+  expect_one_of("nodes", json["animations"][0]["channels"][0]["target"]["node"]);
+  expect_one_of("nodes", json["scenes"][0]["nodes"][0]);
+  expect_one_of("meshes", json["nodes"][0]["mesh"]);
+  expect_one_of("scenes", json["scene"]);
+}
+
 TEST_F(Animation_output, gltf_shows_regions_as_colours) {
   write_animation(folder.path() / "a.gltf", square, {.regions = {0, 0, 1, 1, 2}});
   const auto json = read_json(folder.path() / "a.gltf");
