@@ -132,6 +132,26 @@ TEST(Detector, far_objects_cost_the_reads_of_their_regions_and_tips) {
   EXPECT_LE(reads, 2 * (32 + 6U));  // an object has a tip in each of six directions
 }
 
+TEST(Detector, a_frame_tells_how_many_vertices_it_has_read_and_how_many_candidates_its_pairs_had) {
+  for (const double distance : {5.0, 2.02, 1.9}) {
+    auto scene = two_spheres(distance, 20);
+    std::size_t reads = 0;
+    for (const Mode mode : {Mode::particles, Mode::exact}) {
+      Counting_detector detector({.mode = mode});
+      for (auto& mesh : scene) detector.add(mesh, Counting_points{&mesh, &reads});
+      detector.detect();
+      for (int frame = 0; frame < 3; ++frame) {
+        reads = 0;
+        const Frame& result = detector.detect();
+        EXPECT_EQ(result.statistics.vertices_read, reads) << name_of(mode) << ' ' << distance;
+        std::size_t candidates = 0;
+        for (const auto& pair : result.pairs) candidates += pair.candidates;
+        EXPECT_EQ(result.statistics.candidates, candidates) << name_of(mode) << ' ' << distance;
+      }
+    }
+  }
+}
+
 TEST(Detector, a_frame_reads_only_where_particles_look_and_in_candidate_regions) {
   auto scene = two_spheres(2.02, 80);
   std::size_t reads = 0;

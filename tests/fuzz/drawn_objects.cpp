@@ -111,7 +111,6 @@ void draw_object(Byte_source& bytes, Drawn_object& object) {
       make_soup(bytes, bytes.flag(), object);
   }
   place(bytes, object);
-  object.shown = object.coordinates;
   object.make_mesh();
 }
 

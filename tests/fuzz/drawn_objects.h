@@ -25,7 +25,10 @@ struct Drawn_object {
   bool is_promised = false;
   bool is_removed = false;
 
-  void make_mesh() { mesh.emplace(coordinates, faces); }
+  void make_mesh() {
+    mesh.emplace(coordinates, faces);
+    shown = coordinates;
+  }
   std::size_t vertices() const { return coordinates.size() / 3; }
   Triangle triangle(std::size_t face) const;
 

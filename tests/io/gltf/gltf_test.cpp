@@ -216,13 +216,27 @@ TEST_F(Gltf, morph_targets_move_only_the_primitives_that_have_them) {
   sample.json.erase("animations");
   sample.json.erase("skins");
   sample.json["nodes"] = {{{"mesh", 0}, {"weights", {2, 3}}}};
-  // A second square above the first; only the second has targets, which come after those that the first lacks.
+  // Squares before and after it that lie above, whose targets change something else than positions.
   auto& primitives = sample.json["meshes"][0]["primitives"];
   auto still = primitives[0];
-  still.erase("targets");
+  const auto normals = sample.add_points({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+  still["targets"] = {{{"NORMAL", normals}}, {{"NORMAL", normals}}};
   still["attributes"] = {{"POSITION", sample.add_points({0, 0, 9, 1, 0, 9, 1, 1, 9, 0, 1, 9})}};
-  primitives = nlohmann::json::array({still, primitives[0], still});
-  expect_near(at_rest(sample), {{0, 0, 9}, {1, 0, 9}, {1, 1, 9}, {0, 1, 9}, {0, 0, 2}, {1, 0, 2}, {4, 1, 2}, {0, 4, 2}});
+  auto behind = still;
+  behind["attributes"] = {{"POSITION", sample.add_points({0, 0, -9, 1, 0, -9, 1, 1, -9, 0, 1, -9})}};
+  primitives = nlohmann::json::array({still, primitives[0], behind});
+  expect_near(at_rest(sample), {{0, 0, 9},
+                                {1, 0, 9},
+                                {1, 1, 9},
+                                {0, 1, 9},
+                                {0, 0, 2},
+                                {1, 0, 2},
+                                {4, 1, 2},
+                                {0, 4, 2},
+                                {0, 0, -9},
+                                {1, 0, -9},
+                                {1, 1, -9},
+                                {0, 1, -9}});
 }
 
 TEST_F(Gltf, weights_of_a_curve_replace_all_others) {

@@ -222,6 +222,25 @@ TEST(Travel, on_a_smooth_path_reproduces_a_straight_line_at_constant_speed) {
     expect_near(posed({travel}, frame), moved(box, {double(frame) / 10, double(frame) / 5, 0}));
 }
 
+TEST(Travel, on_a_curved_path_has_the_mean_velocity_between_the_neighbours_of_a_way_point) {
+  const std::vector<Way_point> way{
+      {0, {0, 0, 0}}, {1000, {3000, 0, 0}}, {3000, {0, 8000, 0}}, {7000, {0, 0, 4000}}, {9000, {0, 0, 0}}};
+  const auto velocity_at = [&](Path path, std::size_t frame) {
+    const Motion motion = deform(box, {Travel{way, path}});
+    return posed(motion, frame + 1)[0] - posed(motion, frame)[0];
+  };
+  const auto mean = [&](std::size_t from, std::size_t to) {
+    return (way[to].at - way[from].at) / (way[to].frame - way[from].frame);
+  };
+  for (const Path path : {Path::smooth, Path::closed})
+    for (const std::size_t i : {1, 2, 3})
+      EXPECT_LT(std::sqrt((velocity_at(path, std::size_t(way[i].frame)) - mean(i - 1, i + 1)).squared_length()), 0.03)
+          << i;
+  // At its ends a path that is not closed has but one neighbour.
+  EXPECT_LT(std::sqrt((velocity_at(Path::smooth, 0) - mean(0, 1)).squared_length()), 0.03);
+  EXPECT_LT(std::sqrt((velocity_at(Path::smooth, 8999) - mean(3, 4)).squared_length()), 0.03);
+}
+
 TEST(Travel, on_a_smooth_path_has_no_kink_where_a_linear_one_has) {
   const std::vector<Way_point> corner{{0, {0, 0, 0}}, {1000, {1000, 0, 0}}, {2000, {1000, 1000, 0}}};
   const auto kink = [&](Path path) {

@@ -293,6 +293,48 @@ bool is_huge(const Json& scene) {
   });
 }
 
+/// Where the vertices of the only object of a scene are in some frames.
+std::vector<Point> played(const Json& shape, const Json& deformation) {
+  const test::Temporary_folder folder;
+  const Json json{
+      {"frames", 20},
+      {"objects", {{{"name", "a"}, {"shape", shape}, {"motion", {{"deform", Json::array({deformation})}}}}}}};
+  Scene scene = read_scene(folder.write("scene.json", json.dump()));
+  std::vector<Point> points;
+  for (const std::size_t frame : {0, 7, 19}) {
+    pose(scene.objects[0], frame);
+    points.insert(points.end(), scene.objects[0].mesh.points().begin(), scene.objects[0].mesh.points().end());
+  }
+  return points;
+}
+
+TEST(Scene_schema, the_defaults_that_it_tells_are_those_of_the_reader) {
+  const Json schema = read_json(data.parent_path() / "docs" / "scene.schema.json");
+  const Json plain_shape{{"torus_knot", Json::object()}}, plain_spin{{"spin", Json::object()}};
+  // A wobble and a spin show from which frame on and how fast; way points have no default.
+  const Json way_points = Json::parse(R"([{"frame": 0, "at": [0, 0, 0]}, {"frame": 10, "at": [1, 2, 3]},
+                                          {"frame": 30, "at": [0, 1, 0]}])");
+  std::size_t defaults = 0;
+  for (const auto* kind : {"shape", "deformation"})
+    for (const auto& [name, described] : schema["definitions"][kind]["properties"].items()) {
+      Json plain = Json::object();
+      if (name == "travel") plain["way_points"] = way_points;
+      if (!described.contains("properties") || name == "icosphere") continue;
+      for (const auto& [property, about] : described["properties"].items()) {
+        if (!about.contains("default")) continue;
+        Json told = plain;
+        told[property] = about["default"];
+        const bool is_shape = std::string_view(kind) == "shape";
+        const auto with = [&](const Json& given) {
+          return is_shape ? played({{name, given}}, plain_spin) : played(plain_shape, {{name, given}});
+        };
+        EXPECT_EQ(with(told), with(plain)) << name << ' ' << property;
+        ++defaults;
+      }
+    }
+  EXPECT_GE(defaults, 26U);
+}
+
 class Published_scenes : public testing::TestWithParam<fs::path> {};
 
 TEST_P(Published_scenes, follow_the_schema_and_can_be_played) {
