@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -165,6 +167,31 @@ TEST_F(Animation_output, gltf_refers_only_to_what_it_holds) {
   expect_one_of("nodes", json["scenes"][0]["nodes"][0]);
   expect_one_of("meshes", json["nodes"][0]["mesh"]);
   expect_one_of("scenes", json["scene"]);
+}
+
+TEST_F(Animation_output, gltf_tells_the_ranges_of_its_numbers) {
+  write_animation(folder.path() / "a.gltf", square);
+  const auto json = read_json(folder.path() / "a.gltf");
+  const std::string bytes = read_bytes(folder.path() / "a.bin");
+  std::size_t told = 0;
+  for (const auto& accessor : json["accessors"]) {
+    if (!accessor.contains("min")) continue;
+    const auto width = accessor["min"].size(), count = accessor["count"].get<std::size_t>();
+    const auto& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const auto at = view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0});
+    std::vector<float> numbers(width * count);
+    ASSERT_LE(at + 4 * numbers.size(), bytes.size());
+    std::memcpy(numbers.data(), bytes.data() + at, 4 * numbers.size());
+    for (std::size_t axis = 0; axis < width; ++axis) {
+      float least = numbers[axis], most = numbers[axis];
+      for (std::size_t i = axis; i < numbers.size(); i += width)
+        least = std::min(least, numbers[i]), most = std::max(most, numbers[i]);
+      EXPECT_EQ(accessor["min"][axis].get<float>(), least);
+      EXPECT_EQ(accessor["max"][axis].get<float>(), most);
+    }
+    ++told;
+  }
+  EXPECT_EQ(told, 5 + 1U);  // the positions of each frame, and the times
 }
 
 TEST_F(Animation_output, gltf_shows_regions_as_colours) {
