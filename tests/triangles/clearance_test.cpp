@@ -118,6 +118,22 @@ TEST(Clearance, of_flat_pairs_along_their_plane_is_the_way_to_their_edges) {
   EXPECT_NEAR(clearance_of(needle, left, {1, 0, 0}).length, 0.5, 1e-9);
 }
 
+TEST(Clearance, of_walls_that_face_an_axis_has_their_normal) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto corner = [axis](double along, double u, double v) {
+      double at[3];
+      at[axis] = along, at[(axis + 1) % 3] = u, at[(axis + 2) % 3] = v;
+      return Point(at[0], at[1], at[2]);
+    };
+    const Triangle near{corner(0, 0, 0), corner(0, 2, 0), corner(0, 0, 2)};
+    const Triangle far{corner(1, 0.5, 0.5), corner(1, 2, 0.5), corner(1, 0.5, 2)};
+    const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
+    const Clearance found = clearance_of(near, far, along);
+    EXPECT_NEAR(found.length, 1, 1e-9);
+    EXPECT_EQ(found.normal.normalized(), along);
+  }
+}
+
 TEST(Clearance, of_boxes_is_the_way_through_the_box_of_their_differences) {
   const auto box = [](double x, double y, double z, double depth, double height) {
     return Box(Eigen::Vector3d(x, y, z), Eigen::Vector3d(x + 1, y + depth, z + height));
