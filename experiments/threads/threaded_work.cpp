@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "threads/threaded_work.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <utility>
 
@@ -21,11 +23,15 @@ struct Pair_case {
   Moving_pair::Place place = Moving_pair::Place::sunk;
 };
 
-Detector<> detector_of(const Moving_pair& pair, Detector_options options, std::size_t threads) {
+Detector_options with_threads(Detector_options options, std::size_t threads) {
   options.exact.threads = threads;
+  return options;
+}
+
+Detector<> detector_of(const Moving_pair& pair, const Detector_options& options, std::size_t threads) {
   Lbg_options lbg;
   lbg.threads = threads;
-  Detector<> detector(options, Lbg{.options = lbg});
+  Detector<> detector(with_threads(options, threads), Lbg{.options = lbg});
   for (const auto& mesh : pair.meshes()) detector.add(std::as_const(mesh));
   return detector;
 }
@@ -93,6 +99,22 @@ Threaded_work certified_frame(Character_scene& scene, std::string name, Contact_
           }};
 }
 
+/// A frame of many bodies.
+Threaded_work crowd_frame(Scene& crowd, const std::string& name, const Detector_options& options) {
+  return {.name = fmt::format("{}, {} bodies", name, crowd.objects.size()),
+          .rounds = rounds_of_frames,
+          .pose =
+              [&crowd](std::size_t round) {
+                for (auto& object : crowd.objects) pose(object, round % crowd.frames);
+              },
+          .make = [&crowd, options](std::size_t threads) -> std::function<double()> {
+            auto detector = std::make_shared<Detector<>>(with_threads(options, threads));
+            for (const auto& object : crowd.objects) detector->add(std::as_const(object.mesh));
+            detector->detect();
+            return [detector] { return seconds_of([&] { detector->detect(); }); };
+          }};
+}
+
 }  // namespace
 
 std::vector<Threaded_work> works_on(Moving_pair& pair) {
@@ -122,6 +144,13 @@ std::vector<Threaded_work> works_on(Moving_pair& pair) {
 std::vector<Threaded_work> works_on(Character_scene& scene) {
   return {certified_frame(scene, "certified: yes or no", Contact_query::yes_no),
           certified_frame(scene, "certified: all pairs", Contact_query::all)};
+}
+
+std::vector<Threaded_work> works_on(Scene& crowd) {
+  return {crowd_frame(crowd, "exact: yes or no", {.contacts = Contact_query::yes_no}),
+          crowd_frame(crowd, "exact: all pairs", {}),
+          crowd_frame(crowd, "exact: nearer than 0.02", {.exact = {.tolerance = 0.02}}),
+          crowd_frame(crowd, "exact: self-collision", {.exact = {.self_collision = true}})};
 }
 
 }  // namespace lodestone

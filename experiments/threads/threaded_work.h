@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certified/character_scene.h"
+#include "lodestone/io/scenes/scene_file.h"
 #include "threads/moving_pair.h"
 
 namespace lodestone {
@@ -25,5 +26,7 @@ struct Threaded_work {
 std::vector<Threaded_work> works_on(Moving_pair& pair);
 /// Mode `certified` on two characters.
 std::vector<Threaded_work> works_on(Character_scene& scene);
+/// Many small bodies, as of `crowd`.
+std::vector<Threaded_work> works_on(Scene& crowd);
 
 }  // namespace lodestone

@@ -10,6 +10,7 @@
 #include "certified/character.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/mesh/errors.h"
+#include "many_bodies/crowd.h"
 #include "program/installed_files.h"
 #include "program/measurement.h"
 #include "shared/experiment.h"
@@ -72,6 +73,15 @@ Character_scene hands_of(std::size_t triangles) {
   return with_triangles(touching("hands", hand, hand), triangles);
 }
 
+/// Bodies of some 3000 triangles each.
+Scene crowd_of(std::size_t triangles) { return crowd(std::max<std::size_t>(3, triangles / 3000), 16); }
+
+std::size_t triangles_of(const Scene& scene) {
+  std::size_t sum = 0;
+  for (const auto& object : scene.objects) sum += object.mesh.number_of_faces();
+  return sum;
+}
+
 std::string report(std::span<const Thread_figures> all, std::span<const std::size_t> threads) {
   std::vector<std::string> header{"work", "triangles", "1 thread (ms)"};
   for (const auto count : threads.subspan(1)) header.push_back(fmt::format("{} threads: times faster", count));
@@ -96,11 +106,15 @@ std::string run_threads(const Experiment_context& context) {
   for (const auto size : sizes) {
     Moving_pair pair(size);
     Character_scene hands = hands_of(size);
+    Scene bodies = crowd_of(size);
     auto works = works_on(pair);
     const std::size_t of_pair = works.size();
     std::ranges::move(works_on(hands), std::back_inserter(works));
+    const std::size_t of_hands = works.size();
+    std::ranges::move(works_on(bodies), std::back_inserter(works));
     for (std::size_t i = 0; i < works.size(); ++i) {
-      all.push_back(measure(works[i], i < of_pair ? pair.triangles() : size, threads));
+      const std::size_t triangles = i < of_pair ? pair.triangles() : i < of_hands ? size : triangles_of(bodies);
+      all.push_back(measure(works[i], triangles, threads));
       context.progress(++done, sizes.size() * works.size());
     }
   }
@@ -109,7 +123,7 @@ std::string run_threads(const Experiment_context& context) {
     json.push_back(
         {{"work", figures.work}, {"triangles", figures.triangles}, {"threads", threads}, {"seconds", figures.seconds}});
   write_json(context.out, "threads", json);
-  return "Two spheres, and two hands in mode certified; medians.\n\n" + report(all, threads);
+  return "Two spheres, two hands in mode certified, and many bodies; medians.\n\n" + report(all, threads);
 }
 
 }  // namespace lodestone

@@ -75,7 +75,8 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
     result.near = tolerance > 0 && contacts.found;
     result.capped = contacts.capped;
     count_tests(contacts, result, builder.statistics());
-    builder.end_pair(result, [&](Object_id, std::uint32_t face) { return surface_triangle(surface, face); });
+    builder.end_pair(
+        result, [&](Object_id, std::uint32_t face) { return surface_triangle(surface, face); }, workers);
     builder.add_patches(surface, surface, tolerance);
   });
   return builder.finish();

@@ -32,7 +32,6 @@ void Frame_builder::clear_pairs() {
   frame_.patches.clear();
   frame_.candidates.clear();
   frame_.object_iterations.clear();
-  faces_.clear();
 }
 
 void Frame_builder::add_patches(const Object_surface& a, const Object_surface& b, double tolerance) {
@@ -51,31 +50,37 @@ const Frame& Frame_builder::finish() {
   return frame_;
 }
 
-/// Contacts of intersecting faces together; those that are apart one by one, in their order.
-void Frame_builder::add_geometry() {
-  const auto add_intersecting = [this](std::span<const Triangle_pair> faces) {
-    if (points_) append_intersections(faces, frame_.contact_points);
-    if (normals_) append_contact_normals(faces, frame_.contact_normals);
-  };
-  std::span<const Triangle_pair> left = faces_;
-  while (!left.empty()) {
-    std::size_t intersecting = left.size();
-    if (contacts_may_be_apart_) {
-      const auto apart = [](const Triangle_pair& pair) { return !triangles_intersect(pair.a, pair.b); };
-      intersecting = static_cast<std::size_t>(std::ranges::find_if(left, apart) - left.begin());
-    }
-    add_intersecting(left.first(intersecting));
-    left = left.subspan(intersecting);
-    if (left.empty()) break;
-    add_gap(closest_points(left.front().a, left.front().b));
-    left = left.subspan(1);
-  }
-  faces_.clear();
+void Frame_builder::make_room_for_geometry() {
+  if (points_) frame_.contact_points.resize(frame_.face_pairs.size());
+  if (normals_) frame_.contact_normals.resize(frame_.face_pairs.size());
 }
 
-void Frame_builder::add_gap(const Closest_points& nearest) {
-  if (points_) frame_.contact_points.push_back({nearest.a, nearest.b});
-  if (normals_) frame_.contact_normals.push_back(gap_normal(nearest));
+/// Contacts of intersecting faces together; those that are apart one by one.
+void Frame_builder::add_geometry(std::span<const Triangle_pair> faces, std::size_t first) {
+  while (!faces.empty()) {
+    std::size_t intersecting = faces.size();
+    if (contacts_may_be_apart_) {
+      const auto apart = [](const Triangle_pair& pair) { return !triangles_intersect(pair.a, pair.b); };
+      intersecting = static_cast<std::size_t>(std::ranges::find_if(faces, apart) - faces.begin());
+    }
+    add_intersections(faces.first(intersecting), first);
+    faces = faces.subspan(intersecting);
+    first += intersecting;
+    if (faces.empty()) return;
+    add_gap(closest_points(faces.front().a, faces.front().b), first++);
+    faces = faces.subspan(1);
+  }
+}
+
+void Frame_builder::add_intersections(std::span<const Triangle_pair> faces, std::size_t first) {
+  const auto of_faces = [&](auto& list) { return std::span(list).subspan(first, faces.size()); };
+  if (points_) triangle_intersections(faces, of_faces(frame_.contact_points));
+  if (normals_) contact_normals(faces, of_faces(frame_.contact_normals));
+}
+
+void Frame_builder::add_gap(const Closest_points& nearest, std::size_t contact) {
+  if (points_) frame_.contact_points[contact] = {nearest.a, nearest.b};
+  if (normals_) frame_.contact_normals[contact] = gap_normal(nearest);
 }
 
 }  // namespace lodestone

@@ -316,10 +316,12 @@ void Particle_detection::check(Object_pair pair) {
 
 void Particle_detection::end_pair(Pair_result& result) {
   sort_contacts(result);
-  frame_.end_pair(result, [this](Object_id object, std::uint32_t face) {
+  const auto is_shared = [this](Object_id object) { return objects_[object]->particle_object.positions().is_shared(); };
+  const auto triangle_of = [this](Object_id object, std::uint32_t face) {
     const auto& particle_object = objects_[object]->particle_object;
     return face_triangle(particle_object.corners()[face], particle_object.positions());
-  });
+  };
+  frame_.end_pair(result, triangle_of, is_shared(result.a) && is_shared(result.b) ? workers_ : Workers::alone());
 }
 
 void Particle_detection::list_candidates(Object_pair pair) {

@@ -15,23 +15,25 @@ namespace lodestone {
 
 namespace {
 
-/// The faces of a leaf, each with its box.
-struct Boxed_leaf {
-  std::vector<Triangle> triangles;
-  std::vector<Box> boxes;
-
-  void fill(const Layout_view& view, std::uint32_t leaf) {
-    triangles.clear();
-    boxes.clear();
-    const Leaf_faces faces = view.leaf(leaf);
-    for (std::size_t index = 0; index < faces.corners.size(); ++index) {
-      triangles.push_back(triangle_of(leaf_triangle(faces, index)));
-      Box box;
-      for (const Point& p : triangles.back()) box.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
-      boxes.push_back(box);
-    }
-  }
+struct Boxed_face {
+  std::uint32_t face;
+  Triangle triangle;
+  Box box;
 };
+
+/// Lists the faces of a leaf that can be as near to a box as some distance.
+void list_near_faces(const Layout_view& view, std::uint32_t leaf, const Box& other, double distance,
+                     std::vector<Boxed_face>& near) {
+  near.clear();
+  const Leaf_faces faces = view.leaf(leaf);
+  const auto indices = view.layout->faces(leaf);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const Triangle triangle = triangle_of(leaf_triangle(faces, i));
+    Box box;
+    for (const Point& p : triangle) box.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
+    if (distance_lower_bound(box, other) <= distance) near.push_back({indices[i], triangle, box});
+  }
+}
 
 template <Surface_on_demand Surface>
 class Search {
@@ -87,15 +89,14 @@ class Search {
 
   void try_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b) {
     if (best_.points.distance == 0) return look_for_lower(leaf_a, leaf_b);
-    const auto indices_a = a_.layout().faces(leaf_a), indices_b = b_.layout().faces(leaf_b);
-    faces_a_.fill(a_.view(), leaf_a);
-    faces_b_.fill(b_.view(), leaf_b);
-    for (std::size_t i = 0; i < faces_a_.boxes.size(); ++i)
-      for (std::size_t j = 0; j < faces_b_.boxes.size(); ++j) {
-        const Face_pair faces{indices_a[i], indices_b[j]};
-        const double bound = distance_lower_bound(faces_a_.boxes[i], faces_b_.boxes[j]);
+    list_near_faces(a_.view(), leaf_a, to_box(b_.pose(leaf_b)), best_.points.distance, near_a_);
+    list_near_faces(b_.view(), leaf_b, to_box(a_.pose(leaf_a)), best_.points.distance, near_b_);
+    for (const Boxed_face& a : near_a_)
+      for (const Boxed_face& b : near_b_) {
+        const Face_pair faces{a.face, b.face};
+        const double bound = distance_lower_bound(a.box, b.box);
         if (std::tie(bound, faces) >= std::tie(best_.points.distance, best_.faces)) continue;
-        const Closest_points points = closest_points(faces_a_.triangles[i], faces_b_.triangles[j]);
+        const Closest_points points = closest_points(a.triangle, b.triangle);
         if (std::tie(points.distance, faces) < std::tie(best_.points.distance, best_.faces)) best_ = {faces, points};
       }
   }
@@ -127,7 +128,7 @@ class Search {
   Closest_faces best_;
   std::priority_queue<Candidate> queue_;
   std::vector<Node_pair> below_;
-  Boxed_leaf faces_a_, faces_b_;
+  std::vector<Boxed_face> near_a_, near_b_;
   Face_filter face_filter_;
   const double* filter_of_a_ = nullptr;  ///< which positions the filter has been told of; null: none
   const double* filter_of_b_ = nullptr;

@@ -60,12 +60,12 @@ void store(const Triangle& t, double (&corners)[3][3][kernel::most_normals], std
 
 Contact_normal contact_normal(const Triangle& a, const Triangle& b) {
   const Triangle_pair pair{a, b};
-  std::vector<Contact_normal> one;
-  append_contact_normals({&pair, 1}, one);
-  return one.front();
+  Contact_normal contact;
+  contact_normals({&pair, 1}, {&contact, 1});
+  return contact;
 }
 
-void append_contact_normals(std::span<const Triangle_pair> pairs, std::vector<Contact_normal>& normals) {
+void contact_normals(std::span<const Triangle_pair> pairs, std::span<Contact_normal> normals) {
   kernel::Faces_in_contact faces;
   kernel::Normals_and_depths result;
   for (std::size_t first = 0; first < pairs.size(); first += faces.count) {
@@ -74,10 +74,10 @@ void append_contact_normals(std::span<const Triangle_pair> pairs, std::vector<Co
     for (std::size_t i = 0; i < batch.size(); ++i) store(batch[i].a, faces.a, i), store(batch[i].b, faces.b, i);
     kernel::contact_normals(faces, result);
     for (std::size_t i = 0; i < batch.size(); ++i)
-      normals.push_back(result.proven[i]
-                            ? Contact_normal{.normal = {result.normal[0][i], result.normal[1][i], result.normal[2][i]},
-                                             .depth = result.depth[i]}
-                            : careful_normal(batch[i].a, batch[i].b));
+      normals[first + i] =
+          result.proven[i] ? Contact_normal{.normal = {result.normal[0][i], result.normal[1][i], result.normal[2][i]},
+                                            .depth = result.depth[i]}
+                           : careful_normal(batch[i].a, batch[i].b);
   }
 }
 

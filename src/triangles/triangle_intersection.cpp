@@ -166,18 +166,19 @@ bool triangles_intersect_given(const Triangle_corners& a, const Triangle_corners
 
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b) {
   const Triangle_pair pair{a, b};
-  std::vector<Intersection_points> one;
-  append_intersections({&pair, 1}, one);
-  return one.front();
+  Intersection_points points;
+  triangle_intersections({&pair, 1}, {&points, 1});
+  return points;
 }
 
-void append_intersections(std::span<const Triangle_pair> pairs, std::vector<Intersection_points>& intersections) {
+void triangle_intersections(std::span<const Triangle_pair> pairs, std::span<Intersection_points> intersections) {
   std::array<std::optional<Crossing_segment>, most_crossing_pairs> segments;
   for (std::size_t first = 0; first < pairs.size(); first += most_crossing_pairs) {
     const auto batch = pairs.subspan(first, std::min(most_crossing_pairs, pairs.size() - first));
     crossing_segments(batch, segments);
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      Intersection_points& points = intersections.emplace_back();
+      Intersection_points& points = intersections[first + i];
+      points.clear();
       if (segments[i])
         points.assign(segments[i]->begin(), segments[i]->end());
       else

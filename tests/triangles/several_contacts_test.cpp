@@ -32,17 +32,17 @@ TEST(Several_contacts, give_what_each_gives_alone_for_each_instruction_set_and_n
   }
   for_instruction_sets([&] {
     for (const std::size_t count : {0, 1, 3, 4, 5, 8, 9, 700}) {
-      std::vector<Intersection_points> points{{Point(1, 2, 3)}};
-      std::vector<Contact_normal> normals(1);
-      append_intersections(std::span(pairs).first(count), points);
-      append_contact_normals(std::span(pairs).first(count), normals);
-      ASSERT_EQ(points.size(), count + 1);
-      ASSERT_EQ(normals.size(), count + 1);
-      EXPECT_EQ(points.front(), Intersection_points{Point(1, 2, 3)});
+      const Intersection_points before{Point(1, 2, 3)};
+      std::vector<Intersection_points> points(count + 1, before);
+      std::vector<Contact_normal> normals(count + 1);
+      triangle_intersections(std::span(pairs).first(count), std::span(points).first(count));
+      contact_normals(std::span(pairs).first(count), std::span(normals).first(count));
+      EXPECT_EQ(points.back(), before);
+      EXPECT_TRUE(normals.back().normal.isZero(0));
       for (std::size_t i = 0; i < count; ++i) {
-        EXPECT_EQ(points[i + 1], points_alone[i]);
-        EXPECT_EQ(normals[i + 1].normal, normals_alone[i].normal);
-        EXPECT_EQ(normals[i + 1].depth, normals_alone[i].depth);
+        EXPECT_EQ(points[i], points_alone[i]);
+        EXPECT_EQ(normals[i].normal, normals_alone[i].normal);
+        EXPECT_EQ(normals[i].depth, normals_alone[i].depth);
       }
     }
   });

@@ -20,6 +20,7 @@
 #include "lodestone/queries/closest_faces.h"
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/containment.h"
+#include "lodestone/queries/pair_contacts.h"
 #include "lodestone/queries/parting.h"
 #include "lodestone/queries/point_search.h"
 #include "lodestone/queries/ray_search.h"
@@ -46,10 +47,11 @@ class Exact_detection final : public Detection {
       : options_(options),
         workers_(options.exact.threads),
         search_(workers_),
+        small_pairs_(workers_),
         bounded_search_(workers_),
         objects_(options, workers_),
         frame_(options) {}
-  // The search and the objects refer to the workers.
+  // The searches and the objects refer to the workers.
   Exact_detection(const Exact_detection&) = delete;
   Exact_detection& operator=(const Exact_detection&) = delete;
 
@@ -188,12 +190,17 @@ class Exact_detection final : public Detection {
   const Frame& finish_frame(std::span<const Object_id> ids);
   void find_candidates(const Collision_filter& filter);
   Aabb whole_box(Object_id id);
-  void check(Object_pair pair);
+  void check_candidates();
+  void ask_about_small_pairs(std::size_t first);
+  void check(std::size_t candidate);
   /// Below which the faces of a pair are contacts.
   double tolerance(Object_pair pair) const {
     return pair.a == pair.b ? options_.exact.self_tolerance : options_.exact.tolerance;
   }
-  void find_contacts(Pair_result& result);
+  void find_contacts(std::size_t candidate, Pair_result& result);
+  Contact_request request(Object_pair pair) const {
+    return {.query = options_.contacts, .tolerance = tolerance(pair), .most = options_.most_contacts};
+  }
   void find_way_out(Pair_result& result);
   Contact_summary search(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
   Contact_summary search_on_demand(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
@@ -203,6 +210,7 @@ class Exact_detection final : public Detection {
   Detector_options options_;
   Workers workers_;
   Basic_contact_search<Volume> search_;
+  Small_pairs<Volume> small_pairs_;
   Bounded_search bounded_search_;
   Exact_objects<Volume> objects_;
   Frame_builder frame_;
@@ -239,9 +247,7 @@ const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter) {
     frame_.clear_pairs();
     candidates_.clear();
     timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
-    timed(frame_.seconds().confirmation, [&] {
-      for (const auto pair : candidates_) check(pair);
-    });
+    timed(frame_.seconds().confirmation, [&] { check_candidates(); });
   });
   return finish_frame(all_);
 }
@@ -253,7 +259,9 @@ const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter, Obj
   start_frame(ids);
   until_settled(ids, [&] {
     frame_.clear_pairs();
-    if (filter.may_collide(pair.a, pair.b)) timed(frame_.seconds().confirmation, [&] { check(pair); });
+    candidates_.clear();
+    if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
+    timed(frame_.seconds().confirmation, [&] { check_candidates(); });
   });
   return finish_frame(ids);
 }
@@ -380,13 +388,39 @@ Aabb Exact_detection<Volume>::whole_box(Object_id id) {
   return objects_.surface(id).tree().volume(0).bounds();
 }
 
+/// Begins alone: often that is all there is to do, and waking other threads would take longer.
 template <Bounding_volume Volume>
-void Exact_detection<Volume>::check(Object_pair pair) {
+void Exact_detection<Volume>::check_candidates() {
+  constexpr std::size_t tests_alone = 64;  // pairs of objects or of leaves; some 50 microseconds
+  small_pairs_.clear();
+  std::size_t candidate = 0;
+  for (; candidate < candidates_.size() && candidate + frame_.statistics().candidates < tests_alone; ++candidate)
+    check(candidate);
+  if (workers_.count() > 1) ask_about_small_pairs(candidate);
+  for (; candidate < candidates_.size(); ++candidate) check(candidate);
+}
+
+/// Searches them side by side, if there are enough. The answers are taken by `check`.
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::ask_about_small_pairs(std::size_t first) {
+  for (std::size_t candidate = first; candidate < candidates_.size(); ++candidate) {
+    const Object_pair pair = candidates_[candidate];
+    if (on_demand(pair)) continue;
+    const Surface &a = objects_.surface(pair.a), &b = objects_.surface(pair.b);
+    if (small_pairs_.are_small(a, b)) small_pairs_.ask(candidate, a, b, request(pair));
+  }
+  small_pairs_.answer();
+}
+
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::check(std::size_t candidate) {
+  const Object_pair pair = candidates_[candidate];
   Pair_result result = frame_.start_pair(pair);
-  find_contacts(result);
+  find_contacts(candidate, result);
   if (pair.a != pair.b) find_way_out(result);
-  frame_.end_pair(result,
-                  [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); });
+  frame_.end_pair(
+      result, [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); },
+      workers_);
   frame_.add_patches(objects_.surface(pair.a), objects_.surface(pair.b), tolerance(pair));
 }
 
@@ -399,35 +433,31 @@ void Exact_detection<Volume>::find_way_out(Pair_result& result) {
   result.parting = lodestone::parting(objects_.surface(result.a), objects_.surface(result.b), workers_);
 }
 
-/// What is near may collide or not: a second search tells.
 template <Bounding_volume Volume>
-void Exact_detection<Volume>::find_contacts(Pair_result& result) {
-  const Object_pair pair{result.a, result.b};
-  const bool with_tolerance = tolerance(pair) > 0;
-  const std::size_t candidates = frame_.statistics().candidates;
-  const Contact_summary contacts =
-      search(pair, {.query = options_.contacts, .tolerance = tolerance(pair), .most = options_.most_contacts},
-             frame_.face_pairs());
+void Exact_detection<Volume>::find_contacts(std::size_t candidate, Pair_result& result) {
+  const Object_pair pair = candidates_[candidate];
+  const Pair_contacts* known = small_pairs_.take(candidate, frame_.face_pairs());
+  const auto search_now = [&](const Contact_request& asked, auto& found) { return search(pair, asked, found); };
+  const Pair_contacts contacts =
+      known != nullptr ? *known : pair_contacts(request(pair), search_now, frame_.face_pairs());
+  result.collides = contacts.collides;
+  result.near = contacts.near;
   result.capped = contacts.capped;
-  result.near = with_tolerance && contacts.found;
-  std::vector<Face_pair> none;
-  result.collides = contacts.found && (!with_tolerance || search(pair, {.query = Contact_query::yes_no}, none).found);
-  result.candidates = frame_.statistics().candidates - candidates;
+  result.candidates = contacts.leaf_tests;
+  frame_.statistics().candidates += contacts.leaf_tests;
+  frame_.statistics().exact_tests += contacts.exact_tests;
 }
 
-/// Searches within one object if both are the same, and counts the tests.
+/// Searches within one object if both are the same.
 template <Bounding_volume Volume>
 Contact_summary Exact_detection<Volume>::search(Object_pair pair, const Contact_request& request,
                                                 std::vector<Face_pair>& found) {
   const Surface& a = objects_.surface(pair.a);
   const Surface& b = objects_.surface(pair.b);
   if (pair.a == pair.b) objects_.pose_all(pair.a);
-  const Contact_summary summary = pair.a == pair.b  ? search_.within(a, request, found)
-                                  : on_demand(pair) ? search_on_demand(pair, request, found)
-                                                    : search_.between(a, b, request, found);
-  frame_.statistics().candidates += summary.leaf_tests;
-  frame_.statistics().exact_tests += summary.exact_tests;
-  return summary;
+  return pair.a == pair.b  ? search_.within(a, request, found)
+         : on_demand(pair) ? search_on_demand(pair, request, found)
+                           : search_.between(a, b, request, found);
 }
 
 template <Bounding_volume Volume>

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "lodestone/detection/detector_options.h"
 #include "lodestone/detection/frame.h"
+#include "lodestone/mesh/workers.h"
 
 namespace lodestone {
 
@@ -39,16 +43,23 @@ class Frame_builder {
     return {.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size(), .first_patch = frame_.patches.size()};
   }
   /// Ends a pair: counts its contacts, and computes their points and normals if the options ask for them.
-  /// @param triangle_of  gives the triangle of an object's face: called with Object_id and face index
+  /// @param triangle_of  gives the triangle of an object's face: called with Object_id and face index, by all workers
+  /// @param workers      that share the work
   template <class Triangle_of>
-  void end_pair(Pair_result result, Triangle_of triangle_of) {
+  void end_pair(Pair_result result, Triangle_of triangle_of, Workers& workers = Workers::alone()) {
     result.contacts = frame_.face_pairs.size() - result.first_contact;
     if (points_ || normals_) {
-      for (const auto& [face_a, face_b] : frame_.contacts(result)) {
-        faces_.push_back({triangle_of(result.a, face_a), triangle_of(result.b, face_b)});
-        if (faces_.size() == most_faces) add_geometry();
-      }
-      add_geometry();
+      make_room_for_geometry();
+      const std::size_t batches = (result.contacts + most_faces - 1) / most_faces;
+      Workers& sharing = batches < batches_worth_sharing ? Workers::alone() : workers;
+      sharing.run(batches, [&](std::size_t batch, std::size_t) {
+        Faces_in_contact faces;
+        for (std::size_t i = first_of(batch, result); i < first_of(batch + 1, result); ++i) {
+          const auto [face_a, face_b] = frame_.face_pairs[i];
+          faces.push_back({triangle_of(result.a, face_a), triangle_of(result.b, face_b)});
+        }
+        add_geometry({faces.data(), faces.size()}, first_of(batch, result));
+      });
     }
     frame_.pairs.push_back(result);
   }
@@ -67,14 +78,23 @@ class Frame_builder {
  private:
   /// So many contacts share a pass, which stays in the caches.
   static constexpr std::size_t most_faces = 64;
+  /// Fewer take less time than waking another thread.
+  static constexpr std::size_t batches_worth_sharing = 8;
 
-  void add_geometry();
-  void add_gap(const Closest_points& nearest);
+  using Faces_in_contact = boost::container::static_vector<Triangle_pair, most_faces>;
+
+  /// The first contact of a batch of a pair's contacts; that past the last batch is past the last contact.
+  static std::size_t first_of(std::size_t batch, const Pair_result& pair) {
+    return pair.first_contact + std::min(batch * most_faces, pair.contacts);
+  }
+  void make_room_for_geometry();
+  void add_geometry(std::span<const Triangle_pair> faces, std::size_t first);
+  void add_intersections(std::span<const Triangle_pair> faces, std::size_t first);
+  void add_gap(const Closest_points& nearest, std::size_t contact);
 
   bool points_, normals_, patches_;
   bool contacts_may_be_apart_;  ///< a contact can be two faces that are near without intersecting
   Frame frame_;
-  std::vector<Triangle_pair> faces_;  ///< of contacts whose geometry is still to be added
 };
 
 }  // namespace lodestone

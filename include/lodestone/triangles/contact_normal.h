@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <span>
-#include <vector>
 
 #include "lodestone/triangles/triangle_distance.h"
 #include "lodestone/triangles/triangle_intersection.h"
@@ -36,8 +35,9 @@ struct Contact_normal {
 /// The result is never NaN. The depth is finite for coordinates up to 10^307. `contact_normal(b, a)` is the opposite
 /// normal with the same depth, unless both faces point the same way.
 Contact_normal contact_normal(const Triangle& a, const Triangle& b);
-/// Appends that of each pair: faster than one after the other.
-void append_contact_normals(std::span<const Triangle_pair> pairs, std::vector<Contact_normal>& normals);
+/// That of each pair: faster than one after the other.
+/// @param normals  one per pair, to be written
+void contact_normals(std::span<const Triangle_pair> pairs, std::span<Contact_normal> normals);
 
 /// The same for two triangles a and b that are near but apart, from their closest points: `normal` points from b to a,
 /// and `depth` is minus their distance. The errors are those of `closest_points`.

@@ -4,7 +4,6 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <span>
-#include <vector>
 
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/triangles/crossing.h"
@@ -60,7 +59,8 @@ struct Triangle_pair {
   Triangle b;  ///< the second
 };
 
-/// Appends the intersection of each pair: faster than one after the other.
-void append_intersections(std::span<const Triangle_pair> pairs, std::vector<Intersection_points>& intersections);
+/// The intersection of each pair: faster than one after the other.
+/// @param intersections  one per pair, to be written
+void triangle_intersections(std::span<const Triangle_pair> pairs, std::span<Intersection_points> intersections);
 
 }  // namespace lodestone
