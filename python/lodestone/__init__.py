@@ -26,6 +26,7 @@ from ._lodestone import (
     BadOutput,
     BadSavedObject,
     BadScene,
+    BoxPromise,
     BrokenBound,
     Detector,
     DisplacementPromise,
@@ -55,8 +56,8 @@ from ._page import Page, page
 from ._play import play
 
 __all__ = [
-    "Animation", "BadArgument", "BadMesh", "BadMotion", "BadOutput", "BadSavedObject", "BadScene", "BrokenBound",
-    "Detector", "DisplacementPromise", "Error", "Frame", "LipschitzPromise", "Page", "Pair", "Partition", "Scene", "Skin",
+    "Animation", "BadArgument", "BadMesh", "BadMotion", "BadOutput", "BadSavedObject", "BadScene", "BoxPromise",
+    "BrokenBound", "Detector", "DisplacementPromise", "Error", "Frame", "LipschitzPromise", "Page", "Pair", "Partition", "Scene", "Skin",
     "StretchPromise", "__version__", "closest", "contains", "find_collisions", "page", "partition", "play",
     "read_animation", "read_mesh", "read_scene", "self_collisions", "strategies", "within", "write_animation",
     "write_mesh",

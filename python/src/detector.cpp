@@ -92,7 +92,7 @@ std::vector<double> Python_object::positions() const {
 
 Python_detector::Python_detector(const Detector_settings& settings)
     : settings_(settings),
-      detector_(settings.options, make_strategy(settings.strategy, settings.strategy_settings)) {}
+      detector_(settings.options, settings.strategy.make(settings.strategy_settings)) {}
 
 Python_detector::Reading::Reading(Python_detector& detector) : detector_(detector) {
   detector.check_no_visitor();

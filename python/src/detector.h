@@ -106,7 +106,6 @@ class Python_detector {
   }
 
   const Detector_options& options() const { return settings_.options; }
-  const std::string& strategy() const { return settings_.strategy; }
   std::string name(Object_id object) {
     return look([&](auto&) { return at(object).name(); });
   }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "detector.h"
+#include "lodestone/bounds/box_promise.h"
 #include "lodestone/bounds/displacement_bound.h"
 #include "lodestone/bounds/lipschitz_bound.h"
 #include "lodestone/bounds/stretch_bound.h"
@@ -207,7 +208,30 @@ void promise_any(Python_detector& self, Object_id object, const py::object& give
   if (py::isinstance<Displacement_promise>(given)) return promise<Displacement_promise>(self, object, given);
   if (py::isinstance<Stretch_promise>(given)) return promise<Stretch_promise>(self, object, given);
   if (py::isinstance<Lipschitz_promise>(given)) return promise<Lipschitz_promise>(self, object, given);
-  throw py::type_error("a promise is a DisplacementPromise, StretchPromise or LipschitzPromise");
+  if (py::isinstance<Box_promise>(given)) return promise<Box_promise>(self, object, given);
+  throw py::type_error("a promise is a DisplacementPromise, StretchPromise, LipschitzPromise or BoxPromise");
+}
+
+/// What a function of Python's answers: called without the GIL, by any thread.
+Aabb box_of(const py::function& function, Region_index region, const Aabb& rest_box) {
+  const py::gil_scoped_acquire gil;
+  py::array_t<double> rest({2, 3});
+  std::copy_n(rest_box.low, 3, rest.mutable_data(0, 0));
+  std::copy_n(rest_box.high, 3, rest.mutable_data(1, 0));
+  const py::object named = region == several_regions ? py::object(py::none()) : py::object(py::int_(region));
+  const auto numbers = numbers_of(function(named, rest), "the box of a BoxPromise");
+  if (numbers.ndim() != 2 || numbers.shape(0) != 2 || numbers.shape(1) != 3)
+    throw Bad_argument("the box of a BoxPromise must have the shape (2, 3)");
+  Aabb box{};
+  std::copy_n(numbers.data(0, 0), 3, box.low);
+  std::copy_n(numbers.data(1, 0), 3, box.high);
+  return box;
+}
+
+std::unique_ptr<Box_promise> box_promise(py::function function) {
+  return std::make_unique<Box_promise>([function = std::move(function)](Region_index region, const Aabb& rest_box) {
+    return box_of(function, region, rest_box);
+  });
 }
 
 void move(Displacement_promise& promise, const py::object& distance, const py::object& frame) {
@@ -245,6 +269,13 @@ void add_promises(py::module_& module) {
       .def(py::init<double, double>(), py::arg("constant") = 1.0, py::arg("error") = 0.0)
       .def("set_constant", &Lipschitz_promise::set_constant, py::arg("constant"), py::arg("error") = 0.0,
            "Promises another constant. error: how far a position may be from the exact one.");
+  py::class_<Box_promise>(module, "BoxPromise",
+                          "A promise, in mode `certified`, that a function of yours computes.\n\n"
+                          "box(region, rest_box) gives an array of shape (2, 3), the lower and the upper corner of a box. "
+                          "It contains all\nvertices of the region that lie in `rest_box`, of the same shape, at rest, where "
+                          "they are now. region None: vertices of\nany region. An axis with an end that is not finite is "
+                          "open. Must not call the detector.")
+      .def(py::init(&box_promise), py::arg("box"));
 }
 
 }  // namespace
@@ -274,7 +305,8 @@ void add_detector(py::module_& module) {
       "  most_contacts     contacts listed per pair of objects: all\n"
       "  threads           at most so many; 0: all of the machine: 1. Results do not depend on it\n"
       "  particles         particles, or regions in mode 'exact'; 0: as the mode sees fit\n"
-      "  strategy, seed, normal_weight, lbg_...     how surfaces are divided: 'lbg'\n"
+      "  strategy, seed, normal_weight, lbg_...     how surfaces are divided: 'lbg'; the strategy can be a function, see\n"
+      "                    `partition`\n"
       "and, of the mode 'particles': least_particles, meetings, opening_budget, opening_reach, collision_distance,\n"
       "distance_measure, candidates, list_candidates, close_seams, growth, keep_islands; of 'exact' and 'certified':\n"
       "loosest, throw_if_broken.")

@@ -38,7 +38,7 @@ py::object find_collisions(const py::object& mesh_a, const py::object& mesh_b, c
     if (auto at_once = frame_at_once(a.mesh, b.mesh, options)) {
       frame = std::move(*at_once);
     } else {
-      Detector<Any_strategy> detector(options, make_strategy(settings.strategy, settings.strategy_settings));
+      Detector<Any_strategy> detector(options, settings.strategy.make(settings.strategy_settings));
       detector.add(a.mesh), detector.add(b.mesh);
       frame = finds_all(options.mode) ? detector.detect(0, 1) : detector.detect();
     }
@@ -90,7 +90,7 @@ struct Python_partition {
   Partition_measures measures;
 };
 
-Python_partition divide(const py::object& mesh, const py::object& faces, const std::string& strategy,
+Python_partition divide(const py::object& mesh, const py::object& faces, const py::object& strategy,
                         std::size_t regions, const py::kwargs& keywords) {
   const auto settings = partition_settings(strategy, keywords);
   const Asked_mesh asked(mesh, faces, "mesh");
@@ -99,9 +99,9 @@ Python_partition divide(const py::object& mesh, const py::object& faces, const s
   const Positions positions = read_positions(numbering, Indexed_points(asked.mesh));
   const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());
   const Numbered_surface surface{graph, positions, numbering.corners()};
-  Python_partition made{.strategy = strategy, .partition = {}, .measures = {}};
+  Python_partition made{.strategy = settings.strategy.name, .partition = {}, .measures = {}};
   made.partition =
-      partition_numbered(surface, regions, make_strategy(strategy, settings.strategy_settings), settings.options);
+      partition_numbered(surface, regions, settings.strategy.make(settings.strategy_settings), settings.options);
   made.measures = measure_partition(surface, made.partition);
   return made;
 }
@@ -178,7 +178,8 @@ void add_one_call(py::module_& module) {
       });
   module.def("partition", divide, py::arg("mesh"), py::arg("faces") = py::none(), py::arg("strategy") = "lbg",
              py::arg("regions") = 32,
-             "Divides a surface into regions: a Partition. `strategies()` lists the strategies.\n\n"
+             "Divides a surface into regions: a Partition. `strategies()` lists the strategies. One of your own is a function\n"
+             "strategy(vertices, faces, regions) that returns the region of each vertex: (V,) int.\n\n"
              "mesh: vertices, an array (V, 3), with `faces` (F, 3); or an object that has both. Further options: seed,\n"
              "keep_islands, threads, normal_weight, lbg_split, lbg_epsilon, lbg_tolerance, lbg_sample.");
   module.def(

@@ -120,7 +120,7 @@ Detector_settings detector_settings(const py::kwargs& keywords) {
       {"list_candidates", to(options.list_candidates)},
       {"close_seams", to(options.close_seams)},
       {"growth", to(options.growth)},
-      {"strategy", to(settings.strategy)},
+      {"strategy", [&settings](const std::string&, const py::handle& value) { settings.strategy = given_strategy(value); }},
       {"seed", to(settings.strategy_settings.seed)},
   };
   add_lbg(table, settings.strategy_settings.lbg);
@@ -130,8 +130,8 @@ Detector_settings detector_settings(const py::kwargs& keywords) {
   return settings;
 }
 
-Partition_settings partition_settings(const std::string& strategy, const py::kwargs& keywords) {
-  Partition_settings settings{.strategy = strategy, .strategy_settings = {}, .options = {}};
+Partition_settings partition_settings(const py::object& strategy, const py::kwargs& keywords) {
+  Partition_settings settings{.strategy = given_strategy(strategy), .strategy_settings = {}, .options = {}};
   Option_table table{{"seed", to(settings.strategy_settings.seed)},
                      {"keep_islands", to(settings.options.keep_islands)},
                      {"threads", to(settings.strategy_settings.lbg.threads)}};

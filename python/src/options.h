@@ -3,10 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
-#include <string>
-
 #include "lodestone/detection/detector_options.h"
-#include "lodestone/partition/strategies.h"
+#include "strategy.h"
 
 /// Options from keyword arguments.
 namespace lodestone::python {
@@ -16,7 +14,7 @@ namespace py = pybind11;
 /// What a detector is made with.
 struct Detector_settings {
   Detector_options options;
-  std::string strategy = "lbg";
+  Given_strategy strategy;
   Strategy_settings strategy_settings;
 };
 
@@ -27,10 +25,10 @@ Detector_settings detector_settings(const py::kwargs& keywords);
 
 /// What a partition is made with.
 struct Partition_settings {
-  std::string strategy = "lbg";
+  Given_strategy strategy;
   Strategy_settings strategy_settings;
   Partition_options options;
 };
-Partition_settings partition_settings(const std::string& strategy, const py::kwargs& keywords);
+Partition_settings partition_settings(const py::object& strategy, const py::kwargs& keywords);
 
 }  // namespace lodestone::python

@@ -344,6 +344,57 @@ def test_promises_save_reading_and_broken_ones_are_noticed():
         detector.promise(0, "nothing moves")
 
 
+def test_a_box_promise_asks_a_function():
+    a, b = sphere(60), sphere(60).moved(20)
+    shift = np.zeros(3)
+    asked = []
+
+    def box(region, rest_box):
+        asked.append(region)
+        return rest_box + shift
+
+    for threads in (1, 2):
+        detector = lodestone.Detector(mode="certified", threads=threads)
+        detector.add(a), detector.add(b)
+        detector.promise(0, lodestone.BoxPromise(box))
+        assert not detector.detect().collides
+        start = a.vertices.copy()
+        for shift[0] in (5, 18.5):
+            a.vertices[:] = start + shift
+            asked.clear()
+            frame = detector.detect()
+            assert asked and set(asked) <= {0, None}
+            assert frame.statistics["violations"] == 0
+        assert frame.faces.tolist() == lodestone.find_collisions(a, b).faces.tolist() != []
+        shift[0] = 3  # not where the vertices are
+        a.vertices[:] = start + [18.5, 0, 0]
+        detector.detect()
+        a.vertices[:] = start
+        shift[0] = 0
+
+
+@pytest.mark.parametrize("box, error", [
+    (lambda region, rest_box: 1 / 0, ZeroDivisionError),
+    (lambda region, rest_box: rest_box[0], lodestone.BadArgument),
+    (lambda region, rest_box: "here", lodestone.BadArgument),
+    (lambda: None, TypeError),
+])
+def test_a_box_promise_whose_function_fails_is_an_error_and_the_detector_goes_on(box, error):
+    detector = lodestone.Detector(mode="certified")
+    detector.add(sphere()), detector.add(sphere())
+    bad = [False]
+    promise = lodestone.BoxPromise(lambda region, rest_box: box(region, rest_box) if bad[0] else rest_box)
+    detector.promise(0, promise)
+    collides = detector.detect().collides
+    bad[0] = True
+    with pytest.raises(error):
+        detector.detect()
+    bad[0] = False
+    assert detector.detect().collides == collides
+    with pytest.raises(TypeError):
+        lodestone.BoxPromise(7)
+
+
 @pytest.mark.parametrize("mode", ["exact", "certified", "particles", "senin"])
 def test_a_vertex_that_is_no_number_is_an_error(mode):
     detector = lodestone.Detector(mode=mode)

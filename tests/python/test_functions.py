@@ -68,6 +68,49 @@ def test_closest_within_contains():
     assert lodestone.contains(cube(3), cube().moved(1, 1, 1)) and not lodestone.contains(cube(), cube(3))
 
 
+def slices(vertices, faces, regions):
+    return vertices[:, 2].argsort(kind="stable").argsort() * regions // len(vertices)
+
+
+def test_a_strategy_can_be_a_function():
+    ball = sphere(8)
+    seen = []
+
+    def strategy(vertices, faces, regions):
+        seen.append((vertices.copy(), faces.copy(), regions))
+        return slices(vertices, faces, regions)
+
+    divided = lodestone.partition(ball, strategy=strategy, regions=8, keep_islands=True)
+    assert divided.strategy == "strategy" and divided.regions == 8
+    assert sorted(np.bincount(divided.labels)) == sorted(np.bincount(slices(ball.vertices, None, 8)))
+    vertices, faces, regions = seen.pop()
+    assert np.array_equal(vertices, ball.vertices) and np.array_equal(faces, ball.faces) and regions == 8
+    for mode in ("exact", "certified", "particles"):
+        detector = lodestone.Detector(mode=mode, strategy=strategy, particles=8, keep_islands=True,
+                                      threads=2)
+        detector.add(ball), detector.add(ball.moved(0.5))
+        assert detector.detect().collides
+        assert np.array_equal(detector.regions(0), divided.labels)
+        assert len(seen) == 2
+        seen.clear()
+    assert lodestone.find_collisions(ball, ball.moved(0.5), mode="particles", strategy=strategy).collides
+
+
+@pytest.mark.parametrize("strategy, error, text", [
+    (lambda vertices, faces, regions: 1 / 0, ZeroDivisionError, ""),
+    (lambda vertices, faces, regions: np.zeros(3, int), lodestone.BadArgument, ""),
+    (lambda vertices, faces, regions: np.full(len(vertices), -1), lodestone.BadArgument, "labels of the strategy"),
+    (lambda vertices, faces, regions: np.full(len(vertices), 0.5), lodestone.BadArgument, "integers"),
+    (lambda vertices, faces, regions: None, lodestone.BadArgument, "integers"),
+    (7, TypeError, "a name or a function"),
+])
+def test_a_strategy_that_fails_is_an_error(strategy, error, text):
+    with pytest.raises(error, match=text):
+        lodestone.partition(sphere(4), strategy=strategy, regions=4)
+    with pytest.raises(error, match=text):
+        lodestone.find_collisions(sphere(4), sphere(4), mode="particles", strategy=strategy)
+
+
 def test_partitions_have_labels_particles_and_measures():
     ball = sphere(24)
     divided = lodestone.partition(ball.vertices, ball.faces, strategy="lbg", regions=16)
