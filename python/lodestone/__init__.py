@@ -57,8 +57,8 @@ from ._play import play
 
 __all__ = [
     "Animation", "BadArgument", "BadMesh", "BadMotion", "BadOutput", "BadSavedObject", "BadScene", "BoxPromise",
-    "BrokenBound", "Detector", "DisplacementPromise", "Error", "Frame", "LipschitzPromise", "Page", "Pair", "Partition", "Scene", "Skin",
-    "StretchPromise", "__version__", "closest", "contains", "find_collisions", "page", "partition", "play",
+    "BrokenBound", "Detector", "DisplacementPromise", "Error", "Frame", "LipschitzPromise", "Page", "Pair", "Partition",
+    "Scene", "Skin", "StretchPromise", "__version__", "closest", "contains", "find_collisions", "page", "partition", "play",
     "read_animation", "read_mesh", "read_scene", "self_collisions", "strategies", "within", "write_animation",
     "write_mesh",
 ]

@@ -107,7 +107,7 @@ Python_detector::Reading::Reading(Python_detector& detector) : detector_(detecto
 }
 
 void Python_detector::check_no_visitor() const {
-  if (reading_) throw Bad_argument("a visitor called the detector that shows it face pairs");
+  if (reading_) throw Bad_argument("a function that the detector calls (a visitor, a strategy, a promise) must not call it");
 }
 
 Python_object& Python_detector::at(Object_id object) const {

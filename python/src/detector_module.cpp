@@ -212,7 +212,7 @@ void promise_any(Python_detector& self, Object_id object, const py::object& give
   throw py::type_error("a promise is a DisplacementPromise, StretchPromise, LipschitzPromise or BoxPromise");
 }
 
-/// What a function of Python's answers: called without the GIL, by any thread.
+/// What a function of Python's answers. Called without the GIL.
 Aabb box_of(const py::function& function, Region_index region, const Aabb& rest_box) {
   const py::gil_scoped_acquire gil;
   py::array_t<double> rest({2, 3});
@@ -271,10 +271,10 @@ void add_promises(py::module_& module) {
            "Promises another constant. error: how far a position may be from the exact one.");
   py::class_<Box_promise>(module, "BoxPromise",
                           "A promise, in mode `certified`, that a function of yours computes.\n\n"
-                          "box(region, rest_box) gives an array of shape (2, 3), the lower and the upper corner of a box. "
-                          "It contains all\nvertices of the region that lie in `rest_box`, of the same shape, at rest, where "
-                          "they are now. region None: vertices of\nany region. An axis with an end that is not finite is "
-                          "open. Must not call the detector.")
+                          "box(region, rest_box) returns an array of shape (2, 3): the lower and the upper corner of a box "
+                          "that now contains every\nvertex of the region that was in `rest_box`, of the same shape, at rest. "
+                          "An axis with an end that is not finite is open.\nregion is 0 where the detector makes no regions, "
+                          "and None for vertices of several. The function must not call the detector.")
       .def(py::init(&box_promise), py::arg("box"));
 }
 

@@ -179,7 +179,8 @@ void add_one_call(py::module_& module) {
   module.def("partition", divide, py::arg("mesh"), py::arg("faces") = py::none(), py::arg("strategy") = "lbg",
              py::arg("regions") = 32,
              "Divides a surface into regions: a Partition. `strategies()` lists the strategies. One of your own is a function\n"
-             "strategy(vertices, faces, regions) that returns the region of each vertex: (V,) int.\n\n"
+             "strategy(vertices, faces, regions) that returns the region of each vertex, any integer from 0 to V - 1: (V,) "
+             "int.\n\n"
              "mesh: vertices, an array (V, 3), with `faces` (F, 3); or an object that has both. Further options: seed,\n"
              "keep_islands, threads, normal_weight, lbg_split, lbg_epsilon, lbg_tolerance, lbg_sample.");
   module.def(

@@ -39,7 +39,7 @@ Any_strategy Given_strategy::make(const Strategy_settings& settings) const {
 
 Given_strategy given_strategy(const py::handle& strategy) {
   if (py::isinstance<py::str>(strategy)) return {.name = py::str(strategy), .function = nullptr};
-  if (!py::isinstance<py::function>(strategy) && !PyCallable_Check(strategy.ptr()))
+  if (!py::isinstance<py::function>(strategy))
     throw py::type_error("the option strategy must be a name or a function, but is " +
                          py::repr(strategy).cast<std::string>());
   const auto release = [](const py::function* function) {

@@ -15,6 +15,7 @@ namespace lodestone {
 
 namespace {
 
+/// A face of a leaf, with its box.
 struct Boxed_face {
   std::uint32_t face;
   Triangle triangle;

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Prints, as a script for Bash, what somebody does who follows a page of docs/first_steps: first_steps_commands.py PAGE.
+"""Prints, as a script for Bash, what somebody does who follows a page of docs/first_steps.
+
+    first_steps_commands.py PAGE
 
 The script runs the commands of the page, writes the files that it shows, and runs its Python if the page installs the
-package. It leaves out what opens a window.
+package. It leaves out Blender, which opens a window.
 """
 
 import pathlib
@@ -23,7 +25,7 @@ for block in re.finditer(r"^```(\w*)\n(.*?)^```", page, re.S | re.M):
     if language == "":
         for command in text.replace("\\\n", "").splitlines():
             if "--exit-code" in command:
-                print(f"! {command}")
+                print(f"status=0; {command} || status=$?; [ $status = 1 ]")
             elif "blender" not in command:
                 print(command)
     elif language == "cmake" and name:

@@ -204,7 +204,7 @@ def test_a_visitor_sees_contacts_and_may_stop():
     with pytest.raises(ZeroDivisionError):
         detector.visit(0, 1, lambda a, b: 1 / 0)
     for call in (lambda *_: detector.detect(), lambda *_: detector.set_vertices(0, cube().vertices)):
-        with pytest.raises(lodestone.BadArgument, match="a visitor called the detector"):
+        with pytest.raises(lodestone.BadArgument, match="must not call it"):
             detector.visit(0, 1, call)
     assert detector.detect().collides
 
@@ -353,22 +353,26 @@ def test_a_box_promise_asks_a_function():
         asked.append(region)
         return rest_box + shift
 
-    for threads in (1, 2):
-        detector = lodestone.Detector(mode="certified", threads=threads)
+    start = a.vertices.copy()
+    for threads, regions in (1, 0), (1, 4), (2, 4):
+        detector = lodestone.Detector(mode="certified", threads=threads, particles=regions)
         detector.add(a), detector.add(b)
         detector.promise(0, lodestone.BoxPromise(box))
         assert not detector.detect().collides
-        start = a.vertices.copy()
         for shift[0] in (5, 18.5):
             a.vertices[:] = start + shift
             asked.clear()
             frame = detector.detect()
-            assert asked and set(asked) <= {0, None}
-            assert frame.statistics["violations"] == 0
+            assert asked and frame.statistics["violations"] == 0
         assert frame.faces.tolist() == lodestone.find_collisions(a, b).faces.tolist() != []
-        shift[0] = 3  # not where the vertices are
-        a.vertices[:] = start + [18.5, 0, 0]
-        detector.detect()
+        if regions > 0:
+            assert None in asked and set(asked) <= {None, 0, 1, 2, 3} and len(set(asked)) > 2
+        else:
+            assert set(asked) == {0}
+        a.vertices[:] = start + [18.7, 0, 0]  # not where the function says
+        frame = detector.detect()
+        assert frame.statistics["violations"] > 0
+        assert frame.faces.tolist() == lodestone.find_collisions(a, b).faces.tolist()
         a.vertices[:] = start
         shift[0] = 0
 

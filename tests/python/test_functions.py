@@ -73,7 +73,7 @@ def slices(vertices, faces, regions):
 
 
 def test_a_strategy_can_be_a_function():
-    ball = sphere(8)
+    ball = sphere(8, radius=3)
     seen = []
 
     def strategy(vertices, faces, regions):
@@ -91,7 +91,7 @@ def test_a_strategy_can_be_a_function():
         detector.add(ball), detector.add(ball.moved(0.5))
         assert detector.detect().collides
         assert np.array_equal(detector.regions(0), divided.labels)
-        assert len(seen) == 2
+        assert len(seen) == 2 and np.array_equal(seen[0][0], ball.vertices)
         seen.clear()
     assert lodestone.find_collisions(ball, ball.moved(0.5), mode="particles", strategy=strategy).collides
 
@@ -109,6 +109,23 @@ def test_a_strategy_that_fails_is_an_error(strategy, error, text):
         lodestone.partition(sphere(4), strategy=strategy, regions=4)
     with pytest.raises(error, match=text):
         lodestone.find_collisions(sphere(4), sphere(4), mode="particles", strategy=strategy)
+
+
+@pytest.mark.parametrize("mode", ["exact", "particles"])
+def test_a_detector_goes_on_after_its_strategy_has_failed(mode):
+    fails = [True]
+
+    def strategy(vertices, faces, regions):
+        if fails[0]:
+            detector.detect()
+        return slices(vertices, faces, regions)
+
+    detector = lodestone.Detector(mode=mode, strategy=strategy, particles=4)
+    detector.add(sphere()), detector.add(sphere().moved(0.5))
+    with pytest.raises(lodestone.BadArgument, match="must not call it"):
+        detector.detect()
+    fails[0] = False
+    assert detector.detect().collides
 
 
 def test_partitions_have_labels_particles_and_measures():

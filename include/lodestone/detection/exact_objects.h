@@ -233,7 +233,7 @@ std::optional<Numbered_partition> Exact_objects<Volume>::divide(Object& object, 
   if (regions == 0) return std::nullopt;
   Watched_mesh& mesh = object.mesh();
   const Vertex_graph graph = vertex_graph(mesh.vertex_count(), mesh.corners());
-  const Positions positions = scaled_positions(coordinates);
+  const Positions positions = positions_in_range(coordinates);
   return mesh.partition({graph, positions, mesh.corners()}, regions, options_.partition);
 }
 

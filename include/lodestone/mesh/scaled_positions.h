@@ -19,11 +19,14 @@ inline Positions scaled_positions(const Eigen::Ref<const Positions>& positions) 
   return positions.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
 }
 
-/// The same of coordinates.
-inline Positions scaled_positions(Coordinates coordinates) {
+/// Coordinates as positions. Those so large or so small that products of a few of them leave the range of double are
+/// scaled; all others stay as they are.
+inline Positions positions_in_range(Coordinates coordinates) {
   const auto vertices = static_cast<Eigen::Index>(coordinates.size() / 3);
   const Eigen::Ref<const Positions> positions = Eigen::Map<const Positions>(coordinates.data(), vertices, 3);
-  return scaled_positions(positions);
+  const double largest = vertices > 0 ? positions.cwiseAbs().maxCoeff() : 0;
+  constexpr double most = 0x1p50;  // to the sixth power, still far from the ends of the range
+  return 1 / most <= largest && largest <= most ? Positions(positions) : scaled_positions(positions);
 }
 
 }  // namespace lodestone

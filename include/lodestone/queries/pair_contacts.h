@@ -10,7 +10,7 @@
 
 namespace lodestone {
 
-/// What searches for the contacts of one object pair found.
+/// Whether the objects of a pair collide, and what it took to find out.
 struct Pair_contacts {
   bool collides = false;        ///< two faces intersect
   bool near = false;            ///< a tolerance is given, and two faces are nearer
@@ -57,7 +57,7 @@ class Small_pairs {
 
   /// Forgets all questions.
   void clear() { question_count_ = next_ = 0; }
-  /// Asks about a pair of objects, or one with itself if both are the same.
+  /// Asks about a pair of objects, or one with itself if both are the same, which may be asked about once.
   /// @param pair  number of the pair, ascending
   void ask(std::size_t pair, const Surface& a, const Surface& b, const Contact_request& request) {
     if (question_count_ == questions_.size()) questions_.emplace_back();
