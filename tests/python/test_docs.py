@@ -44,7 +44,7 @@ def folder(tmp_path, monkeypatch):
 
 
 def test_the_pages_have_python():
-    assert len(first_steps) == 4 and sum(bool(blocks_of(page, "python")) for page in pages) >= 4
+    assert len(first_steps) == 5 and sum(bool(blocks_of(page, "python")) for page in pages) >= 4
 
 
 @pytest.mark.parametrize("page", pages, ids=lambda page: str(page.relative_to(root)))
