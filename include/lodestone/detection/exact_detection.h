@@ -24,6 +24,7 @@
 #include "lodestone/queries/parting.h"
 #include "lodestone/queries/point_search.h"
 #include "lodestone/queries/ray_search.h"
+#include "lodestone/queries/small_pairs.h"
 #include "lodestone/queries/surface_triangle.h"
 #include "lodestone/volumes/to_box.h"
 

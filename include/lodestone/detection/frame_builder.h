@@ -43,7 +43,7 @@ class Frame_builder {
     return {.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size(), .first_patch = frame_.patches.size()};
   }
   /// Ends a pair: counts its contacts, and computes their points and normals if the options ask for them.
-  /// @param triangle_of  gives the triangle of an object's face: called with Object_id and face index, by all threads
+  /// @param triangle_of  gives the triangle of an object's face: called with Object_id and face index, by any worker
   /// @param workers      that share the work
   template <class Triangle_of>
   void end_pair(Pair_result result, Triangle_of triangle_of, Workers& workers = Workers::alone()) {
