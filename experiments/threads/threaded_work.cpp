@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <random>
+#include <span>
 #include <utility>
 
 #include "lodestone/detector.h"
@@ -84,6 +86,33 @@ Threaded_work distance(Moving_pair& pair) {
           }};
 }
 
+/// Many rays, or the points where they start, asked about the first sphere.
+std::vector<Ray> rays_around(std::size_t count) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<Ray> rays;
+  while (rays.size() < count) {
+    const auto vector = [&] { return Eigen::Vector3d(unit(random), unit(random), unit(random)); };
+    const Eigen::Vector3d origin = 2 * vector(), direction = vector() - origin;
+    if (!direction.isZero()) rays.push_back({origin, direction});
+  }
+  return rays;
+}
+
+/// Many questions about the first sphere at once.
+/// @param ask  called with a detector
+template <class Ask>
+Threaded_work questions(Moving_pair& pair, std::string name, const Ask& ask) {
+  return {.name = std::move(name),
+          .rounds = rounds_of_frames,
+          .pose = [&pair](std::size_t round) { pair.pose(round, Moving_pair::Place::apart); },
+          .make = [&pair, ask](std::size_t threads) -> std::function<double()> {
+            auto detector = std::make_shared<Detector<>>(detector_of(pair, {}, threads));
+            detector->detect();
+            return [detector, ask] { return seconds_of([&] { ask(*detector); }); };
+          }};
+}
+
 /// A frame of two characters whose points know how they move.
 Threaded_work certified_frame(Character_scene& scene, std::string name, Contact_query contacts) {
   return {.name = std::move(name),
@@ -120,6 +149,9 @@ Threaded_work crowd_frame(Scene& crowd, const std::string& name, const Detector_
 std::vector<Threaded_work> works_on(Moving_pair& pair) {
   using enum Moving_pair::Place;
   constexpr auto yes_no = Contact_query::yes_no;
+  const std::vector<Ray> rays = rays_around(10000);
+  std::vector<Point> points;
+  for (const Ray& ray : std::span(rays).first(1000)) points.emplace_back(ray.origin.x(), ray.origin.y(), ray.origin.z());
   std::vector<Threaded_work> works{
       build(pair, {"exact: first answer", {}}),
       build(pair, {"exact: first answer, 12 regions by LBG", {.particles = 12}}),
@@ -132,6 +164,8 @@ std::vector<Threaded_work> works_on(Moving_pair& pair) {
       frame(pair, {"exact: containment", {.contacts = yes_no, .exact = {.containment = true}}, inside}),
       frame(pair, {"exact: parting", {.contacts = yes_no, .exact = {.parting = true}}}),
       distance(pair),
+      questions(pair, "exact: 10 000 rays", [rays](auto& detector) { detector.first_hits(0, rays); }),
+      questions(pair, "exact: 1000 nearest points", [points](auto& detector) { detector.closest_points(0, points); }),
       build(pair, {"particles: first answer", {.mode = Mode::particles, .contacts = yes_no}}),
       frame(pair, {"particles: yes or no", {.mode = Mode::particles, .contacts = yes_no}}),
       frame(pair, {"particles: all pairs", {.mode = Mode::particles}})};

@@ -16,6 +16,7 @@
 #include "lodestone/mesh/indexed_mesh.h"
 #include "lodestone/partition/lbg.h"
 #include "lodestone/partition/strategies.h"
+#include "lodestone/queries/ask_each.h"
 
 namespace lodestone {
 
@@ -240,6 +241,7 @@ class Detector {
   }
 
   /// `first_hit` of many rays. Each query of an object reads its positions first; this does so once for all rays.
+  /// Shared among the threads, unless the object has bounds in mode `certified`.
   /// @return one per ray, in their order
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {
@@ -346,15 +348,11 @@ class Detector {
     throw Bad_argument(Model::needed);
   }
 
-  /// Asks the same about each ray or point, of one surface.
   template <class Asked, class Question>
   auto ask_each(Object_id object, std::span<const Asked> asked, const Question& question) {
-    return ask<Exact>(object).of_surface(object, [&](auto& surface) {
-      std::vector<decltype(question(surface, asked.front()))> answers;
-      answers.reserve(asked.size());
-      for (const auto& one : asked) answers.push_back(question(surface, one));
-      return answers;
-    });
+    auto& exact = ask<Exact>(object);
+    return exact.of_surface(
+        object, [&](auto& surface) { return lodestone::ask_each(surface, asked, question, exact.workers()); });
   }
 
   std::shared_ptr<const Strategy> strategy_;

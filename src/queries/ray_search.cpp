@@ -18,7 +18,6 @@ namespace lodestone {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 
 void check(const Ray& ray) {
@@ -28,7 +27,18 @@ void check(const Ray& ray) {
   if (!(ray.length >= 0)) throw Bad_argument("the length of a ray must be 0 or more");
 }
 
-/// Tells at what depth a ray enters boxes, by the slabs between their sides \cite kay1986.
+/// Where a ray enters a box.
+struct Entry {
+  double depth;  ///< a lower bound on it
+  bool is_hit;   ///< false: the ray is proven to miss the box, and `depth` means nothing
+
+  /// Whether the ray may be in the box at a depth. Without branches, since which boxes are hit is unpredictable.
+  std::size_t is_hit_within(double most_depth) const {
+    return static_cast<std::size_t>(is_hit) & static_cast<std::size_t>(depth <= most_depth);
+  }
+};
+
+/// Tells where a ray enters boxes, by the slabs between their sides \cite kay1986.
 ///
 /// A depth is a difference times the inverse of a slope, each rounded once, and so is their product: three roundings
 /// in all. Eight are allowed for.
@@ -44,9 +54,7 @@ class Box_entry {
     }
   }
 
-  /// Lower bound on the depth at which the ray enters a box; infinity if it is proven to miss it. Without branches,
-  /// since which boxes are hit is unpredictable.
-  [[gnu::always_inline]] double operator()(const Aabb& box) const {
+  [[gnu::always_inline]] Entry operator()(const Aabb& box) const {
     if (is_steep_) return with_steep_axes(box);
     const auto* const sides = reinterpret_cast<const double*>(&box);
     double enter = 0, leave = largest;
@@ -64,17 +72,17 @@ class Box_entry {
   static constexpr int high = 4;  ///< where the high sides of a box begin
   static_assert(sizeof(Aabb) == 2 * high * sizeof(double));
 
-  static double bound(double enter, double leave) {
+  static Entry bound(double enter, double leave) {
     const double entered = enter < largest ? enter : largest;
-    return entered <= leave * (1 + roundings) + underflow ? entered * (1 - roundings) : infinity;
+    return {entered * (1 - roundings), entered <= leave * (1 + roundings) + underflow};
   }
 
-  [[gnu::noinline]] double with_steep_axes(const Aabb& box) const {
+  [[gnu::noinline]] Entry with_steep_axes(const Aabb& box) const {
     const auto* const sides = reinterpret_cast<const double*>(&box);
     double enter = 0, leave = largest;
     for (int axis = 0; axis < 3; ++axis) {
       if (!std::isfinite(inverse_[axis])) {
-        if (is_beside(box, axis)) return infinity;
+        if (is_beside(box, axis)) return {0, false};
         continue;
       }
       enter = std::max(enter, (sides[near_side_[axis]] - frame_.origin[axis]) * inverse_[axis]);
@@ -169,8 +177,9 @@ class Ray_search {
   void run() {
     const Tree_layout& tree = surface_.layout();
     waiting_.resize(64, boost::container::default_init);
-    waiting_[0] = {0, entry_(surface_.box(0))};
-    count_ = waiting_[0].depth < infinity ? 1 : 0;
+    const Entry root = entry_(surface_.box(0));
+    waiting_[0] = {0, root.depth};
+    count_ = root.is_hit_within(largest);
     while (count_ > 0 && !surface_.is_broken()) {
       const Node_ahead next = waiting_[--count_];
       if (next.depth > collector_.most_depth()) continue;
@@ -193,14 +202,14 @@ class Ray_search {
   void open(std::uint32_t first, std::uint32_t second) {
     prefetch_below(first);
     prefetch_below(second);
-    const double depths[]{entry_(surface_.box(first)), entry_(surface_.box(second))};
+    const Entry entries[]{entry_(surface_.box(first)), entry_(surface_.box(second))};
     if (count_ + 2 > waiting_.size()) waiting_.resize(2 * waiting_.size(), boost::container::default_init);
     const double most = std::min(collector_.most_depth(), largest);
     const std::uint32_t nodes[]{first, second};
-    const int nearer = depths[1] < depths[0] ? 1 : 0;
-    for (const int child : {1 - nearer, nearer}) {
-      waiting_[count_] = {nodes[child], depths[child]};
-      count_ += depths[child] <= most ? 1 : 0;
+    const std::size_t nearer = entries[1].depth < entries[0].depth ? 1 : 0;
+    for (const std::size_t child : {1 - nearer, nearer}) {
+      waiting_[count_] = {nodes[child], entries[child].depth};
+      count_ += entries[child].is_hit_within(most);
     }
   }
 
@@ -217,7 +226,7 @@ class Ray_search {
     const Aabb& box = surface_.pose(index);
     if (surface_.is_broken()) return;
     // A fitted box can be smaller than the bound that led here.
-    if (!std::same_as<Surface, Fitted_surface> && entry_(box) > collector_.most_depth()) return;
+    if (!std::same_as<Surface, Fitted_surface> && entry_(box).is_hit_within(collector_.most_depth()) == 0) return;
     const Leaf_faces leaf = surface_.view().leaf(index);
     std::uint8_t candidates[most_leaf_faces];
     const std::size_t count =

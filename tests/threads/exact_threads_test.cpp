@@ -2,8 +2,13 @@
 // The mode exact gives the same bytes for any number of threads.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "lodestone/io/shapes/shapes.h"
 #include "support/exact_truth.h"
@@ -123,6 +128,87 @@ TEST(Exact_threads, closest_faces_and_containment_do_not_depend_on_their_number)
       EXPECT_EQ(found[i].points.distance, expected[i].points.distance);
       EXPECT_EQ(found[i].points.a, expected[i].points.a);
     }
+  }
+}
+
+/// Rays and points around the object, spread as evenly as a lattice of golden ratios does.
+std::vector<Ray> rays_around(std::size_t count) {
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = 0.618 * static_cast<double>(i), up = std::fmod(0.3247 * static_cast<double>(i), 2.0) - 1;
+    const Eigen::Vector3d origin(2 * std::cos(at), 2 * std::sin(at), up);
+    const Eigen::Vector3d inwards = Eigen::Vector3d(up, 0.2, -0.1) - origin;
+    rays.push_back({origin, i % 7 == 0 ? Eigen::Vector3d(-inwards) : inwards});
+  }
+  return rays;
+}
+
+std::vector<Point> points_around(std::span<const Ray> rays) {
+  std::vector<Point> points;
+  for (const Ray& ray : rays) {
+    const Eigen::Vector3d at = ray.origin + 0.4 * ray.direction;
+    points.emplace_back(at.x(), at.y(), at.z());
+  }
+  return points;
+}
+
+TEST(Exact_threads, rays_and_points_get_the_answers_that_each_of_them_gets_alone) {
+  const auto mesh = potato(24);
+  for (const std::size_t count : {0, 1, 31, 32, 33, 700}) {
+    const auto rays = rays_around(count);
+    const auto points = points_around(rays);
+    for (const std::size_t threads : {1, 2, 3, 5, 0}) {
+      Exact_detector detector({.mode = Mode::exact, .exact = {.threads = threads}});
+      detector.add(mesh);
+      const auto hits = detector.first_hits(0, rays);
+      const auto nearest = detector.closest_points(0, points);
+      const auto sides = detector.point_sides(0, points);
+      ASSERT_EQ(hits.size(), count);
+      ASSERT_EQ(nearest.size(), count);
+      ASSERT_EQ(sides.size(), count);
+      std::size_t hit_count = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto hit = detector.first_hit(0, rays[i]);
+        ASSERT_EQ(hits[i].has_value(), hit.has_value());
+        if (hit) {
+          ++hit_count;
+          EXPECT_EQ(hits[i]->face, hit->face);
+          EXPECT_EQ(hits[i]->t, hit->t);
+          EXPECT_EQ(hits[i]->point, hit->point);
+        }
+        const auto closest = detector.closest_point(0, points[i]);
+        EXPECT_EQ(nearest[i].face, closest.face);
+        EXPECT_EQ(nearest[i].point, closest.point);
+        EXPECT_EQ(nearest[i].distance, closest.distance);
+        EXPECT_EQ(sides[i], detector.point_side(0, points[i]));
+      }
+      if (count > 100) {
+        EXPECT_GT(hit_count, count / 10);
+        EXPECT_LT(hit_count, count);
+        EXPECT_EQ(std::set(sides.begin(), sides.end()).size(), 2U);
+      }
+    }
+  }
+}
+
+TEST(Exact_threads, the_first_of_the_rays_that_are_wrong_is_told) {
+  auto rays = rays_around(500);
+  rays[300].length = -1;
+  rays[301].origin.x() = std::nan("");
+  for (const std::size_t threads : {1, 2, 5}) {
+    Exact_detector detector({.mode = Mode::exact, .exact = {.threads = threads}});
+    const auto mesh = potato(12);
+    detector.add(mesh);
+    const auto told = [&] {
+      try {
+        detector.first_hits(0, rays);
+      } catch (const Bad_argument& error) {
+        return std::string(error.what());
+      }
+      return std::string();
+    };
+    EXPECT_NE(told().find("the length of a ray must be 0 or more"), std::string::npos);
+    EXPECT_EQ(detector.first_hits(0, std::span(rays).first(300)).size(), 300U);
   }
 }
 

@@ -133,6 +133,8 @@ class Exact_detection final : public Detection {
     const Node_boxes boxes(objects_.surface(object).view());
     return question(boxes.layout());
   }
+  /// Who share the work.
+  Workers& workers() { return workers_; }
   /// See `Detector::parting`.
   std::optional<Parting> parting(Object_pair pair);
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "lodestone/bounds/bounded_surface.h"
+#include "lodestone/mesh/workers.h"
+
+namespace lodestone {
+
+/// Asks a surface about many rays or points. The workers share a surface that is only read. A Bounded_surface poses
+/// leaves as it is asked, so one thread asks it all.
+/// @param question  called with the surface and one of `asked`; its answers can be default-constructed
+/// @return one answer per question, in their order
+/// @throws what the first question that fails throws
+template <class Surface, class Asked, class Question>
+auto ask_each(Surface& surface, std::span<const Asked> asked, const Question& question, Workers& workers) {
+  std::vector<decltype(question(surface, asked.front()))> answers(asked.size());
+  const auto answer = [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) answers[i] = question(surface, asked[i]);
+  };
+  // A question takes some microseconds, like waking a thread. Neighbours in the list are often neighbours in space.
+  constexpr std::size_t least_shared = 32, most_per_task = 256;
+  const std::size_t per_task = std::clamp<std::size_t>(asked.size() / (8 * workers.count()), 1, most_per_task);
+  if (std::same_as<Surface, Bounded_surface> || asked.size() < least_shared || workers.count() == 1)
+    answer(0, asked.size());
+  else
+    workers.run((asked.size() + per_task - 1) / per_task, [&](std::size_t task, std::size_t) {
+      answer(task * per_task, std::min((task + 1) * per_task, asked.size()));
+    });
+  return answers;
+}
+
+}  // namespace lodestone
