@@ -62,7 +62,7 @@ std::optional<Clearance> Clearance_search::operator()(const Eigen::Vector3d& dir
 
 bool Clearance_search::witnesses_reach(double limit) const {
   return std::any_of(witnesses_.rbegin(), witnesses_.rend(), [&](const auto& faces) {
-    return clearance(faces.first->triangle, faces.second->triangle, way_).length >= limit;
+    return clearance(faces.first->triangle, faces.second->triangle, way_, limit).length >= limit;
   });
 }
 
@@ -111,7 +111,7 @@ void Clearance_search::keep_facing(const std::vector<Face>& faces, const Box& ot
 }
 
 void Clearance_search::try_faces(const Face& a, const Face& b) {
-  const Clearance found = clearance(a.triangle, b.triangle, way_);
+  const Clearance found = clearance(a.triangle, b.triangle, way_, best_.length);
   if (found.length < best_.length || !std::isfinite(found.length)) return;
   if (found.length == best_.length && std::pair(best_a_->index, best_b_->index) < std::pair(a.index, b.index)) return;
   best_ = found;

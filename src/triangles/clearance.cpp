@@ -17,11 +17,14 @@ namespace {
 /// of the absolute components of n: n y - n x has an error of 8 |n| X roundings; n direction has one of 3 |n|
 /// roundings, and t is at most 2 X; the quotient of the two is off by one rounding of t.
 class Passage {
- public:
-  explicit Passage(const Way& way) : way_(way) {}
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  /// Whether points can be in line.
-  bool is_open() const { return first_ <= last_; }
+ public:
+  /// @param least  a shorter passage counts as closed
+  explicit Passage(const Way& way, double least = -infinity) : way_(way), least_(least) {}
+
+  /// Whether points can be in line, with a clearance that counts.
+  bool is_open() const { return first_ <= last_ && last_ >= least_; }
   Clearance clearance() const {
     if (!is_open()) return {};
     return {last_, normal_.dot(way_.direction) < 0 ? Eigen::Vector3d(-normal_) : normal_};
@@ -57,9 +60,8 @@ class Passage {
     return nearer;
   }
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   const Way& way_;
+  double least_;
   double first_ = -infinity, last_ = infinity;  ///< of t
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
 };
@@ -90,8 +92,10 @@ void cut_by_facets(Passage& passage, const Boxed_triangle& a, const Boxed_triang
                    const Edges& edges_b) {
   passage.cut(edges_a[0].cross(edges_a[1]), a, b);
   passage.cut(edges_b[0].cross(edges_b[1]), a, b);
-  for (const Eigen::Vector3d& e : edges_a)
+  for (const Eigen::Vector3d& e : edges_a) {
+    if (!passage.is_open()) return;
     for (const Eigen::Vector3d& f : edges_b) passage.cut(e.cross(f), a, b);
+  }
 }
 
 /// D is flat if the triangles are parallel or have no area. Where a flat D holds the line, the line ends at an edge of
@@ -111,14 +115,15 @@ double clearance(const Box& a, const Box& b, const Way& way) {
   return passage.length();
 }
 
-Clearance clearance(const Boxed_triangle& a, const Boxed_triangle& b, const Way& way) {
-  Passage passage(way);
+Clearance clearance(const Boxed_triangle& a, const Boxed_triangle& b, const Way& way, double least) {
+  Passage passage(way, least);
   cut_by_boxes(passage, a.box, b.box);
   if (!passage.is_open()) return {};
   const Edges edges_a = edges_of(a), edges_b = edges_of(b);
   cut_by_outlines(passage, a, b, edges_a, edges_b, way.direction);
   if (!passage.is_open()) return {};
   cut_by_facets(passage, a, b, edges_a, edges_b);
+  if (!passage.is_open()) return {};
   cut_by_edges_of_flat(passage, a, b, edges_a, edges_b, way.direction);
   return passage.clearance();
 }

@@ -159,5 +159,28 @@ TEST(Clearance, of_boxes_is_no_smaller_than_that_of_what_they_hold) {
   }
 }
 
+TEST(Clearance, of_triangles_is_the_same_where_only_large_ones_are_needed) {
+  std::mt19937_64 random(7);
+  Hard_pairs pairs(8);
+  int in_line = 0;
+  for (const auto& kind : Hard_pairs::kinds())
+    for (int trial = 0; trial < 300; ++trial) {
+      const auto [a, b] = (pairs.*kind.make)();
+      const Way way{random_direction(random), slack};
+      const Boxed_triangle p = boxed(a), q = boxed(b);
+      const Clearance all = clearance(p, q, way);
+      if (!std::isfinite(all.length)) continue;
+      ++in_line;
+      for (const double least : {all.length - 1, all.length}) {
+        const Clearance found = clearance(p, q, way, least);
+        EXPECT_EQ(found.length, all.length) << kind.name;
+        EXPECT_EQ(found.normal, all.normal) << kind.name;
+      }
+      for (const double least : {std::nextafter(all.length, 1e300), all.length + 1})
+        EXPECT_LT(clearance(p, q, way, least).length, least) << kind.name;
+    }
+  EXPECT_GT(in_line, 200);
+}
+
 }  // namespace
 }  // namespace lodestone
