@@ -46,6 +46,7 @@ def page(frames, path=None, *, title="Lodestone", frames_per_second=30.0):
     made = None
     for frame in frames:
         if made is None:
+            _check_has_detector(frame)
             made = Page(frame.detector, title=title, frames_per_second=frames_per_second)
         made.add(frame)
     if made is None:
@@ -55,10 +56,14 @@ def page(frames, path=None, *, title="Lodestone", frames_per_second=30.0):
     return made
 
 
+def _check_has_detector(frame):
+    if frame.detector is None:
+        raise BadArgument("only a frame of a Detector can be shown")
+
+
 def _show(self):
     """A page of this frame, which a notebook shows. It shows the objects where their vertices are now."""
-    if self.detector is None:
-        raise BadArgument("only a frame of a Detector can be shown")
+    _check_has_detector(self)
     made = Page(self.detector)
     made.add(self)
     return made

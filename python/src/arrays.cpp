@@ -21,11 +21,25 @@ std::string shape_of(const py::array& array) {
 }
 
 /// The argument as an array; empty if numpy makes none of it.
+/// @throws what else the argument raises when it is asked for its numbers
 std::optional<py::array> array_from(const py::object& object) {
   if (py::isinstance<py::array>(object)) return py::reinterpret_borrow<py::array>(object);
-  auto array = py::array::ensure(object);
-  if (!array) return std::nullopt;  // ensure() has cleared the error
-  return array;
+  try {
+    return py::module_::import("numpy").attr("asarray")(object).cast<py::array>();
+  } catch (py::error_already_set& error) {
+    if (error.matches(PyExc_ValueError) || error.matches(PyExc_TypeError)) return std::nullopt;
+    throw;
+  }
+}
+
+/// An attribute of an object; null if it has none.
+/// @throws what else a property raises
+py::object attribute_of(const py::object& object, const char* name) {
+  auto value = py::reinterpret_steal<py::object>(PyObject_GetAttrString(object.ptr(), name));
+  if (value) return value;
+  if (PyErr_ExceptionMatches(PyExc_AttributeError) == 0) throw py::error_already_set();
+  PyErr_Clear();
+  return value;
 }
 
 bool has_numbers(const py::array& array) { return std::string("iufb").find(array.dtype().kind()) != std::string::npos; }
@@ -148,7 +162,8 @@ std::array<double, 3> vector_of(const py::object& vector, const std::string& nam
 
 Given_mesh given_mesh(const py::object& mesh, const py::object& faces, const std::string& name) {
   if (!faces.is_none()) return {mesh, faces};
-  if (py::hasattr(mesh, "vertices") && py::hasattr(mesh, "faces")) return {mesh.attr("vertices"), mesh.attr("faces")};
+  if (auto vertices = attribute_of(mesh, "vertices"))
+    if (auto its_faces = attribute_of(mesh, "faces")) return {std::move(vertices), std::move(its_faces)};
   if (py::isinstance<py::tuple>(mesh) && py::len(mesh) == 2) {
     const auto pair = py::reinterpret_borrow<py::tuple>(mesh);
     return {pair[0], pair[1]};

@@ -84,10 +84,16 @@ void Python_object::set_frame(std::size_t frame) {
 }
 
 std::vector<double> Python_object::positions() const {
-  if (skin_) return skin_->pose();
-  std::vector<double> coordinates(mesh_->coordinates().begin(), mesh_->coordinates().end());
+  std::vector<double> coordinates;
+  if (skin_)
+    coordinates = skin_->pose();
+  else
+    coordinates.assign(mesh_->coordinates().begin(), mesh_->coordinates().end());
   if (computed_) computed_->pose_all(coordinates);
-  return coordinates;
+  if (!placement_) return coordinates;
+  std::vector<double> placed;
+  (*placement_)(coordinates, placed);
+  return placed;
 }
 
 Python_detector::Python_detector(const Detector_settings& settings)
@@ -125,7 +131,7 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
   if (py::isinstance<Python_animation>(mesh) && faces.is_none()) {
     auto animation = mesh.cast<std::shared_ptr<Python_animation>>();
     if (name.empty()) options.name = animation->name;
-    const py::gil_scoped_release release;
+    const Without_gil without_gil;
     object = std::make_unique<Python_object>(options.name, std::move(animation),
                                              settings_.options.mode == Mode::certified);
   } else if (py::isinstance<Python_skin>(mesh)) {
@@ -172,7 +178,10 @@ void Python_detector::place(Object_id object, const py::object& matrix) {
     throw Bad_argument("matrix must have the shape (4, 4)");
   const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   if (m.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw Bad_argument("the last row of matrix must be 0, 0, 0, 1");
-  change([&](auto& detector) { detector.place(object, Eigen::Isometry3d(m)); });
+  change([&](auto& detector) {
+    detector.place(object, Eigen::Isometry3d(m));
+    at(object).place(Eigen::Isometry3d(m));
+  });
 }
 
 void Python_detector::rebuild(Object_id object, const py::object& vertices, const py::object& faces,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "circle_mutex.h"
 #include "frame.h"
 #include "lodestone/detector.h"
 #include "lodestone/io/motion/computed_motion.h"
@@ -38,11 +39,14 @@ class Python_object {
   void exchange(std::unique_ptr<Live_vertices>& vertices, std::vector<Corners>& faces);
   /// Poses an animation.
   void set_frame(std::size_t frame);
+  /// Places it elsewhere from now on.
+  /// @throws Bad_argument  no rotation and translation
+  void place(const Eigen::Isometry3d& placement) { placement_ = make_rigid_motion(placement); }
 
   /// Keeps a Python object as long as this lives.
   void keep(py::object kept) { kept_.push_back(std::move(kept)); }
 
-  /// Where its vertices are. Without the GIL.
+  /// Where its vertices are, placement included. Without the GIL.
   std::vector<double> positions() const;
   /// The skin that a query reads; null: none.
   Python_skin* skin() const { return skin_.get(); }
@@ -57,6 +61,7 @@ class Python_object {
   std::unique_ptr<Computed_motion> computed_;    ///< its motion, if it is computed on demand
   std::shared_ptr<Python_skin> skin_;
   std::vector<py::object> kept_;
+  std::optional<Rigid_motion> placement_;  ///< none: where its mesh is
   std::vector<double> posed_;  ///< of an animation or a skin: a pose, at first that at rest
   std::unique_ptr<Indexed_mesh> mesh_;
 };
@@ -83,7 +88,7 @@ class Python_detector {
   /// @param question  called with the detector; must not touch Python's objects
   template <class Question>
   auto ask(const Question& question) {
-    const py::gil_scoped_release release;
+    const Without_gil without_gil;
     const std::lock_guard lock(mutex_);
     const Reading reading(*this);
     return question(detector_);
@@ -91,7 +96,7 @@ class Python_detector {
   /// The same for what reads no positions.
   template <class Change>
   auto change(const Change& change) {
-    const py::gil_scoped_release release;
+    const Without_gil without_gil;
     const std::lock_guard lock(mutex_);
     check_no_visitor();
     return change(detector_);
@@ -100,7 +105,7 @@ class Python_detector {
   /// The same for what a visitor may know.
   template <class Question>
   auto look(const Question& question) {
-    const py::gil_scoped_release release;
+    const Without_gil without_gil;
     const std::lock_guard lock(mutex_);
     return question(detector_);
   }
@@ -146,7 +151,7 @@ class Python_detector {
   Python_object& at(Object_id object) const;
 
   Detector_settings settings_;
-  std::recursive_mutex mutex_;  // a visitor that calls the detector gets an error, not a deadlock
+  Circle_mutex mutex_;     ///< a visitor that calls the detector gets an error, not a deadlock
   bool reading_ = false;        ///< a query reads; who gets here then is its visitor
   std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed
   Detector<Any_strategy> detector_;

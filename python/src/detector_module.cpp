@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <limits>
@@ -40,10 +39,10 @@ py::object parting(Python_detector& self, Object_id a, Object_id b) {
   return array_of<double>(found->translation);
 }
 
-bool visit(Python_detector& self, Object_id a, Object_id b, const std::function<py::object(std::uint32_t, std::uint32_t)>& visitor) {
+bool visit(Python_detector& self, Object_id a, Object_id b, const py::function& visitor) {
   const Visit end = self.ask([&](auto& detector) {
     return detector.visit(a, b, [&](Face_pair faces) {
-      const py::gil_scoped_acquire acquire;
+      const With_gil with_gil;
       const py::object stop = visitor(faces.a, faces.b);
       return py::bool_(stop) ? Visit::stop : Visit::go_on;
     });
@@ -183,15 +182,9 @@ void load(Python_detector& self, Object_id object, const py::bytes& saved) {
   self.change([&](auto& detector) { detector.load(object, std::as_bytes(std::span(bytes))); });
 }
 
-/// Regions of the vertices, or the vertices of the particles.
+/// Regions of the vertices.
 py::object regions(Python_detector& self, Object_id object) {
-  return array_of<std::int64_t>(self.change([&](auto& detector) {
-    const auto& map = detector.template maps<Indexed_mesh>(object).region();
-    std::vector<Region_index> labels;
-    for (std::uint32_t v = 0; v < std::size_t(std::distance(map.storage_begin(), map.storage_end())); ++v)
-      labels.push_back(get(map, v));
-    return labels;
-  }));
+  return array_of<std::int64_t>(self.change([&](auto& detector) { return detector.regions(object); }));
 }
 
 py::object particles(Python_detector& self, Object_id object) {
@@ -214,7 +207,7 @@ void promise_any(Python_detector& self, Object_id object, const py::object& give
 
 /// What a function of Python's answers. Called without the GIL.
 Aabb box_of(const py::function& function, Region_index region, const Aabb& rest_box) {
-  const py::gil_scoped_acquire gil;
+  const With_gil with_gil;
   py::array_t<double> rest({2, 3});
   std::copy_n(rest_box.low, 3, rest.mutable_data(0, 0));
   std::copy_n(rest_box.high, 3, rest.mutable_data(1, 0));
@@ -385,8 +378,8 @@ void add_detector(py::module_& module) {
       .def("point_sides", sides_array, py::arg("object"), py::arg("points"),
            "`point_side` of many points: (n,) int8: 1 inside, -1 outside, 0 on the surface.")
       .def("promise", promise_any, py::arg("object"), py::arg("promise"),
-           "Promises something about how an object moves, in mode 'certified'. Where the promise is broken, that is noticed "
-           "and the\nobject is read as a whole.")
+           "Promises something about how an object moves, in mode 'certified'. If a vertex that is read breaks the promise, the\n"
+           "object is read as a whole. If none of those that break it is read, a collision can be missed.")
       .def("ignore",
            [](Python_detector& self, Object_id a, Object_id b, bool ignored) {
              self.change([&](auto& detector) { detector.ignore(a, b, ignored); });
@@ -401,7 +394,7 @@ void add_detector(py::module_& module) {
       .def("regions", regions, py::arg("object"), "The region of each vertex: (V,) int64. After the first `detect`.")
       .def("particles", particles, py::arg("object"),
            "The vertex of each particle: (particles,) int64. Modes 'particles' and 'senin', after the first `detect`.")
-      .def("vertices", &Python_detector::positions, py::arg("object"), "Where the vertices of an object are: (V, 3), a copy.")
+      .def("vertices", &Python_detector::positions, py::arg("object"), "Where the vertices of an object are, its placement included: (V, 3), a copy.")
       .def("name", &Python_detector::name, py::arg("object"), "The name of an object.")
       .def("__len__", [](Python_detector& self) { return self.look([](auto& detector) { return detector.size(); }); },
            "Number of objects added, removed ones included.")

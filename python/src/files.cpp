@@ -8,6 +8,7 @@
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/io/results/animation_output.h"
 #include "lodestone/io/scenes/given_objects.h"
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
 #include "motion.h"
 #include "options.h"
@@ -22,7 +23,7 @@ using Path = std::filesystem::path;
 std::shared_ptr<Python_animation> read_animation_file(const Path& path, const std::optional<Path>& mesh,
                                                       const std::variant<std::size_t, std::string>& animation,
                                                       std::optional<double> frames_per_second, std::size_t max_faces) {
-  const py::gil_scoped_release release;
+  const Without_gil without_gil;
   auto read = std::make_shared<Animation>(read_animation(path, {.mesh = mesh.value_or(Path()),
                                                                 .frames_per_second = frames_per_second,
                                                                 .animation = animation,
@@ -47,7 +48,7 @@ struct Python_scene {
 };
 
 Python_scene read_scene_file(const Path& path, bool allow_outside, std::size_t max_faces) {
-  const py::gil_scoped_release release;
+  const Without_gil without_gil;
   const Scene scene = read_scene(path, {.allow_outside = allow_outside, .limits = {.max_faces = max_faces}});
   Python_scene read{.name = scene.name, .description = scene.description, .frames = scene.frames};
   for (const auto& object : scene.objects)
@@ -68,12 +69,14 @@ std::vector<std::vector<double>> frames_of(const py::object& frames) {
     all.emplace_back(rows.data(), rows.data() + rows.size());
     if (all.back().size() != all.front().size())
       throw Bad_argument("frame " + std::to_string(all.size() - 1) + " has another number of vertices than frame 0");
+    check_finite(all.back(), "frame " + std::to_string(all.size() - 1));
   }
   if (all.empty()) throw Bad_argument("there are no frames");
   return all;
 }
 
-void write(const Path& path, const py::object& frames, const py::object& faces, double frames_per_second) {
+void write(const Path& path, const py::object& frames, const py::object& faces,
+           const Animation_output_options& options) {
   Animation animation{.kind = "array"};
   const auto coordinates = frames_of(frames);
   animation.vertices = coordinates.front().size() / 3;
@@ -89,13 +92,18 @@ void write(const Path& path, const py::object& frames, const py::object& faces, 
     }
   };
   for (std::uint32_t f = 0; f < animation.faces.size(); ++f) animation.file_face.push_back(f);
-  const py::gil_scoped_release release;
-  write_animation(path, animation, {.frames_per_second = frames_per_second});
+  const Without_gil without_gil;
+  write_animation(path, animation, options);
+}
+
+void write_animation_file(const Path& path, const py::object& frames, const py::object& faces,
+                          double frames_per_second) {
+  write(path, frames, faces, {.frames_per_second = frames_per_second});
 }
 
 void write_mesh_file(const Path& path, const py::object& mesh, const py::object& faces) {
   const auto given = given_mesh(mesh, faces, "mesh");
-  write(path, py::make_tuple(given.vertices), given.faces, 30);
+  write(path, py::make_tuple(given.vertices), given.faces, {.numbered = false});
 }
 
 }  // namespace
@@ -114,7 +122,7 @@ void add_files(py::module_& module) {
   module.def("write_mesh", write_mesh_file, py::arg("path"), py::arg("mesh"), py::arg("faces") = py::none(),
              "Writes a mesh: .obj, .off, .ply, .stl, .gltf or .glb. The file appears whole or not at all.\n"
              "mesh: vertices, an array (V, 3), with `faces`; or an object that has both.");
-  module.def("write_animation", write, py::arg("path"), py::arg("frames"), py::arg("faces") = py::none(), py::kw_only(),
+  module.def("write_animation", write_animation_file, py::arg("path"), py::arg("frames"), py::arg("faces") = py::none(), py::kw_only(),
              py::arg("frames_per_second") = 30.0,
              "Writes an animation: a point cache (.pc2, .mdd), glTF (.gltf, .glb), or a pattern of mesh files such as "
              "'cloth_####.ply'.\nframes: arrays (V, 3), one per frame; an Animation will do. faces: (F, 3); point caches have "

@@ -220,7 +220,7 @@ void add_frames(py::module_& module) {
       .def_property_readonly(
           "normals", [](const py::object& self) { return kept(self, "_normals", normals_of_frame); },
           "Direction in which to push face a until the two faces only touch: (k, 3) float64 unit vectors, from b\n"
-          "towards a. None unless `contact_normals` was asked for.")
+          "towards a; 0 if neither face has an area. None unless `contact_normals` was asked for.")
       .def_property_readonly(
           "depths", [](const py::object& self) { return kept(self, "_depths", depths_of_frame); },
           "How far to push: (k,) float64, in units of the coordinates. Negative where faces are near but apart: minus\n"

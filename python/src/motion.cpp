@@ -62,13 +62,13 @@ void set_joints(Python_skin& skin, const py::object& matrices) {
       throw Bad_argument("the last row of matrix " + std::to_string(j) + " must be 0, 0, 0, 1");
     joints.emplace_back(matrix);
   }
-  py::gil_scoped_release release;
+  const Without_gil without_gil;
   skin.change([&](Skinned_points& points) { points.set_joints(joints); });
 }
 
 void set_weights(Python_skin& skin, const py::object& weights) {
   const auto numbers = numbers_of(weights, "weights");
-  py::gil_scoped_release release;
+  const Without_gil without_gil;
   skin.change([&](Skinned_points& points) {
     points.set_weights({numbers.data(), static_cast<std::size_t>(numbers.size())});
   });
@@ -80,7 +80,7 @@ py::array pose_array(const Python_animation& self, py::ssize_t frame) {
     throw py::index_error("there is no frame " + std::to_string(frame) + ": there are " + std::to_string(self.frames));
   std::vector<double> posed;
   {
-    py::gil_scoped_release release;
+    const Without_gil without_gil;
     posed = self.pose(static_cast<std::size_t>(frame));
   }
   return positions_array(posed);
@@ -158,7 +158,7 @@ void add_motions(py::module_& module) {
            [](const Python_skin& self) {
              std::vector<double> posed;
              {
-               py::gil_scoped_release release;
+               const Without_gil without_gil;
                posed = self.pose();
              }
              return positions_array(posed);

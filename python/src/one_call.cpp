@@ -34,7 +34,7 @@ py::object find_collisions(const py::object& mesh_a, const py::object& mesh_b, c
   const Asked_mesh a(mesh_a, py::none(), "a"), b(mesh_b, py::none(), "b");
   Frame frame;
   {
-    const py::gil_scoped_release release;
+    const Without_gil without_gil;
     if (auto at_once = frame_at_once(a.mesh, b.mesh, options)) {
       frame = std::move(*at_once);
     } else {
@@ -54,7 +54,7 @@ py::object self_collisions(const py::object& mesh, const py::object& faces, cons
   if (!file_vertex.is_none()) doubled = indices_of(file_vertex, "file_vertex");
   Frame frame;
   {
-    const py::gil_scoped_release release;
+    const Without_gil without_gil;
     frame = self_frame_at_once(asked.mesh, settings.options, doubled);
   }
   if (frame.pairs.empty()) frame.pairs.push_back({.a = 0, .b = 0});
@@ -65,7 +65,7 @@ py::object self_collisions(const py::object& mesh, const py::object& faces, cons
 template <class Question>
 auto ask_about(const py::object& mesh_a, const py::object& mesh_b, std::size_t threads, const Question& question) {
   const Asked_mesh a(mesh_a, py::none(), "the first argument"), b(mesh_b, py::none(), "the second argument");
-  const py::gil_scoped_release release;
+  const Without_gil without_gil;
   Detector<Any_strategy> detector({.exact = {.threads = threads}});
   detector.add(a.mesh), detector.add(b.mesh);
   return question(detector);
@@ -94,7 +94,7 @@ Python_partition divide(const py::object& mesh, const py::object& faces, const p
                         std::size_t regions, const py::kwargs& keywords) {
   const auto settings = partition_settings(strategy, keywords);
   const Asked_mesh asked(mesh, faces, "mesh");
-  const py::gil_scoped_release release;
+  const Without_gil without_gil;
   const Mesh_numbering<Indexed_mesh> numbering(asked.mesh);
   const Positions positions = read_positions(numbering, Indexed_points(asked.mesh));
   const Vertex_graph graph = vertex_graph(numbering.vertex_count(), numbering.corners());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "detector.h"
@@ -91,6 +92,8 @@ class Python_page {
         page_({.title = title,
                .mode = std::string(name_of(detector_->options().mode)),
                .frames_per_second = frames_per_second}) {
+    if (!(frames_per_second > 0) || !std::isfinite(frames_per_second))
+      throw Bad_argument("frames_per_second must be finite and > 0");
     std::size_t id = 0;
     for (auto& object : detector_->shown()) {
       sizes_.push_back({object.positions.size(), object.faces.size()});
@@ -106,7 +109,7 @@ class Python_page {
     const auto& options = detector_->options();
     auto objects = detector_->shown();
     check_objects(objects);
-    const py::gil_scoped_release release;
+    const Without_gil without_gil;
     Page_frame shown{.positions = {}, .numbers = numbers_of_frame(*frame.frame, objects)};
     if (finds_all(options.mode)) shown.stages = stages_of(*frame.frame, options.exact.tolerance > 0);
     if (options.contacts != Contact_query::yes_no) shown.contacts = contacts_of(*frame.frame, objects);
@@ -118,7 +121,7 @@ class Python_page {
 
   void save(const std::filesystem::path& path) const {
     if (path.extension() != ".html") throw Bad_argument(path.string() + ": a page is written as .html");
-    const py::gil_scoped_release release;
+    const Without_gil without_gil;
     const auto viewer = viewer_template(path);
     Atomic_file file(path);
     write_page(file, viewer, page_.title(), page_.data());
@@ -148,7 +151,7 @@ class Python_page {
 
 void add_pages(py::module_& module) {
   py::class_<Python_page>(module, "PageBase", "See `Page`.")
-      .def(py::init<std::shared_ptr<Python_detector>, const std::string&, double>(), py::arg("detector"),
+      .def(py::init<std::shared_ptr<Python_detector>, const std::string&, double>(), py::arg("detector").none(false),
            py::arg("title") = "Lodestone", py::arg("frames_per_second") = 30.0)
       .def("add", &Python_page::add, py::arg("frame"),
            "Adds a frame: what was found, and where the vertices of all objects are now. Call it before you move them.")

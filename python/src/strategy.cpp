@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "arrays.h"
+#include "gil.h"
 
 namespace lodestone::python {
 
@@ -19,7 +20,7 @@ class Function_strategy {
   explicit Function_strategy(Given_strategy given) : given_(std::move(given)) {}
 
   Labelling label(const Numbered_surface& surface, std::size_t regions) const {
-    const py::gil_scoped_acquire gil;
+    const With_gil with_gil;
     const auto& positions = surface.positions;
     const auto vertices = positions_array({positions.data(), static_cast<std::size_t>(positions.size())});
     const py::object labels = (*given_.function)(vertices, faces_array(surface.faces), regions);
@@ -43,7 +44,7 @@ Given_strategy given_strategy(const py::handle& strategy) {
     throw py::type_error("the option strategy must be a name or a function, but is " +
                          py::repr(strategy).cast<std::string>());
   const auto release = [](const py::function* function) {
-    const py::gil_scoped_acquire gil;
+    const With_gil with_gil;
     delete function;
   };
   const py::object name = py::getattr(strategy, "__name__", py::type::handle_of(strategy).attr("__name__"));

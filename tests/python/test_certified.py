@@ -124,6 +124,7 @@ def test_a_box_promise_asks_a_function():
 @pytest.mark.parametrize("box, error", [
     (lambda region, rest_box: 1 / 0, ZeroDivisionError),
     (lambda region, rest_box: rest_box[0], lodestone.BadArgument),
+    (lambda region, rest_box: rest_box[::-1], lodestone.BadArgument),
     (lambda region, rest_box: "here", lodestone.BadArgument),
     (lambda: None, TypeError),
 ])

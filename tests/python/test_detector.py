@@ -2,6 +2,8 @@
 """The class Detector: how it reads arrays, what it answers, what it refuses."""
 
 import gc
+import subprocess
+import sys
 import threading
 import weakref
 
@@ -250,8 +252,12 @@ def test_a_placed_object_is_where_its_matrix_says():
     matrix[:3, 3] = [5, 0, 0]
     detector.place(1, matrix)
     assert not detector.detect().collides and detector.closest(0, 1)["distance"] == 4
+    assert np.array_equal(detector.vertices(1), cube().vertices + [5, 0, 0])
     with pytest.raises(lodestone.BadArgument):
         detector.place(1, 2 * matrix)
+    assert np.array_equal(detector.vertices(1), cube().vertices + [5, 0, 0])
+    detector.place(1, np.eye(4))
+    assert np.array_equal(detector.vertices(1), cube().vertices)
 
 
 def test_regions_and_particles():
@@ -262,6 +268,99 @@ def test_regions_and_particles():
     regions, particles = detector.regions(0), detector.particles(0)
     assert set(regions) == set(range(12)) and len(particles) == 12
     assert regions[particles[3]] == 3 and frame.candidates
+
+
+@pytest.mark.parametrize("mode", ["exact", "certified", "particles"])
+def test_regions_of_a_skin_are_those_of_the_same_mesh(mode):
+    ball = sphere(8)
+    joints = np.zeros((len(ball.vertices), 1), dtype=int)
+    detector = lodestone.Detector(mode=mode, particles=4)
+    detector.add(lodestone.Skin(ball.vertices, joints, np.ones_like(joints, dtype=float)), ball.faces)
+    detector.add(ball)
+    with pytest.raises(lodestone.BadArgument, match="object 0 has no regions before it is asked about"):
+        detector.regions(0)
+    detector.detect()
+    assert set(detector.regions(0)) == {0, 1, 2, 3}
+    assert np.array_equal(detector.regions(0), detector.regions(1))
+
+
+def test_a_visitor_is_a_function():
+    detector = lodestone.Detector()
+    detector.add(cube()), detector.add(cube().moved(0.5))
+    with pytest.raises(TypeError):
+        detector.visit(0, 1, None)
+
+
+def test_a_ray_that_begins_on_a_face_hits_it_at_zero():
+    detector = lodestone.Detector()
+    detector.add(cube())
+    t = detector.first_hit(0, [0.25, 0.5, 1], [0, 0, -1])["t"]
+    assert t == 0 and not np.signbit(t)
+
+
+class Stubborn:
+    faces = cube().faces
+
+    @property
+    def vertices(self):
+        raise KeyboardInterrupt
+
+
+class Unreadable:
+    def __array__(self, *_):
+        raise MemoryError
+
+
+def test_what_a_property_raises_passes_through():
+    with pytest.raises(KeyboardInterrupt):
+        lodestone.Detector().add(Stubborn())
+    with pytest.raises(MemoryError):
+        lodestone.Detector().add(Unreadable(), cube().faces)
+    with pytest.raises(lodestone.BadArgument, match="vertices and faces"):
+        lodestone.Detector().add(object())
+
+
+def test_threads_that_would_wait_for_each_other_get_an_error():
+    detectors = [lodestone.Detector(), lodestone.Detector()]
+    for detector in detectors:
+        detector.add(cube()), detector.add(cube().moved(0.5))
+    both_inside = threading.Barrier(2)
+    outcomes = []
+
+    def ask(own, other):
+        def visitor(*_):
+            both_inside.wait(timeout=60)
+            other.detect()
+            return True
+
+        try:
+            own.visit(0, 1, visitor)
+            outcomes.append("answered")
+        except lodestone.BadArgument as error:
+            assert "would wait for each other" in str(error)
+            outcomes.append("refused")
+
+    threads = [threading.Thread(target=ask, args=pair) for pair in (detectors, detectors[::-1])]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(timeout=60)
+    assert sorted(outcomes) == ["answered", "refused"]
+    assert all(detector.detect().collides for detector in detectors)
+
+
+def test_python_ends_while_a_thread_asks():
+    code = """
+import threading, time, numpy, lodestone
+vertices, faces = numpy.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), numpy.array([[0, 1, 2]])
+def ask():
+    while True:
+        lodestone.find_collisions((vertices, faces), (vertices, faces))
+threading.Thread(target=ask, daemon=True).start()
+time.sleep(0.2)
+"""
+    for _ in range(3):
+        subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
 
 @pytest.mark.parametrize("mode", ["exact", "certified", "particles", "senin"])

@@ -142,6 +142,33 @@ def test_a_frame_shows_itself():
         lodestone.find_collisions(cube(), sphere()).frame.show()
 
 
+def test_the_name_of_a_mesh_file_is_taken_literally(tmp_path):
+    for name in ("scan#1.obj", "what*.ply"):
+        lodestone.write_mesh(tmp_path / name, cube())
+        assert np.array_equal(lodestone.read_mesh(tmp_path / name).vertices, cube().vertices)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["scan#1.obj", "what*.ply"]
+
+
+@pytest.mark.parametrize("name", ["a.obj", "a.stl", "a.glb"])
+def test_numbers_that_are_not_finite_are_not_written(tmp_path, name):
+    mesh = cube()
+    mesh.vertices[2, 1] = np.nan
+    with pytest.raises(lodestone.BadMesh, match="vertex 2 of frame 0"):
+        lodestone.write_mesh(tmp_path / name, mesh)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_page_needs_a_detector_and_a_speed():
+    frame = lodestone.find_collisions(cube(), cube()).frame
+    with pytest.raises(lodestone.BadArgument, match="only a frame of a Detector"):
+        lodestone.page([frame])
+    with pytest.raises(TypeError):
+        lodestone.Page(None)
+    for rate in (0, -1, float("nan"), float("inf")):
+        with pytest.raises(lodestone.BadArgument, match="frames_per_second"):
+            lodestone.Page(lodestone.Detector(), frames_per_second=rate)
+
+
 def test_a_page_takes_only_frames_of_its_detector():
     detector, other = lodestone.Detector(), lodestone.Detector()
     for each, count in ((detector, 2), (other, 3)):
