@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws a surface; a vertex is eight bytes.
 
+import { sharp } from './normals.mjs';
+
 /** A row of the palette. It has a colour per region; alpha marks the regions of candidate pairs. */
 export const row_length = 256;
 
@@ -15,6 +17,7 @@ in uvec4 vertex;
 in uvec3 regions;
 flat out uvec3 v_regions;
 out vec3 v_corner, v_normal, v_view;
+out float v_sharp;
 
 vec3 unfolded(uint folded) {
   vec2 p = vec2(folded & 255u, folded >> 8) / 127.5 - 1.0;
@@ -28,6 +31,7 @@ void main() {
   v_corner = vec3(slot == 0, slot == 1, slot == 2);  // Unspecified where faces share vertices.
   v_regions = regions;
   v_normal = normalMatrix * unfolded(vertex.w);
+  v_sharp = vertex.w == ${sharp}u ? 1.0 : 0.0;
   vec4 view = modelViewMatrix * vec4(origin + cell * vec3(vertex.xyz), 1.0);
   v_view = view.xyz;
   gl_Position = projectionMatrix * view;
@@ -46,6 +50,7 @@ uniform float opacity, line_width;
 uniform vec3 plain, accent;
 flat in uvec3 v_regions;
 in vec3 v_corner, v_normal, v_view;
+in float v_sharp;
 out vec4 pixel;
 
 vec4 look(uint region) {
@@ -86,8 +91,7 @@ void main() {
   float line = edged ? edge() : 0.0;
   if (!filled && line < 0.02) discard;
   vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
-  vec3 flat_normal = normalize(cross(dFdx(v_view), dFdy(v_view)));
-  if (dot(flat_normal, normal) < 0.77) normal = flat_normal;  // Edges sharper than 40 degrees stay sharp.
+  if (v_sharp > 0.0) normal = normalize(cross(dFdx(v_view), dFdy(v_view)));  // A corner of the face is sharp.
   vec3 to_eye = normalize(-v_view);
   vec3 to_lamp = normalize(vec3(-0.35, 0.6, 0.75));
   vec3 paint = coloured ? region_paint() : plain;
