@@ -57,7 +57,8 @@ class Detector {
 
   /// Adds an object, and adds the maps `v:region` and `v:particle` to its mesh. Two detectors that share a mesh write
   /// to the same maps.
-  /// @throws Bad_mesh      no face, a face that is not a triangle
+  /// @throws Bad_mesh      no face, a face that is not a triangle; a Surface_mesh with removed elements: call its
+  ///                       `collect_garbage` first
   /// @throws Bad_argument  the mesh has been added before; mode `exact`: `file_vertex` does not have one entry per
   /// vertex
   template <class Mesh>
@@ -173,8 +174,9 @@ class Detector {
   /// Finds the collisions between all objects where their vertices are now. The first call, and any call after an
   /// `add`, partitions the new objects.
   /// @return valid until the next call, and as long as the detector
-  /// @throws Bad_mesh  a coordinate that is read is not finite, or beyond 1e150 in mode `particles`; a mesh has another
-  ///                   number of vertices or faces than when it was added or rebuilt
+  /// @throws Bad_mesh      a coordinate that is read is not finite, or beyond 1e150 in mode `particles`; a mesh has
+  ///                       another number of vertices or faces than when it was added or rebuilt
+  /// @throws Broken_bound  mode `certified` with `Exact_options::throw_if_broken`; so does every query
   const Frame& detect() { return detection_->detect(filter_); }
   /// The same for a single pair, in mode `exact`; a = b: collisions of a with itself. Reads only these two.
   /// @throws Bad_argument  no such object, another mode
@@ -288,6 +290,13 @@ class Detector {
 
   /// Number of objects added, removed ones included: every id is below it.
   std::size_t size() const { return meshes_.size(); }
+  /// V: the region of each vertex of an object, as of its last partition; 0 where the mode makes no regions.
+  /// @throws Bad_argument  no such object, or one that no query has built yet
+  std::vector<Region_index> regions(Object_id object) const {
+    auto labels = detection_->labels(checked(object));
+    if (labels.empty()) throw Bad_argument("object " + std::to_string(object) + " has no regions before it is asked about");
+    return labels;
+  }
   /// The state of one object in a mode with particles: regions, particles, patches. Valid until it is rebuilt.
   /// @throws Bad_argument  no such object, another mode
   const Particle_object& object(Object_id object) const {

@@ -37,7 +37,8 @@ Collisions collisions_of(const Frame& frame);
 /// contacts and other modes need a Detector, which this call makes and throws away. To follow meshes that move, keep a
 /// Detector. The query `first` gives one contact, which need not be the one that a Detector gives.
 ///
-/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
+/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, a Surface_mesh with
+///                       removed elements
 /// @throws Bad_argument  an option out of range, or one mesh given twice
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
 Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {}) {
@@ -47,14 +48,15 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
   return collisions_of(finds_all(options.mode) ? detector.detect(first, second) : detector.detect());
 }
 
-/// Finds the faces of one mesh that intersect each other, with one call, in mode `exact`. `Collisions::faces` are face
-/// pairs a < b. Which faces count, and what options mean, is as in a Detector with `Exact_options::self_collision`,
+/// Finds the faces of one mesh that intersect each other, with one call. `Collisions::faces` are face pairs a < b. Which faces count, and what options mean, is as in a Detector with `Exact_options::self_collision`,
 /// which this call sets. It gives the same contacts and keeps nothing: see `self_frame_at_once`.
 ///
-/// Nothing moves between two frames, so a `self_tolerance` finds no more than faces that intersect.
+/// Nothing moves between two frames, so a `self_tolerance` finds no more than faces that intersect. A `tolerance` is
+/// between two objects, and changes nothing. Modes `exact` and `certified` do the same.
 ///
 /// @param file_vertex    which vertices are one: see `Object_options::file_vertex`
-/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
+/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, a Surface_mesh with
+///                       removed elements
 /// @throws Bad_argument  an option out of range, another mode; `file_vertex` does not have one entry per vertex
 template <Triangle_mesh Mesh>
 Collisions find_self_collisions(const Mesh& mesh, const Detector_options& options = {},

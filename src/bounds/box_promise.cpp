@@ -16,7 +16,10 @@ Promised_boxes::Promised_boxes(const Box_promise& promise, const Bounded_object&
 
 Aabb Promised_boxes::box(std::uint32_t node) const {
   Aabb box = promise_->box(regions_[node], rest_[node]);
-  for (std::size_t axis = 0; axis < 3; ++axis) open_if_not_finite(box, axis);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box.low[axis] > box.high[axis]) throw Bad_argument("a box of a promise ends before it begins");
+    open_if_not_finite(box, axis);
+  }
   return box;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/files/small_text.h"
+#include "io/gltf/gltf_scene.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/animation_edits.h"
 #include "lodestone/io/results/animation_output.h"
@@ -74,6 +75,8 @@ std::string use_of_faces(const Convert_command& command) {
 }
 
 void check_faces(const Animation& animation, const Convert_command& command) {
+  if (command.regions > 0 && !is_gltf(command.output))
+    throw Bad_argument(fmt::format("{}: --regions colours the vertices of .gltf and .glb files", command.output.string()));
   const auto use = use_of_faces(command);
   if (animation.faces.empty() && !use.empty())
     throw Bad_argument(

@@ -27,8 +27,10 @@ void write_results(Detect_run& scene_run, std::optional<Atomic_file>& frames, co
     frames->finish();
     summary->finish();
   }
+  check_interrupt();
   if (scene_run.page() != nullptr) scene_run.page()->finish();
   if (scene_run.paraview() != nullptr) scene_run.paraview()->finish();
+  check_interrupt();  // a large page takes a while
   if (frames) frames->commit();
   if (summary) summary->commit();
   if (scene_run.page() != nullptr) scene_run.page()->commit();

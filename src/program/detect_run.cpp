@@ -116,7 +116,7 @@ std::string Detect_run::play(std::size_t frame) {
   pose_all(frame);
   const Frame& result = detect();
   tally_ = {.frame = frame, .pairs = result.pairs, .statistics = result.statistics};
-  if (paraview_) paraview_->add(frame, scene_, result);
+  if (paraview_) paraview_->add(frame, scene_, *detector_, result);
   const auto truth = find_truth();
   if (truth) compare(result, *truth);
   const auto closest = find_closest();

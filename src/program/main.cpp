@@ -330,6 +330,8 @@ int run_commands(int argc, char** argv) {
   if (program.got_subcommand("detect")) {
     const auto& app = *program.get_subcommand("detect");
     refuse_options_of_other_modes(app, detect.options.mode);
+    if (app.count("--most-contacts") > 0 && detect.options.contacts != Contact_query::all)
+      throw Bad_argument("--most-contacts needs --contacts all: otherwise one face pair is listed at most");
     detect.words = words_of_work({argv + 1, argv + argc});
     // Shards cannot know what earlier frames have done to the trees.
     detect.independent_frames |= finds_all(detect.options.mode) && (detect.shard || detect.merge_shards);

@@ -15,12 +15,16 @@ namespace lodestone {
 
 namespace {
 
-using Region_property_map = Surface_mesh::Property_map<Surface_mesh::Vertex_index, Region_index>;
 using Numbers = std::vector<std::uint32_t>;
 using Marks = std::vector<std::uint8_t>;
 
-Region_property_map property(const Surface_mesh& mesh, const char* name) {
-  return mesh.property_map<Surface_mesh::Vertex_index, Region_index>(name).first;
+/// Per vertex the region whose particle is there, or `no_particle`. Meshes whose positions are computed have none.
+std::vector<Region_index> particles_at(const Surface_mesh& mesh) {
+  std::vector<Region_index> particles(mesh.number_of_vertices(), no_particle);
+  const auto [map, exists] = mesh.property_map<Surface_mesh::Vertex_index, Region_index>("v:particle");
+  if (exists)
+    for (const auto v : mesh.vertices()) particles[v] = map[v];
+  return particles;
 }
 
 Triangle triangle_of(const Surface_mesh& mesh, std::uint32_t face) {
@@ -42,7 +46,7 @@ std::vector<Marks> touched_faces(const Scene& scene, const Frame& result) {
 }
 
 /// All objects as one surface, with the data of each vertex and face.
-Vtp_data meshes_of(const Scene& scene, const Frame& result) {
+Vtp_data meshes_of(const Scene& scene, const Scene_detector& detector, const Frame& result) {
   Vtp_data data;
   Numbers region, object_of_vertex, vertex, object_of_face, face;
   Marks particle, contact;
@@ -50,7 +54,7 @@ Vtp_data meshes_of(const Scene& scene, const Frame& result) {
   for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
     const auto& [mesh, file_vertex] = std::tie(scene.objects[o].mesh, scene.objects[o].file_vertex);
     const auto first = static_cast<std::uint32_t>(data.points.size());
-    const auto regions = property(mesh, "v:region"), particles = property(mesh, "v:particle");
+    const auto regions = detector.regions(o), particles = particles_at(mesh);
     for (const auto v : mesh.vertices()) {
       data.points.push_back(mesh.point(v));
       region.push_back(regions[v]);
@@ -80,7 +84,7 @@ Vtp_data particles_of(const Scene& scene) {
   Numbers region, object;
   for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
     const auto& mesh = scene.objects[o].mesh;
-    const auto particles = property(mesh, "v:particle");
+    const auto particles = particles_at(mesh);
     for (const auto v : mesh.vertices()) {
       if (particles[v] == no_particle) continue;
       data.vertices.push_back({static_cast<std::uint32_t>(data.points.size())});
@@ -133,8 +137,8 @@ Vtp_data contacts_of(const Scene& scene, const Frame& result) {
 Paraview_log::Paraview_log(const std::filesystem::path& folder, std::size_t frames)
     : files_(folder), digits_(std::max<std::size_t>(4, fmt::formatted_size("{}", frames - 1))) {}
 
-void Paraview_log::add(std::size_t frame, const Scene& scene, const Frame& result) {
-  write(meshes_, frame, meshes_of(scene, result));
+void Paraview_log::add(std::size_t frame, const Scene& scene, const Scene_detector& detector, const Frame& result) {
+  write(meshes_, frame, meshes_of(scene, detector, result));
   write(particles_, frame, particles_of(scene));
   write(contacts_, frame, contacts_of(scene, result));
 }

@@ -10,6 +10,7 @@
 #include "lodestone/io/files/atomic_files.h"
 #include "lodestone/io/results/vtp.h"
 #include "lodestone/io/scenes/scene_file.h"
+#include "program/page_log.h"
 
 namespace lodestone {
 
@@ -20,9 +21,9 @@ class Paraview_log {
   /// @param frames  number of frames that will be added
   Paraview_log(const std::filesystem::path& folder, std::size_t frames);
 
-  /// @param scene   posed at `frame`; its meshes have the detector's property maps
-  /// @param result  the detector's result for that frame
-  void add(std::size_t frame, const Scene& scene, const Frame& result);
+  /// @param scene     posed at `frame`
+  /// @param detector  that has found `result` in that frame
+  void add(std::size_t frame, const Scene& scene, const Scene_detector& detector, const Frame& result);
   /// Writes the lists of frames. After this only a rename can fail.
   void finish();
   void commit() { files_.commit(); }

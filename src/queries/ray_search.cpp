@@ -136,6 +136,7 @@ Ray_hit rounded(const Ray_frame& frame, Hit& hit) {
   const double depth = is_precise ? hit.low / 2 + hit.high / 2 : rounded(hit.exact_depth_on(frame));
   Ray_hit result{.face = hit.face};
   result.t = is_precise ? depth / d_z : rounded(hit.exact_depth_on(frame) / Exact_depth(d_z));
+  result.t += 0.0;  // no negative zero
   for (int axis = 0; axis < 3; ++axis) result.point[axis] = frame.origin[axis] + depth * (frame.direction[axis] / d_z);
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "bounds/given_object.h"
 #include "lodestone/mesh/errors.h"
@@ -50,6 +51,18 @@ TEST(Box_promise, is_asked_with_the_box_at_rest_and_taken_as_it_is) {
   });
   const Promised_boxes bound = promise.bound(object.bounded());
   for (std::uint32_t node = 0; node < bound.node_count(); ++node) EXPECT_EQ(bound.box(node), object.fitted_node(node));
+}
+
+TEST(Box_promise, refuses_a_box_that_ends_before_it_begins) {
+  Given_object object(potato(3));
+  int axis = 0;
+  const Box_promise promise([&](Region_index, const Aabb& rest) {
+    Aabb box = rest;
+    std::swap(box.low[axis], box.high[axis]);
+    return box;
+  });
+  const Promised_boxes bound = promise.bound(object.bounded());
+  for (axis = 0; axis < 3; ++axis) EXPECT_THROW(bound.box(0), Bad_argument);
 }
 
 TEST(Box_promise, opens_axes_that_are_not_finite) {

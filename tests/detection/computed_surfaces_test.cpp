@@ -4,6 +4,8 @@
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "lodestone/io/motion/deformed_points.h"
 #include "lodestone/mesh/computed_points.h"
 #include "lodestone/mesh/skinned_points.h"
@@ -82,6 +84,21 @@ TEST_P(Computed_surfaces, have_the_frames_of_surfaces_that_are_written_to_the_me
     if (GetParam() == Mode::exact) expect_exhaustive(expected, {&written_a, &written_b});
   }
   EXPECT_GT(collisions, 3);
+}
+
+TEST_P(Computed_surfaces, have_the_regions_of_the_same_mesh) {
+  Surface_mesh mesh = sphere(12), same = mesh;
+  const auto points = CGAL::get_const_property_map(CGAL::vertex_point, std::as_const(mesh));
+  Detector detector({.mode = GetParam(), .particles = 5});
+  detector.add(std::as_const(mesh), points);
+  detector.add(same);
+  EXPECT_THROW(detector.regions(0), Bad_argument);
+  EXPECT_THROW(detector.regions(2), Bad_argument);
+  detector.detect();
+  const auto regions = detector.regions(0);
+  EXPECT_EQ(regions, detector.regions(1));
+  EXPECT_EQ(std::set(regions.begin(), regions.end()), (std::set<Region_index>{0, 1, 2, 3, 4}));
+  for (const auto v : same.vertices()) EXPECT_EQ(get(detector.maps(1).region(), v), regions[v]);
 }
 
 INSTANTIATE_TEST_SUITE_P(modes, Computed_surfaces, testing::Values(Mode::exact, Mode::particles),

@@ -101,6 +101,7 @@ TEST_F(Convert, refuses_contradictory_arguments) {
   convert("f*.off", "a.pc2");
   expect_error(run_program({"convert", path("a.pc2"), path("a.glb")}), 2, "--mesh");
   expect_error(run_program({"convert", path("a.pc2"), path("a.mdd"), "--regions", "2"}), 2, "--regions");
+  expect_error(run_program({"convert", path("f*.off"), path("a#.ply"), "--regions", "2"}), 2, "--regions");
   expect_error(run_program({"convert", path("f*.off"), path("a.off")}), 2, "12 frames need a pattern");
   expect_error(run_program({"convert", path("f*.off"), path("a.xyz")}), 2, "a.xyz");
   expect_error(run_program({"convert", path("f*.off"), path("square.off/a.pc2")}), 4, "square.off");

@@ -160,6 +160,7 @@ TEST_F(Exact, reports_faces_of_one_object_within_a_distance) {
 
 TEST_F(Exact, reports_where_the_limit_dropped_contacts) {
   const auto scene = write_bodies();
+  expect_error(run_program({"detect", scene, "--most-contacts", "3"}), 2, "--contacts all");
   expect_success(detect(scene, {"--contacts", "all", "--most-contacts", "3"}));
   std::size_t capped = 0;
   for (const auto& frame : frames())

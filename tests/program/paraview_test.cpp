@@ -82,6 +82,20 @@ TEST_F(Paraview, meshes_have_objects_regions_and_particles) {
   EXPECT_EQ(marked, 4U);
 }
 
+TEST_F(Paraview, mode_certified_writes_the_meshes_and_contacts_of_mode_exact) {
+  const auto shown = [&](const std::string& mode) {
+    expect_success(run_program({"detect", scene.string(), "--mode", mode, "--particles", "2", "--contacts", "all",
+                                "--paraview", out.string(), "--quiet"}));
+    return read_vtk({frame("meshes_0000"), frame("meshes_0002"), frame("contacts_0002")});
+  };
+  const auto certified = shown("certified");
+  EXPECT_EQ(certified[1]["bounds"], Json({0, 1.25, 0, 1, 0, 1}));
+  auto exact = shown("exact");
+  // Objects whose positions are computed carry no particles.
+  for (std::size_t i = 0; i < 2; ++i) exact[i]["point_data"]["particle"] = certified[i]["point_data"]["particle"];
+  EXPECT_EQ(certified, exact);
+}
+
 TEST_F(Paraview, contacts_are_those_of_the_frame_log) {
   detect({"--mode", "exact", "--contacts", "all", "--points", "--out", (folder.path() / "log").string()});
   const auto lines = read_json_lines(folder.path() / "log" / "frames.jsonl");

@@ -26,6 +26,7 @@ class Promised_boxes {
   /// Number of nodes of the tree.
   std::size_t node_count() const { return rest_.size(); }
   /// The box of a node in the current pose: one call of the promise.
+  /// @throws Bad_argument  a lower end is above the upper one
   Aabb box(std::uint32_t node) const;
 
  private:
@@ -38,7 +39,8 @@ class Promised_boxes {
 ///
 /// The caller's function is given a region, and a box at rest. It returns a box that contains, in the current pose and
 /// as they are computed, all vertices of that region that lie in the given box at rest. With `several_regions` they are
-/// those of any region. The result is taken as it is; an axis with an end that is not finite is open.
+/// those of any region. The result is taken as it is; an axis with an end that is not finite is open. A lower end above
+/// the upper one is an error of the query.
 ///
 /// The function may be called by several threads at once, and several times with the same arguments.
 class Box_promise {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "lodestone/detection/collision_filter.h"
 #include "lodestone/detection/detector_options.h"
@@ -46,6 +47,9 @@ class Detection {
   /// Takes what `save` has written of an object with the same faces, in place of building it.
   /// @throws Bad_saved_object  the object stays as it was
   virtual void load(Object_id object, State_reader& state) = 0;
+
+  /// V: the region of each vertex of an object, 0 where it has no regions. Empty before it has been built.
+  virtual std::vector<Region_index> labels(Object_id object) const = 0;
 
   /// Forgets an object, and refers to its mesh no more.
   /// @throws Bad_argument  a visitor is being shown face pairs; the object stays

@@ -94,6 +94,8 @@ class Exact_detection final : public Detection {
     objects_.load(object, state);
   }
 
+  std::vector<Region_index> labels(Object_id object) const override { return objects_[object].labels(); }
+
   void remove(Object_id object) override {
     check_no_visitor();
     objects_.remove(object);

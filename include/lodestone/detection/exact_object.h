@@ -87,6 +87,12 @@ class Exact_object {
   /// Writes the regions of what has been built to the mesh.
   void finish();
 
+  /// V: the region of each vertex, 0 where there are none. Empty before it is built.
+  std::vector<Region_index> labels() const {
+    if (!built) return {};
+    return regions_ ? regions_->labels : std::vector<Region_index>(faces_.mesh->vertex_count(), 0);
+  }
+
   /// Takes the positions with which it has been built as those at rest, unless it has some.
   void keep_rest() {
     if (!surface.rest().empty()) return;

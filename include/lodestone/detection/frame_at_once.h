@@ -73,7 +73,8 @@ std::optional<Frame> frame_at_once(const Mesh_a& a, const Mesh_b& b, const Detec
 ///
 /// @param file_vertex    see `Object_options::file_vertex`
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
-/// @throws Bad_argument  an option out of range, another mode; `file_vertex` does not have one entry per vertex
+/// @throws Bad_argument  an option out of range, another mode than `exact` or `certified`; `file_vertex` does not have
+///                       one entry per vertex
 template <Triangle_mesh Mesh>
 Frame self_frame_at_once(const Mesh& mesh, Detector_options options, std::span<const std::uint32_t> file_vertex = {}) {
   options.exact.self_collision = true;

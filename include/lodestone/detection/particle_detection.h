@@ -49,6 +49,9 @@ class Particle_detection final : public Detection {
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override;
   void save(Object_id object, State_writer& state) override;
   void load(Object_id object, State_reader& state) override;
+  std::vector<Region_index> labels(Object_id object) const override {
+    return objects_[object]->prepared ? objects_[object]->particle_object.labels() : std::vector<Region_index>();
+  }
   void remove(Object_id object) override {
     objects_[object].reset();
     meeting_search_.forget(object);

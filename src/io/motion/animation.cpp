@@ -126,7 +126,8 @@ Animation read_animation(const fs::path& input, const Animation_options& options
   if (is_cache(input)) return cache(input, options.mesh, options.limits);
   if (!options.mesh.empty())
     throw Bad_argument(fmt::format("{}: only a point cache needs a mesh beside it", input.string()));
-  if (is_pattern(input)) return sequence(input, options.limits);
+  std::error_code ignored;
+  if (is_pattern(input) && !fs::is_regular_file(input, ignored)) return sequence(input, options.limits);
   if (is_game_model(input)) return game_model(input, options.limits);
   return is_gltf(input) ? gltf(input, options) : still(input, options.limits);
 }

@@ -21,7 +21,7 @@ class Animation_frames {
   /// @throws Bad_motion
   std::span<const Point> positions(std::size_t i);
   /// The same in floats: x y z, vertex by vertex.
-  /// @throws Bad_motion  a coordinate is too large for a float
+  /// @throws Bad_motion  a coordinate is too large for a float, or all of a frame are too small for one
   std::span<const float> floats(std::size_t i);
 
  private:

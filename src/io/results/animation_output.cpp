@@ -47,13 +47,18 @@ std::span<const Point> Animation_frames::positions(std::size_t i) {
 
 std::span<const float> Animation_frames::floats(std::size_t i) {
   floats_.clear();
+  double largest = 0;
   for (const Point& point : positions(i))
     for (int axis = 0; axis < 3; ++axis) {
-      floats_.push_back(static_cast<float>(point[axis]));
-      if (!std::isfinite(floats_.back()))
+      if (!std::isfinite(static_cast<float>(point[axis])))
         throw Bad_motion(fmt::format("frame {}, vertex {} (counted from 0): {} is too large for a float", numbers_[i],
                                      floats_.size() / 3, point[axis]));
+      floats_.push_back(static_cast<float>(point[axis]));
+      largest = std::max(largest, std::abs(point[axis]));
     }
+  if (largest > 0 && largest < std::numeric_limits<float>::min())
+    throw Bad_motion(
+        fmt::format("frame {}: its largest coordinate, {}, is too small for a float", numbers_[i], largest));
   return floats_;
 }
 
@@ -127,42 +132,38 @@ std::string ply_text(std::span<const Point> points, std::span<const Corners> fac
   return bytes;
 }
 
-float as_float(double coordinate) {
-  const auto value = static_cast<float>(coordinate);
-  if (!std::isfinite(value)) throw Bad_motion(fmt::format("{} is too large for a float", coordinate));
-  return value;
-}
-
 /// Binary, with normals of zero: a reader computes them from the corners.
-std::string stl_bytes(std::span<const Point> points, std::span<const Corners> faces) {
+std::string stl_bytes(std::span<const float> coordinates, std::span<const Corners> faces) {
   std::string bytes(80, '\0');
   append(bytes, static_cast<std::uint32_t>(faces.size()));
   for (const auto& face : faces) {
     bytes.append(3 * sizeof(float), '\0');
     for (const auto corner : face)
-      for (int axis = 0; axis < 3; ++axis) append(bytes, as_float(points[corner][axis]));
+      for (std::size_t axis = 0; axis < 3; ++axis) append(bytes, coordinates[3 * std::size_t{corner} + axis]);
     append(bytes, std::uint16_t{0});
   }
   return bytes;
 }
 
-std::string mesh_bytes(const std::string& extension, std::span<const Point> points, std::span<const Corners> faces) {
+std::string mesh_bytes(const std::string& extension, Animation_frames& frames, std::size_t i,
+                       std::span<const Corners> faces) {
+  if (extension == ".stl") return stl_bytes(frames.floats(i), faces);
+  const auto points = frames.positions(i);
   if (extension == ".off") return off_text(points, faces);
-  if (extension == ".obj") return obj_text(points, faces);
-  return extension == ".stl" ? stl_bytes(points, faces) : ply_text(points, faces);
+  return extension == ".obj" ? obj_text(points, faces) : ply_text(points, faces);
 }
 
 void write_meshes(const fs::path& output, const std::string& extension, Animation_frames frames,
-                  std::span<const Corners> faces) {
-  const bool numbered = is_pattern(output);
+                  std::span<const Corners> faces, bool can_be_numbered) {
+  const bool numbered = can_be_numbered && is_pattern(output);
   if (!numbered && frames.size() != 1)
     throw Bad_argument(fmt::format("{}: {} frames need a pattern of numbered files, such as frame_####{}",
                                    output.string(), frames.size(), extension));
   Atomic_files files(output.parent_path());
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const auto points = frames.positions(i);
+    const std::string bytes = mesh_bytes(extension, frames, i, faces);
     Atomic_file out(files.add((numbered ? numbered_file(output, i) : output).filename()));
-    out.write(mesh_bytes(extension, points, faces));
+    out.write(bytes);
     out.commit();
   }
   files.commit();
@@ -195,7 +196,7 @@ void write_animation(const fs::path& output, const Animation& animation, const A
   if (animation.faces.empty())
     throw Bad_argument(
         fmt::format("{}: needs faces, which a point cache does not have: give its mesh", output.string()));
-  if (is_mesh) return write_meshes(output, extension, {animation, options}, animation.faces);
+  if (is_mesh) return write_meshes(output, extension, {animation, options}, animation.faces, options.numbered);
   write_gltf(output, animation, options);
 }
 

@@ -245,6 +245,28 @@ TEST_F(Animation_output, a_failed_output_leaves_no_file) {
   }
 }
 
+TEST_F(Animation_output, refuses_frames_that_are_too_small_for_floats) {
+  auto small = square;
+  small.motion.pose = [pose = square.motion.pose](std::size_t frame, std::span<Point> positions) {
+    pose(frame, positions);
+    if (frame == 2)
+      for (Point& p : positions) p = Point(1e-300 * p.x(), 1e-300 * p.y(), 1e-300 * p.z());
+  };
+  for (const std::string name : {"a.pc2", "a.mdd", "a.gltf", "a.glb", "f#.stl"})
+    EXPECT_THROW(write_animation(folder.path() / name, small), Bad_motion) << name;
+  EXPECT_EQ(names_in(folder.path()), std::set<std::string>{});
+  EXPECT_NO_THROW(write_animation(folder.path() / "f#.ply", small));
+}
+
+TEST_F(Animation_output, a_name_can_be_meant_literally) {
+  const auto file = folder.path() / "what#1*.off";
+  EXPECT_THROW(write_animation(file, square, {.frames = {0}}), Bad_argument);
+  write_animation(file, square, {.frames = {1}, .numbered = false});
+  EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"what#1*.off"});
+  expect_frames(read_animation(file), {1}, 0);
+  EXPECT_THROW(write_animation(file, square, {.numbered = false}), Bad_argument);
+}
+
 TEST_F(Animation_output, can_be_abandoned_between_frames) {
   struct Enough {};
   for (const std::string name : {"a.pc2", "a.glb", "a.gltf", "f#.obj"}) {

@@ -15,6 +15,7 @@ struct Animation_output_options {
   std::vector<std::size_t> frames = {};    ///< frames of the motion, in output order; empty: all
   double frames_per_second = 30;           ///< of the output; > 0
   std::vector<Region_index> regions = {};  ///< per vertex: its region, shown as vertex colours in glTF; empty: none
+  bool numbered = true;  ///< whether `*` and `#` in the name of a mesh file stand for the number of the frame
   /// Called between frames. If it throws, the output is abandoned and nothing is written.
   std::function<void(std::size_t done, std::size_t of)> progress = {};
 };
@@ -32,7 +33,7 @@ struct Animation_output_options {
 /// 2048 frames. Its animation shows the frames in order, with linear interpolation. glTF, STL and point caches store
 /// floats, other mesh files doubles.
 ///
-/// @throws Bad_motion    a frame is broken, a coordinate is too large for a float
+/// @throws Bad_motion    a frame is broken, a coordinate is too large for a float, or all of a frame are too small
 /// @throws Bad_argument  an extension not listed, no faces where the format needs them, too many frames for the format
 /// @throws Bad_output
 void write_animation(const std::filesystem::path& output, const Animation& animation,
