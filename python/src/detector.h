@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "arrays.h"
-#include "circle_mutex.h"
+#include "deadlock_mutex.h"
 #include "frame.h"
 #include "lodestone/detector.h"
 #include "lodestone/io/motion/computed_motion.h"
@@ -151,7 +151,7 @@ class Python_detector {
   Python_object& at(Object_id object) const;
 
   Detector_settings settings_;
-  Circle_mutex mutex_;     ///< a visitor that calls the detector gets an error, not a deadlock
+  Deadlock_mutex mutex_;     ///< a visitor that calls the detector gets an error, not a deadlock
   bool reading_ = false;        ///< a query reads; who gets here then is its visitor
   std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed
   Detector<Any_strategy> detector_;

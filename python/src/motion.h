@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "circle_mutex.h"
+#include "deadlock_mutex.h"
 #include "gil.h"
 #include "lodestone/detection/collision_groups.h"
 #include "lodestone/io/motion/animation.h"
@@ -59,12 +59,12 @@ class Python_skin {
 
    private:
     Python_skin& skin_;
-    std::unique_lock<Circle_mutex> lock_;
+    std::unique_lock<Deadlock_mutex> lock_;
   };
 
  private:
   Skinned_points points_;
-  mutable Circle_mutex mutex_;  ///< a visitor may look at the pose, and ask other detectors
+  mutable Deadlock_mutex mutex_;  ///< a visitor may look at the pose, and ask other detectors
   int readers_ = 0;                     ///< queries of the thread that holds the mutex
 };
 
