@@ -23,6 +23,7 @@
 #include "lodestone/queries/ray_search.h"
 #include "shared/lap_timer.h"
 #include "shared/measured_run.h"
+#include "shared/random_rays.h"
 
 namespace lodestone {
 
@@ -185,21 +186,6 @@ struct Wavy_sphere {
   std::vector<double> rest_;
 };
 
-/// Random rays with origins and directions that float represents, so that all libraries get the same ones. Half of the
-/// origins are outside of the sphere.
-std::vector<Ray> random_rays(std::size_t count) {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<float> unit(-1, 1);
-  std::vector<Ray> rays;
-  while (rays.size() < count) {
-    const auto vector = [&] { return Eigen::Vector3d(unit(random), unit(random), unit(random)); };
-    const Eigen::Vector3d origin = (rays.size() % 2 == 0 ? 2.0 : 0.5) * vector(), at = vector();
-    const Eigen::Vector3d direction = (at - origin).cast<float>().cast<double>();
-    if (!direction.isZero()) rays.push_back({origin, direction});
-  }
-  return rays;
-}
-
 std::size_t differences(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i] ? 1 : 0;
@@ -295,8 +281,7 @@ void closest_points_of_mesh(benchmark::State& state) {
   Cgal_tree cgal(faces(sphere.mesh).first, faces(sphere.mesh).second, sphere.mesh);
   cgal.build();
   cgal.accelerate_distance_queries();
-  std::vector<Point> points;
-  for (const Ray& ray : random_rays(4000)) points.emplace_back(ray.origin.x(), ray.origin.y(), ray.origin.z());
+  const auto points = random_ray_origins(4000);
   const Layout_view view = sphere.tree.view();
   Answers ours, of_cgal;
   for (auto _ : state) {

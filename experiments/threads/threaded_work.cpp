@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <random>
-#include <span>
 #include <utility>
 
 #include "lodestone/detector.h"
 #include "lodestone/mesh/computed_points.h"
 #include "shared/lap_timer.h"
+#include "shared/random_rays.h"
 
 namespace lodestone {
 
@@ -86,19 +85,6 @@ Threaded_work distance(Moving_pair& pair) {
           }};
 }
 
-/// Many rays, or the points where they start, asked about the first sphere.
-std::vector<Ray> rays_around(std::size_t count) {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  std::vector<Ray> rays;
-  while (rays.size() < count) {
-    const auto vector = [&] { return Eigen::Vector3d(unit(random), unit(random), unit(random)); };
-    const Eigen::Vector3d origin = 2 * vector(), direction = vector() - origin;
-    if (!direction.isZero()) rays.push_back({origin, direction});
-  }
-  return rays;
-}
-
 /// Many questions about the first sphere at once.
 /// @param ask  called with a detector
 template <class Ask>
@@ -149,9 +135,8 @@ Threaded_work crowd_frame(Scene& crowd, const std::string& name, const Detector_
 std::vector<Threaded_work> works_on(Moving_pair& pair) {
   using enum Moving_pair::Place;
   constexpr auto yes_no = Contact_query::yes_no;
-  const std::vector<Ray> rays = rays_around(10000);
-  std::vector<Point> points;
-  for (const Ray& ray : std::span(rays).first(1000)) points.emplace_back(ray.origin.x(), ray.origin.y(), ray.origin.z());
+  const std::vector<Ray> rays = random_rays(10000);
+  const std::vector<Point> points = random_ray_origins(1000);
   std::vector<Threaded_work> works{
       build(pair, {"exact: first answer", {}}),
       build(pair, {"exact: first answer, 12 regions by LBG", {.particles = 12}}),

@@ -74,9 +74,13 @@ std::string use_of_faces(const Convert_command& command) {
   return extension == ".pc2" || extension == ".mdd" ? "" : extension;
 }
 
-void check_faces(const Animation& animation, const Convert_command& command) {
+void check_colours(const Convert_command& command) {
   if (command.regions > 0 && !is_gltf(command.output))
-    throw Bad_argument(fmt::format("{}: --regions colours the vertices of .gltf and .glb files", command.output.string()));
+    throw Bad_argument(fmt::format("{}: --regions needs .gltf or .glb, the formats that are written with colours",
+                                   command.output.string()));
+}
+
+void check_faces(const Animation& animation, const Convert_command& command) {
   const auto use = use_of_faces(command);
   if (animation.faces.empty() && !use.empty())
     throw Bad_argument(
@@ -104,6 +108,7 @@ void report(const Convert_command& command, const Animation& original, const Ani
 }  // namespace
 
 int run(const Convert_command& command) {
+  check_colours(command);
   const auto original = read_input(command);
   check_faces(original, command);
   const auto animation = edited(original, command);

@@ -15,6 +15,7 @@
 #include "program/frame_tally.h"
 #include "program/page_log.h"
 #include "program/paraview_log.h"
+#include "program/scene_detector.h"
 #include "program/scene_hash.h"
 
 namespace lodestone {

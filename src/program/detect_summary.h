@@ -13,7 +13,7 @@
 #include "program/frame_log.h"
 #include "program/frame_tally.h"
 #include "program/measurement.h"
-#include "program/page_log.h"
+#include "program/scene_detector.h"
 
 namespace lodestone {
 

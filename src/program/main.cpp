@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -78,9 +79,19 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
       ->capture_default_str();
 }
 
+CLI::Validator distance_check() {
+  return {[](const std::string& text) {
+            double distance = 0;
+            const bool is_one = CLI::detail::lexical_cast(text, distance) && distance >= 0 && std::isfinite(distance);
+            return is_one ? std::string() : "not a finite number of 0 or more: " + text;
+          },
+          "0 or more"};
+}
+
 void add_exact_options(CLI::App& app, Exact_options& options) {
   app.add_option("--within", options.tolerance,
                  "Mode exact: report face pairs nearer than this, and which objects are near; 0: faces that intersect")
+      ->check(distance_check())
       ->capture_default_str();
   auto* const self = app.add_flag("--self", options.self_collision,
                                   "Mode exact: also report an object's faces that intersect each other");
@@ -89,6 +100,7 @@ void add_exact_options(CLI::App& app, Exact_options& options) {
          "Mode exact, with --self: also report an object's faces nearer than this, unless they share a vertex or "
          "were nearer than twice this in the first frame; 0: faces that intersect")
       ->needs(self)
+      ->check(distance_check())
       ->capture_default_str();
   app.add_flag("--containment", options.containment, "Mode exact: also report objects that lie inside others");
   app.add_flag("--parting", options.parting,

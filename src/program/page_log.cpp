@@ -67,12 +67,6 @@ Json microseconds(const Stage_times& seconds) {
 
 }  // namespace
 
-bool makes_regions(const Detector_options& options, const Scene& scene) {
-  const auto asks = [](const auto& object) { return object.particles > 0; };
-  return options.mode == Mode::particles ||
-         (finds_all(options.mode) && (options.particles > 0 || std::ranges::any_of(scene.objects, asks)));
-}
-
 Page_log::Page_log(const Detect_command& command, const Scene& scene, const Scene_detector& detector)
     : command_(command),
       scene_(scene),

@@ -9,13 +9,9 @@
 #include "lodestone/io/scenes/scene_file.h"
 #include "program/commands.h"
 #include "program/page_file.h"
+#include "program/scene_detector.h"
 
 namespace lodestone {
-
-using Scene_detector = Detector<Any_strategy>;
-
-/// Whether a run divides surfaces into regions: mode `exact` does only if they are asked for.
-bool makes_regions(const Detector_options& options, const Scene& scene);
 
 /// Makes the page of a run of `detect`.
 ///

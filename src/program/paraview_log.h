@@ -10,7 +10,7 @@
 #include "lodestone/io/files/atomic_files.h"
 #include "lodestone/io/results/vtp.h"
 #include "lodestone/io/scenes/scene_file.h"
-#include "program/page_log.h"
+#include "program/scene_detector.h"
 
 namespace lodestone {
 

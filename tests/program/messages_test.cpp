@@ -66,6 +66,25 @@ TEST_F(Messages, about_a_missing_or_unknown_file_do_not_speak_of_one_mesh_alone)
   expect_error(run_program({"detect", folder.write("s.json", "{}").string(), mesh}), 2, "only input");
 }
 
+TEST_F(Messages, about_a_distance_name_its_option) {
+  for (const std::string wrong : {"-1", "nan", "inf", "far"}) {
+    expect_error(run_program({"detect", mesh, mesh, "--within", wrong}), 2,
+                 "--within: not a finite number of 0 or more: " + wrong);
+    expect_error(run_program({"detect", mesh, mesh, "--self", "--self-within", wrong}), 2, "--self-within: ");
+  }
+}
+
+TEST_F(Messages, about_a_shape_are_those_of_a_scene) {
+  expect_error(run_program({"detect", mesh, "shape:kettle"}), 3, "shape:kettle: /: unknown key \"kettle\" (expected one");
+}
+
+TEST_F(Messages, about_a_frame_that_cannot_be_written_name_the_file) {
+  const auto small = folder.write("small.off", "OFF\n3 1 0\n0 0 0\n1e-60 0 0\n0 1e-60 0\n3 0 1 2\n").string();
+  expect_error(run_program({"convert", small, path("b.stl")}), 3, "b.stl: frame 0: its largest coordinate, 1e-60, is");
+  const auto large = folder.write("large.off", "OFF\n3 1 0\n0 0 0\n1e60 0 0\n0 1 0\n3 0 1 2\n").string();
+  expect_error(run_program({"convert", large, path("b.glb")}), 3, "b.glb: frame 0, vertex 1 (counted from 0): 1e+60 is");
+}
+
 TEST_F(Messages, name_the_option_that_the_mode_ignores_and_the_modes_that_take_it) {
   const auto detect = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"detect", mesh, mesh});

@@ -77,6 +77,8 @@ TEST(Closest_faces, of_many_at_the_same_distance_are_the_lowest) {
   EXPECT_EQ(expect_closest(box, moved(box, 4, 5, 0)), 5);
   EXPECT_EQ(expect_closest(sheet, moved(sheet, 0, 0, 0.25)), 0.25);
   EXPECT_EQ(expect_closest(shuffled(sheet, 1), moved(shuffled(sheet, 2), 0, 0, 0.25)), 0.25);
+  // The least distances, at which bounds are not rounded down.
+  EXPECT_EQ(expect_closest(shuffled(sheet, 1), moved(shuffled(sheet, 2), 0, 0, 0x1p-1073)), 0x1p-1073);
 }
 
 TEST(Closest_faces, of_shapes_that_touch_or_coincide_are_at_distance_zero) {

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { region_colour } from '../viewer/colours.mjs';
 import { Damaged, decode_labels, decode_particles, decode_positions, decode_topology, Varint_reader } from '../viewer/decode.mjs';
-import { fold } from '../viewer/normals.mjs';
+import { fold, sharp, vertex_normals } from '../viewer/normals.mjs';
 import { outcome_of, runs } from '../viewer/outcome.mjs';
 import { Walks } from '../viewer/walks.mjs';
 import { on_grid, particles_section, positions_section, topology_section, varints, zigzag } from './write_container.mjs';
@@ -94,6 +94,20 @@ test('a normal survives being folded into two bytes, within a degree', () => {
     const back = unfold(fold(...n));
     assert.ok(n.reduce((sum, x, axis) => sum + x * back[axis], 0) > Math.cos(Math.PI / 180), String(n));
   }
+});
+
+test('only vertices at sharp edges have no normal of their own', () => {
+  // A roof of two squares, whose edge from 0 to 1 is in the middle: 2 3 on one side, 4 5 on the other.
+  const corners = Uint32Array.of(1, 0, 2, 1, 2, 3, 0, 1, 4, 4, 1, 5);
+  const roof = (slope) => vertex_normals({ corners, vertices: 6 }, [1, 1, 1])(Uint16Array.from([
+    [0, 100, 1000], [100, 100, 1000], [0, 0, 1000 - slope], [100, 0, 1000 - slope], [0, 200, 1000 - slope], [100, 200, 1000 - slope],
+  ].flat()));
+  const sharp_ones = (normals) => [...normals.keys()].filter((v) => normals[v] === sharp);
+  assert.deepEqual(sharp_ones(roof(0)), []);
+  assert.deepEqual(sharp_ones(roof(50)), []);  // Faces are inclined to the normal of the edge by 27 degrees.
+  assert.deepEqual(sharp_ones(roof(200)), [0, 1]);  // By 63.
+  assert.equal(roof(0)[0], fold(0, 0, 1));
+  for (const lowest of [fold(0, 0, -1), fold(-0, -0, -1), fold(1e-9, 1e-9, -1)]) assert.notEqual(lowest, sharp);
 });
 
 test('a frame is confirmed, missed, or without collision, and neighbours form runs', () => {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Vertex normals, recomputed for each frame shown: a few milliseconds for 50 000 triangles.
 
-/** In place of the normal of a vertex at an edge sharper than 40 degrees: its faces are drawn flat. */
+/** In place of a normal to which some face of the vertex is inclined by more than 40 degrees: its faces are drawn flat. */
 export const sharp = 0xffff;
 const least_cosine = Math.cos((40 * Math.PI) / 180);
 

@@ -39,8 +39,8 @@ class Promised_boxes {
 ///
 /// The caller's function is given a region, and a box at rest. It returns a box that contains, in the current pose and
 /// as they are computed, all vertices of that region that lie in the given box at rest. With `several_regions` they are
-/// those of any region. The result is taken as it is; an axis with an end that is not finite is open. A lower end above
-/// the upper one is an error of the query.
+/// those of any region. The result is taken as it is; an axis with an end that is not finite is open. A query throws
+/// Bad_argument if a lower end is above the upper one.
 ///
 /// The function may be called by several threads at once, and several times with the same arguments.
 class Box_promise {

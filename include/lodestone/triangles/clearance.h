@@ -44,7 +44,7 @@ double clearance(const Box& a, const Box& b, const Way& way);
 /// larger than that of their boxes. Some thousand floating-point operations; most pairs that are not in line, or whose
 /// clearance is too small, take fewer.
 /// @param way    its slack must be at least 2^-48 times the largest coordinate
-/// @param least  a smaller clearance is not needed: its length may be minus infinity
+/// @param least  where the clearance is smaller than this, the result may be minus infinity
 Clearance clearance(const Boxed_triangle& a, const Boxed_triangle& b, const Way& way,
                     double least = -std::numeric_limits<double>::infinity());
 

@@ -13,8 +13,10 @@ namespace lodestone {
 /// The frames to write, in order.
 class Animation_frames {
  public:
+  /// @param output  named in errors
   /// @param passes  how many times all frames will be read, for the progress
-  Animation_frames(const Animation& animation, const Animation_output_options& options, std::size_t passes = 1);
+  Animation_frames(std::filesystem::path output, const Animation& animation, const Animation_output_options& options,
+                   std::size_t passes = 1);
 
   std::size_t size() const { return numbers_.size(); }
   /// Positions of the i-th frame of the output, in doubles; valid until the next call.
@@ -25,6 +27,7 @@ class Animation_frames {
   std::span<const float> floats(std::size_t i);
 
  private:
+  std::filesystem::path output_;
   const Animation& animation_;
   const Animation_output_options& options_;
   std::vector<std::size_t> numbers_;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "io/files/byte_order.h"
 #include "io/files/small_text.h"
@@ -26,9 +27,10 @@ namespace fs = std::filesystem;
 
 // ---- Frames ----
 
-Animation_frames::Animation_frames(const Animation& animation, const Animation_output_options& options,
-                                   std::size_t passes)
-    : animation_(animation),
+Animation_frames::Animation_frames(fs::path output, const Animation& animation,
+                                   const Animation_output_options& options, std::size_t passes)
+    : output_(std::move(output)),
+      animation_(animation),
       options_(options),
       numbers_(options.frames),
       positions_(animation.vertices),
@@ -51,14 +53,14 @@ std::span<const float> Animation_frames::floats(std::size_t i) {
   for (const Point& point : positions(i))
     for (int axis = 0; axis < 3; ++axis) {
       if (!std::isfinite(static_cast<float>(point[axis])))
-        throw Bad_motion(fmt::format("frame {}, vertex {} (counted from 0): {} is too large for a float", numbers_[i],
-                                     floats_.size() / 3, point[axis]));
+        throw Bad_motion(fmt::format("{}: frame {}, vertex {} (counted from 0): {} is too large for a float",
+                                     output_.string(), numbers_[i], floats_.size() / 3, point[axis]));
       floats_.push_back(static_cast<float>(point[axis]));
       largest = std::max(largest, std::abs(point[axis]));
     }
   if (largest > 0 && largest < std::numeric_limits<float>::min())
-    throw Bad_motion(
-        fmt::format("frame {}: its largest coordinate, {}, is too small for a float", numbers_[i], largest));
+    throw Bad_motion(fmt::format("{}: frame {}: its largest coordinate, {}, is too small for a float",
+                                 output_.string(), numbers_[i], largest));
   return floats_;
 }
 
@@ -188,15 +190,15 @@ void write_animation(const fs::path& output, const Animation& animation, const A
   const auto extension = lower_case(output.extension().string());
   const bool is_mesh = extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
   if (extension == ".pc2" || extension == ".mdd")
-    return write_cache(output, extension == ".pc2" ? Cache_format::pc2 : Cache_format::mdd, {animation, options},
-                       animation.vertices, options.frames_per_second);
+    return write_cache(output, extension == ".pc2" ? Cache_format::pc2 : Cache_format::mdd,
+                       {output, animation, options}, animation.vertices, options.frames_per_second);
   if (!is_mesh && !is_gltf(output))
     throw Bad_argument(fmt::format("{}: animations are written as .pc2, .mdd, .gltf, .glb, .obj, .off, .ply or .stl",
                                    output.string()));
   if (animation.faces.empty())
     throw Bad_argument(
         fmt::format("{}: needs faces, which a point cache does not have: give its mesh", output.string()));
-  if (is_mesh) return write_meshes(output, extension, {animation, options}, animation.faces, options.numbered);
+  if (is_mesh) return write_meshes(output, extension, {output, animation, options}, animation.faces, options.numbered);
   write_gltf(output, animation, options);
 }
 

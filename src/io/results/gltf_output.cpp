@@ -59,8 +59,8 @@ std::uint8_t linear(std::uint8_t channel) {
 /// Writes one animation. The indices of accessors and buffer views follow from the order in `json`.
 class Gltf_writer {
  public:
-  Gltf_writer(const Animation& animation, const Animation_output_options& options)
-      : animation_(animation), options_(options), frames_(animation, options, 2) {}
+  Gltf_writer(const fs::path& output, const Animation& animation, const Animation_output_options& options)
+      : animation_(animation), options_(options), frames_(output, animation, options, 2) {}
 
   /// Reads all frames once, for the ranges that the JSON states before the data.
   void measure();
@@ -256,7 +256,7 @@ void write_gltf_and_bin(const fs::path& output, Gltf_writer& writer) {
 void write_gltf(const fs::path& output, const Animation& animation, const Animation_output_options& options) {
   if (!options.regions.empty() && options.regions.size() != animation.vertices)
     throw Bad_argument(fmt::format("{} regions are given for {} vertices", options.regions.size(), animation.vertices));
-  Gltf_writer writer(animation, options);
+  Gltf_writer writer(output, animation, options);
   writer.measure();
   if (lower_case(output.extension().string()) == ".glb")
     write_glb(output, writer);

@@ -75,11 +75,12 @@ Scene_object read_object(std::string name, const std::filesystem::path& input, c
 }
 
 Scene_object shape_object(const std::string& shape) {
+  const std::string given = printable(fmt::format("{}{}", shape_prefix, shape));
   const auto document =
-      shape.starts_with('{') ? detail::parse_json_text(shape, "shape") : detail::Json{{shape, detail::Json::object()}};
+      shape.starts_with('{') ? detail::parse_json_text(shape, given) : detail::Json{{shape, detail::Json::object()}};
   Scene_object object;
   object.name = document.is_object() && document.size() == 1 ? document.begin().key() : shape;
-  object.mesh = detail::read_shape({document, "shape"});
+  object.mesh = detail::read_shape({document, given});
   object.file_vertices = object.mesh.number_of_vertices();
   object.file_vertex.resize(object.file_vertices);
   std::iota(object.file_vertex.begin(), object.file_vertex.end(), 0U);
