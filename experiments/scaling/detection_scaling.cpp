@@ -22,6 +22,7 @@ constexpr auto no_progress = [](std::size_t, std::size_t) {};
 double growth_check_seconds(const Surface_mesh& mesh, std::size_t particles) {
   Particle_object object(std::make_unique<Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Lbg>>(
       mesh, mesh.points(), std::make_shared<const Lbg>()));
+  object.find_edges();
   const Positions positions = object.read_positions();
   object.settle(object.divide(positions, particles, {}), positions);
   constexpr int checks = 1000;

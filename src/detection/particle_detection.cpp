@@ -132,7 +132,8 @@ void Particle_detection::prepare() {
   since_last_frame_.builds += fresh.size();
 }
 
-/// What calls the user's code, to read a mesh or to divide a surface, is done in this thread, object by object.
+/// What calls the user's code, to read a mesh, or to divide a surface by a strategy that is not concurrent, is done in
+/// this thread, object by object.
 void Particle_detection::prepare(std::span<Object* const> objects, bool close_seams) {
   std::vector<Positions> positions;
   std::vector<std::size_t> faces, particles(objects.size());
@@ -147,6 +148,7 @@ void Particle_detection::prepare(std::span<Object* const> objects, bool close_se
   };
 
   share([&](std::size_t i, Workers&) {
+    objects[i]->particle_object.find_edges();
     if (close_seams) objects[i]->particle_object.close_seams(positions[i]);
     if (options_.particles == 0) objects[i]->radius = bounding_sphere(positions[i]).radius;
   });
@@ -155,10 +157,14 @@ void Particle_detection::prepare(std::span<Object* const> objects, bool close_se
     particles[i] = particles_of(*objects[i], positions[i]);
   });
   std::vector<Numbered_partition> divisions(objects.size());
-  for (std::size_t i = 0; i < objects.size() && options_.mode != Mode::senin; ++i)
-    divisions[i] = objects[i]->named(
-        [&] { return objects[i]->particle_object.divide(positions[i], particles[i], options_.partition); });
+  const auto divide = [&](std::size_t i, bool concurrently) {
+    auto& object = objects[i]->particle_object;
+    if (options_.mode != Mode::senin && object.mesh().divides_concurrently() == concurrently)
+      divisions[i] = object.divide(positions[i], particles[i], options_.partition);
+  };
+  for (std::size_t i = 0; i < objects.size(); ++i) objects[i]->named([&] { divide(i, false); });
   share([&](std::size_t i, Workers& workers) {
+    divide(i, true);
     start(*objects[i], positions[i], particles[i], std::move(divisions[i]), workers);
   });
 

@@ -19,10 +19,11 @@ namespace {
 
 }  // namespace
 
-Particle_object::Particle_object(std::unique_ptr<Watched_mesh> mesh)
-    : mesh_(std::move(mesh)),
-      vertex_faces_(mesh_->vertex_count(), corners()),
-      edges_(surface_edges(vertex_faces_, corners())) {}
+Particle_object::Particle_object(std::unique_ptr<Watched_mesh> mesh) : mesh_(std::move(mesh)) {}
+
+void Particle_object::find_edges() {
+  if (num_vertices(edges_.graph) < mesh_->vertex_count()) walk_along(std::nullopt);
+}
 
 void Particle_object::close_seams(const Positions& positions) {
   if (!mesh_->divides_by_index()) return;

@@ -151,7 +151,10 @@ void Particle_object::load(State_reader& state) {
     if (!mesh_->divides_by_index())
       throw Bad_saved_object("the object was saved with closed seams, which this strategy cannot divide");
   }
-  if (seams || seams_) walk_along(std::move(seams));
+  if (seams || seams_)
+    walk_along(std::move(seams));
+  else
+    find_edges();
   Region_steps steps(edges_.graph, saved.labels);
   // From here on nothing can fail but for want of memory.
   steps_ = std::move(steps);

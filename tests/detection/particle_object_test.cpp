@@ -24,7 +24,9 @@ struct Counted_object {
   explicit Counted_object(const Surface_mesh& shape)
       : mesh(shape),
         object(std::make_unique<Typed_watched_mesh<Surface_mesh, Counting_points, Lbg>>(
-            mesh, Counting_points{&mesh, &reads}, std::make_shared<const Lbg>())) {}
+            mesh, Counting_points{&mesh, &reads}, std::make_shared<const Lbg>())) {
+    object.find_edges();
+  }
   Counted_object(const Surface_mesh& shape, std::size_t regions) : Counted_object(shape) { partition(regions); }
 
   void partition(std::size_t regions, const Partition_options& options = {}) {

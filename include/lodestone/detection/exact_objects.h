@@ -203,13 +203,15 @@ void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
 }
 
 /// Mends the trees of objects of which some faces have changed, and builds those of others, over regions if they are
-/// asked for. What calls the user's code, to divide a surface or to write its maps, is done in this thread.
+/// asked for. What calls the user's code, to write maps, or to divide a surface by a strategy that is not concurrent, is
+/// done in this thread.
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<const Coordinates> coordinates) {
   struct Build {
     Object* object;
-    std::optional<Numbered_partition> regions;
     Coordinates coordinates;
+    bool divides_concurrently;
+    std::optional<Numbered_partition> regions = {};
   };
   std::vector<Build> builds;
   std::vector<std::size_t> faces;
@@ -217,11 +219,15 @@ void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<cons
     Object& object = *objects_[ids[i]];
     if (region_count(object) == 0 && object.mend(coordinates[i], options_.exact.tree, workers_)) continue;
     check_finite(coordinates[i], object.title);
-    builds.push_back({&object, divide(object, coordinates[i]), coordinates[i]});
+    builds.push_back({&object, coordinates[i], object.mesh().divides_concurrently()});
     faces.push_back(object.corners().size());
   }
+  for (Build& build : builds)
+    if (!build.divides_concurrently) build.regions = divide(*build.object, build.coordinates);
   side_by_side(faces, workers_, [&](std::size_t i, Workers& workers) {
-    builds[i].object->build(std::move(builds[i].regions), builds[i].coordinates, options_.exact.tree, workers);
+    Build& build = builds[i];
+    if (build.divides_concurrently) build.regions = divide(*build.object, build.coordinates);
+    build.object->build(std::move(build.regions), build.coordinates, options_.exact.tree, workers);
   });
   for (const auto& build : builds) build.object->finish();
 }

@@ -28,12 +28,14 @@ namespace lodestone {
 /// particles, and how large its regions may grow.
 class Particle_object {
  public:
-  /// Takes a mesh. O(V + F).
+  /// Takes a mesh. O(1).
   explicit Particle_object(std::unique_ptr<Watched_mesh> mesh);
 
   /// Places the object elsewhere from now on; none: where its mesh is.
   void place(const std::optional<Rigid_motion>& placement) { placement_ = placement; }
 
+  /// Finds the edges, along which all that follows walks, unless that is done. O(V + F).
+  void find_edges();
   /// Reads all positions. O(V).
   /// @throws Bad_mesh  a coordinate is not finite or beyond 1e150, or the number of vertices or faces has changed
   Positions read_positions();

@@ -54,6 +54,8 @@ class Watched_mesh {
 
   /// Whether the detector's strategy needs only a surface by index, which need not be that of the mesh.
   virtual bool divides_by_index() const = 0;
+  /// Whether `partition` may be called in several threads at once, of this mesh and others.
+  virtual bool divides_concurrently() const = 0;
   /// Divides a surface into regions by the detector's strategy: see `partition_numbered`.
   /// @param surface  that of the mesh; another one if `divides_by_index`
   virtual Numbered_partition partition(const Numbered_surface& surface, std::size_t regions,
@@ -170,6 +172,7 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
   }
 
   bool divides_by_index() const override { return Labels_by_index<Strategy>; }
+  bool divides_concurrently() const override { return is_concurrent(*strategy_); }
   Numbered_partition partition(const Numbered_surface& surface, std::size_t regions,
                                const Partition_options& options) const override {
     if constexpr (Labels_by_index<Strategy>)

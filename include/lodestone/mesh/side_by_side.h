@@ -14,8 +14,7 @@ namespace lodestone {
 /// over at the end, one after the other by all workers.
 /// @param sizes    of the items, such as numbers of faces
 /// @param work     called with the index of an item and the workers that may share it; its result must not depend on
-/// how
-///                 many these are. Several threads call it at once
+///                 how many these are. Several threads call it at once
 /// @throws what the work on the first item that fails throws; items after it may be left out
 void side_by_side(std::span<const std::size_t> sizes, Workers& workers,
                   const std::function<void(std::size_t, Workers&)>& work);

@@ -59,6 +59,14 @@ concept Labels_by_index = requires(const Strategy& strategy, const Numbered_surf
   { strategy.label(surface, regions) } -> std::same_as<Labelling>;
 };
 
+/// Whether a detector may divide several surfaces by this strategy at once, in several threads: the strategy says so by
+/// an optional member `is_concurrent`.
+template <class Strategy>
+constexpr bool is_concurrent(const Strategy& strategy) {
+  if constexpr (Labels_by_index<Strategy> && requires { bool{strategy.is_concurrent}; }) return strategy.is_concurrent;
+  return false;
+}
+
 /// Options of `partition()`, for any strategy.
 struct Partition_options {
   bool keep_islands = false;  ///< leave regions in several pieces, as the strategy made them

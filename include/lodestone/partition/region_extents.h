@@ -15,7 +15,8 @@ namespace lodestone {
 
 /// Path along mesh edges from a region's home vertex to its border in one direction of the tangent plane.
 struct Border_path {
-  double length = 0;  ///< in the units of the positions; 0: the home vertex lies on the border on that side
+  double length = 0;  ///< in the units of the positions; 0: the home vertex lies on the border on that side, or there is
+                      ///< no border within 45 degrees, as where a region runs round a tube
   /// The home vertex, at most three vertices in between, and the border vertex; empty for length 0. They tell how the
   /// path stretches, without a pass over all its vertices.
   std::vector<std::uint32_t> samples = {};

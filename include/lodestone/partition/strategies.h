@@ -30,7 +30,9 @@ class Any_strategy {
   /// @param strategy  one that needs no more than the surface by index
   template <Labels_by_index Strategy>
   explicit Any_strategy(Strategy strategy)
-      : name(Strategy::name), label_([strategy = std::move(strategy)](const Numbered_surface& surface, std::size_t n) {
+      : name(Strategy::name),
+        is_concurrent(lodestone::is_concurrent(strategy)),
+        label_([strategy = std::move(strategy)](const Numbered_surface& surface, std::size_t n) {
           return strategy.label(surface, n);
         }) {}
 
@@ -43,6 +45,7 @@ class Any_strategy {
   Labelling label(const Numbered_surface& surface, std::size_t regions) const { return label_(surface, regions); }
 
   std::string_view name;  ///< of the strategy that was chosen
+  bool is_concurrent;     ///< whether that one is
 
  private:
   Label label_;
