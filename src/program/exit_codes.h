@@ -19,7 +19,7 @@ inline constexpr const char* help = R"(Exit codes:
   2    the command line is wrong
   3    a mesh, motion, scene or shard cannot be used
   4    a result cannot be written
-  5    --truth: a reported collision is not true, or mode exact missed one
+  5    --truth: a reported collision is not true, or mode exact or certified missed one
   70   an error that should not happen: please report it
   130  interrupted
   141  nobody reads the standard output any more)";

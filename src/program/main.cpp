@@ -90,24 +90,24 @@ CLI::Validator distance_check() {
 
 void add_exact_options(CLI::App& app, Exact_options& options) {
   app.add_option("--within", options.tolerance,
-                 "Mode exact: report face pairs nearer than this, and which objects are near; 0: faces that intersect")
+                 "Modes exact and certified: report face pairs nearer than this, and which objects are near; 0: faces that intersect")
       ->check(distance_check())
       ->capture_default_str();
   auto* const self = app.add_flag("--self", options.self_collision,
-                                  "Mode exact: also report an object's faces that intersect each other");
+                                  "Modes exact and certified: also report an object's faces that intersect each other");
   app.add_option(
          "--self-within", options.self_tolerance,
-         "Mode exact, with --self: also report an object's faces nearer than this, unless they share a vertex or "
+         "With --self: also report an object's faces nearer than this, unless they share a vertex or "
          "were nearer than twice this in the first frame; 0: faces that intersect")
       ->needs(self)
       ->check(distance_check())
       ->capture_default_str();
-  app.add_flag("--containment", options.containment, "Mode exact: also report objects that lie inside others");
+  app.add_flag("--containment", options.containment, "Modes exact and certified: also report objects that lie inside others");
   app.add_flag("--parting", options.parting,
-               "Mode exact: also report how to move one of two objects so that they collide no more, and neither lies "
+               "Modes exact and certified: also report how to move one of two objects so that they collide no more, and neither lies "
                "inside the other");
   app.add_flag("--patches", options.patches,
-               "Mode exact: also group the face pairs of an object pair by the connected places in which faces meet");
+               "Modes exact and certified: also group the face pairs of an object pair by the connected places in which faces meet");
 }
 
 void add_format(CLI::App& app, std::string& format) {
@@ -152,8 +152,8 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
       ->type_name("MODE")
       ->default_str("exact");
   app.add_option("--particles", options.particles,
-                 "Particles per object; 0: the number of objects that can touch it at once, at least 12. Mode exact: "
-                 "regions at the top of its tree; 0: 12 with a strategy or a setting of it, else none")
+                 "Particles per object; 0: the number of objects that can touch it at once, at least 12. Modes exact "
+                 "and certified: regions at the top of its tree; 0: 12 with a strategy or a setting of it, else none")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
   app.add_option("--contacts", options.contacts, "What to report of a colliding pair: yes_no, first, all")
@@ -169,7 +169,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   app.add_flag("--normals", options.contact_normals,
                "Also report the direction that separates two faces, and how far to move");
   app.add_flag("--closest", command.closest,
-               "Mode exact: also report the closest faces of each object pair, and their distance");
+               "Modes exact and certified: also report the closest faces of each object pair, and their distance");
   app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
   app.add_option(
          "--meetings", options.meetings,
@@ -205,7 +205,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
       "then stop at seams");
   add_exact_options(app, options.exact);
   add_threads(app, options.exact.threads,
-              "Maximum number of threads, for mode exact, builds and lbg partitions; 0: all of the machine");
+              "Maximum number of threads; 0: all of the machine");
   add_strategy_options(app, command.partition, "Seed, for random strategies and --mode senin");
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")

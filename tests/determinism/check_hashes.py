@@ -101,9 +101,8 @@ class Results:
 
     def of_frames(self, scene, mode, machine, number):
         out = self.folder / f"out_{number}"
-        threads = [] if mode == "senin" else machine.options()  # which runs in one thread
-        run(self.program, ["detect", self.folder / f"{scene}.json", *MODES[mode], *threads, "--quiet", "--out", out],
-            machine.environment())
+        run(self.program, ["detect", self.folder / f"{scene}.json", *MODES[mode], *machine.options(), "--quiet",
+                           "--out", out], machine.environment())
         return hash_of(out / "frames.jsonl")
 
     def of_regions(self, strategy, machine, number):

@@ -154,8 +154,8 @@ TEST_F(Program_mode, limits_of_particles_out_of_range_are_refused) {
     for (const auto* bad : {"-1", "1.5", "many"}) expect_error(detect({"--mode", "particles", option, bad}), 2, "");
 }
 
-TEST_F(Program_mode, senin_refuses_threads) {
-  expect_error(detect({"--mode", "senin", "--threads", "2"}), 2, "--threads needs --mode exact, certified or particles");
+TEST_F(Program_mode, senin_takes_threads) {
+  expect_success(detect({"--mode", "senin", "--threads", "2"}));
   expect_success(detect({"--mode", "particles", "--threads", "2"}));
 }
 
