@@ -92,9 +92,10 @@ class Detector {
   template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
   Object_id add(const Mesh&& mesh, Points points, const Object_options& options = {}) = delete;
 
-  /// Tells the detector that the vertices of an object have moved. In mode `particles` an object whose regions have
-  /// outgrown A* is repartitioned, with its number of particles computed again: O(N) while nothing has grown. In mode
-  /// `exact` this only discards given positions; `detect` reads the mesh anyway.
+  /// Tells the detector that the vertices of an object have moved. In mode `particles` an object is repartitioned, and
+  /// its number of particles computed again, if the area of a region is found to exceed `Detector_options::growth` times
+  /// A*. O(N) while nothing has grown. With meetings a call looks at an eighth of the regions, or at all if the whole
+  /// object seems larger. In mode `exact` this only discards given positions; `detect` reads the mesh anyway.
   /// @throws Bad_argument  no such object
   /// @throws Bad_mesh      as `detect`
   void update(Object_id object) { detection_->update(checked(object)); }

@@ -77,7 +77,7 @@ struct Detector_options {
   std::size_t opening_budget = 16384;
   /// With meetings: two parts of surfaces are taken to be apart if the distance of their anchors is more than so many
   /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed, with
-  /// 0.5 about half of the collisions.
+  /// 0.5 most collisions.
   double opening_reach = 1;
   double collision_distance = 1;  ///< of particles, in multiples of mu, the larger of the two objects'; > 0
   Distance_measure distance_measure = Distance_measure::adjacent_vertices;  ///< of particles: which mean mu is

@@ -16,8 +16,9 @@ namespace lodestone {
 /// anchor, and all vertices of the leaves that are posed. In a frame no anchor and no leaf is read twice. A vertex is
 /// read again only for another node or leaf.
 ///
-/// A node is taken to lie within its radius of its anchor. That is a guess, right as long as the surface is nowhere
-/// stretched by more than `stretch()` since the tree was built.
+/// A node is taken to lie within its radius of its anchor, times `stretch()`. That is a guess, right as long as none of
+/// its points has moved farther away from the anchor than so since the tree was built: by local stretch, or because the
+/// surface was bent and is straightened.
 class Tree_on_demand {
  public:
   Tree_on_demand() = default;
