@@ -140,17 +140,18 @@ struct End {
   std::uint32_t vertex = 0;
   std::size_t cone = 4;  ///< 4: there is no end
   double distance = 0;
+
+  bool is_missing() const { return cone == 4; }
 };
 
-/// In each direction the nearest border vertex within the narrowest cone that holds one. In a region without a border:
-/// the farthest vertex within 45 degrees. Of several the one of the lowest index.
-std::array<End, 4> find_ends(const Extent_input& input, const Shortest_paths& paths, const Tangent_frame& frame) {
-  std::vector<std::uint32_t> border;
-  std::ranges::copy_if(paths.reached(), std::back_inserter(border), [&](auto v) { return on_border(input, v); });
+/// Calls `use` for each of the vertices and each direction in which it lies as seen from home, within 45 degrees: with the
+/// direction, and with the vertex as an end in its narrowest cone.
+template <class Use>
+void for_each_direction(const Extent_input& input, const Shortest_paths& paths, const Tangent_frame& frame,
+                        std::span<const std::uint32_t> vertices, const Use& use) {
   const std::uint32_t home = paths.reached().front();
   const Eigen::Vector3d origin = input.position(home);
-  std::array<End, 4> ends;
-  for (const auto v : border.empty() ? paths.reached() : std::span<const std::uint32_t>(border)) {
+  for (const auto v : vertices) {
     if (v == home) continue;
     const Eigen::Vector3d offset = input.position(v) - origin;
     const double x = offset.dot(frame.x), y = offset.dot(frame.y);
@@ -159,15 +160,31 @@ std::array<End, 4> find_ends(const Extent_input& input, const Shortest_paths& pa
     const std::array<double, 4> along{x, -x, y, -y};
     for (std::size_t direction = 0; direction < 4; ++direction) {
       const std::size_t narrowest = cone(along[direction], std::abs(along[(direction + 2) % 4]));
-      if (narrowest == 4) continue;
-      End& end = ends[direction];
-      const double distance = paths.distance(v);
-      const bool better = border.empty()
-                              ? std::tie(end.distance, v) < std::tie(distance, end.vertex)
-                              : std::tie(narrowest, distance, v) < std::tie(end.cone, end.distance, end.vertex);
-      if (better) end = {.vertex = v, .cone = narrowest, .distance = distance};
+      if (narrowest < 4) use(direction, End{.vertex = v, .cone = narrowest, .distance = paths.distance(v)});
     }
   }
+}
+
+/// In each direction the nearest border vertex within the narrowest cone that holds one. Where none does, as in a region
+/// that runs round a tube or is a whole component: the farthest vertex within the narrowest cone that holds any. Of
+/// several the one of the lowest index.
+std::array<End, 4> find_ends(const Extent_input& input, const Shortest_paths& paths, const Tangent_frame& frame) {
+  std::vector<std::uint32_t> border;
+  std::ranges::copy_if(paths.reached(), std::back_inserter(border), [&](auto v) { return on_border(input, v); });
+  std::array<End, 4> ends, farthest;
+  for_each_direction(input, paths, frame, border, [&](std::size_t direction, const End& end) {
+    const End& best = ends[direction];
+    if (std::tie(end.cone, end.distance, end.vertex) < std::tie(best.cone, best.distance, best.vertex))
+      ends[direction] = end;
+  });
+  if (std::ranges::none_of(ends, &End::is_missing)) return ends;
+  for_each_direction(input, paths, frame, paths.reached(), [&](std::size_t direction, const End& end) {
+    const End& best = farthest[direction];
+    if (std::tie(end.cone, best.distance, end.vertex) < std::tie(best.cone, end.distance, best.vertex))
+      farthest[direction] = end;
+  });
+  for (std::size_t direction = 0; direction < 4; ++direction)
+    if (ends[direction].is_missing()) ends[direction] = farthest[direction];
   return ends;
 }
 
@@ -176,7 +193,7 @@ Region_extent measure(const Extent_input& input, const Extent_start& start, Shor
   const auto ends = find_ends(input, paths, tangent_frame(start.normal, start.x_axis));
   Region_extent extent;
   for (std::size_t direction = 0; direction < 4; ++direction)
-    if (ends[direction].cone < 4) extent.paths[direction] = border_path(input, paths, ends[direction].vertex);
+    if (!ends[direction].is_missing()) extent.paths[direction] = border_path(input, paths, ends[direction].vertex);
   return extent;
 }
 

@@ -111,6 +111,35 @@ TEST(Region_extent, of_a_closed_component_is_taken_to_its_farthest_vertices) {
   EXPECT_NEAR(mesh.extent(home).area(), 8, 1e-13);
 }
 
+TEST(Region_extent, of_a_region_round_a_tube_is_its_girth_in_the_direction_without_a_border) {
+  auto bar = cube(8);
+  deform(bar, [](const Point& p) { return Point(p.x(), p.y(), 4 * p.z()); });
+  Measured mesh(bar);
+  std::uint32_t home = 0;
+  for (std::uint32_t v = 0; v < mesh.labels.size(); ++v) {
+    const auto p = mesh.position(v);
+    mesh.labels[v] = p.z() < 1 ? 1 : p.z() > 3 ? 2 : 0;
+    if (p == Eigen::Vector3d(1, 0.5, 2)) home = v;
+  }
+  const auto extent = mesh.extent(home, {1, 0, 0});
+  auto found = lengths(extent);
+  std::ranges::sort(found);
+  EXPECT_EQ(found[0], 1);
+  EXPECT_EQ(found[1], 1);
+  EXPECT_NEAR(found[2], 2, 0.2);
+  EXPECT_NEAR(found[3], 2, 0.2);
+  // A limb that grows longer, or thicker, is seen to grow.
+  const auto grown = [&](double thickness, double length) {
+    const auto now = [&, thickness, length](std::uint32_t v) {
+      const auto p = mesh.position(v);
+      return Eigen::Vector3d(thickness * p.x(), thickness * p.y(), length * p.z());
+    };
+    return stretched_area(extent, now) / extent.area();
+  };
+  EXPECT_NEAR(grown(1, 3), 3, 0.1);
+  EXPECT_NEAR(grown(2, 1), 2, 0.1);
+}
+
 TEST(Region_extent, grows_with_the_square_of_a_uniform_scale) {
   const auto surface = potato(8);
   const Measured mesh(surface);
