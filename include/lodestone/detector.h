@@ -295,7 +295,8 @@ class Detector {
   /// @throws Bad_argument  no such object, or one that no query has built yet
   std::vector<Region_index> regions(Object_id object) const {
     auto labels = detection_->labels(checked(object));
-    if (labels.empty()) throw Bad_argument("object " + std::to_string(object) + " has no regions before the first query");
+    if (labels.empty())
+      throw Bad_argument("object " + std::to_string(object) + " has no regions before the first query");
     return labels;
   }
   /// The state of one object in a mode with particles: regions, particles, patches. Valid until it is rebuilt.

@@ -46,8 +46,9 @@ void Deadlock_mutex::unlock() {
 void Deadlock_mutex::check_no_deadlock(const Waits& all) const {
   for (const Deadlock_mutex* mutex = this; mutex->depth_ > 0;) {
     if (mutex->owner_ == std::this_thread::get_id())
-      throw Bad_argument("deadlock: a function that a detector calls (a visitor, a strategy, a promise) asks for a "
-                         "detector or a skin that another thread uses, and that thread waits for this one");
+      throw Bad_argument(
+          "deadlock: a function that a detector calls (a visitor, a strategy, a promise) asks for a "
+          "detector or a skin that another thread uses, and that thread waits for this one");
     const auto waits_for = all.mutex_of.find(mutex->owner_);
     if (waits_for == all.mutex_of.end()) return;
     mutex = waits_for->second;

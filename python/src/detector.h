@@ -62,7 +62,7 @@ class Python_object {
   std::shared_ptr<Python_skin> skin_;
   std::vector<py::object> kept_;
   std::optional<Rigid_motion> placement_;  ///< none: where its mesh is
-  std::vector<double> posed_;  ///< of an animation or a skin: a pose, at first that at rest
+  std::vector<double> posed_;              ///< of an animation or a skin: a pose, at first that at rest
   std::unique_ptr<Indexed_mesh> mesh_;
 };
 
@@ -151,8 +151,8 @@ class Python_detector {
   Python_object& at(Object_id object) const;
 
   Detector_settings settings_;
-  Deadlock_mutex mutex_;     ///< a visitor that calls the detector gets an error, not a deadlock
-  bool reading_ = false;        ///< a query reads; who gets here then is its visitor
+  Deadlock_mutex mutex_;  ///< a visitor that calls the detector gets an error, not a deadlock
+  bool reading_ = false;  ///< a query reads; who gets here then is its visitor
   std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed
   Detector<Any_strategy> detector_;
 };

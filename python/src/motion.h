@@ -65,7 +65,7 @@ class Python_skin {
  private:
   Skinned_points points_;
   mutable Deadlock_mutex mutex_;  ///< a visitor may look at the pose, and ask other detectors
-  int readers_ = 0;                     ///< queries of the thread that holds the mutex
+  int readers_ = 0;               ///< queries of the thread that holds the mutex
 };
 
 void add_motions(py::module_& module);

@@ -17,7 +17,8 @@ Promised_boxes::Promised_boxes(const Box_promise& promise, const Bounded_object&
 Aabb Promised_boxes::box(std::uint32_t node) const {
   Aabb box = promise_->box(regions_[node], rest_[node]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (box.low[axis] > box.high[axis]) throw Bad_argument("a box from a Box_promise has a lower end above the upper one");
+    if (box.low[axis] > box.high[axis])
+      throw Bad_argument("a box from a Box_promise has a lower end above the upper one");
     open_if_not_finite(box, axis);
   }
   return box;

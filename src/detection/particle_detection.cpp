@@ -142,30 +142,29 @@ void Particle_detection::prepare(std::span<Object* const> objects, bool close_se
     faces.push_back(object->particle_object.corners().size());
   }
   for (Object* object : objects) object->prepared = false;  // until all is done: the next frame begins anew
-  const auto share = [&](const std::function<void(std::size_t, Workers&)>& work) {
-    side_by_side(faces, workers_,
-                 [&](std::size_t i, Workers& workers) { objects[i]->named([&] { work(i, workers); }); });
+  const auto for_each = [&](const std::function<void(std::size_t)>& work) {
+    workers_.run(objects.size(), [&](std::size_t i, std::size_t) { objects[i]->named([&] { work(i); }); });
   };
 
-  share([&](std::size_t i, Workers&) {
+  for_each([&](std::size_t i) {
     objects[i]->particle_object.find_edges();
     if (close_seams) objects[i]->particle_object.close_seams(positions[i]);
     if (options_.particles == 0) objects[i]->radius = bounding_sphere(positions[i]).radius;
   });
-  share([&](std::size_t i, Workers&) {
+  for_each([&](std::size_t i) {
     objects[i]->particle_object.measure_distance(positions[i], options_.distance_measure);
     particles[i] = particles_of(*objects[i], positions[i]);
   });
   std::vector<Numbered_partition> divisions(objects.size());
-  const auto divide = [&](std::size_t i, bool concurrently) {
+  const auto divide_if = [&](std::size_t i, bool concurrent) {
     auto& object = objects[i]->particle_object;
-    if (options_.mode != Mode::senin && object.mesh().divides_concurrently() == concurrently)
+    if (options_.mode != Mode::senin && object.mesh().divides_concurrently() == concurrent)
       divisions[i] = object.divide(positions[i], particles[i], options_.partition);
   };
-  for (std::size_t i = 0; i < objects.size(); ++i) objects[i]->named([&] { divide(i, false); });
-  share([&](std::size_t i, Workers& workers) {
-    divide(i, true);
-    start(*objects[i], positions[i], particles[i], std::move(divisions[i]), workers);
+  for (std::size_t i = 0; i < objects.size(); ++i) objects[i]->named([&] { divide_if(i, false); });
+  for_each([&](std::size_t i) { divide_if(i, true); });
+  side_by_side(faces, workers_, [&](std::size_t i, Workers& workers) {
+    objects[i]->named([&] { start(*objects[i], positions[i], particles[i], std::move(divisions[i]), workers); });
   });
 
   for (Object* object : objects) write_maps(*object);

@@ -144,8 +144,8 @@ struct End {
   bool is_missing() const { return cone == 4; }
 };
 
-/// Calls `use` for each of the vertices and each direction in which it lies as seen from home, within 45 degrees: with the
-/// direction, and with the vertex as an end in its narrowest cone.
+/// Calls `use` for each of the vertices and each direction in which it lies as seen from home, within 45 degrees: with
+/// the direction, and with the vertex as an end in its narrowest cone.
 template <class Use>
 void for_each_direction(const Extent_input& input, const Shortest_paths& paths, const Tangent_frame& frame,
                         std::span<const std::uint32_t> vertices, const Use& use) {
@@ -165,9 +165,14 @@ void for_each_direction(const Extent_input& input, const Shortest_paths& paths, 
   }
 }
 
-/// In each direction the nearest border vertex within the narrowest cone that holds one. Where none does, as in a region
-/// that runs round a tube or is a whole component: the farthest vertex within the narrowest cone that holds any. Of
-/// several the one of the lowest index.
+/// Whether the region goes on in a direction, and what was found of its border lies beside: it runs round a tube.
+bool goes_on(const End& border, const End& farthest) {
+  return farthest.cone < border.cone && farthest.distance > 1.5 * border.distance;
+}
+
+/// In each direction the nearest border vertex within the narrowest cone that holds one, or where the region goes on,
+/// the farthest vertex within the narrowest cone. In a region without a border: the farthest vertex within 45 degrees.
+/// Of several the one of the lowest index.
 std::array<End, 4> find_ends(const Extent_input& input, const Shortest_paths& paths, const Tangent_frame& frame) {
   std::vector<std::uint32_t> border;
   std::ranges::copy_if(paths.reached(), std::back_inserter(border), [&](auto v) { return on_border(input, v); });
@@ -177,14 +182,13 @@ std::array<End, 4> find_ends(const Extent_input& input, const Shortest_paths& pa
     if (std::tie(end.cone, end.distance, end.vertex) < std::tie(best.cone, best.distance, best.vertex))
       ends[direction] = end;
   });
-  if (std::ranges::none_of(ends, &End::is_missing)) return ends;
   for_each_direction(input, paths, frame, paths.reached(), [&](std::size_t direction, const End& end) {
     const End& best = farthest[direction];
-    if (std::tie(end.cone, best.distance, end.vertex) < std::tie(best.cone, end.distance, best.vertex))
-      farthest[direction] = end;
+    const bool is_farther = std::tie(best.distance, end.vertex) < std::tie(end.distance, best.vertex);
+    if (border.empty() || end.cone == best.cone ? is_farther : end.cone < best.cone) farthest[direction] = end;
   });
   for (std::size_t direction = 0; direction < 4; ++direction)
-    if (ends[direction].is_missing()) ends[direction] = farthest[direction];
+    if (goes_on(ends[direction], farthest[direction])) ends[direction] = farthest[direction];
   return ends;
 }
 

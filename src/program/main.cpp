@@ -90,24 +90,27 @@ CLI::Validator distance_check() {
 
 void add_exact_options(CLI::App& app, Exact_options& options) {
   app.add_option("--within", options.tolerance,
-                 "Modes exact and certified: report face pairs nearer than this, and which objects are near; 0: faces that intersect")
+                 "Modes exact and certified: report face pairs nearer than this, and which objects are near; 0: faces "
+                 "that intersect")
       ->check(distance_check())
       ->capture_default_str();
   auto* const self = app.add_flag("--self", options.self_collision,
                                   "Modes exact and certified: also report an object's faces that intersect each other");
-  app.add_option(
-         "--self-within", options.self_tolerance,
-         "With --self: also report an object's faces nearer than this, unless they share a vertex or "
-         "were nearer than twice this in the first frame; 0: faces that intersect")
+  app.add_option("--self-within", options.self_tolerance,
+                 "With --self: also report an object's faces nearer than this, unless they share a vertex or "
+                 "were nearer than twice this in the first frame; 0: faces that intersect")
       ->needs(self)
       ->check(distance_check())
       ->capture_default_str();
-  app.add_flag("--containment", options.containment, "Modes exact and certified: also report objects that lie inside others");
+  app.add_flag("--containment", options.containment,
+               "Modes exact and certified: also report objects that lie inside others");
   app.add_flag("--parting", options.parting,
-               "Modes exact and certified: also report how to move one of two objects so that they collide no more, and neither lies "
+               "Modes exact and certified: also report how to move one of two objects so that they collide no more, "
+               "and neither lies "
                "inside the other");
   app.add_flag("--patches", options.patches,
-               "Modes exact and certified: also group the face pairs of an object pair by the connected places in which faces meet");
+               "Modes exact and certified: also group the face pairs of an object pair by the connected places in "
+               "which faces meet");
 }
 
 void add_format(CLI::App& app, std::string& format) {
@@ -204,8 +207,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
       "Mode particles or senin: do not join the border vertices that lie on each other in the first frame; particles "
       "then stop at seams");
   add_exact_options(app, options.exact);
-  add_threads(app, options.exact.threads,
-              "Maximum number of threads; 0: all of the machine");
+  add_threads(app, options.exact.threads, "Maximum number of threads; 0: all of the machine");
   add_strategy_options(app, command.partition, "Seed, for random strategies and --mode senin");
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")

@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "program/frame_log.h"
-#include "program/page_contacts.h"
 #include "program/missed_frames.h"
+#include "program/page_contacts.h"
 
 namespace lodestone {
 
@@ -32,8 +32,10 @@ Page_head head_of(const Detect_command& command, const Scene& scene, std::size_t
                  .mode = std::string(name_of(mode)),
                  .frame_step = frame_step,
                  .note = missing_note(command.options)};
-  if (mode == Mode::certified) head.states = {"far", "bounded", "posed"};
-  else if (makes_regions(command.options, scene)) head.strategy = command.partition.name;
+  if (mode == Mode::certified)
+    head.states = {"far", "bounded", "posed"};
+  else if (makes_regions(command.options, scene))
+    head.strategy = command.partition.name;
   return head;
 }
 

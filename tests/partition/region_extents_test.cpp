@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "support/test_meshes.h"
@@ -138,6 +139,35 @@ TEST(Region_extent, of_a_region_round_a_tube_is_its_girth_in_the_direction_witho
   };
   EXPECT_NEAR(grown(1, 3), 3, 0.1);
   EXPECT_NEAR(grown(2, 1), 2, 0.1);
+}
+
+TEST(Region_extent, of_a_region_round_a_tube_grows_with_the_tube_beyond_the_region_s_length) {
+  // 64 corners round a tube of length 3, whose middle third is the region.
+  const auto measured = [](double radius) {
+    constexpr std::uint32_t around = 64, along = 48;
+    Surface_mesh tube;
+    for (std::uint32_t i = 0; i <= along; ++i)
+      for (std::uint32_t j = 0; j < around; ++j) {
+        const double angle = 2 * std::numbers::pi * j / around;
+        tube.add_vertex(Point(radius * std::cos(angle), radius * std::sin(angle), 3.0 * i / along));
+      }
+    const auto at = [](std::uint32_t i, std::uint32_t j) { return Surface_mesh::Vertex_index(i * around + j % around); };
+    for (std::uint32_t i = 0; i < along; ++i)
+      for (std::uint32_t j = 0; j < around; ++j) {
+        tube.add_face(at(i, j), at(i, j + 1), at(i + 1, j));
+        tube.add_face(at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
+      }
+    Measured mesh(tube);
+    for (std::uint32_t v = 0; v < mesh.labels.size(); ++v) mesh.labels[v] = v / around / (along / 3);
+    return mesh.extent(at(along / 2, 0), {1, 0, 0}).area();
+  };
+  double before = measured(0.1);
+  EXPECT_NEAR(before, 2 * std::numbers::pi * 0.1, 0.15);
+  for (double radius = 0.12; radius < 1.5; radius *= 1.2) {
+    const double area = measured(radius);
+    EXPECT_GT(area, 1.1 * before) << radius;
+    before = area;
+  }
 }
 
 TEST(Region_extent, grows_with_the_square_of_a_uniform_scale) {

@@ -24,7 +24,8 @@ struct Calls {
   std::condition_variable changed;
   std::set<std::thread::id> threads = {};
   std::size_t running = 0, most_running = 0;
-  std::size_t awaited = 1;  ///< a call returns when so many have been running at once, or after a minute
+  std::size_t awaited = 1;  ///< a call returns when so many have been running at once, or after a while
+  std::chrono::milliseconds patience{60'000};
   bool fail_on_second = false;
 };
 
@@ -39,7 +40,7 @@ struct Halves {
     calls->threads.insert(std::this_thread::get_id());
     calls->most_running = std::max(calls->most_running, ++calls->running);
     calls->changed.notify_all();
-    calls->changed.wait_for(lock, std::chrono::minutes(1), [&] { return calls->most_running >= calls->awaited; });
+    calls->changed.wait_for(lock, calls->patience, [&] { return calls->most_running >= calls->awaited; });
     --calls->running;
     if (calls->fail_on_second && surface.positions.col(0).minCoeff() > 0) throw Bad_argument("halves: no");
     const double middle = surface.positions.col(0).mean();
@@ -65,16 +66,21 @@ class Strategy_threads : public testing::TestWithParam<Mode> {
 };
 
 TEST_P(Strategy_threads, one_that_allows_it_divides_objects_side_by_side) {
-  const Halves strategy{.is_concurrent = true};
-  strategy.calls->awaited = 2;
-  detector(strategy, 2).detect();
-  EXPECT_EQ(strategy.calls->most_running, 2U);
-  EXPECT_EQ(strategy.calls->threads.size(), 2U);
+  for (const std::size_t threads : {2, 5}) {
+    const Halves strategy{.is_concurrent = true};
+    strategy.calls->awaited = 2;
+    detector(strategy, threads).detect();
+    EXPECT_EQ(strategy.calls->most_running, 2U);
+    EXPECT_EQ(strategy.calls->threads.size(), 2U);
+  }
 }
 
 TEST_P(Strategy_threads, one_that_does_not_is_called_by_the_thread_that_asks) {
   const Halves strategy{.is_concurrent = false};
+  strategy.calls->awaited = 2;
+  strategy.calls->patience = std::chrono::milliseconds(100);
   detector(strategy, 5).detect();
+  EXPECT_EQ(strategy.calls->most_running, 1U);
   EXPECT_EQ(strategy.calls->threads, std::set{std::this_thread::get_id()});
 }
 
@@ -106,6 +112,7 @@ TEST_P(Strategy_threads, a_surface_that_it_refuses_is_an_error_and_can_be_asked_
       strategy.calls->fail_on_second = true;
       EXPECT_EQ(message_of<Bad_argument>([&] { found.detect(); }), "halves: no");
       EXPECT_THROW(found.detect(), Bad_argument);
+      EXPECT_THROW(found.regions(0), Bad_argument);  // All or none are built.
       strategy.calls->fail_on_second = false;
       expect_same_frame(found.detect(), expected);
     }

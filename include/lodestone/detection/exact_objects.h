@@ -203,14 +203,13 @@ void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
 }
 
 /// Mends the trees of objects of which some faces have changed, and builds those of others, over regions if they are
-/// asked for. What calls the user's code, to write maps, or to divide a surface by a strategy that is not concurrent, is
-/// done in this thread.
+/// asked for. What calls the user's code, to write maps, or to divide a surface by a strategy that is not concurrent,
+/// is done in this thread.
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<const Coordinates> coordinates) {
   struct Build {
     Object* object;
     Coordinates coordinates;
-    bool divides_concurrently;
     std::optional<Numbered_partition> regions = {};
   };
   std::vector<Build> builds;
@@ -219,15 +218,18 @@ void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<cons
     Object& object = *objects_[ids[i]];
     if (region_count(object) == 0 && object.mend(coordinates[i], options_.exact.tree, workers_)) continue;
     check_finite(coordinates[i], object.title);
-    builds.push_back({&object, coordinates[i], object.mesh().divides_concurrently()});
+    builds.push_back({&object, coordinates[i]});
     faces.push_back(object.corners().size());
   }
-  for (Build& build : builds)
-    if (!build.divides_concurrently) build.regions = divide(*build.object, build.coordinates);
+  // All are divided before the first is built: where a strategy refuses a surface, nothing has changed.
+  const auto divide_if = [&](Build& build, bool concurrent) {
+    if (build.object->mesh().divides_concurrently() == concurrent)
+      build.regions = divide(*build.object, build.coordinates);
+  };
+  for (Build& build : builds) divide_if(build, false);
+  workers_.run(builds.size(), [&](std::size_t i, std::size_t) { divide_if(builds[i], true); });
   side_by_side(faces, workers_, [&](std::size_t i, Workers& workers) {
-    Build& build = builds[i];
-    if (build.divides_concurrently) build.regions = divide(*build.object, build.coordinates);
-    build.object->build(std::move(build.regions), build.coordinates, options_.exact.tree, workers);
+    builds[i].object->build(std::move(builds[i].regions), builds[i].coordinates, options_.exact.tree, workers);
   });
   for (const auto& build : builds) build.object->finish();
 }

@@ -59,7 +59,11 @@ class Particle_detection final : public Detection {
   const Frame& detect(const Collision_filter& filter) override;
 
   /// See `Detector::object`.
-  const Particle_object& object(Object_id object) const { return objects_[object]->particle_object; }
+  /// Its edges are known, also before the first frame.
+  const Particle_object& object(Object_id object) const {
+    objects_[object]->particle_object.find_edges();
+    return objects_[object]->particle_object;
+  }
 
  private:
   struct Object {

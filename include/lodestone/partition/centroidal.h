@@ -48,7 +48,7 @@ Centroidal_seeds centroidal_seeds(const Numbered_surface& surface, std::size_t c
 /// Partition strategy: the vertices nearest along the edges to each of N `centroidal_seeds`. See `Geodesic_voronoi`.
 struct Centroidal {
   static constexpr std::string_view name = "centroidal";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;             ///< see Partition_strategy
 
   Centroidal_options options = {};  ///< of `centroidal_seeds`
 

@@ -31,7 +31,7 @@ struct Farthest_point_options {
 /// Partition strategy: the vertices nearest along the edges to each of N `farthest_points`. See `Geodesic_voronoi`.
 struct Farthest_point {
   static constexpr std::string_view name = "farthest_point";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;                 ///< see Partition_strategy
 
   Farthest_point_options options = {};  ///< the seed
 

@@ -18,7 +18,7 @@ namespace lodestone {
 /// rounding does. O(V log V) per size tried; at most 51 sizes are tried.
 struct Grid {
   static constexpr std::string_view name = "grid";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;       ///< see Partition_strategy
 
   /// See Partition_strategy.
   template <Triangle_mesh Mesh>

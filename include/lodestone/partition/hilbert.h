@@ -15,7 +15,7 @@ namespace lodestone {
 /// differ by at most one vertex. O(V log V).
 struct Hilbert {
   static constexpr std::string_view name = "hilbert";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;          ///< see Partition_strategy
 
   /// See Partition_strategy.
   template <Triangle_mesh Mesh>

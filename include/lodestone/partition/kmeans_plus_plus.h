@@ -34,7 +34,7 @@ struct Kmeans_plus_plus_options {
 /// each of O(k) for k components; `Bounded_assignment` avoids most of them.
 struct Kmeans_plus_plus {
   static constexpr std::string_view name = "kmeans++";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;           ///< see Partition_strategy
 
   Kmeans_plus_plus_options options = {};  ///< seed, features, and when iterations stop
 

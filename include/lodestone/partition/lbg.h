@@ -81,7 +81,7 @@ Quantisation quantise(const Feature_vectors& vectors, std::size_t cells, const L
 /// Partition strategy: the cells of LBG quantisation over position, normal and further factors of each vertex.
 struct Lbg {
   static constexpr std::string_view name = "lbg";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;      ///< see Partition_strategy
 
   Lbg_options options = {};            ///< of `quantise`, and the weights of position and normal
   Feature_vectors extra_factors = {};  ///< V rows with any number of columns, from `factors()`; empty for none

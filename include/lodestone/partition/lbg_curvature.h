@@ -21,7 +21,7 @@ struct Lbg_curvature_options {
 /// more than any sharp corner.
 struct Lbg_curvature {
   static constexpr std::string_view name = "lbg_curvature";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;                ///< see Partition_strategy
 
   Lbg_curvature_options options = {};  ///< of the quantisation and of the curvature
 

@@ -8,7 +8,7 @@ namespace lodestone {
 /// Partition strategy: the cells of LBG quantisation over the position of each vertex alone. See `Lbg`.
 struct Lbg_position {
   static constexpr std::string_view name = "lbg_position";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;               ///< see Partition_strategy
 
   Lbg_options options = {};  ///< the weight of the normals is ignored
 

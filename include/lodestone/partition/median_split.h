@@ -14,7 +14,7 @@ namespace lodestone {
 /// power of two, all parts do. Ties between parts and between axes go to the lowest. O(V log N).
 struct Median_split {
   static constexpr std::string_view name = "median_split";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;               ///< see Partition_strategy
 
   /// See Partition_strategy.
   template <Triangle_mesh Mesh>

@@ -25,7 +25,7 @@ struct Random_voronoi_options {
 /// Vertices of a component in which none was drawn go to the seeds nearest in a straight line. O((V + E) log V).
 struct Random_voronoi {
   static constexpr std::string_view name = "random_voronoi";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;                 ///< see Partition_strategy
 
   Random_voronoi_options options = {};  ///< the seed
 

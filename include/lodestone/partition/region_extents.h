@@ -13,8 +13,8 @@
 /// How large the regions of a surface have become: what triggers repartitioning.
 namespace lodestone {
 
-/// Path along mesh edges from a region's home vertex to its border, or as far as the region goes, in one direction of the
-/// tangent plane.
+/// Path along mesh edges from a region's home vertex to its border, or as far as the region goes, in one direction of
+/// the tangent plane.
 struct Border_path {
   double length = 0;  ///< in the units of the positions; 0: the home vertex lies on the border on that side
   /// The home vertex, at most three vertices in between, and the border vertex; empty for length 0. They tell how the
@@ -54,9 +54,11 @@ struct Extent_start {
 /// 11, 22 and 45 degrees to either side; the narrowest that holds a border vertex counts.
 ///
 /// The border consists of the vertices with a neighbour in another region and of those on an open border of the mesh.
-/// Where no cone holds one, as in a region that runs round a tube, or is a whole closed component, the region is measured
-/// to the farthest vertex in the narrowest cone that holds any. O(V) for the working memory, and O(n log n) for each region of n vertices, which the workers share; each
-/// worker has memory of its own. Reads positions of these regions only.
+/// Where no cone holds one, or only a wider one than that in which the region goes on half as far again, as where it
+/// runs round a tube, it is measured to the farthest vertex in the narrowest cone that holds any. A region without a
+/// border is a whole closed component, and measured to its farthest vertex within 45 degrees. O(V) for the working
+/// memory, and O(n log n) for each region of n vertices, which the workers share; each worker has memory of its own.
+/// Reads positions of these regions only.
 std::vector<Region_extent> region_extents(const Extent_input& input, std::span<const Extent_start> starts,
                                           Workers& workers = Workers::alone());
 

@@ -26,7 +26,7 @@ struct Region_growing_options {
 /// regions that are r rings across.
 struct Region_growing {
   static constexpr std::string_view name = "region_growing";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;                 ///< see Partition_strategy
 
   Region_growing_options options = {};  ///< what counts as flat
 

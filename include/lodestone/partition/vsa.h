@@ -28,7 +28,7 @@ struct Vsa_options {
 /// `single_insertions`: 200 000 faces and 64 regions take about 20 s.
 struct Vsa {
   static constexpr std::string_view name = "vsa";  ///< for `make_strategy`, tables and messages
-  static constexpr bool is_concurrent = true;  ///< see Partition_strategy
+  static constexpr bool is_concurrent = true;      ///< see Partition_strategy
 
   Vsa_options options = {};  ///< of the approximation
 

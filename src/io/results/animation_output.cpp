@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 
 // ---- Frames ----
 
-Animation_frames::Animation_frames(fs::path output, const Animation& animation,
-                                   const Animation_output_options& options, std::size_t passes)
+Animation_frames::Animation_frames(fs::path output, const Animation& animation, const Animation_output_options& options,
+                                   std::size_t passes)
     : output_(std::move(output)),
       animation_(animation),
       options_(options),
@@ -59,8 +59,8 @@ std::span<const float> Animation_frames::floats(std::size_t i) {
       largest = std::max(largest, std::abs(point[axis]));
     }
   if (largest > 0 && largest < std::numeric_limits<float>::min())
-    throw Bad_motion(fmt::format("{}: frame {}: its largest coordinate, {}, is too small for a float",
-                                 output_.string(), numbers_[i], largest));
+    throw Bad_motion(fmt::format("{}: frame {}: its largest coordinate, {}, is too small for a float", output_.string(),
+                                 numbers_[i], largest));
   return floats_;
 }
 
