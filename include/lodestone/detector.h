@@ -34,8 +34,8 @@ namespace lodestone {
 /// a mesh's faces, and after any removal of its maps `v:region` and `v:particle`, for instance by `clear`.
 ///
 /// The mode decides how much of a mesh a frame reads, and what it may miss: see `Particle_detection` and
-/// `Exact_detection`. What is said of mode `exact` holds for mode `certified` too, unless it says otherwise. Every query
-/// asks for the current vertex positions, so results are never stale. One thread at a time may use a detector.
+/// `Exact_detection`. What is said of mode `exact` holds for mode `certified` too, unless it says otherwise. Every
+/// query asks for the current vertex positions, so results are never stale. One thread at a time may use a detector.
 ///
 /// A call that runs out of memory throws std::bad_alloc, and nothing leaks. Repeat it, or go on without it: the next
 /// `detect` is right. A `rebuild` may or may not have taken effect.
@@ -93,9 +93,9 @@ class Detector {
   Object_id add(const Mesh&& mesh, Points points, const Object_options& options = {}) = delete;
 
   /// Tells the detector that the vertices of an object have moved. In mode `particles` an object is repartitioned, and
-  /// its number of particles computed again, if the area of a region is found to exceed `Detector_options::growth` times
-  /// A*. O(N) while nothing has grown. With meetings a call looks at an eighth of the regions, or at all if the whole
-  /// object seems larger. In mode `exact` this only discards given positions; `detect` reads the mesh anyway.
+  /// its number of particles computed again, if the area of a region is found to exceed `Detector_options::growth`
+  /// times A*. O(N) while nothing has grown. With meetings a call looks at an eighth of the regions, or at all if the
+  /// whole object seems larger. In mode `exact` this only discards given positions; `detect` reads the mesh anyway.
   /// @throws Bad_argument  no such object
   /// @throws Bad_mesh      as `detect`
   void update(Object_id object) { detection_->update(checked(object)); }
@@ -203,8 +203,8 @@ class Detector {
     if (a == b) throw Bad_argument("the closest faces of object " + std::to_string(a) + " and itself");
     return exact.closest({a, b});
   }
-  /// Whether two objects have points nearer to each other than a distance, or collide, in mode `exact`. Exact and strict,
-  /// unlike a comparison with the rounded distance of `closest`; mostly faster than that, too.
+  /// Whether two objects have points nearer to each other than a distance, or collide, in mode `exact`. Exact and
+  /// strict, unlike a comparison with the rounded distance of `closest`; mostly faster than that, too.
   /// @param distance  >= 0, in units of the coordinates; 0: whether they collide
   /// @throws Bad_argument, Bad_mesh  as `closest`; a distance that is negative or not finite
   bool within(Object_id a, Object_id b, double distance) {
@@ -235,7 +235,8 @@ class Detector {
   /// The face of an object that is nearest to a point: see `closest_point` of trees.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   Closest_point closest_point(Object_id object, const Point& point) {
-    return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::closest_point(surface, point); });
+    return ask<Exact>(object).of_surface(object,
+                                         [&](auto& surface) { return lodestone::closest_point(surface, point); });
   }
   /// On which side of an object's surface, which is closed, a point is: see `point_side`.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
@@ -270,9 +271,9 @@ class Detector {
     return exact.parting({a, b});
   }
 
-  /// Promises something about how an object moves, in mode `certified`: see Motion_promise. The promise must outlive the
-  /// object, or the detector; it may change between frames. It is about where the vertices are, placement included. The
-  /// positions of the next query are those at rest, unless an earlier promise has set them. Several promises hold
+  /// Promises something about how an object moves, in mode `certified`: see Motion_promise. The promise must outlive
+  /// the object, or the detector; it may change between frames. It is about where the vertices are, placement included.
+  /// The positions of the next query are those at rest, unless an earlier promise has set them. Several promises hold
   /// together. Computed points with joints, morph targets or other bounds of their own need no promise.
   /// @throws Bad_argument  no such object, another mode
   template <Motion_promise Promise>
@@ -284,8 +285,8 @@ class Detector {
   }
   template <Motion_promise Promise>
   void promise(Object_id object, const Promise&& promise) = delete;
-  /// What the last query knew of an object in mode `certified`: which leaves of its tree it has bounded, and which it has
-  /// posed. Null before the first query, and in mode `exact`.
+  /// What the last query knew of an object in mode `certified`: which leaves of its tree it has bounded, and which it
+  /// has posed. Null before the first query, and in mode `exact`.
   /// @throws Bad_argument  no such object, another mode
   const Bounded_surface* bounded(Object_id object) const { return ask<Exact>(object).bounded(object); }
 
