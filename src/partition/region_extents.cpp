@@ -182,6 +182,8 @@ std::array<End, 4> find_ends(const Extent_input& input, const Shortest_paths& pa
     if (std::tie(end.cone, end.distance, end.vertex) < std::tie(best.cone, best.distance, best.vertex))
       ends[direction] = end;
   });
+  // Within the narrowest cone no border lies beside the direction, so most regions are not looked through.
+  if (std::ranges::all_of(ends, [](const End& end) { return end.cone == 0; })) return ends;
   for_each_direction(input, paths, frame, paths.reached(), [&](std::size_t direction, const End& end) {
     const End& best = farthest[direction];
     const bool is_farther = std::tie(best.distance, end.vertex) < std::tie(end.distance, best.vertex);

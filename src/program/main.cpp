@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <vector>
 
@@ -79,11 +80,13 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
       ->capture_default_str();
 }
 
+/// Accepts a finite number that is not negative. CLI::Range would print its upper limit with 309 digits.
 CLI::Validator distance_check() {
   return {[](const std::string& text) {
-            double distance = 0;
-            const bool is_one = CLI::detail::lexical_cast(text, distance) && distance >= 0 && std::isfinite(distance);
-            return is_one ? std::string() : "not a finite number of 0 or more: " + text;
+            char* end = nullptr;
+            const double distance = std::strtod(text.c_str(), &end);
+            const bool is_distance = !text.empty() && *end == 0 && distance >= 0 && std::isfinite(distance);
+            return is_distance ? std::string() : "not a finite number of 0 or more: " + text;
           },
           "0 or more"};
 }
@@ -106,8 +109,7 @@ void add_exact_options(CLI::App& app, Exact_options& options) {
                "Modes exact and certified: also report objects that lie inside others");
   app.add_flag("--parting", options.parting,
                "Modes exact and certified: also report how to move one of two objects so that they collide no more, "
-               "and neither lies "
-               "inside the other");
+               "and neither lies inside the other");
   app.add_flag("--patches", options.patches,
                "Modes exact and certified: also group the face pairs of an object pair by the connected places in "
                "which faces meet");

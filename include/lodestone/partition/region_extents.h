@@ -53,12 +53,12 @@ struct Extent_start {
 /// (Dijkstra). Then takes, in each direction, the nearest border vertex within a cone. There are four cones, of 5.6,
 /// 11, 22 and 45 degrees to either side; the narrowest that holds a border vertex counts.
 ///
-/// The border consists of the vertices with a neighbour in another region and of those on an open border of the mesh.
-/// Where no cone holds one, or only a wider one than that in which the region goes on half as far again, as where it
-/// runs round a tube, it is measured to the farthest vertex in the narrowest cone that holds any. A region without a
-/// border is a whole closed component, and measured to its farthest vertex within 45 degrees. O(V) for the working
-/// memory, and O(n log n) for each region of n vertices, which the workers share; each worker has memory of its own.
-/// Reads positions of these regions only.
+/// The border consists of the vertices with a neighbour in another region and of those on an open border of the mesh. A
+/// region that runs round a tube goes on in a direction without a border. It is measured to the farthest vertex in the
+/// narrowest cone that holds any vertex, if that cone holds no border vertex, and the farthest vertex is more than 1.5
+/// times as far as the border found in wider cones. A region without a border is a whole closed component, and measured
+/// to its farthest vertex within 45 degrees. O(V) for the working memory, and O(n log n) for each region of n vertices,
+/// which the workers share; each worker has memory of its own. Reads positions of these regions only.
 std::vector<Region_extent> region_extents(const Extent_input& input, std::span<const Extent_start> starts,
                                           Workers& workers = Workers::alone());
 

@@ -45,8 +45,8 @@ struct Mesh_and_cache {
 std::optional<Mesh_and_cache> mesh_and_cache(const std::filesystem::path& input);
 
 /// Reads one of: a mesh file (one frame), a pattern of numbered mesh files, a point cache `.pc2` or `.mdd`, a mesh and
-/// its point cache (`MESH+CACHE`), glTF, MD2, MD3. `motion.pose` reads each frame on demand. A
-/// pattern that is also the name of a file means that file.
+/// its point cache (`MESH+CACHE`), glTF, MD2, MD3. `motion.pose` reads each frame on demand. A pattern
+/// that is also the name of a file means that file.
 /// @throws Bad_mesh, Bad_motion  a file is missing or broken
 /// @throws Bad_argument          `options.mesh` is given, and `input` is not a point cache
 Animation read_animation(const std::filesystem::path& input, const Animation_options& options = {});
