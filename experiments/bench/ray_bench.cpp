@@ -20,7 +20,7 @@
 #include "bench/worm.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/queries/point_search.h"
-#include "lodestone/queries/ray_search.h"
+#include "lodestone/queries/ray_tree.h"
 #include "shared/lap_timer.h"
 #include "shared/measured_run.h"
 #include "shared/random_rays.h"
@@ -85,7 +85,26 @@ class Embree_scene {
     Query query{};
     query.best = std::numeric_limits<double>::infinity();
     query.ray = &ray;
-    RTCRayHit& hit = query.hit;
+    query.hit = in_float(ray);
+    rtcIntersect1(scene_, &context, &query.hit);
+    return face_of(query.hit);
+  }
+
+  /// All rays in one call. Only for triangles.
+  std::vector<std::uint32_t> first_faces(std::span<const Ray> rays) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    std::vector<RTCRayHit> hits(rays.size());
+    std::ranges::transform(rays, hits.begin(), in_float);
+    rtcIntersect1M(scene_, &context, hits.data(), static_cast<unsigned>(hits.size()), sizeof(RTCRayHit));
+    std::vector<std::uint32_t> faces(rays.size());
+    std::ranges::transform(hits, faces.begin(), face_of);
+    return faces;
+  }
+
+ private:
+  static RTCRayHit in_float(const Ray& ray) {
+    RTCRayHit hit{};
     hit.ray.org_x = static_cast<float>(ray.origin.x());
     hit.ray.org_y = static_cast<float>(ray.origin.y());
     hit.ray.org_z = static_cast<float>(ray.origin.z());
@@ -96,11 +115,12 @@ class Embree_scene {
     hit.ray.tfar = std::numeric_limits<float>::infinity();
     hit.ray.mask = ~0U;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_, &context, &hit);
+    return hit;
+  }
+  static std::uint32_t face_of(const RTCRayHit& hit) {
     return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? no_face : hit.hit.primID;
   }
 
- private:
   /// A ray, and what Embree does not know about it. Callbacks are given the address of `hit`.
   struct Query {
     RTCRayHit hit;
@@ -204,14 +224,29 @@ struct Answers {
     for (std::size_t i = 0; i < questions.size(); ++i) faces[i] = answer(questions[i]);
     nanoseconds.push_back(1e9 * timer.lap() / static_cast<double>(questions.size()));
   }
+  /// The same for all questions in one call.
+  /// @param answer  returns the faces
+  template <class Questions, class Answer>
+  void ask_at_once(const Questions& questions, const Answer& answer) {
+    Lap_timer timer;
+    faces = answer(questions);
+    nanoseconds.push_back(1e9 * timer.lap() / static_cast<double>(questions.size()));
+  }
   double least() const { return *std::ranges::min_element(nanoseconds); }
 };
 
+std::vector<std::uint32_t> faces_of(std::span<const std::optional<Ray_hit>> hits) {
+  std::vector<std::uint32_t> faces;
+  for (const auto& hit : hits) faces.push_back(hit ? hit->face : no_face);
+  return faces;
+}
+
 /// The first face that each of some random rays meets. The libraries take turns in each pass. All have been refitted to
-/// new positions, but for CGAL, which cannot: it has built its tree for them.
+/// new positions, but for CGAL, which cannot: it has built its tree for them. Lodestone is asked ray by ray, and about
+/// all rays at once by a Ray_tree that is made in each pass; Embree the same, without such a tree.
 ///
-/// Reported time: that of Lodestone. Counters: nanoseconds per ray, the least of all passes; ratios to Lodestone; rays
-/// for which another library names another face.
+/// Reported time: that of Lodestone, ray by ray. Counters: nanoseconds per ray, the least of all passes, and per face
+/// for `make_tree_ns`; ratios to Lodestone, asked in the same way; rays for which another library names another face.
 void first_hit_of_rays(benchmark::State& state) {
   Wavy_sphere sphere(static_cast<std::size_t>(state.range(0)));
 #ifdef LODESTONE_EMBREE
@@ -222,20 +257,26 @@ void first_hit_of_rays(benchmark::State& state) {
 #ifdef LODESTONE_EMBREE
   in_float.refit();
   in_double.refit();
-  Answers of_float, of_double;
+  Answers of_float, of_floats, of_double;
 #endif
   Cgal_tree cgal(faces(sphere.mesh).first, faces(sphere.mesh).second, sphere.mesh);
   cgal.build();
   const auto rays = random_rays(20000);
   const std::span<const Ray> few(rays.data(), 2000);
   const Layout_view view = sphere.tree.view();
-  Answers ours, ours_of_few, of_cgal;
+  Answers ours, of_tree, of_cgal;
+  std::vector<double> making;
   for (auto _ : state) {
     ours.ask(rays, [&](const Ray& ray) {
       const auto hit = first_hit(view, ray);
       return hit ? hit->face : no_face;
     });
+    Lap_timer timer;
+    const Ray_tree tree(view);
+    making.push_back(1e9 * timer.lap() / static_cast<double>(sphere.corners.size()));
+    of_tree.ask_at_once(rays, [&](std::span<const Ray> all) { return faces_of(first_hits(tree, all)); });
 #ifdef LODESTONE_EMBREE
+    of_floats.ask_at_once(rays, [&](std::span<const Ray> all) { return in_float.first_faces(all); });
     of_float.ask(rays, [&](const Ray& ray) { return in_float.first_face(ray); });
     of_double.ask(rays, [&](const Ray& ray) { return in_double.first_face(ray); });
 #endif
@@ -251,15 +292,21 @@ void first_hit_of_rays(benchmark::State& state) {
   state.counters["hits_percent"] =
       100 - 100 * static_cast<double>(std::ranges::count(ours.faces, no_face)) / static_cast<double>(rays.size());
   state.counters["lodestone_ns"] = ours.least();
+  state.counters["tree_ns"] = of_tree.least();
+  state.counters["tree_other"] = static_cast<double>(differences(of_tree.faces, ours.faces));
+  state.counters["make_tree_ns"] = *std::ranges::min_element(making);
   state.counters["cgal_ns"] = of_cgal.least();
   state.counters["cgal_ratio"] = of_cgal.least() / ours.least();
   state.counters["cgal_other"] = static_cast<double>(differences(of_cgal.faces, ours.faces));
 #ifdef LODESTONE_EMBREE
   state.counters["embree_ns"] = of_float.least();
   state.counters["embree_ratio"] = of_float.least() / ours.least();
+  state.counters["embree_tree_ratio"] = std::min(of_float.least(), of_floats.least()) / of_tree.least();
+  state.counters["embree_all_ns"] = of_floats.least();
   state.counters["embree_other"] = static_cast<double>(differences(of_float.faces, ours.faces));
   state.counters["double_ns"] = of_double.least();
   state.counters["double_ratio"] = of_double.least() / ours.least();
+  state.counters["double_tree_ratio"] = of_double.least() / of_tree.least();
   state.counters["double_other"] = static_cast<double>(differences(of_double.faces, ours.faces));
 #endif
 }

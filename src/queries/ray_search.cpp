@@ -6,26 +6,17 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
-#include <utility>
 
-#include "lodestone/mesh/errors.h"
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/queries/surface_on_demand.h"
+#include "queries/ray_hits.h"
 #include "queries/ray_leaf_kernel.h"
-#include "triangles/ray_depth.h"
 
 namespace lodestone {
 
 namespace {
 
 constexpr double largest = std::numeric_limits<double>::max();
-
-void check(const Ray& ray) {
-  if (!ray.origin.allFinite()) throw Bad_argument("the origin of a ray has a coordinate that is not finite");
-  if (!ray.direction.allFinite() || ray.direction.isZero(0))
-    throw Bad_argument("the direction of a ray must be finite and not zero");
-  if (!(ray.length >= 0)) throw Bad_argument("the length of a ray must be 0 or more");
-}
 
 /// Where a ray enters a box.
 struct Entry {
@@ -103,64 +94,6 @@ class Box_entry {
   bool is_steep_ = false;          ///< some inverse is infinite
 };
 
-/// A face that the ray meets, and bounds on the depth of their first common point.
-struct Hit {
-  std::uint32_t face;
-  Triangle triangle;
-  double low, high;
-  std::optional<Exact_depth> exact = {};
-
-  const Exact_depth& exact_depth_on(const Ray_frame& frame) {
-    if (!exact) exact = exact_depth(frame, triangle);
-    return *exact;
-  }
-};
-
-/// By depth, then by index. Exact numbers are needed only where the bounds overlap.
-bool is_before(const Ray_frame& frame, Hit& a, Hit& b) {
-  if (a.high < b.low) return true;
-  if (b.high < a.low) return false;
-  const auto order = CGAL::compare(a.exact_depth_on(frame), b.exact_depth_on(frame));
-  return order != CGAL::EQUAL ? order == CGAL::SMALLER : a.face < b.face;
-}
-
-/// Without exact() a lazy number converts to the midpoint of its interval, which may be off in the last digits.
-double rounded(const Exact_depth& x) {
-  x.exact();
-  return CGAL::to_double(x);
-}
-
-Ray_hit rounded(const Ray_frame& frame, Hit& hit) {
-  const double d_z = std::abs(frame.direction[frame.axes[2]]);
-  const bool is_precise = hit.high - hit.low <= 0x1p-32 * hit.low && hit.low > 0x1p-1000;
-  const double depth = is_precise ? hit.low / 2 + hit.high / 2 : rounded(hit.exact_depth_on(frame));
-  Ray_hit result{.face = hit.face};
-  result.t = is_precise ? depth / d_z : rounded(hit.exact_depth_on(frame) / Exact_depth(d_z));
-  result.t += 0.0;  // no negative zero
-  for (int axis = 0; axis < 3; ++axis) result.point[axis] = frame.origin[axis] + depth * (frame.direction[axis] / d_z);
-  return result;
-}
-
-/// Keeps the first of all hits.
-struct First_hit {
-  const Ray_frame& frame;
-  std::optional<Hit> best = {};
-
-  /// Faces that are surely beyond this depth are of no use.
-  double most_depth() const { return best ? best->high : frame.most_limit; }
-  void add(Hit hit) {
-    if (!best || is_before(frame, hit, *best)) best = std::move(hit);
-  }
-};
-
-struct Every_hit {
-  const Ray_frame& frame;
-  std::vector<Hit> hits = {};
-
-  double most_depth() const { return frame.most_limit; }
-  void add(Hit hit) { hits.push_back(std::move(hit)); }
-};
-
 /// Shows a collector the faces that a ray meets, leaf by leaf, from front to back as far as boxes tell.
 template <Surface_on_demand Surface, class Collector>
 class Ray_search {
@@ -233,18 +166,7 @@ class Ray_search {
     const std::size_t count =
         kernel::list_ray_candidates(leaf, input_, frame_error(reach(box)), collector_.most_depth(), candidates);
     for (std::size_t i = 0; i < count; ++i)
-      test(leaf_triangle(leaf, candidates[i]), surface_.layout().faces(index)[candidates[i]]);
-  }
-
-  void test(const Triangle_corners& corners, std::uint32_t face) {
-    const Depth_estimate estimate = estimate_depth(frame_, corners);
-    if (estimate.meets == Depth_estimate::Meets::no || estimate.low > collector_.most_depth()) return;
-    Hit hit{face, triangle_of(corners), estimate.low, estimate.high};
-    if (estimate.meets == Depth_estimate::Meets::unsure) {
-      hit.exact = exact_depth(frame_, hit.triangle);
-      if (!hit.exact) return;
-    }
-    collector_.add(std::move(hit));
+      test_face(frame_, leaf_triangle(leaf, candidates[i]), surface_.layout().faces(index)[candidates[i]], collector_);
   }
 
   /// The largest coordinate of a point of a box, as seen from the origin.
@@ -265,31 +187,15 @@ class Ray_search {
   std::size_t count_ = 0;
 };
 
-template <Surface_on_demand Surface>
-std::optional<Ray_hit> find_first(Surface& surface, const Ray& ray) {
-  check(ray);
-  const Ray_frame frame(ray.origin, ray.direction, ray.length);
-  return ask_until_settled(
-      [&]() -> std::optional<Ray_hit> {
-        First_hit first{frame};
-        Ray_search(surface, frame, first).run();
-        return first.best ? std::optional(rounded(frame, *first.best)) : std::nullopt;
-      },
-      surface);
-}
-
-template <Surface_on_demand Surface>
-std::vector<Ray_hit> find_all(Surface& surface, const Ray& ray) {
+template <class Collector, Surface_on_demand Surface>
+auto find(Surface& surface, const Ray& ray) {
   check(ray);
   const Ray_frame frame(ray.origin, ray.direction, ray.length);
   return ask_until_settled(
       [&] {
-        Every_hit every{frame};
-        Ray_search(surface, frame, every).run();
-        std::ranges::sort(every.hits, [&](Hit& a, Hit& b) { return is_before(frame, a, b); });
-        std::vector<Ray_hit> hits;
-        for (Hit& hit : every.hits) hits.push_back(rounded(frame, hit));
-        return hits;
+        Collector collector(frame);
+        Ray_search(surface, frame, collector).run();
+        return collector.result();
       },
       surface);
 }
@@ -298,16 +204,16 @@ std::vector<Ray_hit> find_all(Surface& surface, const Ray& ray) {
 
 std::optional<Ray_hit> first_hit(const Layout_view& surface, const Ray& ray) {
   Fitted_surface fitted(surface);
-  return find_first(fitted, ray);
+  return find<First_hit>(fitted, ray);
 }
 
-std::optional<Ray_hit> first_hit(Bounded_surface& surface, const Ray& ray) { return find_first(surface, ray); }
+std::optional<Ray_hit> first_hit(Bounded_surface& surface, const Ray& ray) { return find<First_hit>(surface, ray); }
 
 std::vector<Ray_hit> all_hits(const Layout_view& surface, const Ray& ray) {
   Fitted_surface fitted(surface);
-  return find_all(fitted, ray);
+  return find<Every_hit>(fitted, ray);
 }
 
-std::vector<Ray_hit> all_hits(Bounded_surface& surface, const Ray& ray) { return find_all(surface, ray); }
+std::vector<Ray_hit> all_hits(Bounded_surface& surface, const Ray& ray) { return find<Every_hit>(surface, ray); }
 
 }  // namespace lodestone

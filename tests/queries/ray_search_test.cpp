@@ -13,6 +13,7 @@
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/queries/containment.h"
+#include "lodestone/queries/ray_tree.h"
 #include "support/arm.h"
 #include "support/face_soup.h"
 #include "support/instruction_sets.h"
@@ -119,19 +120,27 @@ void expect_hit(const Ray_hit& found, const Exact_hit& truth, const Ray& ray) {
   EXPECT_LE(off.cwiseAbs().maxCoeff(), 0x1p-30 * t * ray.direction.cwiseAbs().maxCoeff() + rounding);
 }
 
-/// Compares both questions with the truth, for several leaf sizes.
+/// Compares both questions with the truth, for several leaf sizes, with and without a Ray_tree.
 /// @return number of faces that the ray meets
 std::size_t expect_hits(const std::vector<const Posed_object*>& objects, const Ray& ray) {
   const auto truth = true_hits(objects.front()->soup(), ray);
   SCOPED_TRACE(testing::Message() << "from " << ray.origin.transpose() << " along " << ray.direction.transpose()
                                   << " as far as " << ray.length);
-  for (const Posed_object* object : objects) {
-    const auto first = first_hit(object->view(), ray);
+  const auto expect_first = [&](const std::optional<Ray_hit>& first) {
     EXPECT_EQ(first.has_value(), !truth.empty());
     if (first && !truth.empty()) expect_hit(*first, truth.front(), ray);
-    const auto all = all_hits(object->view(), ray);
+  };
+  const auto expect_all = [&](const std::vector<Ray_hit>& all) {
     EXPECT_EQ(all.size(), truth.size());
     for (std::size_t i = 0; i < std::min(all.size(), truth.size()); ++i) expect_hit(all[i], truth[i], ray);
+  };
+  for (const Posed_object* object : objects) {
+    const Layout_view view = object->view();
+    expect_first(first_hit(view, ray));
+    expect_all(all_hits(view, ray));
+    const Ray_tree tree(view);
+    expect_first(first_hits(tree, std::span(&ray, 1)).front());
+    expect_all(all_hits(tree, std::span(&ray, 1)).front());
   }
   return truth.size();
 }

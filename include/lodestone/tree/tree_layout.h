@@ -87,6 +87,9 @@ class Tree_layout {
   /// Whether a node has no children.
   bool is_leaf(std::uint32_t n) const { return nodes_[n].second_child == 0; }
 
+  /// Number of faces.
+  std::size_t face_count() const { return faces_.size(); }
+
   /// Number of leaves, at least 1.
   std::size_t leaf_count() const { return leaf_nodes_.size(); }
   /// The node of a leaf.

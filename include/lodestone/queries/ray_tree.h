@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/unset_vector.h"
+#include "lodestone/mesh/workers.h"
+#include "lodestone/queries/ray_node.h"
+#include "lodestone/queries/ray_search.h"
+
+namespace lodestone {
+
+/// One pose of a surface, prepared for many rays: wide nodes over blocks of eight faces, in single precision
+/// \cite wald2008. Single precision only discards what it proves missed, so rays get the same answers as from the
+/// surface itself, and sooner. It is made anew after vertices have moved.
+///
+/// Making it takes the time of about F / 12 rays, so fewer rays are better asked without it.
+class Ray_tree {
+ public:
+  /// Packs the faces of each leaf into blocks, by where they are now. O(F), shared among the workers.
+  /// @param surface  with boxes; must outlive this, and stay as it is
+  explicit Ray_tree(const Layout_view& surface, Workers& workers = Workers::alone());
+
+  /// What it was made of.
+  const Layout_view& surface() const { return surface_; }
+  /// Nodes, the root first. None if the surface is a point, or larger than 2^500 or smaller than 2^-500: its rays are
+  /// asked without this.
+  std::span<const Ray_node> nodes() const { return {nodes_.data(), nodes_.size()}; }
+  /// Blocks, those of a leaf one after the other.
+  std::span<const Ray_block> blocks() const { return {blocks_.data(), blocks_.size()}; }
+  /// Most nodes and blocks that wait at once while a ray walks down.
+  std::size_t most_waiting() const { return most_waiting_; }
+  /// Relative coordinates are those of the mesh less this, times `scale`. They are at most 1 in size.
+  const std::array<double, 3>& middle() const { return middle_; }
+  /// A power of two.
+  double scale() const { return scale_; }
+
+ private:
+  friend class Ray_tree_builder;
+
+  Layout_view surface_;
+  std::array<double, 3> middle_ = {};
+  double scale_ = 1;
+  Unset_vector<Ray_node> nodes_;
+  Unset_vector<Ray_block> blocks_;
+  std::size_t most_waiting_ = 1;
+};
+
+/// `first_hit` of each ray, the same as of the surface. Shared among the workers.
+/// @return one per ray, in their order
+/// @throws Bad_argument  a ray is not as `Ray` says
+std::vector<std::optional<Ray_hit>> first_hits(const Ray_tree& tree, std::span<const Ray> rays,
+                                               Workers& workers = Workers::alone());
+
+/// `all_hits` of each ray, the same as of the surface. Shared among the workers.
+/// @return one list per ray, in their order
+/// @throws Bad_argument  a ray is not as `Ray` says
+std::vector<std::vector<Ray_hit>> all_hits(const Ray_tree& tree, std::span<const Ray> rays,
+                                           Workers& workers = Workers::alone());
+
+/// `first_hit` of each ray. Makes a Ray_tree first where the rays are many enough to be worth it. Shared among the
+/// workers.
+/// @param surface  with boxes
+/// @return one per ray, in their order
+/// @throws Bad_argument  a ray is not as `Ray` says
+std::vector<std::optional<Ray_hit>> first_hits(const Layout_view& surface, std::span<const Ray> rays,
+                                               Workers& workers = Workers::alone());
+
+/// The same for a surface that is bounded, which one thread asks about one ray after the other: see `first_hit`.
+/// @throws Bad_argument, Bad_mesh  as `first_hit`
+std::vector<std::optional<Ray_hit>> first_hits(Bounded_surface& surface, std::span<const Ray> rays,
+                                               Workers& workers = Workers::alone());
+
+}  // namespace lodestone

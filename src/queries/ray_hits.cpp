@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "queries/ray_hits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace {
+
+/// Without exact() a lazy number converts to the midpoint of its interval, which may be off in the last digits.
+double rounded(const Exact_depth& x) {
+  x.exact();
+  return CGAL::to_double(x);
+}
+
+Ray_hit rounded(const Ray_frame& frame, Hit_on_ray& hit) {
+  const double d_z = std::abs(frame.direction[frame.axes[2]]);
+  const bool is_precise = hit.high - hit.low <= 0x1p-32 * hit.low && hit.low > 0x1p-1000;
+  const double depth = is_precise ? hit.low / 2 + hit.high / 2 : rounded(hit.exact_depth_on(frame));
+  Ray_hit result{.face = hit.face};
+  result.t = is_precise ? depth / d_z : rounded(hit.exact_depth_on(frame) / Exact_depth(d_z));
+  result.t += 0.0;  // no negative zero
+  for (int axis = 0; axis < 3; ++axis) result.point[axis] = frame.origin[axis] + depth * (frame.direction[axis] / d_z);
+  return result;
+}
+
+}  // namespace
+
+void check(const Ray& ray) {
+  if (!ray.origin.allFinite()) throw Bad_argument("the origin of a ray has a coordinate that is not finite");
+  if (!ray.direction.allFinite() || ray.direction.isZero(0))
+    throw Bad_argument("the direction of a ray must be finite and not zero");
+  if (!(ray.length >= 0)) throw Bad_argument("the length of a ray must be 0 or more");
+}
+
+bool is_before(const Ray_frame& frame, Hit_on_ray& a, Hit_on_ray& b) {
+  if (a.high < b.low) return true;
+  if (b.high < a.low) return false;
+  const auto order = CGAL::compare(a.exact_depth_on(frame), b.exact_depth_on(frame));
+  return order != CGAL::EQUAL ? order == CGAL::SMALLER : a.face < b.face;
+}
+
+std::optional<Ray_hit> First_hit::result() { return best_ ? std::optional(rounded(frame_, *best_)) : std::nullopt; }
+
+std::vector<Ray_hit> Every_hit::result() {
+  std::ranges::sort(hits_, [&](Hit_on_ray& a, Hit_on_ray& b) { return is_before(frame_, a, b); });
+  std::vector<Ray_hit> results;
+  results.reserve(hits_.size());
+  for (Hit_on_ray& hit : hits_) results.push_back(rounded(frame_, hit));
+  return results;
+}
+
+}  // namespace lodestone

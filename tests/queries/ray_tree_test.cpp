@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Many rays through a Ray_tree. That each answer is true is tested with those of the surface: ray_search_test.cpp.
+#include "lodestone/queries/ray_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "lodestone/mesh/errors.h"
+#include "support/face_soup.h"
+#include "support/instruction_sets.h"
+
+namespace lodestone {
+namespace {
+
+/// Rays from around an object of the size of the unit sphere to points in and near it, some of limited length.
+std::vector<Ray> rays_at(std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto point = [&](double size) {
+    return Eigen::Vector3d(size * unit(random), size * unit(random), size * unit(random));
+  };
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d origin = point(i % 3 == 0 ? 0.8 : 3), target = point(1.2);
+    rays.push_back({origin, target - origin});
+    if (i % 5 == 0) rays.back().length = 0.5 + 0.5 * unit(random);
+    if (i % 7 == 0)
+      rays.back().direction = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i / 7 % 3)) * (i % 2 == 0 ? 1 : -2);
+  }
+  return rays;
+}
+
+void expect_same(const std::optional<Ray_hit>& a, const std::optional<Ray_hit>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (!a) return;
+  EXPECT_EQ(a->face, b->face);
+  EXPECT_EQ(a->t, b->t);
+  EXPECT_EQ(a->point, b->point);
+}
+
+/// Asks about all rays at once, and compares the answers with those of the surface.
+/// @return number of rays that meet it
+std::size_t expect_answers_of_the_surface(const Layout_view& surface, std::span<const Ray> rays) {
+  const Ray_tree tree(surface);
+  const auto first = first_hits(tree, rays);
+  const auto all = all_hits(tree, rays);
+  EXPECT_EQ(first.size(), rays.size());
+  EXPECT_EQ(all.size(), rays.size());
+  std::size_t meeting = 0;
+  for (std::size_t i = 0; i < rays.size() && !testing::Test::HasFailure(); ++i) {
+    SCOPED_TRACE(testing::Message() << "ray " << i);
+    expect_same(first[i], first_hit(surface, rays[i]));
+    const auto truth = all_hits(surface, rays[i]);
+    EXPECT_EQ(all[i].size(), truth.size());
+    for (std::size_t k = 0; k < std::min(all[i].size(), truth.size()); ++k) expect_same(all[i][k], truth[k]);
+    meeting += first[i] ? 1 : 0;
+  }
+  return meeting;
+}
+
+/// Each block's faces and corners are those of the layout's leaves, each face once, and lie in the box of the child
+/// that leads to them.
+void expect_valid(const Ray_tree& tree, const Face_soup& soup) {
+  std::vector<int> seen(soup.faces.size());
+  std::vector<int> parents(tree.blocks().size() + tree.nodes().size());
+  for (const auto& block : tree.blocks()) {
+    ASSERT_GE(block.count, 1U);
+    ASSERT_LE(block.count, ray_tree_width);
+    for (std::size_t lane = 0; lane < block.count; ++lane) {
+      ++seen[block.faces[lane]];
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(block.vertices[c][lane], soup.faces[block.faces[lane]][c]);
+    }
+  }
+  EXPECT_EQ(seen, std::vector<int>(soup.faces.size(), 1));
+  for (const auto& node : tree.nodes())
+    for (std::size_t i = 0; i < ray_tree_width; ++i) {
+      if (node.sides[0][0][i] > node.sides[1][0][i]) continue;
+      const std::uint32_t child = node.children[i] & ~is_ray_block;
+      if (child == node.children[i]) {
+        ++parents[tree.blocks().size() + child];
+        continue;
+      }
+      ++parents[child];
+      const auto& block = tree.blocks()[child];
+      for (std::size_t lane = 0; lane < block.count; ++lane)
+        for (std::size_t c = 0; c < 3; ++c)
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            EXPECT_LE(node.sides[0][axis][i], block.corners[c][axis][lane]);
+            EXPECT_GE(node.sides[1][axis][i], block.corners[c][axis][lane]);
+            EXPECT_NEAR(block.corners[c][axis][lane],
+                        (soup.coordinates[3 * std::size_t{block.vertices[c][lane]} + axis] - tree.middle()[axis]) *
+                            tree.scale(),
+                        0x1p-24);
+          }
+    }
+  ASSERT_FALSE(tree.nodes().empty());
+  parents[tree.blocks().size()] += 1;  // the root has none
+  EXPECT_EQ(parents, std::vector<int>(parents.size(), 1));
+}
+
+TEST(Ray_tree, has_every_face_in_one_block_below_boxes_that_enclose_it) {
+  for (const auto& [name, soup] : small_objects())
+    for (const std::size_t leaf_faces : {2, 7, 96, 128}) {
+      SCOPED_TRACE(testing::Message() << name << ", leaves of " << leaf_faces);
+      const Posed_object object(soup, leaf_faces);
+      expect_valid(Ray_tree(object.view()), soup);
+    }
+  const Face_soup one(single_triangle());
+  const Posed_object object(one);
+  expect_valid(Ray_tree(object.view()), one);
+}
+
+TEST(Ray_tree, gives_rays_in_turns_the_answers_of_the_surface) {
+  const auto rays = rays_at(400, 1);
+  for (const auto& [name, soup] : small_objects()) {
+    SCOPED_TRACE(name);
+    const Posed_object object(soup, 96);
+    EXPECT_GT(expect_answers_of_the_surface(object.view(), rays), 20U);
+  }
+  const Posed_object large{Face_soup(icosphere(40)), 96, false};
+  EXPECT_GT(expect_answers_of_the_surface(large.view(), rays_at(2000, 2)), 500U);
+}
+
+TEST(Ray_tree, gives_the_same_answers_with_every_instruction_set) {
+  const Posed_object object{Face_soup(potato(12)), 96};
+  const auto rays = rays_at(300, 3);
+  for_instruction_sets([&] { EXPECT_GT(expect_answers_of_the_surface(object.view(), rays), 50U); });
+}
+
+TEST(Ray_tree, asks_the_surface_where_single_precision_is_not_enough) {
+  const Face_soup ball(icosphere(4));
+  const Posed_object object(ball);
+  auto rays = rays_at(60, 4);
+  for (std::size_t i = 0; i < rays.size(); i += 2) {
+    const double distance = std::ldexp(1.0, 20 + static_cast<int>(i));
+    rays[i].origin -= distance * rays[i].direction;  // beyond 2^24 times the size for most
+    rays[i].length = std::numeric_limits<double>::infinity();
+  }
+  EXPECT_GT(expect_answers_of_the_surface(object.view(), rays), 10U);
+
+  Face_soup point;
+  point.coordinates = {1, 2, 3};
+  point.faces = {{0, 0, 0}, {0, 0, 0}};
+  const Posed_object dot(point, 16, false);
+  EXPECT_TRUE(Ray_tree(dot.view()).nodes().empty());
+  EXPECT_EQ(expect_answers_of_the_surface(dot.view(), std::vector<Ray>{{{0, 2, 3}, {1, 0, 0}}, {{0, 0, 0}}}), 1U);
+  for (const double factor : {0x1p-600, 0x1p600}) {
+    const Posed_object scaled(placed(ball, factor));
+    std::vector<Ray> scaled_rays = rays_at(40, 5);
+    for (Ray& ray : scaled_rays) ray.origin *= factor;
+    EXPECT_TRUE(Ray_tree(scaled.view()).nodes().empty());
+    EXPECT_GT(expect_answers_of_the_surface(scaled.view(), scaled_rays), 5U);
+  }
+}
+
+/// Rays a little beside a vertex, within and beyond what single precision can tell apart.
+TEST(Ray_tree, keeps_faces_that_rays_meet_at_their_very_edge) {
+  const Face_soup ball(icosphere(6));
+  const Posed_object object(ball, 96, false);
+  std::vector<Ray> rays;
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 600; ++i) {
+    const Triangle t = ball.triangle(random() % ball.faces.size());
+    const double part = unit(random) / 2 + 0.5, beside = std::ldexp(unit(random), -(i % 60));
+    Eigen::Vector3d on_edge;
+    for (int axis = 0; axis < 3; ++axis) on_edge[axis] = t[0][axis] + part * (t[1][axis] - t[0][axis]);
+    const Eigen::Vector3d origin(3 * unit(random), 3 * unit(random), 3 * unit(random));
+    rays.push_back({origin, on_edge + Eigen::Vector3d::Constant(beside) - origin});
+  }
+  EXPECT_GT(expect_answers_of_the_surface(object.view(), rays), 300U);
+}
+
+TEST(Ray_tree, does_not_depend_on_the_number_of_workers) {
+  const Posed_object object{Face_soup(icosphere(30)), 96, false};
+  const auto rays = rays_at(1000, 7);
+  const auto alone = first_hits(Ray_tree(object.view()), rays);
+  for (const std::size_t threads : {2, 5}) {
+    Workers workers(threads);
+    const Ray_tree tree(object.view(), workers);
+    const auto shared = first_hits(tree, rays, workers);
+    const auto all = all_hits(tree, rays, workers);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      expect_same(shared[i], alone[i]);
+      expect_same(all[i].empty() ? std::nullopt : std::optional(all[i].front()), alone[i]);
+    }
+  }
+}
+
+TEST(Ray_tree, few_and_many_rays_get_the_same_answers) {
+  const Face_soup ball(icosphere(8));
+  const Posed_object object(ball, 96, false);
+  const auto rays = rays_at(2 * ball.faces.size() / 8, 8);
+  const auto many = first_hits(object.view(), rays);
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, ball.faces.size() / 8, ball.faces.size() / 8 + 1}) {
+    const auto few = first_hits(object.view(), std::span(rays).first(count));
+    ASSERT_EQ(few.size(), count);
+    for (std::size_t i = 0; i < count; ++i) expect_same(few[i], many[i]);
+  }
+}
+
+TEST(Ray_tree, refuses_what_is_no_ray) {
+  const Posed_object object{Face_soup(cube(2))};
+  const Ray_tree tree(object.view());
+  auto rays = rays_at(20, 9);
+  rays[13].direction.setZero();
+  EXPECT_THROW(first_hits(tree, rays), Bad_argument);
+  EXPECT_THROW(all_hits(tree, rays), Bad_argument);
+  EXPECT_THROW(first_hits(object.view(), rays), Bad_argument);
+  EXPECT_TRUE(first_hits(tree, {}).empty());
+}
+
+}  // namespace
+}  // namespace lodestone
