@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "triangles/algebraic_time.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <utility>
+
+namespace lodestone {
+
+namespace {
+
+using Coefficients = Integer_polynomial::Coefficients;
+
+/// The sign just after 0.
+CGAL::Sign sign_after_zero(const Coefficients& coefficients) {
+  for (const Integer& value : coefficients)
+    if (const CGAL::Sign sign = CGAL::sign(value); sign != CGAL::ZERO) return sign;
+  return CGAL::ZERO;
+}
+
+/// The sign that a polynomial has all over the open interval (0, 1), if the coefficients tell; zero: they do not.
+CGAL::Sign constant_sign(const Coefficients& coefficients) {
+  const Coefficients changes = descartes_coefficients(coefficients);
+  return sign_changes(changes) == 0 ? sign_after_zero(coefficients) : CGAL::ZERO;
+}
+
+/// Isolates the roots of a polynomial by bisection, until Descartes' rule counts no root or one: the method of
+/// \cite collins1976. It ends if no root is repeated.
+class Isolation {
+ public:
+  Isolation(const Integer_polynomial& polynomial, Root_list& roots) : polynomial_(polynomial), roots_(roots) {}
+
+  /// @param local  the polynomial in the cell that begins at `start`
+  void search(const Coefficients& local, const Dyadic& start) {
+    const int changes = sign_changes(descartes_coefficients(local));
+    if (changes == 0) return;
+    if (changes == 1) {
+      roots_.emplace_back(polynomial_, start, sign_after_zero(local));
+      return;
+    }
+    Coefficients half = local;
+    for (std::size_t i = 0; i < half.size(); ++i) half[i] <<= static_cast<unsigned long>(half.size() - 1 - i);
+    const Dyadic middle{2 * start.m + 1, start.e + 1};
+    search(half, {2 * start.m, start.e + 1});
+    shift_by_one(half);
+    if (CGAL::sign(half.front()) == CGAL::ZERO) roots_.emplace_back(middle);
+    search(half, middle);
+  }
+
+ private:
+  const Integer_polynomial& polynomial_;
+  Root_list& roots_;
+};
+
+}  // namespace
+
+Algebraic_time::Algebraic_time(Integer_polynomial polynomial, Dyadic start, CGAL::Sign sign_at_start)
+    : polynomial_(std::move(polynomial)), start_(std::move(start)), sign_at_start_(sign_at_start) {
+  while (!exact_ &&
+         (polynomial_.sign_at(start_) == CGAL::ZERO || polynomial_.sign_at(end()) == CGAL::ZERO))
+    halve();
+}
+
+void Algebraic_time::halve() {
+  const Dyadic middle{2 * start_.m + 1, start_.e + 1};
+  const CGAL::Sign sign = polynomial_.sign_at(middle);
+  if (sign == CGAL::ZERO || sign == sign_at_start_)
+    start_ = middle;
+  else
+    start_ = {2 * start_.m, start_.e + 1};
+  exact_ = sign == CGAL::ZERO;
+}
+
+CGAL::Sign Algebraic_time::sign_of(const Integer_polynomial& p) {
+  constexpr int quick_steps = 12;
+  for (int step = 0; !p.is_zero(); ++step) {
+    if (exact_) return p.sign_at(start_);
+    if (const CGAL::Sign sign = constant_sign(p.in_cell(start_)); sign != CGAL::ZERO) return sign;
+    // If this number is no root of p, some cell around it holds none, nor does its neighbourhood in the complex plane.
+    if (step == quick_steps && is_root_of(p)) return CGAL::ZERO;
+    halve();
+  }
+  return CGAL::ZERO;
+}
+
+/// A common divisor has no other root in the cell than this number, and no repeated one.
+bool Algebraic_time::is_root_of(const Integer_polynomial& p) const {
+  const Integer_polynomial common = greatest_common_divisor(polynomial_, p);
+  return common.degree() > 0 && common.sign_at(start_) != common.sign_at(end());
+}
+
+std::strong_ordering Algebraic_time::compare(const Dyadic& number) const {
+  if (exact_ || !(start_ < number)) {
+    if (start_ < number) return std::strong_ordering::less;
+    return exact_ && !(number < start_) ? std::strong_ordering::equal : std::strong_ordering::greater;
+  }
+  if (!(number < end())) return std::strong_ordering::less;
+  const CGAL::Sign sign = polynomial_.sign_at(number);
+  if (sign == CGAL::ZERO) return std::strong_ordering::equal;
+  return sign == sign_at_start_ ? std::strong_ordering::greater : std::strong_ordering::less;
+}
+
+std::strong_ordering Algebraic_time::compare(Algebraic_time& other) {
+  constexpr int quick_steps = 12;
+  for (int step = 0;; ++step) {
+    if (exact_) return 0 <=> other.compare(start_);
+    if (other.exact_) return compare(other.start_);
+    if (!(other.start_ < end())) return std::strong_ordering::less;
+    if (!(start_ < other.end())) return std::strong_ordering::greater;
+    // Cells are nested or disjoint. The inner one has room for one root of either polynomial.
+    const bool is_inner = other.start_.e <= start_.e;
+    Algebraic_time& inner = is_inner ? *this : other;
+    Algebraic_time& outer = is_inner ? other : *this;
+    if (step == quick_steps && inner.is_root_of(outer.polynomial_)) return std::strong_ordering::equal;
+    outer.halve();
+  }
+}
+
+double Algebraic_time::round_down() const {
+  const auto is_at_least = [&](double number) { return compare(dyadic(number)) >= 0; };
+  if (is_at_least(1)) return 1;
+  // The bits of doubles >= 0, read as integers, are in the order of the doubles. First the power of two is found, so
+  // that no number with a thousand bits is read without need.
+  double above = 1, below = 0.5;
+  for (; below > 0 && !is_at_least(below); below *= below) above = below;
+  auto low = std::bit_cast<std::uint64_t>(below), high = std::bit_cast<std::uint64_t>(above);
+  while (high - low > 1) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    (is_at_least(std::bit_cast<double>(middle)) ? low : high) = middle;
+  }
+  return std::bit_cast<double>(low);
+}
+
+Root_list roots_until_one(const Integer_polynomial& p) {
+  Root_list roots;
+  const Integer_polynomial whole = p.primitive();
+  const auto list = [&roots](const Integer_polynomial& q) { Isolation(q, roots).search(q.in_cell({}), {}); };
+  const int changes = sign_changes(descartes_coefficients(whole.in_cell({})));
+  if (changes == 1)
+    list(whole);  // one root, which is not repeated, whatever the others are
+  else if (changes > 1)
+    list(square_free(whole));
+  if (const Dyadic one{1, 0}; p.sign_at(one) == CGAL::ZERO) roots.emplace_back(one);
+  return roots;
+}
+
+}  // namespace lodestone

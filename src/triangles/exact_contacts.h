@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "lodestone/triangles/impact.h"
+#include "triangles/algebraic_time.h"
+
+namespace lodestone {
+
+/// Finds, in exact numbers, when corners, edges and faces of two moving triangles meet first.
+///
+/// Corners are counted from 0 to 5: three of the first triangle, then three of the second.
+class Exact_contacts {
+ public:
+  Exact_contacts(const Moving_triangle& a, const Moving_triangle& b);
+
+  /// Looks for when a corner is first on a triangle.
+  /// @param face  its three corners
+  void try_corner_and_face(int corner, const std::array<int, 3>& face);
+  /// Looks for when two edges first have a point in common.
+  void try_edges(const std::array<int, 2>& first, const std::array<int, 2>& second);
+
+  /// The first time that has been found.
+  const std::optional<Algebraic_time>& first() const { return first_; }
+
+ private:
+  void try_corner_and_edge(int corner, const std::array<int, 2>& edge);
+  void try_corners(int first, int second);
+
+  template <class Meets>
+  void try_roots(const Integer_polynomial& p, Meets meets);
+
+  bool on_face(int corner, const std::array<int, 3>& face, Algebraic_time& t) const;
+  bool edges_meet(const std::array<int, 2>& first, const std::array<int, 2>& second, Algebraic_time& t) const;
+  bool on_edge(int corner, const std::array<int, 2>& edge, Algebraic_time& t) const;
+
+  Moving_vector between(int from, int to) const { return point(to) - point(from); }
+  const Moving_vector& point(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
+
+  std::array<Moving_vector, 6> points_;
+  std::optional<Algebraic_time> first_;
+};
+
+}  // namespace lodestone
