@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lodestone/mesh/pairs.h"
+#include "lodestone/triangles/impact.h"
+#include "lodestone/tree/tree_view.h"
+
+/// When two surfaces meet first, whose vertices move on straight lines while t goes from 0 to 1.
+namespace lodestone {
+
+/// A tree, with the positions and boxes at the start and at the end of a motion. Both have the same layout.
+struct Swept_view {
+  Layout_view start;  ///< at t = 0, with boxes
+  Layout_view end;    ///< at t = 1, with boxes
+};
+
+/// What a `Swept_view` needs beside a tree of boxes that is fitted to the start: the boxes at the end.
+class Swept_boxes {
+ public:
+  /// Fits boxes to the end of the motion. O(V).
+  /// @param start  its tree must outlive this
+  /// @param end    3 V coordinates, all finite; must stay where they are as long as this is used
+  Swept_boxes(const Tree_view& start, Coordinates end);
+  Swept_boxes(const Swept_boxes&) = delete;
+  Swept_boxes& operator=(const Swept_boxes&) = delete;
+
+  /// Both ends of the motion. Valid as long as this.
+  const Swept_view& view() const { return view_; }
+
+ private:
+  std::vector<Aabb> boxes_;
+  Swept_view view_;
+};
+
+/// The first moment at which two surfaces have a point in common.
+struct Impact {
+  Face_pair faces = {};  ///< the lowest pair of those that meet at this time
+  double time = 0;       ///< t, in [0, 1]; the nearest double to the exact time
+  /// A point on the first of the faces. At the exact time its distance from either face is at most 2^-46 of the
+  /// largest coordinate that one of them has at the start or the end.
+  Point point = {};
+};
+
+/// The earliest impact of two different objects: no pair of their faces meets before it. None if they never meet while
+/// t goes from 0 to 1. Whether, when and where is decided exactly, as if all numbers were rational: see
+/// `first_impact` of two triangles. Two objects that intersect at the start have an impact at t = 0.
+///
+/// What meets within one mesh is not looked at: its neighbouring faces touch all the time.
+///
+/// Branch and bound over node pairs, those first whose moving boxes may overlap first. Only faces whose moving boxes
+/// overlap before the earliest impact so far go to the exact test. O(log F) node pairs are opened where the surfaces
+/// meet at one place; more where they run side by side.
+std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b);
+
+/// Faces whose vertices move.
+struct Moving_surface {
+  std::span<const Corners> faces;  ///< F >= 1
+  Coordinates start;               ///< 3 V, at t = 0, all finite
+  Coordinates end;                 ///< 3 V, at t = 1, all finite
+};
+
+/// The same for surfaces without trees, which are built and thrown away. O(F log F).
+std::optional<Impact> first_impact(const Moving_surface& a, const Moving_surface& b);
+
+/// The same by the exact test of every face of a with every face of b: the truth that the search is compared with.
+/// O(F_a F_b).
+std::optional<Impact> exhaustive_first_impact(const Moving_surface& a, const Moving_surface& b);
+
+}  // namespace lodestone

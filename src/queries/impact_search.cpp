@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/queries/impact_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <queue>
+#include <tuple>
+
+#include "lodestone/queries/leaf_triangle.h"
+#include "lodestone/tree/node_pair.h"
+#include "lodestone/tree/tree_surface.h"
+#include "lodestone/triangles/moving_box.h"
+#include "lodestone/triangles/triangle_distance.h"
+#include "lodestone/volumes/to_box.h"
+
+namespace lodestone {
+
+namespace {
+
+Moving_box box_around(const Moving_triangle& moving) {
+  Moving_box box;
+  for (const Point& p : moving.start) box.start.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
+  for (const Point& p : moving.end) box.end.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
+  return box;
+}
+
+/// The triangle at a time, up to a few roundings of the largest coordinate.
+Triangle triangle_at(const Moving_triangle& moving, double t) {
+  const auto corner = [&](std::size_t i) {
+    const Point &from = moving.start[i], &to = moving.end[i];
+    return Point(std::lerp(from.x(), to.x(), t), std::lerp(from.y(), to.y(), t), std::lerp(from.z(), to.z(), t));
+  };
+  return {corner(0), corner(1), corner(2)};
+}
+
+/// The earliest impact so far.
+class Earliest {
+ public:
+  /// A time after the impact, or the impact's; 1 if there is none.
+  double latest() const { return found_ ? time_.high() : 1; }
+
+  /// Whether an impact of two faces at `bound` or later can be earlier, or at the same time that of a lower pair.
+  bool can_change(double bound, Face_pair faces) const {
+    return bound <= latest() && !(bound >= latest() && found_ && faces > faces_);
+  }
+
+  /// @param until  see `first_impact`
+  void offer(Face_pair faces, const Moving_triangle& a, const Moving_triangle& b, double until) {
+    const auto time = first_impact(a, b, until);
+    if (!time || (found_ && std::tie(*time, faces) >= std::tie(time_, faces_))) return;
+    found_ = true, time_ = *time, faces_ = faces, a_ = a, b_ = b;
+  }
+
+  /// The rounded triangles at the rounded time nearly meet, and the closest points of theirs are near both.
+  std::optional<Impact> impact() const {
+    if (!found_) return std::nullopt;
+    const double t = time_.value();
+    return Impact{faces_, t, closest_points(triangle_at(a_, t), triangle_at(b_, t)).a};
+  }
+
+ private:
+  bool found_ = false;
+  Impact_time time_;
+  Face_pair faces_;
+  Moving_triangle a_, b_;
+};
+
+/// A face of a leaf that moves.
+struct Moving_face {
+  std::uint32_t face;
+  Moving_triangle triangle;
+  Moving_box box;
+};
+
+class Search {
+ public:
+  Search(const Swept_view& a, const Swept_view& b) : a_(a), b_(b) {}
+
+  std::optional<Impact> run() {
+    push(root_pair);
+    while (!queue_.empty() && queue_.top().bound <= earliest_.latest()) {
+      const Node_pair pair = queue_.top().pair;
+      queue_.pop();
+      if (!layout_a().is_leaf(pair.a) || !layout_b().is_leaf(pair.b))
+        open(pair);
+      else
+        try_leaves(pair);
+    }
+    return earliest_.impact();
+  }
+
+ private:
+  struct Candidate {
+    double bound;
+    Node_pair pair;
+    bool operator<(const Candidate& other) const { return bound > other.bound; }  // the earliest is on top
+  };
+  struct Face_candidate {
+    double bound;
+    Face_pair faces;
+    std::uint32_t a, b;  ///< in the lists
+    auto operator<=>(const Face_candidate&) const = default;
+  };
+
+  const Tree_layout& layout_a() const { return *a_.start.layout; }
+  const Tree_layout& layout_b() const { return *b_.start.layout; }
+
+  static Moving_box box(const Swept_view& view, std::uint32_t node) {
+    return {to_box(view.start.boxes[node]), to_box(view.end.boxes[node])};
+  }
+
+  void push(Node_pair pair) {
+    const double bound = overlap_time_lower_bound(box(a_, pair.a), box(b_, pair.b));
+    if (bound <= earliest_.latest()) queue_.push({bound, pair});
+  }
+
+  /// Opens the node that is larger where both ends of the motion are taken together.
+  void open(Node_pair pair) {
+    const auto extent = [](const Swept_view& view, std::uint32_t node) {
+      return view.start.boxes[node].extent() + view.end.boxes[node].extent();
+    };
+    below_.clear();
+    open_pair(layout_a(), layout_b(), pair, extent(a_, pair.a) >= extent(b_, pair.b), below_);
+    for (const Node_pair next : below_) push(next);
+  }
+
+  void try_leaves(Node_pair pair) {
+    list_faces_that_come_to(box(b_, pair.b), a_, layout_a().node(pair.a).leaf, faces_a_);
+    list_faces_that_come_to(box(a_, pair.a), b_, layout_b().node(pair.b).leaf, faces_b_);
+    list_candidates();
+    for (const Face_candidate& candidate : candidates_) {
+      if (candidate.bound > earliest_.latest()) return;
+      if (earliest_.can_change(candidate.bound, candidate.faces))
+        earliest_.offer(candidate.faces, faces_a_[candidate.a].triangle, faces_b_[candidate.b].triangle,
+                        earliest_.latest());
+    }
+  }
+
+  void list_faces_that_come_to(const Moving_box& other, const Swept_view& view, std::uint32_t leaf,
+                               std::vector<Moving_face>& faces) const {
+    faces.clear();
+    const Leaf_faces at_start = view.start.leaf(leaf), at_end = view.end.leaf(leaf);
+    const auto indices = view.start.layout->faces(leaf);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      const Moving_triangle moving{triangle_of(leaf_triangle(at_start, i)), triangle_of(leaf_triangle(at_end, i))};
+      const Moving_box box = box_around(moving);
+      if (overlap_time_lower_bound(box, other) <= earliest_.latest()) faces.push_back({indices[i], moving, box});
+    }
+  }
+
+  /// Pairs of the listed faces that may meet, the earliest first.
+  void list_candidates() {
+    candidates_.clear();
+    for (std::uint32_t i = 0; i < faces_a_.size(); ++i)
+      for (std::uint32_t j = 0; j < faces_b_.size(); ++j) {
+        const Face_pair faces{faces_a_[i].face, faces_b_[j].face};
+        const double bound = overlap_time_lower_bound(faces_a_[i].box, faces_b_[j].box);
+        if (earliest_.can_change(bound, faces)) candidates_.push_back({bound, faces, i, j});
+      }
+    std::ranges::sort(candidates_);
+  }
+
+  const Swept_view& a_;
+  const Swept_view& b_;
+  Earliest earliest_;
+  std::priority_queue<Candidate> queue_;
+  std::vector<Node_pair> below_;
+  std::vector<Moving_face> faces_a_, faces_b_;
+  std::vector<Face_candidate> candidates_;
+};
+
+Moving_triangle moving_face(const Moving_surface& surface, std::uint32_t face) {
+  const auto at = [&](Coordinates coordinates) {
+    return face_triangle(surface.faces[face], [&](auto vertex) { return coordinates.data() + 3 * std::size_t{vertex}; });
+  };
+  return {at(surface.start), at(surface.end)};
+}
+
+}  // namespace
+
+Swept_boxes::Swept_boxes(const Tree_view& start, Coordinates end) : boxes_(start.tree->node_count()) {
+  const Region_tree& tree = *start.tree;
+  fit_leaves(tree, end, 0, tree.leaf_count(), std::span(boxes_));
+  for (auto n = static_cast<std::uint32_t>(boxes_.size()); n-- > 0;)
+    if (!tree.is_leaf(n)) boxes_[n].enclose(boxes_[n + 1], boxes_[tree.node(n).second_child]);
+  view_ = {start, {&tree, end, boxes_[0], boxes_}};
+}
+
+std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b) { return Search(a, b).run(); }
+
+std::optional<Impact> first_impact(const Moving_surface& a, const Moving_surface& b) {
+  const Tree_surface tree_a(a.faces, a.start), tree_b(b.faces, b.start);
+  const Swept_boxes boxes_a(tree_a.view(), a.end), boxes_b(tree_b.view(), b.end);
+  return first_impact(boxes_a.view(), boxes_b.view());
+}
+
+std::optional<Impact> exhaustive_first_impact(const Moving_surface& a, const Moving_surface& b) {
+  Earliest earliest;
+  for (std::uint32_t i = 0; i < a.faces.size(); ++i)
+    for (std::uint32_t j = 0; j < b.faces.size(); ++j)
+      earliest.offer({i, j}, moving_face(a, i), moving_face(b, j), 1);
+  return earliest.impact();
+}
+
+}  // namespace lodestone
