@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -115,6 +116,14 @@ std::strong_ordering Algebraic_time::compare(Algebraic_time& other) {
     if (step == quick_steps && inner.is_root_of(outer.polynomial_)) return std::strong_ordering::equal;
     outer.halve();
   }
+}
+
+double Algebraic_time::upper_bound() {
+  constexpr unsigned long enough = 20, most = 50;
+  while (!exact_ && start_.e < enough) halve();
+  const Dyadic bound = end();
+  if (bound.e > most) return std::min(std::nextafter(round_down(), 2.0), 1.0);
+  return std::ldexp(CGAL::to_double(bound.m), -static_cast<int>(bound.e));  // below 2^50: not rounded
 }
 
 double Algebraic_time::round_down() const {

@@ -26,6 +26,8 @@ class Algebraic_time {
   std::strong_ordering compare(Algebraic_time& other);
   std::strong_ordering compare(const Dyadic& number) const;
 
+  /// A double that is not below this number, and at most 2^-20 above it. The cell becomes smaller where it must.
+  double upper_bound();
   /// The largest double that is not above this number.
   double round_down() const;
   /// Whether this number is a double, in which case `round_down` is this number.

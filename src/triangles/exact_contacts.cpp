@@ -2,7 +2,9 @@
 #include "triangles/exact_contacts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 /// Why nothing is missed. Let two triangles be apart at t = 0, and let them meet first at t' > 0. While they are apart,
@@ -27,10 +29,8 @@ namespace {
 int exponent_of(double number) {
   if (number == 0) return std::numeric_limits<int>::max();
   int exponent = 0;
-  double mantissa = std::ldexp(std::frexp(number, &exponent), 53);
-  exponent -= 53;
-  for (; std::fmod(mantissa, 2) == 0; ++exponent) mantissa /= 2;
-  return exponent;
+  const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::abs(std::frexp(number, &exponent)), 53));
+  return exponent - 53 + std::countr_zero(mantissa);
 }
 
 /// number / 2^exponent, which must be an integer.

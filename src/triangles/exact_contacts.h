@@ -24,7 +24,7 @@ class Exact_contacts {
   void try_edges(const std::array<int, 2>& first, const std::array<int, 2>& second);
 
   /// The first time that has been found.
-  const std::optional<Algebraic_time>& first() const { return first_; }
+  std::optional<Algebraic_time>& first() { return first_; }
 
  private:
   void try_corner_and_edge(int corner, const std::array<int, 2>& edge);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/triangles/impact.h"
 
+#include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -23,43 +25,60 @@ Dyadic middle(double low, double high) {
   return {first + second, e + 1};
 }
 
-std::array<int, 2> edge_of(int first_corner, int edge) { return {first_corner + edge, first_corner + (edge + 1) % 3}; }
+std::array<int, 2> edge_of(int first) { return {first, first < 3 ? (first + 1) % 3 : 3 + (first + 1) % 3}; }
 
-/// Gives the exact test all pairs of features that the filter does not prove apart.
+/// Gives the exact test the pairs of features that may meet, the earliest first.
 class Contact_search {
  public:
   Contact_search(const Moving_triangle& a, const Moving_triangle& b, double latest)
       : a_(a), b_(b), filter_(a, b, latest) {}
 
   std::optional<Impact_time> run() {
-    if (filter_.are_apart()) return std::nullopt;
-    if (!filter_.are_apart_at_start() && triangles_intersect(a_.start, b_.start)) return Impact_time();
-    try_corners(0, {3, 4, 5});
-    try_corners(3, {0, 1, 2});
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        const auto first = edge_of(0, i), second = edge_of(3, j);
-        if (!filter_.edges_apart(first, second)) exact().try_edges(first, second);
-      }
-    if (!exact_ || !exact_->first()) return std::nullopt;
-    return Impact_time(*exact_->first());
+    list_candidates();
+    if (candidates_.empty()) return std::nullopt;
+    std::ranges::sort(candidates_, {}, &Candidate::bound);
+    Exact_contacts exact(a_, b_);
+    std::optional<double> found;
+    for (const Candidate& candidate : candidates_) {
+      if (found && candidate.bound > *found) break;
+      try_exactly(candidate, exact);
+      if (exact.first()) found = exact.first()->upper_bound();
+    }
+    return exact.first() ? std::optional<Impact_time>(*exact.first()) : std::nullopt;
   }
 
  private:
-  void try_corners(int first_corner, const std::array<int, 3>& face) {
-    for (int corner = first_corner; corner < first_corner + 3; ++corner)
-      if (!filter_.corner_and_face_apart(corner, face)) exact().try_corner_and_face(corner, face);
+  /// A corner and the other triangle, or two edges.
+  struct Candidate {
+    double bound;
+    int first;
+    int second = none;
+  };
+  static constexpr int none = -1;
+
+  void list_candidates() {
+    const auto add = [&](const Candidate& candidate) {
+      if (std::isfinite(candidate.bound)) candidates_.push_back(candidate);
+    };
+    for (int corner = 0; corner < 6; ++corner) add({filter_.corner_and_face(corner), corner});
+    for (int first = 0; first < 3; ++first)
+      for (int second = 3; second < 6; ++second) add({filter_.edges(first, second), first, second});
   }
 
-  Exact_contacts& exact() {
-    if (!exact_) exact_.emplace(a_, b_);
-    return *exact_;
+  static void try_exactly(const Candidate& candidate, Exact_contacts& exact) {
+    const auto [bound, first, second] = candidate;
+    if (second != none)
+      exact.try_edges(edge_of(first), edge_of(second));
+    else if (first < 3)
+      exact.try_corner_and_face(first, {3, 4, 5});
+    else
+      exact.try_corner_and_face(first, {0, 1, 2});
   }
 
   const Moving_triangle& a_;
   const Moving_triangle& b_;
   Impact_filter filter_;
-  std::optional<Exact_contacts> exact_;
+  boost::container::static_vector<Candidate, 15> candidates_;
 };
 
 }  // namespace
@@ -81,6 +100,9 @@ std::strong_ordering operator<=>(const Impact_time& a, const Impact_time& b) {
 }
 
 std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_triangle& b, double latest) {
+  const double overlap_from = overlap_time_lower_bound(box_around(a), box_around(b));
+  if (!(overlap_from <= latest)) return std::nullopt;
+  if (overlap_from == 0 && triangles_intersect(a.start, b.start)) return Impact_time();
   return Contact_search(a, b, latest).run();
 }
 

@@ -4,6 +4,7 @@
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -57,7 +58,9 @@ Dyadic dyadic(double number) {
   int exponent = 0;
   auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(number, &exponent), 53));
   exponent -= 53;
-  for (; exponent < 0 && mantissa % 2 == 0; ++exponent) mantissa /= 2;
+  const int even = std::min(std::countr_zero(static_cast<std::uint64_t>(mantissa)), -exponent);
+  mantissa >>= even;
+  exponent += even;
   return {Integer(static_cast<double>(mantissa)), static_cast<unsigned long>(-exponent)};
 }
 
