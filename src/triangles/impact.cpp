@@ -103,7 +103,9 @@ std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_t
   const double overlap_from = overlap_time_lower_bound(box_around(a), box_around(b));
   if (!(overlap_from <= latest)) return std::nullopt;
   if (overlap_from == 0 && triangles_intersect(a.start, b.start)) return Impact_time();
-  return Contact_search(a, b, latest).run();
+  const auto first = Contact_search(a, b, latest).run();
+  // Beyond `latest` the filter may have dropped what is earlier than this.
+  return first && first->high() <= latest ? first : std::nullopt;
 }
 
 }  // namespace lodestone

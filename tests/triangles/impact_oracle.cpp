@@ -86,12 +86,12 @@ Rational simplest_between(const Rational& low, const Rational& high) {
   return whole + 1 / simplest_between(1 / Rational(high - whole), 1 / Rational(low - whole));
 }
 
-std::optional<double> advance(const Moving_triangle& a, const Moving_triangle& b) {
+std::optional<double> advance(const Moving_triangle& a, const Moving_triangle& b, double near) {
   const double speed = greatest_speed(a) + greatest_speed(b);
   double t = 0;
   for (;;) {
     const double distance = closest_points(rounded_at(a, t), rounded_at(b, t)).distance;
-    if (distance < 1e-5) return t;
+    if (distance < near) return t;
     if (!(speed * (1 - t) > 0.99 * distance)) return std::nullopt;
     t += 0.99 * distance / speed;
   }

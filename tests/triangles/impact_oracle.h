@@ -20,9 +20,9 @@ std::vector<Rational> fractions(int largest_denominator);
 Rational simplest_between(const Rational& low, const Rational& high);
 
 /// Conservative advancement in floating point: goes from 0 in steps that are too short to pass a contact, until the
-/// distance is below 10^-5.
+/// distance is below `near`.
 /// @return none if it arrives at 1
-std::optional<double> advance(const Moving_triangle& a, const Moving_triangle& b);
+std::optional<double> advance(const Moving_triangle& a, const Moving_triangle& b, double near);
 
 /// The triangle at a time, with rounded corners.
 Triangle rounded_at(const Moving_triangle& moving, double t);

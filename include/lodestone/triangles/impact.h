@@ -56,7 +56,7 @@ class Impact_time {
 /// moving corners tell the triangles apart, about a microsecond if the signs of the polynomials do, some dozens of
 /// microseconds for each pair of features that may meet.
 ///
-/// @param latest  in [0, 1]; if the first time is later than this, the result may be none
+/// @param latest  in [0, 1]; if the first time is later than this, the result is none
 std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_triangle& b, double latest = 1);
 
 }  // namespace lodestone
