@@ -173,7 +173,8 @@ class Search {
 
 Moving_triangle moving_face(const Moving_surface& surface, std::uint32_t face) {
   const auto at = [&](Coordinates coordinates) {
-    return face_triangle(surface.faces[face], [&](auto vertex) { return coordinates.data() + 3 * std::size_t{vertex}; });
+    return face_triangle(surface.faces[face],
+                         [&](auto vertex) { return coordinates.data() + 3 * std::size_t{vertex}; });
   };
   return {at(surface.start), at(surface.end)};
 }
@@ -199,8 +200,7 @@ std::optional<Impact> first_impact(const Moving_surface& a, const Moving_surface
 std::optional<Impact> exhaustive_first_impact(const Moving_surface& a, const Moving_surface& b) {
   Earliest earliest;
   for (std::uint32_t i = 0; i < a.faces.size(); ++i)
-    for (std::uint32_t j = 0; j < b.faces.size(); ++j)
-      earliest.offer({i, j}, moving_face(a, i), moving_face(b, j), 1);
+    for (std::uint32_t j = 0; j < b.faces.size(); ++j) earliest.offer({i, j}, moving_face(a, i), moving_face(b, j), 1);
   return earliest.impact();
 }
 

@@ -58,9 +58,7 @@ class Isolation {
 
 Algebraic_time::Algebraic_time(Integer_polynomial polynomial, Dyadic start, CGAL::Sign sign_at_start)
     : polynomial_(std::move(polynomial)), start_(std::move(start)), sign_at_start_(sign_at_start) {
-  while (!exact_ &&
-         (polynomial_.sign_at(start_) == CGAL::ZERO || polynomial_.sign_at(end()) == CGAL::ZERO))
-    halve();
+  while (!exact_ && (polynomial_.sign_at(start_) == CGAL::ZERO || polynomial_.sign_at(end()) == CGAL::ZERO)) halve();
 }
 
 void Algebraic_time::halve() {

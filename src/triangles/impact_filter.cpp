@@ -2,8 +2,8 @@
 #include "triangles/impact_filter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <boost/container/static_vector.hpp>
+#include <cmath>
 #include <limits>
 
 namespace lodestone {

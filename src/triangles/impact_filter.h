@@ -14,8 +14,8 @@ namespace lodestone {
 Moving_box box_around(const Moving_triangle& moving);
 
 /// What floating point proves about features of two moving triangles. Corners are counted from 0 to 5, as in
-/// `Exact_contacts`; edges likewise, edge i of a triangle from its corner i to the next. Each answer is a lower bound on
-/// the first time at which two features meet; infinity: not before `latest`, if at all.
+/// `Exact_contacts`; edges likewise, edge i of a triangle from its corner i to the next. Each answer is a lower bound
+/// on the first time at which two features meet; infinity: not before `latest`, if at all.
 class Impact_filter {
  public:
   Impact_filter(const Moving_triangle& a, const Moving_triangle& b, double latest);

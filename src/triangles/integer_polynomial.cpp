@@ -190,6 +190,8 @@ Integer_polynomial cross(const Moving_vector& a, const Moving_vector& b, int axi
   return a[y] * b[z] - a[z] * b[y];
 }
 
-Integer_polynomial dot(const Moving_vector& a, const Moving_vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Integer_polynomial dot(const Moving_vector& a, const Moving_vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 }  // namespace lodestone

@@ -115,7 +115,9 @@ TEST(First_impact, of_points_and_segments_is_found) {
 TEST(First_impact, in_a_common_plane_is_found) {
   const Triangle still{Point(0, 0, 0), Point(4, 0, 0), Point(0, 4, 0)};
   const auto slide = [&](double from, double to, double lift) {
-    const auto other = [](double x, double z) { return Triangle{Point(x, 1, z), Point(x + 4, 0, z), Point(x + 4, 4, z)}; };
+    const auto other = [](double x, double z) {
+      return Triangle{Point(x, 1, z), Point(x + 4, 0, z), Point(x + 4, 4, z)};
+    };
     Moving_triangle a = standing(still), b{other(from, 0), other(to, lift)};
     for (Point& p : a.end) p = Point(p.x(), p.y(), lift);
     return time_of(a, b);
@@ -128,7 +130,8 @@ TEST(First_impact, in_a_common_plane_is_found) {
   }
   // Edges in one line, from end to end.
   const Moving_triangle a = standing({Point(0, 0, 0), Point(1, 0, 0), Point(0, -1, 0)});
-  const Moving_triangle b{{Point(2, 0, 0), Point(3, 0, 0), Point(3, 1, 0)}, {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0)}};
+  const Moving_triangle b{{Point(2, 0, 0), Point(3, 0, 0), Point(3, 1, 0)},
+                          {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0)}};
   EXPECT_EQ(time_of(a, b), 0.5);
 }
 
@@ -163,7 +166,8 @@ TEST(First_impact, of_coordinates_of_any_size_is_found) {
 
 /// The time is one of contact, and there is none before it at any of some fractions.
 /// @return whether the time is irrational, or has a large denominator
-bool expect_first(const Moving_pair& pair, const std::optional<Impact_time>& time, const std::vector<Rational>& fractions) {
+bool expect_first(const Moving_pair& pair, const std::optional<Impact_time>& time,
+                  const std::vector<Rational>& fractions) {
   const auto& [a, b] = pair;
   for (const Rational& t : fractions) {
     // Between `low` and `high` there is no double, but the fraction there may be the time itself.
@@ -254,7 +258,8 @@ TEST(First_impact, is_the_same_after_exact_scaling_and_translation) {
     for (const double by : {1.0, 0x1p20, 0x1p48}) EXPECT_EQ(first_impact(moved(a, by), moved(b, by)), time) << by;
     // A last digit more makes it another problem; its answer scales as well.
     const double factor = 1 + 0x1p-52;
-    EXPECT_EQ(first_impact(scaled(a, 8 * factor), scaled(b, 8 * factor)), first_impact(scaled(a, factor), scaled(b, factor)));
+    EXPECT_EQ(first_impact(scaled(a, 8 * factor), scaled(b, 8 * factor)),
+              first_impact(scaled(a, factor), scaled(b, factor)));
   }
 }
 

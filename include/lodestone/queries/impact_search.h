@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lodestone/mesh/pairs.h"
-#include "lodestone/triangles/impact.h"
 #include "lodestone/tree/tree_view.h"
+#include "lodestone/triangles/impact.h"
 
 /// When two surfaces meet first, whose vertices move on straight lines while t goes from 0 to 1.
 namespace lodestone {

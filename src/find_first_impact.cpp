@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/find_first_impact.h"
+
+#include "lodestone/mesh/check_finite.h"
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+void check_different(const void* a, const void* b) {
+  if (a == b) throw Bad_argument("one mesh is given twice; impacts within a mesh are not searched for");
+}
+
+std::optional<Impact> checked_first_impact(const Moving_surface& a, const Moving_surface& b) {
+  check_finite(a.start, "the first mesh, at the start,");
+  check_finite(a.end, "the first mesh, at the end,");
+  check_finite(b.start, "the second mesh, at the start,");
+  check_finite(b.end, "the second mesh, at the end,");
+  return first_impact(a, b);
+}
+
+}  // namespace lodestone
