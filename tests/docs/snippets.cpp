@@ -6,6 +6,7 @@
 #include <lodestone/bounds/motion_bound.h>
 #include <lodestone/detector.h>
 #include <lodestone/find_collisions.h>
+#include <lodestone/find_first_impact.h>
 #include <lodestone/io/meshes/mesh_file.h>
 #include <lodestone/io/objects/object_file.h>
 #include <lodestone/mesh/computed_points.h>
@@ -154,6 +155,26 @@ TEST_F(Snippets, of_one_call) {
   for (const auto& [face_a, face_b] : found.faces) respond(face_a, face_b);
   EXPECT_EQ(responses, found.faces.size());
   EXPECT_GT(responses, 0U);
+}
+
+TEST_F(Snippets, of_first_impact) {
+  const Surface_mesh sheet = lodestone::grid(5, 5);
+  Surface_mesh ball = lodestone::sphere(3, 0.25, {2, 2, 1});
+  const auto next_sheet = get(CGAL::vertex_point, sheet);
+  const auto next_ball = get(CGAL::dynamic_vertex_property_t<lodestone::Point>(), ball);
+  for (const auto v : ball.vertices()) {
+    const lodestone::Point& p = ball.point(v);
+    put(next_ball, v, lodestone::Point(p.x(), p.y(), p.z() - 2));
+  }
+  double stopped = 0;
+  const auto stop = [&](double time, const lodestone::Face_pair& /*faces*/, const lodestone::Point& /*point*/) {
+    stopped = time;
+  };
+
+  const auto impact = lodestone::find_first_impact(sheet, next_sheet, ball, next_ball);
+  if (impact) stop(impact->time, impact->faces, impact->point);
+
+  EXPECT_EQ(stopped, 0.375);
 }
 
 TEST_F(Snippets, of_one_call_for_one_mesh) {

@@ -51,8 +51,8 @@ class Impact_time {
 /// degenerate the triangles are or become. The order of the triangles, and that of their corners, does not matter.
 ///
 /// What can meet first are a corner and a triangle, or two edges; the four corners are then in one plane, at a root of
-/// a cubic polynomial \cite provot1997. Roots are isolated and everything else is decided at them in integers, as
-/// \cite brochu2012 asks for. Floating point only discards what it proves apart. Some 10 to 100 ns if boxes around the
+/// a cubic polynomial \cite provot1997. Its roots are isolated, and what lies where is decided at them, in integers.
+/// Floating point only discards what it proves apart. Some 10 to 100 ns if boxes around the
 /// moving corners tell the triangles apart, about a microsecond if the signs of the polynomials do, some dozens of
 /// microseconds for each pair of features that may meet.
 ///
