@@ -204,6 +204,17 @@ class Detector {
     if (a == b) throw Bad_argument("the closest faces of object " + std::to_string(a) + " and itself");
     return exact.closest({a, b});
   }
+  /// When two objects meet first if every vertex moves on a straight line, from where it is now at t = 0 to where it
+  /// will be at t = 1, in mode `exact`: see `first_impact` of trees. Reads all of both. None if they do not meet.
+  /// @param end_a, end_b  V x 3, one row per vertex in the order of `vertices(mesh)`; a placement is not applied to them
+  /// @throws Bad_argument  no such object, one and the same, another mode
+  /// @throws Bad_mesh      as `detect`; another number of rows than vertices, a coordinate that is not finite
+  std::optional<Impact> first_impact(Object_id a, const Eigen::Ref<const Positions>& end_a, Object_id b,
+                                     const Eigen::Ref<const Positions>& end_b) {
+    auto& exact = ask<Exact>(a, b);
+    if (a == b) throw Bad_argument("the first impact of object " + std::to_string(a) + " and itself");
+    return exact.first_impact({a, b}, end_a, end_b);
+  }
   /// Whether two objects have points nearer to each other than a distance, or collide, in mode `exact`. Exact and
   /// strict, unlike a comparison with the rounded distance of `closest`; mostly faster than that, too.
   /// @param distance  >= 0, in units of the coordinates; 0: whether they collide

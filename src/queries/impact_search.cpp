@@ -19,13 +19,6 @@ namespace lodestone {
 
 namespace {
 
-Moving_box box_around(const Moving_triangle& moving) {
-  Moving_box box;
-  for (const Point& p : moving.start) box.start.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
-  for (const Point& p : moving.end) box.end.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
-  return box;
-}
-
 /// The triangle at a time, up to a few roundings of the largest coordinate.
 Triangle triangle_at(const Moving_triangle& moving, double t) {
   const auto corner = [&](std::size_t i) {
@@ -74,9 +67,9 @@ struct Moving_face {
   Moving_box box;
 };
 
-class Search {
+class Impact_search {
  public:
-  Search(const Swept_view& a, const Swept_view& b) : a_(a), b_(b) {}
+  Impact_search(const Swept_view& a, const Swept_view& b) : a_(a), b_(b) {}
 
   std::optional<Impact> run() {
     push(root_pair);
@@ -181,15 +174,15 @@ Moving_triangle moving_face(const Moving_surface& surface, std::uint32_t face) {
 
 }  // namespace
 
-Swept_boxes::Swept_boxes(const Tree_view& start, Coordinates end) : boxes_(start.tree->node_count()) {
-  const Region_tree& tree = *start.tree;
+Swept_boxes::Swept_boxes(const Layout_view& start, Coordinates end) : boxes_(start.layout->node_count()) {
+  const Tree_layout& tree = *start.layout;
   fit_leaves(tree, end, 0, tree.leaf_count(), std::span(boxes_));
   for (auto n = static_cast<std::uint32_t>(boxes_.size()); n-- > 0;)
     if (!tree.is_leaf(n)) boxes_[n].enclose(boxes_[n + 1], boxes_[tree.node(n).second_child]);
   view_ = {start, {&tree, end, boxes_[0], boxes_}};
 }
 
-std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b) { return Search(a, b).run(); }
+std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b) { return Impact_search(a, b).run(); }
 
 std::optional<Impact> first_impact(const Moving_surface& a, const Moving_surface& b) {
   const Tree_surface tree_a(a.faces, a.start), tree_b(b.faces, b.start);

@@ -99,6 +99,13 @@ std::strong_ordering operator<=>(const Impact_time& a, const Impact_time& b) {
   return first.compare(second);
 }
 
+Moving_box box_around(const Moving_triangle& moving) {
+  Moving_box box;
+  for (const Point& p : moving.start) box.start.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
+  for (const Point& p : moving.end) box.end.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
+  return box;
+}
+
 std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_triangle& b, double latest) {
   const double overlap_from = overlap_time_lower_bound(box_around(a), box_around(b));
   if (!(overlap_from <= latest)) return std::nullopt;

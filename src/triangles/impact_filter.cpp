@@ -10,7 +10,7 @@ namespace lodestone {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double no_contact = std::numeric_limits<double>::infinity();
 
 Eigen::Vector3d vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -103,13 +103,6 @@ class Impact_filter::Piece {
   double volume_error_, area_error_;
 };
 
-Moving_box box_around(const Moving_triangle& moving) {
-  Moving_box box;
-  for (const Point& p : moving.start) box.start.extend(vector(p));
-  for (const Point& p : moving.end) box.end.extend(vector(p));
-  return box;
-}
-
 Impact_filter::Impact_filter(const Moving_triangle& a, const Moving_triangle& b, double latest)
     : latest_(latest), face_boxes_{lodestone::box_around(a), lodestone::box_around(b)} {
   for (Index i = 0; i < 3; ++i) {
@@ -133,14 +126,14 @@ Impact_filter::Moving_difference Impact_filter::between(int from, int to) const 
 
 double Impact_filter::corner_and_face(int corner) const {
   const int other = corner < 3 ? 3 : 0;
-  if (!(overlap_time_lower_bound(box_around(corner, corner), face_boxes_[corner < 3 ? 1 : 0]) <= latest_)) return never;
+  if (!(overlap_time_lower_bound(box_around(corner, corner), face_boxes_[corner < 3 ? 1 : 0]) <= latest_)) return no_contact;
   return first_possible(Features::corner_and_face, corner, other, other + 1, other + 2);
 }
 
 double Impact_filter::edges(int first, int second) const {
   if (!(overlap_time_lower_bound(edge_boxes_[static_cast<Index>(first)], edge_boxes_[static_cast<Index>(second)]) <=
         latest_))
-    return never;
+    return no_contact;
   return first_possible(Features::edges, first, next_corner(first), second, next_corner(second));
 }
 
@@ -167,7 +160,7 @@ double Impact_filter::first_possible(Features features, int origin, int p, int q
     open.push_back({now.piece, now.low, half});
     now.piece.halve(open.back().piece, open[open.size() - 2].piece);
   }
-  return never;
+  return no_contact;
 }
 
 }  // namespace lodestone

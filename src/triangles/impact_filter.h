@@ -10,9 +10,6 @@
 
 namespace lodestone {
 
-/// The box around a moving triangle.
-Moving_box box_around(const Moving_triangle& moving);
-
 /// What floating point proves about features of two moving triangles. Corners are counted from 0 to 5, as in
 /// `Exact_contacts`; edges likewise, edge i of a triangle from its corner i to the next. Each answer is a lower bound
 /// on the first time at which two features meet; infinity: not before `latest`, if at all.

@@ -9,10 +9,10 @@ namespace lodestone {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double no_overlap = std::numeric_limits<double>::infinity();
 
 /// Eight roundings of a double: above every relative error that it bounds here.
-constexpr double eight_roundings = 0x1p-50;
+constexpr double roundings_of_time = 0x1p-50;
 
 /// Times in which boxes may overlap.
 struct Time_range {
@@ -37,14 +37,14 @@ void keep_not_above(double a_start, double a_end, double b_start, double b_end, 
   const bool above_at_start = a_start > b_start, above_at_end = a_end > b_end;
   if (!above_at_start && !above_at_end) return;
   if (above_at_start && above_at_end) {
-    range.first = never;
+    range.first = no_overlap;
     return;
   }
   const double crossing = crossing_time(a_start, a_end, b_start, b_end);
   if (above_at_start)
-    range.first = std::max(range.first, (1 - eight_roundings) * crossing);
+    range.first = std::max(range.first, (1 - roundings_of_time) * crossing);
   else
-    range.last = std::min(range.last, (1 + eight_roundings) * crossing + 0x1p-1000);
+    range.last = std::min(range.last, (1 + roundings_of_time) * crossing + 0x1p-1000);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ double overlap_time_lower_bound(const Moving_box& a, const Moving_box& b) {
   for (int axis = 0; axis < 3; ++axis) {
     keep_not_above(a.start.min()[axis], a.end.min()[axis], b.start.max()[axis], b.end.max()[axis], range);
     keep_not_above(b.start.min()[axis], b.end.min()[axis], a.start.max()[axis], a.end.max()[axis], range);
-    if (range.first > range.last) return never;
+    if (range.first > range.last) return no_overlap;
   }
   // Below this, a relative error may be that of a subnormal number.
   return range.first < 1e-290 ? 0 : std::min(range.first, 1.0);

@@ -18,6 +18,7 @@
 #include "lodestone/mesh/stopwatch.h"
 #include "lodestone/queries/bounded_search.h"
 #include "lodestone/queries/closest_faces.h"
+#include "lodestone/queries/impact_search.h"
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/containment.h"
 #include "lodestone/queries/pair_contacts.h"
@@ -120,6 +121,9 @@ class Exact_detection final : public Detection {
   }
   /// See `Detector::closest`.
   Closest_faces closest(Object_pair pair);
+  /// See `Detector::first_impact`.
+  std::optional<Impact> first_impact(Object_pair pair, const Eigen::Ref<const Positions>& end_a,
+                                     const Eigen::Ref<const Positions>& end_b);
   /// See `Detector::within`.
   bool within(Object_pair pair, double distance);
   /// See `Detector::contains`.
@@ -167,6 +171,8 @@ class Exact_detection final : public Detection {
     bool& flag_;
   };
 
+  /// @throws Bad_mesh  another number of rows than vertices, a coordinate that is not finite
+  Positions checked_positions(Object_id object, const Eigen::Ref<const Positions>& positions);
   /// A visitor's walk reads positions and trees, which no other call may change.
   void check_no_visitor() const {
     if (visited_) throw Bad_argument("a visitor called the detector that shows it face pairs");
@@ -233,13 +239,18 @@ class Exact_detection final : public Detection {
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::update(Object_id id, const Eigen::Ref<const Positions>& positions) {
   check_no_visitor();
+  objects_[id].give(checked_positions(id, positions));
+}
+
+template <Bounding_volume Volume>
+Positions Exact_detection<Volume>::checked_positions(Object_id id, const Eigen::Ref<const Positions>& positions) {
   auto& object = objects_[id];
   if (positions.rows() != object.mesh().vertex_count())
     throw Bad_mesh(object.title + " has " + std::to_string(object.mesh().vertex_count()) + " vertices, but got " +
                    std::to_string(positions.rows()) + " positions");
   Positions copy = positions;
   check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, object.title);
-  object.give(std::move(copy));
+  return copy;
 }
 
 template <Bounding_volume Volume>
@@ -278,6 +289,21 @@ Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
   if constexpr (is_bounded)
     if (on_demand(pair)) return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
   return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
+}
+
+template <Bounding_volume Volume>
+std::optional<Impact> Exact_detection<Volume>::first_impact(Object_pair pair, const Eigen::Ref<const Positions>& end_a,
+                                                            const Eigen::Ref<const Positions>& end_b) {
+  const Positions at_end_a = checked_positions(pair.a, end_a), at_end_b = checked_positions(pair.b, end_b);
+  const Object_id ids[] = {pair.a, pair.b};
+  refresh(ids);
+  for (const auto id : ids) objects_.pose_all(id);
+  const Node_boxes start_a(objects_.surface(pair.a).view()), start_b(objects_.surface(pair.b).view());
+  const auto coordinates = [](const Positions& all) {
+    return Coordinates(all.data(), static_cast<std::size_t>(all.size()));
+  };
+  const Swept_boxes swept_a(start_a.layout(), coordinates(at_end_a)), swept_b(start_b.layout(), coordinates(at_end_b));
+  return lodestone::first_impact(swept_a.view(), swept_b.view());
 }
 
 template <Bounding_volume Volume>

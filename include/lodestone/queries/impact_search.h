@@ -18,13 +18,13 @@ struct Swept_view {
   Layout_view end;    ///< at t = 1, with boxes
 };
 
-/// What a `Swept_view` needs beside a tree of boxes that is fitted to the start: the boxes at the end.
+/// What a `Swept_view` needs beside a tree that is fitted to the start: the boxes at the end.
 class Swept_boxes {
  public:
   /// Fits boxes to the end of the motion. O(V).
-  /// @param start  its tree must outlive this
+  /// @param start  with boxes; its tree must outlive this
   /// @param end    3 V coordinates, all finite; must stay where they are as long as this is used
-  Swept_boxes(const Tree_view& start, Coordinates end);
+  Swept_boxes(const Layout_view& start, Coordinates end);
   Swept_boxes(const Swept_boxes&) = delete;
   Swept_boxes& operator=(const Swept_boxes&) = delete;
 

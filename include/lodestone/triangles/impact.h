@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "lodestone/triangles/moving_box.h"
 #include "lodestone/triangles/triangle_intersection.h"
 
 /// When two moving triangles meet first.
@@ -15,6 +16,9 @@ struct Moving_triangle {
   Triangle start;  ///< at t = 0
   Triangle end;    ///< at t = 1
 };
+
+/// The box around a moving triangle.
+Moving_box box_around(const Moving_triangle& moving);
 
 class Algebraic_time;
 
