@@ -42,6 +42,7 @@ from ._lodestone import (
     closest,
     contains,
     find_collisions,
+    first_impact,
     partition,
     read_animation,
     read_mesh,
@@ -58,8 +59,8 @@ from ._play import play
 __all__ = [
     "Animation", "BadArgument", "BadMesh", "BadMotion", "BadOutput", "BadSavedObject", "BadScene", "BoxPromise",
     "BrokenBound", "Detector", "DisplacementPromise", "Error", "Frame", "LipschitzPromise", "Page", "Pair", "Partition",
-    "Scene", "Skin", "StretchPromise", "__version__", "closest", "contains", "find_collisions", "page", "partition", "play",
-    "read_animation", "read_mesh", "read_scene", "self_collisions", "strategies", "within", "write_animation",
+    "Scene", "Skin", "StretchPromise", "__version__", "closest", "contains", "find_collisions", "first_impact", "page",
+    "partition", "play", "read_animation", "read_mesh", "read_scene", "self_collisions", "strategies", "within", "write_animation",
     "write_mesh",
 ]
 

@@ -338,6 +338,15 @@ void add_detector(py::module_& module) {
            },
            py::arg("a"), py::arg("b"),
            "Where two objects are closest: a dict with distance, faces, points and direction, from b to a.")
+      .def("first_impact",
+           [](Python_detector& self, Object_id a, const py::object& end_a, Object_id b, const py::object& end_b) {
+             const Positions at_end_a = positions_of(end_a, "end_a"), at_end_b = positions_of(end_b, "end_b");
+             return impact_fields(
+                 self.ask([&](auto& detector) { return detector.first_impact(a, at_end_a, b, at_end_b); }));
+           },
+           py::arg("a"), py::arg("end_a"), py::arg("b"), py::arg("end_b"),
+           "When two objects first meet if every vertex moves on a straight line, from where it is now at t = 0 to the row\n"
+           "of end_a or end_b, arrays (V, 3), at t = 1: a dict with time, faces and point; None if they do not. Exact.")
       .def("within",
            [](Python_detector& self, Object_id a, Object_id b, double distance) {
              return self.ask([&](auto& detector) { return detector.within(a, b, distance); });

@@ -219,6 +219,20 @@ TYPED_TEST_P(Detector_volume_contract, the_closest_faces_are_found) {
   EXPECT_GT(apart, 5U);
 }
 
+TYPED_TEST_P(Detector_volume_contract, the_first_impact_is_that_of_boxes) {
+  auto a = sphere(4), b = sphere(4, 0.5, {3, 0.2, 0});
+  const Positions end_a = Numbered_mesh(a).positions.rowwise() + Eigen::RowVector3d(4, 0, 0.1),
+                  end_b = Numbered_mesh(b).positions.rowwise() - Eigen::RowVector3d(4, 0.1, 0);
+  Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = 4}}});
+  Detector<> boxes;
+  add_all(detector, {&a, &b}), add_all(boxes, {&a, &b});
+  const auto impact = detector.first_impact(0, end_a, 1, end_b), of_boxes = boxes.first_impact(0, end_a, 1, end_b);
+  ASSERT_TRUE(impact && of_boxes);
+  EXPECT_EQ(impact->time, of_boxes->time);
+  EXPECT_EQ(impact->faces, of_boxes->faces);
+  EXPECT_EQ(impact->point, of_boxes->point);
+}
+
 TYPED_TEST_P(Detector_volume_contract, objects_inside_others_are_found) {
   auto outer = sphere(6), inner = sphere(3, 0.3), other = sphere(3, 0.2, {0, 5, 0});
   Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.containment = true, .tree = {.leaf_faces = 4}}});
@@ -276,6 +290,7 @@ REGISTER_TYPED_TEST_SUITE_P(Detector_volume_contract,
                             all_pairs_are_found_in_any_unit_and_far_from_the_origin,
                             yes_or_no_and_first_contacts_agree_with_exhaustive_checking,
                             pairs_within_a_tolerance_are_found, self_collisions_are_found, the_closest_faces_are_found,
+                            the_first_impact_is_that_of_boxes,
                             objects_inside_others_are_found, translations_that_part_objects_are_those_of_boxes,
                             points_and_normals_of_contacts_are_those_of_boxes);
 

@@ -193,6 +193,30 @@ def test_rays_and_points():
         detector.first_hits(box, [0, 0, 0], [0, 0, 1])
 
 
+def test_first_impact_of_two_cubes_that_pass_through_each_other():
+    detector = lodestone.Detector()
+    left, right = cube(), cube().moved(4, 0.25, 0.125)
+    a, b = detector.add(left), detector.add(right)
+    to_the_right, to_the_left = left.vertices + [8, 0, 0], right.vertices - [4, 0, 0]
+    impact = detector.first_impact(a, to_the_right, b, to_the_left)
+    assert impact["time"] == 0.25 and impact["point"][0] == 3
+    of_lists = detector.first_impact(a, to_the_right.tolist(), b, to_the_left.astype(np.float32))
+    assert of_lists["time"] == 0.25 and of_lists["faces"] == impact["faces"]
+    assert detector.first_impact(a, left.vertices, b, right.vertices) is None
+    one_call = lodestone.first_impact(left, right, to_the_right, to_the_left)
+    assert one_call["time"] == 0.25 and one_call["faces"] == impact["faces"]
+    swapped = detector.first_impact(b, to_the_left, a, to_the_right)
+    assert swapped["time"] == 0.25
+    with pytest.raises(lodestone.BadMesh, match="8 vertices, but got 7"):
+        detector.first_impact(a, to_the_right[:7], b, to_the_left)
+    with pytest.raises(lodestone.BadArgument, match=r"end_b must have the shape \(n, 3\)"):
+        detector.first_impact(a, to_the_right, b, [1, 2, 3])
+    with pytest.raises(lodestone.BadMesh):
+        detector.first_impact(a, to_the_right * np.nan, b, to_the_left)
+    with pytest.raises(lodestone.BadArgument, match="itself"):
+        detector.first_impact(a, to_the_right, a, to_the_right)
+
+
 def test_a_visitor_sees_contacts_and_may_stop():
     detector = lodestone.Detector()
     detector.add(cube()), detector.add(cube().moved(0.5, 0.25, 0.125))
