@@ -215,6 +215,14 @@ class Detector {
     if (a == b) throw Bad_argument("the first impact of object " + std::to_string(a) + " and itself");
     return exact.first_impact({a, b}, end_a, end_b);
   }
+  /// The earliest impact of any two objects, with what `detect` leaves out left out, in mode `exact`. Of several pairs
+  /// at exactly the same time it is that of the lowest ids.
+  /// @param ends           per object, by id: as in the other call; without rows, the object stays where it is
+  /// @throws Bad_argument  another mode; not one entry per id, of removed objects too
+  /// @throws Bad_mesh      as the other call
+  std::optional<Object_impact> first_impact(std::span<const Positions> ends) {
+    return ask<Exact>().first_impact(filter_, ends);
+  }
   /// Whether two objects have points nearer to each other than a distance, or collide, in mode `exact`. Exact and
   /// strict, unlike a comparison with the rounded distance of `closest`; mostly faster than that, too.
   /// @param distance  >= 0, in units of the coordinates; 0: whether they collide

@@ -1,6 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from os import PathLike
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Literal, Optional, Protocol, Tuple, TypedDict, Union
+from typing import (
+    Any,
+    Callable,
+    Dict,
+    Iterable,
+    Iterator,
+    List,
+    Literal,
+    Optional,
+    Protocol,
+    Sequence,
+    Tuple,
+    TypedDict,
+    Union,
+)
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -40,6 +54,9 @@ class Impact(TypedDict):
     time: float
     faces: Tuple[int, int]
     point: Floats
+
+class Object_impact(Impact):
+    objects: Tuple[int, int]
 
 class Hit(TypedDict):
     face: int
@@ -266,6 +283,7 @@ class Detector:
     def self_collisions(self, object: int) -> Pair: ...
     def closest(self, a: int, b: int) -> Closest: ...
     def first_impact(self, a: int, end_a: ArrayLike, b: int, end_b: ArrayLike) -> Optional[Impact]: ...
+    def first_impact_of_all(self, ends: Sequence[Optional[ArrayLike]]) -> Optional[Object_impact]: ...
     def within(self, a: int, b: int, distance: float) -> bool: ...
     def contains(self, outer: int, inner: int) -> bool: ...
     def parting(self, a: int, b: int) -> Optional[Floats]: ...

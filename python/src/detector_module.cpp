@@ -116,6 +116,17 @@ py::dict first_hits(Python_detector& self, Object_id object, const py::object& o
   return fields;
 }
 
+py::object first_impact_of_all(Python_detector& self, const py::sequence& ends) {
+  std::vector<Positions> all(ends.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const py::object end = ends[i]; !end.is_none()) all[i] = positions_of(end, "ends[" + std::to_string(i) + "]");
+  const auto first = self.ask([&](auto& detector) { return detector.first_impact(all); });
+  if (!first) return py::none();
+  py::dict fields = impact_fields(first->impact);
+  fields["objects"] = py::make_tuple(first->objects.a, first->objects.b);
+  return fields;
+}
+
 Point point_of(const py::object& point) {
   const auto p = vector_of(point, "point");
   return {p[0], p[1], p[2]};
@@ -347,6 +358,9 @@ void add_detector(py::module_& module) {
            py::arg("a"), py::arg("end_a"), py::arg("b"), py::arg("end_b"),
            "When two objects first meet if every vertex moves on a straight line, from where it is now at t = 0 to the row\n"
            "of end_a or end_b, arrays (V, 3), at t = 1: a dict with time, faces and point; None if they do not. Exact.")
+      .def("first_impact_of_all", first_impact_of_all, py::arg("ends"),
+           "The earliest impact of any two objects: a dict with objects, time, faces and point; None if there is none.\n"
+           "ends: a list with where the vertices of each object will be, (V, 3), or None for one that stays.")
       .def("within",
            [](Python_detector& self, Object_id a, Object_id b, double distance) {
              return self.ask([&](auto& detector) { return detector.within(a, b, distance); });

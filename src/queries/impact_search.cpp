@@ -31,8 +31,11 @@ Triangle triangle_at(const Moving_triangle& moving, double t) {
 /// The earliest impact so far.
 class Earliest {
  public:
-  /// A time after the impact, or the impact's; 1 if there is none.
-  double latest() const { return found_ ? time_.high() : 1; }
+  /// @param limit  later impacts do not count
+  explicit Earliest(double limit) : limit_(limit) {}
+
+  /// A time after the impact, or the impact's; the limit if there is none.
+  double latest() const { return found_ ? time_.high() : limit_; }
 
   /// Whether an impact of two faces at `bound` or later can be earlier, or at the same time that of a lower pair.
   bool can_change(double bound, Face_pair faces) const {
@@ -50,10 +53,11 @@ class Earliest {
   std::optional<Impact> impact() const {
     if (!found_) return std::nullopt;
     const double t = time_.value();
-    return Impact{faces_, t, closest_points(triangle_at(a_, t), triangle_at(b_, t)).a};
+    return Impact{faces_, t, time_, closest_points(triangle_at(a_, t), triangle_at(b_, t)).a};
   }
 
  private:
+  double limit_;
   bool found_ = false;
   Impact_time time_;
   Face_pair faces_;
@@ -69,7 +73,7 @@ struct Moving_face {
 
 class Impact_search {
  public:
-  Impact_search(const Swept_view& a, const Swept_view& b) : a_(a), b_(b) {}
+  Impact_search(const Swept_view& a, const Swept_view& b, double latest) : a_(a), b_(b), earliest_(latest) {}
 
   std::optional<Impact> run() {
     push(root_pair);
@@ -182,7 +186,9 @@ Swept_boxes::Swept_boxes(const Layout_view& start, Coordinates end) : boxes_(sta
   view_ = {start, {&tree, end, boxes_[0], boxes_}};
 }
 
-std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b) { return Impact_search(a, b).run(); }
+std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b, double latest) {
+  return Impact_search(a, b, latest).run();
+}
 
 std::optional<Impact> first_impact(const Moving_surface& a, const Moving_surface& b) {
   const Tree_surface tree_a(a.faces, a.start), tree_b(b.faces, b.start);
@@ -191,7 +197,7 @@ std::optional<Impact> first_impact(const Moving_surface& a, const Moving_surface
 }
 
 std::optional<Impact> exhaustive_first_impact(const Moving_surface& a, const Moving_surface& b) {
-  Earliest earliest;
+  Earliest earliest(1);
   for (std::uint32_t i = 0; i < a.faces.size(); ++i)
     for (std::uint32_t j = 0; j < b.faces.size(); ++j) earliest.offer({i, j}, moving_face(a, i), moving_face(b, j), 1);
   return earliest.impact();

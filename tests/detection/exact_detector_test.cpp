@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "detection/detector_scenes.h"
 #include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "support/exact_truth.h"

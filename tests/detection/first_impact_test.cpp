@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
+#include <vector>
 
+#include "lodestone/bounds/displacement_bound.h"
 #include "lodestone/detector.h"
 #include "lodestone/find_first_impact.h"
 #include "lodestone/io/shapes/shapes.h"
@@ -86,6 +89,66 @@ TEST(Detector_first_impact, in_mode_certified_reads_all_of_both) {
   expect_same(certified.first_impact(0, a.end, 1, b.end), exact.first_impact(0, a.end, 1, b.end));
 }
 
+/// Four balls in a row; the outer ones move inwards, the first faster than the last.
+struct Row_of_balls {
+  std::deque<Moving_ball> balls;
+  std::vector<Positions> ends;
+
+  Row_of_balls() {
+    balls.emplace_back(Eigen::RowVector3d(-6, 0, 0), Eigen::RowVector3d(0.5, 0, 0));
+    balls.emplace_back(Eigen::RowVector3d(-2, 0, 0), Eigen::RowVector3d(-2, 0, 0));
+    balls.emplace_back(Eigen::RowVector3d(2, 0, 0), Eigen::RowVector3d(2, 0, 0));
+    balls.emplace_back(Eigen::RowVector3d(6, 0, 0), Eigen::RowVector3d(3, 0, 0));
+    for (const Moving_ball& ball : balls) ends.push_back(ball.end);
+  }
+};
+
+TEST(Detector_first_impact, of_all_objects_is_the_earliest_of_those_that_may_collide) {
+  for (const std::size_t threads : {1, 2, 5}) {
+    Row_of_balls row;
+    Exact_detector detector({.exact = {.threads = threads}});
+    for (auto& ball : row.balls) detector.add(ball.mesh);
+    const auto all = detector.first_impact(row.ends);
+    ASSERT_TRUE(all);
+    EXPECT_EQ(all->objects, (Object_pair{0, 1}));
+    expect_same(all->impact, detector.first_impact(0, row.ends[0], 1, row.ends[1]));
+    detector.ignore(1, 0);
+    const auto other = detector.first_impact(row.ends);
+    ASSERT_TRUE(other);
+    EXPECT_EQ(other->objects, (Object_pair{2, 3}));
+    EXPECT_GT(other->impact.exact_time, all->impact.exact_time);
+    detector.remove(3);
+    const auto last = detector.first_impact(row.ends);
+    ASSERT_TRUE(last);
+    EXPECT_EQ(last->objects, (Object_pair{0, 2}));  // the first ball passes the second
+    row.ends[0].resize(0, 3);                       // stays where it is
+    EXPECT_FALSE(detector.first_impact(row.ends));
+  }
+}
+
+TEST(Detector_first_impact, of_several_pairs_at_the_same_time_is_that_of_the_lowest_ids) {
+  Row_of_balls row;
+  row.balls[3] = Moving_ball({6, 0, 0}, {0, 0, 0});
+  // The mirror image, so that both pairs meet at exactly the same time.
+  for (const auto v : row.balls[3].mesh.vertices()) {
+    const Point& p = row.balls[0].mesh.point(v);
+    row.balls[3].mesh.point(v) = Point(-p.x(), p.y(), p.z());
+    const Point& q = row.balls[1].mesh.point(v);
+    row.balls[2].mesh.point(v) = Point(-q.x(), q.y(), q.z());
+  }
+  row.ends[3] = row.ends[0], row.ends[3].col(0) *= -1;
+  row.ends[2] = row.ends[1], row.ends[2].col(0) *= -1;
+  Exact_detector detector;
+  for (const std::size_t i : {3, 2, 1, 0}) detector.add(row.balls[i].mesh);
+  const std::vector<Positions> ends(row.ends.rbegin(), row.ends.rend());
+  const auto first = detector.first_impact(ends);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->objects, (Object_pair{0, 1}));
+  const auto other = detector.first_impact(2, ends[2], 3, ends[3]);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->exact_time, first->impact.exact_time);
+}
+
 TEST(Detector_first_impact, refuses_what_is_no_motion_of_two_objects) {
   Moving_ball a({-3, 0, 0}, {3, 0, 0}), b({3, 0, 0}, {-3, 0, 0});
   Exact_detector detector;
@@ -97,6 +160,9 @@ TEST(Detector_first_impact, refuses_what_is_no_motion_of_two_objects) {
   broken(7, 2) = std::nan("");
   EXPECT_THROW(detector.first_impact(0, a.end, 1, broken), Bad_mesh);
   EXPECT_TRUE(detector.first_impact(0, a.end, 1, b.end));
+  EXPECT_THROW(detector.first_impact(std::vector<Positions>{a.end}), Bad_argument);
+  EXPECT_THROW(detector.first_impact(std::vector<Positions>{a.end, broken}), Bad_mesh);
+  EXPECT_TRUE(detector.first_impact(std::vector<Positions>{a.end, b.end}));
   Exact_detector particles({.mode = Mode::particles});
   particles.add(a.mesh), particles.add(b.mesh);
   EXPECT_THROW(particles.first_impact(0, a.end, 1, b.end), Bad_argument);

@@ -207,6 +207,12 @@ def test_first_impact_of_two_cubes_that_pass_through_each_other():
     assert one_call["time"] == 0.25 and one_call["faces"] == impact["faces"]
     swapped = detector.first_impact(b, to_the_left, a, to_the_right)
     assert swapped["time"] == 0.25
+    of_all = detector.first_impact_of_all([to_the_right, to_the_left])
+    assert of_all["objects"] == (a, b) and of_all["time"] == 0.25 and of_all["faces"] == impact["faces"]
+    assert detector.first_impact_of_all([to_the_right, None])["time"] == 0.375
+    assert detector.first_impact_of_all([None, None]) is None
+    with pytest.raises(lodestone.BadArgument, match="2 object ids, but ends of 1"):
+        detector.first_impact_of_all([to_the_right])
     with pytest.raises(lodestone.BadMesh, match="8 vertices, but got 7"):
         detector.first_impact(a, to_the_right[:7], b, to_the_left)
     with pytest.raises(lodestone.BadArgument, match=r"end_b must have the shape \(n, 3\)"):

@@ -13,7 +13,9 @@ import lodestone
 stub = ast.parse((pathlib.Path(lodestone.__file__).parent / "__init__.pyi").read_text())
 classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
 functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
-only_in_stub = {"Has_mesh", "Closest", "Hit", "Hits", "Closest_point", "Closest_points", "Patch"}
+only_in_stub = {
+    "Has_mesh", "Closest", "Impact", "Object_impact", "Hit", "Hits", "Closest_point", "Closest_points", "Patch",
+}
 
 
 def parameters_in_stub(node):

@@ -14,11 +14,11 @@
 #include "lodestone/detection/detection.h"
 #include "lodestone/detection/exact_objects.h"
 #include "lodestone/detection/frame_builder.h"
+#include "lodestone/detection/object_motion.h"
 #include "lodestone/detection/saved_object.h"
 #include "lodestone/mesh/stopwatch.h"
 #include "lodestone/queries/bounded_search.h"
 #include "lodestone/queries/closest_faces.h"
-#include "lodestone/queries/impact_search.h"
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/containment.h"
 #include "lodestone/queries/pair_contacts.h"
@@ -124,6 +124,8 @@ class Exact_detection final : public Detection {
   /// See `Detector::first_impact`.
   std::optional<Impact> first_impact(Object_pair pair, const Eigen::Ref<const Positions>& end_a,
                                      const Eigen::Ref<const Positions>& end_b);
+  /// See `Detector::first_impact`.
+  std::optional<Object_impact> first_impact(const Collision_filter& filter, std::span<const Positions> ends);
   /// See `Detector::within`.
   bool within(Object_pair pair, double distance);
   /// See `Detector::contains`.
@@ -173,6 +175,9 @@ class Exact_detection final : public Detection {
 
   /// @throws Bad_mesh  another number of rows than vertices, a coordinate that is not finite
   Positions checked_positions(Object_id object, const Eigen::Ref<const Positions>& positions);
+  /// Lists the ids of all objects that have not been removed.
+  void list_all();
+
   /// A visitor's walk reads positions and trees, which no other call may change.
   void check_no_visitor() const {
     if (visited_) throw Bad_argument("a visitor called the detector that shows it face pairs");
@@ -255,9 +260,7 @@ Positions Exact_detection<Volume>::checked_positions(Object_id id, const Eigen::
 
 template <Bounding_volume Volume>
 const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter) {
-  all_.clear();
-  for (Object_id id = 0; id < objects_.size(); ++id)
-    if (objects_.has(id)) all_.push_back(id);
+  list_all();
   start_frame(all_);
   until_settled(all_, [&] {
     frame_.clear_pairs();
@@ -294,16 +297,46 @@ Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
 template <Bounding_volume Volume>
 std::optional<Impact> Exact_detection<Volume>::first_impact(Object_pair pair, const Eigen::Ref<const Positions>& end_a,
                                                             const Eigen::Ref<const Positions>& end_b) {
-  const Positions at_end_a = checked_positions(pair.a, end_a), at_end_b = checked_positions(pair.b, end_b);
+  Positions at_end_a = checked_positions(pair.a, end_a), at_end_b = checked_positions(pair.b, end_b);
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
   for (const auto id : ids) objects_.pose_all(id);
-  const Node_boxes start_a(objects_.surface(pair.a).view()), start_b(objects_.surface(pair.b).view());
-  const auto coordinates = [](const Positions& all) {
-    return Coordinates(all.data(), static_cast<std::size_t>(all.size()));
-  };
-  const Swept_boxes swept_a(start_a.layout(), coordinates(at_end_a)), swept_b(start_b.layout(), coordinates(at_end_b));
-  return lodestone::first_impact(swept_a.view(), swept_b.view());
+  const Object_motion<Volume> a(objects_.surface(pair.a), std::move(at_end_a)),
+      b(objects_.surface(pair.b), std::move(at_end_b));
+  return lodestone::first_impact(a.view(), b.view());
+}
+
+template <Bounding_volume Volume>
+std::optional<Object_impact> Exact_detection<Volume>::first_impact(const Collision_filter& filter,
+                                                                   std::span<const Positions> ends) {
+  if (ends.size() != objects_.size())
+    throw Bad_argument("there are " + std::to_string(objects_.size()) + " object ids, but ends of " +
+                       std::to_string(ends.size()));
+  list_all();
+  std::vector<Positions> checked(objects_.size());
+  for (const auto id : all_)
+    if (ends[id].rows() > 0) checked[id] = checked_positions(id, ends[id]);
+  refresh(all_);
+  for (const auto id : all_) objects_.pose_all(id);
+  std::vector<std::unique_ptr<const Object_motion<Volume>>> motions(objects_.size());
+  workers_.run(all_.size(), [&](std::size_t i, std::size_t) {
+    const Object_id id = all_[i];
+    motions[id] = std::make_unique<const Object_motion<Volume>>(objects_.surface(id), std::move(checked[id]));
+  });
+  boxes_.assign(objects_.size(), {});
+  for (const auto id : all_) boxes_[id] = motions[id]->box();
+  reach_.assign(objects_.size(), 0);
+  std::optional<Object_impact> first;
+  for (const auto pair : broad_phase_.find(boxes_, reach_))
+    if (filter.may_collide(pair.a, pair.b)) keep_earlier(*motions[pair.a], *motions[pair.b], pair, first);
+  return first;
+}
+
+template <Bounding_volume Volume>
+void Exact_detection<Volume>::list_all() {
+  all_.clear();
+  for (Object_id id = 0; id < objects_.size(); ++id)
+    if (objects_.has(id)) all_.push_back(id);
 }
 
 template <Bounding_volume Volume>

@@ -38,8 +38,9 @@ class Swept_boxes {
 
 /// The first moment at which two surfaces have a point in common.
 struct Impact {
-  Face_pair faces = {};  ///< the lowest pair of those that meet at this time
-  double time = 0;       ///< t, in [0, 1]; the nearest double to the exact time
+  Face_pair faces = {};         ///< the lowest pair of those that meet at this time
+  double time = 0;              ///< t, in [0, 1]; the nearest double to the exact time
+  Impact_time exact_time = {};  ///< t itself, to be compared
   /// A point on the first of the faces. At the exact time its distance from either face is at most 2^-46 of the
   /// largest coordinate that one of them has at the start or the end.
   Point point = {};
@@ -54,7 +55,15 @@ struct Impact {
 /// Branch and bound over node pairs, those first whose moving boxes may overlap first. Only faces whose moving boxes
 /// overlap before the earliest impact so far go to the exact test. O(log F) node pairs are opened where the surfaces
 /// meet at one place; more where they run side by side.
-std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b);
+///
+/// @param latest  in [0, 1]; if the first time is later than this, the result is none
+std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b, double latest = 1);
+
+/// An impact of two of many objects.
+struct Object_impact {
+  Object_pair objects = {};  ///< by id, the lower one first
+  Impact impact = {};        ///< of a face of each
+};
 
 /// Faces whose vertices move.
 struct Moving_surface {
