@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "lodestone/triangles/triangle_distance.h"
 #include "support/face_soup.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// An object that moves.
 struct Moving_soup {
@@ -68,15 +66,15 @@ double expect_impact(const Moving_soup& first, const Moving_soup& second) {
     }
     expect_equal(first_impact(a.surface(), b.surface()), truth);
     if (truth) expect_point_on_both(a, b, *truth);
-    return truth ? truth->time : never;
+    return truth ? truth->time : infinity;
   };
   const double time = check(first, second);
   EXPECT_EQ(check(second, first), time);
   return time;
 }
 
-/// Objects of a few dozen faces.
-std::vector<Face_soup> few_faces() {
+/// Objects of a few dozen faces, to be moved.
+std::vector<Face_soup> moving_objects() {
   return {icosphere(2),
           Face_soup(potato(3)),
           torus_knot({.p = 1, .q = 0, .segments = 8, .sides = 5}),
@@ -89,7 +87,7 @@ std::vector<Face_soup> few_faces() {
 TEST(Impact_search, equals_exhaustive_checking_for_any_motion) {
   std::mt19937_64 random(1);
   int meet = 0, apart = 0, at_start = 0;
-  const auto objects = few_faces();
+  const auto objects = moving_objects();
   for (std::size_t i = 0; i < objects.size(); ++i)
     for (std::size_t j = i; j < objects.size(); ++j)
       for (const double distance : {0.5, 3.0}) {
@@ -98,7 +96,7 @@ TEST(Impact_search, equals_exhaustive_checking_for_any_motion) {
         const auto a = Moving_soup(moved(pose(objects[i]), -1, 0, 0), pose(objects[i]));
         const auto b = Moving_soup(moved(pose(objects[j]), 2, 0, 0), crumpled(pose(objects[j]), 0.1, i));
         const double time = expect_impact(a, b);
-        ++(time == never ? apart : time == 0 ? at_start : meet);
+        ++(time == infinity ? apart : time == 0 ? at_start : meet);
       }
   EXPECT_GT(meet, 20);
   EXPECT_GT(apart, 2);
@@ -114,7 +112,7 @@ TEST(Impact_search, on_a_lattice_finds_nothing_before_the_impact_and_the_impact)
     Moving_soup a(pose(0), pose(1)), b(pose(4), pose(0));
     a.end.faces = a.start.faces, b.end.faces = b.start.faces;
     const double time = expect_impact(a, b);
-    if (time != never && time > 0) ++meet;
+    if (time != infinity && time > 0) ++meet;
     for (int i = 0; i <= 16; ++i)
       EXPECT_TRUE(i / 16.0 >= time || true_pairs(a.at(i / 16.0), b.at(i / 16.0)).empty()) << i;
   }
@@ -146,24 +144,25 @@ TEST(Impact_search, finds_what_has_passed_through_by_the_end) {
   ASSERT_TRUE(true_pairs(sheet, fall.start).empty());
   ASSERT_TRUE(true_pairs(sheet, fall.end).empty());
   EXPECT_NEAR(expect_impact(still(sheet), fall), 0.475, 0.005);
-  EXPECT_EQ(expect_impact(still(sheet), Moving_soup(moved(ball, 5, 0, 2), moved(ball, 5, 0, -2))), never);
-  EXPECT_EQ(expect_impact(shifted(sheet, 0, 0, -4), Moving_soup(moved(ball, 0, 0, 2), moved(ball, 0, 0, -2))), never);
+  EXPECT_EQ(expect_impact(still(sheet), Moving_soup(moved(ball, 5, 0, 2), moved(ball, 5, 0, -2))), infinity);
+  EXPECT_EQ(expect_impact(shifted(sheet, 0, 0, -4), Moving_soup(moved(ball, 0, 0, 2), moved(ball, 0, 0, -2))),
+            infinity);
 }
 
 TEST(Impact_search, of_nested_spheres_is_when_the_inner_one_has_grown) {
   const Face_soup ball(icosphere(2));
   EXPECT_EQ(expect_impact(still(ball), Moving_soup(placed(ball, 0.5), placed(ball, 2))), 1.0 / 3);
-  EXPECT_EQ(expect_impact(still(ball), Moving_soup(placed(ball, 0.5), placed(ball, 0.75))), never);
+  EXPECT_EQ(expect_impact(still(ball), Moving_soup(placed(ball, 0.5), placed(ball, 0.75))), infinity);
 }
 
 TEST(Impact_search, is_the_same_for_other_units_and_far_from_the_origin) {
   std::mt19937_64 random(3);
   const Face_soup ball(icosphere(2));
   int meet = 0;
-  for (const auto& object : few_faces()) {
+  for (const auto& object : moving_objects()) {
     const Face_soup start = moved(posed_at_random(object, 1, random), 4, 0, 0), end = moved(start, -6, 0.25, 0);
     const double time = expect_impact(still(ball), Moving_soup(start, end));
-    if (time < never) ++meet;
+    if (time < infinity) ++meet;
     for (const double factor : {0x1p-600, 0x1p-200, 0x1p200, 0x1p900})
       EXPECT_EQ(expect_impact(still(placed(ball, factor)), Moving_soup(placed(start, factor), placed(end, factor))),
                 time);
@@ -178,7 +177,7 @@ TEST(Impact_search, of_larger_meshes_equals_exhaustive_checking) {
     const Face_soup ball = placed(icosphere(6), radius);
     return Moving_soup(moved(ball, 0, 0, 3), moved(ball, x, 0, -3));
   };
-  EXPECT_EQ(expect_impact(still(ring), fall(0.25, 0)), never) << "through the hole";
+  EXPECT_EQ(expect_impact(still(ring), fall(0.25, 0)), infinity) << "through the hole";
   EXPECT_LT(expect_impact(still(ring), fall(0.25, 3)), 1);
   EXPECT_LT(expect_impact(still(ring), fall(1.4, 0)), 1);
   std::mt19937_64 random(4);

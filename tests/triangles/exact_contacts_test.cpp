@@ -5,14 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <limits>
+
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
-double time_of(Exact_contacts& contacts) { return contacts.first() ? Impact_time(*contacts.first()).value() : never; }
+double time_of(Exact_contacts& contacts) {
+  return contacts.first() ? Impact_time(*contacts.first()).value() : infinity;
+}
 
 /// When corner 0 of a is first on b.
 double corner_on_face(const Point& from, const Point& to, const Moving_triangle& b) {
@@ -39,12 +40,12 @@ TEST(Exact_contacts, of_a_corner_and_a_face_that_collapses_at_that_moment) {
                                 {Point(-1, 1, -1), Point(1, 1, -1), Point(0, -3, -1)}};
   EXPECT_EQ(corner_on_face({0.5, 0, 1}, {0.5, 0, -1}, turning), 0.5);
   EXPECT_EQ(corner_on_face({0.5, 0.25, 0}, {0.5, -0.25, 0}, turning), 0.5);
-  EXPECT_EQ(corner_on_face({1.5, 0.25, 0}, {1.5, -0.25, 0}, turning), never);
+  EXPECT_EQ(corner_on_face({1.5, 0.25, 0}, {1.5, -0.25, 0}, turning), infinity);
   // To a point.
   const Moving_triangle through{{Point(-1, -1, 1), Point(1, -1, 1), Point(0, 3, 1)},
                                 {Point(1, 1, -1), Point(-1, 1, -1), Point(0, -3, -1)}};
   EXPECT_EQ(corner_on_face({0, 0.25, 0}, {0, -0.25, 0}, through), 0.5);
-  EXPECT_EQ(corner_on_face({0x1p-40, 0.25, 0}, {0x1p-40, -0.25, 0}, through), never);
+  EXPECT_EQ(corner_on_face({0x1p-40, 0.25, 0}, {0x1p-40, -0.25, 0}, through), infinity);
 }
 
 TEST(Exact_contacts, of_a_corner_in_the_plane_of_a_face) {
@@ -52,10 +53,10 @@ TEST(Exact_contacts, of_a_corner_in_the_plane_of_a_face) {
   EXPECT_EQ(corner_on_face({1, -1, 0}, {1, 2, 0}, {t, t}), 1.0 / 3);
   EXPECT_EQ(corner_on_face({5, 5, 0}, {-1, -1, 0}, {t, t}), 0.5);
   EXPECT_EQ(corner_on_face({-1, 0, 0}, {3, 0, 0}, {t, t}), 0.25) << "along an edge";
-  EXPECT_EQ(corner_on_face({5, 0, 0}, {0, 5, 0}, {t, t}), never);
+  EXPECT_EQ(corner_on_face({5, 0, 0}, {0, 5, 0}, {t, t}), infinity);
   const Triangle point{Point(1, 1, 1), Point(1, 1, 1), Point(1, 1, 1)};
   EXPECT_EQ(corner_on_face({0, 0, 0}, {3, 3, 3}, {point, point}), 1.0 / 3);
-  EXPECT_EQ(corner_on_face({0, 0, 0}, {3, 3, 4}, {point, point}), never);
+  EXPECT_EQ(corner_on_face({0, 0, 0}, {3, 3, 4}, {point, point}), infinity);
 }
 
 TEST(Exact_contacts, of_edges_that_are_parallel_at_that_moment) {
@@ -66,7 +67,7 @@ TEST(Exact_contacts, of_edges_that_are_parallel_at_that_moment) {
       0.5);
   EXPECT_EQ(
       edges_meet(along_x, along_x, {Point(1.5, 1, 0.5), Point(2, 1, -0.5)}, {Point(1.5, -1, -0.5), Point(2, -1, 0.5)}),
-      never);
+      infinity);
   // One is a point.
   const Edge point{Point(0.5, 1, 0), Point(0.5, 1, 0)}, below{Point(0.5, -3, 0), Point(0.5, -3, 0)};
   EXPECT_EQ(edges_meet(along_x, along_x, point, below), 0.25);
@@ -78,7 +79,8 @@ TEST(Exact_contacts, of_edges_that_move_in_one_plane) {
   EXPECT_EQ(edges_meet(along_x, along_x, {Point(0, 1, 0), Point(1, 2, 0)}, {Point(0, -3, 0), Point(1, -2, 0)}), 0.25);
   EXPECT_EQ(edges_meet(along_x, along_x, {Point(3, 1, 0), Point(3, -1, 0)}, {Point(-1, 1, 0), Point(-1, -1, 0)}), 0.5);
   EXPECT_EQ(edges_meet(along_x, along_x, {Point(2, 0, 0), Point(5, 0, 0)}, {Point(-1, 0, 0), Point(2, 0, 0)}), 1.0 / 3);
-  EXPECT_EQ(edges_meet(along_x, along_x, {Point(2, 0, 0), Point(5, 0, 0)}, {Point(1.5, 0, 0), Point(2, 0, 0)}), never);
+  EXPECT_EQ(edges_meet(along_x, along_x, {Point(2, 0, 0), Point(5, 0, 0)}, {Point(1.5, 0, 0), Point(2, 0, 0)}),
+            infinity);
 }
 
 }  // namespace

@@ -10,19 +10,19 @@
 
 #include "lodestone/triangles/triangle_distance.h"
 #include "support/moving_triangles.h"
+#include "support/special_numbers.h"
 #include "triangles/impact_oracle.h"
 
 namespace lodestone {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const Moving_triangle origin = standing({Point(0, 0, 0), Point(0, 0, 0), Point(0, 0, 0)});
 
 Moving_triangle moving_point(const Point& from, const Point& to) { return {{from, from, from}, {to, to, to}}; }
 Moving_triangle moving_segment(const Point& p, const Point& q, const Point& to_p, const Point& to_q) {
   return {{p, q, q}, {to_p, to_q, to_q}};
 }
-Moving_triangle scaled(const Moving_triangle& moving, double factor) {
+Moving_triangle all_scaled(const Moving_triangle& moving, double factor) {
   return mapped(moving, [factor](const Point& p) { return Point(factor * p.x(), factor * p.y(), factor * p.z()); });
 }
 
@@ -254,12 +254,12 @@ TEST(First_impact, is_the_same_after_exact_scaling_and_translation) {
     const auto [a, b] = pairs.on_a_lattice();
     const auto time = first_impact(a, b);
     for (const double factor : {0x1p-1074, 0x1p-700, 0x1p-40, 0x1p50, 0x1p700, 0x1p1018})
-      EXPECT_EQ(first_impact(scaled(a, factor), scaled(b, factor)), time) << factor;
+      EXPECT_EQ(first_impact(all_scaled(a, factor), all_scaled(b, factor)), time) << factor;
     for (const double by : {1.0, 0x1p20, 0x1p48}) EXPECT_EQ(first_impact(moved(a, by), moved(b, by)), time) << by;
     // A last digit more makes it another problem; its answer scales as well.
     const double factor = 1 + 0x1p-52;
-    EXPECT_EQ(first_impact(scaled(a, 8 * factor), scaled(b, 8 * factor)),
-              first_impact(scaled(a, factor), scaled(b, factor)));
+    EXPECT_EQ(first_impact(all_scaled(a, 8 * factor), all_scaled(b, 8 * factor)),
+              first_impact(all_scaled(a, factor), all_scaled(b, factor)));
   }
 }
 

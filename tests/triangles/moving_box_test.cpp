@@ -9,11 +9,10 @@
 #include <random>
 
 #include "support/exact_point.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The first time at which two boxes overlap, in rational numbers: what is needed is a >= 0 for six linear functions.
 std::optional<Rational> first_overlap(const Moving_box& a, const Moving_box& b) {
@@ -35,7 +34,7 @@ void expect_bound(const Moving_box& a, const Moving_box& b) {
   const double bound = overlap_time_lower_bound(a, b);
   EXPECT_EQ(overlap_time_lower_bound(b, a), bound);
   const auto first = first_overlap(a, b);
-  if (bound == never) {
+  if (bound == infinity) {
     EXPECT_FALSE(first);
     return;
   }
@@ -74,7 +73,7 @@ TEST(Moving_box, overlap_is_never_before_the_bound_and_the_bound_is_sharp) {
       const Moving_box a = boxes(), b = boxes();
       expect_bound(a, b);
       const double bound = overlap_time_lower_bound(a, b);
-      ++(bound == 0 ? early : bound == never ? none : late);
+      ++(bound == 0 ? early : bound == infinity ? none : late);
     }
     EXPECT_GT(early, 20);
     EXPECT_GT(late, 200);
@@ -89,7 +88,7 @@ TEST(Moving_box, far_apart_in_size_is_bounded) {
   for (const double from : {-large, -1.0, -least})
     for (const double to : {least, 1.0, large}) expect_bound({point(from), point(to)}, still);
   expect_bound({point(-large), point(large)}, {point(large), point(-large)});
-  EXPECT_EQ(overlap_time_lower_bound({point(-large), point(-least)}, still), never);
+  EXPECT_EQ(overlap_time_lower_bound({point(-large), point(-least)}, still), infinity);
   EXPECT_EQ(overlap_time_lower_bound({point(-large), point(0)}, still), 1 - 0x1p-50);
 }
 
