@@ -2,6 +2,7 @@
 // Pairs of moving triangles whose first impact is hard to decide.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -41,6 +42,21 @@ class Moving_pairs {
     if (random_() % 8 == 0) join(pair.a, 0), join(pair.a, 1);
     if (random_() % 8 == 0) pair.b.end[1] = pair.b.end[0];
     if (random_() % 8 == 0) flatten(pair);
+    return pair;
+  }
+
+  /// The same, with some coordinates off by 2^-50 to 2^-21: many just meet, or just miss each other.
+  Moving_pair beside_a_lattice() {
+    Moving_pair pair = on_a_lattice();
+    const auto beside = [this](double x) {
+      const auto factor = static_cast<double>(random_() % 5) - 2;
+      return random_() % 2 == 0 ? x : x + std::ldexp(factor, -50 + static_cast<int>(random_() % 30));
+    };
+    for (auto* moving : {&pair.a, &pair.b})
+      *moving = mapped(*moving, [&](const Point& p) {
+        const double x = beside(p.x()), y = beside(p.y()), z = beside(p.z());
+        return Point(x, y, z);
+      });
     return pair;
   }
 

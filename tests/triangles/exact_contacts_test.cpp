@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <optional>
 
+#include "support/moving_triangles.h"
 #include "support/special_numbers.h"
 
 namespace lodestone {
@@ -81,6 +83,35 @@ TEST(Exact_contacts, of_edges_that_move_in_one_plane) {
   EXPECT_EQ(edges_meet(along_x, along_x, {Point(2, 0, 0), Point(5, 0, 0)}, {Point(-1, 0, 0), Point(2, 0, 0)}), 1.0 / 3);
   EXPECT_EQ(edges_meet(along_x, along_x, {Point(2, 0, 0), Point(5, 0, 0)}, {Point(1.5, 0, 0), Point(2, 0, 0)}),
             infinity);
+}
+
+/// The first impact by the exact test of all pairs of features, without a filter.
+std::optional<Impact_time> first_of_all_features(const Moving_pair& pair) {
+  if (triangles_intersect(pair.a.start, pair.b.start)) return Impact_time();
+  Exact_contacts contacts(pair.a, pair.b);
+  for (int i = 0; i < 3; ++i) {
+    contacts.try_corner_and_face(i, {3, 4, 5});
+    contacts.try_corner_and_face(3 + i, {0, 1, 2});
+    for (int j = 0; j < 3; ++j) contacts.try_edges({i, (i + 1) % 3}, {3 + j, 3 + (j + 1) % 3});
+  }
+  if (!contacts.first()) return std::nullopt;
+  return Impact_time(*contacts.first());
+}
+
+TEST(Exact_contacts, of_all_features_give_the_first_impact_of_two_triangles) {
+  Moving_pairs pairs(1);
+  int met = 0, apart = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Moving_pair pair = i % 3 == 0   ? pairs.on_a_lattice()
+                             : i % 3 == 1 ? pairs.beside_a_lattice()
+                                          : pairs.anywhere();
+    const auto first = first_of_all_features(pair);
+    ASSERT_EQ(first_impact(pair.a, pair.b), first) << i;
+    ASSERT_TRUE(!first || first_impact(pair.a, pair.b, first->high()) == first) << i;
+    ++(first ? met : apart);
+  }
+  EXPECT_GT(met, 2000);
+  EXPECT_GT(apart, 1000);
 }
 
 }  // namespace
