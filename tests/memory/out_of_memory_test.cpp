@@ -175,6 +175,7 @@ TEST(Out_of_memory, in_a_query_of_two_objects_leaves_a_detector_whose_next_frame
   expect_query_to_survive([](Trial& trial) { trial.detector.within(0, 1, 0.1); });
   expect_query_to_survive([](Trial& trial) { trial.detector.contains(0, 1); });
   expect_query_to_survive([](Trial& trial) { trial.detector.parting(0, 1); });
+  expect_query_to_survive([](Trial& trial) { trial.detector.first_impact(std::vector<Positions>(trial.detector.size())); });
 }
 
 TEST(Out_of_memory, in_a_query_of_rays_or_points_leaves_a_detector_whose_next_frame_is_right) {

@@ -154,7 +154,7 @@ std::vector<Point> points_around(std::span<const Ray> rays) {
 
 TEST(Exact_threads, rays_and_points_get_the_answers_that_each_of_them_gets_alone) {
   const auto mesh = potato(24);
-  for (const std::size_t count : {0, 1, 31, 32, 33, 700}) {
+  for (const std::size_t count : {0, 1, 31, 32, 33, 700, 1600}) {  // the last make a Ray_tree
     const auto rays = rays_around(count);
     const auto points = points_around(rays);
     for (const std::size_t threads : {1, 2, 3, 5, 0}) {
