@@ -72,11 +72,11 @@ bool Ray_tree_builder::place() {
   const Aabb& bounds = tree_.surface_.bounds;
   double half_width = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    tree_.middle_[axis] = bounds.low[axis] / 2 + bounds.high[axis] / 2;
-    half_width = std::max(half_width, bounds.high[axis] / 2 - bounds.low[axis] / 2);
+    const double middle = tree_.middle_[axis] = bounds.low[axis] / 2 + bounds.high[axis] / 2;
+    // Far from the origin, the middle is rounded to one side.
+    half_width = std::max({half_width, bounds.high[axis] - middle, middle - bounds.low[axis]});
   }
   if (!(half_width > 0x1p-500 && half_width < 0x1p500)) return false;
-  // The middle is rounded, so a coordinate can be a little farther from it than half the width.
   tree_.scale_ = std::ldexp(1.0, -std::ilogb(half_width * (1 + 0x1p-40)) - 1);
   return true;
 }

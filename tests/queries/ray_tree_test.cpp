@@ -155,6 +155,24 @@ TEST(Ray_tree, asks_the_surface_where_single_precision_is_not_enough) {
   }
 }
 
+TEST(Ray_tree, is_complete_far_from_the_origin_where_its_middle_is_rounded) {
+  for (const double factor : {0.999, 0.5001, 0.7})
+    for (const double offset : {0x1p40, 0x1p46, 0x1p51}) {
+      const Face_soup ball = placed(icosphere(4), factor, offset);
+      const Posed_object object(ball, 16, false);
+      std::vector<Ray> rays;
+      std::mt19937_64 random(10);
+      std::uniform_real_distribution<double> unit(-3, 3);
+      for (std::size_t i = 0; i < 300; ++i) {
+        const Point p = ball.point(static_cast<std::uint32_t>(random() % ball.vertex_count()));
+        const Eigen::Vector3d way(unit(random), unit(random), unit(random));
+        rays.push_back({Eigen::Vector3d(p.x(), p.y(), p.z()) - 4 * way, way});
+      }
+      SCOPED_TRACE(testing::Message() << factor << ' ' << offset);
+      EXPECT_GT(expect_answers_of_the_surface(object.view(), rays), 50U);
+    }
+}
+
 /// Rays a little beside a vertex, within and beyond what single precision can tell apart.
 TEST(Ray_tree, keeps_faces_that_rays_meet_at_their_very_edge) {
   const Face_soup ball(icosphere(6));
