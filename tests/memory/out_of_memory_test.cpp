@@ -175,14 +175,19 @@ TEST(Out_of_memory, in_a_query_of_two_objects_leaves_a_detector_whose_next_frame
   expect_query_to_survive([](Trial& trial) { trial.detector.within(0, 1, 0.1); });
   expect_query_to_survive([](Trial& trial) { trial.detector.contains(0, 1); });
   expect_query_to_survive([](Trial& trial) { trial.detector.parting(0, 1); });
-  expect_query_to_survive([](Trial& trial) { trial.detector.first_impact(std::vector<Positions>(trial.detector.size())); });
+  expect_query_to_survive([](Trial& trial) {
+    const std::vector<Positions> at_rest(trial.detector.size());
+    trial.detector.first_impact(at_rest);
+  });
 }
 
 TEST(Out_of_memory, in_a_query_of_rays_or_points_leaves_a_detector_whose_next_frame_is_right) {
   const std::vector<Ray> rays{{.origin = {-3, 0.1, 0.05}, .direction = {1, 0, 0}},
                               {.origin = {0.1, 3, 0.05}, .direction = {0, -1, 0.1}}};
   const std::vector<Point> points{Point(0.1, 0.2, 0.1), Point(2, 2, 2)};
+  const std::vector<Ray> many(200, rays.front());
   expect_query_to_survive([&](Trial& trial) { trial.detector.first_hits(0, rays); });
+  expect_query_to_survive([&](Trial& trial) { trial.detector.first_hits(0, many); });  // makes a Ray_tree
   expect_query_to_survive([&](Trial& trial) { trial.detector.all_hits(0, rays.front()); });
   expect_query_to_survive([&](Trial& trial) { trial.detector.closest_points(0, points); });
   expect_query_to_survive([&](Trial& trial) { trial.detector.point_sides(0, points); });
