@@ -75,7 +75,7 @@ Closest_faces closest(const py::object& a, const py::object& b, std::size_t thre
   return ask_about(a, b, threads, [](auto& detector) { return detector.closest(0, 1); });
 }
 
-py::object first_impact(const py::object& a, const py::object& b, const py::object& end_a, const py::object& end_b) {
+py::object first_impact(const py::object& a, const py::object& end_a, const py::object& b, const py::object& end_b) {
   const Positions at_end_a = positions_of(end_a, "end_a"), at_end_b = positions_of(end_b, "end_b");
   return impact_fields(
       ask_about(a, b, 1, [&](auto& detector) { return detector.first_impact(0, at_end_a, 1, at_end_b); }));
@@ -167,7 +167,7 @@ void add_one_call(py::module_& module) {
       },
       py::arg("a"), py::arg("b"), py::kw_only(), py::arg("threads") = 1,
       "Where two meshes are closest: a dict with distance, faces, points and direction, from b to a.");
-  module.def("first_impact", first_impact, py::arg("a"), py::arg("b"), py::arg("end_a"), py::arg("end_b"),
+  module.def("first_impact", first_impact, py::arg("a"), py::arg("end_a"), py::arg("b"), py::arg("end_b"),
              "When two meshes first meet if every vertex moves on a straight line, from where it is at t = 0 to the row of\n"
              "end_a or end_b, arrays (V, 3), at t = 1: a dict with time, faces and point; None if they do not. Exact.");
   module.def("within", within, py::arg("a"), py::arg("b"), py::arg("distance"), py::kw_only(), py::arg("threads") = 1,

@@ -203,7 +203,7 @@ def test_first_impact_of_two_cubes_that_pass_through_each_other():
     of_lists = detector.first_impact(a, to_the_right.tolist(), b, to_the_left.astype(np.float32))
     assert of_lists["time"] == 0.25 and of_lists["faces"] == impact["faces"]
     assert detector.first_impact(a, left.vertices, b, right.vertices) is None
-    one_call = lodestone.first_impact(left, right, to_the_right, to_the_left)
+    one_call = lodestone.first_impact(left, to_the_right, right, to_the_left)
     assert one_call["time"] == 0.25 and one_call["faces"] == impact["faces"]
     swapped = detector.first_impact(b, to_the_left, a, to_the_right)
     assert swapped["time"] == 0.25
