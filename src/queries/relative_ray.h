@@ -37,7 +37,7 @@ class Relative_ray {
     const double sign = slope_[z], start = (origin_[z] + skipped_ * sign) * sign;
     walk.start = static_cast<float>(start);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double entry = origin_[axis] + skipped_ * slope_[axis],
+      const double entry = origin_[axis] + skipped_ * true_slope_[axis],
                    error = kernel::walk_error * std::abs(inverse_[axis]);
       walk.slope[axis] = static_cast<float>(slope_[axis]);
       walk.inverse[axis] = static_cast<float>(inverse_[axis]);
@@ -63,11 +63,12 @@ class Relative_ray {
     }
   }
 
-  /// A ray that is nearly orthogonal to an axis is tilted: inside the box, that is far below the error.
+  /// A ray that is nearly orthogonal to an axis is tilted where it enters the box: inside, that is far below the error.
   void find_slopes(const Ray_frame& frame) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t axis = axes_[i] = static_cast<std::size_t>(frame.axes[i]);
       const double slope = i < 2 ? frame.shear[i] * frame.sign : frame.sign;
+      true_slope_[axis] = slope;
       slope_[axis] = std::copysign(std::max(std::abs(slope), least_slope), slope);
       inverse_[axis] = i < 2 ? 1 / slope_[axis] : slope;
     }
@@ -83,7 +84,7 @@ class Relative_ray {
 
   double scale_;
   std::array<std::size_t, 3> axes_;
-  std::array<double, 3> origin_, slope_, inverse_;
+  std::array<double, 3> origin_, true_slope_, slope_, inverse_;
   bool is_near_ = true;
   double skipped_ = 0;                                     ///< depth at which the walk starts, at the box
   double last_ = std::numeric_limits<double>::infinity();  ///< depth at which the ray leaves the box

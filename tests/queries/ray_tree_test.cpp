@@ -173,6 +173,20 @@ TEST(Ray_tree, is_complete_far_from_the_origin_where_its_middle_is_rounded) {
     }
 }
 
+TEST(Ray_tree, is_complete_for_rays_from_far_away_that_are_nearly_orthogonal_to_an_axis) {
+  const Face_soup ball(icosphere(6));
+  const Posed_object object(ball, 96, false);
+  std::vector<Ray> rays;
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 600; ++i) {
+    const Point p = ball.point(static_cast<std::uint32_t>(random() % ball.vertex_count()));
+    Eigen::Vector3d way = Eigen::Vector3d::Unit(i % 3) * (i % 2 == 0 ? 1 : -1);
+    way[(i + 1) % 3] = i % 5 == 0 ? 0 : std::ldexp(1.0, -30 - i % 40);
+    rays.push_back({Eigen::Vector3d(p.x(), p.y(), p.z()) - std::ldexp(1.0, i % 30) * way, way});
+  }
+  EXPECT_GT(expect_answers_of_the_surface(object.view(), rays), 300U);
+}
+
 /// Rays a little beside a vertex, within and beyond what single precision can tell apart.
 TEST(Ray_tree, keeps_faces_that_rays_meet_at_their_very_edge) {
   const Face_soup ball(icosphere(6));
