@@ -206,7 +206,7 @@ class Detector {
   }
   /// When two objects meet first if every vertex moves on a straight line, from where it is now at t = 0 to where it
   /// will be at t = 1, in mode `exact`: see `first_impact` of trees. Reads all of both. None if they do not meet.
-  /// @param end_a, end_b  V x 3, one row per vertex in the order of `vertices(mesh)`; a placement is not applied to them
+  /// @param end_a, end_b   V x 3, one row per vertex in the order of `vertices(mesh)`; no placement is applied to them
   /// @throws Bad_argument  no such object, one and the same, another mode
   /// @throws Bad_mesh      as `detect`; another number of rows than vertices, a coordinate that is not finite
   std::optional<Impact> first_impact(Object_id a, const Eigen::Ref<const Positions>& end_a, Object_id b,

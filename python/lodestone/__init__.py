@@ -60,8 +60,8 @@ __all__ = [
     "Animation", "BadArgument", "BadMesh", "BadMotion", "BadOutput", "BadSavedObject", "BadScene", "BoxPromise",
     "BrokenBound", "Detector", "DisplacementPromise", "Error", "Frame", "LipschitzPromise", "Page", "Pair", "Partition",
     "Scene", "Skin", "StretchPromise", "__version__", "closest", "contains", "find_collisions", "first_impact", "page",
-    "partition", "play", "read_animation", "read_mesh", "read_scene", "self_collisions", "strategies", "within", "write_animation",
-    "write_mesh",
+    "partition", "play", "read_animation", "read_mesh", "read_scene", "self_collisions", "strategies", "within",
+    "write_animation", "write_mesh",
 ]
 
 # Messages and help name what users import, not where it is compiled.

@@ -360,7 +360,7 @@ void add_detector(py::module_& module) {
            "of end_a or end_b, arrays (V, 3), at t = 1: a dict with time, faces and point; None if they do not. Exact.")
       .def("first_impact_of_all", first_impact_of_all, py::arg("ends"),
            "The earliest impact of any two objects: a dict with objects, time, faces and point; None if there is none.\n"
-           "ends: a list with where the vertices of each object will be, (V, 3), or None for one that stays.")
+           "ends: a list with where the vertices of each object will be, (V, 3), or None or no rows for one that stays.")
       .def("within",
            [](Python_detector& self, Object_id a, Object_id b, double distance) {
              return self.ask([&](auto& detector) { return detector.within(a, b, distance); });

@@ -28,28 +28,60 @@ CGAL::Sign constant_sign(const Coefficients& coefficients) {
 
 /// Isolates the roots of a polynomial by bisection, until Descartes' rule counts no root or one: the method of
 /// \cite collins1976. It ends if no root is repeated.
+///
+/// The counts of two halves add up to no more than that of the whole, which is at most the degree. As that is at most
+/// 3, only one half is left to be halved: roots that lie very close need a loop, not a stack.
 class Isolation {
  public:
   Isolation(const Integer_polynomial& polynomial, Root_list& roots) : polynomial_(polynomial), roots_(roots) {}
 
-  /// @param local  the polynomial in the cell that begins at `start`
-  void search(const Coefficients& local, const Dyadic& start) {
-    const int changes = sign_changes(descartes_coefficients(local));
-    if (changes == 0) return;
-    if (changes == 1) {
-      roots_.emplace_back(polynomial_, start, sign_after_zero(local));
-      return;
+  /// Appends the roots in (0, 1), ascending.
+  void run() {
+    Cell cell(polynomial_.in_cell({}), {});
+    Root_list after;  // descending
+    while (cell.count > 1) {
+      const auto [first, second] = cell.halves();
+      const bool is_root_between = CGAL::sign(second.local.front()) == CGAL::ZERO;
+      const bool go_on_in_first = first.count > 1;
+      if (go_on_in_first) {
+        add_single(second, after);
+        if (is_root_between) after.emplace_back(second.start);
+      } else {
+        add_single(first, roots_);
+        if (is_root_between) roots_.emplace_back(second.start);
+      }
+      cell = go_on_in_first ? first : second;
     }
-    Coefficients half = local;
-    for (std::size_t i = 0; i < half.size(); ++i) half[i] <<= static_cast<unsigned long>(half.size() - 1 - i);
-    const Dyadic middle{2 * start.m + 1, start.e + 1};
-    search(half, {2 * start.m, start.e + 1});
-    shift_by_one(half);
-    if (CGAL::sign(half.front()) == CGAL::ZERO) roots_.emplace_back(middle);
-    search(half, middle);
+    add_single(cell, roots_);
+    roots_.insert(roots_.end(), after.rbegin(), after.rend());
   }
 
  private:
+  /// Where the polynomial is in a cell, and how many roots there can be in it.
+  struct Cell {
+    Coefficients local;
+    Dyadic start;
+    int count;
+
+    Cell(Coefficients polynomial_there, Dyadic cell_start)
+        : local(std::move(polynomial_there)),
+          start(std::move(cell_start)),
+          count(sign_changes(descartes_coefficients(local))) {}
+
+    std::pair<Cell, Cell> halves() const {
+      Coefficients half = local;
+      for (std::size_t i = 0; i < half.size(); ++i) half[i] <<= static_cast<unsigned long>(half.size() - 1 - i);
+      Coefficients shifted_half = half;
+      shift_by_one(shifted_half);
+      return {Cell(std::move(half), {2 * start.m, start.e + 1}),
+              Cell(std::move(shifted_half), {2 * start.m + 1, start.e + 1})};
+    }
+  };
+
+  void add_single(const Cell& cell, Root_list& roots) const {
+    if (cell.count == 1) roots.emplace_back(polynomial_, cell.start, sign_after_zero(cell.local));
+  }
+
   const Integer_polynomial& polynomial_;
   Root_list& roots_;
 };
@@ -142,7 +174,7 @@ double Algebraic_time::round_down() const {
 Root_list roots_until_one(const Integer_polynomial& p) {
   Root_list roots;
   const Integer_polynomial whole = p.primitive();
-  const auto list = [&roots](const Integer_polynomial& q) { Isolation(q, roots).search(q.in_cell({}), {}); };
+  const auto list = [&roots](const Integer_polynomial& q) { Isolation(q, roots).run(); };
   const int changes = sign_changes(descartes_coefficients(whole.in_cell({})));
   if (changes == 1)
     list(whole);  // one root, which is not repeated, whatever the others are

@@ -47,7 +47,7 @@ class Algebraic_time {
 using Root_list = boost::container::static_vector<Algebraic_time, Integer_polynomial::most_coefficients>;
 
 /// All roots in (0, 1], ascending.
-/// @param p  not zero
+/// @param p  not zero, of degree 3 at most
 Root_list roots_until_one(const Integer_polynomial& p);
 
 }  // namespace lodestone

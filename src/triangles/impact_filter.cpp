@@ -37,9 +37,9 @@ void cut(const std::array<Coefficient, size>& whole, double part, std::array<Coe
 ///
 /// With eps = 2^-53 and all components of u, v and w at most m, each term of a coefficient is a product of three of
 /// these, with a rounding of each difference and two of products. There are at most 18 terms, in a mean of three
-/// determinants, which carry at most 10 roundings of sums. A cut adds three roundings of coefficients of at most 6 m^3,
-/// and there are at most 24 cuts. So the error is below (15 + 72) eps 6 m^3 < 2^-43 m^3. Likewise that of an area is
-/// below 2^-45 m^2. What underflows is below 10^-200, as m is below 10^100.
+/// determinants, which carry at most 10 roundings of sums. A halving adds three roundings of coefficients of at most
+/// 6 m^3, the first cut nine, and there are at most 20 halvings. So the error is below (15 + 69) eps 6 m^3 < 2^-43 m^3.
+/// Likewise that of an area is below 2^-45 m^2. What underflows is below 10^-200, as m is below 10^100.
 class Impact_filter::Piece {
  public:
   Piece(const Moving_difference& u, const Moving_difference& v, const Moving_difference& w) {
@@ -126,7 +126,8 @@ Impact_filter::Moving_difference Impact_filter::between(int from, int to) const 
 
 double Impact_filter::corner_and_face(int corner) const {
   const int other = corner < 3 ? 3 : 0;
-  if (!(overlap_time_lower_bound(box_around(corner, corner), face_boxes_[corner < 3 ? 1 : 0]) <= latest_)) return no_contact;
+  const Moving_box& face_box = face_boxes_[corner < 3 ? 1 : 0];
+  if (!(overlap_time_lower_bound(box_around(corner, corner), face_box) <= latest_)) return no_contact;
   return first_possible(Features::corner_and_face, corner, other, other + 1, other + 2);
 }
 
@@ -154,7 +155,7 @@ double Impact_filter::first_possible(Features features, int origin, int p, int q
     const Open now = open.back();
     open.pop_back();
     if (now.piece.apart(features)) continue;
-    if (now.width <= 0x1p-20 * latest_) return (1 - 0x1p-50) * now.low;
+    if (now.width <= 0x1p-20 * latest_) return (1 - 0x1p-48) * now.low;  // at most 20 roundings of sums
     const double half = 0.5 * now.width;
     open.push_back({now.piece, now.low + half, half});
     open.push_back({now.piece, now.low, half});

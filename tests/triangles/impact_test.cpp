@@ -2,6 +2,7 @@
 #include "lodestone/triangles/impact.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <cmath>
@@ -263,7 +264,7 @@ TEST(First_impact, is_the_same_after_exact_scaling_and_translation) {
   }
 }
 
-TEST(First_impact, is_the_same_backwards_from_the_end_of_a_part_of_the_motion) {
+TEST(First_impact, of_half_the_motion_is_at_twice_the_time) {
   // From t = 0 to 1/2 the corners go half of their ways: the time doubles.
   Moving_pairs pairs(4);
   int halved = 0;
@@ -321,6 +322,38 @@ TEST(Impact_time, is_compared_exactly) {
   EXPECT_EQ(one.low(), root(1).low());
   EXPECT_EQ(two.low(), root(1).low());
   EXPECT_NE(one < root(1), two < root(1));
+}
+
+/// Three planes through the origin that the faces' corners cross at times 2^-2098 apart: two thousand halvings tell
+/// their roots from each other.
+TEST(First_impact, at_times_that_only_thousands_of_digits_tell_apart_needs_little_stack) {
+  constexpr double huge = 0x1p1020, tiny = 0x1p-1074;
+  Moving_triangle moving, still;
+  moving.start = {Point(-huge, 0, 0), Point(0, -huge, 0), Point(0, 0, -huge)};
+  moving.end = {Point(2 * huge, 0, 0), Point(0, 2 * huge, 0), Point(0, 0, 2 * huge)};
+  still.start = still.end = {Point(0, tiny, 0), Point(huge, huge, huge), Point(huge, huge, 0)};
+  struct Question {
+    const Moving_triangle &a, &b;
+    std::optional<Impact_time> answer = {};
+  } question{moving, still};
+  pthread_attr_t attributes;
+  ASSERT_EQ(pthread_attr_init(&attributes), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&attributes, std::size_t{256} << 10U), 0);
+  pthread_t thread;
+  ASSERT_EQ(pthread_create(
+                &thread, &attributes,
+                [](void* asked) -> void* {
+                  auto& now = *static_cast<Question*>(asked);
+                  now.answer = first_impact(now.a, now.b);
+                  return nullptr;
+                },
+                &question),
+            0);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  const auto swapped = first_impact(still, moving);
+  ASSERT_EQ(question.answer.has_value(), swapped.has_value());
+  EXPECT_TRUE(!swapped || *question.answer == *swapped);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ struct Impact {
   double time = 0;              ///< t, in [0, 1]; the nearest double to the exact time
   Impact_time exact_time = {};  ///< t itself, to be compared
   /// A point on the first of the faces. At the exact time its distance from either face is at most 2^-46 of the
-  /// largest coordinate that one of them has at the start or the end.
+  /// largest coordinate that one of them has at the start or the end, and some times 2^-1074.
   Point point = {};
 };
 
@@ -54,7 +54,8 @@ struct Impact {
 ///
 /// Branch and bound over node pairs, those first whose moving boxes may overlap first. Only faces whose moving boxes
 /// overlap before the earliest impact so far go to the exact test. O(log F) node pairs are opened where the surfaces
-/// meet at one place; more where they run side by side.
+/// meet at one place; more where they run side by side. Where many face pairs meet at exactly the first time, such as
+/// all of a block that falls flat on a floor, each of them takes an exact test of some 0.1 ms.
 ///
 /// @param latest  in [0, 1]; if the first time is later than this, the result is none
 std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b, double latest = 1);

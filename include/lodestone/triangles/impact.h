@@ -25,7 +25,7 @@ class Algebraic_time;
 /// An exact time from 0 to 1: a double, or a root of a polynomial with integer coefficients.
 ///
 /// Comparisons are exact. They cost some nanoseconds, unless the times differ and no double lies between them, or they
-/// are equal and no double: then some microseconds.
+/// are equal and no double: then mostly some microseconds.
 class Impact_time {
  public:
   /// The time t = 0.
@@ -56,9 +56,9 @@ class Impact_time {
 ///
 /// What can meet first are a corner and a triangle, or two edges; the four corners are then in one plane, at a root of
 /// a cubic polynomial \cite provot1997. Its roots are isolated, and what lies where is decided at them, in integers.
-/// Floating point only discards what it proves apart. Some 10 to 100 ns if boxes around the
-/// moving corners tell the triangles apart, some microseconds if the signs of the polynomials do, some dozens of
-/// microseconds for each pair of features that may meet.
+/// Floating point only discards what it proves apart. Some 10 to 100 ns if boxes around the moving corners tell the
+/// triangles apart, some microseconds if the signs of the polynomials do, some dozens of microseconds for each pair of
+/// features that may meet; up to tenths of a second where coordinates differ by hundreds of powers of ten.
 ///
 /// @param latest  in [0, 1]; if the first time is later than this, the result is none
 std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_triangle& b, double latest = 1);
