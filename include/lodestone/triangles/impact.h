@@ -40,7 +40,9 @@ class Impact_time {
   /// The nearest double; of two, the lower.
   double value() const { return value_; }
 
+  /// Which one is earlier.
   friend std::strong_ordering operator<=>(const Impact_time& a, const Impact_time& b);
+  /// Whether they are the same.
   friend bool operator==(const Impact_time& a, const Impact_time& b) { return (a <=> b) == 0; }
 
  private:
