@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "bounds/node_lists.h"
 #include "lodestone/mesh/errors.h"
+#include "lodestone/tree/region_tree.h"
 
 namespace lodestone {
 

@@ -12,6 +12,7 @@
 #include "lodestone/bounds/node_regions.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/rigid_motion.h"
+#include "lodestone/tree/region_tree.h"
 
 namespace lodestone {
 

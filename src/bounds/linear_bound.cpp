@@ -6,6 +6,7 @@
 
 #include "bounds/node_lists.h"
 #include "lodestone/bounds/motion_bound.h"
+#include "lodestone/tree/region_tree.h"
 
 namespace lodestone {
 

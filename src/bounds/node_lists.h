@@ -6,24 +6,12 @@
 #include <vector>
 
 #include "lodestone/tree/tree_layout.h"
-#include "lodestone/volumes/aabb.h"
 
-/// What bounds have in common: a box or a list per node, made from the leaves up.
+/// What bounds have in common: lists per node, made from the leaves up.
 namespace lodestone {
 
 /// A result rounded to nearest differs from the exact one by at most this share.
 inline constexpr double unit_roundoff = 0x1p-53;
-
-/// The smallest box of each node. O(V).
-inline std::vector<Aabb> fitted_boxes(const Tree_layout& layout, Coordinates coordinates) {
-  std::vector<Aabb> boxes(layout.node_count());
-  for (auto node = static_cast<std::uint32_t>(layout.node_count()); node-- > 0;)
-    if (layout.is_leaf(node))
-      boxes[node].enclose(layout.leaf_faces(layout.node(node).leaf, coordinates));
-    else
-      boxes[node].enclose(boxes[node + 1], boxes[layout.node(node).second_child]);
-  return boxes;
-}
 
 /// Two lists that ascend by a key, as one.
 /// @param alone     called for an entry whose key only one list has

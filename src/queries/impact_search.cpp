@@ -10,6 +10,7 @@
 
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/tree/node_pair.h"
+#include "lodestone/tree/region_tree.h"
 #include "lodestone/tree/tree_surface.h"
 #include "lodestone/triangles/moving_box.h"
 #include "lodestone/triangles/triangle_distance.h"
@@ -178,13 +179,8 @@ Moving_triangle moving_face(const Moving_surface& surface, std::uint32_t face) {
 
 }  // namespace
 
-Swept_boxes::Swept_boxes(const Layout_view& start, Coordinates end) : boxes_(start.layout->node_count()) {
-  const Tree_layout& tree = *start.layout;
-  fit_leaves(tree, end, 0, tree.leaf_count(), std::span(boxes_));
-  for (auto n = static_cast<std::uint32_t>(boxes_.size()); n-- > 0;)
-    if (!tree.is_leaf(n)) boxes_[n].enclose(boxes_[n + 1], boxes_[tree.node(n).second_child]);
-  view_ = {start, {&tree, end, boxes_[0], boxes_}};
-}
+Swept_boxes::Swept_boxes(const Layout_view& start, Coordinates end)
+    : boxes_(fitted_boxes(*start.layout, end)), view_{start, {start.layout, end, boxes_[0], boxes_}} {}
 
 std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b, double latest) {
   return Impact_search(a, b, latest).run();

@@ -34,6 +34,14 @@ Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::si
   return {.coordinates = sum, .extents = extents};
 }
 
+std::vector<Aabb> fitted_boxes(const Tree_layout& layout, Coordinates coordinates) {
+  std::vector<Aabb> boxes(layout.node_count());
+  fit_leaves(layout, coordinates, 0, layout.leaf_count(), std::span(boxes));
+  for (auto node = static_cast<std::uint32_t>(boxes.size()); node-- > 0;)
+    if (!layout.is_leaf(node)) boxes[node].enclose(boxes[node + 1], boxes[layout.node(node).second_child]);
+  return boxes;
+}
+
 template class Basic_region_tree<Aabb>;
 
 }  // namespace lodestone

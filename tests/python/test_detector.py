@@ -211,7 +211,7 @@ def test_first_impact_of_two_cubes_that_pass_through_each_other():
     assert of_all["objects"] == (a, b) and of_all["time"] == 0.25 and of_all["faces"] == impact["faces"]
     assert detector.first_impact_of_all([to_the_right, None])["time"] == 0.375
     assert detector.first_impact_of_all([None, None]) is None
-    with pytest.raises(lodestone.BadArgument, match="2 object ids, but ends of 1"):
+    with pytest.raises(lodestone.BadArgument, match="each of the 2 object ids, but got 1"):
         detector.first_impact_of_all([to_the_right])
     with pytest.raises(lodestone.BadMesh, match="8 vertices, but got 7"):
         detector.first_impact(a, to_the_right[:7], b, to_the_left)

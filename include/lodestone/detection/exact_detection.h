@@ -173,8 +173,6 @@ class Exact_detection final : public Detection {
     bool& flag_;
   };
 
-  /// @throws Bad_mesh  another number of rows than vertices, a coordinate that is not finite
-  Positions checked_positions(Object_id object, const Eigen::Ref<const Positions>& positions);
   /// Lists the ids of all objects that have not been removed.
   void list_all();
 
@@ -244,18 +242,8 @@ class Exact_detection final : public Detection {
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::update(Object_id id, const Eigen::Ref<const Positions>& positions) {
   check_no_visitor();
-  objects_[id].give(checked_positions(id, positions));
-}
-
-template <Bounding_volume Volume>
-Positions Exact_detection<Volume>::checked_positions(Object_id id, const Eigen::Ref<const Positions>& positions) {
   auto& object = objects_[id];
-  if (positions.rows() != object.mesh().vertex_count())
-    throw Bad_mesh(object.title + " has " + std::to_string(object.mesh().vertex_count()) + " vertices, but got " +
-                   std::to_string(positions.rows()) + " positions");
-  Positions copy = positions;
-  check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, object.title);
-  return copy;
+  object.give(object.checked(positions));
 }
 
 template <Bounding_volume Volume>
@@ -297,7 +285,7 @@ Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
 template <Bounding_volume Volume>
 std::optional<Impact> Exact_detection<Volume>::first_impact(Object_pair pair, const Eigen::Ref<const Positions>& end_a,
                                                             const Eigen::Ref<const Positions>& end_b) {
-  Positions at_end_a = checked_positions(pair.a, end_a), at_end_b = checked_positions(pair.b, end_b);
+  Positions at_end_a = objects_[pair.a].checked(end_a), at_end_b = objects_[pair.b].checked(end_b);
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
   for (const auto id : ids) objects_.pose_all(id);
@@ -310,12 +298,12 @@ template <Bounding_volume Volume>
 std::optional<Object_impact> Exact_detection<Volume>::first_impact(const Collision_filter& filter,
                                                                    std::span<const Positions> ends) {
   if (ends.size() != objects_.size())
-    throw Bad_argument("there are " + std::to_string(objects_.size()) + " object ids, but ends of " +
-                       std::to_string(ends.size()));
+    throw Bad_argument("expected one entry for each of the " + std::to_string(objects_.size()) +
+                       " object ids, but got " + std::to_string(ends.size()));
   list_all();
   std::vector<Positions> checked(objects_.size());
   for (const auto id : all_)
-    if (ends[id].rows() > 0) checked[id] = checked_positions(id, ends[id]);
+    if (ends[id].rows() > 0) checked[id] = objects_[id].checked(ends[id]);
   refresh(all_);
   for (const auto id : all_) objects_.pose_all(id);
   std::vector<std::unique_ptr<const Object_motion<Volume>>> motions(objects_.size());
@@ -323,13 +311,7 @@ std::optional<Object_impact> Exact_detection<Volume>::first_impact(const Collisi
     const Object_id id = all_[i];
     motions[id] = std::make_unique<const Object_motion<Volume>>(objects_.surface(id), std::move(checked[id]));
   });
-  boxes_.assign(objects_.size(), {});
-  for (const auto id : all_) boxes_[id] = motions[id]->box();
-  reach_.assign(objects_.size(), 0);
-  std::optional<Object_impact> first;
-  for (const auto pair : broad_phase_.find(boxes_, reach_))
-    if (filter.may_collide(pair.a, pair.b)) keep_earlier(*motions[pair.a], *motions[pair.b], pair, first);
-  return first;
+  return earliest_impact<Volume>(motions, filter, broad_phase_);
 }
 
 template <Bounding_volume Volume>

@@ -46,6 +46,9 @@ class Exact_object {
   Basic_tree_surface<Volume> surface;  ///< of `corners()`
   bool built = false;                  ///< whether the surface has a tree
 
+  /// A copy of positions that were given for its vertices.
+  /// @throws Bad_mesh  another number of rows, a coordinate that is not finite
+  Positions checked(const Eigen::Ref<const Positions>& positions);
   /// Takes positions that came through `update`; none: those of the mesh count again.
   void give(std::optional<Positions> positions) {
     if (given_ || positions) ++changes_;
@@ -189,6 +192,16 @@ class Exact_object {
   std::unique_ptr<Bounded_surface> bounded_;
   std::vector<double> placed_;  ///< memory of `read`
 };
+
+template <Bounding_volume Volume>
+Positions Exact_object<Volume>::checked(const Eigen::Ref<const Positions>& positions) {
+  if (positions.rows() != mesh().vertex_count())
+    throw Bad_mesh(title + " has " + std::to_string(mesh().vertex_count()) + " vertices, but got " +
+                   std::to_string(positions.rows()) + " positions");
+  Positions copy = positions;
+  check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, title);
+  return copy;
+}
 
 template <Bounding_volume Volume>
 Coordinates Exact_object<Volume>::read() {

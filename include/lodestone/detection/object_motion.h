@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "lodestone/detection/broad_phase.h"
+#include "lodestone/detection/collision_filter.h"
 #include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/queries/impact_search.h"
 #include "lodestone/queries/node_boxes.h"
@@ -43,17 +48,24 @@ class Object_motion {
   Swept_boxes swept_;
 };
 
-/// Replaces the first impact by that of two objects if theirs is earlier; at the same time, if their ids are lower.
+/// The earliest impact of two objects that may collide. Pairs that the broad phase finds are sorted, so of several at
+/// exactly the same time it is the lowest.
+/// @param motions  by id; null: the object has been removed
 template <Bounding_volume Volume>
-void keep_earlier(const Object_motion<Volume>& a, const Object_motion<Volume>& b, Object_pair pair,
-                  std::optional<Object_impact>& first) {
-  const double latest = first ? first->impact.exact_time.high() : 1;
-  const auto impact = first_impact(a.view(), b.view(), latest);
-  if (!impact) return;
-  if (first && (impact->exact_time > first->impact.exact_time ||
-                (impact->exact_time == first->impact.exact_time && pair > first->objects)))
-    return;
-  first = {pair, *impact};
+std::optional<Object_impact> earliest_impact(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions,
+                                             const Collision_filter& filter, Broad_phase& broad_phase) {
+  std::vector<Box> boxes(motions.size());
+  for (std::size_t id = 0; id < motions.size(); ++id)
+    if (motions[id]) boxes[id] = motions[id]->box();
+  const std::vector<double> no_reach(motions.size());
+  std::optional<Object_impact> first;
+  for (const auto pair : broad_phase.find(boxes, no_reach)) {
+    if (!filter.may_collide(pair.a, pair.b)) continue;
+    const double latest = first ? first->impact.exact_time.high() : 1;
+    const auto impact = first_impact(motions[pair.a]->view(), motions[pair.b]->view(), latest);
+    if (impact && (!first || impact->exact_time < first->impact.exact_time)) first = {pair, *impact};
+  }
+  return first;
 }
 
 }  // namespace lodestone

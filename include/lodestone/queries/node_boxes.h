@@ -16,11 +16,7 @@ class Node_boxes {
   /// @param view  its tree must outlive this
   explicit Node_boxes(const Basic_tree_view<Volume>& view) : layout_(view) {
     if constexpr (!std::same_as<Volume, Aabb>) {
-      const Tree_layout& tree = *layout_.layout;
-      boxes_.resize(tree.node_count());
-      fit_leaves(tree, layout_.coordinates, 0, tree.leaf_count(), std::span(boxes_));
-      for (auto n = static_cast<std::uint32_t>(boxes_.size()); n-- > 0;)
-        if (!tree.is_leaf(n)) boxes_[n].enclose(boxes_[n + 1], boxes_[tree.node(n).second_child]);
+      boxes_ = fitted_boxes(*layout_.layout, layout_.coordinates);
       layout_.boxes = boxes_;
     }
   }

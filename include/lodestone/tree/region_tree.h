@@ -40,6 +40,8 @@ Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::si
 /// The same for boxes, with vector instructions.
 Leaf_sums fit_leaves(const Tree_layout& layout, Coordinates coordinates, std::size_t first, std::size_t end,
                      std::span<Aabb> boxes);
+/// The boxes of all nodes, fitted to their vertices. O(V).
+std::vector<Aabb> fitted_boxes(const Tree_layout& layout, Coordinates coordinates);
 
 /// A hierarchy of bounding volumes over the faces of one object, in the layout of Tree_layout. Built once, refitted in
 /// every frame. Nodes have volumes, single faces do not.
