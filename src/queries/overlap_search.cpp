@@ -31,9 +31,20 @@ double scale_of(const Box& box) {
   return std::ldexp(1.0, std::clamp(std::min(-std::ilogb(longest), 1000 - std::ilogb(largest)), -1000, 1000));
 }
 
-Triangle_corners corners_of(const Faces_in_box& faces, const Corners& corners) {
+Triangle_corners corners_of(const Faces_in_box& faces, std::uint32_t index) {
   const double* at = faces.coordinates.data();
+  const Corners& corners = faces.corners[index];
   return {at + 3 * std::size_t{corners[0]}, at + 3 * std::size_t{corners[1]}, at + 3 * std::size_t{corners[2]}};
+}
+
+/// Whether the boxes of two triangles have no point in common.
+bool apart(const Triangle_corners& a, const Triangle_corners& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low_a, high_a] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});
+    const auto [low_b, high_b] = std::minmax({b[0][axis], b[1][axis], b[2][axis]});
+    if (low_a > high_b || low_b > high_a) return true;
+  }
+  return false;
 }
 
 /// Kept per thread, some 200 kB: to get this memory from the system takes longer than to search small surfaces.
@@ -50,16 +61,30 @@ Contact_summary Overlap_search::run(const Faces_in_box& a, const Box& box_a, con
   found_ = &found;
   one_is_enough_ = query != Contact_query::all;
   leaf_tests_ = exact_tests_ = 0;
-  filter_ = &filter_of_thread();
-  filter_->begin(a.coordinates, to_aabb(box_a), b.coordinates, to_aabb(box_b));
-  const Box overlap = box_a.intersection(box_b);
-  const bool sliced = one_is_enough_ && std::min(a.faces.size(), b.faces.size()) > few_faces;
-  const bool in_slice = sliced && search_slice(a, b, overlap);
-  if (!in_slice) search_all(a, b, overlap);
+  if (a.faces.size() * b.faces.size() <= few_pairs) {
+    test_all(a, b);
+  } else {
+    filter_ = &filter_of_thread();
+    filter_->begin(a.coordinates, to_aabb(box_a), b.coordinates, to_aabb(box_b));
+    const Box overlap = box_a.intersection(box_b);
+    const bool sliced = one_is_enough_ && std::min(a.faces.size(), b.faces.size()) > few_faces;
+    const bool in_slice = sliced && search_slice(a, b, overlap);
+    if (!in_slice) search_all(a, b, overlap);
+  }
   const Contact_summary summary{.found = found.size() > first, .leaf_tests = leaf_tests_, .exact_tests = exact_tests_};
   if (query == Contact_query::yes_no) found.resize(first);
   sort_face_pairs(std::span(found).subspan(first));
   return summary;
+}
+
+/// Gives the faces whose boxes meet to the exact test, without a list of boxes.
+void Overlap_search::test_all(const Faces_in_box& a, const Faces_in_box& b) {
+  if (a.faces.empty() || b.faces.empty()) return;
+  faces_[0] = &a, faces_[1] = &b;
+  ++leaf_tests_;
+  for (std::uint32_t i = 0; i < a.faces.size(); ++i)
+    for (std::uint32_t j = 0; j < b.faces.size(); ++j)
+      if (!apart(corners_of(a, i), corners_of(b, j)) && test_pair(i, j, no_crossing)) return;
 }
 
 /// Searches a slice across the longest side of the overlap. Where surfaces cross, the curve is mostly about as long as
@@ -199,18 +224,10 @@ bool Overlap_search::test(const Pair_of_parts& parts) {
     for (const Rounded_box& box : std::span(stacks_[side].at(parts[side].begin), parts[side].count))
       groups_[side].push_back(faces_[side]->corners[box.index]);
   }
-  const auto face = [&](int side, std::size_t i) {
-    return faces_[side]->faces[stacks_[side].at(parts[side].begin + i)->index];
-  };
+  const auto index = [&](int side, std::size_t i) { return stacks_[side].at(parts[side].begin + i)->index; };
   ++leaf_tests_;
-  for (const Face_candidate& candidate : filter_->face_candidates(groups_[0], groups_[1])) {
-    ++exact_tests_;
-    if (!triangles_intersect_given(corners_of(*faces_[0], groups_[0][candidate.a]),
-                                   corners_of(*faces_[1], groups_[1][candidate.b]), candidate.crossing))
-      continue;
-    found_->push_back({face(0, candidate.a), face(1, candidate.b)});
-    if (one_is_enough_) return true;
-  }
+  for (const Face_candidate& candidate : filter_->face_candidates(groups_[0], groups_[1]))
+    if (test_pair(index(0, candidate.a), index(1, candidate.b), candidate.crossing)) return true;
   return false;
 }
 
@@ -219,16 +236,18 @@ bool Overlap_search::test(const Pair_of_parts& parts) {
 bool Overlap_search::test_few(const Pair_of_parts& parts) {
   ++leaf_tests_;
   for (const Rounded_box& box_a : std::span(stacks_[0].at(parts[0].begin), parts[0].count))
-    for (const Rounded_box& box_b : std::span(stacks_[1].at(parts[1].begin), parts[1].count)) {
-      if (!meet(box_a, box_b)) continue;
-      ++exact_tests_;
-      if (!triangles_intersect_given(corners_of(*faces_[0], faces_[0]->corners[box_a.index]),
-                                     corners_of(*faces_[1], faces_[1]->corners[box_b.index]), no_crossing))
-        continue;
-      found_->push_back({faces_[0]->faces[box_a.index], faces_[1]->faces[box_b.index]});
-      if (one_is_enough_) return true;
-    }
+    for (const Rounded_box& box_b : std::span(stacks_[1].at(parts[1].begin), parts[1].count))
+      if (meet(box_a, box_b) && test_pair(box_a.index, box_b.index, no_crossing)) return true;
   return false;
+}
+
+/// @param a, b  places in the lists of faces
+/// @return whether the search is over
+bool Overlap_search::test_pair(std::uint32_t a, std::uint32_t b, Crossing likely) {
+  ++exact_tests_;
+  if (!triangles_intersect_given(corners_of(*faces_[0], a), corners_of(*faces_[1], b), likely)) return false;
+  found_->push_back({faces_[0]->faces[a], faces_[1]->faces[b]});
+  return one_is_enough_;
 }
 
 }  // namespace lodestone

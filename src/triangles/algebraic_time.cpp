@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace lodestone {
@@ -12,6 +13,21 @@ namespace lodestone {
 namespace {
 
 using Coefficients = Integer_polynomial::Coefficients;
+using Doubles = boost::container::static_vector<double, Integer_polynomial::most_coefficients>;
+
+/// So often a cell is narrowed, before numbers that seem to be the same are proved to be.
+constexpr int quick_steps = 6;
+
+/// The coefficients, divided by a power of two if they are too large.
+Doubles as_doubles(Coefficients coefficients) {
+  constexpr double largest = 1e300;  // sums of them do not overflow
+  constexpr unsigned long bits = 512;
+  while (std::ranges::any_of(coefficients, [](const Integer& c) { return !(std::abs(CGAL::to_double(c)) < largest); }))
+    for (Integer& value : coefficients) value >>= bits;
+  Doubles result;
+  for (const Integer& value : coefficients) result.push_back(CGAL::to_double(value));
+  return result;
+}
 
 /// The sign just after 0.
 CGAL::Sign sign_after_zero(const Coefficients& coefficients) {
@@ -103,14 +119,35 @@ void Algebraic_time::halve() {
   exact_ = sign == CGAL::ZERO;
 }
 
+/// Takes the part of the cell in which the root is by an estimate. Halves the cell if that is wrong.
+void Algebraic_time::leap() {
+  constexpr int bits = 32;
+  Integer m = start_.m;
+  m <<= static_cast<unsigned long>(bits);
+  m += Integer(std::floor(std::ldexp(estimate_in_cell(), bits)));
+  const Dyadic start{m, start_.e + bits}, end{m + 1, start_.e + bits};
+  if (polynomial_.sign_at(start) == sign_at_start_ && polynomial_.sign_at(end) == -sign_at_start_)
+    start_ = start;
+  else
+    halve();
+}
+
+/// The first steps are short, as they mostly are enough.
+void Algebraic_time::narrow(int step) {
+  constexpr int short_steps = 4;
+  if (step < short_steps)
+    halve();
+  else
+    leap();
+}
+
 CGAL::Sign Algebraic_time::sign_of(const Integer_polynomial& p) {
-  constexpr int quick_steps = 12;
   for (int step = 0; !p.is_zero(); ++step) {
     if (exact_) return p.sign_at(start_);
     if (const CGAL::Sign sign = constant_sign(p.in_cell(start_)); sign != CGAL::ZERO) return sign;
     // If this number is no root of p, some cell around it holds none, nor does its neighbourhood in the complex plane.
     if (step == quick_steps && is_root_of(p)) return CGAL::ZERO;
-    halve();
+    narrow(step);
   }
   return CGAL::ZERO;
 }
@@ -133,42 +170,70 @@ std::strong_ordering Algebraic_time::compare(const Dyadic& number) const {
 }
 
 std::strong_ordering Algebraic_time::compare(Algebraic_time& other) {
-  constexpr int quick_steps = 12;
   for (int step = 0;; ++step) {
     if (exact_) return 0 <=> other.compare(start_);
     if (other.exact_) return compare(other.start_);
     if (!(other.start_ < end())) return std::strong_ordering::less;
     if (!(start_ < other.end())) return std::strong_ordering::greater;
-    // Cells are nested or disjoint. The inner one has room for one root of either polynomial.
+    // Cells that are not disjoint are nested, and each has one root.
+    if (polynomial_ == other.polynomial_) return std::strong_ordering::equal;
+    // The inner cell has room for one root of either polynomial.
     const bool is_inner = other.start_.e <= start_.e;
     Algebraic_time& inner = is_inner ? *this : other;
     Algebraic_time& outer = is_inner ? other : *this;
     if (step == quick_steps && inner.is_root_of(outer.polynomial_)) return std::strong_ordering::equal;
-    outer.halve();
+    outer.narrow(step);
   }
 }
 
-double Algebraic_time::upper_bound() {
-  constexpr unsigned long enough = 20, most = 50;
-  while (!exact_ && start_.e < enough) halve();
-  const Dyadic bound = end();
-  if (bound.e > most) return std::min(std::nextafter(round_down(), 2.0), 1.0);
-  return std::ldexp(CGAL::to_double(bound.m), -static_cast<int>(bound.e));  // below 2^50: not rounded
+double Algebraic_time::round_up() const {
+  const double low = round_down();
+  return equals(low) ? low : std::nextafter(low, 2.0);
 }
 
+/// The bits of doubles >= 0, read as integers, are in the order of the doubles. The steps from the estimate become
+/// longer and longer, so an estimate that is off costs time only.
 double Algebraic_time::round_down() const {
-  const auto is_at_least = [&](double number) { return compare(dyadic(number)) >= 0; };
-  if (is_at_least(1)) return 1;
-  // The bits of doubles >= 0, read as integers, are in the order of the doubles. First the power of two is found, so
-  // that no number with a thousand bits is read without need.
-  double above = 1, below = 0.5;
-  for (; below > 0 && !is_at_least(below); below *= below) above = below;
-  auto low = std::bit_cast<std::uint64_t>(below), high = std::bit_cast<std::uint64_t>(above);
+  const auto is_at_least = [&](std::uint64_t bits) { return compare(dyadic(std::bit_cast<double>(bits))) >= 0; };
+  const auto one = std::bit_cast<std::uint64_t>(1.0), guess = std::bit_cast<std::uint64_t>(estimate());
+  if (is_at_least(one)) return 1;
+  std::uint64_t low = 0, high = one;
+  if (is_at_least(guess)) {
+    low = guess;
+    for (std::uint64_t step = 1; low + step < high && high == one; step *= 2)
+      (is_at_least(low + step) ? low : high) = low + step;
+  } else {
+    high = guess;
+    for (std::uint64_t step = 1; low + step < high && low == 0; step *= 2)
+      (is_at_least(high - step) ? low : high) = high - step;
+  }
   while (high - low > 1) {
     const std::uint64_t middle = low + (high - low) / 2;
-    (is_at_least(std::bit_cast<double>(middle)) ? low : high) = middle;
+    (is_at_least(middle) ? low : high) = middle;
   }
   return std::bit_cast<double>(low);
+}
+
+/// A double in [0, 1], mostly within some units in the last place of this number.
+double Algebraic_time::estimate() const {
+  constexpr int bits = 512;
+  const double in_cell = exact_ ? 0 : estimate_in_cell();
+  Integer m = start_.m;
+  int exponent = -static_cast<int>(start_.e);
+  for (; !std::isfinite(CGAL::to_double(m)); exponent += bits) m >>= bits;
+  return std::min(std::ldexp(CGAL::to_double(m) + in_cell, exponent), 1.0);
+}
+
+/// Where the root may be in its cell, from 0 to less than 1. The cell is halved in floating point.
+double Algebraic_time::estimate_in_cell() const {
+  const auto local = as_doubles(polynomial_.in_cell(start_));
+  const auto value_at = [&](double x) {
+    return std::accumulate(local.rbegin(), local.rend(), 0.0, [x](double sum, double c) { return sum * x + c; });
+  };
+  double low = 0;
+  for (double width = 0.5; width > 0x1p-53; width *= 0.5)
+    if ((value_at(low + width) > 0) == (sign_at_start_ == CGAL::POSITIVE)) low += width;
+  return low;
 }
 
 Root_list roots_until_one(const Integer_polynomial& p) {

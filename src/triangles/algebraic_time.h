@@ -26,17 +26,21 @@ class Algebraic_time {
   std::strong_ordering compare(Algebraic_time& other);
   std::strong_ordering compare(const Dyadic& number) const;
 
-  /// A double that is not below this number, and at most 2^-20 above it. The cell becomes smaller where it must.
-  double upper_bound();
   /// The largest double that is not above this number.
   double round_down() const;
+  /// The least double that is not below this number.
+  double round_up() const;
   /// Whether this number is a double, in which case `round_down` is this number.
   bool equals(double number) const { return compare(dyadic(number)) == std::strong_ordering::equal; }
 
  private:
   Dyadic end() const { return exact_ ? start_ : Dyadic{start_.m + 1, start_.e}; }
   void halve();
+  void leap();
+  void narrow(int step);
   bool is_root_of(const Integer_polynomial& p) const;
+  double estimate() const;
+  double estimate_in_cell() const;
 
   Integer_polynomial polynomial_;
   Dyadic start_;

@@ -76,6 +76,7 @@ void Exact_contacts::try_roots(const Integer_polynomial& p, Meets meets) {
     if (first_ && root.compare(*first_) >= 0) return;
     if (!meets(root)) continue;
     first_ = root;
+    latest_ = root.round_up();
     return;
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -24,7 +25,9 @@ class Exact_contacts {
   void try_edges(const std::array<int, 2>& first, const std::array<int, 2>& second);
 
   /// The first time that has been found.
-  std::optional<Algebraic_time>& first() { return first_; }
+  const std::optional<Algebraic_time>& first() const { return first_; }
+  /// The least double that is not below it; infinite if none has been found.
+  double latest() const { return latest_; }
 
  private:
   void try_corner_and_edge(int corner, const std::array<int, 2>& edge);
@@ -42,6 +45,7 @@ class Exact_contacts {
 
   std::array<Moving_vector, 6> points_;
   std::optional<Algebraic_time> first_;
+  double latest_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace lodestone

@@ -38,11 +38,9 @@ class Contact_search {
     if (candidates_.empty()) return std::nullopt;
     std::ranges::sort(candidates_, {}, &Candidate::bound);
     Exact_contacts exact(a_, b_);
-    std::optional<double> found;
     for (const Candidate& candidate : candidates_) {
-      if (found && candidate.bound > *found) break;
+      if (candidate.bound > exact.latest()) break;
       try_exactly(candidate, exact);
-      if (exact.first()) found = exact.first()->upper_bound();
     }
     return exact.first() ? std::optional<Impact_time>(*exact.first()) : std::nullopt;
   }

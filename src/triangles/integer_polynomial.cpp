@@ -99,7 +99,9 @@ Integer_polynomial Integer_polynomial::derivative() const {
 Integer_polynomial Integer_polynomial::primitive() const {
   Integer divisor = 0;
   for (const Integer& value : coefficients_) divisor = CGAL::gcd(divisor, value);
-  if (is_zero() || divisor == 1) return *this;
+  if (is_zero()) return *this;
+  if (CGAL::sign(coefficients_.back()) == CGAL::NEGATIVE) divisor = -divisor;
+  if (divisor == 1) return *this;
   Coefficients result;
   for (const Integer& value : coefficients_) result.push_back(CGAL::integral_division(value, divisor));
   return Integer_polynomial(std::move(result));

@@ -43,12 +43,13 @@ class Integer_polynomial {
 
   CGAL::Sign sign_at(const Dyadic& t) const;
   Integer_polynomial derivative() const;
-  /// Divided by the greatest common divisor of the coefficients.
+  /// Divided by the greatest common divisor of the coefficients, and with a positive leading one.
   Integer_polynomial primitive() const;
   /// The coefficients of 2^(e n) p((m + x) / 2^e), n being the degree: as x goes from 0 to 1, the argument goes through
   /// the cell that starts at m / 2^e and is 1 / 2^e wide.
   Coefficients in_cell(const Dyadic& start) const;
 
+  friend bool operator==(const Integer_polynomial& a, const Integer_polynomial& b) = default;
   friend Integer_polynomial operator+(const Integer_polynomial& a, const Integer_polynomial& b);
   friend Integer_polynomial operator-(const Integer_polynomial& a, const Integer_polynomial& b);
   friend Integer_polynomial operator*(const Integer_polynomial& a, const Integer_polynomial& b);

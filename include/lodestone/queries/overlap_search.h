@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -58,6 +59,7 @@ class Overlap_search {
     std::size_t top_ = 0, capacity_ = 0;
   };
 
+  void test_all(const Faces_in_box& a, const Faces_in_box& b);
   bool search_slice(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
   bool search_all(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
   Part box_faces(int side, const Box& overlap, double scale);
@@ -68,6 +70,7 @@ class Overlap_search {
   Part take_median(int side, Part& whole, int axis);
   bool test(const Pair_of_parts& parts);
   bool test_few(const Pair_of_parts& parts);
+  bool test_pair(std::uint32_t a, std::uint32_t b, Crossing likely);
 
   /// Lists no longer than this are not halved any further: to filter them takes about as long as to halve them.
   static constexpr std::size_t group_faces = 64;
