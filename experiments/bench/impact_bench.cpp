@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// When two spheres meet first between two frames, beside exhaustive checking and FCL.
+// When two surfaces meet first between two frames, beside exhaustive checking and FCL.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Geometry>
@@ -30,18 +30,24 @@ namespace lodestone {
 
 namespace {
 
-/// A sphere with waves, in two frames.
-struct Waving_sphere {
+/// A mesh in two frames.
+struct Two_frames {
   std::vector<Corners> faces;
   std::vector<double> rest, start, end;
 
-  explicit Waving_sphere(const Surface_mesh& mesh) {
+  explicit Two_frames(const Surface_mesh& mesh) {
     const Mesh_numbering<Surface_mesh> numbering(mesh);
     faces = numbering.corners();
     for (const auto v : mesh.vertices())
       for (int axis = 0; axis < 3; ++axis) rest.push_back(mesh.point(v)[axis]);
     start = end = rest;
   }
+  Moving_surface surface() const { return {faces, start, end}; }
+};
+
+/// A sphere with waves.
+struct Waving_sphere : Two_frames {
+  using Two_frames::Two_frames;
 
   /// Turns it, and moves its centre along the diagonal of all axes; the waves move on from one frame to the next.
   void move(const Eigen::Matrix3d& rotation, double from, double to, double phase) {
@@ -56,7 +62,19 @@ struct Waving_sphere {
       place(to, phase + 1, end);
     }
   }
-  Moving_surface surface() const { return {faces, start, end}; }
+};
+
+/// A flat sheet that keeps its shape, in a plane that is tilted about the y axis.
+struct Flat_sheet : Two_frames {
+  Flat_sheet(const Surface_mesh& mesh, double tilt, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+      : Two_frames(mesh) {
+    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    for (std::size_t i = 0; i < rest.size(); i += 3) {
+      const Eigen::Map<const Eigen::Vector3d> p(rest.data() + i);
+      Eigen::Map<Eigen::Vector3d>(start.data() + i) = rotation * (p + from);
+      Eigen::Map<Eigen::Vector3d>(end.data() + i) = rotation * (p + to);
+    }
+  }
 };
 
 /// Times of the searches of one round, in seconds, and what they found.
@@ -67,7 +85,7 @@ struct Answer {
 
 class Lodestone_search {
  public:
-  Lodestone_search(const Waving_sphere& a, const Waving_sphere& b)
+  Lodestone_search(const Two_frames& a, const Two_frames& b)
       : a_(a), b_(b), tree_a_(a.faces, a.start), tree_b_(b.faces, b.start) {}
 
   Answer ask() {
@@ -84,8 +102,8 @@ class Lodestone_search {
   }
 
  private:
-  const Waving_sphere& a_;
-  const Waving_sphere& b_;
+  const Two_frames& a_;
+  const Two_frames& b_;
   Tree_surface tree_a_, tree_b_;
 };
 
@@ -94,7 +112,7 @@ class Lodestone_search {
 /// roots in double, within a tolerance.
 class Fcl_search {
  public:
-  Fcl_search(const Waving_sphere& a, const Waving_sphere& b) : a_(a), b_(b) {
+  Fcl_search(const Two_frames& a, const Two_frames& b) : a_(a), b_(b) {
     build(a_, model_a_);
     build(b_, model_b_);
   }
@@ -125,24 +143,24 @@ class Fcl_search {
       result.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
     return result;
   }
-  static void build(const Waving_sphere& sphere, Model& model) {
+  static void build(const Two_frames& mesh, Model& model) {
     std::vector<fcl::Triangle> triangles;
-    for (const auto& [p, q, r] : sphere.faces) triangles.emplace_back(p, q, r);
+    for (const auto& [p, q, r] : mesh.faces) triangles.emplace_back(p, q, r);
     model.beginModel();
-    model.addSubModel(points(sphere.start), triangles);
+    model.addSubModel(points(mesh.start), triangles);
     model.endModel();
   }
   /// Two updates: the former positions of the second are those of the first, and its boxes hold both.
-  static void update(const Waving_sphere& sphere, Model& model) {
-    for (const auto* frame : {&sphere.start, &sphere.end}) {
+  static void update(const Two_frames& mesh, Model& model) {
+    for (const auto* frame : {&mesh.start, &mesh.end}) {
       model.beginUpdateModel();
       model.updateSubModel(points(*frame));
       model.endUpdateModel(true, true);
     }
   }
 
-  const Waving_sphere& a_;
-  const Waving_sphere& b_;
+  const Two_frames& a_;
+  const Two_frames& b_;
   Model model_a_, model_b_;
 };
 #endif
@@ -155,10 +173,10 @@ double median_of(const std::vector<Answer>& answers, double Answer::*part) {
 
 #ifdef LODESTONE_FCL
 /// How far apart two surfaces are at a time.
-double distance_at(const Waving_sphere& a, const Waving_sphere& b, double t) {
-  const auto at = [t](const Waving_sphere& sphere) {
-    std::vector<double> coordinates(sphere.start.size());
-    for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] = std::lerp(sphere.start[i], sphere.end[i], t);
+double distance_at(const Two_frames& a, const Two_frames& b, double t) {
+  const auto at = [t](const Two_frames& mesh) {
+    std::vector<double> coordinates(mesh.start.size());
+    for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] = std::lerp(mesh.start[i], mesh.end[i], t);
     return coordinates;
   };
   const auto now_a = at(a), now_b = at(b);
@@ -231,11 +249,49 @@ void impact(benchmark::State& state) {
 #endif
 }
 
+/// A flat sheet lands on another one: all faces meet those below them at nearly the same time, or at exactly the same
+/// where the sheets lie along the axes. The arguments are the number of squares along a side, and the tilt in tenths of
+/// a radian.
+void landing(benchmark::State& state) {
+  const auto squares = static_cast<std::size_t>(state.range(0));
+  const double tilt = 0.1 * static_cast<double>(state.range(1));
+  const Surface_mesh mesh = cloth(squares, squares);
+  const Flat_sheet a(mesh, tilt, {0.013, 0.017, 0.31}, {0.013, 0.017, -0.2}), b(mesh, tilt, {0, 0, 0}, {0, 0, 0});
+  Lodestone_search search(a, b);
+  std::vector<Answer> answers;
+#ifdef LODESTONE_FCL
+  Fcl_search fcl_search(a, b);
+  std::vector<Answer> fcl_answers;
+#endif
+  for (auto _ : state) {
+    answers.push_back(search.ask());
+    state.SetIterationTime(answers.back().refit + answers.back().search);
+    if (!answers.back().time || std::abs(*answers.back().time - 0.31 / 0.51) > 1e-12)
+      state.SkipWithError("the sheets meet at another time");
+#ifdef LODESTONE_FCL
+    fcl_answers.push_back(fcl_search.ask());
+#endif
+  }
+  state.counters["search_ms"] = median_of(answers, &Answer::search);
+#ifdef LODESTONE_FCL
+  state.counters["fcl_search_ms"] = median_of(fcl_answers, &Answer::search);
+  state.counters["fcl_late"] = fcl_answers.back().time ? *fcl_answers.back().time - 0.31 / 0.51 : 1;
+#endif
+}
+
 BENCHMARK(impact)
     ->ArgsProduct({{16, 50, 158}, {200, 600}})
     ->ArgNames({"frequency", "nearer"})
     ->UseManualTime()
     ->Iterations(15)
+    ->Unit(benchmark::kMillisecond);
+
+BENCHMARK(landing)
+    ->Name("impact/landing")
+    ->ArgsProduct({{30, 100}, {0, 3}})
+    ->ArgNames({"squares", "tilt"})
+    ->UseManualTime()
+    ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -48,8 +48,9 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
   return collisions_of(finds_all(options.mode) ? detector.detect(first, second) : detector.detect());
 }
 
-/// Finds the faces of one mesh that intersect each other, with one call. `Collisions::faces` are face pairs a < b. Which faces count, and what options mean, is as in a Detector with `Exact_options::self_collision`,
-/// which this call sets. It gives the same contacts and keeps nothing: see `self_frame_at_once`.
+/// Finds the faces of one mesh that intersect each other, with one call. `Collisions::faces` are face pairs a < b.
+/// Which faces count, and what options mean, is as in a Detector with `Exact_options::self_collision`, which this
+/// call sets. It gives the same contacts and keeps nothing: see `self_frame_at_once`.
 ///
 /// Nothing moves between two frames, so a `self_tolerance` finds no more than faces that intersect. A `tolerance` is
 /// between two objects, and changes nothing. Modes `exact` and `certified` do the same.

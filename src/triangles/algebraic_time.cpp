@@ -15,15 +15,16 @@ namespace {
 using Coefficients = Integer_polynomial::Coefficients;
 using Doubles = boost::container::static_vector<double, Integer_polynomial::most_coefficients>;
 
-/// So often a cell is narrowed, before numbers that seem to be the same are proved to be.
+/// After so many steps a greatest common divisor tells whether two numbers are the same.
 constexpr int quick_steps = 6;
+/// Integers that no double can hold are divided by 2 to this power, again and again.
+constexpr int excess_bits = 512;
 
 /// The coefficients, divided by a power of two if they are too large.
 Doubles as_doubles(Coefficients coefficients) {
   constexpr double largest = 1e300;  // sums of them do not overflow
-  constexpr unsigned long bits = 512;
   while (std::ranges::any_of(coefficients, [](const Integer& c) { return !(std::abs(CGAL::to_double(c)) < largest); }))
-    for (Integer& value : coefficients) value >>= bits;
+    for (Integer& value : coefficients) value >>= excess_bits;
   Doubles result;
   for (const Integer& value : coefficients) result.push_back(CGAL::to_double(value));
   return result;
@@ -121,12 +122,16 @@ void Algebraic_time::halve() {
 
 /// Takes the part of the cell in which the root is by an estimate. Halves the cell if that is wrong.
 void Algebraic_time::leap() {
-  constexpr int bits = 32;
+  constexpr int leap_bits = 32;
   Integer m = start_.m;
-  m <<= static_cast<unsigned long>(bits);
-  m += Integer(std::floor(std::ldexp(estimate_in_cell(), bits)));
-  const Dyadic start{m, start_.e + bits}, end{m + 1, start_.e + bits};
-  if (polynomial_.sign_at(start) == sign_at_start_ && polynomial_.sign_at(end) == -sign_at_start_)
+  m <<= static_cast<unsigned long>(leap_bits);
+  m += Integer(std::floor(std::ldexp(estimate_in_cell(), leap_bits)));
+  const Dyadic start{m, start_.e + leap_bits}, end{m + 1, start_.e + leap_bits};
+  const CGAL::Sign at_start = polynomial_.sign_at(start), at_end = polynomial_.sign_at(end);
+  exact_ = at_start == CGAL::ZERO || at_end == CGAL::ZERO;
+  if (exact_)
+    start_ = at_start == CGAL::ZERO ? start : end;
+  else if (at_start == sign_at_start_ && at_end == -sign_at_start_)
     start_ = start;
   else
     halve();
@@ -175,7 +180,7 @@ std::strong_ordering Algebraic_time::compare(Algebraic_time& other) {
     if (other.exact_) return compare(other.start_);
     if (!(other.start_ < end())) return std::strong_ordering::less;
     if (!(start_ < other.end())) return std::strong_ordering::greater;
-    // Cells that are not disjoint are nested, and each has one root.
+    // Cells that are not disjoint are nested, and each has one root. So two cells of one polynomial hold the same root.
     if (polynomial_ == other.polynomial_) return std::strong_ordering::equal;
     // The inner cell has room for one root of either polynomial.
     const bool is_inner = other.start_.e <= start_.e;
@@ -214,13 +219,12 @@ double Algebraic_time::round_down() const {
   return std::bit_cast<double>(low);
 }
 
-/// A double in [0, 1], mostly within some units in the last place of this number.
+/// A double in [0, 1], mostly within some units in the last place of this number, unless it is small and its cell wide.
 double Algebraic_time::estimate() const {
-  constexpr int bits = 512;
   const double in_cell = exact_ ? 0 : estimate_in_cell();
   Integer m = start_.m;
   int exponent = -static_cast<int>(start_.e);
-  for (; !std::isfinite(CGAL::to_double(m)); exponent += bits) m >>= bits;
+  for (; !std::isfinite(CGAL::to_double(m)); exponent += excess_bits) m >>= excess_bits;
   return std::min(std::ldexp(CGAL::to_double(m) + in_cell, exponent), 1.0);
 }
 

@@ -26,7 +26,7 @@ class Exact_contacts {
 
   /// The first time that has been found.
   const std::optional<Algebraic_time>& first() const { return first_; }
-  /// The least double that is not below it; infinite if none has been found.
+  /// The least double that is not below `first`; infinite if none has been found.
   double latest() const { return latest_; }
 
  private:

@@ -119,7 +119,7 @@ TEST_P(Strategy_threads, a_surface_that_it_refuses_is_an_error_and_can_be_asked_
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, Strategy_threads, testing::Values(Mode::exact, Mode::certified, Mode::particles),
-                         [](const auto& info) { return std::string(name_of(info.param)); });
+                         [](const auto& mode) { return std::string(name_of(mode.param)); });
 
 TEST(Any_strategy, is_concurrent_if_the_one_that_was_chosen_is) {
   EXPECT_TRUE(make_strategy("lbg").is_concurrent);

@@ -5,11 +5,14 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include "lodestone/triangles/triangle_distance.h"
+#include "support/exact_point.h"
 #include "support/moving_triangles.h"
 #include "support/special_numbers.h"
 #include "triangles/impact_oracle.h"
@@ -322,6 +325,49 @@ TEST(Impact_time, is_compared_exactly) {
   EXPECT_EQ(one.low(), root(1).low());
   EXPECT_EQ(two.low(), root(1).low());
   EXPECT_NE(one < root(1), two < root(1));
+}
+
+TEST(Impact_time, of_fractions_is_rounded_and_ordered_like_rational_numbers) {
+  std::mt19937_64 random(1);
+  const auto any_number = [&random] {
+    constexpr std::array exponents{-1050, -1000, -500, -52, -2, -1, 0, 1, 52, 500, 900};
+    const int exponent = exponents[random() % exponents.size()];
+    const auto bits = 1 + random() % 53;
+    return std::ldexp(static_cast<double>(1 + random() % (1ULL << bits)), exponent);
+  };
+  struct Fraction {
+    Rational exact;
+    Impact_time time;
+  };
+  // A point that goes from -n to m is at the origin at n / (n + m).
+  const auto fraction = [](double n, double m) {
+    return Fraction{Rational(n) / (Rational(n) + Rational(m)),
+                    *first_impact(moving_point({-n, 0, 0}, {m, 0, 0}), origin)};
+  };
+  const auto check = [](const Fraction& checked) {
+    const auto& [exact, time] = checked;
+    const Rational low(time.low()), high(time.high()), value(time.value());
+    EXPECT_LE(low, exact);
+    EXPECT_LE(exact, high);
+    EXPECT_EQ(time.high(), low == exact ? time.low() : std::nextafter(time.low(), 2.0));
+    EXPECT_EQ(value, high - exact < exact - low ? high : low);
+  };
+  int different = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    SCOPED_TRACE(trial);
+    const double n = any_number(), m = any_number();
+    const Fraction a = fraction(n, m), b = fraction(std::nextafter(n, infinity), m), c = fraction(any_number(), m);
+    for (const Fraction* one : {&a, &b, &c}) {
+      check(*one);
+      for (const Fraction* other : {&a, &b, &c}) {
+        EXPECT_EQ(one->time < other->time, one->exact < other->exact);
+        EXPECT_EQ(one->time == other->time, one->exact == other->exact);
+      }
+    }
+    different += a.time.low() == b.time.low() ? 0 : 1;
+  }
+  EXPECT_GT(different, 50);
+  EXPECT_LT(different, 350);
 }
 
 /// Three planes through the origin that the faces' corners cross at times 2^-2098 apart: two thousand halvings tell

@@ -20,7 +20,7 @@ namespace lodestone {
 ///
 /// The faces of both are halved again and again, the longer list along the longer side of its box, but only as far as
 /// the answer needs: what lies outside the box of the other list is dropped first. Short lists go to the filter and the
-/// exact test.
+/// exact test. If there are at most 64 face pairs, nothing is halved.
 ///
 /// O(F) where surfaces cross along a curve, or one contact is enough; at most O(F log F) steps of some nanoseconds
 /// before the filters.
@@ -74,7 +74,8 @@ class Overlap_search {
 
   /// Lists no longer than this are not halved any further: to filter them takes about as long as to halve them.
   static constexpr std::size_t group_faces = 64;
-  /// So few face pairs are tested without the filter, whose code and memory are seldom in the cache.
+  /// So few face pairs, of whole surfaces or of short lists, are tested without the filter, whose code and memory are
+  /// seldom in the cache.
   static constexpr std::size_t few_pairs = 64;
   /// Where one contact is enough and surfaces have few faces, the filter is mostly not needed at all.
   static constexpr std::size_t small_group_faces = 8;

@@ -58,9 +58,9 @@ class Impact_time {
 ///
 /// What can meet first are a corner and a triangle, or two edges; the four corners are then in one plane, at a root of
 /// a cubic polynomial \cite provot1997. Its roots are isolated, and what lies where is decided at them, in integers.
-/// Floating point only discards what it proves apart. Some 10 to 100 ns if boxes around the moving corners tell the
-/// triangles apart, some microseconds if the signs of the polynomials do, some dozens of microseconds for each pair of
-/// features that may meet; up to tenths of a second where coordinates differ by hundreds of powers of ten.
+/// Floating point only discards what it proves apart. Boxes around the moving corners tell triangles apart in some 10
+/// to 100 ns, the signs of the polynomials in some microseconds. Each pair of features that may meet takes some
+/// microseconds more; up to tenths of a second where coordinates differ by hundreds of powers of ten.
 ///
 /// @param latest  in [0, 1]; if the first time is later than this, the result is none
 std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_triangle& b, double latest = 1);
