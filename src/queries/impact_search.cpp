@@ -2,11 +2,13 @@
 #include "lodestone/queries/impact_search.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <compare>
 #include <cstdint>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/tree/node_pair.h"
@@ -29,6 +31,36 @@ Triangle triangle_at(const Moving_triangle& moving, double t) {
   return {corner(0), corner(1), corner(2)};
 }
 
+/// How far apart two moving boxes are along an axis, at both ends of the motion.
+struct Gap {
+  double start, end;
+  bool operator==(const Gap&) const = default;
+};
+
+/// A difference of two numbers, if it needs no rounding.
+std::optional<double> exact_difference(double a, double b) {
+  const double difference = a - b;
+  return difference + b == a && a - difference == b ? std::optional(difference) : std::nullopt;
+}
+
+/// The gaps that close on the way, those that doubles give exactly. Up to three, for two boxes that are apart.
+boost::container::static_vector<Gap, 6> closing_gaps(const Moving_box& a, const Moving_box& b) {
+  boost::container::static_vector<Gap, 6> gaps;
+  for (const auto& [low, high] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto start = exact_difference(low->start.min()[axis], high->start.max()[axis]);
+      const auto end = exact_difference(low->end.min()[axis], high->end.max()[axis]);
+      if (start && end && *start > 0 && *end < 0) gaps.push_back({*start, *end});
+    }
+  return gaps;
+}
+
+/// When a gap closes.
+Impact_time closing_time(const Gap& gap) {
+  const Point origin(0, 0, 0), start(gap.start, 0, 0), end(gap.end, 0, 0);
+  return *first_impact({{start, start, start}, {end, end, end}}, {{origin, origin, origin}, {origin, origin, origin}});
+}
+
 /// The earliest impact so far.
 class Earliest {
  public:
@@ -42,12 +74,22 @@ class Earliest {
   bool can_change(double bound, Face_pair faces) const {
     return bound <= latest() && !(bound >= latest() && found_ && faces > faces_);
   }
+  /// Whether an impact inside two boxes can be. It is not earlier if a gap between them closes when the impact is: that
+  /// tells most faces of a block that falls flat on a floor.
+  bool can_change(const Moving_box& a, const Moving_box& b, Face_pair faces) const {
+    return !gap_ || faces < faces_ || !std::ranges::count(closing_gaps(a, b), *gap_);
+  }
 
-  /// @param until  see `first_impact`
-  void offer(Face_pair faces, const Moving_triangle& a, const Moving_triangle& b, double until) {
-    const auto time = first_impact(a, b, until);
+  void try_faces(Face_pair faces, const Moving_triangle& a, const Moving_triangle& b) {
+    offer(faces, a, b, found_ && faces > faces_ ? first_impact_before(time_, a, b) : first_impact(a, b, latest()));
+  }
+  void offer(Face_pair faces, const Moving_triangle& a, const Moving_triangle& b,
+             const std::optional<Impact_time>& time) {
     if (!time || (found_ && std::tie(*time, faces) >= std::tie(time_, faces_))) return;
     found_ = true, time_ = *time, faces_ = faces, a_ = a, b_ = b;
+    gap_.reset();
+    for (const Gap& gap : closing_gaps(box_around(a), box_around(b)))
+      if (closing_time(gap) == time_) gap_ = gap;
   }
 
   /// The rounded triangles at the rounded time nearly meet, and the closest points of theirs are near both.
@@ -63,6 +105,7 @@ class Earliest {
   Impact_time time_;
   Face_pair faces_;
   Moving_triangle a_, b_;
+  std::optional<Gap> gap_;  ///< closes at the time of the impact
 };
 
 /// A face of a leaf that moves.
@@ -130,9 +173,9 @@ class Impact_search {
     list_candidates();
     for (const Face_candidate& candidate : candidates_) {
       if (candidate.bound > earliest_.latest()) return;
-      if (earliest_.can_change(candidate.bound, candidate.faces))
-        earliest_.offer(candidate.faces, faces_a_[candidate.a].triangle, faces_b_[candidate.b].triangle,
-                        earliest_.latest());
+      const Moving_face &a = faces_a_[candidate.a], &b = faces_b_[candidate.b];
+      if (earliest_.can_change(candidate.bound, candidate.faces) && earliest_.can_change(a.box, b.box, candidate.faces))
+        earliest_.try_faces(candidate.faces, a.triangle, b.triangle);
     }
   }
 
@@ -195,7 +238,10 @@ std::optional<Impact> first_impact(const Moving_surface& a, const Moving_surface
 std::optional<Impact> exhaustive_first_impact(const Moving_surface& a, const Moving_surface& b) {
   Earliest earliest(1);
   for (std::uint32_t i = 0; i < a.faces.size(); ++i)
-    for (std::uint32_t j = 0; j < b.faces.size(); ++j) earliest.offer({i, j}, moving_face(a, i), moving_face(b, j), 1);
+    for (std::uint32_t j = 0; j < b.faces.size(); ++j) {
+      const Moving_triangle face_a = moving_face(a, i), face_b = moving_face(b, j);
+      earliest.offer({i, j}, face_a, face_b, first_impact(face_a, face_b));
+    }
   return earliest.impact();
 }
 

@@ -54,7 +54,8 @@ Integer_polynomial area(const Moving_vector& p, const Moving_vector& q, const Mo
 
 }  // namespace
 
-Exact_contacts::Exact_contacts(const Moving_triangle& a, const Moving_triangle& b) {
+Exact_contacts::Exact_contacts(const Moving_triangle& a, const Moving_triangle& b, std::optional<Algebraic_time> before)
+    : before_(std::move(before)), latest_(before_ ? before_->round_up() : std::numeric_limits<double>::infinity()) {
   const Triangle* const triangles[]{&a.start, &a.end, &b.start, &b.end};
   int exponent = std::numeric_limits<int>::max();
   for (const Triangle* triangle : triangles)
@@ -68,15 +69,16 @@ Exact_contacts::Exact_contacts(const Moving_triangle& a, const Moving_triangle& 
   }
 }
 
-/// Keeps the first root at which a pair of features meets, if none was found before it.
+/// Keeps the first root at which a pair of features meets, if it is earlier than what was found before.
 /// @param p  not zero
 template <class Meets>
 void Exact_contacts::try_roots(const Integer_polynomial& p, Meets meets) {
   for (Algebraic_time& root : roots_until_one(p)) {
-    if (first_ && root.compare(*first_) >= 0) return;
+    if (before_ && root.compare(*before_) >= 0) return;
     if (!meets(root)) continue;
-    first_ = root;
+    before_ = root;
     latest_ = root.round_up();
+    found_ = true;
     return;
   }
 }

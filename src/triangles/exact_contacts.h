@@ -16,7 +16,8 @@ namespace lodestone {
 /// Corners are counted from 0 to 5: three of the first triangle, then three of the second.
 class Exact_contacts {
  public:
-  Exact_contacts(const Moving_triangle& a, const Moving_triangle& b);
+  /// @param before  if given, only earlier times count
+  Exact_contacts(const Moving_triangle& a, const Moving_triangle& b, std::optional<Algebraic_time> before = {});
 
   /// Looks for when a corner is first on a triangle.
   /// @param face  its three corners
@@ -24,9 +25,9 @@ class Exact_contacts {
   /// Looks for when two edges first have a point in common.
   void try_edges(const std::array<int, 2>& first, const std::array<int, 2>& second);
 
-  /// The first time that has been found.
-  const std::optional<Algebraic_time>& first() const { return first_; }
-  /// The least double that is not below `first`; infinite if none has been found.
+  /// The first time that has been found; null: none.
+  const Algebraic_time* first() const { return found_ ? &*before_ : nullptr; }
+  /// What begins later than this does not count: the least double that is not below `first`, or the given time.
   double latest() const { return latest_; }
 
  private:
@@ -44,8 +45,9 @@ class Exact_contacts {
   const Moving_vector& point(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
 
   std::array<Moving_vector, 6> points_;
-  std::optional<Algebraic_time> first_;
-  double latest_ = std::numeric_limits<double>::infinity();
+  std::optional<Algebraic_time> before_;  ///< the first time, if one has been found
+  double latest_;
+  bool found_ = false;
 };
 
 }  // namespace lodestone

@@ -33,11 +33,12 @@ class Contact_search {
   Contact_search(const Moving_triangle& a, const Moving_triangle& b, double latest)
       : a_(a), b_(b), filter_(a, b, latest) {}
 
-  std::optional<Impact_time> run() {
+  /// @param before  if not null, only earlier times count
+  std::optional<Impact_time> run(const Impact_time* before) {
     list_candidates();
     if (candidates_.empty()) return std::nullopt;
     std::ranges::sort(candidates_, {}, &Candidate::bound);
-    Exact_contacts exact(a_, b_);
+    Exact_contacts exact(a_, b_, before ? std::optional(before->exact()) : std::nullopt);
     for (const Candidate& candidate : candidates_) {
       if (candidate.bound > exact.latest()) break;
       try_exactly(candidate, exact);
@@ -79,6 +80,17 @@ class Contact_search {
   boost::container::static_vector<Candidate, 15> candidates_;
 };
 
+/// @param before  null, or a time of which `latest` is the least double that is not below it
+std::optional<Impact_time> search(const Moving_triangle& a, const Moving_triangle& b, double latest,
+                                  const Impact_time* before) {
+  const double overlap_from = overlap_time_lower_bound(box_around(a), box_around(b));
+  if (!(overlap_from <= latest)) return std::nullopt;
+  if (overlap_from == 0 && triangles_intersect(a.start, b.start)) return Impact_time();
+  const auto first = Contact_search(a, b, latest).run(before);
+  // Beyond `latest` the filter may have dropped what is earlier than this.
+  return first && first->high() <= latest ? first : std::nullopt;
+}
+
 }  // namespace
 
 Impact_time::Impact_time(const Algebraic_time& exact) : low_(exact.round_down()), high_(low_), value_(low_) {
@@ -87,6 +99,8 @@ Impact_time::Impact_time(const Algebraic_time& exact) : low_(exact.round_down())
   value_ = exact.compare(middle(low_, high_)) > 0 ? high_ : low_;
   exact_ = std::make_shared<const Algebraic_time>(exact);
 }
+
+Algebraic_time Impact_time::exact() const { return exact_ ? *exact_ : Algebraic_time(dyadic(low_)); }
 
 std::strong_ordering operator<=>(const Impact_time& a, const Impact_time& b) {
   // A time that is no double lies strictly between `low` and `high`.
@@ -105,12 +119,12 @@ Moving_box box_around(const Moving_triangle& moving) {
 }
 
 std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_triangle& b, double latest) {
-  const double overlap_from = overlap_time_lower_bound(box_around(a), box_around(b));
-  if (!(overlap_from <= latest)) return std::nullopt;
-  if (overlap_from == 0 && triangles_intersect(a.start, b.start)) return Impact_time();
-  const auto first = Contact_search(a, b, latest).run();
-  // Beyond `latest` the filter may have dropped what is earlier than this.
-  return first && first->high() <= latest ? first : std::nullopt;
+  return search(a, b, latest, nullptr);
+}
+
+std::optional<Impact_time> first_impact_before(const Impact_time& limit, const Moving_triangle& a,
+                                               const Moving_triangle& b) {
+  return limit == Impact_time() ? std::nullopt : search(a, b, limit.high(), &limit);
 }
 
 }  // namespace lodestone

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "lodestone/triangles/triangle_distance.h"
 #include "support/face_soup.h"
@@ -135,6 +136,42 @@ TEST(Impact_search, of_objects_that_intersect_at_the_start_is_there) {
     EXPECT_EQ(expect_impact(still(a), Moving_soup(b, moved(b, 3, 0, 0))), 0);
     const Moving_soup other(b, moved(b, 3, 0, 0));
     EXPECT_EQ(first_impact(still(a).surface(), other.surface())->faces, true_pairs(a, b).front());
+  }
+}
+
+/// Faces that land at the same time are told by gaps between boxes where doubles give those exactly, else one by one.
+TEST(Impact_search, of_sheets_that_land_flat_is_exact_and_of_the_lowest_pair) {
+  const Face_soup sheet(cloth(5, 6));
+  const auto tilted = [](Face_soup soup) {
+    deform(soup, [](const Point& p) { return Point(p.x(), p.y(), p.z() + 0.25 * p.x()); });
+    return soup;
+  };
+  const auto along_x = [](Face_soup soup) {
+    deform(soup, [](const Point& p) { return Point(p.z(), p.x(), p.y()); });
+    return soup;
+  };
+  const auto land = [&](const Face_soup& floor, const Face_soup& block, double from, double to, auto place) {
+    return expect_impact(still(place(floor)),
+                         Moving_soup(place(moved(block, 0.03, 0.07, from)), place(moved(block, 0.03, 0.07, to))));
+  };
+  const auto as_it_is = [](const Face_soup& soup) { return soup; };
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    const Face_soup floor = shuffled(sheet, seed), block = shuffled(sheet, seed + 10);
+    for (const auto& [from, to, time] : {std::tuple(1.0, -1.0, 0.5), std::tuple(1.0, -2.0, 1.0 / 3),
+                                         std::tuple(-1.0, 2.0, 1.0 / 3), std::tuple(1.0, 0.0, 1.0)}) {
+      SCOPED_TRACE(testing::Message() << seed << ' ' << from << ' ' << to);
+      EXPECT_EQ(land(floor, block, from, to, as_it_is), time);
+      EXPECT_EQ(land(floor, block, from, to, along_x), time);
+      EXPECT_NEAR(land(floor, block, from, to, tilted), time, 1e-15);
+      for (const double factor : {0x1p-1020, 0x1p1020})
+        EXPECT_EQ(land(floor, block, from, to, [factor](const Face_soup& soup) { return placed(soup, factor); }), time);
+    }
+    // The gap between these is infinite in double.
+    const auto huge = [](const Face_soup& soup, double z) { return placed(moved(soup, 0, 0, z), 0x1p1023); };
+    EXPECT_EQ(expect_impact(Moving_soup(huge(floor, -1), huge(floor, 1)), Moving_soup(huge(block, 1), huge(block, -1))),
+              0.5);
+    EXPECT_NEAR(land(floor, block, 0.31, -0.2, as_it_is), 0.31 / 0.51, 1e-15);
+    EXPECT_NEAR(land(floor, crumpled(block, 0.01, seed), 0.31, -0.2, as_it_is), 0.31 / 0.51, 0.05);
   }
 }
 

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "lodestone/triangles/triangle_distance.h"
 #include "support/exact_point.h"
@@ -368,6 +370,29 @@ TEST(Impact_time, of_fractions_is_rounded_and_ordered_like_rational_numbers) {
   }
   EXPECT_GT(different, 50);
   EXPECT_LT(different, 350);
+}
+
+TEST(First_impact_before, is_the_first_impact_or_none_if_that_is_not_earlier) {
+  Moving_pairs pairs(7);
+  std::vector<Moving_pair> asked;
+  std::vector<Impact_time> limits{Impact_time()};
+  for (int i = 0; i < 60; ++i)
+    for (const Moving_pair& pair : {pairs.on_a_lattice(), pairs.beside_a_lattice(), pairs.anywhere()}) {
+      asked.push_back(pair);
+      if (const auto time = first_impact(pair.a, pair.b)) limits.push_back(*time);
+    }
+  int earlier = 0, equal = 0;
+  for (const auto& [a, b] : asked) {
+    const auto first = first_impact(a, b);
+    for (const Impact_time& limit : limits) {
+      const auto found = first_impact_before(limit, a, b);
+      EXPECT_EQ(found, first && *first < limit ? first : std::nullopt);
+      earlier += found ? 1 : 0;
+      equal += first && *first == limit ? 1 : 0;
+    }
+  }
+  EXPECT_GT(earlier, 1000);
+  EXPECT_GT(equal, 200);
 }
 
 /// Three planes through the origin that the faces' corners cross at times 2^-2098 apart: two thousand halvings tell
