@@ -55,10 +55,13 @@ boost::container::static_vector<Gap, 6> closing_gaps(const Moving_box& a, const 
   return gaps;
 }
 
-/// When a gap closes.
-Impact_time closing_time(const Gap& gap) {
+/// Whether a gap closes at a time. Doubles tell most of those that do not.
+bool closes_at(const Gap& gap, const Impact_time& time) {
+  if (!(std::abs(gap.start / (gap.start - gap.end) - time.value()) < 1e-12)) return false;
   const Point origin(0, 0, 0), start(gap.start, 0, 0), end(gap.end, 0, 0);
-  return *first_impact({{start, start, start}, {end, end, end}}, {{origin, origin, origin}, {origin, origin, origin}});
+  const auto closing =
+      first_impact({{start, start, start}, {end, end, end}}, {{origin, origin, origin}, {origin, origin, origin}});
+  return closing == time;
 }
 
 /// The earliest impact so far.
@@ -89,7 +92,7 @@ class Earliest {
     found_ = true, time_ = *time, faces_ = faces, a_ = a, b_ = b;
     gap_.reset();
     for (const Gap& gap : closing_gaps(box_around(a), box_around(b)))
-      if (closing_time(gap) == time_) gap_ = gap;
+      if (closes_at(gap, time_)) gap_ = gap;
   }
 
   /// The rounded triangles at the rounded time nearly meet, and the closest points of theirs are near both.
