@@ -50,7 +50,7 @@ boost::container::static_vector<Gap, 6> closing_gaps(const Moving_box& a, const 
     for (int axis = 0; axis < 3; ++axis) {
       const auto start = exact_difference(low->start.min()[axis], high->start.max()[axis]);
       const auto end = exact_difference(low->end.min()[axis], high->end.max()[axis]);
-      if (start && end && *start > 0 && *end < 0) gaps.push_back({*start, *end});
+      if (start && end && *start > 0 && *end <= 0) gaps.push_back({*start, *end});
     }
   return gaps;
 }
