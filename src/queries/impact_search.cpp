@@ -31,37 +31,35 @@ Triangle triangle_at(const Moving_triangle& moving, double t) {
   return {corner(0), corner(1), corner(2)};
 }
 
-/// How far apart two moving boxes are along an axis, at both ends of the motion.
+/// Where one of two moving boxes is above the other, along an axis: the lower side of the upper box and the upper side
+/// of the lower box, at both ends of the motion.
 struct Gap {
-  double start, end;
+  double upper_start, upper_end, lower_start, lower_end;
   bool operator==(const Gap&) const = default;
 };
+using Gaps = boost::container::static_vector<Gap, 3>;
 
-/// A difference of two numbers, if it needs no rounding.
-std::optional<double> exact_difference(double a, double b) {
-  const double difference = a - b;
-  return difference + b == a && a - difference == b ? std::optional(difference) : std::nullopt;
-}
-
-/// The gaps that close on the way, those that doubles give exactly. Up to three, for two boxes that are apart.
-boost::container::static_vector<Gap, 6> closing_gaps(const Moving_box& a, const Moving_box& b) {
-  boost::container::static_vector<Gap, 6> gaps;
-  for (const auto& [low, high] : {std::pair(&a, &b), std::pair(&b, &a)})
+/// The gaps between two boxes, one per axis at most, that close on the way.
+Gaps closing_gaps(const Moving_box& a, const Moving_box& b) {
+  Gaps gaps;
+  for (const auto& [upper, lower] : {std::pair(&a, &b), std::pair(&b, &a)})
     for (int axis = 0; axis < 3; ++axis) {
-      const auto start = exact_difference(low->start.min()[axis], high->start.max()[axis]);
-      const auto end = exact_difference(low->end.min()[axis], high->end.max()[axis]);
-      if (start && end && *start > 0 && *end <= 0) gaps.push_back({*start, *end});
+      const Gap gap{upper->start.min()[axis], upper->end.min()[axis], lower->start.max()[axis], lower->end.max()[axis]};
+      if (gap.upper_start > gap.lower_start && gap.upper_end <= gap.lower_end) gaps.push_back(gap);
     }
   return gaps;
 }
 
 /// Whether a gap closes at a time. Doubles tell most of those that do not.
 bool closes_at(const Gap& gap, const Impact_time& time) {
-  if (!(std::abs(gap.start / (gap.start - gap.end) - time.value()) < 1e-12)) return false;
-  const Point origin(0, 0, 0), start(gap.start, 0, 0), end(gap.end, 0, 0);
-  const auto closing =
-      first_impact({{start, start, start}, {end, end, end}}, {{origin, origin, origin}, {origin, origin, origin}});
-  return closing == time;
+  const double start = gap.upper_start - gap.lower_start, end = gap.upper_end - gap.lower_end;
+  if (!(std::abs(start / (start - end) - time.value()) < 1e-12)) return false;
+  const auto moving_point = [](double from, double to) {
+    const Point start(from, 0, 0), end(to, 0, 0);
+    return Moving_triangle{{start, start, start}, {end, end, end}};
+  };
+  return first_impact(moving_point(gap.upper_start, gap.upper_end), moving_point(gap.lower_start, gap.lower_end)) ==
+         time;
 }
 
 /// The earliest impact so far.
@@ -77,10 +75,11 @@ class Earliest {
   bool can_change(double bound, Face_pair faces) const {
     return bound <= latest() && !(bound >= latest() && found_ && faces > faces_);
   }
-  /// Whether an impact inside two boxes can be. It is not earlier if a gap between them closes when the impact is: that
-  /// tells most faces of a block that falls flat on a floor.
+  /// Whether an impact inside two moving boxes can be earlier, or at the same time that of a lower pair. None is
+  /// earlier where a gap between the boxes closes at the time of the impact: that tells most faces of a block that
+  /// falls flat.
   bool can_change(const Moving_box& a, const Moving_box& b, Face_pair faces) const {
-    return !gap_ || faces < faces_ || !std::ranges::count(closing_gaps(a, b), *gap_);
+    return !gap_ || faces < faces_ || std::ranges::count(closing_gaps(a, b), *gap_) == 0;
   }
 
   void try_faces(Face_pair faces, const Moving_triangle& a, const Moving_triangle& b) {

@@ -54,8 +54,9 @@ Integer_polynomial area(const Moving_vector& p, const Moving_vector& q, const Mo
 
 }  // namespace
 
-Exact_contacts::Exact_contacts(const Moving_triangle& a, const Moving_triangle& b, std::optional<Algebraic_time> before)
-    : before_(std::move(before)), latest_(before_ ? before_->round_up() : std::numeric_limits<double>::infinity()) {
+Exact_contacts::Exact_contacts(const Moving_triangle& a, const Moving_triangle& b, const Impact_time* before)
+    : latest_(before ? before->high() : std::numeric_limits<double>::infinity()) {
+  if (before) before_ = before->exact();
   const Triangle* const triangles[]{&a.start, &a.end, &b.start, &b.end};
   int exponent = std::numeric_limits<int>::max();
   for (const Triangle* triangle : triangles)

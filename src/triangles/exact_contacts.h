@@ -2,9 +2,7 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <optional>
-#include <span>
 
 #include "lodestone/triangles/impact.h"
 #include "triangles/algebraic_time.h"
@@ -16,8 +14,8 @@ namespace lodestone {
 /// Corners are counted from 0 to 5: three of the first triangle, then three of the second.
 class Exact_contacts {
  public:
-  /// @param before  if given, only earlier times count
-  Exact_contacts(const Moving_triangle& a, const Moving_triangle& b, std::optional<Algebraic_time> before = {});
+  /// @param before  if not null, only earlier times count
+  Exact_contacts(const Moving_triangle& a, const Moving_triangle& b, const Impact_time* before = nullptr);
 
   /// Looks for when a corner is first on a triangle.
   /// @param face  its three corners
@@ -27,7 +25,8 @@ class Exact_contacts {
 
   /// The first time that has been found; null: none.
   const Algebraic_time* first() const { return found_ ? &*before_ : nullptr; }
-  /// What begins later than this does not count: the least double that is not below `first`, or the given time.
+  /// What begins later than this does not count: the least double that is not below `first`, or the given time;
+  /// infinite if there is neither.
   double latest() const { return latest_; }
 
  private:

@@ -38,7 +38,7 @@ class Contact_search {
     list_candidates();
     if (candidates_.empty()) return std::nullopt;
     std::ranges::sort(candidates_, {}, &Candidate::bound);
-    Exact_contacts exact(a_, b_, before ? std::optional(before->exact()) : std::nullopt);
+    Exact_contacts exact(a_, b_, before);
     for (const Candidate& candidate : candidates_) {
       if (candidate.bound > exact.latest()) break;
       try_exactly(candidate, exact);

@@ -62,6 +62,10 @@ LODESTONE_FUZZ_TARGET(impact) {
     if (impact->low() > 0)
       expect(!lodestone::first_impact(a, b, std::nextafter(impact->low(), 0)), "an impact is found before its time:");
   }
+  if (const auto limit = lodestone::first_impact({a.end, a.start}, {b.end, b.start})) {
+    const auto before = lodestone::first_impact_before(*limit, a, b);
+    expect(before == (impact && *impact < *limit ? impact : std::nullopt), "an impact before a time is another one:");
+  }
   for (int step = 0; step <= steps; ++step) {
     const double t = static_cast<double>(step) / steps;
     const bool is_impact = impact && impact->low() == t && impact->high() == t;

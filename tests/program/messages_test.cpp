@@ -137,7 +137,7 @@ TEST_F(Messages, of_an_experiment_list_the_names_that_exist) {
 
 TEST_F(Messages, name_the_experiments_that_take_an_option) {
   expect_error(run_program({"experiment", "scaling", "--only", "sphere"}), 2, "the experiment scaling ignores --only");
-  expect_error(run_program({"experiment", "peers", "--jobs", "2"}), 2, "which is for partitions");
+  expect_error(run_program({"experiment", "scaling", "--jobs", "2"}), 2, "which is for partitions");
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ TEST(Impact_search, of_objects_that_intersect_at_the_start_is_there) {
   }
 }
 
-/// Faces that land at the same time are told by gaps between boxes where doubles give those exactly, else one by one.
+/// Faces that land at the same time are told by gaps between their boxes, or one by one.
 TEST(Impact_search, of_sheets_that_land_flat_is_exact_and_of_the_lowest_pair) {
   const Face_soup sheet(cloth(5, 6));
   const auto tilted = [](Face_soup soup) {
@@ -178,6 +178,7 @@ TEST(Impact_search, of_sheets_that_land_flat_is_exact_and_of_the_lowest_pair) {
     EXPECT_EQ(expect_impact(Moving_soup(huge(floor, -1), huge(floor, 1)), Moving_soup(huge(block, 1), huge(block, -1))),
               0.5);
     EXPECT_NEAR(land(floor, block, 0.31, -0.2, as_it_is), 0.31 / 0.51, 1e-15);
+    EXPECT_NEAR(land(moved(floor, 0, 0, 0.1), block, 0.4, -0.2, as_it_is), 0.5, 1e-15);
     EXPECT_NEAR(land(floor, crumpled(block, 0.01, seed), 0.31, -0.2, as_it_is), 0.31 / 0.51, 0.05);
   }
 }
