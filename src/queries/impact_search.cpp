@@ -55,8 +55,8 @@ bool closes_at(const Gap& gap, const Impact_time& time) {
   const double start = gap.upper_start - gap.lower_start, end = gap.upper_end - gap.lower_end;
   if (!(std::abs(start / (start - end) - time.value()) < 1e-12)) return false;
   const auto moving_point = [](double from, double to) {
-    const Point start(from, 0, 0), end(to, 0, 0);
-    return Moving_triangle{{start, start, start}, {end, end, end}};
+    const Point p(from, 0, 0), q(to, 0, 0);
+    return Moving_triangle{{p, p, p}, {q, q, q}};
   };
   return first_impact(moving_point(gap.upper_start, gap.upper_end), moving_point(gap.lower_start, gap.lower_end)) ==
          time;
