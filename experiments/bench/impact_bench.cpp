@@ -252,8 +252,7 @@ void impact(benchmark::State& state) {
 
 /// A flat sheet lands on another one: all faces meet those below them at nearly the same time, or at exactly the same
 /// where the sheets lie along the axes. The arguments are the number of squares along a side, and the tilt in tenths of
-/// a radian. The counters are medians; `fcl_error` is how far FCL's last time is
-/// from 0.31 / 0.51.
+/// a radian. The times are medians. `fcl_error` is how far FCL's last time is from 0.31 / 0.51.
 void landing(benchmark::State& state) {
   const auto squares = static_cast<std::size_t>(state.range(0));
   const double tilt = 0.1 * static_cast<double>(state.range(1));

@@ -44,7 +44,7 @@ class Exact_contacts {
   const Moving_vector& point(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
 
   std::array<Moving_vector, 6> points_;
-  std::optional<Algebraic_time> before_;  ///< the first time, if one has been found
+  std::optional<Algebraic_time> before_;  ///< only earlier times count: the first that was found, or the given one
   double latest_;
   bool found_ = false;
 };

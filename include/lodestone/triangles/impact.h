@@ -67,8 +67,8 @@ class Impact_time {
 /// @param latest  in [0, 1]; if the first time is later than this, the result is none
 std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_triangle& b, double latest = 1);
 
-/// The first impact of two moving triangles if it is earlier than `limit`, else none. Exact. It costs less than
-/// `first_impact`, as only what can be earlier is looked at.
+/// The first impact of two moving triangles if it is earlier than `limit`, else none. Exact. It mostly costs less
+/// than `first_impact`, since only what can be earlier is looked at.
 std::optional<Impact_time> first_impact_before(const Impact_time& limit, const Moving_triangle& a,
                                                const Moving_triangle& b);
 
