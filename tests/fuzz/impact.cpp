@@ -59,6 +59,7 @@ LODESTONE_FUZZ_TARGET(impact) {
   if (impact) {
     const auto again = lodestone::first_impact(a, b, impact->high());
     expect(again && *again == *impact, "an impact is not found until its own time:");
+    expect(!lodestone::first_impact_before(*impact, b, a), "an impact is found before itself:");
     if (impact->low() > 0)
       expect(!lodestone::first_impact(a, b, std::nextafter(impact->low(), 0)), "an impact is found before its time:");
   }
