@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "lodestone/bounds/joint_range.h"
 #include "lodestone/bounds/linear_bound.h"
 #include "lodestone/mesh/skinned_points.h"
 #include "lodestone/tree/tree_layout.h"
@@ -55,36 +55,20 @@ class Skin_bound {
   Aabb box(std::uint32_t node) const;
 
  private:
-  /// How one joint moves the vertices of a node.
-  struct Range {
-    std::uint32_t joint;
-    double least, greatest;           ///< weights
-    std::array<double, 3> low, high;  ///< of the vertices with a weight above 0, at rest
-  };
   /// One joint and one vertex that it moves.
   struct Influence {
     std::uint32_t joint, vertex;
     double weight;
   };
-  /// The box around what a joint moves, before it does.
-  struct Rest_box {
-    std::array<double, 3> centre, half;
-  };
-  /// The same afterwards, along one axis, and an upper bound of |T_j| (|x|, |y|, |z|, 1).
-  struct Moved_box {
-    double middle, half, magnitude;
-  };
   static std::vector<Influence> influences_on(const Skinned_points& points, std::span<const std::uint32_t> vertices);
-  std::vector<Range> of_leaf(std::span<const std::uint32_t> vertices) const;
-  Range of_vertex(const Influence& influence) const;
-  static void enclose(Range& range, const Range& other);
-  static std::vector<Range> merged(std::span<const Range> a, std::span<const Range> b);
-  static Rest_box widened(const Range& range, const Linear_bound::Shift& shift);
-  static Moved_box moved(const Rest_box& box, const double* columns, std::size_t axis);
+  std::vector<Joint_range> of_leaf(std::span<const std::uint32_t> vertices) const;
+  Joint_range of_vertex(const Influence& influence) const;
+  static void enclose(Joint_range& range, const Joint_range& other);
+  static std::vector<Joint_range> merged(std::span<const Joint_range> a, std::span<const Joint_range> b);
 
   const Skinned_points* points_;
   std::optional<Linear_bound> shape_;           ///< none: vertices are not morphed
-  std::vector<Range> ranges_;                   ///< by node, then by joint
+  std::vector<Joint_range> ranges_;             ///< by node, then by joint
   std::vector<std::uint64_t> range_begin_;      ///< per node and past the last
   std::vector<std::uint32_t> most_influences_;  ///< per node: of one vertex
 };
