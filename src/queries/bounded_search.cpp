@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/queries/leaf_triangle.h"
@@ -89,6 +91,7 @@ Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor
     if (!near(box_a, box_b, tolerance_)) continue;
     if (!layout_a.is_leaf(pair.a) || !layout_b.is_leaf(pair.b)) {
       open_pair(layout_a, layout_b, pair, box_a.extent() >= box_b.extent(), waiting_);
+      deeper_first();
       continue;
     }
     const End end = test_leaves(layout_a.node(pair.a).leaf, layout_b.node(pair.b).leaf, visitor);
@@ -96,6 +99,20 @@ Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor
     if (is_broken()) return End::broken;
   }
   return End::complete;
+}
+
+/// Of the two pairs that were pushed last, visits that first whose boxes lie deeper in each other, along the axis on
+/// which they do least: if one contact is enough, it is likelier to be there.
+void Bounded_search::deeper_first() {
+  const auto depth = [&](Node_pair pair) {
+    const Aabb &of_a = a_->box(pair.a), &of_b = b_->box(pair.b);
+    double least = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis)
+      least = std::min(least, std::min(of_a.high[axis], of_b.high[axis]) - std::max(of_a.low[axis], of_b.low[axis]));
+    return least;
+  };
+  Node_pair *const first = &waiting_.back(), *const second = first - 1;
+  if (depth(*second) > depth(*first)) std::swap(*first, *second);
 }
 
 /// @return stopped, or complete

@@ -46,6 +46,7 @@ class Bounded_search {
   void begin(Bounded_surface& a, Bounded_surface& b, double tolerance);
   template <class Visitor>
   End walk(bool until_all_posed, Visitor&& visitor);
+  void deeper_first();
   template <class Visitor>
   End test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor);
   void begin_filter();
