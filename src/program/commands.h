@@ -28,6 +28,7 @@ struct Detect_command {
   bool chooses_strategy = false;  ///< the user chose the partition, or a setting of it
   bool truth = false;
   bool closest = false;                       ///< also find the closest faces of each object pair
+  bool impacts = false;                       ///< also find when object pairs meet first between two frames
   std::filesystem::path out, html, paraview;  ///< empty: not written
   std::size_t html_frames = 0;                ///< maximum number of frames on the page; 0: see page_frame_step
   bool quiet = false;                         ///< print one line in place of the table

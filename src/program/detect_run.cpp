@@ -48,6 +48,8 @@ bool asks_once(const Detect_command& command, const Scene& scene) {
 
 Detect_run::Detect_run(const Detect_command& command) : command_(command), scene_(load(command)) {
   summary_.measurement.setting.options = command.options;
+  if (command.impacts && scene_.frames == 1)
+    throw Bad_argument("--impacts is about what happens between frames, and there is one only");
   if (command.merge_shards) return;  // others have played the frames
   asks_once_ = asks_once(command, scene_);
   if (command.options.mode == Mode::certified) compute_motions();
@@ -122,9 +124,12 @@ std::string Detect_run::play(std::size_t frame) {
   const auto closest = find_closest();
   if (closest)
     for (const auto& [a, b, found] : *closest) tally_.distances.push_back({{a, b}, found.points.distance});
+  const auto impacts = find_impacts(frame);
+  if (impacts)
+    for (const auto& [a, b, found] : *impacts) tally_.impacts.push_back({{a, b}, found.time});
   add(tally_);
-  std::string line =
-      frame_line(frame, scene_.objects, result, command_.options, truth, closest, command_.independent_frames);
+  const Frame_findings findings{.frame = result, .truth = truth, .closest = closest, .impacts = impacts};
+  std::string line = frame_line(frame, scene_.objects, findings, command_.options, command_.independent_frames);
   if (page_) page_->add(frame, result, line, any_truth(truth));
   return line;
 }
@@ -164,6 +169,12 @@ std::optional<std::vector<Pair_closest>> Detect_run::find_closest() {
   std::vector<Pair_closest> closest;
   for_each_pair([&](Object_id a, Object_id b) { closest.push_back({a, b, detector_->closest(a, b)}); });
   return closest;
+}
+
+/// None in the last frame, which has no next one.
+std::optional<std::vector<Pair_impact>> Detect_run::find_impacts(std::size_t frame) {
+  if (!command_.impacts || frame + 1 == scene_.frames) return std::nullopt;
+  return impacts_until(scene_, frame + 1, *detector_, [&](Object_pair pair) { return !scene_.ignores(pair); });
 }
 
 void Detect_run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {

@@ -11,6 +11,7 @@
 #include "lodestone/io/scenes/scene_file.h"
 #include "program/commands.h"
 #include "program/detect_summary.h"
+#include "program/frame_impacts.h"
 #include "program/frame_log.h"
 #include "program/frame_tally.h"
 #include "program/page_log.h"
@@ -63,6 +64,7 @@ class Detect_run {
   void for_each_pair(const Visit& visit) const;
   std::optional<std::vector<Pair_truth>> find_truth() const;
   std::optional<std::vector<Pair_closest>> find_closest();
+  std::optional<std::vector<Pair_impact>> find_impacts(std::size_t frame);
   void compare(const Frame& result, const std::vector<Pair_truth>& truth);
   std::optional<bool> any_truth(const std::optional<std::vector<Pair_truth>>& truth) const;
 

@@ -63,6 +63,11 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
     json["least_distance"] = least->distance;
     json["least_distance_frame"] = least->frame;
   }
+  if (subject.command.impacts && pair.a != pair.b) {
+    const auto& impact = summary.first_impact;
+    json["first_impact"] = impact ? Json{{"frame", impact->frame}, {"time", impact->time}} : Json();
+    json["passings"] = summary.passings;
+  }
   if (subject.has_truth(pair)) json["truth"] = truth_json(summary.score);
   return json;
 }
@@ -76,7 +81,7 @@ Json misses_json(const Detector_options& options) {
 
 bool is_empty(const Pair_summary& summary) {
   return summary.colliding_frames == 0 && summary.near_frames == 0 && summary.contained_frames == 0 &&
-         !summary.longest_parting && !summary.least_distance && summary.score.positives() == 0;
+         !summary.longest_parting && !summary.least_distance && !summary.first_impact && summary.score.positives() == 0;
 }
 
 /// The pair with the least distance in any frame; nothing without --closest.
@@ -91,12 +96,27 @@ std::optional<Object_pair> closest_pair(const Run_summary& summary) {
   return closest;
 }
 
+double in_frames(const First_impact& impact) { return static_cast<double>(impact.frame) + impact.time; }
+
+/// The pair that meets first in the run; nothing without --impacts.
+std::optional<Object_pair> first_pair_to_meet(const Run_summary& summary) {
+  std::optional<Object_pair> first;
+  double earliest = std::numeric_limits<double>::infinity();
+  for (const auto& [pair, results] : summary.pairs) {
+    if (!results.first_impact || in_frames(*results.first_impact) >= earliest) continue;
+    earliest = in_frames(*results.first_impact);
+    first = pair;
+  }
+  return first;
+}
+
 std::vector<std::string> table_header(const Detect_command& command) {
   std::vector<std::string> header{"object a", "object b", "frames", "colliding", "first", "last"};
   if (has_tolerance(command.options)) header.emplace_back("near");
   if (command.options.exact.containment) header.emplace_back("one inside");
   if (command.options.exact.parting) header.emplace_back("parting");
   if (command.closest) header.insert(header.end(), {"least distance", "in frame"});
+  if (command.impacts) header.insert(header.end(), {"first impact", "passings"});
   if (command.truth) header.insert(header.end(), {"truly", "recall", "precision", "accuracy"});
   return header;
 }
@@ -115,6 +135,10 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
   if (const auto& least = summary.least_distance)
     row.insert(row.end(), {fmt::format("{:.6g}", least->distance), std::to_string(least->frame)});
   else if (subject.command.closest)
+    row.insert(row.end(), {"-", "-"});
+  if (const auto& impact = summary.first_impact)
+    row.insert(row.end(), {fmt::format("{:.6g}", in_frames(*impact)), std::to_string(summary.passings)});
+  else if (subject.command.impacts)
     row.insert(row.end(), {"-", "-"});
   if (subject.has_truth(pair))
     row.insert(row.end(),
@@ -187,10 +211,23 @@ void Pair_summary::add(std::size_t frame, const Pair_result& pair) {
   ++colliding_frames;
   if (!first_colliding) first_colliding = frame;
   last_colliding = frame;
+  met_on_the_way = false;
+}
+
+void Pair_summary::end_way() {
+  passings += met_on_the_way ? 1 : 0;
+  met_on_the_way = false;
+}
+
+void Pair_summary::add_impact(std::size_t frame, double time) {
+  if (!first_impact) first_impact = {.frame = frame, .time = time};
+  met_on_the_way = last_colliding != frame;
 }
 
 void Run_summary::add(const Frame_tally& tally, bool timed) {
   for (const auto& pair : tally.pairs) pairs[{pair.a, pair.b}].add(tally.frame, pair);
+  for (auto& [pair, results] : pairs) results.end_way();
+  for (const auto& [pair, time] : tally.impacts) pairs[pair].add_impact(tally.frame, time);
   for (const auto& [pair, truth, seen] : tally.scores) pairs[pair].score.add(pair, truth, seen);
   for (const auto& [pair, distance] : tally.distances) {
     auto& least = pairs[pair].least_distance;
@@ -252,6 +289,9 @@ std::string one_line_answer(const Run_subject& subject, const Run_summary& summa
     text += fmt::format("; least distance {} in frame {}, of {} and {}", least.distance, least.frame,
                         subject.scene.objects[pair->a].name, subject.scene.objects[pair->b].name);
   }
+  if (const auto pair = first_pair_to_meet(summary))
+    text += fmt::format("; first impact at {:.6g}, of {} and {}", in_frames(*summary.pairs.at(*pair).first_impact),
+                        subject.scene.objects[pair->a].name, subject.scene.objects[pair->b].name);
   return text + "\n";
 }
 

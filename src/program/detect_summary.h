@@ -23,6 +23,12 @@ struct Least_distance {
   std::size_t frame = 0;  ///< the first with that distance
 };
 
+/// When two objects meet first in a run.
+struct First_impact {
+  std::size_t frame = 0;  ///< the last one before it, or at that time
+  double time = 0;        ///< on the way to the next frame: 0 to 1
+};
+
 /// The results of a run of `detect` for one object pair.
 struct Pair_summary {
   std::size_t colliding_frames = 0;
@@ -33,10 +39,17 @@ struct Pair_summary {
   std::optional<double> longest_parting = {};  ///< of the translations that part the two
   std::optional<std::size_t> first_colliding = {}, last_colliding = {};  ///< frames
   std::optional<Least_distance> least_distance = {};                     ///< with --closest
+  std::optional<First_impact> first_impact = {};                         ///< with --impacts
+  std::size_t passings = 0;     ///< with --impacts: steps in which the two meet, though they collide at neither end
+  bool met_on_the_way = false;  ///< since the last frame, in which they did not collide
   Score score = {};
 
   /// Adds the next frame.
   void add(std::size_t frame, const Pair_result& pair);
+  /// Ends the way to a frame that has been added.
+  void end_way();
+  /// Adds an impact on the way from that frame to the next.
+  void add_impact(std::size_t frame, double time);
 };
 
 /// The results of a run of `detect` over its frames.

@@ -81,6 +81,17 @@ Json closest_json(const std::vector<Scene_object>& objects, std::span<const Pair
   return json;
 }
 
+Json impacts_json(const std::vector<Scene_object>& objects, std::span<const Pair_impact> impacts) {
+  Json json = Json::array();
+  for (const auto& [a, b, found] : impacts)
+    json.push_back({{"a", objects[a].name},
+                    {"b", objects[b].name},
+                    {"time", found.time},
+                    {"faces", {objects[a].file_face[found.faces.a], objects[b].file_face[found.faces.b]}},
+                    {"point", {found.point.x(), found.point.y(), found.point.z()}}});
+  return json;
+}
+
 /// Only counts, since times differ from run to run.
 Json statistics_json(const Frame_statistics& statistics, Mode mode, bool independent) {
   // Whether leaves are posed one by one depends on how much was near in the frames before.
@@ -116,9 +127,9 @@ std::string json_text(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objects, const Frame& result,
-                       const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth,
-                       const std::optional<std::vector<Pair_closest>>& closest, bool independent) {
+std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objects, const Frame_findings& findings,
+                       const Detector_options& options, bool independent) {
+  const auto& [result, truth, closest, impacts] = findings;
   Json pairs = Json::array();
   for (const auto& pair : result.pairs) pairs.push_back(pair_json(objects, result, pair, options));
   if (truth) {
@@ -134,6 +145,7 @@ std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objec
   }
   Json line{{"frame", frame}, {"pairs", std::move(pairs)}};
   if (closest) line["closest"] = closest_json(objects, *closest);
+  if (impacts) line["impacts"] = impacts_json(objects, *impacts);
   line["statistics"] = statistics_json(result.statistics, options.mode, independent);
   return json_text(line);
 }

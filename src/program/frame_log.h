@@ -10,6 +10,7 @@
 #include "lodestone/detection/frame.h"
 #include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/queries/closest_faces.h"
+#include "program/frame_impacts.h"
 
 namespace lodestone {
 
@@ -40,16 +41,24 @@ inline bool has_tolerance(const Detector_options& options) {
   return options.exact.tolerance > 0 || options.exact.self_tolerance > 0;
 }
 
+/// What is known about one frame. What was not asked for is missing.
+struct Frame_findings {
+  const Frame& frame;  ///< what the detector found
+  /// Of all pairs. Adds the key `truth` to each pair, and adds pairs that collide but were not reported.
+  const std::optional<std::vector<Pair_truth>>& truth;
+  /// Of all pairs. Adds the key `closest`, a list of its own, since `pairs` omits those far apart.
+  const std::optional<std::vector<Pair_closest>>& closest;
+  /// Of the pairs that meet before the next frame. Adds the key `impacts`.
+  const std::optional<std::vector<Pair_impact>>& impacts;
+};
+
 /// One line of `frames.jsonl`, line break included.
 ///
 /// @param frame  frame of the scene, from 0
 /// @param objects  of the scene; faces are listed by their index in the file, once per triangle that they were cut into
 /// @param options  of the detector that gave the result; they determine which keys are written
-/// @param truth  of all pairs; adds the key `truth` to each pair, and adds pairs that collide but were not reported
-/// @param closest  of all pairs; adds the key `closest`, a list of its own, since `pairs` omits those far apart
 /// @param independent  leave out the statistics of mode `certified` that depend on earlier frames
-std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objects, const Frame& result,
-                       const Detector_options& options, const std::optional<std::vector<Pair_truth>>& truth,
-                       const std::optional<std::vector<Pair_closest>>& closest, bool independent = false);
+std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objects, const Frame_findings& findings,
+                       const Detector_options& options, bool independent);
 
 }  // namespace lodestone

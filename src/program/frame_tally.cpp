@@ -49,6 +49,7 @@ Json to_json(const Frame_tally& tally) {
   Json json{{"frame", tally.frame}, {"pairs", std::move(pairs)}, {"seconds", seconds}, {"counts", counted}};
   for (const auto& [pair, truth, seen] : tally.scores) json["scores"].push_back({pair.a, pair.b, truth, seen});
   for (const auto& [pair, distance] : tally.distances) json["distances"].push_back({pair.a, pair.b, distance});
+  for (const auto& [pair, time] : tally.impacts) json["impacts"].push_back({pair.a, pair.b, time});
   if (tally.contradicted) json["contradicted"] = true;
   if (tally.missed) json["missed"] = true;
   return json;
@@ -63,6 +64,8 @@ Frame_tally frame_tally_of(const Json& json) {
     tally.scores.push_back({{score.at(0), score.at(1)}, score.at(2), score.at(3)});
   for (const auto& least : json.value("distances", Json::array()))
     tally.distances.push_back({{least.at(0), least.at(1)}, least.at(2)});
+  for (const auto& impact : json.value("impacts", Json::array()))
+    tally.impacts.push_back({{impact.at(0), impact.at(1)}, impact.at(2)});
   tally.contradicted = json.value("contradicted", false);
   tally.missed = json.value("missed", false);
   return tally;

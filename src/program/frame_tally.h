@@ -22,6 +22,12 @@ struct Pair_distance {
   double distance = 0;  ///< in units of the coordinates
 };
 
+/// When two objects meet first on the way to the next frame.
+struct Pair_impact_time {
+  Object_pair pair;
+  double time = 0;  ///< 0: in the frame, 1: in the next one
+};
+
 /// What the summary of a run needs to know of one frame.
 struct Frame_tally {
   std::size_t frame = 0;
@@ -29,6 +35,7 @@ struct Frame_tally {
   Frame_statistics statistics = {};
   std::vector<Pair_score> scores = {};        ///< with --truth
   std::vector<Pair_distance> distances = {};  ///< with --closest
+  std::vector<Pair_impact_time> impacts = {};  ///< with --impacts
   bool contradicted = false;                  ///< something was reported that is not true
   bool missed = false;                        ///< something true was not reported
 };

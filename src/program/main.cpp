@@ -175,6 +175,9 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
                "Also report the direction that separates two faces, and how far to move");
   app.add_flag("--closest", command.closest,
                "Modes exact and certified: also report the closest faces of each object pair, and their distance");
+  app.add_flag("--impacts", command.impacts,
+               "Mode exact: also report when object pairs meet first between a frame and the next, if every vertex "
+               "moves on a straight line");
   app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
   app.add_option(
          "--meetings", options.meetings,

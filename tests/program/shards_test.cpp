@@ -66,6 +66,7 @@ TEST_F(Shards, merged_are_the_bytes_of_one_run_whatever_is_asked_for) {
       {},
       {"--contacts", "all", "--points", "--normals", "--closest", "--truth"},
       {"--within", "0.05", "--containment", "--parting", "--patches"},
+      {"--impacts"},
       {"--contacts", "yes_no", "--self", "--particles", "4"},
   };
   for (std::size_t i = 0; i < asked.size(); ++i) {
