@@ -7,7 +7,7 @@
 namespace lodestone {
 
 void check_different(const void* a, const void* b) {
-  if (a == b) throw Bad_argument("one mesh is given twice; impacts within a mesh are not searched for");
+  if (a == b) throw Bad_argument("one mesh is given twice; find_first_self_impact finds what it does to itself");
 }
 
 std::optional<Impact> checked_first_impact(const Moving_surface& a, const Moving_surface& b) {
@@ -16,6 +16,12 @@ std::optional<Impact> checked_first_impact(const Moving_surface& a, const Moving
   check_finite(b.start, "the second mesh, at the start,");
   check_finite(b.end, "the second mesh, at the end,");
   return first_impact(a, b);
+}
+
+std::optional<Impact> checked_first_self_impact(const Moving_surface& surface) {
+  check_finite(surface.start, "the mesh, at the start,");
+  check_finite(surface.end, "the mesh, at the end,");
+  return first_self_impact(surface);
 }
 
 }  // namespace lodestone

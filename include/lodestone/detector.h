@@ -212,8 +212,16 @@ class Detector {
   std::optional<Impact> first_impact(Object_id a, const Eigen::Ref<const Positions>& end_a, Object_id b,
                                      const Eigen::Ref<const Positions>& end_b) {
     auto& exact = ask<Exact>(a, b);
-    if (a == b) throw Bad_argument("the first impact of object " + std::to_string(a) + " and itself");
+    if (a == b)
+      throw Bad_argument("the first impact of object " + std::to_string(a) + " and itself: ask for first_self_impact");
     return exact.first_impact({a, b}, end_a, end_b);
+  }
+  /// When two faces of one object that share no vertex meet first, in mode `exact`: see `first_self_impact` of trees.
+  /// Everything else is as in the other call.
+  /// @throws Bad_argument  no such object, another mode
+  /// @throws Bad_mesh      as the other call
+  std::optional<Impact> first_self_impact(Object_id object, const Eigen::Ref<const Positions>& end) {
+    return ask<Exact>(object).first_self_impact(object, end);
   }
   /// The earliest impact of any two objects, with what `detect` leaves out left out, in mode `exact`. Of several pairs
   /// at exactly the same time it is that of the lowest ids.

@@ -28,6 +28,8 @@ class Numbered_motion {
 
 /// Checks that all coordinates are finite, then searches.
 std::optional<Impact> checked_first_impact(const Moving_surface& a, const Moving_surface& b);
+/// The same within one surface.
+std::optional<Impact> checked_first_self_impact(const Moving_surface& surface);
 /// @throws Bad_argument  the addresses are the same
 void check_different(const void* a, const void* b);
 /// @endcond
@@ -37,7 +39,7 @@ void check_different(const void* a, const void* b);
 ///
 /// The answer is exact, as if all coordinates were rational numbers. Nothing passes through between two frames: meshes
 /// that touch for a moment, and are apart at both ends, have an impact. Meshes that intersect at the start have it at
-/// t = 0. What one mesh does to itself is not looked at. Faces are numbered in the order of `faces(mesh)`.
+/// t = 0. What one mesh does to itself is a question of its own: `find_first_self_impact`. Faces are numbered in the order of `faces(mesh)`.
 ///
 /// Two trees are built and thrown away, O(F log F); to ask again and again, keep trees: see `first_impact`.
 ///
@@ -57,6 +59,22 @@ std::optional<Impact> find_first_impact(const Mesh_a& a, const End_a& end_a, con
   Numbered_motion motion_a(a, vertex_points(a, np_a), end_a);
   Numbered_motion motion_b(b, vertex_points(b, np_b), end_b);
   return checked_first_impact(motion_a.surface(), motion_b.surface());
+}
+
+/// Finds when two faces of one mesh that share no vertex meet first, with one call: a cloth that folds onto itself.
+/// Everything else is as in `find_first_impact`. The lower of the two faces comes first.
+///
+/// @param end  vertex point map: where the vertices are at the end
+/// @param np   `vertex_point_map`: where they are at the start; default: the mesh's own points
+/// @return the faces, the time and a point; none if there are no such faces. t = 0 if faces that share no vertex
+///         intersect, or touch, at the start
+/// @throws Bad_mesh  as `find_first_impact`
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> End,
+          class Parameters = CGAL::parameters::Default_named_parameters>
+std::optional<Impact> find_first_self_impact(const Mesh& mesh, const End& end,
+                                             const Parameters& np = CGAL::parameters::default_values()) {
+  Numbered_motion motion(mesh, vertex_points(mesh, np), end);
+  return checked_first_self_impact(motion.surface());
 }
 
 }  // namespace lodestone

@@ -43,6 +43,7 @@ from ._lodestone import (
     contains,
     find_collisions,
     first_impact,
+    first_self_impact,
     partition,
     read_animation,
     read_mesh,
@@ -59,9 +60,9 @@ from ._play import play
 __all__ = [
     "Animation", "BadArgument", "BadMesh", "BadMotion", "BadOutput", "BadSavedObject", "BadScene", "BoxPromise",
     "BrokenBound", "Detector", "DisplacementPromise", "Error", "Frame", "LipschitzPromise", "Page", "Pair", "Partition",
-    "Scene", "Skin", "StretchPromise", "__version__", "closest", "contains", "find_collisions", "first_impact", "page",
-    "partition", "play", "read_animation", "read_mesh", "read_scene", "self_collisions", "strategies", "within",
-    "write_animation", "write_mesh",
+    "Scene", "Skin", "StretchPromise", "__version__", "closest", "contains", "find_collisions", "first_impact",
+    "first_self_impact", "page", "partition", "play", "read_animation", "read_mesh", "read_scene", "self_collisions",
+    "strategies", "within", "write_animation", "write_mesh",
 ]
 
 # Messages and help name what users import, not where it is compiled.

@@ -358,6 +358,14 @@ void add_detector(py::module_& module) {
            py::arg("a"), py::arg("end_a"), py::arg("b"), py::arg("end_b"),
            "When two objects first meet if every vertex moves on a straight line, from where it is now at t = 0 to the row\n"
            "of end_a or end_b, arrays (V, 3), at t = 1: a dict with time, faces and point; None if they do not. Exact.")
+      .def("first_self_impact",
+           [](Python_detector& self, Object_id object, const py::object& end) {
+             const Positions at_end = positions_of(end, "end");
+             return impact_fields(self.ask([&](auto& detector) { return detector.first_self_impact(object, at_end); }));
+           },
+           py::arg("object"), py::arg("end"),
+           "When two faces of one object that share no vertex first meet on the way to end, an array (V, 3): a dict with\n"
+           "time, faces and point; None if they do not. Exact.")
       .def("first_impact_of_all", first_impact_of_all, py::arg("ends"),
            "The earliest impact of any two objects: a dict with objects, time, faces and point; None if there is none.\n"
            "ends: a list with where the vertices of each object will be, (V, 3), or None or no rows for one that stays.")

@@ -174,7 +174,9 @@ std::optional<std::vector<Pair_closest>> Detect_run::find_closest() {
 /// None in the last frame, which has no next one.
 std::optional<std::vector<Pair_impact>> Detect_run::find_impacts(std::size_t frame) {
   if (!command_.impacts || frame + 1 == scene_.frames) return std::nullopt;
-  return impacts_until(scene_, frame + 1, *detector_, [&](Object_pair pair) { return !scene_.ignores(pair); });
+  return impacts_until(scene_, frame + 1, *detector_, [&](Object_pair pair) {
+    return (pair.a != pair.b || command_.options.exact.self_collision) && !scene_.ignores(pair);
+  });
 }
 
 void Detect_run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {

@@ -63,7 +63,7 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
     json["least_distance"] = least->distance;
     json["least_distance_frame"] = least->frame;
   }
-  if (subject.command.impacts && pair.a != pair.b) {
+  if (subject.command.impacts) {
     const auto& impact = summary.first_impact;
     json["first_impact"] = impact ? Json{{"frame", impact->frame}, {"time", impact->time}} : Json();
     json["passings"] = summary.passings;

@@ -49,9 +49,11 @@ std::vector<Pair_impact> impacts_until(Scene& scene, std::size_t next, Scene_det
   for (auto& object : scene.objects) steps.push_back(step_to(object, next));
   std::vector<Pair_impact> impacts;
   for (Object_id a = 0; a < steps.size(); ++a)
-    for (Object_id b = a + 1; b < steps.size(); ++b) {
+    for (Object_id b = a; b < steps.size(); ++b) {
       if (!may_meet({a, b}) || !steps[a].swept.intersects(steps[b].swept)) continue;
-      if (const auto found = detector.first_impact(a, steps[a].end, b, steps[b].end)) impacts.push_back({a, b, *found});
+      const auto found = a == b ? detector.first_self_impact(a, steps[a].end)
+                                : detector.first_impact(a, steps[a].end, b, steps[b].end);
+      if (found) impacts.push_back({a, b, *found});
     }
   return impacts;
 }

@@ -23,7 +23,7 @@ struct Pair_impact {
 /// @param scene     posed in the frame, and so again afterwards
 /// @param next      the next frame
 /// @param detector  of the scene, in mode `exact`
-/// @param may_meet  which pairs a < b count
+/// @param may_meet  which pairs a <= b count; a = b: faces of one object that share no vertex
 /// @return pairs that meet, in the order of their objects
 std::vector<Pair_impact> impacts_until(Scene& scene, std::size_t next, Scene_detector& detector,
                                        const std::function<bool(Object_pair)>& may_meet);

@@ -110,9 +110,15 @@ class Earliest {
   std::optional<Gap> gap_;  ///< closes at the time of the impact
 };
 
+/// Whether two faces have a corner in common.
+bool share_vertex(const Corners& a, const Corners& b) {
+  return std::ranges::any_of(a, [&](std::uint32_t vertex) { return std::ranges::count(b, vertex) > 0; });
+}
+
 /// A face of a leaf that moves.
 struct Moving_face {
   std::uint32_t face;
+  Corners corners;
   Moving_triangle triangle;
   Moving_box box;
 };
@@ -120,6 +126,9 @@ struct Moving_face {
 class Impact_search {
  public:
   Impact_search(const Swept_view& a, const Swept_view& b, double latest) : a_(a), b_(b), earliest_(latest) {}
+  /// Within one surface: of faces that share no vertex.
+  Impact_search(const Swept_view& surface, double latest)
+      : a_(surface), b_(surface), is_within_(true), earliest_(latest) {}
 
   std::optional<Impact> run() {
     push(root_pair);
@@ -150,6 +159,9 @@ class Impact_search {
   const Tree_layout& layout_a() const { return *a_.start.layout; }
   const Tree_layout& layout_b() const { return *b_.start.layout; }
 
+  /// Whether a node of one surface is to be compared with itself.
+  bool is_itself(Node_pair pair) const { return is_within_ && pair.a == pair.b; }
+
   static Moving_box box(const Swept_view& view, std::uint32_t node) {
     return {to_box(view.start.boxes[node]), to_box(view.end.boxes[node])};
   }
@@ -165,19 +177,24 @@ class Impact_search {
       return view.start.boxes[node].extent() + view.end.boxes[node].extent();
     };
     below_.clear();
-    open_pair(layout_a(), layout_b(), pair, extent(a_, pair.a) >= extent(b_, pair.b), below_);
+    if (is_itself(pair))
+      open_with_itself(layout_a(), pair.a, below_);
+    else
+      open_pair(layout_a(), layout_b(), pair, extent(a_, pair.a) >= extent(b_, pair.b), below_);
     for (const Node_pair next : below_) push(next);
   }
 
   void try_leaves(Node_pair pair) {
     list_faces_that_come_to(box(b_, pair.b), a_, layout_a().node(pair.a).leaf, faces_a_);
     list_faces_that_come_to(box(a_, pair.a), b_, layout_b().node(pair.b).leaf, faces_b_);
-    list_candidates();
+    list_candidates(is_itself(pair));
     for (const Face_candidate& candidate : candidates_) {
       if (candidate.bound > earliest_.latest()) return;
-      const Moving_face &a = faces_a_[candidate.a], &b = faces_b_[candidate.b];
-      if (earliest_.can_change(candidate.bound, candidate.faces) && earliest_.can_change(a.box, b.box, candidate.faces))
-        earliest_.try_faces(candidate.faces, a.triangle, b.triangle);
+      const Moving_face *a = &faces_a_[candidate.a], *b = &faces_b_[candidate.b];
+      if (a->face != candidate.faces.a) std::swap(a, b);
+      if (earliest_.can_change(candidate.bound, candidate.faces) &&
+          earliest_.can_change(a->box, b->box, candidate.faces))
+        earliest_.try_faces(candidate.faces, a->triangle, b->triangle);
     }
   }
 
@@ -189,24 +206,32 @@ class Impact_search {
     for (std::size_t i = 0; i < indices.size(); ++i) {
       const Moving_triangle moving{triangle_of(leaf_triangle(at_start, i)), triangle_of(leaf_triangle(at_end, i))};
       const Moving_box box = box_around(moving);
-      if (overlap_time_lower_bound(box, other) <= earliest_.latest()) faces.push_back({indices[i], moving, box});
+      if (!(overlap_time_lower_bound(box, other) <= earliest_.latest())) continue;
+      const auto [p, q, r] = at_start.corners[i];
+      const Corners corners{at_start.vertices[p], at_start.vertices[q], at_start.vertices[r]};
+      faces.push_back({indices[i], corners, moving, box});
     }
   }
 
   /// Pairs of the listed faces that may meet, the earliest first.
-  void list_candidates() {
+  /// @param of_one_leaf  both lists are the same: each pair once
+  void list_candidates(bool of_one_leaf) {
     candidates_.clear();
     for (std::uint32_t i = 0; i < faces_a_.size(); ++i)
-      for (std::uint32_t j = 0; j < faces_b_.size(); ++j) {
-        const Face_pair faces{faces_a_[i].face, faces_b_[j].face};
-        const double bound = overlap_time_lower_bound(faces_a_[i].box, faces_b_[j].box);
-        if (earliest_.can_change(bound, faces)) candidates_.push_back({bound, faces, i, j});
+      for (std::uint32_t j = of_one_leaf ? i + 1 : 0; j < faces_b_.size(); ++j) {
+        const Moving_face &a = faces_a_[i], &b = faces_b_[j];
+        const double bound = overlap_time_lower_bound(a.box, b.box);
+        const Face_pair faces = is_within_ ? Face_pair{std::min(a.face, b.face), std::max(a.face, b.face)}
+                                           : Face_pair{a.face, b.face};
+        if (earliest_.can_change(bound, faces) && !(is_within_ && share_vertex(a.corners, b.corners)))
+          candidates_.push_back({bound, faces, i, j});
       }
     std::ranges::sort(candidates_);
   }
 
   const Swept_view& a_;
   const Swept_view& b_;
+  bool is_within_ = false;  ///< both are the same surface
   Earliest earliest_;
   std::priority_queue<Candidate> queue_;
   std::vector<Node_pair> below_;
@@ -231,6 +256,15 @@ std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b, dou
   return Impact_search(a, b, latest).run();
 }
 
+std::optional<Impact> first_self_impact(const Swept_view& surface, double latest) {
+  return Impact_search(surface, latest).run();
+}
+
+std::optional<Impact> first_self_impact(const Moving_surface& surface) {
+  const Tree_surface tree(surface.faces, surface.start);
+  return first_self_impact(Swept_boxes(tree.view(), surface.end).view());
+}
+
 std::optional<Impact> first_impact(const Moving_surface& a, const Moving_surface& b) {
   const Tree_surface tree_a(a.faces, a.start), tree_b(b.faces, b.start);
   const Swept_boxes boxes_a(tree_a.view(), a.end), boxes_b(tree_b.view(), b.end);
@@ -243,6 +277,17 @@ std::optional<Impact> exhaustive_first_impact(const Moving_surface& a, const Mov
     for (std::uint32_t j = 0; j < b.faces.size(); ++j) {
       const Moving_triangle face_a = moving_face(a, i), face_b = moving_face(b, j);
       earliest.offer({i, j}, face_a, face_b, first_impact(face_a, face_b));
+    }
+  return earliest.impact();
+}
+
+std::optional<Impact> exhaustive_first_self_impact(const Moving_surface& surface) {
+  Earliest earliest(1);
+  for (std::uint32_t i = 0; i < surface.faces.size(); ++i)
+    for (std::uint32_t j = i + 1; j < surface.faces.size(); ++j) {
+      if (share_vertex(surface.faces[i], surface.faces[j])) continue;
+      const Moving_triangle face_i = moving_face(surface, i), face_j = moving_face(surface, j);
+      earliest.offer({i, j}, face_i, face_j, first_impact(face_i, face_j));
     }
   return earliest.impact();
 }

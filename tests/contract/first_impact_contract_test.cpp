@@ -33,6 +33,29 @@ template <class Mesh>
 struct First_impact_contract : ::testing::Test {};
 TYPED_TEST_SUITE(First_impact_contract, Mesh_types);
 
+TYPED_TEST(First_impact_contract, of_one_mesh_is_the_same_for_every_mesh_type_and_for_exhaustive_checking) {
+  const auto mesh = converted<TypeParam>(as_float(potato(5)));
+  const auto end = moved_points(mesh, 0, 0, 0);  // turned inside out along x
+  for (const auto v : vertices(mesh)) {
+    const auto p = coordinates(get(end, v));
+    put(end, v, Point(-p.x(), p.y(), p.z()));
+  }
+  const auto found = find_first_self_impact(mesh, end);
+  ASSERT_TRUE(found);
+  const Mesh_numbering<TypeParam> numbering(mesh);
+  const auto own = get(CGAL::vertex_point, mesh);
+  const auto truth = exhaustive_first_self_impact(
+      surface_of(numbering, read_positions(numbering, own), read_positions(numbering, end)));
+  ASSERT_TRUE(truth);
+  EXPECT_GT(found->time, 0);
+  EXPECT_LT(found->time, 1);
+  EXPECT_EQ(found->time, truth->time);
+  EXPECT_EQ(found->faces, truth->faces);
+  EXPECT_EQ(found->point, truth->point);
+  EXPECT_FALSE(find_first_self_impact(mesh, own));
+  EXPECT_FALSE(find_first_self_impact(mesh, own, CGAL::parameters::vertex_point_map(moved_points(mesh, 1, 2, 3))));
+}
+
 TYPED_TEST(First_impact_contract, is_the_same_for_every_mesh_type_and_for_exhaustive_checking) {
   const Surface_mesh ball = as_float(potato(4)), knot = as_float(torus_knot({.segments = 20, .sides = 5}));
   const auto a = converted<TypeParam>(ball), b = converted<TypeParam>(knot);

@@ -63,6 +63,21 @@ TEST(Detector_first_impact, is_that_of_one_call) {
   EXPECT_EQ(swapped->time, impact->time);
 }
 
+TEST(Detector_first_impact, of_one_object_is_that_of_one_call) {
+  Moving_ball ball({0, 0, 0}, {0, 0, 0});
+  ball.end.col(0) *= -1;  // turned inside out
+  Exact_detector detector;
+  const auto id = detector.add(ball.mesh);
+  const auto impact = detector.first_self_impact(id, ball.end);
+  ASSERT_TRUE(impact);
+  expect_same(impact, find_first_self_impact(ball.mesh, ball.end_points()));
+  EXPECT_FALSE(detector.first_self_impact(id, Numbered_mesh(ball.mesh).positions));
+  EXPECT_THROW(detector.first_self_impact(id + 1, ball.end), Bad_argument);
+  EXPECT_THROW(detector.first_self_impact(id, ball.end.topRows(3)), Bad_mesh);
+  ball.end(0, 0) = std::nan("");
+  EXPECT_THROW(detector.first_self_impact(id, ball.end), Bad_mesh);
+}
+
 TEST(Detector_first_impact, starts_where_the_vertices_are_now) {
   Moving_ball a({-3, 0, 0}, {3, 0, 0}), b({3, 0.1, 0}, {-3, 0, 0.3}), near({-1.5, 0, 0}, {3, 0, 0});
   Exact_detector detector;

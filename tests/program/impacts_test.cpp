@@ -104,6 +104,20 @@ TEST_F(Impacts, of_pairs_that_do_not_meet_are_left_out) {
   EXPECT_EQ(met, (std::vector<std::string>{"ac", "bc"}));
 }
 
+TEST_F(Impacts, within_one_object_are_found_with_self) {
+  // Two triangles of one file; the second falls through the first.
+  for (const auto& [name, z] : {std::pair("s0.off", "1"), {"s1.off", "-3"}})
+    folder.write(name, "OFF\n6 2 0\n0 0 0\n4 0 0\n0 4 0\n1 1 " + std::string(z) + "\n2 1 " + z + "\n1 2 " + z +
+                           "\n3 0 1 2\n3 3 4 5\n");
+  expect_success(detect({path("s#.off"), "--self"}));
+  const auto lines = frames();
+  ASSERT_EQ(lines.at(0)["impacts"].size(), 1U);
+  EXPECT_EQ(lines[0]["impacts"][0]["a"], lines[0]["impacts"][0]["b"]);
+  EXPECT_EQ(lines[0]["impacts"][0]["time"], 0.25);
+  EXPECT_EQ(lines[0]["impacts"][0]["faces"], Json({0, 1}));
+  EXPECT_EQ(pairs()[0]["passings"], 1);
+}
+
 TEST_F(Impacts, need_mode_exact_and_two_frames) {
   expect_error(detect({path("still.off"), path("f#.off"), "--mode", "particles"}), 2, "--impacts needs --mode exact");
   expect_error(detect({path("still.off"), path("f0.off")}), 2, "between frames");

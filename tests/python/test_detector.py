@@ -223,6 +223,22 @@ def test_first_impact_of_two_cubes_that_pass_through_each_other():
         detector.first_impact(a, to_the_right, a, to_the_right)
 
 
+def test_first_self_impact_of_a_cube_that_turns_inside_out():
+    detector = lodestone.Detector()
+    box = cube()
+    detector.add(box)
+    end = box.vertices * [-1, 1, 1]
+    impact = detector.first_self_impact(0, end)
+    assert impact["time"] == 0.5 and impact["faces"][0] < impact["faces"][1]
+    one_call = lodestone.first_self_impact(box, end)
+    assert one_call["time"] == 0.5 and one_call["faces"] == impact["faces"]
+    assert detector.first_self_impact(0, box.vertices + [1, 2, 3]) is None
+    with pytest.raises(lodestone.BadMesh, match="8 vertices, but got 7"):
+        detector.first_self_impact(0, end[:7])
+    with pytest.raises(lodestone.BadArgument, match=r"end must have the shape \(n, 3\)"):
+        lodestone.first_self_impact(box, [1, 2, 3])
+
+
 def test_a_visitor_sees_contacts_and_may_stop():
     detector = lodestone.Detector()
     detector.add(cube()), detector.add(cube().moved(0.5, 0.25, 0.125))

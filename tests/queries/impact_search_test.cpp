@@ -106,6 +106,77 @@ TEST(Impact_search, equals_exhaustive_checking_for_any_motion) {
   EXPECT_GT(at_start, 1);
 }
 
+/// Compares the search within an object with exhaustive checking, with several leaf sizes.
+/// @return the time; infinity: never
+double expect_self_impact(const Moving_soup& object) {
+  const auto truth = exhaustive_first_self_impact(object.surface());
+  for (const std::size_t leaf_faces : {2, 10, 128}) {
+    const Posed_object tree(object.start, leaf_faces);
+    expect_equal(first_self_impact(Swept_boxes(tree.view(), object.end.coordinates).view()), truth);
+  }
+  expect_equal(first_self_impact(object.surface()), truth);
+  if (truth) {
+    EXPECT_LT(truth->faces.a, truth->faces.b);
+    expect_point_on_both(object, object, *truth);
+  }
+  return truth ? truth->time : infinity;
+}
+
+TEST(Self_impact, equals_exhaustive_checking_for_any_motion) {
+  std::mt19937_64 random(3);
+  int meet = 0, apart = 0, at_start = 0;
+  for (const auto& object : moving_objects())
+    for (const double strength : {0.01, 0.5, 2.0})
+      for (std::uint64_t seed = 0; seed < 3; ++seed) {
+        SCOPED_TRACE(testing::Message() << object.faces.size() << ' ' << strength << ' ' << seed);
+        const double time = expect_self_impact(Moving_soup(object, crumpled(object, strength, seed)));
+        ++(time == infinity ? apart : time == 0 ? at_start : meet);
+      }
+  EXPECT_GT(meet, 10);
+  EXPECT_GT(apart, 3);
+  EXPECT_GT(at_start, 3);
+}
+
+TEST(Self_impact, of_a_sheet_that_folds_is_where_its_halves_meet) {
+  const Face_soup sheet(cloth(9, 9));
+  Face_soup folded = sheet;
+  double middle = 0;
+  for (std::size_t i = 0; i < sheet.coordinates.size(); i += 3) middle += sheet.coordinates[i];
+  middle *= 3.0 / static_cast<double>(sheet.coordinates.size());
+  // One half turns over onto the other: its far part sinks below it, its near part stays above.
+  for (std::size_t i = 0; i < sheet.coordinates.size(); i += 3) {
+    const double beyond = folded.coordinates[i] - middle;
+    if (beyond <= 0) continue;
+    folded.coordinates[i] = middle - beyond;
+    folded.coordinates[i + 2] += 0.25 - beyond;
+  }
+  const double time = expect_self_impact(Moving_soup(sheet, folded));
+  EXPECT_GT(time, 0);
+  EXPECT_LT(time, 1);
+}
+
+TEST(Self_impact, leaves_out_faces_that_share_a_vertex) {
+  // A hinge that closes: its two faces have an edge in common.
+  const std::vector<Corners> hinge{{0, 1, 2}, {1, 0, 3}};
+  const std::vector<double> open{0, 0, 0, 0, 1, 0, 1, 0, 0, -1, 0, 0}, closed{0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0.25, 0};
+  EXPECT_FALSE(first_self_impact({hinge, open, closed}));
+  // The same faces without a common vertex touch at the start.
+  const std::vector<Corners> apart{{0, 1, 2}, {4, 5, 3}};
+  std::vector<double> touching = open;
+  touching.insert(touching.end(), {0, 1, 0, 0, 0, 0});
+  const auto found = first_self_impact({apart, touching, touching});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->time, 0);
+}
+
+TEST(Self_impact, of_what_moves_as_one_piece_is_none) {
+  for (const Surface_mesh& mesh : {icosphere(6), cloth(12, 10), potato(5)}) {
+    const Face_soup soup(mesh);
+    EXPECT_EQ(expect_self_impact(shifted(soup, 3, 0.1, -7)), infinity);
+    EXPECT_EQ(expect_self_impact(still(soup)), infinity);
+  }
+}
+
 TEST(Impact_search, on_a_lattice_finds_nothing_before_the_impact_and_the_impact) {
   std::mt19937_64 random(2);
   int meet = 0;

@@ -126,6 +126,8 @@ class Exact_detection final : public Detection {
                                      const Eigen::Ref<const Positions>& end_b);
   /// See `Detector::first_impact`.
   std::optional<Object_impact> first_impact(const Collision_filter& filter, std::span<const Positions> ends);
+  /// See `Detector::first_self_impact`.
+  std::optional<Impact> first_self_impact(Object_id object, const Eigen::Ref<const Positions>& end);
   /// See `Detector::within`.
   bool within(Object_pair pair, double distance);
   /// See `Detector::contains`.
@@ -292,6 +294,17 @@ std::optional<Impact> Exact_detection<Volume>::first_impact(Object_pair pair, co
   const Object_motion<Volume> a(objects_.surface(pair.a), std::move(at_end_a)),
       b(objects_.surface(pair.b), std::move(at_end_b));
   return lodestone::first_impact(a.view(), b.view());
+}
+
+template <Bounding_volume Volume>
+std::optional<Impact> Exact_detection<Volume>::first_self_impact(Object_id object,
+                                                                 const Eigen::Ref<const Positions>& end) {
+  Positions at_end = objects_[object].checked(end);
+  const Object_id ids[] = {object};
+  refresh(ids);
+  objects_.pose_all(object);
+  const Object_motion<Volume> motion(objects_.surface(object), std::move(at_end));
+  return lodestone::first_self_impact(motion.view());
 }
 
 template <Bounding_volume Volume>
