@@ -231,6 +231,15 @@ class Detector {
   std::optional<Object_impact> first_impact(std::span<const Positions> ends) {
     return ask<Exact>().first_impact(filter_, ends);
   }
+  /// The first impact of each pair of objects that meet, with what `detect` leaves out left out, in mode `exact`. With
+  /// `Exact_options::self_collision` each object is also paired with itself: see `first_self_impact`. Reads each object
+  /// once; pairs whose boxes around the whole motion are apart cost nothing, the others are shared among the threads.
+  /// @param ends           as in the other call
+  /// @return in the order of the pairs; valid as long as you keep it
+  /// @throws Bad_argument, Bad_mesh  as the other call
+  std::vector<Object_impact> first_impacts(std::span<const Positions> ends) {
+    return ask<Exact>().first_impacts(filter_, ends);
+  }
   /// Whether two objects have points nearer to each other than a distance, or collide, in mode `exact`. Exact and
   /// strict, unlike a comparison with the rounded distance of `closest`; mostly faster than that, too.
   /// @param distance  >= 0, in units of the coordinates; 0: whether they collide

@@ -116,15 +116,32 @@ py::dict first_hits(Python_detector& self, Object_id object, const py::object& o
   return fields;
 }
 
-py::object first_impact_of_all(Python_detector& self, const py::sequence& ends) {
+/// Of two objects, or of one with itself.
+py::dict object_impact_fields(const Object_impact& impact) {
+  py::dict fields = impact_fields(impact.impact);
+  fields["objects"] = py::make_tuple(impact.objects.a, impact.objects.b);
+  return fields;
+}
+
+std::vector<Positions> ends_of(const py::sequence& ends) {
   std::vector<Positions> all(ends.size());
   for (std::size_t i = 0; i < all.size(); ++i)
     if (const py::object end = ends[i]; !end.is_none()) all[i] = positions_of(end, "ends[" + std::to_string(i) + "]");
+  return all;
+}
+
+py::object first_impact_of_all(Python_detector& self, const py::sequence& ends) {
+  const std::vector<Positions> all = ends_of(ends);
   const auto first = self.ask([&](auto& detector) { return detector.first_impact(all); });
-  if (!first) return py::none();
-  py::dict fields = impact_fields(first->impact);
-  fields["objects"] = py::make_tuple(first->objects.a, first->objects.b);
-  return fields;
+  return first ? py::object(object_impact_fields(*first)) : py::none();
+}
+
+py::list first_impacts(Python_detector& self, const py::sequence& ends) {
+  const std::vector<Positions> all = ends_of(ends);
+  py::list impacts;
+  for (const auto& impact : self.ask([&](auto& detector) { return detector.first_impacts(all); }))
+    impacts.append(object_impact_fields(impact));
+  return impacts;
 }
 
 Point point_of(const py::object& point) {
@@ -369,6 +386,9 @@ void add_detector(py::module_& module) {
       .def("first_impact_of_all", first_impact_of_all, py::arg("ends"),
            "The earliest impact of any two objects: a dict with objects, time, faces and point; None if there is none.\n"
            "ends: a list with where the vertices of each object will be, (V, 3), or None or no rows for one that stays.")
+      .def("first_impacts", first_impacts, py::arg("ends"),
+           "The first impact of each pair of objects that meet: a list of dicts as of first_impact_of_all, in the order of\n"
+           "the pairs. With self_collision each object is also paired with itself.")
       .def("within",
            [](Python_detector& self, Object_id a, Object_id b, double distance) {
              return self.ask([&](auto& detector) { return detector.within(a, b, distance); });

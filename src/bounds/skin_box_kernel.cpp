@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bounds/skin_box_kernel.h"
 
+#include <cstddef>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bounds/skin_box_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -28,6 +30,8 @@ HWY_INLINE void widen(const Skinned_node& node, const Joint_range& range, Moved_
   for (std::size_t k = 0; k < position_vectors; ++k) {
     const auto margin = load_position(node.margin, k);
     // What follows in the range fills the fourth lane.
+    static_assert(offsetof(Joint_range, high) == 3 * sizeof(double) &&
+                  offsetof(Joint_range, least) == 6 * sizeof(double));
     const auto from = hn::Sub(hn::Add(load(range.low.data(), k), load_position(node.low, k)), margin);
     const auto to = hn::Add(hn::Add(load(range.high.data(), k), load_position(node.high, k)), margin);
     const auto low = hn::Mul(from, by_half), high = hn::Mul(to, by_half);
@@ -58,12 +62,12 @@ HWY_INLINE Position_vector move(const double* columns, std::size_t k, Moved_rang
 /// max sum_j w_j M_j along the axes of vector `k`: the weight that is not yet given away goes to the greatest ends
 /// first. Overwrites the ends.
 /// @param end   M_j of a joint
-/// @param rest  what the least weights leave of 1
+/// @param rest  per axis: what the least weights leave of 1
 template <class End>
-HWY_INLINE Position_vector greatest_mean(const Skinned_node& node, double rest, std::size_t k, const End& end) {
+HWY_INLINE Position_vector greatest_mean(const Skinned_node& node, const double* rest, std::size_t k, const End& end) {
   const Position_lanes d;
   const auto nothing = hn::Zero(d);
-  auto sum = nothing, left = hn::Set(d, rest), greatest = nothing;
+  auto sum = nothing, left = load(rest, k), greatest = nothing;
   for (std::size_t j = 0; j < node.joint_count; ++j)
     sum = hn::Add(sum, hn::Mul(hn::Set(d, node.ranges[j].least), load(end(j), k)));
   for (std::size_t turn = 0; turn < node.joint_count && !hn::AllFalse(d, hn::Gt(left, nothing)); ++turn) {
@@ -93,9 +97,10 @@ Aabb skin_box_kernel(const Skinned_node& node, Moved_range* moved) {
   const Position_lanes d;
   const auto infinite = hn::Inf(d);
   const auto count = static_cast<double>(node.joint_count + node.most_influences);
-  double rest = 1, reach[3] = {0, 0, 0};
+  double reach[3] = {0, 0, 0};
+  double rest[4] = {1, 1, 1, 0};  // nothing is to be given away in the fourth lane
   for (std::size_t j = 0; j < node.joint_count; ++j) {
-    rest -= node.ranges[j].least;
+    for (int axis = 0; axis < 3; ++axis) rest[axis] -= node.ranges[j].least;
     widen(node, node.ranges[j], moved[j]);
     for (int axis = 0; axis < 3; ++axis)
       reach[axis] = reach[axis] > moved[j].reach[axis] ? reach[axis] : moved[j].reach[axis];

@@ -105,7 +105,12 @@ void Detect_run::pose_all(std::size_t frame) {
   for (std::size_t number = 0; number < scene_.objects.size(); ++number) {
     const bool computed = number < computed_.size() && computed_[number];
     if (computed) computed_[number]->set_frame(frame);
-    if (!computed || shown) pose(scene_.objects[number], frame);
+    if (computed && !shown) continue;
+    auto& object = scene_.objects[number];
+    if (frame > 0 && frame == frame_ahead_)
+      move_to(ahead_[number], object.mesh);
+    else
+      pose(object, frame);
   }
 }
 
@@ -126,7 +131,7 @@ std::string Detect_run::play(std::size_t frame) {
     for (const auto& [a, b, found] : *closest) tally_.distances.push_back({{a, b}, found.points.distance});
   const auto impacts = find_impacts(frame);
   if (impacts)
-    for (const auto& [a, b, found] : *impacts) tally_.impacts.push_back({{a, b}, found.time});
+    for (const auto& [pair, impact] : *impacts) tally_.impacts.push_back({pair, impact.time});
   add(tally_);
   const Frame_findings findings{.frame = result, .truth = truth, .closest = closest, .impacts = impacts};
   std::string line = frame_line(frame, scene_.objects, findings, command_.options, command_.independent_frames);
@@ -172,11 +177,12 @@ std::optional<std::vector<Pair_closest>> Detect_run::find_closest() {
 }
 
 /// None in the last frame, which has no next one.
-std::optional<std::vector<Pair_impact>> Detect_run::find_impacts(std::size_t frame) {
+std::optional<std::vector<Object_impact>> Detect_run::find_impacts(std::size_t frame) {
   if (!command_.impacts || frame + 1 == scene_.frames) return std::nullopt;
-  return impacts_until(scene_, frame + 1, *detector_, [&](Object_pair pair) {
-    return (pair.a != pair.b || command_.options.exact.self_collision) && !scene_.ignores(pair);
-  });
+  frame_ahead_ = 0;
+  ahead_ = positions_in(scene_, frame + 1);
+  frame_ahead_ = frame + 1;
+  return detector_->first_impacts(ahead_);
 }
 
 void Detect_run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {

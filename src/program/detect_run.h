@@ -11,13 +11,13 @@
 #include "lodestone/io/scenes/scene_file.h"
 #include "program/commands.h"
 #include "program/detect_summary.h"
-#include "program/frame_impacts.h"
 #include "program/frame_log.h"
 #include "program/frame_tally.h"
 #include "program/page_log.h"
 #include "program/paraview_log.h"
 #include "program/scene_detector.h"
 #include "program/scene_hash.h"
+#include "program/scene_positions.h"
 
 namespace lodestone {
 
@@ -64,13 +64,16 @@ class Detect_run {
   void for_each_pair(const Visit& visit) const;
   std::optional<std::vector<Pair_truth>> find_truth() const;
   std::optional<std::vector<Pair_closest>> find_closest();
-  std::optional<std::vector<Pair_impact>> find_impacts(std::size_t frame);
+  std::optional<std::vector<Object_impact>> find_impacts(std::size_t frame);
   void compare(const Frame& result, const std::vector<Pair_truth>& truth);
   std::optional<bool> any_truth(const std::optional<std::vector<Pair_truth>>& truth) const;
 
   const Detect_command& command_;
   Scene scene_;
   std::vector<std::unique_ptr<Computed_motion>> computed_;  ///< per object in mode certified; null: read from files
+  /// With --impacts: where all vertices are in the frame after the last one that was played. So each is read once.
+  std::vector<Positions> ahead_;
+  std::size_t frame_ahead_ = 0;  ///< 0: none
   bool asks_once_ = false;
   std::optional<Scene_detector> detector_;  ///< none if the only frame has been made without one
   std::optional<Frame> only_frame_;         ///< the one that has been made so

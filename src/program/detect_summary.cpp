@@ -110,6 +110,12 @@ std::optional<Object_pair> first_pair_to_meet(const Run_summary& summary) {
   return first;
 }
 
+std::size_t count_passings(const Run_summary& summary) {
+  std::size_t count = 0;
+  for (const auto& [pair, results] : summary.pairs) count += results.passings;
+  return count;
+}
+
 std::vector<std::string> table_header(const Detect_command& command) {
   std::vector<std::string> header{"object a", "object b", "frames", "colliding", "first", "last"};
   if (has_tolerance(command.options)) header.emplace_back("near");
@@ -137,7 +143,7 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
   else if (subject.command.closest)
     row.insert(row.end(), {"-", "-"});
   if (const auto& impact = summary.first_impact)
-    row.insert(row.end(), {fmt::format("{:.6g}", in_frames(*impact)), std::to_string(summary.passings)});
+    row.insert(row.end(), {fmt::format("{:.9g}", in_frames(*impact)), std::to_string(summary.passings)});
   else if (subject.command.impacts)
     row.insert(row.end(), {"-", "-"});
   if (subject.has_truth(pair))
@@ -239,8 +245,9 @@ void Run_summary::add(const Frame_tally& tally, bool timed) {
 }
 
 bool Run_summary::finds_any() const {
-  return std::ranges::any_of(
-      pairs, [](const auto& pair) { return pair.second.colliding_frames > 0 || pair.second.near_frames > 0; });
+  return std::ranges::any_of(pairs, [](const auto& pair) {
+    return pair.second.colliding_frames > 0 || pair.second.near_frames > 0 || pair.second.first_impact;
+  });
 }
 
 Json objects_json(const Run_subject& subject) {
@@ -290,8 +297,9 @@ std::string one_line_answer(const Run_subject& subject, const Run_summary& summa
                         subject.scene.objects[pair->a].name, subject.scene.objects[pair->b].name);
   }
   if (const auto pair = first_pair_to_meet(summary))
-    text += fmt::format("; first impact at {:.6g}, of {} and {}", in_frames(*summary.pairs.at(*pair).first_impact),
-                        subject.scene.objects[pair->a].name, subject.scene.objects[pair->b].name);
+    text += fmt::format("; first impact at {:.9g}, of {} and {}; {}", in_frames(*summary.pairs.at(*pair).first_impact),
+                        subject.scene.objects[pair->a].name, subject.scene.objects[pair->b].name,
+                        counted(count_passings(summary), "passing"));
   return text + "\n";
 }
 

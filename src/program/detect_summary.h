@@ -60,7 +60,7 @@ struct Run_summary {
 
   /// @param timed   whether the frame counts in the means and medians; building always counts
   void add(const Frame_tally& tally, bool timed);
-  /// Whether any pair collides, or is near, in any frame.
+  /// Whether any pair collides, is near, or meets on the way, in any frame.
   bool finds_any() const;
 };
 

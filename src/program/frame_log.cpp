@@ -81,14 +81,16 @@ Json closest_json(const std::vector<Scene_object>& objects, std::span<const Pair
   return json;
 }
 
-Json impacts_json(const std::vector<Scene_object>& objects, std::span<const Pair_impact> impacts) {
+Json impacts_json(const std::vector<Scene_object>& objects, std::span<const Object_impact> impacts) {
   Json json = Json::array();
-  for (const auto& [a, b, found] : impacts)
-    json.push_back({{"a", objects[a].name},
-                    {"b", objects[b].name},
-                    {"time", found.time},
-                    {"faces", {objects[a].file_face[found.faces.a], objects[b].file_face[found.faces.b]}},
-                    {"point", {found.point.x(), found.point.y(), found.point.z()}}});
+  for (const auto& [pair, impact] : impacts) {
+    const auto &a = objects[pair.a], &b = objects[pair.b];
+    json.push_back({{"a", a.name},
+                    {"b", b.name},
+                    {"time", impact.time},
+                    {"faces", {a.file_face[impact.faces.a], b.file_face[impact.faces.b]}},
+                    {"point", {impact.point.x(), impact.point.y(), impact.point.z()}}});
+  }
   return json;
 }
 

@@ -10,7 +10,7 @@
 #include "lodestone/detection/frame.h"
 #include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/queries/closest_faces.h"
-#include "program/frame_impacts.h"
+#include "lodestone/queries/impact_search.h"
 
 namespace lodestone {
 
@@ -49,7 +49,7 @@ struct Frame_findings {
   /// Of all pairs. Adds the key `closest`, a list of its own, since `pairs` omits those far apart.
   const std::optional<std::vector<Pair_closest>>& closest;
   /// Of the pairs that meet before the next frame. Adds the key `impacts`.
-  const std::optional<std::vector<Pair_impact>>& impacts;
+  const std::optional<std::vector<Object_impact>>& impacts;
 };
 
 /// One line of `frames.jsonl`, line break included.

@@ -33,11 +33,11 @@ struct Frame_tally {
   std::size_t frame = 0;
   std::vector<Pair_result> pairs = {};  ///< without their places in lists of the frame; only the length of a parting
   Frame_statistics statistics = {};
-  std::vector<Pair_score> scores = {};        ///< with --truth
-  std::vector<Pair_distance> distances = {};  ///< with --closest
+  std::vector<Pair_score> scores = {};         ///< with --truth
+  std::vector<Pair_distance> distances = {};   ///< with --closest
   std::vector<Pair_impact_time> impacts = {};  ///< with --impacts
-  bool contradicted = false;                  ///< something was reported that is not true
-  bool missed = false;                        ///< something true was not reported
+  bool contradicted = false;                   ///< something was reported that is not true
+  bool missed = false;                         ///< something true was not reported
 };
 
 /// On one line, for a shard. Doubles keep their value.

@@ -230,7 +230,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   app.add_flag("--all-rows", command.all_rows, "Print all rows of the table, not only the first 20");
   auto* const json = app.add_flag("--json", command.json, "Print the summary as JSON in place of the table");
   app.add_flag("--quiet", command.quiet, "No progress bar, one line in place of the table")->excludes(json);
-  app.add_flag("--exit-code", command.exit_code, "Exit with 1 if anything collides");
+  app.add_flag("--exit-code", command.exit_code, "Exit with 1 if anything collides, is near or meets");
   add_reading(app, command.reading);
   add_format(app, format);
   app.footer(strategy_list() + "\n\n" + exit_code::help);

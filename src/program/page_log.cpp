@@ -11,6 +11,7 @@
 #include "program/frame_log.h"
 #include "program/missed_frames.h"
 #include "program/page_contacts.h"
+#include "program/scene_positions.h"
 
 namespace lodestone {
 
@@ -43,12 +44,6 @@ std::size_t vertices_of(const Scene& scene) {
   std::size_t vertices = 0;
   for (const auto& object : scene.objects) vertices += object.mesh.number_of_vertices();
   return vertices;
-}
-
-Positions positions_of(const Surface_mesh& mesh) {
-  Positions positions(mesh.number_of_vertices(), 3);
-  for (const auto v : mesh.vertices()) positions.row(v) = coordinates(mesh.point(v));
-  return positions;
 }
 
 Triangle triangle_of(const Surface_mesh& mesh, const Corners& corners) {

@@ -87,7 +87,8 @@ TEST_F(Impacts, are_in_the_table_and_the_line) {
   EXPECT_NE(table.find("| first impact | passings |"), std::string::npos) << table;
   EXPECT_NE(table.find("|        1.125 |        1 |"), std::string::npos) << table;
   const auto line = detect({path("still.off"), path("f#.off"), "--quiet"}).out;
-  EXPECT_EQ(line, "meshes: 0 colliding pairs in 4 frames; first impact at 1.125, of still and f\n");
+  EXPECT_EQ(line, "meshes: 0 colliding pairs in 4 frames; first impact at 1.125, of still and f; 1 passing\n");
+  EXPECT_EQ(detect({path("still.off"), path("f#.off"), "--exit-code"}).exit_code, 1);
 }
 
 TEST_F(Impacts, of_pairs_that_do_not_meet_are_left_out) {

@@ -211,6 +211,9 @@ def test_first_impact_of_two_cubes_that_pass_through_each_other():
     assert of_all["objects"] == (a, b) and of_all["time"] == 0.25 and of_all["faces"] == impact["faces"]
     assert detector.first_impact_of_all([to_the_right, None])["time"] == 0.375
     assert detector.first_impact_of_all([None, None]) is None
+    (of_pair,) = detector.first_impacts([to_the_right, to_the_left])
+    assert of_pair["objects"] == (a, b) and of_pair["time"] == 0.25 and of_pair["faces"] == impact["faces"]
+    assert detector.first_impacts([None, None]) == []
     with pytest.raises(lodestone.BadArgument, match="each of the 2 object ids, but got 1"):
         detector.first_impact_of_all([to_the_right])
     with pytest.raises(lodestone.BadMesh, match="8 vertices, but got 7"):

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -126,6 +127,8 @@ class Exact_detection final : public Detection {
                                      const Eigen::Ref<const Positions>& end_b);
   /// See `Detector::first_impact`.
   std::optional<Object_impact> first_impact(const Collision_filter& filter, std::span<const Positions> ends);
+  /// See `Detector::first_impacts`.
+  std::vector<Object_impact> first_impacts(const Collision_filter& filter, std::span<const Positions> ends);
   /// See `Detector::first_self_impact`.
   std::optional<Impact> first_self_impact(Object_id object, const Eigen::Ref<const Positions>& end);
   /// See `Detector::within`.
@@ -175,6 +178,9 @@ class Exact_detection final : public Detection {
     bool& flag_;
   };
 
+  using Motions = std::vector<std::unique_ptr<const Object_motion<Volume>>>;
+
+  Motions motions_to(std::span<const Positions> ends);
   /// Lists the ids of all objects that have not been removed.
   void list_all();
 
@@ -310,6 +316,18 @@ std::optional<Impact> Exact_detection<Volume>::first_self_impact(Object_id objec
 template <Bounding_volume Volume>
 std::optional<Object_impact> Exact_detection<Volume>::first_impact(const Collision_filter& filter,
                                                                    std::span<const Positions> ends) {
+  return earliest_impact<Volume>(motions_to(ends), filter, broad_phase_);
+}
+
+template <Bounding_volume Volume>
+std::vector<Object_impact> Exact_detection<Volume>::first_impacts(const Collision_filter& filter,
+                                                                  std::span<const Positions> ends) {
+  return impacts_of_pairs<Volume>(motions_to(ends), filter, options_.exact.self_collision, broad_phase_, workers_);
+}
+
+/// Per object id: from where it is to where it will be; null for removed ones.
+template <Bounding_volume Volume>
+auto Exact_detection<Volume>::motions_to(std::span<const Positions> ends) -> Motions {
   if (ends.size() != objects_.size())
     throw Bad_argument("expected one entry for each of the " + std::to_string(objects_.size()) +
                        " object ids, but got " + std::to_string(ends.size()));
@@ -319,12 +337,12 @@ std::optional<Object_impact> Exact_detection<Volume>::first_impact(const Collisi
     if (ends[id].rows() > 0) checked[id] = objects_[id].checked(ends[id]);
   refresh(all_);
   for (const auto id : all_) objects_.pose_all(id);
-  std::vector<std::unique_ptr<const Object_motion<Volume>>> motions(objects_.size());
+  Motions motions(objects_.size());
   workers_.run(all_.size(), [&](std::size_t i, std::size_t) {
     const Object_id id = all_[i];
     motions[id] = std::make_unique<const Object_motion<Volume>>(objects_.surface(id), std::move(checked[id]));
   });
-  return earliest_impact<Volume>(motions, filter, broad_phase_);
+  return motions;
 }
 
 template <Bounding_volume Volume>

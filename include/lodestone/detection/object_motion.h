@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +12,7 @@
 #include "lodestone/detection/broad_phase.h"
 #include "lodestone/detection/collision_filter.h"
 #include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/workers.h"
 #include "lodestone/queries/impact_search.h"
 #include "lodestone/queries/node_boxes.h"
 #include "lodestone/tree/tree_surface.h"
@@ -48,18 +51,49 @@ class Object_motion {
   Swept_boxes swept_;
 };
 
+/// The pairs of objects whose boxes around the whole motion meet, sorted.
+template <Bounding_volume Volume>
+std::span<const Object_pair> pairs_near(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions,
+                                        Broad_phase& broad_phase) {
+  std::vector<Box> boxes(motions.size());
+  for (std::size_t id = 0; id < motions.size(); ++id)
+    if (motions[id]) boxes[id] = motions[id]->box();
+  const std::vector<double> no_reach(motions.size());
+  return broad_phase.find(boxes, no_reach);
+}
+
+/// The first impact of each pair of objects that meet and may collide, in the order of the pairs.
+/// @param motions      by id; null: the object has been removed
+/// @param with_itself  also of each object with itself: of faces that share no vertex
+template <Bounding_volume Volume>
+std::vector<Object_impact> impacts_of_pairs(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions,
+                                            const Collision_filter& filter, bool with_itself, Broad_phase& broad_phase,
+                                            Workers& workers) {
+  std::vector<Object_pair> pairs;
+  for (const auto pair : pairs_near(motions, broad_phase))
+    if (filter.may_collide(pair.a, pair.b)) pairs.push_back(pair);
+  for (std::uint32_t id = 0; with_itself && id < motions.size(); ++id)
+    if (motions[id] && filter.may_collide(id, id)) pairs.push_back({id, id});
+  std::ranges::sort(pairs);
+  std::vector<std::optional<Impact>> found(pairs.size());
+  workers.run(pairs.size(), [&](std::size_t i, std::size_t) {
+    const auto [a, b] = pairs[i];
+    found[i] = a == b ? first_self_impact(motions[a]->view()) : first_impact(motions[a]->view(), motions[b]->view());
+  });
+  std::vector<Object_impact> impacts;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (found[i]) impacts.push_back({pairs[i], *found[i]});
+  return impacts;
+}
+
 /// The earliest impact of two objects that may collide. Pairs that the broad phase finds are sorted, so of several at
 /// exactly the same time it is the lowest.
 /// @param motions  by id; null: the object has been removed
 template <Bounding_volume Volume>
 std::optional<Object_impact> earliest_impact(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions,
                                              const Collision_filter& filter, Broad_phase& broad_phase) {
-  std::vector<Box> boxes(motions.size());
-  for (std::size_t id = 0; id < motions.size(); ++id)
-    if (motions[id]) boxes[id] = motions[id]->box();
-  const std::vector<double> no_reach(motions.size());
   std::optional<Object_impact> first;
-  for (const auto pair : broad_phase.find(boxes, no_reach)) {
+  for (const auto pair : pairs_near(motions, broad_phase)) {
     if (!filter.may_collide(pair.a, pair.b)) continue;
     const double latest = first ? first->impact.exact_time.high() : 1;
     const auto impact = first_impact(motions[pair.a]->view(), motions[pair.b]->view(), latest);
