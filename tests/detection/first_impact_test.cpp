@@ -141,6 +141,38 @@ TEST(Detector_first_impact, of_all_objects_is_the_earliest_of_those_that_may_col
   }
 }
 
+TEST(Detector_first_impact, of_each_pair_is_that_of_the_pair_alone) {
+  for (const std::size_t threads : {1, 2, 5})
+    for (const bool self : {false, true}) {
+      Row_of_balls row;
+      row.ends[1].col(0) *= -1;  // turned inside out on the way
+      Exact_detector detector({.exact = {.self_collision = self, .threads = threads}});
+      for (auto& ball : row.balls) detector.add(ball.mesh);
+      detector.ignore(2, 3);
+      const auto expect_all = [&](Object_id objects) {
+        std::vector<Object_impact> expected;
+        for (Object_id a = 0; a < objects; ++a)
+          for (Object_id b = a; b < objects; ++b) {
+            if ((a == b && !self) || (a == 2 && b == 3)) continue;
+            const auto impact = a == b ? detector.first_self_impact(a, row.ends[a])
+                                       : detector.first_impact(a, row.ends[a], b, row.ends[b]);
+            if (impact) expected.push_back({{a, b}, *impact});
+          }
+        const auto all = detector.first_impacts(row.ends);
+        ASSERT_EQ(all.size(), expected.size());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          EXPECT_EQ(all[i].objects, expected[i].objects);
+          expect_same(all[i].impact, expected[i].impact);
+        }
+        EXPECT_GE(all.size(), self ? 2U : 1U);
+      };
+      expect_all(4);
+      detector.remove(3);
+      expect_all(3);
+      EXPECT_THROW(detector.first_impacts(std::span(row.ends).first(3)), Bad_argument);
+    }
+}
+
 TEST(Detector_first_impact, of_several_pairs_at_the_same_time_is_that_of_the_lowest_ids) {
   Row_of_balls row;
   row.balls[3] = Moving_ball({6, 0, 0}, {0, 0, 0});

@@ -178,6 +178,7 @@ TEST(Out_of_memory, in_a_query_of_two_objects_leaves_a_detector_whose_next_frame
   expect_query_to_survive([](Trial& trial) {
     const std::vector<Positions> at_rest(trial.detector.size());
     trial.detector.first_impact(at_rest);
+    trial.detector.first_impacts(at_rest);
   });
 }
 

@@ -83,6 +83,36 @@ TEST(Many_bodies_threads, containment_does_not_depend_on_their_number) {
 }
 
 /// So many contacts of one pair that several threads compute their points.
+TEST(Many_bodies_threads, first_impacts_do_not_depend_on_their_number) {
+  std::deque<Surface_mesh> owned;
+  std::vector<Positions> ends;
+  for (int x = 0; x < 4; ++x)
+    for (int y = 0; y < 4; ++y) {
+      owned.push_back(sphere(4, 0.3, {1.0 * x, 1.0 * y, 0.1 * x * y}));
+      const Positions now = Numbered_mesh(owned.back()).positions;
+      const Eigen::RowVector3d centre = now.colwise().mean();
+      ends.push_back((2.0 + 0.1 * x) * (now.rowwise() - centre));
+      ends.back().rowwise() += centre;
+    }
+  const auto impacts = [&](std::size_t threads) {
+    Exact_detector detector({.exact = {.self_collision = true, .threads = threads}});
+    add_all(detector, all_of(owned));
+    return detector.first_impacts(ends);
+  };
+  const auto expected = impacts(1);
+  EXPECT_GT(expected.size(), 10U);
+  for (const std::size_t threads : {2, 5}) {
+    const auto found = impacts(threads);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].objects, expected[i].objects);
+      EXPECT_EQ(found[i].impact.faces, expected[i].impact.faces);
+      EXPECT_EQ(found[i].impact.exact_time, expected[i].impact.exact_time);
+      EXPECT_EQ(found[i].impact.point, expected[i].impact.point);
+    }
+  }
+}
+
 TEST(Many_bodies_threads, points_and_normals_of_many_contacts_do_not_depend_on_their_number) {
   const std::deque<Surface_mesh> owned{sphere(45), sphere(44, 1, {0.31, 0.13, 0.07})};
   for (const double tolerance : {0.0, 0.002}) {
