@@ -86,6 +86,22 @@ int run_shard(const Detect_command& command) {
   return exit_code::success;
 }
 
+/// A tally that is of this scene.
+/// @throws Json::exception  it is not
+Frame_tally checked(Frame_tally tally, const Scene& scene) {
+  const auto is_known = [&](Object_pair pair) { return std::max(pair.a, pair.b) < scene.objects.size(); };
+  const auto are_known = [&](const auto& list) {
+    return std::ranges::all_of(list, [&](const auto& entry) { return is_known(entry.pair); });
+  };
+  const bool pairs_are_known = std::ranges::all_of(tally.pairs, [&](const Pair_result& pair) {
+    return is_known({pair.a, pair.b});
+  });
+  if (tally.frame >= scene.frames || !pairs_are_known || !are_known(tally.scores) || !are_known(tally.distances) ||
+      !are_known(tally.impacts))
+    throw Json::out_of_range::create(401, "a frame or an object that the scene does not have", nullptr);
+  return tally;
+}
+
 void merge_shards(Detect_run& scene_run, Atomic_file& frames, const Detect_command& command) {
   const Shard_folder made(command.out);
   const Shard_folder folder(command.out, work_of(made.command(), made.shards(), scene_run), Shard_use::merge);
@@ -93,7 +109,7 @@ void merge_shards(Detect_run& scene_run, Atomic_file& frames, const Detect_comma
   const auto records = folder.read_all([&](std::string_view line) {
     check_interrupt();
     if (is_tally) {
-      scene_run.add(frame_tally_of(parse_shard_line(line)));
+      scene_run.add(checked(frame_tally_of(parse_shard_line(line)), scene_run.scene()));
     } else {
       frames.write(line);
       frames.write("\n");

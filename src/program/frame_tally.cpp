@@ -2,7 +2,11 @@
 #include "program/frame_tally.h"
 
 #include <array>
+#include <concepts>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace lodestone {
 
@@ -19,6 +23,18 @@ constexpr std::array counts{
     &Frame_statistics::violations,    &Frame_statistics::candidates,    &Frame_statistics::openings,
     &Frame_statistics::exact_tests,   &Frame_statistics::builds,        &Frame_statistics::repartitions};
 
+/// Numbers of another kind are not converted: a large one would be undefined behaviour.
+template <std::unsigned_integral Number = std::uint64_t>
+Number count_of(const Json& json, Number most = std::numeric_limits<Number>::max()) {
+  const auto number = json.get_ref<const Json::number_unsigned_t&>();
+  if (number > most) throw Json::out_of_range::create(406, std::to_string(number) + " is too large", &json);
+  return static_cast<Number>(number);
+}
+
+Object_pair object_pair_of(const Json& json) {
+  return {count_of<Object_id>(json.at(0)), count_of<Object_id>(json.at(1))};
+}
+
 Json pair_json(const Pair_result& pair) {
   return {pair.a,
           pair.b,
@@ -31,10 +47,11 @@ Json pair_json(const Pair_result& pair) {
 }
 
 Pair_result pair_of(const Json& json) {
-  Pair_result pair{.a = json.at(0), .b = json.at(1), .collides = json.at(2), .near = json.at(3)};
-  pair.contacts = json.at(4);
+  const auto [a, b] = object_pair_of(json);
+  Pair_result pair{.a = a, .b = b, .collides = json.at(2), .near = json.at(3)};
+  pair.contacts = count_of(json.at(4));
   pair.capped = json.at(5);
-  pair.containment = static_cast<Containment>(json.at(6).get<int>());
+  pair.containment = static_cast<Containment>(count_of(json.at(6), static_cast<std::uint64_t>(Containment::b_in_a)));
   if (!json.at(7).is_null()) pair.parting.emplace().length = json.at(7);
   return pair;
 }
@@ -56,16 +73,16 @@ Json to_json(const Frame_tally& tally) {
 }
 
 Frame_tally frame_tally_of(const Json& json) {
-  Frame_tally tally{.frame = json.at("frame")};
+  Frame_tally tally{.frame = count_of(json.at("frame"))};
   for (const auto& pair : json.at("pairs")) tally.pairs.push_back(pair_of(pair));
   for (std::size_t i = 0; i < stages.size(); ++i) tally.statistics.seconds.*stages[i] = json.at("seconds").at(i);
-  for (std::size_t i = 0; i < counts.size(); ++i) tally.statistics.*counts[i] = json.at("counts").at(i);
+  for (std::size_t i = 0; i < counts.size(); ++i) tally.statistics.*counts[i] = count_of(json.at("counts").at(i));
   for (const auto& score : json.value("scores", Json::array()))
-    tally.scores.push_back({{score.at(0), score.at(1)}, score.at(2), score.at(3)});
+    tally.scores.push_back({object_pair_of(score), score.at(2), score.at(3)});
   for (const auto& least : json.value("distances", Json::array()))
-    tally.distances.push_back({{least.at(0), least.at(1)}, least.at(2)});
+    tally.distances.push_back({object_pair_of(least), least.at(2)});
   for (const auto& impact : json.value("impacts", Json::array()))
-    tally.impacts.push_back({{impact.at(0), impact.at(1)}, impact.at(2)});
+    tally.impacts.push_back({object_pair_of(impact), impact.at(2)});
   tally.contradicted = json.value("contradicted", false);
   tally.missed = json.value("missed", false);
   return tally;
