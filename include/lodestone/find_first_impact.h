@@ -39,7 +39,8 @@ void check_different(const void* a, const void* b);
 ///
 /// The answer is exact, as if all coordinates were rational numbers. Nothing passes through between two frames: meshes
 /// that touch for a moment, and are apart at both ends, have an impact. Meshes that intersect at the start have it at
-/// t = 0. What one mesh does to itself is a question of its own: `find_first_self_impact`. Faces are numbered in the order of `faces(mesh)`.
+/// t = 0. What one mesh does to itself is a question of its own: `find_first_self_impact`. Faces are numbered in the
+/// order of `faces(mesh)`.
 ///
 /// Two trees are built and thrown away, O(F log F); to ask again and again, keep trees: see `first_impact`.
 ///
@@ -69,8 +70,7 @@ std::optional<Impact> find_first_impact(const Mesh_a& a, const End_a& end_a, con
 /// @return the faces, the time and a point; none if there are no such faces. t = 0 if faces that share no vertex
 ///         intersect, or touch, at the start
 /// @throws Bad_mesh  as `find_first_impact`
-template <Triangle_mesh Mesh, Vertex_point_map<Mesh> End,
-          class Parameters = CGAL::parameters::Default_named_parameters>
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> End, class Parameters = CGAL::parameters::Default_named_parameters>
 std::optional<Impact> find_first_self_impact(const Mesh& mesh, const End& end,
                                              const Parameters& np = CGAL::parameters::default_values()) {
   Numbered_motion motion(mesh, vertex_points(mesh, np), end);

@@ -221,8 +221,8 @@ class Impact_search {
       for (std::uint32_t j = of_one_leaf ? i + 1 : 0; j < faces_b_.size(); ++j) {
         const Moving_face &a = faces_a_[i], &b = faces_b_[j];
         const double bound = overlap_time_lower_bound(a.box, b.box);
-        const Face_pair faces = is_within_ ? Face_pair{std::min(a.face, b.face), std::max(a.face, b.face)}
-                                           : Face_pair{a.face, b.face};
+        const Face_pair faces =
+            is_within_ ? Face_pair{std::min(a.face, b.face), std::max(a.face, b.face)} : Face_pair{a.face, b.face};
         if (earliest_.can_change(bound, faces) && !(is_within_ && share_vertex(a.corners, b.corners)))
           candidates_.push_back({bound, faces, i, j});
       }

@@ -51,8 +51,8 @@ class Skin_bound {
 
   /// Number of nodes of the tree.
   std::size_t node_count() const { return range_begin_.size() - 1; }
-  /// The box of a node in the current pose. O(J) for each joint that weight is handed out to: one to three as a rule, at
-  /// most J.
+  /// The box of a node in the current pose. O(J) for each joint that weight is handed out to: one to three as a rule,
+  /// at most J.
   Aabb box(std::uint32_t node) const;
 
  private:
