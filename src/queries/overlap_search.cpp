@@ -113,7 +113,7 @@ bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, co
   most_faces_ = one_is_enough_ && few ? small_group_faces : group_faces;
   const double scale = scale_of(overlap);
   Pair_of_parts whole{box_faces(0, overlap, scale), box_faces(1, overlap, scale)};
-  return search(whole);
+  return search(whole, {true, true});
 }
 
 void Overlap_search::Stack::reserve(std::size_t count) {
@@ -140,35 +140,35 @@ Overlap_search::Part Overlap_search::box_faces(int side, const Box& overlap, dou
 }
 
 /// Halves the longer list. Each half is compared with what it may meet of the other list.
+/// @param to_cull  which lists have not been compared with the box around the other
 /// @return whether the search is over
-bool Overlap_search::search(Pair_of_parts& parts) {
-  while (cull(parts)) {
+bool Overlap_search::search(Pair_of_parts& parts, Sides to_cull) {
+  while (cull(parts, to_cull)) {
     const int longer = parts[1].count > parts[0].count ? 1 : 0, other = 1 - longer;
     if (parts[longer].count <= most_faces_) return test(parts);
     const std::size_t tops[]{stacks_[0].top(), stacks_[1].top()};
     Pair_of_parts halves;
     halves[longer] = take_half(longer, parts[longer]);
     halves[other] = copy_meeting(other, parts[other], halves[longer].box);
-    const bool over = halves[other].count > 0 && search(halves);
+    const bool over = halves[other].count > 0 && search(halves, only(longer));
     for (int side = 0; side < 2; ++side) stacks_[side].drop_to(tops[side]);
     if (over) return true;
+    to_cull = only(other);
   }
   return false;
 }
 
 /// Drops the faces that lie outside the box around the other list, until few are left to drop.
 /// @return whether any pair may meet
-bool Overlap_search::cull(Pair_of_parts& parts) {
-  for (bool again = true; again;) {
-    again = false;
-    for (int side = 0; side < 2; ++side) {
-      Part& part = parts[side];
-      Rounded_box* boxes = stacks_[side].at(part.begin);
-      const std::size_t count = kernel::cull(boxes, part.count, parts[1 - side].box, boxes, part.box);
-      again |= 8 * (part.count - count) > part.count;
-      part.count = count;
-      if (count == 0) return false;
-    }
+bool Overlap_search::cull(Pair_of_parts& parts, Sides to_cull) {
+  for (int side = to_cull[0] ? 0 : 1; to_cull[side]; side = 1 - side) {
+    Part& part = parts[side];
+    Rounded_box* boxes = stacks_[side].at(part.begin);
+    const std::size_t count = kernel::cull(boxes, part.count, parts[1 - side].box, boxes, part.box);
+    to_cull[side] = false;
+    if (8 * (part.count - count) > part.count) to_cull[1 - side] = true;
+    part.count = count;
+    if (count == 0) return false;
   }
   return true;
 }

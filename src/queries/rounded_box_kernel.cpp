@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "queries/rounded_box_kernel.h"
 
-#include <bit>
+#include <cstdint>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -41,17 +41,29 @@ HWY_INLINE void copy(const Rounded_box& from, Rounded_box& to) {
   for (std::size_t i = 0; i < box_vectors; ++i) store(load(from, i), to, i);
 }
 
+/// 1 or 0, of which the compiler does not know that it is a condition: it would branch on it.
+HWY_INLINE std::uint32_t as_number(bool condition) {
+  std::uint32_t number = condition ? 1 : 0;
+#if defined(__GNUC__)
+  asm("" : "+r"(number));
+#endif
+  return number;
+}
+
 /// A box that grows around others.
 class Growing {
  public:
   HWY_INLINE Growing() {
     for (std::size_t i = 0; i < box_vectors; ++i) least_[i] = load(nothing, i);
   }
-  HWY_INLINE void add(const Rounded_box& box) {
-    for (std::size_t i = 0; i < box_vectors; ++i) least_[i] = hn::Min(least_[i], load(box, i));
+  /// Branchless, since which boxes are added is unpredictable.
+  HWY_INLINE void add_if(std::uint32_t added, const Rounded_box& box) {
+    const Box_lanes d;
+    const hn::RebindToSigned<Box_lanes> bits;
+    const auto all = hn::MaskFromVec(hn::BitCast(d, hn::Set(bits, -static_cast<std::int32_t>(added))));
+    for (std::size_t i = 0; i < box_vectors; ++i)
+      least_[i] = hn::Min(least_[i], hn::IfThenElse(all, load(box, i), load(nothing, i)));
   }
-  /// Selects by address, since which boxes are added is unpredictable.
-  HWY_INLINE void add_if(bool added, const Rounded_box& box) { add(added ? box : nothing); }
   HWY_INLINE Rounded_box box() const {
     Rounded_box around;
     for (std::size_t i = 0; i < box_vectors; ++i) store(least_[i], around, i);
@@ -95,30 +107,51 @@ HWY_INLINE hn::Vec<Narrow_lanes> rounded(const Box_rounding& rounding, Position_
   return hn::DemoteTo(Narrow_lanes(), inside);
 }
 
-HWY_INLINE Rounded_box box_face(const double* coordinates, const Face_corners& corners, const Box_rounding& rounding) {
-  const Narrow_lanes d;
-  alignas(32) float numbers[8];
+/// The numbers of a box around one face, or around several: those of `low`, then those of `negated_high`.
+struct Rounded_sides {
+  hn::Vec<Narrow_lanes> low[position_vectors], negated_high[position_vectors];
+};
+
+HWY_INLINE Rounded_sides sides_of_face(const double* coordinates, const Face_corners& corners,
+                                       const Box_rounding& rounding) {
+  Rounded_sides sides;
   for (std::size_t i = 0; i < position_vectors; ++i) {
     const auto p = load_position(coordinates + 3 * std::size_t{corners[0]}, i);
     const auto q = load_position(coordinates + 3 * std::size_t{corners[1]}, i);
     const auto r = load_position(coordinates + 3 * std::size_t{corners[2]}, i);
-    const auto low = rounded(rounding, hn::Min(hn::Min(p, q), r), i);
-    const auto high = rounded(rounding, hn::Max(hn::Max(p, q), r), i);
-    hn::Store(low, d, numbers + i * position_lanes);
-    hn::Store(hn::Neg(high), d, numbers + 4 + i * position_lanes);
+    sides.low[i] = rounded(rounding, hn::Min(hn::Min(p, q), r), i);
+    sides.negated_high[i] = hn::Neg(rounded(rounding, hn::Max(hn::Max(p, q), r), i));
   }
-  return std::bit_cast<Rounded_box>(numbers);
+  return sides;
+}
+
+HWY_INLINE void store(const Rounded_sides& sides, std::uint32_t index, Rounded_box& box) {
+  const Narrow_lanes d;
+  for (std::size_t i = 0; i < position_vectors; ++i) {
+    hn::StoreU(sides.low[i], d, reinterpret_cast<float*>(&box) + i * position_lanes);
+    hn::StoreU(sides.negated_high[i], d, reinterpret_cast<float*>(&box) + 4 + i * position_lanes);
+  }
+  box.index = index;
 }
 
 Rounded_box box_faces_kernel(const double* coordinates, const Face_corners* corners, std::size_t count,
                              const Box_rounding& rounding, Rounded_box* boxes) {
-  Growing around;
+  const Narrow_lanes d;
+  Rounded_sides around;
+  for (std::size_t i = 0; i < position_vectors; ++i)
+    around.low[i] = around.negated_high[i] = hn::Set(d, std::numeric_limits<float>::max());
   for (std::size_t face = 0; face < count; ++face) {
-    boxes[face] = box_face(coordinates, corners[face], rounding);
-    boxes[face].index = static_cast<std::uint32_t>(face);
-    around.add(boxes[face]);
+    const Rounded_sides sides = sides_of_face(coordinates, corners[face], rounding);
+    // A box that has just been written in parts is slow to read as a whole.
+    for (std::size_t i = 0; i < position_vectors; ++i) {
+      around.low[i] = hn::Min(around.low[i], sides.low[i]);
+      around.negated_high[i] = hn::Min(around.negated_high[i], sides.negated_high[i]);
+    }
+    store(sides, static_cast<std::uint32_t>(face), boxes[face]);
   }
-  return around.box();
+  Rounded_box box;
+  store(around, 0, box);
+  return box;
 }
 
 std::size_t cull_kernel(const Rounded_box* from, std::size_t count, const Rounded_box& other, Rounded_box* to,
@@ -127,10 +160,10 @@ std::size_t cull_kernel(const Rounded_box* from, std::size_t count, const Rounde
   Growing growing;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool meets = meeting.with(from[i]);
+    const std::uint32_t meets = as_number(meeting.with(from[i]));
     growing.add_if(meets, from[i]);
     copy(from[i], to[kept]);
-    kept += meets ? 1 : 0;
+    kept += meets;
   }
   around = growing.box();
   return kept;
@@ -140,13 +173,13 @@ Halves split_kernel(Rounded_box* from, std::size_t count, int axis, float twice_
   Halves halves;
   Growing below, above;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool is_below = from[i].low[axis] - from[i].negated_high[axis] < twice_at;
+    const std::uint32_t is_below = as_number(from[i].low[axis] - from[i].negated_high[axis] < twice_at);
     below.add_if(is_below, from[i]);
-    above.add_if(!is_below, from[i]);
+    above.add_if(1 - is_below, from[i]);
     copy(from[i], to[halves.below]);
     copy(from[i], from[halves.above]);
-    halves.below += is_below ? 1 : 0;
-    halves.above += is_below ? 0 : 1;
+    halves.below += is_below;
+    halves.above += 1 - is_below;
   }
   halves.around_below = below.box();
   halves.around_above = above.box();

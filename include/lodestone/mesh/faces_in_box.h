@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "lodestone/mesh/box.h"
 #include "lodestone/mesh/coordinate_reader.h"
 #include "lodestone/mesh/coordinates.h"
+#include "lodestone/mesh/triangle_corners.h"
 #include "lodestone/mesh/unset_vector.h"
 
 namespace lodestone {
@@ -63,9 +66,7 @@ class Box_reader {
  private:
   static constexpr bool in_memory = Coordinate_reader<Mesh, Points>::in_memory;
 
-  Coordinates memory() const requires in_memory {
-    return Coordinate_reader<Mesh, Points>::memory(*mesh_, points_);
-  }
+  Coordinates memory() const requires in_memory { return Coordinate_reader<Mesh, Points>::memory(*mesh_, points_); }
   /// Whether the numbers of faces and edges prove that every face is a triangle, which they can if there is no border:
   /// a face has at least three edges. O(1).
   bool all_triangles_by_count() const {
@@ -74,6 +75,9 @@ class Box_reader {
   }
   template <class Use>
   bool for_each_face(Use use) const;
+  template <class Use>
+  bool use_triangle(std::uint32_t index, Face<Mesh> f, bool all_triangles, Use use) const;
+  bool select(std::span<const std::uint8_t> sides, Faces_in_box& found) const requires in_memory;
 
   const Mesh* mesh_;
   Points points_;
@@ -99,20 +103,60 @@ bool Box_reader<Mesh, Points>::read_positions() {
   }
 }
 
-/// Calls `use(face, p, q, r)` with the index and the corners of each face.
+/// Calls `use(face, p, q, r)` with the index and the corners of a face.
+/// @return false if it is no triangle
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
+template <class Use>
+bool Box_reader<Mesh, Points>::use_triangle(std::uint32_t index, Face<Mesh> f, bool all_triangles, Use use) const {
+  const auto first = halfedge(f, *mesh_);
+  if (!all_triangles && !is_triangle(first, *mesh_)) return false;
+  const auto [p, q, r] = triangle_corners(first, *mesh_);
+  use(index, p, q, r);
+  return true;
+}
+
+/// The same for each face.
 /// @return false if a face is no triangle
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 template <class Use>
 bool Box_reader<Mesh, Points>::for_each_face(Use use) const {
   const bool all_triangles = all_triangles_by_count();
-  std::uint32_t face = 0;
-  for (const auto f : faces(*mesh_)) {
-    const auto first = halfedge(f, *mesh_);
-    const auto second = next(first, *mesh_);
-    const auto third = next(second, *mesh_);
-    if (!all_triangles && next(third, *mesh_) != first) return false;
-    use(face++, target(first, *mesh_), target(second, *mesh_), target(third, *mesh_));
+  std::uint32_t index = 0;
+  for (const auto f : faces(*mesh_))
+    if (!use_triangle(index++, f, all_triangles, use)) return false;
+  return true;
+}
+
+/// Lists the faces whose corners do not all lie beyond one side.
+/// @param sides  of each vertex
+/// @return false if a face is no triangle
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
+bool Box_reader<Mesh, Points>::select(std::span<const std::uint8_t> sides,
+                                      Faces_in_box& found) const requires in_memory {
+  static_assert(Vertex_table<Mesh>::by_index);  // no face has been removed: to ask before each face takes time
+  constexpr std::size_t block = 1024;
+  const bool all_triangles = all_triangles_by_count();
+  const std::size_t face_count = num_faces(*mesh_);
+  std::size_t count = 0;
+  for (std::size_t first = 0; first < face_count; first += block) {
+    // Most faces lie outside the box: room for all at once would be memory that nobody needs.
+    if (found.faces.size() < count + block) {
+      found.faces.resize(2 * count + 4 * block);
+      found.corners.resize(2 * count + 4 * block);
+    }
+    // Every face is written, and kept by counting it: whether it is kept can hardly be predicted.
+    const auto add = [&count, faces = found.faces.data(), corners = found.corners.data(), beyond = sides.data()](
+                         std::uint32_t face, auto p, auto q, auto r) {
+      faces[count] = face;
+      corners[count] = {p, q, r};
+      count += (beyond[p] & beyond[q] & beyond[r]) == 0 ? 1 : 0;
+    };
+    const auto end = static_cast<std::uint32_t>(std::min(first + block, face_count));
+    for (auto face = static_cast<std::uint32_t>(first); face < end; ++face)
+      if (!use_triangle(face, Face<Mesh>(face), all_triangles, add)) return false;
   }
+  found.faces.resize(count);
+  found.corners.resize(count);
   return true;
 }
 
@@ -120,21 +164,8 @@ template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 bool Box_reader<Mesh, Points>::read_faces(const Box& part, Faces_in_box& found) const {
   if (part.isEmpty()) return all_triangles_by_count() || for_each_face([](auto&&...) {});
   if constexpr (in_memory) {
-    const auto beyond = sides_beyond(memory(), part);
     found.coordinates = memory();
-    found.faces.resize(num_faces(*mesh_));
-    found.corners.resize(num_faces(*mesh_));
-    std::size_t count = 0;
-    // Every face is written, and kept by counting it: whether it is kept can hardly be predicted.
-    const bool triangles = for_each_face([&, faces = found.faces.data(), corners = found.corners.data(),
-                                          sides = beyond.data()](std::uint32_t face, auto p, auto q, auto r) {
-      faces[count] = face;
-      corners[count] = {p, q, r};
-      count += (sides[p] & sides[q] & sides[r]) == 0 ? 1 : 0;
-    });
-    found.faces.resize(count);
-    found.corners.resize(count);
-    return triangles;
+    return select(sides_beyond(memory(), part), found);
   } else {
     const bool triangles = for_each_face([&](std::uint32_t face, auto... corners) {
       const Eigen::Vector3d positions[]{coordinates(get(points_, corners))...};

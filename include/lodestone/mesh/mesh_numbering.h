@@ -14,6 +14,7 @@
 
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/triangle_corners.h"
 
 namespace lodestone {
 
@@ -123,11 +124,10 @@ void Mesh_numbering<Mesh>::check_counts(const Mesh& mesh) {
 template <Triangle_mesh Mesh>
 template <class Face>
 Corners Mesh_numbering<Mesh>::corners_of(Face f, std::size_t face, const Mesh& mesh) const {
-  const auto h = halfedge(f, mesh);
-  const auto second = next(h, mesh);
-  const auto third = next(second, mesh);
-  if (next(third, mesh) != h) throw Bad_mesh("face " + std::to_string(face) + " is not a triangle");
-  return {index(target(h, mesh)), index(target(second, mesh)), index(target(third, mesh))};
+  const auto first = halfedge(f, mesh);
+  if (!is_triangle(first, mesh)) throw Bad_mesh("face " + std::to_string(face) + " is not a triangle");
+  const auto [p, q, r] = triangle_corners(first, mesh);
+  return {index(p), index(q), index(r)};
 }
 
 template <Triangle_mesh Mesh>

@@ -39,6 +39,8 @@ class Overlap_search {
     Rounded_box box;
   };
   using Pair_of_parts = std::array<Part, 2>;
+  using Sides = std::array<bool, 2>;
+  static Sides only(int side) { return {side == 0, side == 1}; }
 
   /// Boxes of faces. What lies on top of a list goes before the list does.
   class Stack {
@@ -63,8 +65,8 @@ class Overlap_search {
   bool search_slice(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
   bool search_all(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
   Part box_faces(int side, const Box& overlap, double scale);
-  bool search(Pair_of_parts& parts);
-  bool cull(Pair_of_parts& parts);
+  bool search(Pair_of_parts& parts, Sides to_cull);
+  bool cull(Pair_of_parts& parts, Sides to_cull);
   Part copy_meeting(int side, const Part& from, const Rounded_box& other);
   Part take_half(int side, Part& whole);
   Part take_median(int side, Part& whole, int axis);
