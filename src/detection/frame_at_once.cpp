@@ -77,7 +77,7 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
     count_tests(contacts, result, builder.statistics());
     builder.end_pair(
         result, [&](Object_id, std::uint32_t face) { return surface_triangle(surface, face); }, workers);
-    builder.add_patches(surface, surface, tolerance);
+    builder.add_patches(surface, surface, tolerance, workers);
   });
   return builder.finish();
 }

@@ -34,13 +34,14 @@ void Frame_builder::clear_pairs() {
   frame_.object_iterations.clear();
 }
 
-void Frame_builder::add_patches(const Object_surface& a, const Object_surface& b, double tolerance) {
+void Frame_builder::add_patches(const Object_surface& a, const Object_surface& b, double tolerance, Workers& workers) {
   if (!patches_) return;
   Pair_result& pair = frame_.pairs.back();
   const auto of_pair = [&pair](const auto& list) { return std::span(list).subspan(pair.first_contact, pair.contacts); };
   const Contact_geometry contacts{frame_.contacts(pair), of_pair(frame_.contact_points),
                                   of_pair(frame_.contact_normals)};
-  for (Contact_patch& patch : contact_patches(a, b, contacts, tolerance)) frame_.patches.push_back(std::move(patch));
+  for (Contact_patch& patch : contact_patches(a, b, contacts, tolerance, workers))
+    frame_.patches.push_back(std::move(patch));
   pair.patches = frame_.patches.size() - pair.first_patch;
 }
 

@@ -7,9 +7,8 @@
 #include <boost/property_map/property_map.hpp>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "lodestone/queries/surface_triangle.h"
 #include "lodestone/triangles/triangle_distance.h"
@@ -30,111 +29,173 @@ struct Partner {
 
 /// A vertex or an edge of the partner in a contact.
 struct Link {
-  std::array<std::uint32_t, 2> vertices;  ///< ascending; the second is `no_vertex` for a vertex
-  std::uint32_t contact;
+  std::uint64_t place;  ///< see `edge` and `vertex`
+  std::uint32_t index;  ///< of the contact among those of its face
+  auto operator<=>(const Link&) const = default;
+
+  static std::uint64_t edge(std::uint32_t v, std::uint32_t w) {
+    const auto [low, high] = std::minmax(v, w);
+    return std::uint64_t{low} << 32U | high;
+  }
+  /// After all edges.
+  static std::uint64_t vertex(std::uint32_t v) { return std::uint64_t{no_vertex} << 32U | v; }
+  /// Both ends of an edge, or a vertex twice.
+  std::array<std::uint32_t, 2> ends() const {
+    const auto first = static_cast<std::uint32_t>(place >> 32U), second = static_cast<std::uint32_t>(place);
+    return {first == no_vertex ? second : first, second};
+  }
 };
 
 /// Sets of contacts, which are merged.
 class Contact_sets {
  public:
-  explicit Contact_sets(std::size_t contacts)
-      : rank_(contacts), parent_(contacts), sets_(rank_.data(), parent_.data()) {
+  /// Each contact is a set of its own.
+  void start(std::size_t contacts) {
+    rank_.assign(contacts, 0);
+    parent_.resize(contacts);
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
-  Contact_sets(const Contact_sets&) = delete;
-
-  void join(std::uint32_t a, std::uint32_t b) { sets_.union_set(a, b); }
-  std::uint32_t set_of(std::uint32_t contact) { return sets_.find_set(contact); }
+  void join(std::uint32_t a, std::uint32_t b) { sets().union_set(a, b); }
+  std::uint32_t set_of(std::uint32_t contact) { return sets().find_set(contact); }
 
  private:
+  boost::disjoint_sets<std::uint32_t*, std::uint32_t*> sets() { return {rank_.data(), parent_.data()}; }
+
   std::vector<std::uint32_t> rank_, parent_;
-  boost::disjoint_sets<std::uint32_t*, std::uint32_t*> sets_;
 };
 
-/// Links contacts that have a face in common.
+/// Two contacts that are linked.
+using Joint = std::array<std::uint32_t, 2>;
+
+/// Links contacts that have a face in common. Keeps its memory from one face to the next.
 class Linking {
  public:
-  Linking(double tolerance, Contact_sets& sets) : tolerance_(tolerance), sets_(sets) {}
+  /// @param faces, partners  surfaces of the two faces of a contact
+  Linking(const Object_surface& faces, const Object_surface& partners, double tolerance)
+      : faces_(faces), partners_(partners), tolerance_(tolerance) {}
 
-  /// @param faces, partners    surfaces of the two faces of a contact
-  /// @param contacts           sorted
-  void link(const Object_surface& faces, const Object_surface& partners, std::span<const Partner> contacts) {
-    for (auto first = contacts.begin(); first != contacts.end();) {
-      const auto end = std::find_if(first, contacts.end(), [&](const Partner& p) { return p.face != first->face; });
-      if (end - first > 1) link_around(faces, first->face, partners, {first, end});
+  /// Appends enough joints to connect all contacts of one face that are linked.
+  /// @param contacts  of the face
+  void link(std::span<const Partner> contacts, std::vector<Joint>& joints) {
+    if (contacts.size() < 2) return;
+    const std::uint32_t face = contacts.front().face;
+    list_links(&faces_ == &partners_ ? faces_.corners()[face] : Corners{no_vertex, no_vertex, no_vertex}, contacts);
+    sets_.start(contacts.size());
+    const Triangle triangle = surface_triangle(faces_, face);
+    for (auto first = links_.begin(); first != links_.end();) {
+      const auto end = std::find_if(first, links_.end(), [&](const Link& l) { return l.place != first->place; });
+      // Most contacts have been linked across an edge when it is the turn of its ends.
+      const bool apart = std::any_of(
+          first + 1, end, [&](const Link& l) { return sets_.set_of(l.index) != sets_.set_of(first->index); });
+      if (apart && is_in_contact(first->ends(), triangle))
+        for (auto link = first + 1; link != end; ++link) {
+          sets_.join(first->index, link->index);
+          joints.push_back({contacts[first->index].contact, contacts[link->index].contact});
+        }
       first = end;
     }
   }
 
  private:
-  /// Links the contacts of one face.
-  void link_around(const Object_surface& faces, std::uint32_t face, const Object_surface& partners,
-                   std::span<const Partner> contacts) {
-    list_links(&faces == &partners ? faces.corners()[face] : Corners{no_vertex, no_vertex, no_vertex}, partners,
-               contacts);
-    const Triangle triangle = surface_triangle(faces, face);
-    for (auto first = links_.begin(); first != links_.end();) {
-      const auto end = std::find_if(first, links_.end(), [&](const Link& l) { return l.vertices != first->vertices; });
-      // Most contacts have been linked across an edge when it is the turn of its ends.
-      const bool apart = std::any_of(
-          first, end, [&](const Link& l) { return sets_.set_of(l.contact) != sets_.set_of(first->contact); });
-      if (apart && is_in_contact(partners, first->vertices, triangle))
-        for (auto link = first; link != end; ++link) sets_.join(first->contact, link->contact);
-      first = end;
-    }
-  }
-
   /// The edges of all partners, then their vertices. Those at a corner of the face itself touch it anyway: left out.
-  void list_links(const Corners& own, const Object_surface& partners, std::span<const Partner> contacts) {
+  void list_links(const Corners& own, std::span<const Partner> contacts) {
     const auto is_own = [&](std::uint32_t v) { return std::ranges::find(own, v) != own.end(); };
     links_.clear();
-    for (const Partner& contact : contacts) {
-      const Corners& corners = partners.corners()[contact.partner];
+    for (std::uint32_t index = 0; index < contacts.size(); ++index) {
+      const Corners& corners = partners_.corners()[contacts[index].partner];
       for (std::size_t i = 0; i < 3; ++i) {
-        const auto [v, w] = std::minmax(corners[i], corners[(i + 1) % 3]);
-        if (!is_own(v) && !is_own(w)) links_.push_back({{v, w}, contact.contact});
-        if (!is_own(corners[i])) links_.push_back({{corners[i], no_vertex}, contact.contact});
+        const std::uint32_t v = corners[i], w = corners[(i + 1) % 3];
+        if (is_own(v)) continue;
+        links_.push_back({Link::vertex(v), index});
+        if (!is_own(w)) links_.push_back({Link::edge(v, w), index});
       }
     }
-    std::ranges::sort(links_, {}, [](const Link& l) {
-      return std::tuple(l.vertices[1] == no_vertex, l.vertices[0], l.vertices[1], l.contact);
-    });
+    std::ranges::sort(links_);
   }
 
-  bool is_in_contact(const Object_surface& surface, const std::array<std::uint32_t, 2>& vertices,
-                     const Triangle& triangle) const {
+  bool is_in_contact(const std::array<std::uint32_t, 2>& ends, const Triangle& triangle) const {
     const auto point = [&](std::uint32_t v) {
-      const double* p = surface.coordinates().data() + 3 * std::size_t{v};
+      const double* p = partners_.coordinates().data() + 3 * std::size_t{v};
       return Point(p[0], p[1], p[2]);
     };
-    const Point first = point(vertices[0]), last = vertices[1] == no_vertex ? first : point(vertices[1]);
-    return triangles_nearer_than({first, last, last}, triangle, tolerance_);
+    const Point first = point(ends[0]), last = point(ends[1]);
+    return tolerance_ > 0 ? triangles_nearer_than({first, last, last}, triangle, tolerance_)
+                          : segment_intersects(first, last, triangle);
   }
 
+  const Object_surface& faces_;
+  const Object_surface& partners_;
   double tolerance_;
-  Contact_sets& sets_;
   std::vector<Link> links_;
+  Contact_sets sets_;
 };
 
-void link_contacts(const Object_surface& a, const Object_surface& b, std::span<const Face_pair> contacts,
-                   double tolerance, Contact_sets& sets) {
+/// The contacts as the faces of one surface see them.
+class Seen_contacts {
+ public:
+  /// @param contacts  that have faces of the surface, in any order
+  Seen_contacts(const Object_surface& faces, const Object_surface& partners, std::vector<Partner> contacts)
+      : faces_(&faces), partners_(&partners), contacts_(std::move(contacts)) {
+    if (!std::ranges::is_sorted(contacts_)) std::ranges::sort(contacts_);
+    for (std::size_t first = 0; first < contacts_.size();) {
+      begin_.push_back(first);
+      const std::uint32_t face = contacts_[first].face;
+      while (first < contacts_.size() && contacts_[first].face == face) ++first;
+    }
+    begin_.push_back(contacts_.size());
+  }
+
+  std::size_t batches() const { return (face_count() + batch_faces - 1) / batch_faces; }
+  /// The joints of the contacts of some faces.
+  std::vector<Joint> joints_of(std::size_t batch, double tolerance) const {
+    std::vector<Joint> joints;
+    Linking linking(*faces_, *partners_, tolerance);
+    const std::size_t end = std::min((batch + 1) * batch_faces, face_count());
+    for (std::size_t i = batch * batch_faces; i < end; ++i)
+      linking.link(std::span(contacts_).subspan(begin_[i], begin_[i + 1] - begin_[i]), joints);
+    return joints;
+  }
+
+ private:
+  static constexpr std::size_t batch_faces = 64;
+
+  std::size_t face_count() const { return begin_.size() - 1; }
+
+  const Object_surface *faces_, *partners_;
+  std::vector<Partner> contacts_;   ///< sorted
+  std::vector<std::size_t> begin_;  ///< per face with contacts and past the last: the first of them
+};
+
+/// The contacts as either surface sees them, or as the only one does.
+std::vector<Seen_contacts> seen_contacts(const Object_surface& a, const Object_surface& b,
+                                         std::span<const Face_pair> contacts) {
   std::vector<Partner> of_a, of_b;
   for (std::uint32_t i = 0; i < contacts.size(); ++i) {
     of_a.push_back({contacts[i].a, contacts[i].b, i});
     of_b.push_back({contacts[i].b, contacts[i].a, i});
   }
-  Linking linking(tolerance, sets);
-  const auto link = [&](const Object_surface& faces, const Object_surface& partners, std::vector<Partner>& list) {
-    std::ranges::sort(list);
-    linking.link(faces, partners, list);
-  };
+  std::vector<Seen_contacts> seen;
   if (&a == &b) {
     // One face can be the first of one pair and the second of another.
     of_a.insert(of_a.end(), of_b.begin(), of_b.end());
-    return link(a, a, of_a);
+    seen.emplace_back(a, a, std::move(of_a));
+  } else {
+    seen.emplace_back(a, b, std::move(of_a));
+    seen.emplace_back(b, a, std::move(of_b));
   }
-  link(a, b, of_a);
-  link(b, a, of_b);
+  return seen;
+}
+
+void link_contacts(std::span<const Seen_contacts> seen, double tolerance, Contact_sets& sets, Workers& workers) {
+  constexpr std::size_t batches_worth_sharing = 8;  // fewer take less time than waking another thread
+  const std::size_t of_first = seen.front().batches(), batches = of_first + (seen.size() > 1 ? seen[1].batches() : 0);
+  std::vector<std::vector<Joint>> joints(batches);
+  Workers& sharing = batches < batches_worth_sharing ? Workers::alone() : workers;
+  sharing.run(batches, [&](std::size_t i, std::size_t) {
+    joints[i] = i < of_first ? seen[0].joints_of(i, tolerance) : seen[1].joints_of(i - of_first, tolerance);
+  });
+  for (const auto& of_batch : joints)
+    for (const auto& [a, b] : of_batch) sets.join(a, b);
 }
 
 Eigen::Vector3d vector_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
@@ -186,15 +247,20 @@ void measure(Contact_patch& patch, const Contact_geometry& contacts) {
 }  // namespace
 
 std::vector<Contact_patch> contact_patches(const Object_surface& a, const Object_surface& b,
-                                           const Contact_geometry& contacts, double tolerance) {
-  Contact_sets sets(contacts.faces.size());
-  link_contacts(a, b, contacts.faces, tolerance, sets);
+                                           const Contact_geometry& contacts, double tolerance, Workers& workers) {
+  Contact_sets sets;
+  sets.start(contacts.faces.size());
+  link_contacts(seen_contacts(a, b, contacts.faces), tolerance, sets, workers);
   std::vector<Contact_patch> patches;
-  std::map<std::uint32_t, std::size_t> patch_of;
+  constexpr auto none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> patch_of_set(contacts.faces.size(), none);
   for (std::uint32_t i = 0; i < contacts.faces.size(); ++i) {
-    const auto [entry, is_new] = patch_of.try_emplace(sets.set_of(i), patches.size());
-    if (is_new) patches.emplace_back();
-    patches[entry->second].contacts.push_back(i);
+    std::size_t& patch = patch_of_set[sets.set_of(i)];
+    if (patch == none) {
+      patch = patches.size();
+      patches.emplace_back();
+    }
+    patches[patch].contacts.push_back(i);
   }
   for (Contact_patch& patch : patches) measure(patch, contacts);
   return patches;

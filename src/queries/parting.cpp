@@ -20,7 +20,7 @@ namespace {
 
 /// The normal of all contacts together, then those of the contact patches.
 std::vector<Eigen::Vector3d> normals_between(const Object_surface& a, const Object_surface& b,
-                                             std::span<const Face_pair> contacts) {
+                                             std::span<const Face_pair> contacts, Workers& workers) {
   std::vector<Triangle_pair> faces;
   for (const Face_pair contact : contacts)
     faces.push_back({surface_triangle(a, contact.a), surface_triangle(b, contact.b)});
@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3d> normals_between(const Object_surface& a, const Obje
   triangle_intersections(faces, points);
   contact_normals(faces, normals);
   std::vector<Eigen::Vector3d> directions{Eigen::Vector3d::Zero()};
-  for (const Contact_patch& patch : contact_patches(a, b, {contacts, points, normals}, 0)) {
+  for (const Contact_patch& patch : contact_patches(a, b, {contacts, points, normals}, 0, workers)) {
     directions.front() += static_cast<double>(patch.contacts.size()) * patch.normal;
     directions.push_back(patch.normal);
   }
@@ -164,7 +164,8 @@ Parting parting(const Object_surface& surface_a, const Layout_view& a, const Obj
                 const Layout_view& b, std::span<const Face_pair> contacts, Workers& workers) {
   Shared_search search(a, b, workers);
   std::vector<Eigen::Vector3d> ways;
-  for (const Eigen::Vector3d& normal : normals_between(surface_a, surface_b, contacts)) add_both_ways(normal, ways);
+  for (const Eigen::Vector3d& normal : normals_between(surface_a, surface_b, contacts, workers))
+    add_both_ways(normal, ways);
   add_both_ways(search.any().centre_difference(), ways);
   if (contacts.empty()) add_both_ways(closest_faces(a, b).points.direction, ways);
   add_axes_and_diagonals(ways);

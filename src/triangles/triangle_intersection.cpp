@@ -164,6 +164,14 @@ bool triangles_intersect_given(const Triangle_corners& a, const Triangle_corners
   return triangles_intersect(triangle_of(a), triangle_of(b));
 }
 
+bool segment_intersects(const Point& p, const Point& q, const Triangle& triangle) {
+  const Triangle_corners corners{&*triangle[0].cartesian_begin(), &*triangle[1].cartesian_begin(),
+                                 &*triangle[2].cartesian_begin()};
+  const double *from = &*p.cartesian_begin(), *to = &*q.cartesian_begin();
+  return passes_through(from, to, corners) || passes_through(to, from, corners) ||
+         triangles_intersect({p, q, q}, triangle);
+}
+
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b) {
   const Triangle_pair pair{a, b};
   Intersection_points points;

@@ -498,7 +498,7 @@ void Exact_detection<Volume>::check(std::size_t candidate) {
   frame_.end_pair(
       result, [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); },
       workers_);
-  frame_.add_patches(objects_.surface(pair.a), objects_.surface(pair.b), tolerance(pair));
+  frame_.add_patches(objects_.surface(pair.a), objects_.surface(pair.b), tolerance(pair), workers_);
 }
 
 /// Whether one object lies inside the other, and how to part the two.

@@ -67,7 +67,9 @@ class Frame_builder {
   /// Groups the contacts of the last pair into contact patches, if the options ask for them.
   /// @param a, b       surfaces of its objects
   /// @param tolerance  below which faces are contacts
-  void add_patches(const Object_surface& a, const Object_surface& b, double tolerance);
+  /// @param workers    that share the work
+  void add_patches(const Object_surface& a, const Object_surface& b, double tolerance,
+                   Workers& workers = Workers::alone());
 
   /// Forgets what the pairs hold, to find it anew.
   void clear_pairs();

@@ -8,6 +8,7 @@
 
 #include "lodestone/mesh/object_surface.h"
 #include "lodestone/mesh/pairs.h"
+#include "lodestone/mesh/workers.h"
 #include "lodestone/triangles/contact_normal.h"
 #include "lodestone/triangles/triangle_intersection.h"
 
@@ -37,12 +38,14 @@ struct Contact_geometry {
 ///
 /// In `point` and `normal` each contact counts by the length of the segment in which its faces meet, or by the outline
 /// of the polygon. If all lengths of a patch are zero, as where faces touch in points or are only near, each contact
-/// counts the same. Several times the cost of points and normals, O(n log n) for n contacts.
+/// counts the same. About the cost of points and normals, O(n log n) for n contacts.
 ///
 /// @param a, b       the same object for the contacts of one surface with itself
 /// @param contacts   of the current positions
 /// @param tolerance  below which faces are contacts; 0: where they intersect
+/// @param workers    that share the work
 std::vector<Contact_patch> contact_patches(const Object_surface& a, const Object_surface& b,
-                                           const Contact_geometry& contacts, double tolerance);
+                                           const Contact_geometry& contacts, double tolerance,
+                                           Workers& workers = Workers::alone());
 
 }  // namespace lodestone
