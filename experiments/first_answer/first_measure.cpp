@@ -16,7 +16,7 @@ namespace lodestone {
 
 namespace {
 
-constexpr std::size_t most_rounds = 15;
+constexpr std::size_t most_rounds = 60;
 /// Per contestant, scene and question; beyond, it starts no further round.
 constexpr double enough_seconds = 1;
 /// Frames after the first answer, per round.

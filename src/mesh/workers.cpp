@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <vector>
 
+#include "mesh/crew.h"
 #include "mesh/thread_order.h"
 
 namespace lodestone {
@@ -81,8 +83,7 @@ void Workers::run(std::size_t tasks, const std::function<void(std::size_t, std::
     return;
   }
   First_failure failure(tasks);
-  const auto run_task = [&](std::size_t index) {
-    const auto worker = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+  const auto run_task = [&](std::size_t index, std::size_t worker) {
     comes_after(&failure);
     comes_after(threads_->marks.data() + worker);  // another thread can have been this worker before
     run_unless_failed(task, index, worker, failure);
@@ -90,7 +91,12 @@ void Workers::run(std::size_t tasks, const std::function<void(std::size_t, std::
     comes_before(threads_->marks.data() + count_);
   };
   comes_before(&failure);
-  threads_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, tasks, run_task, tbb::simple_partitioner()); });
+  if (!Crew::of_process().run(threads_->arena, count_, tasks, std::cref(run_task))) {
+    const auto run_here = [&](std::size_t index) {
+      run_task(index, static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
+    };
+    threads_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, tasks, run_here, tbb::simple_partitioner()); });
+  }
   comes_after(threads_->marks.data() + count_);
   failure.rethrow();
 }

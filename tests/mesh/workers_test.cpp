@@ -143,6 +143,37 @@ TEST(Workers, can_be_nested) {
   EXPECT_EQ(done, 100);
 }
 
+TEST(Workers, of_several_threads_at_once_run_each_task_once_again_and_again) {
+  using namespace std::chrono_literals;
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 5);
+  std::vector<std::thread> callers;
+  for (const std::size_t threads : {2, 3, 5})
+    callers.emplace_back([threads] {
+      Workers workers(threads);
+      for (std::size_t run = 0; run < 3000; ++run) {
+        std::vector<std::atomic<int>> times(run % 40);
+        std::vector<std::atomic<bool>> busy(workers.count());
+        workers.run(times.size(), [&](std::size_t index, std::size_t worker) {
+          EXPECT_FALSE(busy.at(worker).exchange(true));
+          ++times.at(index);
+          busy.at(worker) = false;
+        });
+        for (const auto& count : times) ASSERT_EQ(count, 1);
+        if (run % 100 == 0) std::this_thread::sleep_for(std::chrono::microseconds(run / 10));  // some leave meanwhile
+      }
+    });
+  for (auto& caller : callers) caller.join();
+}
+
+TEST(Workers, can_end_while_their_threads_wait_for_more) {
+  for (int repeat = 0; repeat < 300; ++repeat) {
+    Workers workers(3);
+    std::atomic<int> done = 0;
+    workers.run(10, [&](std::size_t, std::size_t) { ++done; });
+    ASSERT_EQ(done, 10);
+  }
+}
+
 TEST(Workers, can_be_moved) {
   for (const std::size_t threads : {1, 3}) {
     Workers first(threads);
