@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cfenv>
 #include <chrono>
 #include <stdexcept>
 #include <string>
@@ -163,6 +164,35 @@ TEST(Workers, of_several_threads_at_once_run_each_task_once_again_and_again) {
       }
     });
   for (auto& caller : callers) caller.join();
+}
+
+TEST(Workers, compute_in_the_floating_point_environment_of_the_caller) {
+  using namespace std::chrono_literals;
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 3);
+  Workers workers(3);
+  for (const int rounding : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TONEAREST}) {
+    std::fesetround(rounding);
+    std::atomic<int> others = 0;
+    workers.run(300, [&](std::size_t, std::size_t) {
+      if (std::fegetround() != rounding) ++others;
+      std::this_thread::sleep_for(20us);
+    });
+    EXPECT_EQ(others, 0) << rounding;
+  }
+}
+
+TEST(Workers, are_the_caller_alone_where_a_global_control_has_come_to_allow_no_more) {
+  using namespace std::chrono_literals;
+  Workers workers(2);
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  const auto caller = std::this_thread::get_id();
+  std::atomic<int> others = 0;
+  for (int run = 0; run < 20; ++run)
+    workers.run(50, [&](std::size_t, std::size_t) {
+      if (std::this_thread::get_id() != caller) ++others;
+      std::this_thread::sleep_for(20us);
+    });
+  EXPECT_EQ(others, 0);
 }
 
 TEST(Workers, can_end_while_their_threads_wait_for_more) {

@@ -7,7 +7,8 @@
 
 namespace lodestone {
 
-/// A group of threads that share tasks.
+/// A group of threads that share tasks. But for `alone()`, it serves one thread at a time, and not its own tasks: these
+/// may use another group.
 class Workers {
  public:
   /// @param threads  number of threads, limited to as many as the machine has, or as a `tbb::global_control` allows if
