@@ -38,7 +38,7 @@ class Crew {
   bool run(tbb::task_arena& arena, std::size_t workers, std::size_t tasks, const Task& task);
 
  private:
-  static constexpr std::size_t most_members = 64;
+  static constexpr std::size_t most_members = 255;
 
   /// Tasks that a worker has not begun yet.
   struct Left {

@@ -376,5 +376,24 @@ TEST(Triangle_intersection, is_rounded_to_a_neighbouring_double) {
   EXPECT_EQ(points[0].z(), 0);
 }
 
+TEST(Segment_intersects, is_true_exactly_where_a_triangle_without_area_meets_the_other) {
+  std::mt19937_64 random(1);
+  std::uniform_int_distribution<int> number(-2, 2);
+  int meeting = 0, points = 0;
+  for (const double scale : {1.0, 0x1p-1060, 0x1p1000})
+    for (int i = 0; i < 20000; ++i) {
+      const auto point = [&] { return Point(scale * number(random), scale * number(random), scale * number(random)); };
+      const Point p = point(), q = i % 8 == 0 ? p : point();
+      const Triangle triangle{point(), point(), point()};
+      const bool meets = triangles_intersect({p, q, q}, triangle);
+      ASSERT_EQ(segment_intersects(p, q, triangle), meets) << p << ", " << q;
+      ASSERT_EQ(segment_intersects(q, p, triangle), meets) << p << ", " << q;
+      meeting += meets ? 1 : 0;
+      points += meets && p == q ? 1 : 0;
+    }
+  EXPECT_GT(meeting, 5000);
+  EXPECT_GT(points, 100);
+}
+
 }  // namespace
 }  // namespace lodestone
