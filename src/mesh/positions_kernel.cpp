@@ -18,9 +18,9 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Lane i of vector v is an x, y or z, by (v * lanes + i) modulo 3: three vectors in turn keep the axes apart.
-class Growing_box {
+class Box_of_positions {
  public:
-  HWY_INLINE Growing_box() {
+  HWY_INLINE Box_of_positions() {
     const Double_lanes d;
     for (std::size_t v = 0; v < 3; ++v) {
       low_[v] = hn::Inf(d);
@@ -62,7 +62,7 @@ class Growing_box {
 };
 
 bool bound_positions_kernel(const double* coordinates, std::size_t positions, double* low, double* high) {
-  Growing_box box;
+  Box_of_positions box;
   std::size_t position = 0;
   for (; position + double_lanes <= positions; position += double_lanes) box.add(coordinates + 3 * position);
   std::fill_n(low, 3, std::numeric_limits<double>::infinity());
