@@ -38,7 +38,7 @@ struct Contact_geometry {
 ///
 /// In `point` and `normal` each contact counts by the length of the segment in which its faces meet, or by the outline
 /// of the polygon. If all lengths of a patch are zero, as where faces touch in points or are only near, each contact
-/// counts the same. About the cost of points and normals, O(n log n) for n contacts.
+/// counts the same. One to two times the cost of points and normals, O(n log n) for n contacts.
 ///
 /// @param a, b       the same object for the contacts of one surface with itself
 /// @param contacts   of the current positions
