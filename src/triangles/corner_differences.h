@@ -56,7 +56,8 @@ inline Scaled_differences scaled_differences(const Triangle& a, const Triangle& 
   };
   Scaled_differences scaled{corner_differences<double>(a, b, [](double x) { return x; })};
   double size = greatest(scaled.vectors);
-  if (!std::isfinite(size)) {
+  // An edge is at most twice as long as the longest of `between`, so it could overflow where those do not.
+  if (!(size < 0x1p1022)) {
     scaled.vectors = corner_differences<double>(a, b, [](double x) { return 0.5 * x; });
     scaled.exponent = 1;
     size = greatest(scaled.vectors);

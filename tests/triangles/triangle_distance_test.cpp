@@ -123,6 +123,16 @@ TEST(Closest_points, of_the_greatest_coordinates_are_finite) {
   EXPECT_EQ(closest_points(middle, low).distance, most);
 }
 
+TEST(Closest_points, are_at_distance_zero_where_only_an_edge_is_longer_than_the_greatest_double) {
+  // Found by fuzzing. No corner of one is so far from one of the other.
+  constexpr double far = 0x1p1023;
+  const Triangle high{Point(0, 1, 0.75 * far), Point(0, 0, -1.5 * far), Point(0, 0, -0.5 * far)};
+  const Triangle touching{Point(0, 0, -far), Point(0, -1, 0), Point(0, -1, 0)};
+  ASSERT_TRUE(triangles_intersect(high, touching));
+  EXPECT_EQ(closest_points(high, touching).distance, 0);
+  EXPECT_EQ(closest_points(touching, high).distance, 0);
+}
+
 TEST(Triangles_nearer_than, equals_the_oracle_to_the_last_digit) {
   for_pairs(60, [](const Triangle& a, const Triangle& b) {
     const Rational squared = exact_squared_distance(a, b);
