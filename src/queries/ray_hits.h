@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lodestone/queries/ray_search.h"
+#include "queries/ray_walk_kernel.h"
 #include "triangles/ray_depth.h"
 
 /// What searches along a ray collect.
@@ -33,6 +34,8 @@ bool is_before(const Ray_frame& frame, Hit_on_ray& a, Hit_on_ray& b);
 /// The first of all hits, or none.
 class First_hit {
  public:
+  static constexpr auto until = kernel::Walk_until::first_hit;
+
   explicit First_hit(const Ray_frame& frame) : frame_(frame) {}
 
   /// Faces that are surely beyond this depth are of no use.
@@ -52,6 +55,8 @@ class First_hit {
 /// All hits, sorted.
 class Every_hit {
  public:
+  static constexpr auto until = kernel::Walk_until::end;
+
   explicit Every_hit(const Ray_frame& frame) : frame_(frame) {}
 
   double most_depth() const { return frame_.most_limit; }
@@ -65,17 +70,49 @@ class Every_hit {
   std::vector<Hit_on_ray> hits_;
 };
 
-/// Adds a face to a collector if the ray meets it.
+/// Tests faces against rays, some at once, and adds those that a ray meets to its collector.
 template <class Collector>
-void test_face(const Ray_frame& frame, const Triangle_corners& corners, std::uint32_t face, Collector& collector) {
-  const Depth_estimate estimate = estimate_depth(frame, corners);
-  if (estimate.meets == Depth_estimate::Meets::no || estimate.low > collector.most_depth()) return;
-  Hit_on_ray hit{face, triangle_of(corners), estimate.low, estimate.high};
-  if (estimate.meets == Depth_estimate::Meets::unsure) {
-    hit.exact = exact_depth(frame, hit.triangle);
-    if (!hit.exact) return;
+class Face_tests {
+ public:
+  /// @param frame, collector  of the ray; must stay until `finish`, as the corners
+  void add(const Ray_frame& frame, const Triangle_corners& corners, std::uint32_t face, Collector& collector) {
+    ask(frame, corners, questions_, count_);
+    tests_[count_] = {&frame, corners, face, &collector};
+    if (++count_ == kernel::most_depth_questions) finish();
   }
-  collector.add(std::move(hit));
-}
+
+  /// Tests those that are left.
+  void finish() {
+    if (count_ == 0) return;
+    kernel::Depth_estimates estimates;
+    kernel::estimate_depths(questions_, estimates);
+    for (std::size_t i = 0; i < count_; ++i)
+      if ((estimates.misses >> i & 1U) == 0)
+        collect(tests_[i], estimates.low[i], estimates.high[i], (estimates.meets >> i & 1U) != 0);
+    count_ = 0;
+  }
+
+ private:
+  struct Test {
+    const Ray_frame* frame;
+    Triangle_corners corners;
+    std::uint32_t face;
+    Collector* collector;
+  };
+
+  static void collect(const Test& test, double low, double high, bool surely_meets) {
+    if (low > test.collector->most_depth()) return;
+    Hit_on_ray hit{test.face, triangle_of(test.corners), low, high};
+    if (!surely_meets) {
+      hit.exact = exact_depth(*test.frame, hit.triangle);
+      if (!hit.exact) return;
+    }
+    test.collector->add(std::move(hit));
+  }
+
+  kernel::Depth_questions questions_{};
+  Test tests_[kernel::most_depth_questions];
+  std::size_t count_ = 0;
+};
 
 }  // namespace lodestone

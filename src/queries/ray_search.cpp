@@ -166,7 +166,8 @@ class Ray_search {
     const std::size_t count =
         kernel::list_ray_candidates(leaf, input_, frame_error(reach(box)), collector_.most_depth(), candidates);
     for (std::size_t i = 0; i < count; ++i)
-      test_face(frame_, leaf_triangle(leaf, candidates[i]), surface_.layout().faces(index)[candidates[i]], collector_);
+      tests_.add(frame_, leaf_triangle(leaf, candidates[i]), surface_.layout().faces(index)[candidates[i]], collector_);
+    tests_.finish();
   }
 
   /// The largest coordinate of a point of a box, as seen from the origin.
@@ -182,6 +183,7 @@ class Ray_search {
   const Ray_frame& frame_;
   Box_entry entry_;
   Collector& collector_;
+  Face_tests<Collector> tests_;
   kernel::Ray_input input_;
   boost::container::small_vector<Node_ahead, 64> waiting_;  ///< the first `count_`, the next one last
   std::size_t count_ = 0;

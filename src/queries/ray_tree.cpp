@@ -2,13 +2,13 @@
 #include "lodestone/queries/ray_tree.h"
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
+#include <bit>
 #include <boost/container/static_vector.hpp>
 
 #include "lodestone/queries/ask_each.h"
 #include "queries/ray_hits.h"
+#include "queries/ray_start_kernel.h"
 #include "queries/ray_tree_builder.h"
-#include "queries/relative_ray.h"
 
 namespace lodestone {
 
@@ -19,82 +19,81 @@ constexpr std::size_t rays_per_task = 128;
 
 /// Asks for some rays, which walk in turns.
 template <class Collector, class Answer>
-class Ray_group final : public kernel::Ray_visitor {
+class Ray_group final {
  public:
   Ray_group(const Ray_tree& tree, std::span<const Ray> rays, std::span<Answer> answers)
       : tree_(tree), rays_(rays), answers_(answers) {}
 
   void run() {
-    const std::size_t count = std::min(rays_.size(), usual_walkers), room = tree_.most_waiting();
-    boost::container::small_vector<std::uint64_t, 64 * usual_walkers> waiting(count * room,
-                                                                              boost::container::default_init);
-    boost::container::static_vector<Walk, usual_walkers> walks(count);
-    boost::container::static_vector<kernel::Ray_walker*, usual_walkers> walkers;
-    for (Walk& walk : walks) {
-      walk.waiting = waiting.data() + walkers.size() * room;
-      if (start_next(walk)) walkers.push_back(&walk);
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      check(rays_[i]);
+      questions_.emplace_back(rays_[i]);
     }
-    kernel::walk_rays({tree_.nodes().data(), tree_.blocks().data()}, std::span(walkers.data(), walkers.size()), *this);
+    if (tree_.nodes().empty()) {
+      for (std::size_t i = 0; i < rays_.size(); ++i) ask_surface(i);
+      return;
+    }
+    for (std::size_t first = 0; first < rays_.size(); first += ray_tree_width) start(first);
+    kernel::Ray_candidate_list candidates;
+    kernel::walk_rays({tree_.nodes().data(), tree_.blocks().data(), tree_.most_waiting()}, walks_,
+                      std::span(walking_.data(), walking_.size()), Collector::until, candidates);
+    for (const kernel::Ray_candidates& found : candidates.get()) test(found);
+    tests_.finish();
+    for (const std::uint32_t ray : walking_) answers_[ray] = questions_[ray].collector.result();
   }
 
  private:
-  static constexpr std::size_t usual_walkers = 8;
-  static_assert(usual_walkers <= kernel::most_ray_walkers);
-
   struct Question {
-    Question(const Ray_tree& tree, const Ray& asked, Answer& place)
-        : frame(asked.origin, asked.direction, asked.length), ray(tree, frame), collector(frame), answer(place) {}
+    explicit Question(const Ray& ray) : frame(ray.origin, ray.direction, ray.length), collector(frame) {}
+    Question(const Question&) = delete;
 
     Ray_frame frame;
-    Relative_ray ray;
     Collector collector;
-    Answer& answer;
-
-    float most_depth() const { return ray.walk_depth(collector.most_depth()); }
-  };
-  struct Walk : kernel::Ray_walker {
-    std::optional<Question> question;
   };
 
-  float visit(kernel::Ray_walker& walker, const Ray_block& block, std::size_t lane) override {
-    Question& question = *static_cast<Walk&>(walker).question;
-    const double* const coordinates = tree_.surface().coordinates.data();
-    const auto corner = [&](std::size_t i) { return coordinates + 3 * std::size_t{block.vertices[i][lane]}; };
-    test_face(question.frame, {corner(0), corner(1), corner(2)}, block.faces[lane], question.collector);
-    return question.most_depth();
-  }
+  void ask_surface(std::size_t ray) { answers_[ray] = Collector::ask(tree_.surface(), rays_[ray]); }
 
-  bool end(kernel::Ray_walker& walker) override {
-    Walk& walk = static_cast<Walk&>(walker);
-    walk.question->answer = walk.question->collector.result();
-    return start_next(walk);
-  }
-
-  /// Answers the next rays, up to one that has to walk.
-  /// @return false if there is none
-  bool start_next(Walk& walk) {
-    while (next_ < rays_.size()) {
-      const Ray& ray = rays_[next_];
-      Answer& answer = answers_[next_++];
-      check(ray);
-      const Question& question = walk.question.emplace(tree_, ray, answer);
-      if (tree_.nodes().empty() || !question.ray.is_near()) {
-        answer = Collector::ask(tree_.surface(), ray);
-      } else if (question.ray.meets_box()) {
-        walk.ray = question.ray.walk();
-        walk.most = question.most_depth();
-        walk.next = 0;
-        walk.end_waiting = walk.waiting;
-        return true;
+  /// Starts as many rays as a vector holds.
+  void start(std::size_t first) {
+    const std::size_t count = std::min(ray_tree_width, rays_.size() - first);
+    kernel::Ray_numbers numbers;
+    for (std::size_t lane = 0; lane < ray_tree_width; ++lane) {
+      const Ray_frame& frame = questions_[first + std::min(lane, count - 1)].frame;
+      for (int axis = 0; axis < 3; ++axis) {
+        numbers.origin[axis][lane] = frame.origin[axis];
+        numbers.direction[axis][lane] = frame.direction[axis];
       }
+      numbers.limit[lane] = frame.most_limit;
     }
-    return false;
+    const auto& middle = tree_.middle();
+    const auto starts =
+        kernel::start_rays({{middle[0], middle[1], middle[2]}, tree_.scale()}, numbers, walks_[first / ray_tree_width]);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if ((starts.near >> lane & 1U) == 0)
+        ask_surface(first + lane);
+      else if ((starts.walks >> lane & 1U) != 0)
+        walking_.push_back(static_cast<std::uint32_t>(first + lane));
+    }
+  }
+
+  void test(const kernel::Ray_candidates& found) {
+    Question& question = questions_[found.ray];
+    const Ray_block& block = tree_.blocks()[found.block];
+    const double* const coordinates = tree_.surface().coordinates.data();
+    for (std::uint32_t lanes = found.lanes; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      const auto corner = [&](std::size_t i) { return coordinates + 3 * std::size_t{block.vertices[i][lane]}; };
+      tests_.add(question.frame, {corner(0), corner(1), corner(2)}, block.faces[lane], question.collector);
+    }
   }
 
   const Ray_tree& tree_;
   std::span<const Ray> rays_;
   std::span<Answer> answers_;
-  std::size_t next_ = 0;
+  boost::container::static_vector<Question, rays_per_task> questions_;
+  boost::container::static_vector<std::uint32_t, rays_per_task> walking_;
+  Face_tests<Collector> tests_;
+  kernel::Ray_walks walks_[rays_per_task / ray_tree_width];
 };
 
 template <class Collector, class Answer>

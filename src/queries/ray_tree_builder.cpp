@@ -20,6 +20,9 @@ static_assert(most_leaf_faces <= 1U << face_bits);
 static_assert(most_leaf_faces / ray_tree_width <= 1U << (32 - along_bits - face_bits),
               "a strip has at least one block");
 
+/// A relative coordinate that no ray comes to.
+constexpr float beyond_all_rays = 0x1p30F;
+
 /// The least spread that is told apart.
 constexpr float tiny = 0x1p-30F;
 
@@ -36,7 +39,7 @@ std::pair<std::size_t, std::size_t> longest_axes(const std::array<float, 3>& low
 constexpr std::size_t leaves_per_task = 64;
 
 /// Children of a node, as a rule.
-constexpr std::size_t usual_children = 6;
+constexpr std::size_t usual_children = 8;
 
 }  // namespace
 
@@ -157,8 +160,9 @@ void Ray_tree_builder::add_block(std::uint32_t leaf, std::uint32_t index, std::s
     for (std::size_t c = 0; c < 3; ++c) {
       block.vertices[c][lane] = vertices[corners[face][c]];
       const auto& p = memory.corners[3 * face + c];
-      for (std::size_t axis = 0; axis < 3; ++axis) block.corners[c][axis][lane] = p[axis];
-      box.extend({p, p});
+      const bool is_face = lane < faces.size();
+      for (std::size_t axis = 0; axis < 3; ++axis) block.corners[c][axis][lane] = is_face ? p[axis] : beyond_all_rays;
+      if (is_face) box.extend({p, p});
     }
   }
 }

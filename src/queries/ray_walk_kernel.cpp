@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <boost/container/small_vector.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "queries/ray_walk_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "simd/lane_lists.h"
 #include "simd/vector_types-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,41 +28,116 @@ constexpr std::size_t step = hn::MaxLanes(Lanes());
 HWY_INLINE Lane_values greatest(Lane_values a, Lane_values b, Lane_values c) { return hn::Max(hn::Max(a, b), c); }
 HWY_INLINE Lane_values least(Lane_values a, Lane_values b, Lane_values c) { return hn::Min(hn::Min(a, b), c); }
 
-/// Finds the children of a node that the ray may meet, by the slabs between their sides \cite kay1986.
-/// @param depths  of the boxes' nearest points, per child
-/// @return a bit per child
-HWY_INLINE std::uint32_t meet_children(const Ray_node& node, const Ray_walk& ray, float most, float* depths) {
+/// A child and the depth at which a ray enters it, as one number: children that are entered later are greater.
+using Keys = hn::CappedTag<std::int64_t, ray_tree_width>;
+constexpr std::size_t key_step = hn::MaxLanes(Keys());
+constexpr std::int64_t end_of_walk = 0xffffffff;  ///< waits below all others, at depth 0
+constexpr std::uint32_t missed_depth = 0x7fffffff;
+constexpr std::int64_t missed_key = std::int64_t{missed_depth} << 32;  ///< no key of a child that is met is as great
+
+HWY_INLINE std::uint32_t child_of(std::int64_t key) { return static_cast<std::uint32_t>(key); }
+
+/// The least key that is deeper.
+HWY_INLINE std::int64_t deeper_key(float depth) {
+  return (std::int64_t{std::bit_cast<std::uint32_t>(std::max(depth, 0.0F))} + 1) << 32;
+}
+
+/// A ray on its walk.
+struct Walker {
+  const Ray_walks* walks;  ///< it and its neighbours
+  std::uint32_t lane;      ///< its place there
+  std::uint32_t ray;       ///< its index
+  float most;              ///< how deep it has to go
+  std::int64_t next;       ///< what it visits next
+  std::int64_t* bottom;    ///< what may have to be visited later, the end of the walk first
+  std::int64_t* waiting;   ///< past the last of that
+};
+
+/// Where a ray enters the children of a node, by the slabs between their sides \cite kay1986.
+/// @param depths  bits of the depths, per child; `missed_depth` where it misses
+HWY_INLINE void enter_children(const Ray_node& node, const Walker& walker, std::uint32_t* depths) {
+  const Ray_walks& walks = *walker.walks;
+  const std::size_t ray = walker.lane;
   const Lanes d;
+  const hn::RebindToUnsigned<Lanes> bits;
   const float* const sides = node.sides[0][0];
-  std::uint32_t bits = 0;
   for (std::size_t i = 0; i < ray_tree_width; i += step) {
     const auto enter = [&](int axis) HWY_ATTR {
-      return hn::MulSub(hn::Load(d, sides + ray.near_side[axis] + i), hn::Set(d, ray.inverse[axis]),
-                        hn::Set(d, ray.enter[axis]));
+      return hn::MulSub(hn::Load(d, sides + walks.near_side[axis][ray] + i), hn::Set(d, walks.inverse[axis][ray]),
+                        hn::Set(d, walks.enter[axis][ray]));
     };
     const auto leave = [&](int axis) HWY_ATTR {
-      return hn::MulSub(hn::Load(d, sides + ray.far_side[axis] + i), hn::Set(d, ray.inverse[axis]),
-                        hn::Set(d, ray.leave[axis]));
+      return hn::MulSub(hn::Load(d, sides + walks.far_side[axis][ray] + i), hn::Set(d, walks.inverse[axis][ray]),
+                        hn::Set(d, walks.leave[axis][ray]));
     };
-    const Lane_values first = hn::Max(hn::Max(enter(0), hn::Zero(d)), hn::Max(enter(1), enter(2)));
-    const Lane_values last = hn::Min(hn::Min(leave(0), hn::Set(d, most)), hn::Min(leave(1), leave(2)));
-    hn::Store(first, d, depths + i);
-    bits |= mask_bits(d, hn::Le(first, last)) << i;
+    const Lane_values first = hn::Max(greatest(enter(0), enter(1), enter(2)), hn::Zero(d));
+    const Lane_values last = hn::Min(least(leave(0), leave(1), leave(2)), hn::Set(d, walker.most));
+    const auto met = hn::RebindMask(bits, hn::Le(first, last));
+    // A zero may have a sign.
+    hn::Store(hn::IfThenElse(met, hn::BitCast(bits, hn::Abs(first)), hn::Set(bits, missed_depth)), bits, depths + i);
   }
-  return bits;
 }
+
+/// Stores the chosen keys next to each other. Writes a whole vector.
+/// @return their number
+HWY_INLINE std::size_t store_keys(hn::Vec<Keys> keys, hn::Mask<Keys> chosen, std::int64_t* to) {
+  const Keys d;
+  const std::uint32_t bits = mask_bits(d, chosen);
+#if HWY_TARGET <= HWY_AVX3
+  // Not `Compress`: GCC 12 copies a table of two kilobytes at each call of Highway's.
+  hn::StoreU(hn::Vec<Keys>{_mm512_maskz_compress_epi64(chosen.raw, keys.raw)}, d, to);
+#else
+  alignas(64) std::int64_t all[key_step];
+  hn::Store(keys, d, all);
+  for (std::size_t i = 0; i < key_step; ++i) to[i] = all[lane_lists[bits][i] % key_step];
+#endif
+  return hwy::PopCount(bits);
+}
+
+/// Goes on to the nearest of the children that the ray meets; the others wait. They are not sorted, since that gains
+/// nothing. If there is none, goes on to what was left to wait last. Without branches, since how many there are is
+/// unpredictable.
+HWY_INLINE void visit_node(const Ray_node& node, Walker& walker) {
+  alignas(64) std::uint32_t depths[ray_tree_width];
+  enter_children(node, walker, depths);
+  const Keys d;
+  const hn::RebindToUnsigned<Keys> u;
+  const hn::Rebind<std::uint32_t, Keys> half;
+  const auto key = [&](std::size_t i) HWY_ATTR {
+    const auto depth = hn::PromoteTo(u, hn::Load(half, depths + i));
+    const auto child = hn::PromoteTo(u, hn::Load(half, node.children + i));
+    return hn::BitCast(d, hn::Or(hn::ShiftLeft<32>(depth), child));
+  };
+  auto nearest_keys = key(0);
+  for (std::size_t i = key_step; i < ray_tree_width; i += key_step) nearest_keys = hn::Min(nearest_keys, key(i));
+  const auto nearest = hn::MinOfLanes(d, nearest_keys);
+  for (std::size_t i = 0; i < ray_tree_width; i += key_step) {
+    const auto keys = key(i);
+    const auto waits = hn::And(hn::Lt(keys, hn::Set(d, missed_key)), hn::Ne(keys, nearest));
+    walker.waiting += store_keys(keys, waits, walker.waiting);
+  }
+  const std::int64_t first = hn::GetLane(nearest);
+  const std::int64_t misses_all = first >= missed_key ? 1 : 0, mask = -misses_all;
+  walker.next = (walker.waiting[-1] & mask) | (first & ~mask);
+  walker.waiting -= misses_all;
+}
+
+constexpr std::size_t next_axis[]{1, 2, 0};
 
 /// The corners of some faces, as seen along the ray.
 struct Seen_corners {
   Lane_values x[3], y[3], depth[3];
 };
 
-HWY_INLINE Seen_corners see_corners(const Ray_block& block, const Ray_walk& ray, std::size_t first) {
-  const auto [x_axis, y_axis, depth_axis] = ray.axes;
+HWY_INLINE Seen_corners see_corners(const Ray_block& block, const Walker& walker, std::size_t first) {
+  const Ray_walks& walks = *walker.walks;
+  const std::size_t ray = walker.lane, depth_axis = walks.depth_axis[ray];
+  const std::size_t x_axis = next_axis[depth_axis], y_axis = next_axis[x_axis];
   const Lanes d;
-  const Lane_values sign = hn::Set(d, ray.slope[depth_axis]), start = hn::Set(d, ray.start);
-  const Lane_values slope_x = hn::Set(d, ray.slope[x_axis]), slope_y = hn::Set(d, ray.slope[y_axis]);
-  const Lane_values across_x = hn::Set(d, ray.across[x_axis]), across_y = hn::Set(d, ray.across[y_axis]);
+  const auto of_ray = [&](const float(&values)[ray_tree_width]) HWY_ATTR { return hn::Set(d, values[ray]); };
+  const Lane_values sign = of_ray(walks.slope[depth_axis]), start = of_ray(walks.start);
+  const Lane_values slope_x = of_ray(walks.slope[x_axis]), slope_y = of_ray(walks.slope[y_axis]);
+  const Lane_values across_x = of_ray(walks.across[x_axis]), across_y = of_ray(walks.across[y_axis]);
   Seen_corners seen;
   for (int c = 0; c < 3; ++c) {
     const Lane_values z = hn::Mul(sign, hn::Load(d, block.corners[c][depth_axis] + first));
@@ -71,8 +148,13 @@ HWY_INLINE Seen_corners see_corners(const Ray_block& block, const Ray_walk& ray,
   return seen;
 }
 
-/// The faces that the ray passes with edges on different sides. See `estimate_depth` for the error of a weight.
-HWY_INLINE hn::Mask<Lanes> pass_beside(const Seen_corners& seen) {
+/// Of which faces floating point knows on which side of all edges the ray passes. See `estimate_depths` for the error of
+/// a weight.
+struct Passes {
+  hn::Mask<Lanes> beside, through;
+};
+
+HWY_INLINE Passes pass(const Seen_corners& seen) {
   const Lanes d;
   const auto &x = seen.x, &y = seen.y;
   Lane_values size = hn::Zero(d);
@@ -81,106 +163,179 @@ HWY_INLINE hn::Mask<Lanes> pass_beside(const Seen_corners& seen) {
   const Lane_values weight_0 = hn::Sub(hn::Mul(x[1], y[2]), hn::Mul(x[2], y[1]));
   const Lane_values weight_1 = hn::Sub(hn::Mul(x[2], y[0]), hn::Mul(x[0], y[2]));
   const Lane_values weight_2 = hn::Sub(hn::Mul(x[0], y[1]), hn::Mul(x[1], y[0]));
-  return hn::And(hn::Lt(least(weight_0, weight_1, weight_2), hn::Neg(error)),
-                 hn::Gt(greatest(weight_0, weight_1, weight_2), error));
+  const Lane_values low = least(weight_0, weight_1, weight_2), high = greatest(weight_0, weight_1, weight_2);
+  return {hn::And(hn::Lt(low, hn::Neg(error)), hn::Gt(high, error)),
+          hn::Or(hn::Gt(low, error), hn::Lt(high, hn::Neg(error)))};
 }
 
-/// The faces with all corners behind the start of the ray, or too deep.
-HWY_INLINE hn::Mask<Lanes> out_of_reach(const Seen_corners& seen, float most) {
+/// Drops what waits and is too deep by now. So nothing that waits has to be looked at twice, and to go back to it takes
+/// no branch.
+HWY_INLINE void drop_deep(Walker& walker) {
+  const Keys d;
+  const auto too_deep = hn::Set(d, deeper_key(walker.most));
+  std::int64_t* kept = walker.bottom;
+  for (const std::int64_t* waiting = walker.bottom; waiting < walker.waiting; waiting += key_step) {
+    const auto keys = hn::LoadU(d, waiting);
+    const auto left = static_cast<std::size_t>(walker.waiting - waiting);
+    kept += store_keys(keys, hn::And(hn::Lt(keys, too_deep), hn::FirstN(d, left)), kept);
+  }
+  walker.waiting = kept;
+}
+
+/// Lists the faces that the ray may meet, and goes on to what was left to wait last.
+/// @return a bit per face
+template <Walk_until until>
+HWY_INLINE std::uint32_t visit_block(const Ray_block& block, Walker& walker) {
   const Lanes d;
-  const auto& depth = seen.depth;
-  return hn::Or(hn::Lt(greatest(depth[0], depth[1], depth[2]), hn::Set(d, -walk_error)),
-                hn::Gt(least(depth[0], depth[1], depth[2]), hn::Set(d, most + walk_error)));
-}
-
-/// @return a bit per face that the ray may meet
-HWY_INLINE std::uint32_t meet_faces(const Ray_block& block, const Ray_walk& ray, float most) {
-  std::uint32_t missed = 0;
+  std::uint32_t met = 0;
+  Lane_values surely_met = hn::Set(d, walker.most);
   for (std::size_t i = 0; i < ray_tree_width; i += step) {
-    const Seen_corners seen = see_corners(block, ray, i);
-    missed |= mask_bits(Lanes(), hn::Or(pass_beside(seen), out_of_reach(seen, most))) << i;
+    const Seen_corners seen = see_corners(block, walker, i);
+    const Passes passes = pass(seen);
+    const Lane_values nearest = least(seen.depth[0], seen.depth[1], seen.depth[2]);
+    const Lane_values farthest = greatest(seen.depth[0], seen.depth[1], seen.depth[2]);
+    const auto in_reach =
+        hn::And(hn::Ge(farthest, hn::Set(d, -walk_error)), hn::Le(nearest, hn::Set(d, walker.most + walk_error)));
+    met |= mask_bits(d, hn::AndNot(passes.beside, in_reach)) << i;
+    if constexpr (until == Walk_until::first_hit) {
+      const auto is_sure = hn::And(passes.through, hn::Gt(nearest, hn::Set(d, walk_error)));
+      surely_met =
+          hn::Min(surely_met, hn::IfThenElse(is_sure, hn::Add(farthest, hn::Set(d, 2 * walk_error)), surely_met));
+    }
   }
-  return ~missed & ((1U << block.count) - 1);
+  if constexpr (until == Walk_until::first_hit) {
+    walker.most = hn::GetLane(hn::MinOfLanes(d, surely_met));
+    drop_deep(walker);
+  }
+  walker.next = *--walker.waiting;
+  return met;
 }
 
-/// A child that waits, as one number: those that the ray enters later are greater, since depths are not negative.
-HWY_INLINE std::uint64_t waiting_child(float depth, std::uint32_t child) {
-  return std::uint64_t{std::bit_cast<std::uint32_t>(depth)} << 32 | child;
-}
-HWY_INLINE float depth_of(std::uint64_t waiting) {
-  return std::bit_cast<float>(static_cast<std::uint32_t>(waiting >> 32));
-}
+/// Where nodes and blocks are, the same for both: which a child is is unpredictable.
+struct Places {
+  explicit Places(const Ray_nodes& tree)
+      : begins{reinterpret_cast<const char*>(tree.nodes), reinterpret_cast<const char*>(tree.blocks)} {}
 
-/// Has the first half of a child read from memory, meanwhile; reading it brings the rest.
-HWY_INLINE void prefetch(const Ray_nodes& tree, std::uint64_t waiting) {
-  const auto child = static_cast<std::uint32_t>(waiting);
-  const void* const begin = (child & is_ray_block) != 0
-                                ? static_cast<const void*>(tree.blocks + (child & ~is_ray_block))
-                                : static_cast<const void*>(tree.nodes + child);
+  const char* begins[2];
+  std::size_t sizes[2] = {sizeof(Ray_node), sizeof(Ray_block)};
+};
+
+/// Has most of a child read from memory, meanwhile; reading it brings the rest.
+HWY_INLINE void prefetch(const char* child) {
   constexpr std::size_t line = 64;
-  for (std::size_t i = 0; i < sizeof(Ray_node); i += line) hwy::Prefetch(static_cast<const char*>(begin) + i);
+  for (std::size_t i = 0; i < sizeof(Ray_node); i += line) hwy::Prefetch(child + i);
 }
 
-/// Goes on to the nearest of the children whose bits are set; the others wait. They are not sorted, since the order is
-/// unpredictable, and matters little.
-/// @param bits  at least one
-HWY_INLINE void go_to_nearest(const Ray_nodes& tree, const Ray_node& node, std::uint32_t bits, const float* depths,
-                              Ray_walker& walker) {
-  const auto child = [&](std::uint32_t set) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(set));
-    return waiting_child(depths[i], node.children[i]);
-  };
-  std::uint64_t nearest = child(bits);
-  while ((bits &= bits - 1) != 0) {
-    const std::uint64_t other = child(bits), farther = std::max(nearest, other);
-    prefetch(tree, farther);
-    *walker.end_waiting++ = farther;
-    nearest = std::min(nearest, other);
+/// The walkers whose turn it is, by what they visit next: so it is known which it is.
+struct Turn {
+  Walker* at_nodes[ray_walkers];
+  Walker* at_blocks[ray_walkers];
+  Walker* at_end[ray_walkers];
+  std::size_t nodes, blocks, ended;
+};
+
+/// Fills a turn. Not part of `Turn`, so that the numbers stay in registers while walkers are written.
+class Turn_filler {
+ public:
+  Turn_filler(const Places& places, Turn& turn) : places_(places), turn_(turn) {}
+
+  HWY_INLINE void add(Walker& walker) {
+    const std::uint32_t child = child_of(walker.next);
+    const std::size_t is_block = child >> 31, is_end = walker.next == end_of_walk ? 1 : 0;
+    prefetch(places_.begins[is_block] + places_.sizes[is_block] * ((child & ~is_ray_block) & (is_end - 1)));
+    turn_.at_nodes[nodes_] = turn_.at_blocks[blocks_] = turn_.at_end[ended_] = &walker;
+    nodes_ += 1 - is_block;
+    blocks_ += is_block - is_end;
+    ended_ += is_end;
   }
-  prefetch(tree, nearest);
-  walker.next = nearest;
-}
-
-/// Goes back to what was left to wait last and is not too deep by now.
-/// @return false if there is nothing
-HWY_INLINE bool go_back(Ray_walker& walker) {
-  do {
-    if (walker.end_waiting == walker.waiting) return false;
-    walker.next = *--walker.end_waiting;
-  } while (depth_of(walker.next) > walker.most);
-  return true;
-}
-
-/// Visits one node or block.
-/// @return false: the walk has ended
-HWY_INLINE bool advance(const Ray_nodes& tree, Ray_walker& walker, Ray_visitor& visitor) {
-  const auto child = static_cast<std::uint32_t>(walker.next);
-  if ((child & is_ray_block) == 0) {
-    const Ray_node& node = tree.nodes[child];
-    alignas(64) float depths[ray_tree_width];
-    if (const std::uint32_t bits = meet_children(node, walker.ray, walker.most, depths); bits != 0) {
-      go_to_nearest(tree, node, bits, depths, walker);
-      return true;
-    }
-  } else {
-    const Ray_block& block = tree.blocks[child & ~is_ray_block];
-    for (std::uint32_t bits = meet_faces(block, walker.ray, walker.most); bits != 0; bits &= bits - 1)
-      walker.most = visitor.visit(walker, block, static_cast<std::size_t>(std::countr_zero(bits)));
+  HWY_INLINE void finish() {
+    turn_.nodes = nodes_;
+    turn_.blocks = blocks_;
+    turn_.ended = ended_;
   }
-  return go_back(walker);
-}
 
-void walk_rays_kernel(const Ray_nodes& tree, Ray_walker* const* walkers, std::size_t count, Ray_visitor& visitor) {
-  Ray_walker* walking[most_ray_walkers];
-  std::copy_n(walkers, count, walking);
-  while (count > 0)
-    for (std::size_t i = 0; i < count;) {
-      Ray_walker& walker = *walking[i];
-      if (advance(tree, walker, visitor) || visitor.end(walker))
-        ++i;
-      else
-        walking[i] = walking[--count];
+ private:
+  const Places& places_;
+  Turn& turn_;
+  std::size_t nodes_ = 0, blocks_ = 0, ended_ = 0;
+};
+
+/// Walks some rays, with a few walkers. In each turn every walker takes one step. Which steps a ray takes is
+/// unpredictable, so the walkers are sorted by them, and a step has no branches: a branch that is mistaken would undo
+/// what the processor has begun for the walkers that follow.
+template <Walk_until until>
+class Walk_group {
+ public:
+  Walk_group(const Ray_nodes& tree, const Ray_walks* walks, std::span<const std::uint32_t> rays,
+             Ray_candidate_list& candidates)
+      : tree_(tree), places_(tree), walks_(walks), rays_(rays), candidates_(candidates) {}
+
+  /// @param waiting  room for what waits, of all walkers
+  HWY_INLINE void run(std::int64_t* waiting) {
+    Walker walkers[ray_walkers];
+    Turn turns[2];
+    Turn *turn = turns, *next = turns + 1;
+    turn->nodes = turn->blocks = 0;
+    turn->ended = ray_walkers;
+    for (std::size_t i = 0; i < ray_walkers; ++i) {
+      walkers[i].bottom = walkers[i].waiting = waiting + i * tree_.waiting_room();
+      turn->at_end[i] = &walkers[i];
     }
+    do {
+      Turn_filler filler(places_, *next);
+      visit_blocks(*turn, filler);
+      for (std::size_t i = 0; i < turn->nodes; ++i) {
+        Walker& walker = *turn->at_nodes[i];
+        visit_node(tree_.nodes[child_of(walker.next)], walker);
+        filler.add(walker);
+      }
+      for (std::size_t i = 0; i < turn->ended && started_ < rays_.size(); ++i) {
+        start_next(*turn->at_end[i]);
+        filler.add(*turn->at_end[i]);
+      }
+      filler.finish();
+      std::swap(turn, next);
+    } while (turn->nodes + turn->blocks > 0 || started_ < rays_.size());
+  }
+
+ private:
+  HWY_INLINE void visit_blocks(const Turn& turn, Turn_filler& filler) {
+    Ray_candidates* const found = candidates_.room(ray_walkers);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < turn.blocks; ++i) {
+      Walker& walker = *turn.at_blocks[i];
+      const std::uint32_t block = child_of(walker.next) & ~is_ray_block;
+      const std::uint32_t lanes = visit_block<until>(tree_.blocks[block], walker);
+      found[count] = {walker.ray, block, lanes};
+      count += lanes != 0 ? 1 : 0;
+      filler.add(walker);
+    }
+    candidates_.add(count);
+  }
+
+  HWY_INLINE void start_next(Walker& walker) {
+    walker.ray = rays_[started_++];
+    walker.walks = walks_ + walker.ray / ray_tree_width;
+    walker.lane = walker.ray % ray_tree_width;
+    walker.most = walker.walks->most[walker.lane];
+    walker.next = 0;
+    *walker.waiting++ = end_of_walk;
+  }
+
+  const Ray_nodes& tree_;
+  const Places places_;
+  const Ray_walks* walks_;
+  std::span<const std::uint32_t> rays_;
+  Ray_candidate_list& candidates_;
+  std::size_t started_ = 0;
+};
+
+void walk_rays_kernel(const Ray_nodes& tree, const Ray_walks* walks, std::span<const std::uint32_t> rays,
+                      Walk_until until, std::int64_t* waiting, Ray_candidate_list& candidates) {
+  if (until == Walk_until::first_hit)
+    Walk_group<Walk_until::first_hit>(tree, walks, rays, candidates).run(waiting);
+  else
+    Walk_group<Walk_until::end>(tree, walks, rays, candidates).run(waiting);
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE
@@ -191,8 +346,16 @@ namespace lodestone::kernel {
 
 HWY_EXPORT(walk_rays_kernel);
 
-void walk_rays(const Ray_nodes& tree, std::span<Ray_walker* const> walkers, Ray_visitor& visitor) {
-  HWY_DYNAMIC_DISPATCH(walk_rays_kernel)(tree, walkers.data(), walkers.size(), visitor);
+Ray_candidates* Ray_candidate_list::room(std::size_t count) {
+  if (count_ + count > list_.size()) list_.resize(2 * (count_ + count));
+  return list_.data() + count_;
+}
+
+void walk_rays(const Ray_nodes& tree, const Ray_walks* walks, std::span<const std::uint32_t> rays, Walk_until until,
+               Ray_candidate_list& candidates) {
+  boost::container::small_vector<std::int64_t, 64 * ray_walkers> waiting(ray_walkers * tree.waiting_room(),
+                                                                         boost::container::default_init);
+  HWY_DYNAMIC_DISPATCH(walk_rays_kernel)(tree, walks, rays, until, waiting.data(), candidates);
 }
 
 }  // namespace lodestone::kernel

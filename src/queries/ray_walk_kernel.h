@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "lodestone/queries/ray_node.h"
 
@@ -14,54 +15,66 @@ namespace lodestone::kernel {
 /// position across the ray, and of a depth. There are at most 18 errors of 2^-25.
 constexpr float walk_error = 0x1p-20F;
 
-/// A ray in relative coordinates, which starts in or at the box of the surface. Its depth is that along `axes[2]`, from
-/// that start.
-struct Ray_walk {
-  float slope[3];            ///< change along each axis with the depth, at most 1 in size
-  float inverse[3];          ///< of the slopes; finite
-  float enter[3];            ///< start times inverse, raised by the error of depths
-  float leave[3];            ///< the same, lowered
-  float across[3];           ///< where the line is along each axis when it is at 0 along `axes[2]`
-  float start;               ///< along `axes[2]`, in the direction of the ray
-  std::size_t axes[3];       ///< `axes[2]` is that along which the slope is largest
-  std::size_t near_side[3];  ///< by which it enters boxes, per axis: where that begins in `Ray_node::sides`
-  std::size_t far_side[3];   ///< by which it leaves them
-};
-
-/// A ray on its walk.
-struct Ray_walker {
-  Ray_walk ray;
-  float most;                  ///< how deep it has to go
-  std::uint64_t next;          ///< what it visits next, see `waiting_child`; 0 before the first step
-  std::uint64_t* waiting;      ///< what it may have to visit later; room for `most_waiting` of the tree
-  std::uint64_t* end_waiting;  ///< `waiting` before the first step
+/// Some rays in relative coordinates, which start in or at the box of the surface. The depth of a point is its distance
+/// from that start along the depth axis, that along which the ray is steepest.
+struct alignas(64) Ray_walks {
+  float slope[3][ray_tree_width];    ///< change along each axis with the depth, at most 1 in size
+  float inverse[3][ray_tree_width];  ///< of the slopes; finite
+  float enter[3][ray_tree_width];    ///< start times inverse, raised by the error of depths
+  float leave[3][ray_tree_width];    ///< the same, lowered
+  float across[3][ray_tree_width];   ///< where the line is along each axis when it is at 0 along the depth axis
+  float start[ray_tree_width];       ///< along the depth axis, in the direction of the ray
+  float most[ray_tree_width];        ///< how deep it has to go
+  std::uint32_t near_side[3][ray_tree_width];  ///< by which it enters boxes: where that begins in `Ray_node::sides`
+  std::uint32_t far_side[3][ray_tree_width];   ///< by which it leaves them
+  std::uint32_t depth_axis[ray_tree_width];
 };
 
 /// The nodes of a Ray_tree, the root first, and its blocks.
 struct Ray_nodes {
   const Ray_node* nodes;
   const Ray_block* blocks;
+  std::size_t most_waiting;  ///< most nodes and blocks that wait at once while a ray walks down
+
+  /// For what waits of one ray: its end, all of the tree that waits, and what is written beyond.
+  std::size_t waiting_room() const { return 1 + most_waiting + ray_tree_width; }
 };
 
-/// What walks report to.
-class Ray_visitor {
+/// Faces of one block that a ray may meet.
+struct Ray_candidates {
+  std::uint32_t ray;    ///< index
+  std::uint32_t block;  ///< index
+  std::uint32_t lanes;  ///< a bit per face
+};
+
+enum class Walk_until {
+  first_hit,  ///< what is surely behind a face that the ray surely meets is left out
+  end,        ///< all candidates are listed
+};
+
+/// A list of candidates, which grows.
+class Ray_candidate_list {
  public:
-  /// A face that the ray may meet.
-  /// @return how deep the ray has to go from now on; never more than before
-  virtual float visit(Ray_walker& walker, const Ray_block& block, std::size_t lane) = 0;
-  /// A walk has ended. May give the walker another ray.
-  /// @return whether it does
-  virtual bool end(Ray_walker& walker) = 0;
+  std::span<const Ray_candidates> get() const { return {list_.data(), count_}; }
+  /// Where the next ones are written, up to a number of them.
+  Ray_candidates* room(std::size_t count);
+  /// They are written.
+  void add(std::size_t count) { count_ += count; }
 
- protected:
-  ~Ray_visitor() = default;
+ private:
+  std::vector<Ray_candidates> list_;
+  std::size_t count_ = 0;
 };
 
-constexpr std::size_t most_ray_walkers = 16;
+/// Rays that walk at once.
+constexpr std::size_t ray_walkers = 32;
 
-/// Walks from front to back, as far as boxes tell. The rays take turns, so that what one waits for is read from memory
+/// Walks rays from front to back, as far as boxes tell. They take turns, so that what one waits for is read from memory
 /// while others walk.
-/// @param walkers  at most `most_ray_walkers`
-void walk_rays(const Ray_nodes& tree, std::span<Ray_walker* const> walkers, Ray_visitor& visitor);
+/// @param walks       of all rays
+/// @param rays        indices of those that walk
+/// @param candidates  are appended: those of each ray in the order in which it comes to them
+void walk_rays(const Ray_nodes& tree, const Ray_walks* walks, std::span<const std::uint32_t> rays, Walk_until until,
+               Ray_candidate_list& candidates);
 
 }  // namespace lodestone::kernel

@@ -5,9 +5,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "lodestone/triangles/triangle_intersection.h"
+#include "triangles/ray_depth_kernel.h"
 
 /// Where a ray meets a triangle: in floating point as far as that proves anything, and exactly.
 namespace lodestone {
@@ -36,17 +38,26 @@ struct Ray_frame {
 /// difference is at most 2 m, and has a rounding of 2 u m. That makes 6 u m. What underflows is covered by 2^-1000.
 /// @param reach  m, as computed; infinity if it is too large for products of these numbers
 inline double frame_error(double reach) {
-  constexpr double largest = 1e150;
-  return reach < largest ? 0x1p-50 * reach + 0x1p-1000 : std::numeric_limits<double>::infinity();
+  return reach < kernel::most_reach ? kernel::error_per_reach * reach + kernel::error_of_underflow
+                                    : std::numeric_limits<double>::infinity();
 }
 
-/// What floating point can tell about a ray and a triangle.
-struct Depth_estimate {
-  enum class Meets { no, unsure, yes };
-  Meets meets = Meets::no;
-  double low = 0, high = 0;  ///< the depth of the first common point, if there is any, is between these
-};
-Depth_estimate estimate_depth(const Ray_frame& frame, const Triangle_corners& corners);
+/// Describes a ray and a triangle for `estimate_depths`.
+/// @param i  which question it is
+inline void ask(const Ray_frame& frame, const Triangle_corners& corners, kernel::Depth_questions& questions,
+                std::size_t i) {
+  for (int c = 0; c < 3; ++c) {
+    const auto along = [&](int axis) { return corners[c][axis] - frame.origin[axis]; };
+    questions.x[c][i] = along(frame.axes[0]);
+    questions.y[c][i] = along(frame.axes[1]);
+    questions.z[c][i] = along(frame.axes[2]);
+  }
+  questions.shear[0][i] = frame.shear[0];
+  questions.shear[1][i] = frame.shear[1];
+  questions.sign[i] = frame.sign;
+  questions.least_limit[i] = frame.least_limit;
+  questions.most_limit[i] = frame.most_limit;
+}
 
 /// The least depth at which the ray meets the triangle, which is a closed set and may be a segment or a point; none if
 /// it does not meet it.

@@ -10,7 +10,8 @@ namespace lodestone {
 /// Most children of a node, and faces of a block.
 inline constexpr std::size_t ray_tree_width = 8;
 
-/// Some faces that are near each other. Beyond `count` the last one is repeated.
+/// Some faces that are near each other. Beyond `count` the corners are where no ray comes to, and the last vertices and
+/// face are repeated.
 struct alignas(64) Ray_block {
   float corners[3][3][ray_tree_width];        ///< x, y and z of each corner
   std::uint32_t vertices[3][ray_tree_width];  ///< indices of the corners
