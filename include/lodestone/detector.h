@@ -282,7 +282,7 @@ class Detector {
   }
 
   /// `first_hit` of many rays. Each query of an object reads its positions first; this does so once for all rays. From
-  /// about F / 8 rays on it makes a Ray_tree, which answers sooner. Shared among the threads, unless the object has
+  /// about F / 16 rays on it makes a Ray_tree, which answers sooner. Shared among the threads, unless the object has
   /// bounds in mode `certified`.
   /// @return one per ray, in their order
   /// @throws Bad_argument, Bad_mesh  as `first_hit`

@@ -107,7 +107,7 @@ std::vector<Answer> ask_in_groups(const Ray_tree& tree, std::span<const Ray> ray
 }
 
 /// A tree is made for more rays than there are faces, divided by this. It then pays for itself on one thread.
-constexpr std::size_t faces_per_ray = 8;
+constexpr std::size_t faces_per_ray = 16;
 
 }  // namespace
 

@@ -18,7 +18,7 @@ namespace lodestone {
 /// \cite wald2008. Single precision only discards what it proves missed, so rays get the same answers as from the
 /// surface itself, and sooner. It is made anew after vertices have moved.
 ///
-/// Making it takes the time of about F / 12 rays, so fewer rays are better asked without it.
+/// Making it takes the time of about F / 20 rays, so fewer rays are better asked without it.
 class Ray_tree {
  public:
   /// Packs the faces of each leaf into blocks, by where they are now. O(F), shared among the workers.
