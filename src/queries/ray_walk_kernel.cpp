@@ -39,7 +39,7 @@ HWY_INLINE std::uint32_t child_of(std::int64_t key) { return static_cast<std::ui
 
 /// The least key that is deeper.
 HWY_INLINE std::int64_t deeper_key(float depth) {
-  return (std::int64_t{std::bit_cast<std::uint32_t>(std::max(depth, 0.0F))} + 1) << 32;
+  return (std::int64_t{std::bit_cast<std::uint32_t>(std::max(0.0F, depth))} + 1) << 32;
 }
 
 /// A ray on its walk.
@@ -148,8 +148,8 @@ HWY_INLINE Seen_corners see_corners(const Ray_block& block, const Walker& walker
   return seen;
 }
 
-/// Of which faces floating point knows on which side of all edges the ray passes. See `estimate_depths` for the error of
-/// a weight.
+/// Of which faces floating point knows on which side of all edges the ray passes. See `estimate_some` in
+/// `triangles/ray_depth_kernel.cpp` for the error of a weight.
 struct Passes {
   hn::Mask<Lanes> beside, through;
 };

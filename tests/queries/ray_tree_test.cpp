@@ -72,6 +72,9 @@ void expect_valid(const Ray_tree& tree, const Face_soup& soup) {
       ++seen[block.faces[lane]];
       for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(block.vertices[c][lane], soup.faces[block.faces[lane]][c]);
     }
+    for (std::size_t lane = block.count; lane < ray_tree_width; ++lane)
+      for (const auto& corner : block.corners)
+        for (const auto& coordinates : corner) EXPECT_GT(coordinates[lane], 1e6F) << "rays could meet a face twice";
   }
   EXPECT_EQ(seen, std::vector<int>(soup.faces.size(), 1));
   for (const auto& node : tree.nodes())
