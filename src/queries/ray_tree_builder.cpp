@@ -38,9 +38,6 @@ std::pair<std::size_t, std::size_t> longest_axes(const std::array<float, 3>& low
 
 constexpr std::size_t leaves_per_task = 64;
 
-/// Children of a node, as a rule.
-constexpr std::size_t usual_children = 8;
-
 }  // namespace
 
 void Ray_tree_builder::Box::extend(const Box& other) {
@@ -207,7 +204,7 @@ std::pair<Ray_tree_builder::Branch, Ray_tree_builder::Branch> Ray_tree_builder::
 std::uint32_t Ray_tree_builder::add_node(const Branch& branch, std::size_t waiting) {
   std::array<Branch, ray_tree_width> open{branch};
   std::size_t count = 1, most = 1;
-  for (std::size_t next = ray_tree_width; next < branch.size(); next *= usual_children) most = next;
+  for (std::size_t next = ray_tree_width; next < branch.size(); next *= ray_tree_width) most = next;
   while (count < ray_tree_width) {
     std::size_t largest = count;
     for (std::size_t i = 0; i < count; ++i)
