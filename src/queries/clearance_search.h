@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -8,9 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "lodestone/mesh/pairs.h"
 #include "lodestone/tree/node_pair.h"
 #include "lodestone/tree/tree_view.h"
 #include "lodestone/triangles/clearance.h"
+#include "queries/clearance_kernel.h"
 
 namespace lodestone {
 
@@ -38,53 +41,71 @@ class Clearance_search {
     return vector.unaryExpr([this](double x) { return unscaled(x); });
   }
   /// Of the boxes of both objects, in scaled units.
-  Eigen::Vector3d centre_difference() const { return a_.boxes[0].center() - b_.boxes[0].center(); }
+  Eigen::Vector3d centre_difference() const { return box(a_, 0).center() - box(b_, 0).center(); }
 
  private:
-  /// A face of a leaf.
-  struct Face {
-    std::uint32_t index;
-    Boxed_triangle triangle;
-  };
-  /// One object, in scaled coordinates.
+  /// The scaled corners of the faces of a leaf, as `kernel::Corner_columns`. Empty: it has not been read yet.
+  using Leaf = std::vector<double>;
   struct Side {
     const Layout_view* view;
-    std::vector<Box> boxes = {};                 ///< per node
-    std::vector<std::vector<Face>> leaves = {};  ///< an empty one has not been read yet; others stay as they are
+    std::vector<Leaf> leaves = {};
   };
   struct Candidate {
     double bound;
     Node_pair pair;
     bool operator<(const Candidate& other) const { return bound < other.bound; }  // the largest is on top
   };
+  /// Two faces of two leaves, and a bound on their clearance.
+  struct Face_candidate {
+    double bound;
+    kernel::Face_slots slots;
+  };
+  /// Of a direction: see `kernel::span_faces` and `kernel::In_line`.
+  struct Seen_along {
+    double axes[3][3];
+    double slack[3];
+  };
 
+  static Seen_along seen_along(const Way& way);
   Eigen::Vector3d scaled(const double* p) const {
     return {scale_ * p[0] - origin_[0], scale_ * p[1] - origin_[1], scale_ * p[2] - origin_[2]};
   }
-  Box scaled(const Aabb& box) const { return {scaled(box.low), scaled(box.high)}; }
-  const std::vector<Face>& faces_of(Side& side, std::uint32_t leaf) const;
+  Box box(const Side& side, std::uint32_t node) const {
+    const Aabb& box = side.view->boxes[node];
+    return {scaled(box.low), scaled(box.high)};
+  }
+  kernel::Corner_columns corners_of(Side& side, std::uint32_t leaf) const;
+  Boxed_triangle triangle(const Side& side, std::uint32_t leaf, std::uint8_t face) const;
   void push(Node_pair pair);
-  void try_leaves(Node_pair pair);
-  void keep_facing(const std::vector<Face>& faces, const Box& other, bool of_a, std::vector<const Face*>& kept) const;
-  void try_faces(const Face& a, const Face& b);
-  bool witnesses_reach(double limit) const;
+  void try_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b);
+  void list_candidates(std::uint32_t leaf_a, std::uint32_t leaf_b);
+  void try_faces(Face_pair faces, const Boxed_triangle& a, const Boxed_triangle& b);
+  bool witnesses_reach() const;
 
   int exponent_ = 0;  ///< a scaled coordinate is one of the object's times 2^-exponent
   double scale_ = 1;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  ///< scaled
+  double slack_ = 0;                                  ///< see `Way`
   Side a_, b_;
 
   // Of the current search.
-  Way way_ = {};
+  Way way_{Eigen::Vector3d::UnitX(), 0};
+  Seen_along seen_ = {};
+  double limit_ = 0;
   Clearance best_ = {};
-  const Face *best_a_ = nullptr, *best_b_ = nullptr;
+  Face_pair best_faces_ = {};
+  std::pair<Boxed_triangle, Boxed_triangle> best_triangles_ = {};
   std::priority_queue<Candidate> queue_;
+
+  // Memory of `try_leaves`.
   std::vector<Node_pair> below_;
-  std::vector<const Face*> facing_a_, facing_b_;
+  kernel::Face_spans spans_a_, spans_b_;
+  std::vector<kernel::Face_slots> in_line_;
+  std::vector<Face_candidate> candidates_;
 
   /// The face pairs with the largest clearance in earlier searches, the last of them first to be tried: along a
   /// direction nearby, one of them often reaches the limit at once.
-  std::vector<std::pair<const Face*, const Face*>> witnesses_;
+  std::vector<std::pair<Boxed_triangle, Boxed_triangle>> witnesses_;
 };
 
 }  // namespace lodestone

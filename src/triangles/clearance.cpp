@@ -15,7 +15,7 @@ namespace {
 ///
 /// The slack covers rounding. Coordinates are at most X, and the slack is at least 32 roundings of X. With |n| the sum
 /// of the absolute components of n: n y - n x has an error of 8 |n| X roundings; n direction has one of 3 |n|
-/// roundings, and t is at most 2 X; the quotient of the two is off by one rounding of t.
+/// roundings, and t is at most 2 X; the quotient of the two is off by two roundings of t at most.
 class Passage {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -33,7 +33,9 @@ class Passage {
 
   /// D lies between `low` and `high` along an axis.
   void cut_along(int axis, double low, double high) {
-    if (cut(way_.direction[axis], low - way_.slack, high + way_.slack)) normal_ = Eigen::Vector3d::Unit(axis);
+    const bool nearer = cut(way_.direction[axis], low - way_.slack, high + way_.slack,
+                            [&](double x) { return x * way_.inverse[axis]; });
+    if (nearer) normal_ = Eigen::Vector3d::Unit(axis);
   }
   /// D is that of two triangles.
   void cut(const Eigen::Vector3d& n, const Boxed_triangle& a, const Boxed_triangle& b) {
@@ -42,22 +44,26 @@ class Passage {
     const auto [low_a, high_a] = std::minmax({n.dot(a.corners[0]), n.dot(a.corners[1]), n.dot(a.corners[2])});
     const auto [low_b, high_b] = std::minmax({n.dot(b.corners[0]), n.dot(b.corners[1]), n.dot(b.corners[2])});
     const double slack = size * way_.slack;
-    if (cut(n.dot(way_.direction), low_b - high_a - slack, high_b - low_a + slack)) normal_ = n;
+    const double speed = n.dot(way_.direction);
+    if (cut(speed, low_b - high_a - slack, high_b - low_a + slack, [&](double x) { return x / speed; })) normal_ = n;
   }
 
  private:
   /// Leaves the t with low <= t speed <= high.
+  /// @param over_speed  divides by `speed`
   /// @return whether the end of the line in D has come nearer
-  bool cut(double speed, double low, double high) {
+  template <class Over_speed>
+  bool cut(double speed, double low, double high, const Over_speed& over_speed) {
     if (speed == 0) {
       if (low > 0 || high < 0) last_ = -infinity, first_ = infinity;
       return false;
     }
     if (speed < 0) std::swap(low, high);
-    first_ = std::max(first_, low / speed);
-    const bool nearer = high / speed < last_;
-    if (nearer) last_ = high / speed;
-    return nearer;
+    first_ = std::max(first_, over_speed(low));
+    const double last = over_speed(high);
+    if (!(last < last_)) return false;
+    last_ = last;
+    return true;
   }
 
   const Way& way_;
@@ -87,11 +93,16 @@ void cut_by_outlines(Passage& passage, const Boxed_triangle& a, const Boxed_tria
     }
 }
 
-/// The normals of the facets of D: those of the two faces, and those across an edge of each.
-void cut_by_facets(Passage& passage, const Boxed_triangle& a, const Boxed_triangle& b, const Edges& edges_a,
-                   const Edges& edges_b) {
+/// The normals of the two faces, which are those of facets of D.
+void cut_by_faces(Passage& passage, const Boxed_triangle& a, const Boxed_triangle& b, const Edges& edges_a,
+                  const Edges& edges_b) {
   passage.cut(edges_a[0].cross(edges_a[1]), a, b);
   passage.cut(edges_b[0].cross(edges_b[1]), a, b);
+}
+
+/// The normals of the other facets of D: those across an edge of each.
+void cut_by_edge_pairs(Passage& passage, const Boxed_triangle& a, const Boxed_triangle& b, const Edges& edges_a,
+                       const Edges& edges_b) {
   for (const Eigen::Vector3d& e : edges_a) {
     if (!passage.is_open()) return;
     for (const Eigen::Vector3d& f : edges_b) passage.cut(e.cross(f), a, b);
@@ -120,9 +131,11 @@ Clearance clearance(const Boxed_triangle& a, const Boxed_triangle& b, const Way&
   cut_by_boxes(passage, a.box, b.box);
   if (!passage.is_open()) return {};
   const Edges edges_a = edges_of(a), edges_b = edges_of(b);
+  cut_by_faces(passage, a, b, edges_a, edges_b);
+  if (!passage.is_open()) return {};
   cut_by_outlines(passage, a, b, edges_a, edges_b, way.direction);
   if (!passage.is_open()) return {};
-  cut_by_facets(passage, a, b, edges_a, edges_b);
+  cut_by_edge_pairs(passage, a, b, edges_a, edges_b);
   if (!passage.is_open()) return {};
   cut_by_edges_of_flat(passage, a, b, edges_a, edges_b, way.direction);
   return passage.clearance();

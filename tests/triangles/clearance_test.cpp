@@ -25,7 +25,7 @@ Boxed_triangle boxed(const Triangle& t) {
 }
 
 Clearance clearance_of(const Triangle& a, const Triangle& b, const Eigen::Vector3d& direction) {
-  return clearance(boxed(a), boxed(b), {direction, slack});
+  return clearance(boxed(a), boxed(b), Way(direction, slack));
 }
 
 /// The solution of u x + v y + w z = right, if there is exactly one.
@@ -139,10 +139,10 @@ TEST(Clearance, of_boxes_is_the_way_through_the_box_of_their_differences) {
     return Box(Eigen::Vector3d(x, y, z), Eigen::Vector3d(x + 1, y + depth, z + height));
   };
   const Box a = box(0, 0, 0, 1, 1), b = box(0.5, 0.25, 0, 1, 4);
-  EXPECT_NEAR(clearance(a, b, {{1, 0, 0}, slack}), 1.5, 1e-9);
-  EXPECT_NEAR(clearance(a, b, {{0, -1, 0}, slack}), 0.75, 1e-9);
-  EXPECT_NEAR(clearance(a, b, {{0, 0.6, 0.8}, slack}), 1.25 / 0.6, 1e-9);
-  EXPECT_EQ(clearance(a, box(2, 0, 0, 1, 1), {{0, 0, 1}, slack}), -std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(clearance(a, b, Way({1, 0, 0}, slack)), 1.5, 1e-9);
+  EXPECT_NEAR(clearance(a, b, Way({0, -1, 0}, slack)), 0.75, 1e-9);
+  EXPECT_NEAR(clearance(a, b, Way({0, 0.6, 0.8}, slack)), 1.25 / 0.6, 1e-9);
+  EXPECT_EQ(clearance(a, box(2, 0, 0, 1, 1), Way({0, 0, 1}, slack)), -std::numeric_limits<double>::infinity());
 }
 
 TEST(Clearance, of_boxes_is_no_smaller_than_that_of_what_they_hold) {
@@ -151,7 +151,7 @@ TEST(Clearance, of_boxes_is_no_smaller_than_that_of_what_they_hold) {
   for (int trial = 0; trial < 2000; ++trial) {
     const auto [a, b] = anywhere(pairs);
     const auto [c, e] = anywhere(pairs);
-    const Way way{random_direction(random), slack};
+    const Way way(random_direction(random), slack);
     const Boxed_triangle p = boxed(a), q = boxed(b);
     const double of_boxes = clearance(p.box, q.box, way);
     EXPECT_LE(clearance(p, q, way).length, of_boxes);
@@ -166,7 +166,7 @@ TEST(Clearance, of_triangles_is_the_same_where_only_large_ones_are_needed) {
   for (const auto& kind : Hard_pairs::kinds())
     for (int trial = 0; trial < 300; ++trial) {
       const auto [a, b] = (pairs.*kind.make)();
-      const Way way{random_direction(random), slack};
+      const Way way(random_direction(random), slack);
       const Boxed_triangle p = boxed(a), q = boxed(b);
       const Clearance all = clearance(p, q, way);
       if (!std::isfinite(all.length)) continue;

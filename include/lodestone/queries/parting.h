@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "lodestone/queries/contact_walk.h"
+#include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/containment.h"
-#include "lodestone/queries/face_pair_order.h"
 #include "lodestone/queries/node_boxes.h"
 #include "lodestone/tree/tree_surface.h"
 
@@ -56,11 +55,7 @@ template <Bounding_volume Volume>
 std::optional<Parting> parting(const Basic_tree_surface<Volume>& a, const Basic_tree_surface<Volume>& b,
                                Workers& workers = Workers::alone()) {
   std::vector<Face_pair> contacts;
-  visit_contacts(a.view(), b.view(), 0, [&](Face_pair contact) {
-    contacts.push_back(contact);
-    return Visit::go_on;
-  });
-  sort_face_pairs(contacts);
+  Basic_contact_search<Volume>(workers).between(a, b, {}, contacts);
   const Node_boxes boxes_a(a.view()), boxes_b(b.view());
   const Layout_view &view_a = boxes_a.layout(), &view_b = boxes_b.layout();
   if (contacts.empty() && !encloses(a, view_a, b, view_b) && !encloses(b, view_b, a, view_a)) return std::nullopt;

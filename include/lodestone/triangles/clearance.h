@@ -17,8 +17,12 @@ namespace lodestone {
 
 /// The direction of a motion, and how far coordinates may be off.
 struct Way {
+  explicit Way(const Eigen::Vector3d& unit_vector, double difference_slack)
+      : direction(unit_vector), inverse(unit_vector.cwiseInverse()), slack(difference_slack) {}
+
   Eigen::Vector3d direction;  ///< a unit vector, up to rounding
-  double slack = 0;           ///< each difference of two coordinates may be off by so much
+  Eigen::Vector3d inverse;    ///< of each of its components, rounded
+  double slack;               ///< each difference of two coordinates may be off by so much
 };
 
 /// An upper bound on a clearance.
