@@ -291,6 +291,15 @@ class Detector {
     return exact.of_surface(
         object, [&](auto& surface) { return lodestone::first_hits(surface, rays, exact.workers()); });
   }
+  /// The pose of an object, prepared for rays that are asked about one after the other, as where each depends on the
+  /// answer to the last: see Ray_tree. Its rays read no positions, so it is of use until the object moves or changes. In
+  /// mode `certified` an object with bounds is posed as a whole.
+  /// @throws Bad_argument, Bad_mesh  as `first_hit`
+  Ray_tree ray_tree(Object_id object)
+    requires std::same_as<Volume, Aabb>
+  {
+    return ask<Exact>(object).ray_tree(object);
+  }
   /// `closest_point` of many points: see `first_hits`.
   std::vector<Closest_point> closest_points(Object_id object, std::span<const Point> points) {
     return ask_each(object, points,

@@ -26,7 +26,9 @@ struct Ray_starts {
 };
 
 /// Starts rays where they enter the box around the surface.
+/// @param rays   numbers beyond `count` are those of any ray; a single ray needs none
+/// @param count  of the rays, 1 to `ray_tree_width`
 /// @param walks  are overwritten; those of other rays mean nothing
-Ray_starts start_rays(const Relative_place& place, const Ray_numbers& rays, Ray_walks& walks);
+Ray_starts start_rays(const Relative_place& place, const Ray_numbers& rays, std::size_t count, Ray_walks& walks);
 
 }  // namespace lodestone::kernel

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t rays_per_task = 128;
 
 /// Asks for some rays, which walk in turns.
-template <class Collector, class Answer>
+template <class Collector, class Answer, std::size_t most_rays>
 class Ray_group final {
  public:
   Ray_group(const Ray_tree& tree, std::span<const Ray> rays, std::span<Answer> answers)
@@ -56,8 +56,9 @@ class Ray_group final {
   /// Starts as many rays as a vector holds.
   void start(std::size_t first) {
     const std::size_t count = std::min(ray_tree_width, rays_.size() - first);
+    const std::size_t lanes = count == 1 ? 1 : ray_tree_width;
     kernel::Ray_numbers numbers;
-    for (std::size_t lane = 0; lane < ray_tree_width; ++lane) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
       const Ray_frame& frame = questions_[first + std::min(lane, count - 1)].frame;
       for (int axis = 0; axis < 3; ++axis) {
         numbers.origin[axis][lane] = frame.origin[axis];
@@ -66,8 +67,8 @@ class Ray_group final {
       numbers.limit[lane] = frame.most_limit;
     }
     const auto& middle = tree_.middle();
-    const auto starts =
-        kernel::start_rays({{middle[0], middle[1], middle[2]}, tree_.scale()}, numbers, walks_[first / ray_tree_width]);
+    const auto starts = kernel::start_rays({{middle[0], middle[1], middle[2]}, tree_.scale()}, numbers, count,
+                                           walks_[first / ray_tree_width]);
     for (std::size_t lane = 0; lane < count; ++lane) {
       if ((starts.near >> lane & 1U) == 0)
         ask_surface(first + lane);
@@ -90,10 +91,10 @@ class Ray_group final {
   const Ray_tree& tree_;
   std::span<const Ray> rays_;
   std::span<Answer> answers_;
-  boost::container::static_vector<Question, rays_per_task> questions_;
-  boost::container::static_vector<std::uint32_t, rays_per_task> walking_;
+  boost::container::static_vector<Question, most_rays> questions_;
+  boost::container::static_vector<std::uint32_t, most_rays> walking_;
   Face_tests<Collector> tests_;
-  kernel::Ray_walks walks_[rays_per_task / ray_tree_width];
+  kernel::Ray_walks walks_[(most_rays + ray_tree_width - 1) / ray_tree_width];
 };
 
 template <class Collector, class Answer>
@@ -101,9 +102,18 @@ std::vector<Answer> ask_in_groups(const Ray_tree& tree, std::span<const Ray> ray
   std::vector<Answer> answers(rays.size());
   workers.run((rays.size() + rays_per_task - 1) / rays_per_task, [&](std::size_t task, std::size_t) {
     const std::size_t first = task * rays_per_task, count = std::min(rays_per_task, rays.size() - first);
-    Ray_group<Collector, Answer>(tree, rays.subspan(first, count), std::span(answers).subspan(first, count)).run();
+    Ray_group<Collector, Answer, rays_per_task>(tree, rays.subspan(first, count),
+                                                std::span(answers).subspan(first, count))
+        .run();
   });
   return answers;
+}
+
+template <class Collector, class Answer>
+Answer ask_alone(const Ray_tree& tree, const Ray& ray) {
+  Answer answer;
+  Ray_group<Collector, Answer, 1>(tree, {&ray, 1}, {&answer, 1}).run();
+  return answer;
 }
 
 /// A tree is made for more rays than there are faces, divided by this. It then pays for itself on one thread.
@@ -113,6 +123,14 @@ constexpr std::size_t faces_per_ray = 16;
 
 Ray_tree::Ray_tree(const Layout_view& surface, Workers& workers) : surface_(surface) {
   Ray_tree_builder(*this).build(workers);
+}
+
+std::optional<Ray_hit> first_hit(const Ray_tree& tree, const Ray& ray) {
+  return ask_alone<First_hit, std::optional<Ray_hit>>(tree, ray);
+}
+
+std::vector<Ray_hit> all_hits(const Ray_tree& tree, const Ray& ray) {
+  return ask_alone<Every_hit, std::vector<Ray_hit>>(tree, ray);
 }
 
 std::vector<std::optional<Ray_hit>> first_hits(const Ray_tree& tree, std::span<const Ray> rays, Workers& workers) {

@@ -53,14 +53,27 @@ struct Walker {
   std::int64_t* waiting;   ///< past the last of that
 };
 
+/// @param bottom  room for what waits
+HWY_INLINE void start(Walker& walker, const Ray_walks* walks, std::uint32_t ray, std::int64_t* bottom) {
+  walker.walks = walks + ray / ray_tree_width;
+  walker.lane = ray % ray_tree_width;
+  walker.ray = ray;
+  walker.most = walker.walks->most[walker.lane];
+  walker.next = 0;
+  walker.bottom = walker.waiting = bottom;
+  *walker.waiting++ = end_of_walk;
+}
+
 /// Where a ray enters the children of a node, by the slabs between their sides \cite kay1986.
 /// @param depths  bits of the depths, per child; `missed_depth` where it misses
-HWY_INLINE void enter_children(const Ray_node& node, const Walker& walker, std::uint32_t* depths) {
+/// @return a bit per child that it meets
+HWY_INLINE std::uint32_t enter_children(const Ray_node& node, const Walker& walker, std::uint32_t* depths) {
   const Ray_walks& walks = *walker.walks;
   const std::size_t ray = walker.lane;
   const Lanes d;
   const hn::RebindToUnsigned<Lanes> bits;
   const float* const sides = node.sides[0][0];
+  std::uint32_t all_met = 0;
   for (std::size_t i = 0; i < ray_tree_width; i += step) {
     const auto enter = [&](int axis) HWY_ATTR {
       return hn::MulSub(hn::Load(d, sides + walks.near_side[axis][ray] + i), hn::Set(d, walks.inverse[axis][ray]),
@@ -72,10 +85,13 @@ HWY_INLINE void enter_children(const Ray_node& node, const Walker& walker, std::
     };
     const Lane_values first = hn::Max(greatest(enter(0), enter(1), enter(2)), hn::Zero(d));
     const Lane_values last = hn::Min(least(leave(0), leave(1), leave(2)), hn::Set(d, walker.most));
-    const auto met = hn::RebindMask(bits, hn::Le(first, last));
+    const auto is_met = hn::Le(first, last);
+    const auto met = hn::RebindMask(bits, is_met);
+    all_met |= mask_bits(d, is_met) << i;
     // A zero may have a sign.
     hn::Store(hn::IfThenElse(met, hn::BitCast(bits, hn::Abs(first)), hn::Set(bits, missed_depth)), bits, depths + i);
   }
+  return all_met;
 }
 
 /// Stores the chosen keys next to each other. Writes a whole vector.
@@ -182,10 +198,10 @@ HWY_INLINE void drop_deep(Walker& walker) {
   walker.waiting = kept;
 }
 
-/// Lists the faces that the ray may meet, and goes on to what was left to wait last.
+/// Lists the faces that the ray may meet. Those that it surely meets limit how deep it has to go.
 /// @return a bit per face
 template <Walk_until until>
-HWY_INLINE std::uint32_t visit_block(const Ray_block& block, Walker& walker) {
+HWY_INLINE std::uint32_t list_met(const Ray_block& block, Walker& walker) {
   const Lanes d;
   std::uint32_t met = 0;
   Lane_values surely_met = hn::Set(d, walker.most);
@@ -203,10 +219,16 @@ HWY_INLINE std::uint32_t visit_block(const Ray_block& block, Walker& walker) {
           hn::Min(surely_met, hn::IfThenElse(is_sure, hn::Add(farthest, hn::Set(d, 2 * walk_error)), surely_met));
     }
   }
-  if constexpr (until == Walk_until::first_hit) {
-    walker.most = hn::GetLane(hn::MinOfLanes(d, surely_met));
-    drop_deep(walker);
-  }
+  if constexpr (until == Walk_until::first_hit) walker.most = hn::GetLane(hn::MinOfLanes(d, surely_met));
+  return met;
+}
+
+/// Lists the faces that the ray may meet, and goes on to what was left to wait last.
+/// @return a bit per face
+template <Walk_until until>
+HWY_INLINE std::uint32_t visit_block(const Ray_block& block, Walker& walker) {
+  const std::uint32_t met = list_met<until>(block, walker);
+  if constexpr (until == Walk_until::first_hit) drop_deep(walker);
   walker.next = *--walker.waiting;
   return met;
 }
@@ -276,9 +298,9 @@ class Walk_group {
     Turn turns[2];
     Turn *turn = turns, *next = turns + 1;
     turn->nodes = turn->blocks = 0;
-    turn->ended = ray_walkers;
-    for (std::size_t i = 0; i < ray_walkers; ++i) {
-      walkers[i].bottom = walkers[i].waiting = waiting + i * tree_.waiting_room();
+    turn->ended = std::min(rays_.size(), ray_walkers);
+    for (std::size_t i = 0; i < turn->ended; ++i) {
+      walkers[i].bottom = waiting + i * tree_.waiting_room();
       turn->at_end[i] = &walkers[i];
     }
     do {
@@ -290,8 +312,9 @@ class Walk_group {
         filler.add(walker);
       }
       for (std::size_t i = 0; i < turn->ended && started_ < rays_.size(); ++i) {
-        start_next(*turn->at_end[i]);
-        filler.add(*turn->at_end[i]);
+        Walker& walker = *turn->at_end[i];
+        start(walker, walks_, rays_[started_++], walker.bottom);
+        filler.add(walker);
       }
       filler.finish();
       std::swap(turn, next);
@@ -313,15 +336,6 @@ class Walk_group {
     candidates_.add(count);
   }
 
-  HWY_INLINE void start_next(Walker& walker) {
-    walker.ray = rays_[started_++];
-    walker.walks = walks_ + walker.ray / ray_tree_width;
-    walker.lane = walker.ray % ray_tree_width;
-    walker.most = walker.walks->most[walker.lane];
-    walker.next = 0;
-    *walker.waiting++ = end_of_walk;
-  }
-
   const Ray_nodes& tree_;
   const Places places_;
   const Ray_walks* walks_;
@@ -330,12 +344,78 @@ class Walk_group {
   std::size_t started_ = 0;
 };
 
+/// Walks a single ray. It has nobody to take turns with: with a branch that is guessed right, the next child is read
+/// before it is known whether it is the next.
+template <Walk_until until>
+class Single_walk {
+ public:
+  Single_walk(const Ray_nodes& tree, Ray_candidate_list& candidates) : tree_(tree), candidates_(candidates) {}
+
+  HWY_INLINE void run(const Ray_walks* walks, std::uint32_t ray, std::int64_t* waiting) {
+    start(walker_, walks, ray, waiting);
+    while (walker_.next != end_of_walk) {
+      const std::uint32_t child = child_of(walker_.next);
+      if ((child & is_ray_block) == 0)
+        visit(tree_.nodes[child]);
+      else
+        visit_block(child & ~is_ray_block);
+    }
+  }
+
+ private:
+  /// Goes on to the nearest of the children that the ray meets.
+  HWY_INLINE void visit(const Ray_node& node) {
+    alignas(64) std::uint32_t depths[ray_tree_width];
+    std::uint32_t left = enter_children(node, walker_, depths);
+    if (left == 0) return go_back();
+    const auto take = [&] {
+      const std::size_t child = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
+      left &= left - 1;
+      return std::int64_t{depths[child]} << 32 | std::int64_t{node.children[child]};
+    };
+    walker_.next = take();
+    while (left != 0) {
+      const std::int64_t other = take();
+      *walker_.waiting++ = std::max(other, walker_.next);
+      walker_.next = std::min(other, walker_.next);
+    }
+  }
+
+  HWY_INLINE void visit_block(std::uint32_t block) {
+    const std::uint32_t lanes = list_met<until>(tree_.blocks[block], walker_);
+    too_deep_ = deeper_key(walker_.most);
+    *candidates_.room(1) = {walker_.ray, block, lanes};
+    candidates_.add(lanes != 0 ? 1 : 0);
+    go_back();
+  }
+
+  /// Goes on to what was left to wait last, unless it is too deep by now.
+  HWY_INLINE void go_back() {
+    do walker_.next = *--walker_.waiting;
+    while (walker_.next >= too_deep_);
+  }
+
+  const Ray_nodes& tree_;
+  Ray_candidate_list& candidates_;
+  Walker walker_;
+  std::int64_t too_deep_ = missed_key;
+};
+
+template <Walk_until until>
+HWY_INLINE void walk(const Ray_nodes& tree, const Ray_walks* walks, std::span<const std::uint32_t> rays,
+                     std::int64_t* waiting, Ray_candidate_list& candidates) {
+  if (rays.size() == 1)
+    Single_walk<until>(tree, candidates).run(walks, rays.front(), waiting);
+  else
+    Walk_group<until>(tree, walks, rays, candidates).run(waiting);
+}
+
 void walk_rays_kernel(const Ray_nodes& tree, const Ray_walks* walks, std::span<const std::uint32_t> rays,
                       Walk_until until, std::int64_t* waiting, Ray_candidate_list& candidates) {
   if (until == Walk_until::first_hit)
-    Walk_group<Walk_until::first_hit>(tree, walks, rays, candidates).run(waiting);
+    walk<Walk_until::first_hit>(tree, walks, rays, waiting, candidates);
   else
-    Walk_group<Walk_until::end>(tree, walks, rays, candidates).run(waiting);
+    walk<Walk_until::end>(tree, walks, rays, waiting, candidates);
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE
@@ -347,14 +427,14 @@ namespace lodestone::kernel {
 HWY_EXPORT(walk_rays_kernel);
 
 Ray_candidates* Ray_candidate_list::room(std::size_t count) {
-  if (count_ + count > list_.size()) list_.resize(2 * (count_ + count));
+  if (count_ + count > list_.size()) list_.resize(2 * (count_ + count), boost::container::default_init);
   return list_.data() + count_;
 }
 
 void walk_rays(const Ray_nodes& tree, const Ray_walks* walks, std::span<const std::uint32_t> rays, Walk_until until,
                Ray_candidate_list& candidates) {
-  boost::container::small_vector<std::int64_t, 64 * ray_walkers> waiting(ray_walkers * tree.waiting_room(),
-                                                                         boost::container::default_init);
+  boost::container::small_vector<std::int64_t, 64 * ray_walkers> waiting(
+      std::min(rays.size(), ray_walkers) * tree.waiting_room(), boost::container::default_init);
   HWY_DYNAMIC_DISPATCH(walk_rays_kernel)(tree, walks, rays, until, waiting.data(), candidates);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "lodestone/queries/ray_node.h"
 
@@ -52,6 +52,9 @@ enum class Walk_until {
   end,        ///< all candidates are listed
 };
 
+/// Rays that walk at once.
+constexpr std::size_t ray_walkers = 32;
+
 /// A list of candidates, which grows.
 class Ray_candidate_list {
  public:
@@ -62,12 +65,9 @@ class Ray_candidate_list {
   void add(std::size_t count) { count_ += count; }
 
  private:
-  std::vector<Ray_candidates> list_;
+  boost::container::small_vector<Ray_candidates, 2 * ray_walkers> list_;
   std::size_t count_ = 0;
 };
-
-/// Rays that walk at once.
-constexpr std::size_t ray_walkers = 32;
 
 /// Walks rays from front to back, as far as boxes tell. They take turns, so that what one waits for is read from memory
 /// while others walk.

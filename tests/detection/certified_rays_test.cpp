@@ -14,7 +14,7 @@ TEST(Certified, rays_and_points_have_the_answers_of_mode_exact) {
   const auto same = [](const Ray_hit& a, const Ray_hit& b) { return a.face == b.face && a.t == b.t; };
   for (int frame = 0; frame < 6; ++frame) {
     scene.pose(frame);
-    for (Object_id object = 0; object < 4; ++object)
+    for (Object_id object = 0; object < 4; ++object) {
       for (int i = 0; i < 12; ++i) {
         const Ray ray{.origin = {3 * std::cos(i), 3 * std::sin(i), 0.3 * i},
                       .direction = {-std::cos(i), -std::sin(i) + 0.05 * i, -0.12 * i}};
@@ -31,6 +31,11 @@ TEST(Certified, rays_and_points_have_the_answers_of_mode_exact) {
         EXPECT_EQ(certified.closest_point(object, beyond).face, exact.closest_point(object, beyond).face);
         EXPECT_EQ(certified.closest_point(object, beyond).distance, exact.closest_point(object, beyond).distance);
       }
+      const Ray through{.origin = {3, 0.1, 0.2}, .direction = {-1, 0, 0}};
+      const auto hit = first_hit(certified.ray_tree(object), through), true_hit = exact.first_hit(object, through);
+      ASSERT_EQ(hit.has_value(), true_hit.has_value());
+      if (hit) EXPECT_TRUE(same(*hit, *true_hit));
+    }
   }
   EXPECT_GT(hits, 100U);
   EXPECT_GT(inside, 30U);

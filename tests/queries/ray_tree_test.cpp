@@ -40,7 +40,12 @@ void expect_same(const std::optional<Ray_hit>& a, const std::optional<Ray_hit>& 
   EXPECT_EQ(a->point, b->point);
 }
 
-/// Asks about all rays at once, and compares the answers with those of the surface.
+void expect_same(std::span<const Ray_hit> a, std::span<const Ray_hit> b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) expect_same(a[i], b[i]);
+}
+
+/// Asks about all rays at once, and one by one, and compares the answers with those of the surface.
 /// @return number of rays that meet it
 std::size_t expect_answers_of_the_surface(const Layout_view& surface, std::span<const Ray> rays) {
   const Ray_tree tree(surface);
@@ -52,9 +57,10 @@ std::size_t expect_answers_of_the_surface(const Layout_view& surface, std::span<
   for (std::size_t i = 0; i < rays.size() && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(testing::Message() << "ray " << i);
     expect_same(first[i], first_hit(surface, rays[i]));
+    expect_same(first_hit(tree, rays[i]), first[i]);
     const auto truth = all_hits(surface, rays[i]);
-    EXPECT_EQ(all[i].size(), truth.size());
-    for (std::size_t k = 0; k < std::min(all[i].size(), truth.size()); ++k) expect_same(all[i][k], truth[k]);
+    expect_same(all[i], truth);
+    expect_same(all_hits(tree, rays[i]), truth);
     meeting += first[i] ? 1 : 0;
   }
   return meeting;

@@ -26,6 +26,7 @@
 #include "lodestone/queries/parting.h"
 #include "lodestone/queries/point_search.h"
 #include "lodestone/queries/ray_search.h"
+#include "lodestone/queries/ray_tree.h"
 #include "lodestone/queries/small_pairs.h"
 #include "lodestone/queries/surface_triangle.h"
 #include "lodestone/volumes/to_box.h"
@@ -145,6 +146,15 @@ class Exact_detection final : public Detection {
       if (objects_.on_demand(object)) return unbroken(ids, question(objects_.bounded(object)));
     const Node_boxes boxes(objects_.surface(object).view());
     return question(boxes.layout());
+  }
+  /// See `Detector::ray_tree`.
+  Ray_tree ray_tree(Object_id object)
+    requires std::same_as<Volume, Aabb>
+  {
+    const Object_id ids[] = {object};
+    refresh(ids);
+    objects_.pose_all(object);
+    return Ray_tree(objects_.surface(object).view(), workers_);
   }
   /// Who share the work.
   Workers& workers() { return workers_; }

@@ -50,6 +50,15 @@ class Ray_tree {
   std::size_t most_waiting_ = 1;
 };
 
+/// `first_hit` of a ray, the same as of the surface. For rays that depend on the answers about earlier ones; many at
+/// once take half the time or less.
+/// @throws Bad_argument  the ray is not as `Ray` says
+std::optional<Ray_hit> first_hit(const Ray_tree& tree, const Ray& ray);
+
+/// `all_hits` of a ray, the same as of the surface.
+/// @throws Bad_argument  the ray is not as `Ray` says
+std::vector<Ray_hit> all_hits(const Ray_tree& tree, const Ray& ray);
+
 /// `first_hit` of each ray, the same as of the surface. Shared among the workers.
 /// @return one per ray, in their order
 /// @throws Bad_argument  a ray is not as `Ray` says
