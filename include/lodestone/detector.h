@@ -281,21 +281,21 @@ class Detector {
     return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::point_side(surface, point); });
   }
 
-  /// `first_hit` of many rays. Each query of an object reads its positions first; this does so once for all rays. From
-  /// about F / 16 rays on it makes a Ray_tree, which answers sooner. Shared among the threads, unless the object has
-  /// bounds in mode `certified`.
+  /// `first_hit` of many rays. Each query of an object reads its positions first; this does so once for all rays. Calls
+  /// with more than F / 64 rays count: from the one on with which they have been F / 16, a Ray_tree answers them sooner.
+  /// The detector keeps it, some 70 bytes per face, and refits it. Shared among the threads, unless the object has bounds
+  /// in mode `certified`.
   /// @return one per ray, in their order
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {
-    auto& exact = ask<Exact>(object);
-    return exact.of_surface(
-        object, [&](auto& surface) { return lodestone::first_hits(surface, rays, exact.workers()); });
+    return ask<Exact>(object).first_hits(object, rays);
   }
-  /// The pose of an object, prepared for rays that are asked about one after the other, as where each depends on the
-  /// answer to the last: see Ray_tree. Its rays read no positions, so it is of use until the object moves or changes. In
-  /// mode `certified` an object with bounds is posed as a whole.
+  /// An object where it is now, prepared for rays that are asked about one by one: see Ray_tree. It reads positions in
+  /// place. So it is of use until the next query of the object, or until the object is moved, given positions, placed,
+  /// rebuilt, loaded or removed. The detector keeps it, and refits it when it is asked for again. In mode `certified` an
+  /// object with bounds is posed as a whole.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
-  Ray_tree ray_tree(Object_id object)
+  const Ray_tree& ray_tree(Object_id object)
     requires std::same_as<Volume, Aabb>
   {
     return ask<Exact>(object).ray_tree(object);

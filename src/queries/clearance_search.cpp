@@ -80,8 +80,25 @@ std::optional<Clearance> Clearance_search::operator()(const Eigen::Vector3d& dir
 
 bool Clearance_search::witnesses_reach() const {
   return std::any_of(witnesses_.rbegin(), witnesses_.rend(), [&](const auto& triangles) {
-    return clearance(triangles.first, triangles.second, way_, limit_).length >= limit_;
+    const auto& [a, b] = triangles;
+    return overlap_across(a, b) && clearance(a, b, way_, limit_).length >= limit_;
   });
+}
+
+/// The test of `kernel::In_line` across the direction: `clearance` alone can let pass what is dropped there, and a
+/// witness must not count where a search would not come to it.
+bool Clearance_search::overlap_across(const Boxed_triangle& a, const Boxed_triangle& b) const {
+  for (int axis = 0; axis < 2; ++axis) {
+    const double* const n = seen_.axes[axis];
+    const auto at = [n](const Eigen::Vector3d& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
+    const auto span = [&](const Boxed_triangle& t) {
+      return std::minmax({at(t.corners[0]), at(t.corners[1]), at(t.corners[2])});
+    };
+    const auto [low_a, high_a] = span(a);
+    const auto [low_b, high_b] = span(b);
+    if (low_b - high_a > seen_.slack[axis] || low_a - high_b > seen_.slack[axis]) return false;
+  }
+  return true;
 }
 
 void Clearance_search::push(Node_pair pair) {

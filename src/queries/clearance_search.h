@@ -81,6 +81,7 @@ class Clearance_search {
   void list_candidates(std::uint32_t leaf_a, std::uint32_t leaf_b);
   void try_faces(Face_pair faces, const Boxed_triangle& a, const Boxed_triangle& b);
   bool witnesses_reach() const;
+  bool overlap_across(const Boxed_triangle& a, const Boxed_triangle& b) const;
 
   int exponent_ = 0;  ///< a scaled coordinate is one of the object's times 2^-exponent
   double scale_ = 1;

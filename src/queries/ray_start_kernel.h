@@ -2,6 +2,7 @@
 #pragma once
 
 #include "queries/ray_walk_kernel.h"
+#include "queries/relative_place.h"
 
 /// Where rays enter the box around a surface, built for several instruction sets and chosen at run time.
 namespace lodestone::kernel {
@@ -11,12 +12,6 @@ struct alignas(64) Ray_numbers {
   double origin[3][ray_tree_width];
   double direction[3][ray_tree_width];  ///< not zero
   double limit[ray_tree_width];         ///< how deep they have to go at most, see `Ray_frame`
-};
-
-/// Relative coordinates: see `Ray_tree`.
-struct Relative_place {
-  double middle[3];
-  double scale;
 };
 
 /// A bit per ray.

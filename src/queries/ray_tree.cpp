@@ -5,6 +5,7 @@
 #include <bit>
 #include <boost/container/static_vector.hpp>
 
+#include "lodestone/mesh/errors.h"
 #include "lodestone/queries/ask_each.h"
 #include "queries/ray_hits.h"
 #include "queries/ray_start_kernel.h"
@@ -116,13 +117,22 @@ Answer ask_alone(const Ray_tree& tree, const Ray& ray) {
   return answer;
 }
 
-/// A tree is made for more rays than there are faces, divided by this. It then pays for itself on one thread.
-constexpr std::size_t faces_per_ray = 16;
-
 }  // namespace
 
-Ray_tree::Ray_tree(const Layout_view& surface, Workers& workers) : surface_(surface) {
+Ray_tree::Ray_tree(const Layout_view& surface, Workers& workers)
+    : surface_(surface), face_count_(surface.layout->face_count()) {
   Ray_tree_builder(*this).build(workers);
+}
+
+void Ray_tree::refit(const Layout_view& surface, Workers& workers) {
+  if (surface.layout->face_count() != face_count_ || surface.coordinates.size() != surface_.coordinates.size())
+    throw Bad_argument("a tree for rays cannot follow a surface with other faces or vertices");
+  if (blocks_.empty()) {
+    *this = Ray_tree(surface, workers);  // there was no fitting scale so far
+    return;
+  }
+  surface_ = surface;
+  Ray_tree_builder(*this).refit(workers);
 }
 
 std::optional<Ray_hit> first_hit(const Ray_tree& tree, const Ray& ray) {
@@ -143,7 +153,7 @@ std::vector<std::vector<Ray_hit>> all_hits(const Ray_tree& tree, std::span<const
 
 std::vector<std::optional<Ray_hit>> first_hits(const Layout_view& surface, std::span<const Ray> rays,
                                                Workers& workers) {
-  if (rays.size() > surface.layout->face_count() / faces_per_ray)
+  if (Ray_tree::pays(rays.size(), surface.layout->face_count()))
     return first_hits(Ray_tree(surface, workers), rays, workers);
   return ask_each(
       surface, rays, [](const Layout_view& view, const Ray& ray) { return first_hit(view, ray); }, workers);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "lodestone/queries/leaf_triangle.h"
+#include "queries/ray_fit_kernel.h"
 
 namespace lodestone {
 
@@ -19,9 +19,6 @@ constexpr float along_steps = static_cast<float>(along_mask);
 static_assert(most_leaf_faces <= 1U << face_bits);
 static_assert(most_leaf_faces / ray_tree_width <= 1U << (32 - along_bits - face_bits),
               "a strip has at least one block");
-
-/// A relative coordinate that no ray comes to.
-constexpr float beyond_all_rays = 0x1p30F;
 
 /// The least spread that is told apart.
 constexpr float tiny = 0x1p-30F;
@@ -37,20 +34,23 @@ std::pair<std::size_t, std::size_t> longest_axes(const std::array<float, 3>& low
 }
 
 constexpr std::size_t leaves_per_task = 64;
+constexpr std::size_t blocks_per_task = 512;
 
-}  // namespace
+constexpr Ray_box no_box{{4, 4, 4}, {-4, -4, -4}};
 
-void Ray_tree_builder::Box::extend(const Box& other) {
+void extend(Ray_box& box, const Ray_box& other) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    low[axis] = std::min(low[axis], other.low[axis]);
-    high[axis] = std::max(high[axis], other.high[axis]);
+    box.low[axis] = std::min(box.low[axis], other.low[axis]);
+    box.high[axis] = std::max(box.high[axis], other.high[axis]);
   }
 }
 
-float Ray_tree_builder::Box::half_area() const {
-  const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+float half_area(const Ray_box& box) {
+  const float x = box.high[0] - box.low[0], y = box.high[1] - box.low[1], z = box.high[2] - box.low[2];
   return x * y + y * z + z * x;
 }
+
+}  // namespace
 
 void Ray_tree_builder::build(Workers& workers) {
   if (!place()) return;
@@ -63,8 +63,41 @@ void Ray_tree_builder::build(Workers& workers) {
                   pack_leaf(static_cast<std::uint32_t>(leaf), memory[worker]);
               });
   fit_boxes();
-  tree_.nodes_.reserve(block_boxes_.size() / 3 + 1);
+  tree_.nodes_.reserve(tree_.blocks_.size() / 3 + 1);
   add_node(branch_of(0), 0);
+}
+
+void Ray_tree_builder::refit(Workers& workers) {
+  if (!place()) return;
+  const std::size_t blocks = tree_.blocks_.size();
+  workers.run((blocks + blocks_per_task - 1) / blocks_per_task, [&](std::size_t task, std::size_t) {
+    fit_blocks(task * blocks_per_task, std::min((task + 1) * blocks_per_task, blocks));
+  });
+  std::vector<Ray_box> boxes(tree_.nodes_.size());
+  for (std::size_t n = boxes.size(); n-- > 0;) boxes[n] = refit_node(n, boxes);  // children come after their parent
+}
+
+/// @param node_boxes  of all nodes that come later
+Ray_box Ray_tree_builder::refit_node(std::size_t index, std::span<const Ray_box> node_boxes) {
+  Ray_node& node = tree_.nodes_[index];
+  Ray_box all = no_box;
+  for (std::size_t i = 0; i < ray_tree_width; ++i) {
+    const std::uint32_t child = node.children[i], block = child & ~is_ray_block;
+    if (child == 0) continue;
+    const Ray_box& box = child == block ? node_boxes[child] : tree_.block_boxes_[block];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      node.sides[0][axis][i] = box.low[axis];
+      node.sides[1][axis][i] = box.high[axis];
+    }
+    extend(all, box);
+  }
+  return all;
+}
+
+void Ray_tree_builder::fit_blocks(std::size_t first, std::size_t end) {
+  const auto& middle = tree_.middle_;
+  kernel::fit_blocks(tree_.surface_.coordinates.data(), {{middle[0], middle[1], middle[2]}, tree_.scale_},
+                     std::span(tree_.blocks_.data() + first, end - first), tree_.block_boxes_.data() + first);
 }
 
 /// @return false if there is no fitting scale
@@ -76,7 +109,8 @@ bool Ray_tree_builder::place() {
     // Far from the origin, the middle is rounded to one side.
     half_width = std::max({half_width, bounds.high[axis] - middle, middle - bounds.low[axis]});
   }
-  if (!(half_width > 0x1p-500 && half_width < 0x1p500)) return false;
+  tree_.is_placed_ = half_width > 0x1p-500 && half_width < 0x1p500;
+  if (!tree_.is_placed_) return false;
   tree_.scale_ = std::ldexp(1.0, -std::ilogb(half_width * (1 + 0x1p-40)) - 1);
   return true;
 }
@@ -88,7 +122,7 @@ void Ray_tree_builder::count_blocks() {
         first_block_[leaf] +
         static_cast<std::uint32_t>((layout_.faces(leaf).size() + ray_tree_width - 1) / ray_tree_width);
   tree_.blocks_.resize(first_block_.back());
-  block_boxes_.resize(first_block_.back());
+  tree_.block_boxes_.resize(first_block_.back());
 }
 
 std::array<float, 3> Ray_tree_builder::relative(const double* position) const {
@@ -103,8 +137,8 @@ std::array<float, 3> Ray_tree_builder::relative(const double* position) const {
 void Ray_tree_builder::pack_leaf(std::uint32_t leaf, Leaf_memory& memory) {
   read_leaf(leaf, memory);
   const std::uint32_t first = first_block_[leaf], blocks = first_block_[leaf + 1] - first;
-  const auto [across, along] = longest_axes(memory.sums_low, memory.sums_high);
-  const auto spread = [&](std::size_t axis) { return memory.sums_high[axis] - memory.sums_low[axis]; };
+  const auto [across, along] = longest_axes(memory.around.low, memory.around.high);
+  const auto spread = [&](std::size_t axis) { return memory.around.high[axis] - memory.around.low[axis]; };
   const float wanted = std::sqrt(static_cast<float>(blocks) * spread(across) / std::max(spread(along), tiny));
   const float strips = std::clamp(std::round(wanted), 1.0F, static_cast<float>(blocks));
   const float strips_per_unit = strips / std::max(spread(across), tiny),
@@ -112,55 +146,43 @@ void Ray_tree_builder::pack_leaf(std::uint32_t leaf, Leaf_memory& memory) {
   for (std::uint32_t face = 0; face < memory.sums.size(); ++face) {
     const auto& sum = memory.sums[face];
     const auto strip =
-        static_cast<std::uint32_t>(std::min((sum[across] - memory.sums_low[across]) * strips_per_unit, strips - 1));
-    const auto place = static_cast<std::uint32_t>((sum[along] - memory.sums_low[along]) * steps_per_unit);
+        static_cast<std::uint32_t>(std::min((sum[across] - memory.around.low[across]) * strips_per_unit, strips - 1));
+    const auto place = static_cast<std::uint32_t>((sum[along] - memory.around.low[along]) * steps_per_unit);
     memory.order[face] = (strip << along_bits | (strip % 2 == 0 ? place : along_mask - place)) << face_bits | face;
   }
   memory.sort(memory.order.data(), memory.order.size(), hwy::SortAscending());
   for (std::size_t begin = 0; begin < memory.order.size(); begin += ray_tree_width)
     add_block(leaf, first + static_cast<std::uint32_t>(begin / ray_tree_width),
-              std::span(memory.order).subspan(begin, std::min(ray_tree_width, memory.order.size() - begin)), memory);
+              std::span(memory.order).subspan(begin, std::min(ray_tree_width, memory.order.size() - begin)));
+  fit_blocks(first, first + blocks);
 }
 
 void Ray_tree_builder::read_leaf(std::uint32_t leaf, Leaf_memory& memory) const {
   const Leaf_faces faces = tree_.surface_.leaf(leaf);
   const std::size_t count = faces.corners.size();
-  memory.corners.resize(3 * count);
   memory.sums.resize(count);
   memory.order.resize(count);
-  memory.sums_low.fill(4), memory.sums_high.fill(-4);
+  memory.around = no_box;
   for (std::size_t f = 0; f < count; ++f) {
-    std::array<float, 3> sum{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto& p = memory.corners[3 * f + c] = relative(faces.position(faces.corners[f][c]));
+    std::array<float, 3>& sum = memory.sums[f] = {};
+    for (const auto corner : faces.corners[f]) {
+      const auto p = relative(faces.position(corner));
       for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += p[axis];
     }
-    memory.sums[f] = sum;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      memory.sums_low[axis] = std::min(memory.sums_low[axis], sum[axis]);
-      memory.sums_high[axis] = std::max(memory.sums_high[axis], sum[axis]);
-    }
+    extend(memory.around, {sum, sum});
   }
 }
 
-void Ray_tree_builder::add_block(std::uint32_t leaf, std::uint32_t index, std::span<const std::uint32_t> faces,
-                                 const Leaf_memory& memory) {
+/// Beyond the last face, it is repeated.
+void Ray_tree_builder::add_block(std::uint32_t leaf, std::uint32_t index, std::span<const std::uint32_t> faces) {
   Ray_block& block = tree_.blocks_[index];
-  Box& box = block_boxes_[index];
-  box.low.fill(4), box.high.fill(-4);
   const auto corners = layout_.corners(leaf);
   const auto vertices = layout_.vertices(leaf);
   block.count = static_cast<std::uint32_t>(faces.size());
   for (std::size_t lane = 0; lane < ray_tree_width; ++lane) {
     const std::uint32_t face = faces[std::min(lane, faces.size() - 1)] & face_mask;
     block.faces[lane] = layout_.faces(leaf)[face];
-    for (std::size_t c = 0; c < 3; ++c) {
-      block.vertices[c][lane] = vertices[corners[face][c]];
-      const auto& p = memory.corners[3 * face + c];
-      const bool is_face = lane < faces.size();
-      for (std::size_t axis = 0; axis < 3; ++axis) block.corners[c][axis][lane] = is_face ? p[axis] : beyond_all_rays;
-      if (is_face) box.extend({p, p});
-    }
+    for (std::size_t c = 0; c < 3; ++c) block.vertices[c][lane] = vertices[corners[face][c]];
   }
 }
 
@@ -170,12 +192,10 @@ void Ray_tree_builder::fit_boxes() {
   for (auto n = static_cast<std::uint32_t>(layout_.node_count()); n-- > 0;) {
     const auto& node = layout_.node(n);
     if (node.second_child == 0) {
-      Box& box = node_boxes_[n] = block_boxes_[first_block_[node.leaf]];
-      for (std::uint32_t b = first_block_[node.leaf] + 1; b < first_block_[node.leaf + 1]; ++b)
-        box.extend(block_boxes_[b]);
+      node_boxes_[n] = around_blocks(first_block_[node.leaf], first_block_[node.leaf + 1]);
     } else {
       node_boxes_[n] = node_boxes_[n + 1];
-      node_boxes_[n].extend(node_boxes_[node.second_child]);
+      extend(node_boxes_[n], node_boxes_[node.second_child]);
     }
   }
 }
@@ -186,9 +206,13 @@ Ray_tree_builder::Branch Ray_tree_builder::branch_of(std::uint32_t n) const {
 }
 
 Ray_tree_builder::Branch Ray_tree_builder::branch_of(std::uint32_t n, std::uint32_t first, std::uint32_t end) const {
-  Box box = block_boxes_[first];
-  for (std::uint32_t b = first + 1; b < end; ++b) box.extend(block_boxes_[b]);
-  return {box, n, first, end};
+  return {around_blocks(first, end), n, first, end};
+}
+
+Ray_box Ray_tree_builder::around_blocks(std::uint32_t first, std::uint32_t end) const {
+  Ray_box box = no_box;
+  for (std::uint32_t b = first; b < end; ++b) extend(box, tree_.block_boxes_[b]);
+  return box;
 }
 
 std::pair<Ray_tree_builder::Branch, Ray_tree_builder::Branch> Ray_tree_builder::children(const Branch& branch) const {
@@ -208,7 +232,7 @@ std::uint32_t Ray_tree_builder::add_node(const Branch& branch, std::size_t waiti
   while (count < ray_tree_width) {
     std::size_t largest = count;
     for (std::size_t i = 0; i < count; ++i)
-      if (open[i].size() > most && (largest == count || open[i].box.half_area() > open[largest].box.half_area()))
+      if (open[i].size() > most && (largest == count || half_area(open[i].box) > half_area(open[largest].box)))
         largest = i;
     if (largest == count) break;
     const auto [first, second] = children(open[largest]);

@@ -227,12 +227,11 @@ TEST(Detector_queries, about_many_rays_and_points_are_those_about_each) {
   const auto hits = detector.first_hits(0, rays);
   const auto nearest = detector.closest_points(0, points);
   const auto sides = detector.point_sides(0, points);
-  const Ray_tree tree = detector.ray_tree(0);
   ASSERT_EQ(hits.size(), rays.size());
   std::size_t met = 0, inside = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto hit = detector.first_hit(0, rays[i]);
-    const auto of_tree = first_hit(tree, rays[i]);
+    const auto of_tree = first_hit(detector.ray_tree(0), rays[i]);
     ASSERT_EQ(hits[i].has_value(), hit.has_value());
     ASSERT_EQ(of_tree.has_value(), hit.has_value());
     if (hit) {

@@ -83,6 +83,39 @@ TEST(Clearance_search, finds_the_same_along_each_direction_whatever_was_searched
     }
 }
 
+Face_soup two_triangles(std::vector<double> coordinates) {
+  Face_soup soup;
+  soup.faces = {{0, 1, 2}, {3, 4, 5}};
+  soup.coordinates = std::move(coordinates);
+  return soup;
+}
+
+/// Seen along the direction, the tips of the first two triangles are apart by less than two slacks. A search along the
+/// direction leaves them out, one along another direction does not.
+TEST(Clearance_search, finds_the_same_where_an_earlier_direction_had_tips_in_line_that_now_just_miss) {
+  const Posed_object a(two_triangles(
+      {0, 0, 0, -0x1.56aae8cd8ef28p-1, -0x1.65bd6ec6c965ep-4, -0x1.053aad22e0cep-5, -0x1.41b6b302ab59cp-3,
+       0x1.1187186779b74p-1, -0x1.42c88c0a7a8ccp-2, 0x1.a7e9ce5922a94p-5, 0x1.7887c6f8edd09p+0, 0x1.50d017e0b3347p+1,
+       -0x1.6d99e3f06b2b5p-2, 0x1.d22cb53a3c53p+0, 0x1.4ead8cf4f9fffp+1, -0x1.543203515e397p-2, 0x1.9b017c433f2e4p+0,
+       0x1.23a938af3979fp+1})),
+      b(two_triangles({-0x1.367804989699ep-1, -0x1.60bf81715bddbp-1, 0x1.968e4b29c6fc6p-2, -0x1.3dc074b48106p-5,
+                       -0x1.76c721b15e7a3p-1, 0x1.e76e61efcb037p-2, -0x1.2b9ad254d2f3p-4, -0x1.962bc4990fb31p-1,
+                       0x1.e086cbddfa56dp-2, -0x1.017acacd7254dp-2, 0x1.2057e69c96dbap+0, 0x1.6a38fc934fa34p+1,
+                       -0x1.5208f44480eaap-1, 0x1.79fcd4dde55e1p+0, 0x1.681671a7966ecp+1, -0x1.455503f4fa71cp-1,
+                       0x1.42d19be6e8395p+0, 0x1.3d121d61d5e8cp+1}));
+  const Eigen::Vector3d direction(-0x1.3678049896a9fp-1, -0x1.60bf81715bd3ep-1, 0x1.968e4b29c6ed7p-2),
+      earlier(-0x1.21cffa1cb80d9p-1, -0x1.6cb4564253917p-1, 0x1.a8f0904739e3ap-2);
+  const double limit = 0x1.8p-3;
+  const Layout_view view_a = a.view(), view_b = b.view();
+  const auto alone = Clearance_search(view_a, view_b)(direction, limit);
+  Clearance_search search(view_a, view_b);
+  ASSERT_TRUE(search(earlier, infinity));
+  const auto after_another = search(direction, limit);
+  ASSERT_TRUE(alone);
+  ASSERT_TRUE(after_another);
+  EXPECT_EQ(after_another->length, alone->length);
+}
+
 TEST(Clearance_search, gives_none_where_the_clearance_is_not_below_the_limit) {
   std::mt19937_64 random(3);
   const Posed_object a(potato(5)), b(moved(Face_soup(icosphere(5)), 0.7, 0.2, 0.1));

@@ -47,8 +47,8 @@ void expect_same(std::span<const Ray_hit> a, std::span<const Ray_hit> b) {
 
 /// Asks about all rays at once, and one by one, and compares the answers with those of the surface.
 /// @return number of rays that meet it
-std::size_t expect_answers_of_the_surface(const Layout_view& surface, std::span<const Ray> rays) {
-  const Ray_tree tree(surface);
+std::size_t expect_answers_of_the_surface(const Ray_tree& tree, std::span<const Ray> rays) {
+  const Layout_view& surface = tree.surface();
   const auto first = first_hits(tree, rays);
   const auto all = all_hits(tree, rays);
   EXPECT_EQ(first.size(), rays.size());
@@ -64,6 +64,10 @@ std::size_t expect_answers_of_the_surface(const Layout_view& surface, std::span<
     meeting += first[i] ? 1 : 0;
   }
   return meeting;
+}
+
+std::size_t expect_answers_of_the_surface(const Layout_view& surface, std::span<const Ray> rays) {
+  return expect_answers_of_the_surface(Ray_tree(surface), rays);
 }
 
 /// Each block's faces and corners are those of the layout's leaves, each face once, and lie in the box of the child
@@ -132,10 +136,61 @@ TEST(Ray_tree, gives_rays_in_turns_the_answers_of_the_surface) {
   EXPECT_GT(expect_answers_of_the_surface(large.view(), rays_at(2000, 2)), 500U);
 }
 
+TEST(Ray_tree, follows_the_surface_to_other_poses) {
+  const auto rays = rays_at(300, 8);
+  std::mt19937_64 random(9);
+  for (const auto& [name, soup] : small_objects())
+    for (const std::size_t leaf_faces : {7, 96}) {
+      SCOPED_TRACE(testing::Message() << name << ", leaves of " << leaf_faces);
+      Posed_object object(soup, leaf_faces);
+      Ray_tree tree(object.view());
+      for (const double size : {0.1, 1e9, 1.0}) {
+        const Face_soup pose = crumpled(posed_at_random(placed(soup, size), 0.5 * size, random), 0.05 * size, 10);
+        object.move_to(pose);
+        tree.refit(object.view());
+        expect_valid(tree, pose);
+        if (size <= 1) expect_answers_of_the_surface(tree, rays);
+      }
+      EXPECT_GT(expect_answers_of_the_surface(tree, rays), 10U);
+    }
+}
+
+TEST(Ray_tree, follows_a_surface_that_was_too_large_small_or_a_point) {
+  const auto rays = rays_at(60, 11);
+  const Face_soup ball(icosphere(4));
+  for (const double size : {0.0, 0x1p-600, 0x1p600}) {
+    SCOPED_TRACE(size);
+    Posed_object object(placed(ball, size));
+    Ray_tree tree(object.view());
+    for (int time = 0; time < 2; ++time) {
+      EXPECT_TRUE(tree.nodes().empty());
+      expect_answers_of_the_surface(tree, rays);
+      object.move_to(ball);
+      tree.refit(object.view());
+      expect_valid(tree, ball);
+      EXPECT_GT(expect_answers_of_the_surface(tree, rays), 20U);
+      object.move_to(placed(ball, size));
+      tree.refit(object.view());
+    }
+  }
+}
+
+TEST(Ray_tree, does_not_follow_a_surface_of_other_faces) {
+  const Posed_object ball(icosphere(4)), finer(icosphere(5));
+  Ray_tree tree(ball.view());
+  EXPECT_THROW(tree.refit(finer.view()), Bad_argument);
+  EXPECT_GT(expect_answers_of_the_surface(tree, rays_at(60, 12)), 20U);
+}
+
 TEST(Ray_tree, gives_the_same_answers_with_every_instruction_set) {
   const Posed_object object{Face_soup(potato(12)), 96};
   const auto rays = rays_at(300, 3);
-  for_instruction_sets([&] { EXPECT_GT(expect_answers_of_the_surface(object.view(), rays), 50U); });
+  for_instruction_sets([&] {
+    EXPECT_GT(expect_answers_of_the_surface(object.view(), rays), 50U);
+    Ray_tree tree(object.view());
+    tree.refit(object.view());
+    EXPECT_GT(expect_answers_of_the_surface(tree, rays), 50U);
+  });
 }
 
 TEST(Ray_tree, asks_the_surface_where_single_precision_is_not_enough) {

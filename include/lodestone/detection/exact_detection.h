@@ -148,13 +148,22 @@ class Exact_detection final : public Detection {
     return question(boxes.layout());
   }
   /// See `Detector::ray_tree`.
-  Ray_tree ray_tree(Object_id object)
+  const Ray_tree& ray_tree(Object_id object)
     requires std::same_as<Volume, Aabb>
   {
     const Object_id ids[] = {object};
     refresh(ids);
     objects_.pose_all(object);
-    return Ray_tree(objects_.surface(object).view(), workers_);
+    return objects_[object].ray_tree(workers_);
+  }
+  /// See `Detector::first_hits`.
+  std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {
+    return of_surface(object, [&](auto& surface) {
+      if constexpr (std::same_as<Volume, Aabb> && std::same_as<decltype(surface), const Layout_view&>)
+        if (objects_[object].pays_for(rays.size()))
+          return lodestone::first_hits(objects_[object].ray_tree(workers_), rays, workers_);
+      return lodestone::first_hits(surface, rays, workers_);
+    });
   }
   /// Who share the work.
   Workers& workers() { return workers_; }

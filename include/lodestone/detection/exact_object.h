@@ -20,6 +20,7 @@
 #include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/joined_vertices.h"
 #include "lodestone/mesh/rigid_motion.h"
+#include "lodestone/queries/ray_tree.h"
 #include "lodestone/tree/tree_surface.h"
 
 namespace lodestone {
@@ -104,6 +105,24 @@ class Exact_object {
     built = true;
   }
 
+  /// The surface, which has just been refitted, prepared for many rays. Kept for later frames.
+  const Ray_tree& ray_tree(Workers& workers)
+    requires std::same_as<Volume, Aabb>
+  {
+    if (ray_tree_)
+      ray_tree_->refit(surface.view(), workers);
+    else
+      ray_tree_.emplace(surface.view(), workers);
+    rays_without_tree_ = 0;
+    return *ray_tree_;
+  }
+  /// Whether it is worth preparing for some more rays. Several frames with rays can be where one is not.
+  bool pays_for(std::size_t rays) {
+    if (!Ray_tree::refit_pays(rays, corners().size())) return false;
+    if (!ray_tree_) rays_without_tree_ += rays;
+    return ray_tree_ || Ray_tree::pays(rays_without_tree_, corners().size());
+  }
+
   /// Takes note that a query begins: positions can have changed since the last one.
   void begin_query() {
     if (mesh().pose_number() == 0) ++changes_;
@@ -135,6 +154,7 @@ class Exact_object {
     built = false;
     former_.reset();
     bounded_.reset();
+    ray_tree_.reset();
   }
   void list_unused() { unused_ = unused_vertices(surface.tree().all_vertices(), mesh().vertex_count()); }
 
@@ -190,6 +210,8 @@ class Exact_object {
   std::vector<Make_bound> promises_;
   std::vector<double> rest_;  ///< 3 V: the first positions that a promise was about; none before
   std::unique_ptr<Bounded_surface> bounded_;
+  std::optional<Ray_tree> ray_tree_;   ///< of the surface; none before it is asked for
+  std::size_t rays_without_tree_ = 0;  ///< that it would have paid to refit one for
   std::vector<double> placed_;  ///< memory of `read`
 };
 
@@ -271,6 +293,7 @@ template <Bounding_volume Volume>
 void Exact_object<Volume>::start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces) {
   if (std::exchange(built, false)) former_ = Former{std::move(surface), {}};
   bounded_.reset();
+  ray_tree_.reset();
   rest_.clear();
   surface = Basic_tree_surface<Volume>(corners());
   give({});

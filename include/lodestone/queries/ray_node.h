@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,6 +10,11 @@ namespace lodestone {
 
 /// Most children of a node, and faces of a block.
 inline constexpr std::size_t ray_tree_width = 8;
+
+/// A box.
+struct Ray_box {
+  std::array<float, 3> low, high;
+};
 
 /// Some faces that are near each other. Beyond `count` the corners are where no ray comes to, and the last vertices and
 /// face are repeated.

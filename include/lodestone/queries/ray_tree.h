@@ -16,20 +16,31 @@ namespace lodestone {
 
 /// One pose of a surface, prepared for many rays: wide nodes over blocks of eight faces, in single precision
 /// \cite wald2008. Single precision only discards what it proves missed, so rays get the same answers as from the
-/// surface itself, and sooner. It is made anew after vertices have moved.
+/// surface itself, and sooner. It is refitted, or made anew, after vertices have moved.
 ///
-/// Making it takes the time of about F / 20 rays, so fewer rays are better asked without it.
+/// Making it takes as long as about F / 20 rays save, a refit as F / 60. Fewer rays are better asked without it.
 class Ray_tree {
  public:
   /// Packs the faces of each leaf into blocks, by where they are now. O(F), shared among the workers.
   /// @param surface  with boxes; must outlive this, and stay as it is
   explicit Ray_tree(const Layout_view& surface, Workers& workers = Workers::alone());
 
+  /// Follows the surface to another pose. The same faces are packed together, so rays take the longer, the more these
+  /// have moved apart. O(F), a third of the time of making a tree; shared among the workers.
+  /// @param surface  with boxes and the same faces; must outlive this, and stay as it is
+  /// @throws Bad_argument  it has other numbers of faces or vertices; this stays as it is
+  void refit(const Layout_view& surface, Workers& workers = Workers::alone());
+
+  /// Whether so many rays save more time than it takes to make a tree, on one thread.
+  static constexpr bool pays(std::size_t rays, std::size_t faces) { return rays > faces / 16; }
+  /// The same of a tree that is refitted.
+  static constexpr bool refit_pays(std::size_t rays, std::size_t faces) { return rays > faces / 64; }
+
   /// What it was made of.
   const Layout_view& surface() const { return surface_; }
   /// Nodes, the root first. None if the surface is a point, or larger than 2^500 or smaller than 2^-500: its rays are
   /// asked without this.
-  std::span<const Ray_node> nodes() const { return {nodes_.data(), nodes_.size()}; }
+  std::span<const Ray_node> nodes() const { return {nodes_.data(), is_placed_ ? nodes_.size() : 0}; }
   /// Blocks, those of a leaf one after the other.
   std::span<const Ray_block> blocks() const { return {blocks_.data(), blocks_.size()}; }
   /// Most nodes and blocks that wait at once while a ray walks down.
@@ -43,10 +54,13 @@ class Ray_tree {
   friend class Ray_tree_builder;
 
   Layout_view surface_;
+  std::size_t face_count_;
   std::array<double, 3> middle_ = {};
   double scale_ = 1;
+  bool is_placed_ = false;  ///< there is a fitting scale
   Unset_vector<Ray_node> nodes_;
   Unset_vector<Ray_block> blocks_;
+  Unset_vector<Ray_box> block_boxes_;
   std::size_t most_waiting_ = 1;
 };
 
