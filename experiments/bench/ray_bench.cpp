@@ -37,6 +37,25 @@ constexpr std::uint32_t no_face = ~std::uint32_t{0};
 #ifdef LODESTONE_EMBREE
 enum class Embree_kind { triangles, exact_numbers };
 
+/// Of a point from a triangle with the corners a, b and c, by the regions of \cite ericson2005.
+double squared_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                        const Eigen::Vector3d& c) {
+  const Eigen::Vector3d ab = b - a, ac = c - a, bc = c - b;
+  const double along_ab = ab.dot(p - a), along_ac = ac.dot(p - a), past_ab = ab.dot(p - b), beside_b = ac.dot(p - b),
+               beside_c = ab.dot(p - c), past_ac = ac.dot(p - c);
+  const auto from = [&](const Eigen::Vector3d& q) { return (p - q).squaredNorm(); };
+  if (along_ab <= 0 && along_ac <= 0) return from(a);
+  if (past_ab >= 0 && beside_b <= past_ab) return from(b);
+  if (past_ac >= 0 && beside_c <= past_ac) return from(c);
+  const double of_c = along_ab * beside_b - past_ab * along_ac, of_b = beside_c * along_ac - along_ab * past_ac,
+               of_a = past_ab * past_ac - beside_c * beside_b;
+  if (of_c <= 0 && along_ab >= 0 && past_ab <= 0) return from(a + along_ab / (along_ab - past_ab) * ab);
+  if (of_b <= 0 && along_ac >= 0 && past_ac <= 0) return from(a + along_ac / (along_ac - past_ac) * ac);
+  const double along_bc = beside_b - past_ab, back_along_bc = beside_c - past_ac;
+  if (of_a <= 0 && along_bc >= 0 && back_along_bc >= 0) return from(b + along_bc / (along_bc + back_along_bc) * bc);
+  return from(a + of_b / (of_a + of_b + of_c) * ab + of_c / (of_a + of_b + of_c) * ac);
+}
+
 /// Faces as Embree takes them: triangles in float, with the flag `robust`; or primitives of ours, boxed in float and
 /// tested in double.
 class Embree_scene {
@@ -88,6 +107,20 @@ class Embree_scene {
     query.hit = in_float(ray);
     rtcIntersect1(scene_, &context, &query.hit);
     return face_of(query.hit);
+  }
+
+  /// Distances are those of `squared_distance`, in double. Only for triangles.
+  std::uint32_t nearest_face(const Point& point) const {
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    RTCPointQuery query{static_cast<float>(point.x()),
+                        static_cast<float>(point.y()),
+                        static_cast<float>(point.z()),
+                        0,
+                        std::numeric_limits<float>::infinity()};
+    Nearest nearest{this, {point.x(), point.y(), point.z()}};
+    rtcPointQuery(scene_, &query, &context, measure, &nearest);
+    return nearest.face;
   }
 
   /// All rays in one call. Only for triangles.
@@ -143,6 +176,29 @@ class Embree_scene {
       high[axis] = std::nextafter(static_cast<float>(std::max({p, q, r})), infinity);
     }
     *arguments->bounds_o = {low[0], low[1], low[2], 0, high[0], high[1], high[2], 0};
+  }
+
+  /// The nearest face so far.
+  struct Nearest {
+    const Embree_scene* scene;
+    Eigen::Vector3d point;
+    double squared = std::numeric_limits<double>::infinity();
+    std::uint32_t face = no_face;
+  };
+
+  /// @return whether the query is to go on within a smaller radius
+  static bool measure(RTCPointQueryFunctionArguments* arguments) {
+    auto& nearest = *static_cast<Nearest*>(arguments->userPtr);
+    const auto vector = [&](int i) {
+      return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(nearest.scene->corner(arguments->primID, i)));
+    };
+    const double squared = squared_distance(nearest.point, vector(0), vector(1), vector(2));
+    if (!(squared < nearest.squared)) return false;
+    nearest.squared = squared;
+    nearest.face = arguments->primID;
+    arguments->query->radius =
+        std::nextafter(static_cast<float>(std::sqrt(squared)), std::numeric_limits<float>::infinity());
+    return true;
   }
 
   /// The test of Moeller and Trumbore, in double.
@@ -335,39 +391,74 @@ BENCHMARK(first_hit_of_rays)
     ->Iterations(7)
     ->Unit(benchmark::kMillisecond);
 
-/// The face nearest to each of some random points, beside CGAL's `closest_point_and_primitive`. Where a vertex or an
-/// edge is nearest, all of its faces are, and CGAL may name another of them. `cgal_farther` counts the points for which
-/// CGAL's is farther by more than rounding.
+/// The points that a ray begins at; or, each on its way to the centre, as far from there as the surface is, give or take
+/// a tenth. With coordinates that float represents.
+std::vector<Point> query_points(bool near) {
+  auto points = random_ray_origins(4000);
+  if (!near) return points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d at =
+        Eigen::Vector3d(points[i].x(), points[i].y(), points[i].z()).normalized() * (0.9 + 0.002 * (i % 101));
+    const Eigen::Vector3d rounded = at.cast<float>().cast<double>();
+    points[i] = Point(rounded.x(), rounded.y(), rounded.z());
+  }
+  return points;
+}
+
+/// The face nearest to each of some points, beside CGAL's `closest_point_and_primitive` and Embree's `rtcPointQuery`
+/// over a hierarchy in float, with distances in double. Where a vertex or an edge is nearest, all of its faces are, and
+/// the others may name another of them. `cgal_farther` and `embree_farther` count the points for which theirs is farther
+/// by more than rounding.
 void closest_points_of_mesh(benchmark::State& state) {
   Wavy_sphere sphere(static_cast<std::size_t>(state.range(0)));
   sphere.move(2);
   Cgal_tree cgal(faces(sphere.mesh).first, faces(sphere.mesh).second, sphere.mesh);
   cgal.build();
   cgal.accelerate_distance_queries();
-  const auto points = random_ray_origins(4000);
+  const auto points = query_points(state.range(1) != 0);
   const Layout_view view = sphere.tree.view();
   Answers ours, of_cgal;
+#ifdef LODESTONE_EMBREE
+  const Embree_scene embree(Embree_kind::triangles, sphere.corners, sphere.coordinates);
+  Answers of_embree;
+#endif
   for (auto _ : state) {
     ours.ask(points, [&](const Point& p) { return closest_point(view, p).face; });
+#ifdef LODESTONE_EMBREE
+    of_embree.ask(points, [&](const Point& p) { return embree.nearest_face(p); });
+#endif
     of_cgal.ask(points,
                 [&](const Point& p) { return static_cast<std::uint32_t>(cgal.closest_point_and_primitive(p).second); });
     state.SetIterationTime(1e-9 * ours.nanoseconds.back() * static_cast<double>(points.size()));
   }
+  const auto farther = [&](const Answers& answers) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto& [a, b, c] = sphere.corners[answers.faces[i]];
+      const auto at = [&](std::uint32_t v) { return sphere.mesh.point(CGAL::SM_Vertex_index(v)); };
+      const double squared = CGAL::squared_distance(Kernel::Triangle_3(at(a), at(b), at(c)), points[i]);
+      count += std::sqrt(squared) > closest_point(view, points[i]).distance + 1e-14 ? 1 : 0;
+    }
+    return static_cast<double>(count);
+  };
   state.counters["faces"] = static_cast<double>(sphere.corners.size());
   state.counters["lodestone_ns"] = ours.least();
   state.counters["cgal_ns"] = of_cgal.least();
   state.counters["cgal_ratio"] = of_cgal.least() / ours.least();
   state.counters["cgal_other"] = static_cast<double>(differences(of_cgal.faces, ours.faces));
-  state.counters["cgal_farther"] = static_cast<double>(std::ranges::count_if(points, [&](const Point& p) {
-    const double squared = CGAL::squared_distance(cgal.closest_point(p), p), distance = closest_point(view, p).distance;
-    return std::sqrt(squared) > distance + 1e-14;
-  }));
+  state.counters["cgal_farther"] = farther(of_cgal);
+#ifdef LODESTONE_EMBREE
+  state.counters["embree_ns"] = of_embree.least();
+  state.counters["embree_ratio"] = of_embree.least() / ours.least();
+  state.counters["embree_other"] = static_cast<double>(differences(of_embree.faces, ours.faces));
+  state.counters["embree_farther"] = farther(of_embree);
+#endif
 }
 
 BENCHMARK(closest_points_of_mesh)
     ->Name("ray/closest_point")
-    ->ArgsProduct({{22, 71, 224}})
-    ->ArgNames({"frequency"})
+    ->ArgsProduct({{22, 71, 224}, {0, 1}})
+    ->ArgNames({"frequency", "near"})
     ->UseManualTime()
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);

@@ -13,6 +13,7 @@
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/queries/surface_on_demand.h"
 #include "lodestone/triangles/triangle_distance.h"
+#include "queries/point_leaf_kernel.h"
 #include "triangles/point_distance.h"
 
 namespace lodestone {
@@ -61,7 +62,9 @@ template <Surface_on_demand Surface>
 class Point_search {
  public:
   Point_search(Surface& surface, const Point& point)
-      : surface_(surface), query_(point, surface.box(0).low, surface.box(0).high) {}
+      : surface_(surface), query_(point, surface.box(0).low, surface.box(0).high), input_{{}, query_.scale} {
+    for (int axis = 0; axis < 3; ++axis) input_.scaled[axis] = point[axis] * query_.scale;
+  }
 
   /// @return none if the surface is broken
   std::optional<Closest_point> run() {
@@ -82,23 +85,20 @@ class Point_search {
   }
 
  private:
-  /// Six roundings and more.
-  static constexpr double roundings = 0x1p-48, underflow = 0x1p-1000;
-
   /// A node, and a lower bound on its distance.
   struct Node_near {
     std::uint32_t node;
     double distance;
   };
 
-  double bound(const Aabb& box) const {
+  [[gnu::always_inline]] double bound(const Aabb& box) const {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double at = query_.point[axis] * query_.scale;
+      const double at = input_.scaled[axis];
       const double gap = std::max({box.low[axis] * query_.scale - at, at - box.high[axis] * query_.scale, 0.0});
       sum += gap * gap;
     }
-    return std::max(sum * (1 - roundings) - underflow, 0.0);
+    return std::max(sum * (1 - kernel::distance_roundings) - kernel::distance_underflow, 0.0);
   }
 
   /// The nearer child is pushed last.
@@ -113,37 +113,9 @@ class Point_search {
     const Aabb& box = surface_.pose(index);
     if (surface_.is_broken() || bound(box) > most_) return;
     const Leaf_faces leaf = surface_.view().leaf(index);
-    measure_vertices(leaf);
-    for (std::size_t i = 0; i < leaf.corners.size(); ++i)
-      if (!is_farther(leaf.corners[i])) offer(leaf, i, surface_.layout().faces(index)[i]);
-  }
-
-  /// No face is farther than its corners.
-  void measure_vertices(const Leaf_faces& leaf) {
-    for (std::size_t v = 0; v < leaf.vertices.size(); ++v) {
-      const double* p = leaf.position(v);
-      double sum = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const double at = p[axis] * query_.scale, away = at - query_.point[axis] * query_.scale;
-        vertices_[v].at[axis] = at;
-        sum += away * away;
-      }
-      vertices_[v].distance = sum;
-      most_ = std::min(most_, sum * (1 + roundings) + underflow);
-    }
-  }
-
-  /// Whether a face is proven to be farther than `most_`. A point with the weights w_i in the corners c_i has the
-  /// squared distance sum w_i |c_i|^2 - sum_{i<j} w_i w_j |c_i - c_j|^2, and the sum of w_i w_j is 1/3 at most.
-  bool is_farther(const Leaf_corners& corners) const {
-    const Measured_vertex &a = vertices_[corners[0]], &b = vertices_[corners[1]], &c = vertices_[corners[2]];
-    const auto squared_edge = [](const Measured_vertex& p, const Measured_vertex& q) {
-      const double x = p.at[0] - q.at[0], y = p.at[1] - q.at[1], z = p.at[2] - q.at[2];
-      return x * x + y * y + z * z;
-    };
-    const double longest = std::max({squared_edge(a, b), squared_edge(b, c), squared_edge(c, a)});
-    const double farthest = std::max({a.distance, b.distance, c.distance});
-    return std::min({a.distance, b.distance, c.distance}) - longest / 3 - roundings * farthest - underflow > most_;
+    std::uint8_t candidates[most_leaf_faces];
+    const std::size_t count = kernel::list_near_faces(leaf, input_, most_, candidates);
+    for (std::size_t i = 0; i < count; ++i) offer(leaf, candidates[i], surface_.layout().faces(index)[candidates[i]]);
   }
 
   void offer(const Leaf_faces& leaf, std::size_t index, std::uint32_t face) {
@@ -158,17 +130,11 @@ class Point_search {
     best_ = std::move(next);
   }
 
-  /// A vertex of a leaf, scaled.
-  struct Measured_vertex {
-    std::array<double, 3> at;
-    double distance;
-  };
-
   Surface& surface_;
   Query_point query_;
+  kernel::Point_input input_;
   double most_ = std::numeric_limits<double>::infinity();  ///< upper bound on the distance of the nearest face
   std::optional<Near_face> best_;
-  std::array<Measured_vertex, 3 * most_leaf_faces> vertices_;
   boost::container::small_vector<Node_near, 64> waiting_;
 };
 

@@ -11,6 +11,7 @@
 #include "support/arm.h"
 #include "support/exact_point.h"
 #include "support/face_soup.h"
+#include "support/instruction_sets.h"
 
 namespace lodestone {
 namespace {
@@ -116,6 +117,34 @@ TEST(Point_search, counts_faces_without_area_as_the_segments_and_points_that_the
   EXPECT_TRUE(expect_nearest({&object}, {1.5, 1, 1}));
   EXPECT_FALSE(expect_nearest({&object}, {5, 1, 1}));
   EXPECT_TRUE(expect_nearest({&object}, {3, 0, 0}));
+}
+
+TEST(Point_search, is_exact_with_every_instruction_set) {
+  for_instruction_sets([] {
+    expect_truth_for_many_points(crumpled(icosphere(3), 0.1, 7), 30, 8);
+    expect_truth_for_many_points(lattice_soup(40, 30, 4, 9), 30, 9);
+  });
+}
+
+/// Triangles that are long, thin and almost flat: floating point does not know in which region a point is.
+Face_soup needles(std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Face_soup soup;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d base(unit(random), unit(random), unit(random)), along(unit(random), unit(random), unit(random));
+    const double width = std::ldexp(1.0, -static_cast<int>(random() % 56));
+    const auto first = static_cast<std::uint32_t>(3 * i);
+    soup.faces.push_back({first, first + 1, first + 2});
+    for (const double part : {0.0, unit(random), unit(random)})
+      for (int axis = 0; axis < 3; ++axis)
+        soup.coordinates.push_back(base[axis] + part * along[axis] + (part == 0 ? 0 : width * unit(random)));
+  }
+  return soup;
+}
+
+TEST(Point_search, is_exact_among_needles) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) expect_truth_for_many_points(needles(60, seed), 60, seed);
 }
 
 TEST(Point_search, is_exact_at_any_scale_and_far_from_the_origin) {
