@@ -2,23 +2,22 @@
 #include "lodestone/queries/containment.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <string>
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/queries/surface_on_demand.h"
 #include "lodestone/triangles/ray_crossing.h"
+#include "queries/ray_leaf_kernel.h"
+#include "triangles/ray_depth.h"
 
 namespace lodestone {
 
 namespace {
-
-/// Whether the ray from the point along +z meets the box.
-bool meets_ray(const Aabb& box, const Point& point) {
-  return box.low[0] <= point.x() && point.x() <= box.high[0] && box.low[1] <= point.y() && point.y() <= box.high[1] &&
-         point.z() <= box.high[2];
-}
 
 bool box_within(const Aabb& inner, const Aabb& outer) {
   return std::equal(outer.low, outer.low + 3, inner.low, std::less_equal()) &&
@@ -33,11 +32,21 @@ bool contains(const Triangle& t, const Point& point) {
   return triangles_intersect(t, {point, point, point});
 }
 
-/// Counts the faces that the ray from a point along +z crosses, leaf by leaf.
+Point upside_down(const Point& p) { return {p.x(), p.y(), -p.z()}; }
+
+/// Counts the faces that a ray from a point crosses, leaf by leaf. The ray goes along z, up or down: to the side of the
+/// box around the surface that is nearer.
 template <Surface_on_demand Surface>
-class Upward_ray {
+class Vertical_ray {
  public:
-  Upward_ray(Surface& surface, const Point& point) : surface_(surface), point_(point) {}
+  Vertical_ray(Surface& surface, const Point& point)
+      : surface_(surface),
+        point_(point),
+        upward_(is_upward(surface.box(0))),
+        input_{.origin = {point.x(), point.y(), point.z()},
+               .shear = {},
+               .sign = upward_ ? 1.0 : -1.0,
+               .depth_axis = 2} {}
 
   /// @return of no meaning once the surface is broken
   Point_side run() {
@@ -46,7 +55,7 @@ class Upward_ray {
     while (!stack_.empty() && !surface_.is_broken()) {
       const std::uint32_t n = stack_.back();
       stack_.pop_back();
-      if (!meets_ray(surface_.box(n), point_)) continue;
+      if (!meets(surface_.box(n))) continue;
       if (!tree.is_leaf(n)) {
         stack_.push_back(tree.node(n).second_child);
         stack_.push_back(n + 1);
@@ -59,27 +68,44 @@ class Upward_ray {
 
  private:
   bool is_on_leaf(std::uint32_t index) {
-    if (!meets_ray(surface_.pose(index), point_)) return false;
+    const Aabb& box = surface_.pose(index);
+    if (!meets(box)) return false;
     const Leaf_faces leaf = surface_.view().leaf(index);
-    for (std::size_t face = 0; face < leaf.corners.size(); ++face) {
+    std::uint8_t candidates[most_leaf_faces];
+    const double error = frame_error(kernel::reach(box, input_.origin));
+    const std::size_t count =
+        kernel::list_ray_candidates(leaf, input_, error, std::numeric_limits<double>::infinity(), candidates);
+    for (const std::uint8_t face : std::span(candidates, count)) {
       const Triangle t = triangle_of(leaf_triangle(leaf, face));
       if (contains(t, point_)) return true;
-      inside_ ^= crosses_upward_ray(t, point_);
+      inside_ ^= crosses(t);
     }
     return false;
   }
 
+  bool is_upward(const Aabb& around) const { return around.high[2] - point_.z() <= point_.z() - around.low[2]; }
+  bool meets(const Aabb& box) const {
+    return box.low[0] <= point_.x() && point_.x() <= box.high[0] && box.low[1] <= point_.y() &&
+           point_.y() <= box.high[1] && (upward_ ? point_.z() <= box.high[2] : box.low[2] <= point_.z());
+  }
+  bool crosses(const Triangle& t) const {
+    if (upward_) return crosses_upward_ray(t, point_);
+    return crosses_upward_ray({upside_down(t[0]), upside_down(t[1]), upside_down(t[2])}, upside_down(point_));
+  }
+
   Surface& surface_;
   const Point& point_;
+  const bool upward_;
+  const kernel::Ray_input input_;
   bool inside_ = false;
-  std::vector<std::uint32_t> stack_;
+  boost::container::small_vector<std::uint32_t, 64> stack_;
 };
 
 template <Surface_on_demand Surface>
 Point_side find_side(Surface& surface, const Point& point) {
   for (int axis = 0; axis < 3; ++axis)
     if (!std::isfinite(point[axis])) throw Bad_argument("the point has a coordinate that is not finite");
-  return ask_until_settled([&] { return Upward_ray(surface, point).run(); }, surface);
+  return ask_until_settled([&] { return Vertical_ray(surface, point).run(); }, surface);
 }
 
 Point position_of(const Bounded_surface& surface, std::uint32_t vertex) {
@@ -113,7 +139,7 @@ bool encloses(const Object_surface& outer, const Layout_view& outer_layout, cons
 bool encloses(Bounded_surface& outer, Bounded_surface& inner) {
   const auto inside = [&](std::uint32_t vertex) {
     const Point point = position_of(inner, vertex);
-    return Upward_ray(outer, point).run() == Point_side::inside;
+    return Vertical_ray(outer, point).run() == Point_side::inside;
   };
   return ask_until_settled(
       [&] {

@@ -163,20 +163,12 @@ class Ray_search {
     if (!std::same_as<Surface, Fitted_surface> && entry_(box).is_hit_within(collector_.most_depth()) == 0) return;
     const Leaf_faces leaf = surface_.view().leaf(index);
     std::uint8_t candidates[most_leaf_faces];
+    const double error = frame_error(kernel::reach(box, input_.origin));
     const std::size_t count =
-        kernel::list_ray_candidates(leaf, input_, frame_error(reach(box)), collector_.most_depth(), candidates);
+        kernel::list_ray_candidates(leaf, input_, error, collector_.most_depth(), candidates);
     for (std::size_t i = 0; i < count; ++i)
       tests_.add(frame_, leaf_triangle(leaf, candidates[i]), surface_.layout().faces(index)[candidates[i]], collector_);
     tests_.finish();
-  }
-
-  /// The largest coordinate of a point of a box, as seen from the origin.
-  double reach(const Aabb& box) const {
-    double most = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      most = std::max(
-          {most, std::abs(box.low[axis] - frame_.origin[axis]), std::abs(box.high[axis] - frame_.origin[axis])});
-    return most;
   }
 
   Surface& surface_;

@@ -15,8 +15,8 @@ enum class Point_side {
   on_surface,  ///< in a face
 };
 
-/// On which side of a closed surface a point is: on the surface if a face contains it, else inside if the ray from the
-/// point along +z crosses an odd number of faces. Exact. O(log F + leaves that the ray meets).
+/// On which side of a closed surface a point is: on the surface if a face contains it, else inside if a ray from the
+/// point along z, up or down, crosses an odd number of faces. Exact. O(log F + leaves that the ray meets).
 /// @param surface  closed, see `Object_surface::closed`; with boxes. If it is not closed, `inside` has no meaning;
 ///                 `on_surface` is right
 /// @param point    finite
