@@ -158,7 +158,8 @@ HWY_INLINE Distances bound(const Differences& a, const Differences& b, const Dif
   };
   const Differences gap{mix(a.x, ab.x, ac.x), mix(a.y, ab.y, ac.y), mix(a.z, ab.z, ac.z)};
   const Doubles squared = dot(gap, gap), farthest = greatest(dot(a, a), dot(b, b), dot(c, c));
-  const Doubles size = hn::Sqrt(hn::Mul(squared, farthest)), underflow = number(distance_underflow);
+  // The product of two small squares can underflow.
+  const Doubles size = hn::Mul(hn::Sqrt(squared), hn::Sqrt(farthest)), underflow = number(distance_underflow);
   const Doubles of_size = hn::Add(hn::Mul(number(0x1p-46), size), hn::Mul(number(0x1p-90), farthest));
   const Doubles least_along = least(dot(gap, a), dot(gap, b), dot(gap, c));
   const Doubles proven = hn::Sub(hn::Sub(least_along, hn::Mul(number(0x1p-48), size)), underflow);
@@ -252,7 +253,7 @@ class Leaf_search {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       candidates_[kept] = candidates_[i];
-      kept += bounds[i] <= most_ ? 1 : 0;
+      kept += bounds[i] > most_ ? 0 : 1;
     }
     count_ = kept;
   }

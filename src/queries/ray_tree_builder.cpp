@@ -65,9 +65,11 @@ void Ray_tree_builder::build(Workers& workers) {
   fit_boxes();
   tree_.nodes_.reserve(tree_.blocks_.size() / 3 + 1);
   add_node(branch_of(0), 0);
+  tree_.is_fitted_ = true;
 }
 
 void Ray_tree_builder::refit(Workers& workers) {
+  tree_.is_fitted_ = false;  // whoever runs out of memory leaves a tree that asks its surface
   if (!place()) return;
   const std::size_t blocks = tree_.blocks_.size();
   workers.run((blocks + blocks_per_task - 1) / blocks_per_task, [&](std::size_t task, std::size_t) {
@@ -75,6 +77,7 @@ void Ray_tree_builder::refit(Workers& workers) {
   });
   std::vector<Ray_box> boxes(tree_.nodes_.size());
   for (std::size_t n = boxes.size(); n-- > 0;) boxes[n] = refit_node(n, boxes);  // children come after their parent
+  tree_.is_fitted_ = true;
 }
 
 /// @param node_boxes  of all nodes that come later
@@ -109,8 +112,7 @@ bool Ray_tree_builder::place() {
     // Far from the origin, the middle is rounded to one side.
     half_width = std::max({half_width, bounds.high[axis] - middle, middle - bounds.low[axis]});
   }
-  tree_.is_placed_ = half_width > 0x1p-500 && half_width < 0x1p500;
-  if (!tree_.is_placed_) return false;
+  if (!(half_width > 0x1p-500 && half_width < 0x1p500)) return false;
   tree_.scale_ = std::ldexp(1.0, -std::ilogb(half_width * (1 + 0x1p-40)) - 1);
   return true;
 }

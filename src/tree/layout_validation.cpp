@@ -9,10 +9,12 @@
 namespace lodestone {
 
 std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, std::size_t vertex_count) const {
-  // Every face is in exactly one leaf, with its own corners.
+  // Every face is in exactly one leaf, with its own corners. Leaves list no other vertices.
   std::vector<std::uint8_t> seen(mesh_corners.size(), 0);  // not bool: faces come in no order
+  std::vector<std::uint8_t> used;
   for (std::size_t leaf = 0; leaf < leaf_count(); ++leaf) {
     const auto list = vertices(leaf);
+    used.assign(list.size(), 0);
     if (list.empty() || std::ranges::adjacent_find(list, std::greater_equal()) != list.end())
       return fmt::format("leaf {}: its vertices are not listed once each in ascending order", leaf);
     if (list.back() >= vertex_count) return fmt::format("leaf {}: there is no vertex {}", leaf, list.back());
@@ -24,8 +26,11 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
         const std::size_t place = corners(leaf)[i][corner];
         if (place >= list.size() || list[place] != mesh_corners[face][corner])
           return fmt::format("leaf {}: face {} has other corners than in the mesh", leaf, face);
+        used[place] = 1;
       }
     }
+    if (const auto place = std::ranges::find(used, 0); place != used.end())
+      return fmt::format("leaf {}: vertex {} is of no face of it", leaf, list[place - used.begin()]);
     if (leaf_nodes_[leaf] >= nodes_.size() || !is_leaf(leaf_nodes_[leaf]))
       return fmt::format("leaf {}: its node is not a leaf", leaf);
   }

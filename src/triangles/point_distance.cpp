@@ -20,7 +20,7 @@ double power_for(const Point& point, const double* low, const double* high) {
   }
   if (!(difference > 0)) return 1;
   const int exponent = std::isfinite(difference) ? std::ilogb(difference) : 1023;
-  return std::ldexp(1.0, std::clamp(-exponent, -1022, 1000 - std::ilogb(coordinate)));
+  return std::ldexp(1.0, std::clamp(-exponent, -1022, std::min(1023, 1000 - std::ilogb(coordinate))));
 }
 
 Nearest_part corner_part(std::uint32_t vertex) { return {vertex, vertex}; }
@@ -97,12 +97,14 @@ Distance_estimate estimate_distance(const Query_point& query, const Triangle_cor
                        .vertices = vertices};
   const double m2 = std::max({search.a.squaredNorm(), search.b.squaredNorm(), search.c.squaredNorm()});
   const double s2 = std::max({search.ab.squaredNorm(), search.ac.squaredNorm(), (search.b - search.c).squaredNorm()});
-  search.product_error = 0x1p-48 * std::sqrt(s2 * m2) + underflow;
+  // Roots, for the product of two small squares can underflow.
+  const double m = std::sqrt(m2);
+  search.product_error = 0x1p-48 * (std::sqrt(s2) * m) + underflow;
   search.area_error = 0x1p-46 * s2 * m2 + underflow;
   search.run();
   Distance_estimate& found = search.found;
   const Vector gap = search.a + found.weights[0] * search.ab + found.weights[1] * search.ac;
-  const double squared = gap.squaredNorm(), length_times_m = std::sqrt(squared * m2);
+  const double squared = gap.squaredNorm(), length_times_m = std::sqrt(squared) * m;
   if (!std::isfinite(squared)) return {};  // weights of a triangle without area
   found.squared = squared;
   found.high = squared + 0x1p-46 * length_times_m + 0x1p-90 * m2 + underflow;

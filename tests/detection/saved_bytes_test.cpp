@@ -135,6 +135,13 @@ TEST(Saved_tree, that_is_too_deep_or_has_too_large_leaves_or_short_lists_is_refu
   EXPECT_EQ(refusal_of(lists), "the saved object is broken: its tree has lists of other lengths than it needs");
 }
 
+TEST(Saved_tree, with_a_vertex_in_a_leaf_that_no_face_of_it_has_is_refused) {
+  Lists lists = chain(3, 4);
+  lists.vertices.insert(lists.vertices.begin() + 12, 12);  // of the next leaf
+  for (std::size_t leaf = 1; leaf < lists.vertex_begin.size(); ++leaf) ++lists.vertex_begin[leaf];
+  EXPECT_EQ(refusal_of(lists), "the saved object is broken: leaf 0: vertex 12 is of no face of it");
+}
+
 /// What an object with particles has saved, up to its homes.
 struct Saved_particles {
   struct Home {

@@ -168,6 +168,14 @@ TEST(Point_search, scales_what_is_tiny_only_as_far_as_coordinates_allow) {
   expect_truth_for_many_points(thin, 40, 4);
 }
 
+TEST(Point_search, is_right_among_the_smallest_numbers) {
+  for (const double factor : {0x1p-1020, 0x1p-1030, 0x1p-1060}) {
+    SCOPED_TRACE(factor);
+    expect_truth_for_many_points(placed(icosphere(2), factor), 40, 5);
+    expect_truth_for_many_points(placed(needles(9, 6), factor), 40, 6);
+  }
+}
+
 TEST(Point_search, from_the_centre_of_a_ball_decides_exactly_between_all_faces) {
   const Face_soup ball(icosphere(3));
   const Posed_object object(ball, 4);
@@ -195,6 +203,13 @@ TEST(Point_search, decides_exactly_between_a_vertex_and_an_edge_that_is_hardly_n
     const Point query(q.x(), q.y(), q.z());
     expect_nearest({&object}, query);
     nearer += true_nearest(soup, query).face == 1 ? 1 : 0;
+
+    // The same as a tiny part of something large.
+    Face_soup tiny = placed(soup, 0x1p-280);
+    tiny.coordinates.insert(tiny.coordinates.end(), {-1, -1, 1, -1, -0.5, 1, -0.25, -1, 1});
+    tiny.faces.push_back({4, 5, 6});
+    const Posed_object large(tiny, 4, false);
+    expect_nearest({&large}, Point(0x1p-280 * q.x(), 0x1p-280 * q.y(), 0x1p-280 * q.z()));
   }
   EXPECT_GT(nearer, 40);
   EXPECT_LT(nearer, 160);

@@ -154,7 +154,11 @@ class Exact_object {
     built = false;
     former_.reset();
     bounded_.reset();
+    forget_ray_tree();
+  }
+  void forget_ray_tree() {
     ray_tree_.reset();
+    rays_without_tree_ = 0;
   }
   void list_unused() { unused_ = unused_vertices(surface.tree().all_vertices(), mesh().vertex_count()); }
 
@@ -293,7 +297,7 @@ template <Bounding_volume Volume>
 void Exact_object<Volume>::start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces) {
   if (std::exchange(built, false)) former_ = Former{std::move(surface), {}};
   bounded_.reset();
-  ray_tree_.reset();
+  forget_ray_tree();
   rest_.clear();
   surface = Basic_tree_surface<Volume>(corners());
   give({});

@@ -40,7 +40,7 @@ class Ray_tree {
   const Layout_view& surface() const { return surface_; }
   /// Nodes, the root first. None if the surface is a point, or larger than 2^500 or smaller than 2^-500: its rays are
   /// asked without this.
-  std::span<const Ray_node> nodes() const { return {nodes_.data(), is_placed_ ? nodes_.size() : 0}; }
+  std::span<const Ray_node> nodes() const { return {nodes_.data(), is_fitted_ ? nodes_.size() : 0}; }
   /// Blocks, those of a leaf one after the other.
   std::span<const Ray_block> blocks() const { return {blocks_.data(), blocks_.size()}; }
   /// Most nodes and blocks that wait at once while a ray walks down.
@@ -57,7 +57,7 @@ class Ray_tree {
   std::size_t face_count_;
   std::array<double, 3> middle_ = {};
   double scale_ = 1;
-  bool is_placed_ = false;  ///< there is a fitting scale
+  bool is_fitted_ = false;  ///< nodes and blocks are those of the surface; false: there is no fitting scale
   Unset_vector<Ray_node> nodes_;
   Unset_vector<Ray_block> blocks_;
   Unset_vector<Ray_box> block_boxes_;
