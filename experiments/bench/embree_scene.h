@@ -26,7 +26,7 @@ enum class Embree_kind { triangles, exact_numbers };
 
 /// Of a point from a triangle with the corners a, b and c, by the regions of \cite ericson2005.
 inline double squared_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                        const Eigen::Vector3d& c) {
+                               const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a, ac = c - a, bc = c - b;
   const double along_ab = ab.dot(p - a), along_ac = ac.dot(p - a), past_ab = ab.dot(p - b), beside_b = ac.dot(p - b),
                beside_c = ab.dot(p - c), past_ac = ac.dot(p - c);
@@ -100,10 +100,7 @@ class Embree_scene {
   std::uint32_t nearest_face(const Point& point) const {
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    RTCPointQuery query{static_cast<float>(point.x()),
-                        static_cast<float>(point.y()),
-                        static_cast<float>(point.z()),
-                        0,
+    RTCPointQuery query{static_cast<float>(point.x()), static_cast<float>(point.y()), static_cast<float>(point.z()), 0,
                         std::numeric_limits<float>::infinity()};
     Nearest nearest{this, {point.x(), point.y(), point.z()}};
     rtcPointQuery(scene_, &query, &context, measure, &nearest);

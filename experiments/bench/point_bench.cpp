@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nearest points and sides of points, on trees that were built for collisions, beside libraries that were made for them.
+// Nearest points and sides of points, on trees that were built for collisions, beside libraries that were made for
+// them.
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -24,8 +25,8 @@ namespace {
 using Cgal_primitive = CGAL::AABB_face_graph_triangle_primitive<Surface_mesh>;
 using Cgal_tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Cgal_primitive>>;
 
-/// The points that a ray begins at; or, each on its way to the centre, as far from there as the surface is, give or take
-/// a tenth. With coordinates that float represents.
+/// The points that a ray begins at; or, each on its way to the centre, as far from there as the surface is, give or
+/// take a tenth. With coordinates that float represents.
 std::vector<Point> query_points(bool near) {
   auto points = random_ray_origins(4000);
   if (!near) return points;
@@ -40,8 +41,8 @@ std::vector<Point> query_points(bool near) {
 
 /// The face nearest to each of some points, beside CGAL's `closest_point_and_primitive` and Embree's `rtcPointQuery`
 /// over a hierarchy in float, with distances in double. Where a vertex or an edge is nearest, all of its faces are, and
-/// the others may name another of them. `cgal_farther` and `embree_farther` count the points for which theirs is farther
-/// by more than rounding.
+/// the others may name another of them. `cgal_farther` and `embree_farther` count the points for which theirs is
+/// farther by more than rounding.
 void closest_points_of_mesh(benchmark::State& state) {
   Wavy_sphere sphere(static_cast<std::size_t>(state.range(0)));
   sphere.move(2);

@@ -36,11 +36,12 @@ std::vector<std::uint32_t> faces_of(std::span<const std::optional<Ray_hit>> hits
 
 /// The first face that each of some random rays meets. The libraries take turns in each pass. All have been refitted to
 /// new positions, but for CGAL, which cannot: it has built its tree for them. Lodestone is asked ray by ray, and by a
-/// Ray_tree that is made in each pass, about all rays at once and ray by ray; also about all rays at once by one that was
-/// made before the sphere moved, and is refitted. Embree is asked both ways, without such a tree.
+/// Ray_tree that is made in each pass, about all rays at once and ray by ray; also about all rays at once by one that
+/// was made before the sphere moved, and is refitted. Embree is asked both ways, without such a tree.
 ///
 /// Reported time: that of Lodestone, ray by ray. Counters: nanoseconds per ray, the least of all passes, and per face
-/// for `make_tree_ns` and `refit_tree_ns`; ratios to Lodestone, asked in the same way; rays for which another library names another face.
+/// for `make_tree_ns` and `refit_tree_ns`; ratios to Lodestone, asked in the same way; rays for which another library
+/// names another face.
 void first_hit_of_rays(benchmark::State& state) {
   Wavy_sphere sphere(static_cast<std::size_t>(state.range(0)));
 #ifdef LODESTONE_EMBREE

@@ -43,10 +43,8 @@ class Vertical_ray {
       : surface_(surface),
         point_(point),
         upward_(is_upward(surface.box(0))),
-        input_{.origin = {point.x(), point.y(), point.z()},
-               .shear = {},
-               .sign = upward_ ? 1.0 : -1.0,
-               .depth_axis = 2} {}
+        input_{
+            .origin = {point.x(), point.y(), point.z()}, .shear = {}, .sign = upward_ ? 1.0 : -1.0, .depth_axis = 2} {}
 
   /// @return of no meaning once the surface is broken
   Point_side run() {

@@ -55,9 +55,8 @@ class Seen_vertices {
   /// @param vertex  called with a lane: a place in the list of the leaf's vertices
   template <class Vertex>
   HWY_INLINE Differences rows(const Vertex& vertex) const {
-    return transpose([&](std::size_t lane, std::size_t i) HWY_ATTR {
-      return hn::LoadU(Position_lanes(), rows_[vertex(lane)] + i * position_lanes);
-    });
+    return transpose([&](std::size_t lane, std::size_t i)
+                         HWY_ATTR { return hn::LoadU(Position_lanes(), rows_[vertex(lane)] + i * position_lanes); });
   }
 
   /// The squared distance of the nearest.
@@ -108,8 +107,8 @@ struct Weights {
   Doubles b, c;
 };
 
-/// Those of the points nearest to the origin, by the regions of \cite ericson2005, as in `triangles/point_distance.cpp`.
-/// Wherever rounding leads, they are those of a point of the triangle.
+/// Those of the points nearest to the origin, by the regions of \cite ericson2005, as in
+/// `triangles/point_distance.cpp`. Wherever rounding leads, they are those of a point of the triangle.
 HWY_INLINE Weights nearest_point(const Differences& a, const Differences& b, const Differences& c,
                                  const Differences& ab, const Differences& ac) {
   const Double_lanes d;
@@ -146,10 +145,11 @@ struct Distances {
   Doubles low, high;
 };
 
-/// How far triangles are from the origin: the bounds of `estimate_distance`, which hold for any point of the triangle in
-/// place of the nearest. Here edges are differences of rounded corners. That makes 16 roundings of the greatest distance
-/// of a corner, as there.
-HWY_INLINE Distances bound(const Differences& a, const Differences& b, const Differences& c) {
+/// How far triangles are from the origin: the bounds of `estimate_distance`, which hold for any point of the triangle
+/// in place of the nearest. Here edges are differences of rounded corners. That makes 16 roundings of the greatest
+/// distance of a corner, as there.
+/// @param farthest  no corner is farther
+HWY_INLINE Distances bound(const Differences& a, const Differences& b, const Differences& c, double farthest) {
   const Double_lanes d;
   const Differences ab = b - a, ac = c - a;
   const Weights weights = nearest_point(a, b, c, ab, ac);
@@ -157,10 +157,9 @@ HWY_INLINE Distances bound(const Differences& a, const Differences& b, const Dif
     return hn::Add(hn::Add(from, hn::Mul(weights.b, along_ab)), hn::Mul(weights.c, along_ac));
   };
   const Differences gap{mix(a.x, ab.x, ac.x), mix(a.y, ab.y, ac.y), mix(a.z, ab.z, ac.z)};
-  const Doubles squared = dot(gap, gap), farthest = greatest(dot(a, a), dot(b, b), dot(c, c));
-  // The product of two small squares can underflow.
-  const Doubles size = hn::Mul(hn::Sqrt(squared), hn::Sqrt(farthest)), underflow = number(distance_underflow);
-  const Doubles of_size = hn::Add(hn::Mul(number(0x1p-46), size), hn::Mul(number(0x1p-90), farthest));
+  const Doubles squared = dot(gap, gap), underflow = number(distance_underflow);
+  const Doubles size = hn::Mul(hn::Sqrt(squared), number(farthest));
+  const Doubles of_size = hn::Add(hn::Mul(number(0x1p-46), size), number(0x1p-90 * farthest * farthest));
   const Doubles least_along = least(dot(gap, a), dot(gap, b), dot(gap, c));
   const Doubles proven = hn::Sub(hn::Sub(least_along, hn::Mul(number(0x1p-48), size)), underflow);
   const Doubles low = hn::Mul(hn::Mul(proven, hn::Div(proven, squared)), number(1 - 0x1p-48));
@@ -168,8 +167,8 @@ HWY_INLINE Distances bound(const Differences& a, const Differences& b, const Dif
 }
 
 /// The least squared distance that triangles can have, by the lengths of their edges. A point with the weights w_i in
-/// the corners c_i has the squared distance sum w_i |c_i|^2 - sum_{i<j} w_i w_j |c_i - c_j|^2, and the sum of w_i w_j is
-/// 1/3 at most.
+/// the corners c_i has the squared distance sum w_i |c_i|^2 - sum_{i<j} w_i w_j |c_i - c_j|^2, and the sum of w_i w_j
+/// is 1/3 at most.
 HWY_INLINE Doubles bound_by_edges(const Differences& a, const Differences& b, const Differences& c) {
   constexpr double third = 0x1.5555555555556p-2;  // rounded up
   const auto squared = [](const Differences& v) HWY_ATTR { return dot(v, v); };
@@ -204,8 +203,9 @@ class Leaf_search {
     keep([](const Differences& a, const Differences& b, const Differences& c, Doubles& /*nearest*/)
              HWY_ATTR { return bound_by_edges(a, b, c); });
     if (count_ < 2) return;
-    keep([](const Differences& a, const Differences& b, const Differences& c, Doubles& nearest) HWY_ATTR {
-      const Distances distances = bound(a, b, c);
+    const double farthest = 1.7321 * vertices_.reach();  // more than the root of 3
+    keep([farthest](const Differences& a, const Differences& b, const Differences& c, Doubles& nearest) HWY_ATTR {
+      const Distances distances = bound(a, b, c, farthest);
       nearest = hn::Min(nearest, distances.high);
       return distances.low;
     });
@@ -253,7 +253,7 @@ class Leaf_search {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       candidates_[kept] = candidates_[i];
-      kept += bounds[i] > most_ ? 0 : 1;
+      kept += bounds[i] > most_ ? 0 : 1;  // keeps what is not a number
     }
     count_ = kept;
   }

@@ -51,9 +51,10 @@ Closest_point rounded(const Query_point& query, const Near_face& nearest) {
     const auto mean = [&](int axis) {
       return (1 - weights[0] - weights[1]) * t[0][axis] + weights[0] * t[1][axis] + weights[1] * t[2][axis];
     };
-    // Not 0, though it may be nearer to that than to any other double.
-    const double rounded = std::max(std::sqrt(distance.squared) / query.scale, std::numeric_limits<double>::denorm_min());
-    return {nearest.face, Point(mean(0), mean(1), mean(2)), rounded};
+    // Not 0, though it may be nearer to that than to any other double. Processors compare slowly with the least double.
+    const double rounded = std::sqrt(distance.squared) / query.scale;
+    return {nearest.face, Point(mean(0), mean(1), mean(2)),
+            rounded > 0 ? rounded : std::numeric_limits<double>::denorm_min()};
   }
   const auto points = closest_points(t, {query.point, query.point, query.point});
   return {nearest.face, points.a, points.distance};

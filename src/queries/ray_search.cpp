@@ -164,8 +164,7 @@ class Ray_search {
     const Leaf_faces leaf = surface_.view().leaf(index);
     std::uint8_t candidates[most_leaf_faces];
     const double error = frame_error(kernel::reach(box, input_.origin));
-    const std::size_t count =
-        kernel::list_ray_candidates(leaf, input_, error, collector_.most_depth(), candidates);
+    const std::size_t count = kernel::list_ray_candidates(leaf, input_, error, collector_.most_depth(), candidates);
     for (std::size_t i = 0; i < count; ++i)
       tests_.add(frame_, leaf_triangle(leaf, candidates[i]), surface_.layout().faces(index)[candidates[i]], collector_);
     tests_.finish();

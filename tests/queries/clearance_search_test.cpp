@@ -36,7 +36,8 @@ double by_all_pairs(const Face_soup& a, const Face_soup& b, const Eigen::Vector3
 std::vector<Eigen::Vector3d> directions(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   std::vector<Eigen::Vector3d> all{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
-  for (int i = 0; i < 4; ++i) all.push_back(Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized());
+  for (int i = 0; i < 4; ++i)
+    all.push_back(Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized());
   return all;
 }
 
@@ -93,11 +94,11 @@ Face_soup two_triangles(std::vector<double> coordinates) {
 /// Seen along the direction, the tips of the first two triangles are apart by less than two slacks. A search along the
 /// direction leaves them out, one along another direction does not.
 TEST(Clearance_search, finds_the_same_where_an_earlier_direction_had_tips_in_line_that_now_just_miss) {
-  const Posed_object a(two_triangles(
-      {0, 0, 0, -0x1.56aae8cd8ef28p-1, -0x1.65bd6ec6c965ep-4, -0x1.053aad22e0cep-5, -0x1.41b6b302ab59cp-3,
-       0x1.1187186779b74p-1, -0x1.42c88c0a7a8ccp-2, 0x1.a7e9ce5922a94p-5, 0x1.7887c6f8edd09p+0, 0x1.50d017e0b3347p+1,
-       -0x1.6d99e3f06b2b5p-2, 0x1.d22cb53a3c53p+0, 0x1.4ead8cf4f9fffp+1, -0x1.543203515e397p-2, 0x1.9b017c433f2e4p+0,
-       0x1.23a938af3979fp+1})),
+  const Posed_object a(
+      two_triangles({0, 0, 0, -0x1.56aae8cd8ef28p-1, -0x1.65bd6ec6c965ep-4, -0x1.053aad22e0cep-5, -0x1.41b6b302ab59cp-3,
+                     0x1.1187186779b74p-1, -0x1.42c88c0a7a8ccp-2, 0x1.a7e9ce5922a94p-5, 0x1.7887c6f8edd09p+0,
+                     0x1.50d017e0b3347p+1, -0x1.6d99e3f06b2b5p-2, 0x1.d22cb53a3c53p+0, 0x1.4ead8cf4f9fffp+1,
+                     -0x1.543203515e397p-2, 0x1.9b017c433f2e4p+0, 0x1.23a938af3979fp+1})),
       b(two_triangles({-0x1.367804989699ep-1, -0x1.60bf81715bddbp-1, 0x1.968e4b29c6fc6p-2, -0x1.3dc074b48106p-5,
                        -0x1.76c721b15e7a3p-1, 0x1.e76e61efcb037p-2, -0x1.2b9ad254d2f3p-4, -0x1.962bc4990fb31p-1,
                        0x1.e086cbddfa56dp-2, -0x1.017acacd7254dp-2, 0x1.2057e69c96dbap+0, 0x1.6a38fc934fa34p+1,

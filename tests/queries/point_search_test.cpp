@@ -132,7 +132,8 @@ Face_soup needles(std::size_t count, std::uint64_t seed) {
   std::uniform_real_distribution<double> unit(-1, 1);
   Face_soup soup;
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d base(unit(random), unit(random), unit(random)), along(unit(random), unit(random), unit(random));
+    const Eigen::Vector3d base(unit(random), unit(random), unit(random)),
+        along(unit(random), unit(random), unit(random));
     const double width = std::ldexp(1.0, -static_cast<int>(random() % 56));
     const auto first = static_cast<std::uint32_t>(3 * i);
     soup.faces.push_back({first, first + 1, first + 2});
