@@ -13,7 +13,8 @@ inline constexpr std::size_t ray_tree_width = 8;
 
 /// A box.
 struct Ray_box {
-  std::array<float, 3> low, high;
+  std::array<float, 3> low;   ///< lower corner
+  std::array<float, 3> high;  ///< upper corner
 };
 
 /// Some faces that are near each other. Beyond `count` the corners are where no ray comes to, and the last vertices and

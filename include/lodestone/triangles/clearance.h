@@ -17,7 +17,9 @@ namespace lodestone {
 
 /// The direction of a motion, and how far coordinates may be off.
 struct Way {
-  explicit Way(const Eigen::Vector3d& unit_vector, double difference_slack)
+  /// @param unit_vector       the direction
+  /// @param difference_slack  `slack`
+  Way(const Eigen::Vector3d& unit_vector, double difference_slack)
       : direction(unit_vector), inverse(unit_vector.cwiseInverse()), slack(difference_slack) {}
 
   Eigen::Vector3d direction;  ///< a unit vector, up to rounding
