@@ -281,10 +281,11 @@ class Detector {
     return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::point_side(surface, point); });
   }
 
-  /// `first_hit` of many rays. Each query of an object reads its positions first; this does so once for all rays. Calls
-  /// with more than F / 64 rays count: from the one on with which they have been F / 16, a Ray_tree answers them sooner.
-  /// The detector keeps it, some 70 bytes per face, and refits it. Shared among the threads, unless the object has bounds
-  /// in mode `certified`.
+  /// `first_hit` of many rays. Each query of an object reads its positions first; this does so once for all rays.
+  /// Shared among the threads, unless the object has bounds in mode `certified`.
+  ///
+  /// Calls with more than F / 64 rays are answered sooner once they have asked about F / 16 rays together: the detector
+  /// then makes a Ray_tree. It keeps the tree, which takes some 70 bytes per face, and refits it in later calls.
   /// @return one per ray, in their order
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "queries/point_leaf_kernel.h"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "queries/point_leaf_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "queries/leaf_codes-inl.h"
 #include "simd/positions-inl.h"
 #include "simd/vector_types-inl.h"
 
@@ -24,11 +22,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Differences = Vector3<Double_lanes>;
 
 HWY_INLINE Doubles number(double x) { return hn::Set(Double_lanes(), x); }
-HWY_INLINE Doubles greatest(Doubles a, Doubles b, Doubles c) { return hn::Max(hn::Max(a, b), c); }
-HWY_INLINE Doubles least(Doubles a, Doubles b, Doubles c) { return hn::Min(hn::Min(a, b), c); }
-
-/// Lists of vertices are read in whole vectors.
-constexpr std::size_t most_vertices = 3 * most_leaf_faces + most_double_lanes;
 
 /// The vertices of a leaf, scaled, as seen from the point. Each coordinate is rounded once.
 class Seen_vertices {
@@ -67,18 +60,14 @@ class Seen_vertices {
   /// @param half_side  of the cube
   HWY_INLINE void code(double half_side, std::uint64_t* codes) const {
     const Double_lanes d;
-    const hn::Rebind<std::uint64_t, Double_lanes> u;
     for (std::size_t k = 0; k < count_; k += double_lanes) {
-      auto code = hn::Zero(u);
+      Codes code = hn::Zero(Code_lanes());
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const Doubles at = hn::LoadU(d, at_[axis] + k);
-        const auto add = [&](std::uint64_t bit, Double_mask beyond) HWY_ATTR {
-          code = hn::Or(code, hn::IfThenElseZero(hn::RebindMask(u, beyond), hn::Set(u, bit)));
-        };
-        add(std::uint64_t{1} << axis, hn::Gt(at, number(half_side)));
-        add(std::uint64_t{8} << axis, hn::Lt(at, number(-half_side)));
+        add_bit(code, axis, hn::Gt(at, number(half_side)));
+        add_bit(code, 3 + axis, hn::Lt(at, number(-half_side)));
       }
-      hn::StoreU(code, u, codes + k);
+      hn::StoreU(code, Code_lanes(), codes + k);
     }
   }
 
@@ -98,8 +87,8 @@ class Seen_vertices {
 
   std::size_t count_;
   double nearest_, reach_;
-  double at_[3][most_vertices];
-  alignas(64) double rows_[most_vertices][4];  ///< x, y, z and padding
+  double at_[3][most_codes];
+  alignas(64) double rows_[most_codes][4];  ///< x, y, z and padding
 };
 
 /// Weights of the second and the third corner.
@@ -179,12 +168,6 @@ HWY_INLINE Doubles bound_by_edges(const Differences& a, const Differences& b, co
   return hn::Sub(hn::Sub(least(of_a, of_b, of_c), hn::Mul(longest, number(third))), error);
 }
 
-/// Fetches what is read after the vertices, meanwhile.
-HWY_INLINE void prefetch(std::span<const Leaf_corners> corners) {
-  constexpr std::size_t faces_per_line = 64 / sizeof(Leaf_corners);
-  for (std::size_t face = 0; face < corners.size(); face += faces_per_line) hwy::Prefetch(&corners[face]);
-}
-
 /// Faces of a leaf, and a point.
 class Leaf_search {
  public:
@@ -221,17 +204,9 @@ class Leaf_search {
   }
 
   HWY_INLINE void list_faces_at_cube(double half_side) {
-    std::uint64_t codes[most_vertices];
+    std::uint64_t codes[most_codes];
     vertices_.code(half_side, codes);
-    // Hoisted: the stores of bytes may alias the list.
-    const Leaf_corners* const corners = leaf_.corners.data();
-    const std::size_t faces = leaf_.corners.size();
-    std::size_t count = 0;
-    for (std::size_t face = 0; face < faces; ++face) {
-      candidates_[count] = static_cast<std::uint8_t>(face);
-      count += (codes[corners[face][0]] & codes[corners[face][1]] & codes[corners[face][2]]) == 0 ? 1 : 0;
-    }
-    count_ = count;
+    count_ = list_faces(leaf_, codes, candidates_);
   }
 
   /// Keeps the candidates that may be as near as `most_`.

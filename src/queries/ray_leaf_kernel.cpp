@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "queries/ray_leaf_kernel.h"
 
-#include <hwy/cache_control.h>
-
-#include <span>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "queries/ray_leaf_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "queries/leaf_codes-inl.h"
 #include "simd/positions-inl.h"
 #include "simd/vector_types-inl.h"
 
@@ -18,19 +15,7 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many bits as a double has: one per direction in which a vertex is beyond the ray.
-using Code_lanes = hn::Rebind<std::uint64_t, Double_lanes>;
-using Codes = hn::Vec<Code_lanes>;
 constexpr std::uint64_t every_direction = ~std::uint64_t{0};
-
-/// Lists of vertices are read in whole vectors.
-constexpr std::size_t most_codes = 3 * most_leaf_faces + most_double_lanes;
-
-HWY_INLINE void add_bit(Codes& codes, int bit, Double_mask beyond) {
-  const Code_lanes d;
-  const auto lanes = hn::RebindMask(d, beyond);
-  codes = hn::Or(codes, hn::IfThenElseZero(lanes, hn::Set(d, std::uint64_t{1} << bit)));
-}
 
 /// Component `axis` of some vectors.
 template <int axis>
@@ -87,12 +72,6 @@ HWY_INLINE std::uint64_t code_vertices(const Leaf_faces& leaf, const Ray_input& 
   return bits;
 }
 
-/// Fetches what is read after the vertices, meanwhile.
-HWY_INLINE void prefetch(std::span<const Leaf_corners> corners) {
-  constexpr std::size_t faces_per_line = 64 / sizeof(Leaf_corners);
-  for (std::size_t face = 0; face < corners.size(); face += faces_per_line) hwy::Prefetch(&corners[face]);
-}
-
 std::size_t list_ray_candidates_kernel(const Leaf_faces& leaf, const Ray_input& ray, double error, double most_depth,
                                        std::uint8_t* candidates) {
   prefetch(leaf.corners);
@@ -101,16 +80,7 @@ std::size_t list_ray_candidates_kernel(const Leaf_faces& leaf, const Ray_input& 
                                : ray.depth_axis == 1 ? code_vertices<1>(leaf, ray, error, most_depth, codes)
                                                      : code_vertices<2>(leaf, ray, error, most_depth, codes);
   if (common != 0) return 0;
-  // Hoisted: the stores of bytes may alias the list.
-  const Leaf_corners* const corners = leaf.corners.data();
-  const std::size_t faces = leaf.corners.size();
-  std::size_t count = 0;
-  for (std::size_t face = 0; face < faces; ++face) {
-    const std::uint64_t beyond = codes[corners[face][0]] & codes[corners[face][1]] & codes[corners[face][2]];
-    candidates[count] = static_cast<std::uint8_t>(face);
-    count += beyond == 0 ? 1 : 0;
-  }
-  return count;
+  return list_faces(leaf, codes, candidates);
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE

@@ -25,9 +25,6 @@ using Lanes = hn::CappedTag<float, ray_tree_width>;
 using Lane_values = hn::Vec<Lanes>;
 constexpr std::size_t step = hn::MaxLanes(Lanes());
 
-HWY_INLINE Lane_values greatest(Lane_values a, Lane_values b, Lane_values c) { return hn::Max(hn::Max(a, b), c); }
-HWY_INLINE Lane_values least(Lane_values a, Lane_values b, Lane_values c) { return hn::Min(hn::Min(a, b), c); }
-
 /// A child and the depth at which a ray enters it, as one number: children that are entered later are greater.
 using Keys = hn::CappedTag<std::int64_t, ray_tree_width>;
 constexpr std::size_t key_step = hn::MaxLanes(Keys());

@@ -81,6 +81,15 @@ HWY_INLINE Vector3<Tag> greater(const Vector3<Tag>& u, const Vector3<Tag>& v) {
   return {hn::Max(u.x, v.x), hn::Max(u.y, v.y), hn::Max(u.z, v.z)};
 }
 
+template <class Vector>
+HWY_INLINE Vector greatest(Vector a, Vector b, Vector c) {
+  return hn::Max(hn::Max(a, b), c);
+}
+template <class Vector>
+HWY_INLINE Vector least(Vector a, Vector b, Vector c) {
+  return hn::Min(hn::Min(a, b), c);
+}
+
 /// One bit per lane.
 template <class Tag>
 HWY_INLINE std::uint32_t mask_bits(Tag d, hn::Mask<Tag> mask) {

@@ -30,7 +30,7 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
       }
     }
     if (const auto place = std::ranges::find(used, 0); place != used.end())
-      return fmt::format("leaf {}: vertex {} is of no face of it", leaf, list[place - used.begin()]);
+      return fmt::format("leaf {}: none of its faces has vertex {}", leaf, list[place - used.begin()]);
     if (leaf_nodes_[leaf] >= nodes_.size() || !is_leaf(leaf_nodes_[leaf]))
       return fmt::format("leaf {}: its node is not a leaf", leaf);
   }

@@ -21,8 +21,6 @@ using Values = hn::Vec<Lanes>;
 constexpr std::size_t step = hn::MaxLanes(Lanes());
 
 HWY_INLINE Values number(double x) { return hn::Set(Lanes(), x); }
-HWY_INLINE Values greatest(Values a, Values b, Values c) { return hn::Max(hn::Max(a, b), c); }
-HWY_INLINE Values least(Values a, Values b, Values c) { return hn::Min(hn::Min(a, b), c); }
 
 /// The corners of triangles in the coordinates of their rays, and the sizes of what was computed.
 struct Seen {

@@ -139,7 +139,7 @@ TEST(Saved_tree, with_a_vertex_in_a_leaf_that_no_face_of_it_has_is_refused) {
   Lists lists = chain(3, 4);
   lists.vertices.insert(lists.vertices.begin() + 12, 12);  // of the next leaf
   for (std::size_t leaf = 1; leaf < lists.vertex_begin.size(); ++leaf) ++lists.vertex_begin[leaf];
-  EXPECT_EQ(refusal_of(lists), "the saved object is broken: leaf 0: vertex 12 is of no face of it");
+  EXPECT_EQ(refusal_of(lists), "the saved object is broken: leaf 0: none of its faces has vertex 12");
 }
 
 /// What an object with particles has saved, up to its homes.

@@ -207,6 +207,9 @@ void Detector_play::query_one(Byte_source& bytes, Object_id object) {
     const auto all = detector_.all_hits(object, ray);
     require(first.has_value() == !all.empty(), "first_hit and all_hits differ");
     if (first) require(first->face == all.front().face, "first_hit is not the first of all hits");
+    const auto of_tree = first_hit(detector_.ray_tree(object), ray);
+    require(of_tree.has_value() == first.has_value(), "a Ray_tree has another answer");
+    if (first) require(of_tree->face == first->face && of_tree->t == first->t, "a Ray_tree has another first hit");
   });
   const auto p = point();
   accepts([&] { detector_.closest_point(object, Point(p.x(), p.y(), p.z())); });

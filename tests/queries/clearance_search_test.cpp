@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "support/boxed.h"
 #include "support/face_soup.h"
 #include "support/instruction_sets.h"
 
@@ -13,15 +14,6 @@ namespace lodestone {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Boxed_triangle boxed(const Triangle& t) {
-  Boxed_triangle result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.corners[i] = {t[i].x(), t[i].y(), t[i].z()};
-    result.box.extend(result.corners[i]);
-  }
-  return result;
-}
 
 /// The largest of all face pairs.
 double by_all_pairs(const Face_soup& a, const Face_soup& b, const Eigen::Vector3d& direction) {

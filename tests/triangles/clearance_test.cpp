@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "lodestone/triangles/triangle_intersection.h"
+#include "support/boxed.h"
 #include "support/exact_point.h"
 #include "support/hard_pairs.h"
 
@@ -14,15 +15,6 @@ namespace lodestone {
 namespace {
 
 constexpr double slack = 0x1p-44;
-
-Boxed_triangle boxed(const Triangle& t) {
-  Boxed_triangle result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.corners[i] = {t[i].x(), t[i].y(), t[i].z()};
-    result.box.extend(result.corners[i]);
-  }
-  return result;
-}
 
 Clearance clearance_of(const Triangle& a, const Triangle& b, const Eigen::Vector3d& direction) {
   return clearance(boxed(a), boxed(b), Way(direction, slack));

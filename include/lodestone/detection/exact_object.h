@@ -116,7 +116,8 @@ class Exact_object {
     rays_without_tree_ = 0;
     return *ray_tree_;
   }
-  /// Whether it is worth preparing for some more rays. Several frames with rays can be where one is not.
+  /// Whether a Ray_tree saves more time than it takes, for a call with so many rays and those before it. Counts the
+  /// rays: a tree that would not pay in one frame can pay over several.
   bool pays_for(std::size_t rays) {
     if (!Ray_tree::refit_pays(rays, corners().size())) return false;
     if (!ray_tree_) rays_without_tree_ += rays;
@@ -215,8 +216,8 @@ class Exact_object {
   std::vector<double> rest_;  ///< 3 V: the first positions that a promise was about; none before
   std::unique_ptr<Bounded_surface> bounded_;
   std::optional<Ray_tree> ray_tree_;   ///< of the surface; none before it is asked for
-  std::size_t rays_without_tree_ = 0;  ///< that it would have paid to refit one for
-  std::vector<double> placed_;  ///< memory of `read`
+  std::size_t rays_without_tree_ = 0;  ///< of calls for which the refit of a tree would have paid
+  std::vector<double> placed_;         ///< memory of `read`
 };
 
 template <Bounding_volume Volume>

@@ -18,15 +18,16 @@ namespace lodestone {
 /// \cite wald2008. Single precision only discards what it proves missed, so rays get the same answers as from the
 /// surface itself, and sooner. It is refitted, or made anew, after vertices have moved.
 ///
-/// Making it takes as long as about F / 20 rays save, a refit as F / 60. Fewer rays are better asked without it.
+/// Making it takes as long as some F / 20 rays save, a refit as long as some F / 60 rays save. Fewer rays are better
+/// asked without it.
 class Ray_tree {
  public:
   /// Packs the faces of each leaf into blocks, by where they are now. O(F), shared among the workers.
   /// @param surface  with boxes; must outlive this, and stay as it is
   explicit Ray_tree(const Layout_view& surface, Workers& workers = Workers::alone());
 
-  /// Follows the surface to another pose. The same faces are packed together, so rays take the longer, the more these
-  /// have moved apart. O(F), a third of the time of making a tree; shared among the workers.
+  /// Follows the surface to another pose. Faces stay packed together, and rays take longer where these have moved
+  /// apart. O(F), a third of the time of making a tree; shared among the workers.
   /// @param surface  with boxes and the same faces; must outlive this, and stay as it is
   /// @throws Bad_argument  it has other numbers of faces or vertices; this stays as it is
   void refit(const Layout_view& surface, Workers& workers = Workers::alone());
