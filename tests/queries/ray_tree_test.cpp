@@ -155,6 +155,14 @@ TEST(Ray_tree, follows_the_surface_to_other_poses) {
     }
 }
 
+TEST(Ray_tree, follows_the_positions_into_other_memory) {
+  const Face_soup ball(icosphere(6));
+  const Posed_object first(ball), second(crumpled(ball, 0.05, 13));
+  Ray_tree tree(first.view());
+  tree.refit(second.view());
+  for (const Ray& ray : rays_at(100, 14)) expect_same(first_hit(tree, ray), first_hit(second.view(), ray));
+}
+
 TEST(Ray_tree, follows_a_surface_that_was_too_large_small_or_a_point) {
   const auto rays = rays_at(60, 11);
   const Face_soup ball(icosphere(4));
