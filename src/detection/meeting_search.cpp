@@ -18,14 +18,15 @@ void Meeting_search::start_frame() {
   counts_ = {};
   near_regions_.clear();
   seeds_.clear();
+  compared_.clear();
 }
 
-void Meeting_search::look(Met_pair& pair) {
+void Meeting_search::look(Met_pair& pair, Workers& workers) {
   pair.first_seed = seeds_.size();
   revisit(pair);
   if (!decided(pair)) {
     list_regions(pair);
-    if (pair.near_count > 0) open(pair);
+    if (pair.near_count > 0) open(pair, workers);
   }
 }
 
@@ -63,21 +64,28 @@ void Meeting_search::list_regions(Met_pair& pair) {
   pair.near_count = near_regions_.size() - pair.first_near;
 }
 
-void Meeting_search::open(Met_pair& pair) {
+void Meeting_search::open(Met_pair& pair, Workers& workers) {
   openings_.begin(pair.a->tree(), pair.b->tree(),
                   {.all = wants_all(), .reach = options_.opening_reach, .budget = options_.opening_budget});
   for (const auto& near : near_regions(pair))
     openings_.add_start({pair.a->regions().node(near.a), pair.b->regions().node(near.b)}, near.order);
   opened_.clear();
-  openings_.open(opened_);
+  openings_.open(opened_, workers);
   pair.out_of_budget = openings_.out_of_budget();
-  counts_.openings += openings_.leaf_tests();
-  counts_.exact_tests += openings_.exact_tests();
+  count_openings();
+  pair.first_compared = compared_.size();
+  compared_.insert(compared_.end(), openings_.compared().begin(), openings_.compared().end());
+  pair.compared_count = openings_.compared().size();
   for (const auto& contact : opened_) {
     const Meeting corners{.a = pair.a->walked_surface().walked[contact.a][0],
                           .b = pair.b->walked_surface().walked[contact.b][0]};
     add_seed(pair, {.at = corners, .contact = contact});
   }
+}
+
+void Meeting_search::count_openings() {
+  counts_.openings += openings_.leaf_tests();
+  counts_.exact_tests += openings_.exact_tests();
 }
 
 void Meeting_search::meet_nearest(Met_pair& pair) {
@@ -102,32 +110,26 @@ void Meeting_search::add_seed(Met_pair& pair, const Remembered_meeting& seed) {
   ++pair.seed_count;
 }
 
-void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found) {
+void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers) {
   if (pair.seed_count == 0) return;
-  if (!wants_all()) {
-    found.push_back(seeds(pair).front().contact);
-    remember(pair);
-  } else if (pair.near_count > 0 && !pair.out_of_budget && options_.opening_reach >= 1) {
-    // All leaves that may touch have been compared, so their contacts are those of whole curves.
-    for (const auto& seed : seeds(pair)) found.push_back(seed.contact);
+  if (wants_all()) {
+    follow_curves(pair, found, workers);
     const std::size_t step = (pair.seed_count + options_.meetings - 1) / options_.meetings;
     for (std::size_t seed = 0; seed < pair.seed_count; seed += step) memory_.keep(pair.ids, seeds(pair)[seed]);
   } else {
-    follow_curves(pair, found);
+    found.push_back(seeds(pair).front().contact);
+    remember(pair);
   }
 }
 
-/// Reports the curves on which the seeds lie, and remembers one seed of each.
-void Meeting_search::follow_curves(const Met_pair& pair, std::vector<Face_pair>& found) {
-  curves_.begin(pair.a->walked_surface(), pair.b->walked_surface());
-  std::size_t curves = 0;
-  for (const auto& seed : seeds(pair)) {
-    const std::size_t before = found.size();
-    curves_.follow(seed.contact, found);
-    if (found.size() > before && curves++ < options_.meetings) memory_.keep(pair.ids, seed);
-  }
-  counts_.exact_tests += curves_.exact_tests();
-  counts_.vertices_read += curves_.vertices_read();
+/// Reports the curves on which the seeds lie.
+void Meeting_search::follow_curves(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers) {
+  contacts_.clear();
+  for (const auto& seed : seeds(pair)) contacts_.push_back(seed.contact);
+  const auto compared = std::span(compared_).subspan(pair.first_compared, pair.compared_count);
+  openings_.begin(pair.a->tree(), pair.b->tree(), {.all = true});
+  openings_.follow(pair.a->followed_surface(), pair.b->followed_surface(), compared, contacts_, found, workers);
+  count_openings();
 }
 
 /// Remembers the contact that was found, and the meetings of the last frame: one of them may be of use once this one

@@ -26,7 +26,7 @@ void Particle_detection::detect_by_meetings(const Collision_filter& filter) {
 void Particle_detection::search_near_objects() {
   try {
     timed(frame_.seconds().confirmation, [&] {
-      for (auto& pair : met_pairs_) meeting_search_.look(pair);
+      for (auto& pair : met_pairs_) meeting_search_.look(pair, workers_);
     });
     timed(frame_.seconds().relaxation, [&] { walk_undecided_particles(); });
     timed(frame_.seconds().confirmation, [&] {
@@ -112,7 +112,7 @@ void Particle_detection::report(const Met_pair& pair) {
   result.collides = pair.seed_count > 0;
   result.candidates = pair.near_count > 0 ? pair.near_count : std::min<std::size_t>(pair.seed_count, 1);
   frame_.statistics().candidates += result.candidates;
-  meeting_search_.report(pair, frame_.face_pairs());
+  meeting_search_.report(pair, frame_.face_pairs(), workers_);
   if (options_.list_candidates) list_near_regions(pair);
   end_pair(result);
 }

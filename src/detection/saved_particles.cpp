@@ -167,6 +167,7 @@ void Particle_object::load(State_reader& state) {
   largest_area_ = saved.largest_area;
   rest_compass_ = saved.rest_compass;
   tree_ = std::move(saved.tree);
+  neighbours_.reset();
   regions_ = std::move(saved.regions);
   if (homes_.empty())
     start_patches(saved.rings);

@@ -2,8 +2,10 @@
 #include "lodestone/queries/opening_search.h"
 
 #include <algorithm>
-#include <cmath>
-#include <tuple>
+#include <bit>
+#include <iterator>
+#include <limits>
+#include <span>
 
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/triangles/triangle_intersection.h"
@@ -12,46 +14,148 @@ namespace lodestone {
 
 namespace {
 
-/// Of two waiting pairs the one to be opened later: a heap has the others first.
-constexpr auto later = [](const auto& p, const auto& q) {
-  return std::tie(p.order, p.nodes.a, p.nodes.b) > std::tie(q.order, q.nodes.a, q.nodes.b);
-};
+/// Leaf pairs of one task: some 50 microseconds.
+constexpr std::size_t pairs_per_task = 32;
 
 }  // namespace
+
+void Opening_search::Waiting::clear() {
+  for (auto& stack : stacks_) stack.clear();
+  filled_ = 0;
+}
+
+void Opening_search::Waiting::push(Node_pair nodes, float order) {
+  const auto count = static_cast<float>(stacks_.size());
+  const auto stack = static_cast<std::size_t>(std::clamp(count * order, 0.0F, count - 1));
+  stacks_[stack].push_back(nodes);
+  filled_ |= std::uint64_t{1} << stack;
+}
+
+Node_pair Opening_search::Waiting::pop() {
+  const auto first = static_cast<std::size_t>(std::countr_zero(filled_));
+  auto& stack = stacks_[first];
+  const Node_pair nodes = stack.back();
+  stack.pop_back();
+  if (stack.empty()) filled_ &= filled_ - 1;
+  return nodes;
+}
+
+std::span<const std::uint32_t> Opening_search::Leaves_beside::of(const Followed_surface& surface, std::uint32_t asked) {
+  if (face != asked) {
+    face.reset();  // of no face if this fails
+    leaves.clear();
+    surface.neighbours->list_beside(surface.walked, *surface.vertex_faces, asked, leaves);
+    face = asked;
+  }
+  return leaves;
+}
 
 void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_request& request) {
   a_ = &a, b_ = &b;
   request_ = request;
-  filter_begun_ = false;
+  in_order_ = request.budget < a.vertex_count() + b.vertex_count();
+  begun_ = 0;
   out_of_budget_ = false;
   leaf_tests_ = exact_tests_ = 0;
   waiting_.clear();
+  compared_.clear();
+  beside_.clear();
+  beside_a_.face.reset(), beside_b_.face.reset();
 }
 
-/// The filter keeps what it has read of leaves for as long as the bounds hold.
-void Opening_search::begin_filter() {
-  if (filter_begun_ && bounds_a_ == a_->bounds() && bounds_b_ == b_->bounds()) return;
-  bounds_a_ = a_->bounds(), bounds_b_ = b_->bounds();
-  filter_.begin(a_->view(), b_->view(), 0);
-  filter_begun_ = true;
-}
-
-bool Opening_search::test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, std::vector<Face_pair>& found) {
-  if (!near(a_->pose(leaf_a), b_->pose(leaf_b), 0)) return false;
-  ++leaf_tests_;
-  begin_filter();
-  const Layout_view a = a_->view(), b = b_->view();
-  const Leaf_faces faces_a = a.leaf(leaf_a), faces_b = b.leaf(leaf_b);
+bool Opening_search::open(std::vector<Face_pair>& found, Workers& workers) {
   const std::size_t before = found.size();
-  for (const Face_candidate& candidate : filter_.face_candidates(leaf_a, leaf_b)) {
-    ++exact_tests_;
-    if (!triangles_intersect_given(leaf_triangle(faces_a, candidate.a), leaf_triangle(faces_b, candidate.b),
-                                   candidate.crossing))
-      continue;
-    found.push_back({a.layout->faces(leaf_a)[candidate.a], b.layout->faces(leaf_b)[candidate.b]});
-    if (!request_.all) break;
-  }
+  limit_ = in_order_ ? vertices_read() + request_.budget : std::numeric_limits<std::size_t>::max();
+  request_.all ? open_for_all(found, workers) : open_for_one(found);
   return found.size() > before;
+}
+
+void Opening_search::open_for_one(std::vector<Face_pair>& found) {
+  tested_.resize(std::max<std::size_t>(tested_.size(), 1));
+  Tested& tested = tested_.front();
+  tested.found.clear();
+  Leaf_pair leaves;
+  while (tested.found.empty() && next(leaves)) {
+    begin_filters(1);
+    tested.exact_tests = 0;
+    test(leaves, filters_.front(), tested);
+    ++leaf_tests_;
+    exact_tests_ += tested.exact_tests;
+  }
+  found.insert(found.end(), tested.found.begin(), tested.found.end());
+}
+
+/// Lists leaf pairs, then tests them. So leaves are read one after the other, and then each is prepared once.
+void Opening_search::open_for_all(std::vector<Face_pair>& found, Workers& workers) {
+  listed_.clear();
+  for (Leaf_pair leaves; next(leaves);) listed_.push_back(leaves);
+  std::ranges::sort(listed_);
+  compared_ = listed_;
+  test_listed(found, workers);
+}
+
+void Opening_search::follow(const Followed_surface& a, const Followed_surface& b, std::span<const Leaf_pair> compared,
+                            std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers) {
+  compared_.assign(compared.begin(), compared.end());
+  std::size_t followed = found.size();
+  for (const Face_pair contact : contacts) {
+    const Leaf_pair leaves{a.neighbours->leaf_of(contact.a), b.neighbours->leaf_of(contact.b)};
+    if (std::ranges::binary_search(compared_, leaves))
+      found.push_back(contact);
+    else
+      beside_.push_back(leaves);
+  }
+  const auto first = found.begin() + static_cast<std::ptrdiff_t>(followed);
+  std::sort(first, found.end());
+  found.erase(std::unique(first, found.end()), found.end());
+  do {
+    for (; followed < found.size(); ++followed) follow_contact(a, b, found[followed]);
+    compare_beside(found, workers);
+  } while (followed < found.size());
+}
+
+/// Lists the leaf pairs beside a contact.
+void Opening_search::follow_contact(const Followed_surface& a, const Followed_surface& b, Face_pair contact) {
+  for (const auto leaf : beside_a_.of(a, contact.a)) beside_.push_back({leaf, b.neighbours->leaf_of(contact.b)});
+  for (const auto leaf : beside_b_.of(b, contact.b)) beside_.push_back({a.neighbours->leaf_of(contact.a), leaf});
+}
+
+/// Compares the leaf pairs that were listed, unless they have been compared.
+void Opening_search::compare_beside(std::vector<Face_pair>& found, Workers& workers) {
+  std::ranges::sort(beside_);
+  beside_.erase(std::ranges::unique(beside_).begin(), beside_.end());
+  memory_.clear();
+  std::ranges::set_difference(beside_, compared_, std::back_inserter(memory_));
+  beside_.swap(memory_);
+  memory_.clear();
+  std::ranges::merge(compared_, beside_, std::back_inserter(memory_));
+  compared_.swap(memory_);
+  listed_.clear();
+  for (const Leaf_pair leaves : beside_)
+    if (near(a_->pose(leaves.a), b_->pose(leaves.b), 0)) listed_.push_back(leaves);
+  beside_.clear();
+  test_listed(found, workers);
+}
+
+/// The next pair of leaves that may meet.
+/// @return false if there is none, or the budget is used up
+bool Opening_search::next(Leaf_pair& leaves) {
+  const Tree_layout &a = a_->layout(), &b = b_->layout();
+  out_of_budget_ = false;
+  while (!waiting_.empty()) {
+    if (vertices_read() >= limit_) {
+      out_of_budget_ = true;
+      return false;
+    }
+    const Node_pair pair = waiting_.pop();
+    if (!a.is_leaf(pair.a) || !b.is_leaf(pair.b)) {
+      consider_children(pair);
+      continue;
+    }
+    leaves = {a.node(pair.a).leaf, b.node(pair.b).leaf};
+    if (near_leaves(leaves)) return true;
+  }
+  return false;
 }
 
 /// Puts a pair of nodes on the list unless they are taken to be apart.
@@ -59,7 +163,7 @@ void Opening_search::consider(Node_pair pair) {
   const double squared = (a_->anchor(pair.a) - b_->anchor(pair.b)).squaredNorm();
   const double radii = request_.reach * (a_->radius(pair.a) + b_->radius(pair.b));
   if (squared > radii * radii) return;
-  waiting_.push_back({static_cast<float>(radii > 0 ? squared / (radii * radii) : 0), pair});
+  waiting_.push(pair, in_order_ && radii > 0 ? static_cast<float>(squared / (radii * radii)) : 0);
 }
 
 /// Opens the node with the larger radius, since that separates most.
@@ -75,23 +179,12 @@ void Opening_search::consider_children(Node_pair pair) {
   }
 }
 
-bool Opening_search::open(std::vector<Face_pair>& found) {
-  const std::size_t before = found.size();
-  const bool covers_all = request_.budget >= a_->vertex_count() + b_->vertex_count();
-  covers_all ? open_depth_first(found) : open_in_order(found);
-  return found.size() > before;
-}
-
-bool Opening_search::is_leaf_pair(Node_pair pair) const {
-  return a_->layout().is_leaf(pair.a) && b_->layout().is_leaf(pair.b);
-}
-
-bool Opening_search::test_leaf_pair(Node_pair pair, std::vector<Face_pair>& found) {
-  const std::uint32_t leaf_a = a_->layout().node(pair.a).leaf, leaf_b = b_->layout().node(pair.b).leaf;
-  // The box of a leaf that has been read can spare reading the other.
-  const bool a_first = a_->is_posed(leaf_a) || !b_->is_posed(leaf_b);
-  if (a_first ? is_apart(a_->pose(leaf_a), *b_, pair.b) : is_apart(b_->pose(leaf_b), *a_, pair.a)) return false;
-  return test_leaves(leaf_a, leaf_b, found);
+/// The box of a leaf that has been read can spare reading the other.
+bool Opening_search::near_leaves(Leaf_pair leaves) {
+  const bool a_first = a_->is_posed(leaves.a) || !b_->is_posed(leaves.b);
+  const bool apart = a_first ? is_apart(a_->pose(leaves.a), *b_, b_->layout().leaf_node(leaves.b))
+                             : is_apart(b_->pose(leaves.b), *a_, a_->layout().leaf_node(leaves.a));
+  return !apart && near(a_->pose(leaves.a), b_->pose(leaves.b), 0);
 }
 
 /// Whether a node is taken to be apart from a box.
@@ -106,36 +199,44 @@ bool Opening_search::is_apart(const Aabb& box, Tree_on_demand& tree, std::uint32
   return squared > radius * radius;
 }
 
-void Opening_search::open_depth_first(std::vector<Face_pair>& found) {
-  while (!waiting_.empty()) {
-    const Node_pair pair = waiting_.back().nodes;
-    waiting_.pop_back();
-    if (!is_leaf_pair(pair))
-      consider_children(pair);
-    else if (test_leaf_pair(pair, found) && !request_.all)
-      return;
+/// A filter keeps what it has read of leaves for as long as the bounds hold.
+void Opening_search::begin_filters(std::size_t count) {
+  if (bounds_a_ != a_->bounds() || bounds_b_ != b_->bounds()) begun_ = 0;
+  bounds_a_ = a_->bounds(), bounds_b_ = b_->bounds();
+  filters_.resize(std::max(filters_.size(), count));
+  for (; begun_ < count; ++begun_) filters_[begun_].begin(a_->view(), b_->view(), 0);
+}
+
+void Opening_search::test(Leaf_pair leaves, Face_filter& filter, Tested& tested) const {
+  const Layout_view a = a_->view(), b = b_->view();
+  const Leaf_faces faces_a = a.leaf(leaves.a), faces_b = b.leaf(leaves.b);
+  for (const Face_candidate& candidate : filter.face_candidates(leaves.a, leaves.b)) {
+    ++tested.exact_tests;
+    if (!triangles_intersect_given(leaf_triangle(faces_a, candidate.a), leaf_triangle(faces_b, candidate.b),
+                                   candidate.crossing))
+      continue;
+    tested.found.push_back({a.layout->faces(leaves.a)[candidate.a], b.layout->faces(leaves.b)[candidate.b]});
+    if (!request_.all) return;
   }
 }
 
-void Opening_search::open_in_order(std::vector<Face_pair>& found) {
-  const std::size_t limit = vertices_read() + request_.budget;
-  std::ranges::make_heap(waiting_, later);
-  while (!waiting_.empty()) {
-    if (vertices_read() >= limit) {
-      out_of_budget_ = true;
-      return;
-    }
-    std::ranges::pop_heap(waiting_, later);
-    const Node_pair pair = waiting_.back().nodes;
-    waiting_.pop_back();
-    if (!is_leaf_pair(pair)) {
-      const std::size_t old = waiting_.size();
-      consider_children(pair);
-      for (std::size_t end = old + 1; end <= waiting_.size(); ++end)
-        std::push_heap(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(end), later);
-    } else if (test_leaf_pair(pair, found) && !request_.all) {
-      return;
-    }
+void Opening_search::test_listed(std::vector<Face_pair>& found, Workers& workers) {
+  if (listed_.empty()) return;
+  begin_filters(workers.count());
+  const std::size_t tasks = (listed_.size() + pairs_per_task - 1) / pairs_per_task;
+  tested_.resize(std::max(tested_.size(), tasks));
+  workers.run(tasks, [&](std::size_t task, std::size_t worker) {
+    Tested& tested = tested_[task];
+    tested.found.clear();
+    tested.exact_tests = 0;
+    const std::size_t first = task * pairs_per_task;
+    for (const Leaf_pair leaves : std::span(listed_).subspan(first, std::min(pairs_per_task, listed_.size() - first)))
+      test(leaves, filters_[worker], tested);
+  });
+  leaf_tests_ += listed_.size();
+  for (const Tested& tested : std::span(tested_).first(tasks)) {
+    exact_tests_ += tested.exact_tests;
+    found.insert(found.end(), tested.found.begin(), tested.found.end());
   }
 }
 

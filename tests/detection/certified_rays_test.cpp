@@ -34,7 +34,9 @@ TEST(Certified, rays_and_points_have_the_answers_of_mode_exact) {
       const Ray through{.origin = {3, 0.1, 0.2}, .direction = {-1, 0, 0}};
       const auto hit = first_hit(certified.ray_tree(object), through), true_hit = exact.first_hit(object, through);
       ASSERT_EQ(hit.has_value(), true_hit.has_value());
-      if (hit) EXPECT_TRUE(same(*hit, *true_hit));
+      if (hit) {
+        EXPECT_TRUE(same(*hit, *true_hit));
+      }
     }
   }
   EXPECT_GT(hits, 100U);

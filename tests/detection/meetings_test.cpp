@@ -137,7 +137,7 @@ TEST(Meetings, particles_are_where_they_met) {
 TEST(Meetings, happen_only_where_the_budget_has_ended_the_openings) {
   for (const bool tiny : {true, false}) {
     auto scene = two_spheres(1.9);
-    auto options = by_meetings();
+    auto options = by_meetings(Contact_query::first);
     if (tiny) options.opening_budget = 1;
     Detector<> detector(options);
     add_all(detector, scene);

@@ -209,12 +209,13 @@ TEST(Opening_search, the_faces_of_two_leaves_are_compared_exactly) {
   const auto truth = true_pairs(a.now(), b.now());
   const Tree_layout &layout_a = a.tree().layout(), &layout_b = b.tree().layout();
   std::vector<Face_pair> together;
-  for (const bool all : {false, true}) {
-    search.begin(a.tree(), b.tree(), {.all = all});
+  for (const bool all : {false, true})
     for (std::uint32_t leaf_a = 0; leaf_a < layout_a.leaf_count(); ++leaf_a)
       for (std::uint32_t leaf_b = 0; leaf_b < layout_b.leaf_count(); ++leaf_b) {
+        search.begin(a.tree(), b.tree(), {.all = all, .budget = large_budget});
+        search.add_start({layout_a.leaf_node(leaf_a), layout_b.leaf_node(leaf_b)}, 0);
         std::vector<Face_pair> found;
-        const bool some = search.test_leaves(leaf_a, leaf_b, found);
+        const bool some = search.open(found);
         EXPECT_EQ(some, !found.empty());
         const auto expected = static_cast<std::size_t>(std::ranges::count_if(truth, [&](Face_pair pair) {
           return std::ranges::find(layout_a.faces(leaf_a), pair.a) != layout_a.faces(leaf_a).end() &&
@@ -223,9 +224,35 @@ TEST(Opening_search, the_faces_of_two_leaves_are_compared_exactly) {
         EXPECT_EQ(found.size(), all ? expected : std::min<std::size_t>(1, expected));
         if (all) together.insert(together.end(), found.begin(), found.end());
       }
-  }
   std::ranges::sort(together);
   EXPECT_EQ(together, truth);
+}
+
+TEST(Opening_search, workers_find_the_same_in_the_same_order) {
+  Opened_object a(icosphere(40)), b(icosphere(40));
+  b.move_to(moved(b.rest(), 0.7, 0.01, 0.02));
+  std::vector<Face_pair> alone;
+  std::size_t exact_tests = 0, vertices_read = 0;
+  for (const std::size_t threads : {1, 2, 5}) {
+    Workers workers(threads);
+    Opening_search search;
+    for (int again = 0; again < 3; ++again) {
+      a.start_frame(), b.start_frame();
+      search.begin(a.tree(), b.tree(), {.all = true, .budget = 4000});
+      search.add_start({0, 0}, 0);
+      std::vector<Face_pair> found;
+      search.open(found, workers);
+      if (alone.empty()) {
+        alone = found;
+        exact_tests = search.exact_tests();
+        vertices_read = a.tree().vertices_read() + b.tree().vertices_read();
+        ASSERT_GT(search.leaf_tests(), 100U) << "enough for all workers";
+      }
+      EXPECT_EQ(found, alone);
+      EXPECT_EQ(search.exact_tests(), exact_tests);
+      EXPECT_EQ(a.tree().vertices_read() + b.tree().vertices_read(), vertices_read);
+    }
+  }
 }
 
 TEST(Opening_search, surfaces_that_meet_in_a_small_place_are_read_only_around_it) {

@@ -50,7 +50,7 @@ struct Frame_statistics {
   std::size_t leaves_posed = 0;       ///< mode certified: leaves of objects with bounds that were read
   std::size_t violations = 0;         ///< mode certified: promises that what was read did not keep
   std::size_t candidates = 0;         ///< candidate region pairs; in mode exact pairs of leaves
-  std::size_t openings = 0;           ///< pairs of leaves that were compared below opened regions
+  std::size_t openings = 0;           ///< pairs of leaves that were compared below opened regions, and along curves
   std::size_t exact_tests = 0;        ///< face pairs given to the exact test
   std::size_t contacts = 0;           ///< face pairs found that intersect, or are nearer than the tolerance, each once
   std::size_t builds = 0;             ///< objects built: see Stage_times

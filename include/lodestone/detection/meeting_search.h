@@ -9,7 +9,6 @@
 #include "lodestone/detection/frame.h"
 #include "lodestone/detection/meeting_memory.h"
 #include "lodestone/detection/particle_object.h"
-#include "lodestone/particles/contact_curve.h"
 #include "lodestone/particles/ring_check.h"
 #include "lodestone/queries/opening_search.h"
 
@@ -32,14 +31,15 @@ struct Met_pair {
   std::size_t near_count = 0;    ///< how many they are
   std::size_t first_seed = 0;    ///< place of its contacts in the list of all pairs: see `Meeting_search::seeds`
   std::size_t seed_count = 0;    ///< how many they are
-  bool out_of_budget = false;    ///< the regions could not all be opened
+  std::size_t first_compared = 0;  ///< place of the leaf pairs that were compared, in the list of all pairs
+  std::size_t compared_count = 0;  ///< how many they are
+  bool out_of_budget = false;      ///< the regions could not all be opened
 };
 
 /// The search for contacts of object pairs in mode `particles`, from what is cheapest to what finds most:
 ///  1. `look`: at the place where particles met in the last frame, then below the regions, which are opened;
 ///  2. `meet_nearest`, where the budget has ended the openings, after the particles have walked;
-///  3. `report`: with the query `all`, where regions may have been left closed, along the curves of intersection
-///     through the contacts that were found.
+///  3. `report`: with the query `all`, along the curves of intersection through the contacts that were found.
 ///
 /// In each of these calls the pairs of a frame must come in ascending order.
 class Meeting_search {
@@ -51,13 +51,14 @@ class Meeting_search {
   void start_frame();
   /// As if the frame had not been started, for the next one.
   void undo_frame() { memory_.undo_frame(); }
-  /// Searches where particles met in the last frame, then below the regions.
-  void look(Met_pair& pair);
+  /// Searches where particles met in the last frame, then below the regions. The workers share tests of faces.
+  void look(Met_pair& pair, Workers& workers);
   /// Lets the particles of near regions meet, and checks the faces around: the nearest first, as many as the options
   /// allow.
   void meet_nearest(Met_pair& pair);
-  /// Appends the contacts that answer the query to `found`, and remembers where they are for the next frame.
-  void report(const Met_pair& pair, std::vector<Face_pair>& found);
+  /// Appends the contacts that answer the query to `found`, and remembers where they are for the next frame. The
+  /// workers share tests of faces.
+  void report(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers);
 
   /// Whether the answer for a pair is known.
   bool decided(const Met_pair& pair) const { return pair.seed_count > 0 && !wants_all(); }
@@ -81,23 +82,24 @@ class Meeting_search {
   bool still_meet(const Met_pair& pair, Face_pair contact);
   void meet_from(Met_pair& pair, Meeting start);
   void list_regions(Met_pair& pair);
-  void open(Met_pair& pair);
+  void open(Met_pair& pair, Workers& workers);
+  void count_openings();
   void add_seed(Met_pair& pair, const Remembered_meeting& seed);
-  void follow_curves(const Met_pair& pair, std::vector<Face_pair>& found);
+  void follow_curves(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers);
   void remember(const Met_pair& pair);
 
   const Detector_options options_;
   Meeting_memory memory_;
   Ring_check rings_;
-  Contact_curve curves_;
   Opening_search openings_;
   Meeting_counts counts_;
 
   // Of all pairs in this frame.
   std::vector<Near_regions> near_regions_;
   std::vector<Remembered_meeting> seeds_;
+  std::vector<Leaf_pair> compared_;
   // Memory.
-  std::vector<Face_pair> opened_;
+  std::vector<Face_pair> opened_, contacts_;
   std::vector<Candidate_pair> nearest_;
 };
 

@@ -20,6 +20,7 @@
 #include "lodestone/particles/walked_surface.h"
 #include "lodestone/partition/particle_count.h"
 #include "lodestone/partition/region_extents.h"
+#include "lodestone/queries/opening_search.h"
 #include "lodestone/tree/region_anchors.h"
 
 namespace lodestone {
@@ -88,6 +89,8 @@ class Particle_object {
   Walked_surface walked_surface() const { return {&edges_.graph, &vertex_faces_, walked_corners(), corners(), &read_}; }
   /// The tree below the regions, after `prepare_meetings`.
   Tree_on_demand& tree() { return tree_; }
+  /// The surface, for contacts that are followed, after `prepare_meetings`. The first call takes O(V + F).
+  Followed_surface followed_surface();
 
   /// Moves the particle of a vertex's region to that vertex.
   /// @return whether it was elsewhere
@@ -178,6 +181,7 @@ class Particle_object {
 
   // Only for meetings.
   Tree_on_demand tree_;
+  std::optional<Leaf_neighbours> neighbours_;  ///< none: not needed so far
   Region_anchors regions_;
 
   std::vector<std::uint32_t> patch_centres_;  ///< only for scattered particles: the vertex each patch lies around

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "lodestone/filter/face_filter.h"
 #include "lodestone/mesh/pairs.h"
+#include "lodestone/mesh/workers.h"
+#include "lodestone/tree/leaf_neighbours.h"
 #include "lodestone/tree/node_pair.h"
 #include "lodestone/tree/tree_on_demand.h"
 
@@ -18,6 +23,22 @@ struct Opening_request {
   double reach = 1;  ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are
                      ///< farther apart than c (rho_a + rho_b)
   std::size_t budget = 0;  ///< most vertices to read in both trees together
+};
+
+/// A leaf of each of two trees.
+struct Leaf_pair {
+  std::uint32_t a;  ///< of the first
+  std::uint32_t b;  ///< of the second
+
+  /// By the first leaf, then by the second.
+  friend auto operator<=>(const Leaf_pair&, const Leaf_pair&) = default;
+};
+
+/// A surface along which contacts are followed.
+struct Followed_surface {
+  std::span<const Corners> walked;    ///< F: its faces, with the vertices of closed seams as one
+  const Vertex_faces* vertex_faces;   ///< of `walked`
+  const Leaf_neighbours* neighbours;  ///< of the leaves of its tree
 };
 
 /// Searches two surfaces for contacts from coarse to fine: pairs of nodes are opened in the order of how near their
@@ -34,47 +55,86 @@ class Opening_search {
   void begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_request& request);
   /// Adds two nodes below which to search.
   /// @param order  squared distance of their anchors, relative to the sum of their radii
-  void add_start(Node_pair nodes, float order) { waiting_.push_back({order, nodes}); }
-
-  /// Tests the faces of two leaves, and appends their contacts to `found`; one, unless all are asked for.
-  /// @return whether there was one
-  bool test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, std::vector<Face_pair>& found);
+  void add_start(Node_pair nodes, float order) { waiting_.push(nodes, in_order_ ? order : 0); }
 
   /// Opens the pairs that were added, and what is below, until there is no more to find, or the budget is used up.
+  /// Appends the contacts to `found`; one, unless all are asked for. For all, the workers share the tests of faces.
   /// @return whether a contact was found
-  bool open(std::vector<Face_pair>& found);
+  bool open(std::vector<Face_pair>& found, Workers& workers = Workers::alone());
+
+  /// Follows the curves of intersection on which contacts lie, after `begin` for all contacts, with or without `open`.
+  /// Compares the leaves of each contact, and the leaves beside it where it lies at their border. So it finds what
+  /// `open` left, where the budget ended it or a surface is stretched beyond its radii. The workers share the tests.
+  /// @param compared  sorted leaf pairs whose contacts are known
+  /// @param contacts  those, and others. Their leaves are compared
+  /// @param found     all contacts of the curves are appended, each once
+  void follow(const Followed_surface& a, const Followed_surface& b, std::span<const Leaf_pair> compared,
+              std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
   /// Whether the last `open` ended because its budget was used up.
   bool out_of_budget() const { return out_of_budget_; }
+  /// The leaf pairs that were compared for all contacts since `begin`, sorted.
+  std::span<const Leaf_pair> compared() const { return compared_; }
   /// Leaf pairs tested since `begin`.
   std::size_t leaf_tests() const { return leaf_tests_; }
   /// Face pairs given to exact predicates since `begin`.
   std::size_t exact_tests() const { return exact_tests_; }
 
  private:
-  /// A pair of nodes that may meet.
-  struct Opening {
-    float order;  ///< see `add_start`
-    Node_pair nodes;
+  /// Pairs of nodes that wait to be opened, in stacks of nearly one order each.
+  class Waiting {
+   public:
+    void clear();
+    bool empty() const { return filled_ == 0; }
+    void push(Node_pair nodes, float order);
+    /// Takes the last pair off the stack that comes first.
+    Node_pair pop();
+
+   private:
+    std::array<std::vector<Node_pair>, 64> stacks_;
+    std::uint64_t filled_ = 0;  ///< a bit per stack
+  };
+  /// The leaves beside the face that was asked about last: contacts of one face mostly follow each other.
+  struct Leaves_beside {
+    std::optional<std::uint32_t> face;
+    std::vector<std::uint32_t> leaves;
+    std::span<const std::uint32_t> of(const Followed_surface& surface, std::uint32_t asked);
+  };
+  /// What the tests of some leaf pairs have found.
+  struct Tested {
+    std::vector<Face_pair> found;
+    std::size_t exact_tests = 0;
   };
 
-  void open_in_order(std::vector<Face_pair>& found);
-  void open_depth_first(std::vector<Face_pair>& found);
-  bool is_leaf_pair(Node_pair pair) const;
-  bool test_leaf_pair(Node_pair pair, std::vector<Face_pair>& found);
+  bool next(Leaf_pair& leaves);
+  bool near_leaves(Leaf_pair leaves);
   bool is_apart(const Aabb& box, Tree_on_demand& tree, std::uint32_t node) const;
-  std::size_t vertices_read() const { return a_->vertices_read() + b_->vertices_read(); }
   void consider(Node_pair pair);
   void consider_children(Node_pair pair);
-  void begin_filter();
+  void open_for_one(std::vector<Face_pair>& found);
+  void open_for_all(std::vector<Face_pair>& found, Workers& workers);
+  void follow_contact(const Followed_surface& a, const Followed_surface& b, Face_pair contact);
+  void compare_beside(std::vector<Face_pair>& found, Workers& workers);
+  void begin_filters(std::size_t count);
+  void test(Leaf_pair leaves, Face_filter& filter, Tested& tested) const;
+  void test_listed(std::vector<Face_pair>& found, Workers& workers);
+  std::size_t vertices_read() const { return a_->vertices_read() + b_->vertices_read(); }
 
   Tree_on_demand* a_ = nullptr;
   Tree_on_demand* b_ = nullptr;
   Opening_request request_;
-  std::vector<Opening> waiting_;  ///< a heap, the next to be opened first; or a stack
-  Face_filter filter_;
-  Aabb bounds_a_ = {}, bounds_b_ = {};  ///< what the filter has been told
-  bool filter_begun_ = false;
+  bool in_order_ = false;
+  Waiting waiting_;
+  std::size_t limit_ = 0;            ///< of the vertices read
+  std::vector<Leaf_pair> listed_;    ///< to be tested
+  std::vector<Tested> tested_;       ///< per task, then memory of earlier searches
+  std::vector<Leaf_pair> compared_;  ///< sorted
+  std::vector<Leaf_pair> beside_;    ///< to be compared, unless they have been
+  std::vector<Leaf_pair> memory_;
+  Leaves_beside beside_a_, beside_b_;
+  std::vector<Face_filter> filters_;    ///< per worker
+  Aabb bounds_a_ = {}, bounds_b_ = {};  ///< what the filters have been told
+  std::size_t begun_ = 0;               ///< filters that have been told
   bool out_of_budget_ = false;
   std::size_t leaf_tests_ = 0, exact_tests_ = 0;
 };

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Opening_search::follow.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "lodestone/mesh/errors.h"
+#include "lodestone/queries/opening_search.h"
+#include "particles/owned_surface.h"
+#include "support/special_numbers.h"
+
+namespace lodestone {
+namespace {
+
+/// A surface with a tree that was built from another pose.
+class Followed_object {
+ public:
+  explicit Followed_object(const Face_soup& now, std::size_t leaf_faces = 8, bool seams_closed = false)
+      : Followed_object(now, now, leaf_faces, seams_closed) {}
+  Followed_object(const Face_soup& rest, const Face_soup& now, std::size_t leaf_faces, bool seams_closed)
+      : surface_(now, seams_closed),
+        tree_(rest.faces, octants(rest), rest.coordinates, {.leaf_faces = leaf_faces}),
+        neighbours_(tree_.layout(), surface_.walked(), rest.vertex_count()) {}
+
+  void start_frame() { tree_.start_frame(*surface_.view().positions); }
+  Owned_surface& surface() { return surface_; }
+  Tree_on_demand& tree() { return tree_; }
+  const Leaf_neighbours& neighbours() const { return neighbours_; }
+  Followed_surface followed() const { return {surface_.walked(), surface_.view().vertex_faces, &neighbours_}; }
+
+ private:
+  Owned_surface surface_;
+  Tree_on_demand tree_;
+  Leaf_neighbours neighbours_;
+};
+
+std::vector<Face_pair> true_contacts(Followed_object& a, Followed_object& b) {
+  return true_pairs(a.surface().soup(), b.surface().soup());
+}
+
+/// What is followed from some contacts, of leaves that have not been compared.
+std::vector<Face_pair> followed_from(Opening_search& search, Followed_object& a, Followed_object& b,
+                                     const std::vector<Face_pair>& contacts) {
+  a.start_frame(), b.start_frame();
+  search.begin(a.tree(), b.tree(), {.all = true});
+  std::vector<Face_pair> found{{999, 999}};
+  search.follow(a.followed(), b.followed(), {}, contacts, found);
+  EXPECT_EQ(found.front(), (Face_pair{999, 999})) << "what was found before must stay";
+  found.erase(found.begin());
+  std::ranges::sort(found);
+  EXPECT_EQ(std::ranges::adjacent_find(found), found.end());
+  return found;
+}
+
+bool share_an_edge(const Corners& f, const Corners& g) {
+  return std::ranges::count_if(f, [&](auto corner) { return std::ranges::find(g, corner) != g.end(); }) >= 2;
+}
+
+/// The contacts of exhaustive checking that are reached from one of them by steps from face to face across an edge, and
+/// from each contact to all others in the same two leaves.
+std::vector<Face_pair> reached_from(Followed_object& a, Followed_object& b, const std::vector<Face_pair>& truth,
+                                    Face_pair contact) {
+  const auto &walked_a = a.surface().walked(), &walked_b = b.surface().walked();
+  const auto leaves_of = [&](Face_pair pair) {
+    return Leaf_pair{a.neighbours().leaf_of(pair.a), b.neighbours().leaf_of(pair.b)};
+  };
+  std::vector<Leaf_pair> leaves{leaves_of(contact)};
+  std::vector<Face_pair> reached;
+  for (std::size_t done = 0; done < leaves.size(); ++done)
+    for (const auto& here : truth) {
+      if (leaves_of(here) != leaves[done]) continue;
+      reached.push_back(here);
+      for (const auto& other : truth) {
+        const bool beside = (other.a == here.a && share_an_edge(walked_b[other.b], walked_b[here.b])) ||
+                            (other.b == here.b && share_an_edge(walked_a[other.a], walked_a[here.a]));
+        if (beside && std::ranges::find(leaves, leaves_of(other)) == leaves.end()) leaves.push_back(leaves_of(other));
+      }
+    }
+  std::ranges::sort(reached);
+  return reached;
+}
+
+TEST(Followed_contacts, of_two_spheres_are_all_from_any_of_them) {
+  Opening_search search;
+  for (const std::size_t leaf_faces : {4, 30, 96}) {
+    Followed_object a(sphere(12), leaf_faces), b(moved(sphere(10), 1.3, 0.2, 0.1), leaf_faces);
+    const auto truth = true_contacts(a, b);
+    for (const Face_pair contact : truth) EXPECT_EQ(followed_from(search, a, b, {contact}), truth);
+    EXPECT_EQ(followed_from(search, a, b, truth), truth);
+    EXPECT_EQ(followed_from(search, a, b, {truth[3], truth[7], truth[3]}), truth) << "known twice";
+    EXPECT_TRUE(followed_from(search, a, b, {}).empty());
+    EXPECT_EQ(search.leaf_tests(), 0U);
+  }
+}
+
+TEST(Followed_contacts, are_the_whole_curve_for_objects_of_any_kind) {
+  std::mt19937_64 random(1);
+  const auto objects = small_objects();
+  Opening_search search;
+  std::size_t several = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    Followed_object a(posed_at_random(objects[i].second, 0.3, random), 4);
+    Followed_object b(posed_at_random(objects[(i + 1) % objects.size()].second, 0.3, random), 4);
+    const auto truth = true_contacts(a, b);
+    ASSERT_FALSE(truth.empty());
+    for (std::size_t contact = 0; contact < truth.size(); contact += 1 + truth.size() / 5) {
+      const auto expected = reached_from(a, b, truth, truth[contact]);
+      EXPECT_EQ(followed_from(search, a, b, {truth[contact]}), expected) << objects[i].first;
+      several += expected.size() < truth.size() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(several, 3U) << "of several curves only that of the contact";
+}
+
+TEST(Followed_contacts, cross_seams_that_are_closed_and_stop_at_open_ones) {
+  Opening_search search;
+  const Face_soup apart = flat_shaded(sphere(8));
+  Followed_object closed(apart, 4, true), open(apart, 4), other(moved(sphere(7), 1.3, 0.2, 0.1), 96);
+  const auto truth = true_contacts(closed, other);
+  EXPECT_EQ(followed_from(search, closed, other, {truth.front()}), truth);
+  const auto found = followed_from(search, open, other, {truth.front()});
+  EXPECT_LT(found.size(), truth.size());
+  EXPECT_EQ(found, reached_from(open, other, truth, truth.front()));
+}
+
+TEST(Followed_contacts, complete_what_a_search_has_left) {
+  Opening_search search;
+  Followed_object a(icosphere(20)), b(moved(icosphere(20), 0.9, 0.2, 0.1));
+  const auto truth = true_contacts(a, b);
+  std::size_t completed = 0;
+  for (const std::size_t budget : {50, 100, 200, 400, 1000, 100'000}) {
+    a.start_frame(), b.start_frame();
+    search.begin(a.tree(), b.tree(), {.all = true, .budget = budget});
+    search.add_start({0, 0}, 0);
+    std::vector<Face_pair> opened, found;
+    search.open(opened);
+    if (opened.empty()) continue;
+    const std::vector<Leaf_pair> compared(search.compared().begin(), search.compared().end());
+    EXPECT_TRUE(std::ranges::is_sorted(compared));
+    const std::size_t tests = search.leaf_tests();
+    EXPECT_EQ(compared.size(), tests);
+    search.begin(a.tree(), b.tree(), {.all = true});
+    search.follow(a.followed(), b.followed(), compared, opened, found);
+    std::ranges::sort(found);
+    EXPECT_EQ(found, truth);
+    completed += opened.size() < truth.size() ? 1 : 0;
+    if (budget == 100'000) {
+      EXPECT_EQ(search.leaf_tests(), 0U) << "leaves that have been compared are not compared again";
+    }
+  }
+  EXPECT_GT(completed, 1U);
+}
+
+TEST(Followed_contacts, lead_to_what_has_been_stretched_beyond_its_radii) {
+  // A plate, of which one end has been pulled out to ten times its length. Another plate cuts it along.
+  const Face_soup rest = grid(40, 4);
+  Face_soup pulled = rest;
+  for (std::size_t v = 0; v < pulled.vertex_count(); ++v)
+    if (double& x = pulled.coordinates[3 * v]; x > 20) x = 20 + 10 * (x - 20);
+  Face_soup blade = grid(201, 2);
+  for (std::size_t v = 0; v < blade.vertex_count(); ++v) {
+    double* const p = &blade.coordinates[3 * v];
+    std::tie(p[0], p[1], p[2]) = std::tuple(1.1 * p[0], 1.7 + 0.001 * p[0], p[1] - 0.5);
+  }
+  Followed_object a(rest, pulled, 4, false), b(blade);
+  const auto truth = true_contacts(a, b);
+  Opening_search search;
+  a.start_frame(), b.start_frame();
+  search.begin(a.tree(), b.tree(), {.all = true, .budget = 100'000});
+  search.add_start({0, 0}, 0);
+  std::vector<Face_pair> opened;
+  search.open(opened);
+  ASSERT_FALSE(opened.empty());
+  ASSERT_LT(opened.size(), truth.size());
+  EXPECT_EQ(followed_from(search, a, b, opened), truth);
+}
+
+TEST(Followed_contacts, are_the_same_in_the_same_order_for_any_number_of_workers) {
+  Followed_object a(icosphere(40), 16), b(moved(icosphere(40), 0.9, 0.2, 0.1), 16);
+  const auto truth = true_contacts(a, b);
+  std::vector<Face_pair> alone;
+  for (const std::size_t threads : {1, 2, 5}) {
+    Workers workers(threads);
+    Opening_search search;
+    a.start_frame(), b.start_frame();
+    search.begin(a.tree(), b.tree(), {.all = true});
+    std::vector<Face_pair> found;
+    search.follow(a.followed(), b.followed(), {}, truth, found, workers);
+    EXPECT_GT(search.leaf_tests(), 100U) << "enough for all workers";
+    if (alone.empty()) alone = found;
+    EXPECT_EQ(found, alone);
+  }
+}
+
+TEST(Followed_contacts, a_coordinate_that_is_not_finite_is_refused) {
+  Followed_object a(sphere(12)), b(moved(sphere(10), 1.3, 0.2, 0.1));
+  const auto truth = true_contacts(a, b);
+  const auto far = std::ranges::find_if(
+      truth, [&](Face_pair pair) { return a.neighbours().leaf_of(pair.a) != a.neighbours().leaf_of(truth.front().a); });
+  ASSERT_NE(far, truth.end());
+  for (const auto corner : a.surface().soup().faces[far->a]) a.surface().coordinates()[3 * corner] = not_a_number;
+  Opening_search search;
+  a.start_frame(), b.start_frame();
+  search.begin(a.tree(), b.tree(), {.all = true});
+  std::vector<Face_pair> found;
+  EXPECT_THROW(search.follow(a.followed(), b.followed(), {}, truth, found), Bad_mesh);
+}
+
+}  // namespace
+}  // namespace lodestone
