@@ -85,7 +85,7 @@ class Face_tests {
   void finish() {
     if (count_ == 0) return;
     kernel::Depth_estimates estimates;
-    kernel::estimate_depths(questions_, estimates);
+    kernel::estimate_depths(questions_, count_, estimates);
     for (std::size_t i = 0; i < count_; ++i)
       if ((estimates.misses >> i & 1U) == 0)
         collect(tests_[i], estimates.low[i], estimates.high[i], (estimates.meets >> i & 1U) != 0);
@@ -110,7 +110,7 @@ class Face_tests {
     test.collector->add(std::move(hit));
   }
 
-  kernel::Depth_questions questions_{};
+  kernel::Depth_questions questions_;
   Test tests_[kernel::most_depth_questions];
   std::size_t count_ = 0;
 };

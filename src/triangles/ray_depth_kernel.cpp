@@ -17,26 +17,45 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// The questions, or as many of them as a vector holds.
 using Lanes = hn::CappedTag<double, most_depth_questions>;
-using Values = hn::Vec<Lanes>;
-constexpr std::size_t step = hn::MaxLanes(Lanes());
+/// A single question. What has just been written number by number is read sooner so.
+using One_lane = hn::CappedTag<double, 1>;
+/// So few questions are answered one by one.
+constexpr std::size_t few_questions = 2;
 
-HWY_INLINE Values number(double x) { return hn::Set(Lanes(), x); }
+/// Some of the questions, as many as a vector holds or as are left.
+template <class Tag>
+class Questions {
+ public:
+  Questions(std::size_t first, std::size_t count) : first_(first), asked_(hn::FirstN(Tag(), count - first)) {}
 
-/// The corners of triangles in the coordinates of their rays, and the sizes of what was computed.
-struct Seen {
-  Values x[3], y[3], depth[3];
-  Values reach, size;
+  /// Those that are not asked are 0.
+  HWY_INLINE hn::Vec<Tag> load(const double* numbers) const {
+    if constexpr (hn::MaxLanes(Tag()) == 1) return hn::Load(Tag(), numbers + first_);
+    return hn::MaskedLoad(asked_, Tag(), numbers + first_);
+  }
+  std::size_t first() const { return first_; }
+
+ private:
+  std::size_t first_;
+  hn::Mask<Tag> asked_;
 };
 
-HWY_INLINE Seen see(const Depth_questions& questions, std::size_t i) {
-  const Lanes d;
-  const Values shear_x = hn::Load(d, questions.shear[0] + i), shear_y = hn::Load(d, questions.shear[1] + i);
-  const Values sign = hn::Load(d, questions.sign + i);
-  Seen seen;
-  seen.reach = seen.size = hn::Zero(d);
+/// The corners of triangles in the coordinates of their rays, and the sizes of what was computed.
+template <class Tag>
+struct Seen {
+  hn::Vec<Tag> x[3], y[3], depth[3];
+  hn::Vec<Tag> reach, size;
+};
+
+template <class Tag>
+HWY_INLINE Seen<Tag> see(const Depth_questions& questions, const Questions<Tag>& some) {
+  using Values = hn::Vec<Tag>;
+  const Values shear_x = some.load(questions.shear[0]), shear_y = some.load(questions.shear[1]);
+  const Values sign = some.load(questions.sign);
+  Seen<Tag> seen;
+  seen.reach = seen.size = hn::Zero(Tag());
   for (int c = 0; c < 3; ++c) {
-    const Values x = hn::Load(d, questions.x[c] + i), y = hn::Load(d, questions.y[c] + i),
-                 z = hn::Load(d, questions.z[c] + i);
+    const Values x = some.load(questions.x[c]), y = some.load(questions.y[c]), z = some.load(questions.z[c]);
     seen.x[c] = hn::Sub(x, hn::Mul(shear_x, z));
     seen.y[c] = hn::Sub(y, hn::Mul(shear_y, z));
     seen.depth[c] = hn::Mul(sign, z);
@@ -46,7 +65,8 @@ HWY_INLINE Seen see(const Depth_questions& questions, std::size_t i) {
   return seen;
 }
 
-HWY_INLINE Values cross(const Seen& seen, int a, int b) {
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> cross(const Seen<Tag>& seen, int a, int b) {
   return hn::Sub(hn::Mul(seen.x[a], seen.y[b]), hn::Mul(seen.x[b], seen.y[a]));
 }
 
@@ -57,18 +77,21 @@ HWY_INLINE Values cross(const Seen& seen, int a, int b) {
 ///
 /// With errors of w each, the weights relative to their sum s are wrong by 6 w / s in total, so the depth is wrong by
 /// at most 3 w / s of the range of depths, and by some roundings of the largest.
-HWY_INLINE void estimate_some(const Depth_questions& questions, std::size_t i, Depth_estimates& estimates) {
-  const Lanes d;
+template <class Tag>
+HWY_INLINE void estimate_some(Tag d, const Depth_questions& questions, const Questions<Tag>& some,
+                              Depth_estimates& estimates) {
+  using Values = hn::Vec<Tag>;
+  const auto number = [](double x) HWY_ATTR { return hn::Set(Tag(), x); };
   const Values zero = hn::Zero(d), endless = number(std::numeric_limits<double>::infinity());
   const Values tiny = number(error_of_underflow), eight_roundings = number(0x1p-50);
-  const Seen seen = see(questions, i);
+  const Seen<Tag> seen = see(questions, some);
   const auto is_precise = hn::Lt(seen.reach, number(most_reach));
   const Values error = hn::Add(hn::Mul(number(error_per_reach), seen.reach), tiny);  // see `frame_error`
 
   const Values nearest = least(seen.depth[0], seen.depth[1], seen.depth[2]);
   const Values farthest = greatest(seen.depth[0], seen.depth[1], seen.depth[2]);
   const Values largest = hn::Max(hn::Abs(nearest), hn::Abs(farthest));
-  const Values most_limit = hn::Load(d, questions.most_limit + i);
+  const Values most_limit = some.load(questions.most_limit);
   const auto out_of_reach =
       hn::Or(hn::Lt(farthest, zero), hn::Gt(nearest, most_limit));  // one rounding changes neither
 
@@ -94,16 +117,26 @@ HWY_INLINE void estimate_some(const Depth_questions& questions, std::size_t i, D
   to = hn::IfThenElse(through, hn::Min(to, hn::Add(middle, depth_error)), to);
   const auto misses =
       hn::Or(hn::Or(out_of_reach, beside), hn::And(through, hn::Or(hn::Lt(to, zero), hn::Gt(from, most_limit))));
-  const auto meets = hn::And(through, hn::And(hn::Ge(from, zero), hn::Le(to, hn::Load(d, questions.least_limit + i))));
-  hn::Store(hn::IfThenElse(is_precise, from, hn::Neg(endless)), d, estimates.low + i);
-  hn::Store(hn::IfThenElse(is_precise, to, endless), d, estimates.high + i);
-  estimates.misses |= mask_bits(d, hn::And(is_precise, misses)) << i;
-  estimates.meets |= mask_bits(d, hn::And(is_precise, hn::AndNot(misses, meets))) << i;
+  const auto meets = hn::And(through, hn::And(hn::Ge(from, zero), hn::Le(to, some.load(questions.least_limit))));
+  const std::size_t first = some.first();
+  hn::Store(hn::IfThenElse(is_precise, from, hn::Neg(endless)), d, estimates.low + first);
+  hn::Store(hn::IfThenElse(is_precise, to, endless), d, estimates.high + first);
+  estimates.misses |= mask_bits(d, hn::And(is_precise, misses)) << first;
+  estimates.meets |= mask_bits(d, hn::And(is_precise, hn::AndNot(misses, meets))) << first;
 }
 
-void estimate_depths_kernel(const Depth_questions& questions, Depth_estimates& estimates) {
+template <class Tag>
+HWY_INLINE void estimate_all(Tag d, const Depth_questions& questions, std::size_t count, Depth_estimates& estimates) {
+  for (std::size_t first = 0; first < count; first += hn::MaxLanes(d))
+    estimate_some(d, questions, Questions<Tag>(first, count), estimates);
+}
+
+void estimate_depths_kernel(const Depth_questions& questions, std::size_t count, Depth_estimates& estimates) {
   estimates.misses = estimates.meets = 0;
-  for (std::size_t i = 0; i < most_depth_questions; i += step) estimate_some(questions, i, estimates);
+  if (count <= few_questions)
+    estimate_all(One_lane(), questions, count, estimates);
+  else
+    estimate_all(Lanes(), questions, count, estimates);
 }
 
 }  // namespace lodestone::kernel::HWY_NAMESPACE
@@ -114,8 +147,8 @@ namespace lodestone::kernel {
 
 HWY_EXPORT(estimate_depths_kernel);
 
-void estimate_depths(const Depth_questions& questions, Depth_estimates& estimates) {
-  HWY_DYNAMIC_DISPATCH(estimate_depths_kernel)(questions, estimates);
+void estimate_depths(const Depth_questions& questions, std::size_t count, Depth_estimates& estimates) {
+  HWY_DYNAMIC_DISPATCH(estimate_depths_kernel)(questions, count, estimates);
 }
 
 }  // namespace lodestone::kernel

@@ -33,6 +33,8 @@ struct alignas(64) Depth_estimates {
   std::uint32_t meets;   ///< there surely is one
 };
 
-void estimate_depths(const Depth_questions& questions, Depth_estimates& estimates);
+/// @param count      how many are asked, from the first on; the others need not be set
+/// @param estimates  overwritten as far as asked
+void estimate_depths(const Depth_questions& questions, std::size_t count, Depth_estimates& estimates);
 
 }  // namespace lodestone::kernel
