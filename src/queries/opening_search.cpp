@@ -25,8 +25,9 @@ void Opening_search::Waiting::clear() {
 }
 
 void Opening_search::Waiting::push(Node_pair nodes, float order) {
-  const auto count = static_cast<float>(stacks_.size());
-  const auto stack = static_cast<std::size_t>(std::clamp(count * order, 0.0F, count - 1));
+  // Where squares overflow, or vanish, the order is no number.
+  const float part = order > 0 ? std::min(order, 1.0F) : 0, count = static_cast<float>(stacks_.size());
+  const auto stack = static_cast<std::size_t>(std::min(part * count, count - 1));
   stacks_[stack].push_back(nodes);
   filled_ |= std::uint64_t{1} << stack;
 }
@@ -123,13 +124,13 @@ void Opening_search::follow_contact(const Followed_surface& a, const Followed_su
 /// Compares the leaf pairs that were listed, unless they have been compared.
 void Opening_search::compare_beside(std::vector<Face_pair>& found, Workers& workers) {
   std::ranges::sort(beside_);
-  beside_.erase(std::ranges::unique(beside_).begin(), beside_.end());
-  memory_.clear();
-  std::ranges::set_difference(beside_, compared_, std::back_inserter(memory_));
-  beside_.swap(memory_);
-  memory_.clear();
-  std::ranges::merge(compared_, beside_, std::back_inserter(memory_));
-  compared_.swap(memory_);
+  beside_.erase(std::unique(beside_.begin(), beside_.end()), beside_.end());
+  merged_.clear();
+  std::ranges::set_difference(beside_, compared_, std::back_inserter(merged_));
+  beside_.swap(merged_);
+  merged_.clear();
+  std::merge(compared_.begin(), compared_.end(), beside_.begin(), beside_.end(), std::back_inserter(merged_));
+  compared_.swap(merged_);
   listed_.clear();
   for (const Leaf_pair leaves : beside_)
     if (near(a_->pose(leaves.a), b_->pose(leaves.b), 0)) listed_.push_back(leaves);
@@ -222,8 +223,8 @@ void Opening_search::test(Leaf_pair leaves, Face_filter& filter, Tested& tested)
 
 void Opening_search::test_listed(std::vector<Face_pair>& found, Workers& workers) {
   if (listed_.empty()) return;
-  begin_filters(workers.count());
   const std::size_t tasks = (listed_.size() + pairs_per_task - 1) / pairs_per_task;
+  begin_filters(tasks == 1 ? 1 : workers.count());
   tested_.resize(std::max(tested_.size(), tasks));
   workers.run(tasks, [&](std::size_t task, std::size_t worker) {
     Tested& tested = tested_[task];

@@ -17,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// The questions, or as many of them as a vector holds.
 using Lanes = hn::CappedTag<double, most_depth_questions>;
-/// A single question. What has just been written number by number is read sooner so.
+/// A single question. To read numbers that have just been written one by one with one vector load would stall.
 using One_lane = hn::CappedTag<double, 1>;
 /// So few questions are answered one by one.
 constexpr std::size_t few_questions = 2;

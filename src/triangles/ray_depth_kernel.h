@@ -34,7 +34,7 @@ struct alignas(64) Depth_estimates {
 };
 
 /// @param count      how many are asked, from the first on; the others need not be set
-/// @param estimates  overwritten as far as asked
+/// @param estimates  valid for those that are asked; the rest is unspecified
 void estimate_depths(const Depth_questions& questions, std::size_t count, Depth_estimates& estimates);
 
 }  // namespace lodestone::kernel

@@ -151,6 +151,18 @@ TEST(Meetings, happen_only_where_the_budget_has_ended_the_openings) {
   }
 }
 
+TEST(Meetings, with_a_small_budget_all_contacts_are_those_of_the_whole_curve) {
+  for (const std::size_t budget : {1, 50, 200, 1000}) {
+    auto scene = two_spheres(1.9);
+    auto options = by_meetings();
+    options.opening_budget = budget;
+    Detector<> detector(options);
+    add_all(detector, scene);
+    for (int again = 0; again < 2; ++again)
+      EXPECT_EQ(expect_exhaustive(detector.detect(), {&scene[0], &scene[1]}), 1U) << budget;
+  }
+}
+
 TEST(Meetings, near_regions_are_listed_as_candidates_the_nearest_first) {
   for (const auto query : {Contact_query::yes_no, Contact_query::all}) {
     auto scene = two_spheres(2.05);

@@ -211,6 +211,16 @@ void expect_right_after_a_change(const Detector_options& options) {
   EXPECT_EQ(expect_exhaustive(second.detect(), {&a, &b}), 1U);
 }
 
+TEST(Saved_objects, are_followed_by_their_own_leaves) {
+  const auto a = sphere(25), b = sphere(25, 1, {1.7, 0, 0});
+  Detector<> saved(Detector_options{.mode = Mode::particles, .particles = 3});
+  Detector<> loaded(Detector_options{.mode = Mode::particles, .particles = 30});
+  saved.add(a), saved.add(b), loaded.add(a), loaded.add(b);
+  EXPECT_EQ(expect_exhaustive(loaded.detect(), {&a, &b}), 1U);
+  for (const Object_id object : {0, 1}) loaded.load(object, saved.save(object));
+  EXPECT_EQ(expect_exhaustive(loaded.detect(), {&a, &b}), 1U);
+}
+
 TEST(Saved_objects, can_change_afterwards) {
   expect_right_after_a_change({});
   expect_right_after_a_change({.exact = {.tree = {.leaf_faces = 16}}});

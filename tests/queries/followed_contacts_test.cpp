@@ -57,25 +57,33 @@ bool share_an_edge(const Corners& f, const Corners& g) {
   return std::ranges::count_if(f, [&](auto corner) { return std::ranges::find(g, corner) != g.end(); }) >= 2;
 }
 
-/// The contacts of exhaustive checking that are reached from one of them by steps from face to face across an edge, and
-/// from each contact to all others in the same two leaves.
+/// The leaves with a face that shares an edge with this one.
+std::vector<std::uint32_t> leaves_beside(Followed_object& object, std::uint32_t face) {
+  const auto& walked = object.surface().walked();
+  std::vector<std::uint32_t> leaves;
+  for (std::uint32_t other = 0; other < walked.size(); ++other)
+    if (share_an_edge(walked[face], walked[other])) leaves.push_back(object.neighbours().leaf_of(other));
+  return leaves;
+}
+
+/// By the definition: the contacts in the two leaves of this one, and in those beside wherever one was reached.
 std::vector<Face_pair> reached_from(Followed_object& a, Followed_object& b, const std::vector<Face_pair>& truth,
                                     Face_pair contact) {
-  const auto &walked_a = a.surface().walked(), &walked_b = b.surface().walked();
   const auto leaves_of = [&](Face_pair pair) {
     return Leaf_pair{a.neighbours().leaf_of(pair.a), b.neighbours().leaf_of(pair.b)};
   };
   std::vector<Leaf_pair> leaves{leaves_of(contact)};
+  const auto add = [&](Leaf_pair pair) {
+    if (std::ranges::find(leaves, pair) == leaves.end()) leaves.push_back(pair);
+  };
   std::vector<Face_pair> reached;
   for (std::size_t done = 0; done < leaves.size(); ++done)
     for (const auto& here : truth) {
-      if (leaves_of(here) != leaves[done]) continue;
+      const Leaf_pair both = leaves[done];
+      if (leaves_of(here) != both) continue;
       reached.push_back(here);
-      for (const auto& other : truth) {
-        const bool beside = (other.a == here.a && share_an_edge(walked_b[other.b], walked_b[here.b])) ||
-                            (other.b == here.b && share_an_edge(walked_a[other.a], walked_a[here.a]));
-        if (beside && std::ranges::find(leaves, leaves_of(other)) == leaves.end()) leaves.push_back(leaves_of(other));
-      }
+      for (const auto leaf : leaves_beside(a, here.a)) add({leaf, both.b});
+      for (const auto leaf : leaves_beside(b, here.b)) add({both.a, leaf});
     }
   std::ranges::sort(reached);
   return reached;
@@ -111,6 +119,25 @@ TEST(Followed_contacts, are_the_whole_curve_for_objects_of_any_kind) {
     }
   }
   EXPECT_GT(several, 3U) << "of several curves only that of the contact";
+}
+
+TEST(Followed_contacts, go_on_through_vertices_and_along_edges_and_end_at_open_borders) {
+  Opening_search search;
+  const auto expect_all = [&](const Face_soup& one, const Face_soup& other) {
+    Followed_object a(one, 4), b(other, 4);
+    const auto truth = true_contacts(a, b);
+    ASSERT_FALSE(truth.empty());
+    for (const Face_pair contact : truth) EXPECT_EQ(followed_from(search, a, b, {contact}), truth);
+  };
+  // The plane z = 0 contains the equator of the sphere: vertices and edges.
+  Face_soup plane;
+  plane.coordinates = {-3, -3, 0, 3, -3, 0, 3, 3, 0, -3, 3, 0};
+  plane.faces = {{0, 1, 2}, {0, 2, 3}};
+  expect_all(sphere(8), plane);
+  expect_all(moved(cube(4), -0.5, -0.5, -0.5), plane);
+  auto upright = grid(7, 7);
+  deform(upright, [](const Point& p) { return Point(p.x() + 0.3, 2.4, p.y() - 3.2); });
+  expect_all(grid(9, 6), upright);
 }
 
 TEST(Followed_contacts, cross_seams_that_are_closed_and_stop_at_open_ones) {
@@ -179,17 +206,20 @@ TEST(Followed_contacts, lead_to_what_has_been_stretched_beyond_its_radii) {
 TEST(Followed_contacts, are_the_same_in_the_same_order_for_any_number_of_workers) {
   Followed_object a(icosphere(40), 16), b(moved(icosphere(40), 0.9, 0.2, 0.1), 16);
   const auto truth = true_contacts(a, b);
-  std::vector<Face_pair> alone;
+  std::vector<Face_pair> alone, some;
+  for (std::size_t i = 0; i < truth.size(); i += 5) some.push_back(truth[i]);
   for (const std::size_t threads : {1, 2, 5}) {
     Workers workers(threads);
     Opening_search search;
     a.start_frame(), b.start_frame();
     search.begin(a.tree(), b.tree(), {.all = true});
     std::vector<Face_pair> found;
-    search.follow(a.followed(), b.followed(), {}, truth, found, workers);
+    search.follow(a.followed(), b.followed(), {}, some, found, workers);
     EXPECT_GT(search.leaf_tests(), 100U) << "enough for all workers";
     if (alone.empty()) alone = found;
     EXPECT_EQ(found, alone);
+    std::ranges::sort(found);
+    EXPECT_EQ(found, truth);
   }
 }
 
@@ -204,7 +234,7 @@ TEST(Followed_contacts, a_coordinate_that_is_not_finite_is_refused) {
   a.start_frame(), b.start_frame();
   search.begin(a.tree(), b.tree(), {.all = true});
   std::vector<Face_pair> found;
-  EXPECT_THROW(search.follow(a.followed(), b.followed(), {}, truth, found), Bad_mesh);
+  EXPECT_THROW(search.follow(a.followed(), b.followed(), {}, {&truth.front(), 1}, found), Bad_mesh);
 }
 
 }  // namespace

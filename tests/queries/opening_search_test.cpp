@@ -139,6 +139,19 @@ TEST(Opening_search, far_from_the_origin_finds_the_same) {
   }
 }
 
+TEST(Opening_search, distances_that_overflow_put_nothing_in_order) {
+  std::mt19937_64 random(5);
+  Opening_search search;
+  Opened_object a(icosphere(6)), b(torus_knot({.radius = 0.7, .segments = 40, .sides = 7}));
+  a.move_to(placed(posed_at_random(a.rest(), 0.5, random), 1e200));
+  b.move_to(placed(posed_at_random(b.rest(), 0.5, random), 1e200));
+  expect_opened(search, a, b);
+  const auto truth = true_pairs(a.now(), b.now());
+  ASSERT_FALSE(truth.empty());
+  const auto some = opened(search, a, b, {.all = true, .budget = 300}, true);
+  EXPECT_TRUE(std::ranges::includes(truth, some.found));
+}
+
 TEST(Opening_search, faces_that_touch_or_have_no_area_are_found_too) {
   Opening_search search;
   std::size_t contacts = 0;
@@ -247,6 +260,7 @@ TEST(Opening_search, workers_find_the_same_in_the_same_order) {
         exact_tests = search.exact_tests();
         vertices_read = a.tree().vertices_read() + b.tree().vertices_read();
         ASSERT_GT(search.leaf_tests(), 100U) << "enough for all workers";
+        ASSERT_FALSE(alone.empty());
       }
       EXPECT_EQ(found, alone);
       EXPECT_EQ(search.exact_tests(), exact_tests);

@@ -42,8 +42,9 @@ struct Followed_surface {
 };
 
 /// Searches two surfaces for contacts from coarse to fine: pairs of nodes are opened in the order of how near their
-/// anchors are, relative to their radii; the faces of leaves are tested exactly. The order matters only where the
-/// budget may end the search: two surfaces that it covers as a whole are searched in the order that is fastest.
+/// anchors are, relative to their radii, to within a 64th; the faces of leaves are tested exactly. The order matters
+/// only where the budget may end the search: two surfaces that it covers as a whole are searched in the order that is
+/// fastest.
 ///
 /// What is found is true. Contacts are missed where a surface is stretched beyond its radii, with c below 1, and once
 /// the budget is used up. Reads one vertex per node that it looks at, and the vertices of the leaves that it compares.
@@ -65,15 +66,15 @@ class Opening_search {
   /// Follows the curves of intersection on which contacts lie, after `begin` for all contacts, with or without `open`.
   /// Compares the leaves of each contact, and the leaves beside it where it lies at their border. So it finds what
   /// `open` left, where the budget ended it or a surface is stretched beyond its radii. The workers share the tests.
-  /// @param compared  sorted leaf pairs whose contacts are known
-  /// @param contacts  those, and others. Their leaves are compared
-  /// @param found     all contacts of the curves are appended, each once
+  /// @param compared  sorted leaf pairs that are not compared again; not `compared()` itself
+  /// @param contacts  all contacts of those, and any others, whose leaves are compared; not `found` itself
+  /// @param found     all contacts of the curves, and of the leaves on them, are appended, each once
   void follow(const Followed_surface& a, const Followed_surface& b, std::span<const Leaf_pair> compared,
               std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
   /// Whether the last `open` ended because its budget was used up.
   bool out_of_budget() const { return out_of_budget_; }
-  /// The leaf pairs that were compared for all contacts since `begin`, sorted.
+  /// The leaf pairs that the last `open` for all contacts, or the last `follow`, did not find apart by anchors; sorted.
   std::span<const Leaf_pair> compared() const { return compared_; }
   /// Leaf pairs tested since `begin`.
   std::size_t leaf_tests() const { return leaf_tests_; }
@@ -87,7 +88,7 @@ class Opening_search {
     void clear();
     bool empty() const { return filled_ == 0; }
     void push(Node_pair nodes, float order);
-    /// Takes the last pair off the stack that comes first.
+    /// Takes a pair of the lowest order: of several the one that was pushed last.
     Node_pair pop();
 
    private:
@@ -130,7 +131,7 @@ class Opening_search {
   std::vector<Tested> tested_;       ///< per task, then memory of earlier searches
   std::vector<Leaf_pair> compared_;  ///< sorted
   std::vector<Leaf_pair> beside_;    ///< to be compared, unless they have been
-  std::vector<Leaf_pair> memory_;
+  std::vector<Leaf_pair> merged_;    ///< memory, for lists that are joined
   Leaves_beside beside_a_, beside_b_;
   std::vector<Face_filter> filters_;    ///< per worker
   Aabb bounds_a_ = {}, bounds_b_ = {};  ///< what the filters have been told

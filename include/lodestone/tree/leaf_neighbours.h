@@ -11,7 +11,7 @@
 
 namespace lodestone {
 
-/// Which leaves of a tree lie beside a face: for whoever follows something over the borders of leaves.
+/// Which leaves of a tree lie beside a face: for following curves across the borders of leaves.
 class Leaf_neighbours {
  public:
   Leaf_neighbours() = default;
@@ -21,7 +21,7 @@ class Leaf_neighbours {
 
   /// The leaf of a face.
   std::uint32_t leaf_of(std::uint32_t face) const { return leaf_of_[face]; }
-  /// Appends the leaves of the faces that share an edge with a face, except its own leaf; some of them twice. O(1)
+  /// Appends the leaves of the faces that share an edge with a face, except its own leaf; some more than once. O(1)
   /// inside a leaf, else O(faces at its vertices).
   /// @param walked, vertex_faces  the same faces, and those at each vertex
   void list_beside(std::span<const Corners> walked, const Vertex_faces& vertex_faces, std::uint32_t face,
