@@ -61,6 +61,7 @@ class Opening_search {
   /// Opens the pairs that were added, and what is below, until there is no more to find, or the budget is used up.
   /// Appends the contacts to `found`; one, unless all are asked for. For all, the workers share the tests of faces.
   /// @return whether a contact was found
+  /// @throws Bad_mesh  a coordinate that is read is not finite
   bool open(std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
   /// Follows the curves of intersection on which contacts lie, after `begin` for all contacts, with or without `open`.
@@ -69,6 +70,7 @@ class Opening_search {
   /// @param compared  sorted leaf pairs that are not compared again; not `compared()` itself
   /// @param contacts  all contacts of those, and any others, whose leaves are compared; not `found` itself
   /// @param found     all contacts of the curves, and of the leaves on them, are appended, each once
+  /// @throws Bad_mesh  a coordinate that is read is not finite
   void follow(const Followed_surface& a, const Followed_surface& b, std::span<const Leaf_pair> compared,
               std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
