@@ -18,6 +18,7 @@ void Meeting_search::start_frame() {
   counts_ = {};
   near_regions_.clear();
   seeds_.clear();
+  opened_.clear();
   compared_.clear();
 }
 
@@ -67,20 +68,32 @@ void Meeting_search::list_regions(Met_pair& pair) {
 void Meeting_search::open(Met_pair& pair, Workers& workers) {
   openings_.begin(pair.a->tree(), pair.b->tree(),
                   {.all = wants_all(), .reach = options_.opening_reach, .budget = options_.opening_budget});
+  pair.first_opened = opened_.size();
+  if (wants_all() && openings_.is_limited()) follow_seeds(pair, workers);
   for (const auto& near : near_regions(pair))
     openings_.add_start({pair.a->regions().node(near.a), pair.b->regions().node(near.b)}, near.order);
-  opened_.clear();
   openings_.open(opened_, workers);
+  pair.opened_count = opened_.size() - pair.first_opened;
   pair.out_of_budget = openings_.out_of_budget();
   count_openings();
   pair.first_compared = compared_.size();
   compared_.insert(compared_.end(), openings_.compared().begin(), openings_.compared().end());
   pair.compared_count = openings_.compared().size();
-  for (const auto& contact : opened_) {
-    const Meeting corners{.a = pair.a->walked_surface().walked[contact.a][0],
-                          .b = pair.b->walked_surface().walked[contact.b][0]};
-    add_seed(pair, {.at = corners, .contact = contact});
-  }
+  if (pair.seed_count == 0 && pair.opened_count > 0) add_seed(pair, met_at(pair, opened_[pair.first_opened]));
+}
+
+/// The curves of the last frame come first: it is known where they are, so the budget goes farther.
+void Meeting_search::follow_seeds(const Met_pair& pair, Workers& workers) {
+  contacts_.clear();
+  for (const auto& seed : seeds(pair)) contacts_.push_back(seed.contact);
+  openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(), {}, contacts_, opened_, workers);
+}
+
+/// Particles of both surfaces at a contact.
+Remembered_meeting Meeting_search::met_at(const Met_pair& pair, Face_pair contact) {
+  const Meeting corners{.a = pair.a->walked_surface().walked[contact.a][0],
+                        .b = pair.b->walked_surface().walked[contact.b][0]};
+  return {.at = corners, .contact = contact};
 }
 
 void Meeting_search::count_openings() {
@@ -113,22 +126,29 @@ void Meeting_search::add_seed(Met_pair& pair, const Remembered_meeting& seed) {
 void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers) {
   if (pair.seed_count == 0) return;
   if (wants_all()) {
+    const std::size_t first = found.size();
     follow_curves(pair, found, workers);
-    const std::size_t step = (pair.seed_count + options_.meetings - 1) / options_.meetings;
-    for (std::size_t seed = 0; seed < pair.seed_count; seed += step) memory_.keep(pair.ids, seeds(pair)[seed]);
+    remember(pair, std::span(found).subspan(first));
   } else {
     found.push_back(seeds(pair).front().contact);
     remember(pair);
   }
 }
 
+/// Remembers some contacts from everywhere on the curves.
+void Meeting_search::remember(const Met_pair& pair, std::span<const Face_pair> contacts) {
+  const std::size_t step = (contacts.size() + options_.meetings - 1) / options_.meetings;
+  for (std::size_t i = 0; i < contacts.size(); i += step) memory_.keep(pair.ids, met_at(pair, contacts[i]));
+}
+
 /// Reports the curves on which the seeds lie.
 void Meeting_search::follow_curves(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers) {
-  contacts_.clear();
+  const auto opened = std::span(opened_).subspan(pair.first_opened, pair.opened_count);
+  contacts_.assign(opened.begin(), opened.end());
   for (const auto& seed : seeds(pair)) contacts_.push_back(seed.contact);
   const auto compared = std::span(compared_).subspan(pair.first_compared, pair.compared_count);
   openings_.begin(pair.a->tree(), pair.b->tree(), {.all = true});
-  openings_.follow(pair.a->followed_surface(), pair.b->followed_surface(), compared, contacts_, found, workers);
+  openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(), compared, contacts_, found, workers);
   count_openings();
 }
 

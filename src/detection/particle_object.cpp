@@ -174,9 +174,9 @@ void Particle_object::prepare_meetings(const Positions& positions, const Region_
   tree_.start_frame(read_);
 }
 
-Followed_surface Particle_object::followed_surface() {
-  if (!neighbours_) neighbours_.emplace(tree_.layout(), walked_corners(), mesh_->vertex_count());
-  return {walked_corners(), &vertex_faces_, &*neighbours_};
+const Leaf_neighbours& Particle_object::leaf_neighbours() {
+  if (!neighbours_) neighbours_.emplace(tree_.layout(), walked_corners(), vertex_faces_);
+  return *neighbours_;
 }
 
 void Particle_object::read_regions(double reach) {

@@ -16,6 +16,8 @@ namespace {
 
 /// Leaf pairs of one task: some 50 microseconds.
 constexpr std::size_t pairs_per_task = 32;
+/// Of the budget, what is left for openings in any case: where curves take more than the rest, new ones can be found.
+constexpr std::size_t least_part = 4;
 
 }  // namespace
 
@@ -41,32 +43,23 @@ Node_pair Opening_search::Waiting::pop() {
   return nodes;
 }
 
-std::span<const std::uint32_t> Opening_search::Leaves_beside::of(const Followed_surface& surface, std::uint32_t asked) {
-  if (face != asked) {
-    face.reset();  // of no face if this fails
-    leaves.clear();
-    surface.neighbours->list_beside(surface.walked, *surface.vertex_faces, asked, leaves);
-    face = asked;
-  }
-  return leaves;
-}
-
 void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_request& request) {
   a_ = &a, b_ = &b;
   request_ = request;
   in_order_ = request.budget < a.vertex_count() + b.vertex_count();
   begun_ = 0;
+  read_before_ = vertices_read();
   out_of_budget_ = false;
   leaf_tests_ = exact_tests_ = 0;
   waiting_.clear();
   compared_.clear();
   beside_.clear();
-  beside_a_.face.reset(), beside_b_.face.reset();
 }
 
 bool Opening_search::open(std::vector<Face_pair>& found, Workers& workers) {
   const std::size_t before = found.size();
-  limit_ = in_order_ ? vertices_read() + request_.budget : std::numeric_limits<std::size_t>::max();
+  limit_ = in_order_ ? std::max(read_before_ + request_.budget, vertices_read() + request_.budget / least_part)
+                     : std::numeric_limits<std::size_t>::max();
   request_.all ? open_for_all(found, workers) : open_for_one(found);
   return found.size() > before;
 }
@@ -89,18 +82,19 @@ void Opening_search::open_for_one(std::vector<Face_pair>& found) {
 /// Lists leaf pairs, then tests them. So leaves are read one after the other, and then each is prepared once.
 void Opening_search::open_for_all(std::vector<Face_pair>& found, Workers& workers) {
   listed_.clear();
-  for (Leaf_pair leaves; next(leaves);) listed_.push_back(leaves);
+  for (Leaf_pair leaves; next(leaves);)
+    if (!std::ranges::binary_search(compared_, leaves)) listed_.push_back(leaves);
   std::ranges::sort(listed_);
-  compared_ = listed_;
+  note_compared(listed_);
   test_listed(found, workers);
 }
 
-void Opening_search::follow(const Followed_surface& a, const Followed_surface& b, std::span<const Leaf_pair> compared,
+void Opening_search::follow(const Leaf_neighbours& a, const Leaf_neighbours& b, std::span<const Leaf_pair> compared,
                             std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers) {
   compared_.assign(compared.begin(), compared.end());
   std::size_t followed = found.size();
   for (const Face_pair contact : contacts) {
-    const Leaf_pair leaves{a.neighbours->leaf_of(contact.a), b.neighbours->leaf_of(contact.b)};
+    const Leaf_pair leaves{a.leaf_of(contact.a), b.leaf_of(contact.b)};
     if (std::ranges::binary_search(compared_, leaves))
       found.push_back(contact);
     else
@@ -116,9 +110,9 @@ void Opening_search::follow(const Followed_surface& a, const Followed_surface& b
 }
 
 /// Lists the leaf pairs beside a contact.
-void Opening_search::follow_contact(const Followed_surface& a, const Followed_surface& b, Face_pair contact) {
-  for (const auto leaf : beside_a_.of(a, contact.a)) beside_.push_back({leaf, b.neighbours->leaf_of(contact.b)});
-  for (const auto leaf : beside_b_.of(b, contact.b)) beside_.push_back({a.neighbours->leaf_of(contact.a), leaf});
+void Opening_search::follow_contact(const Leaf_neighbours& a, const Leaf_neighbours& b, Face_pair contact) {
+  for (const auto leaf : a.beside(contact.a)) beside_.push_back({leaf, b.leaf_of(contact.b)});
+  for (const auto leaf : b.beside(contact.b)) beside_.push_back({a.leaf_of(contact.a), leaf});
 }
 
 /// Compares the leaf pairs that were listed, unless they have been compared.
@@ -128,14 +122,19 @@ void Opening_search::compare_beside(std::vector<Face_pair>& found, Workers& work
   merged_.clear();
   std::ranges::set_difference(beside_, compared_, std::back_inserter(merged_));
   beside_.swap(merged_);
-  merged_.clear();
-  std::merge(compared_.begin(), compared_.end(), beside_.begin(), beside_.end(), std::back_inserter(merged_));
-  compared_.swap(merged_);
+  note_compared(beside_);
   listed_.clear();
   for (const Leaf_pair leaves : beside_)
     if (near(a_->pose(leaves.a), b_->pose(leaves.b), 0)) listed_.push_back(leaves);
   beside_.clear();
   test_listed(found, workers);
+}
+
+/// @param leaves  sorted, and not compared so far
+void Opening_search::note_compared(const std::vector<Leaf_pair>& leaves) {
+  merged_.clear();
+  std::merge(compared_.begin(), compared_.end(), leaves.begin(), leaves.end(), std::back_inserter(merged_));
+  compared_.swap(merged_);
 }
 
 /// The next pair of leaves that may meet.

@@ -19,8 +19,8 @@ Detector_options by_meetings(Contact_query query = Contact_query::all) {
 }
 
 TEST(Meetings, a_frame_of_two_large_spheres_that_touch_reads_few_of_their_vertices) {
-  // Around the contact two spheres are near each other over a wide area, all of which is read for all contacts. How much
-  // of it is read before one contact is found depends on where the regions happen to end.
+  // Around the contact two spheres are near each other over a wide area, all of which is read for all contacts. How
+  // much of it is read before one contact is found depends on where the regions happen to end.
   for (const auto& [query, part] : {std::pair(Contact_query::yes_no, 20U), std::pair(Contact_query::all, 10U)}) {
     Owned_meshes scene{icosphere(63), icosphere(63)};
     shift(scene[1], 1.999);

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lodestone/mesh/errors.h"
-#include "particles/owned_surface.h"
+#include "support/owned_surface.h"
 #include "support/special_numbers.h"
 
 namespace lodestone {

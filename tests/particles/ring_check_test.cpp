@@ -7,7 +7,7 @@
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/particles/hop_metric.h"
-#include "particles/owned_surface.h"
+#include "support/owned_surface.h"
 #include "support/special_numbers.h"
 
 namespace lodestone {

@@ -7,7 +7,7 @@
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/queries/opening_search.h"
-#include "particles/owned_surface.h"
+#include "support/owned_surface.h"
 #include "support/special_numbers.h"
 
 namespace lodestone {
@@ -21,13 +21,12 @@ class Followed_object {
   Followed_object(const Face_soup& rest, const Face_soup& now, std::size_t leaf_faces, bool seams_closed)
       : surface_(now, seams_closed),
         tree_(rest.faces, octants(rest), rest.coordinates, {.leaf_faces = leaf_faces}),
-        neighbours_(tree_.layout(), surface_.walked(), rest.vertex_count()) {}
+        neighbours_(tree_.layout(), surface_.walked(), *surface_.view().vertex_faces) {}
 
   void start_frame() { tree_.start_frame(*surface_.view().positions); }
   Owned_surface& surface() { return surface_; }
   Tree_on_demand& tree() { return tree_; }
   const Leaf_neighbours& neighbours() const { return neighbours_; }
-  Followed_surface followed() const { return {surface_.walked(), surface_.view().vertex_faces, &neighbours_}; }
 
  private:
   Owned_surface surface_;
@@ -45,7 +44,7 @@ std::vector<Face_pair> followed_from(Opening_search& search, Followed_object& a,
   a.start_frame(), b.start_frame();
   search.begin(a.tree(), b.tree(), {.all = true});
   std::vector<Face_pair> found{{999, 999}};
-  search.follow(a.followed(), b.followed(), {}, contacts, found);
+  search.follow(a.neighbours(), b.neighbours(), {}, contacts, found);
   EXPECT_EQ(found.front(), (Face_pair{999, 999})) << "what was found before must stay";
   found.erase(found.begin());
   std::ranges::sort(found);
@@ -168,7 +167,7 @@ TEST(Followed_contacts, complete_what_a_search_has_left) {
     const std::size_t tests = search.leaf_tests();
     EXPECT_EQ(compared.size(), tests);
     search.begin(a.tree(), b.tree(), {.all = true});
-    search.follow(a.followed(), b.followed(), compared, opened, found);
+    search.follow(a.neighbours(), b.neighbours(), compared, opened, found);
     std::ranges::sort(found);
     EXPECT_EQ(found, truth);
     completed += opened.size() < truth.size() ? 1 : 0;
@@ -177,6 +176,42 @@ TEST(Followed_contacts, complete_what_a_search_has_left) {
     }
   }
   EXPECT_GT(completed, 1U);
+}
+
+TEST(Followed_contacts, leave_the_budget_to_the_rest) {
+  // Two curves: a long plate passes through a sphere, and only the curve on one side is known.
+  Opening_search search;
+  Face_soup plate = grid(60, 20);
+  deform(plate, [](const Point& p) { return Point(0.1 * p.x() - 2.9, 0.02 * p.y() - 0.2, 0.01); });
+  Followed_object a(icosphere(20)), b(plate);
+  const auto truth = true_contacts(a, b);
+  const auto known = followed_from(search, a, b, {truth.front()});
+  ASSERT_GT(known.size(), 10U);
+  ASSERT_LT(known.size() + 10, truth.size());
+  for (const std::size_t budget : {100'000, 300}) {
+    const auto search_with = [&](const std::vector<Face_pair>& contacts) {
+      a.start_frame(), b.start_frame();
+      search.begin(a.tree(), b.tree(), {.all = true, .budget = budget});
+      std::vector<Face_pair> found;
+      search.follow(a.neighbours(), b.neighbours(), {}, contacts, found);
+      search.add_start({0, 0}, 0);
+      search.open(found);
+      std::ranges::sort(found);
+      EXPECT_TRUE(std::ranges::includes(truth, found));
+      EXPECT_EQ(std::ranges::adjacent_find(found), found.end()) << "no leaf pair is compared twice";
+      EXPECT_TRUE(std::ranges::is_sorted(search.compared()));
+      EXPECT_EQ(std::ranges::adjacent_find(search.compared()), search.compared().end());
+      return found;
+    };
+    const auto alone = search_with({}), after = search_with({truth.front()});
+    if (search.is_limited()) {
+      EXPECT_LT(alone.size(), truth.size());
+      EXPECT_GT(after.size(), alone.size());
+    } else {
+      EXPECT_EQ(alone, truth);
+      EXPECT_EQ(after, truth);
+    }
+  }
 }
 
 TEST(Followed_contacts, lead_to_what_has_been_stretched_beyond_its_radii) {
@@ -214,7 +249,7 @@ TEST(Followed_contacts, are_the_same_in_the_same_order_for_any_number_of_workers
     a.start_frame(), b.start_frame();
     search.begin(a.tree(), b.tree(), {.all = true});
     std::vector<Face_pair> found;
-    search.follow(a.followed(), b.followed(), {}, some, found, workers);
+    search.follow(a.neighbours(), b.neighbours(), {}, some, found, workers);
     EXPECT_GT(search.leaf_tests(), 100U) << "enough for all workers";
     if (alone.empty()) alone = found;
     EXPECT_EQ(found, alone);
@@ -234,7 +269,7 @@ TEST(Followed_contacts, a_coordinate_that_is_not_finite_is_refused) {
   a.start_frame(), b.start_frame();
   search.begin(a.tree(), b.tree(), {.all = true});
   std::vector<Face_pair> found;
-  EXPECT_THROW(search.follow(a.followed(), b.followed(), {}, {&truth.front(), 1}, found), Bad_mesh);
+  EXPECT_THROW(search.follow(a.neighbours(), b.neighbours(), {}, {&truth.front(), 1}, found), Bad_mesh);
 }
 
 }  // namespace

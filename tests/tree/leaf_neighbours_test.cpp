@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
-#include "particles/owned_surface.h"
+#include "support/owned_surface.h"
 
 namespace lodestone {
 namespace {
@@ -19,19 +21,17 @@ bool share_an_edge(const Corners& f, const Corners& g) {
 void expect_neighbours(const Owned_surface& surface, std::size_t leaf_faces) {
   const auto& soup = surface.soup();
   const Tree_layout layout(soup.faces, octants(soup), soup.coordinates, {.leaf_faces = leaf_faces});
-  const Leaf_neighbours neighbours(layout, surface.walked(), soup.vertex_count());
+  const Leaf_neighbours neighbours(layout, surface.walked(), *surface.view().vertex_faces);
   std::vector<std::uint32_t> leaf_of(soup.faces.size());
   for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf)
     for (const auto face : layout.faces(leaf)) leaf_of[face] = leaf;
   for (std::uint32_t face = 0; face < soup.faces.size(); ++face) {
     EXPECT_EQ(neighbours.leaf_of(face), leaf_of[face]);
-    std::set<std::uint32_t> expected{12345};
+    std::set<std::uint32_t> expected;
     for (std::uint32_t other = 0; other < soup.faces.size(); ++other)
       if (leaf_of[other] != leaf_of[face] && share_an_edge(surface.walked()[face], surface.walked()[other]))
         expected.insert(leaf_of[other]);
-    std::vector<std::uint32_t> beside{12345};
-    neighbours.list_beside(surface.walked(), *surface.view().vertex_faces, face, beside);
-    EXPECT_EQ(beside.front(), 12345U) << "what was listed before must stay";
+    const auto beside = neighbours.beside(face);
     EXPECT_EQ(std::set(beside.begin(), beside.end()), expected);
   }
 }
@@ -48,6 +48,53 @@ TEST(Leaf_neighbours, lie_beyond_seams_that_are_closed) {
   const Face_soup soup = flat_shaded(sphere(8));
   expect_neighbours(Owned_surface(soup, true), 8);
   expect_neighbours(Owned_surface(soup), 8);
+}
+
+/// Pages that are bound along one edge, each a strip of faces away from it.
+Face_soup book(std::uint32_t pages, std::uint32_t strips) {
+  Face_soup soup;
+  soup.coordinates = {0, 0, 0, 0, 0, 1};
+  for (std::uint32_t page = 0; page < pages; ++page) {
+    const double angle = 6 * static_cast<double>(page) / pages;
+    std::uint32_t low = 0, high = 1;
+    for (std::uint32_t strip = 1; strip <= strips; ++strip) {
+      const auto next = static_cast<std::uint32_t>(soup.vertex_count());
+      for (const double z : {0.0, 1.0})
+        for (const double coordinate : {strip * std::cos(angle), strip * std::sin(angle), z})
+          soup.coordinates.push_back(coordinate);
+      soup.faces.push_back({low, high, next});
+      soup.faces.push_back({high, next + 1, next});
+      low = next, high = next + 1;
+    }
+  }
+  return soup;
+}
+
+TEST(Leaf_neighbours, of_an_edge_with_very_many_leaves_are_some_in_a_ring) {
+  constexpr std::uint32_t pages = 60, strips = 4;
+  const Owned_surface surface(book(pages, strips));
+  const auto& soup = surface.soup();
+  const std::vector<Region_index> labels(soup.vertex_count());
+  const Tree_layout layout(soup.faces, labels, soup.coordinates, {.leaf_faces = 4});
+  const Leaf_neighbours neighbours(layout, surface.walked(), *surface.view().vertex_faces);
+  std::map<std::uint32_t, std::set<std::uint32_t>> beside_leaf;
+  for (std::uint32_t page = 0; page < pages; ++page) {
+    const std::uint32_t bound = page * 2 * strips;  // the face at the edge
+    auto& leaves = beside_leaf[neighbours.leaf_of(bound)];
+    EXPECT_LE(neighbours.beside(bound).size(), Leaf_neighbours::most_per_edge + 2) << "two other edges have two faces";
+    for (const auto leaf : neighbours.beside(bound)) leaves.insert(leaf);
+  }
+  ASSERT_GT(beside_leaf.size(), Leaf_neighbours::most_per_edge + 1) << "more leaves than are listed";
+  std::set<std::uint32_t> reached{beside_leaf.begin()->first};
+  std::vector<std::uint32_t> waiting(reached.begin(), reached.end());
+  while (!waiting.empty()) {
+    const std::uint32_t leaf = waiting.back();
+    waiting.pop_back();
+    for (const auto next : beside_leaf[leaf])
+      if (reached.insert(next).second) waiting.push_back(next);
+  }
+  for (std::uint32_t page = 0; page < pages; ++page)
+    EXPECT_TRUE(reached.contains(neighbours.leaf_of(page * 2 * strips))) << "all are reached in the end";
 }
 
 }  // namespace

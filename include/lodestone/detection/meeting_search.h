@@ -31,6 +31,8 @@ struct Met_pair {
   std::size_t near_count = 0;    ///< how many they are
   std::size_t first_seed = 0;    ///< place of its contacts in the list of all pairs: see `Meeting_search::seeds`
   std::size_t seed_count = 0;    ///< how many they are
+  std::size_t first_opened = 0;  ///< place of all contacts that openings found, in the list of all pairs
+  std::size_t opened_count = 0;  ///< how many they are
   std::size_t first_compared = 0;  ///< place of the leaf pairs that were compared, in the list of all pairs
   std::size_t compared_count = 0;  ///< how many they are
   bool out_of_budget = false;      ///< the regions could not all be opened
@@ -66,7 +68,7 @@ class Meeting_search {
   std::span<const Near_regions> near_regions(const Met_pair& pair) const {
     return std::span(near_regions_).subspan(pair.first_near, pair.near_count);
   }
-  /// The contacts of a pair that were found so far, and where particles met there.
+  /// Contacts of a pair that were found so far, and where particles met there: of those of openings one.
   std::span<const Remembered_meeting> seeds(const Met_pair& pair) const {
     return std::span(seeds_).subspan(pair.first_seed, pair.seed_count);
   }
@@ -83,10 +85,13 @@ class Meeting_search {
   void meet_from(Met_pair& pair, Meeting start);
   void list_regions(Met_pair& pair);
   void open(Met_pair& pair, Workers& workers);
+  void follow_seeds(const Met_pair& pair, Workers& workers);
+  static Remembered_meeting met_at(const Met_pair& pair, Face_pair contact);
   void count_openings();
   void add_seed(Met_pair& pair, const Remembered_meeting& seed);
   void follow_curves(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers);
   void remember(const Met_pair& pair);
+  void remember(const Met_pair& pair, std::span<const Face_pair> contacts);
 
   const Detector_options options_;
   Meeting_memory memory_;
@@ -97,9 +102,10 @@ class Meeting_search {
   // Of all pairs in this frame.
   std::vector<Near_regions> near_regions_;
   std::vector<Remembered_meeting> seeds_;
+  std::vector<Face_pair> opened_;
   std::vector<Leaf_pair> compared_;
   // Memory.
-  std::vector<Face_pair> opened_, contacts_;
+  std::vector<Face_pair> contacts_;
   std::vector<Candidate_pair> nearest_;
 };
 

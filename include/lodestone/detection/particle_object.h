@@ -20,7 +20,7 @@
 #include "lodestone/particles/walked_surface.h"
 #include "lodestone/partition/particle_count.h"
 #include "lodestone/partition/region_extents.h"
-#include "lodestone/queries/opening_search.h"
+#include "lodestone/tree/leaf_neighbours.h"
 #include "lodestone/tree/region_anchors.h"
 
 namespace lodestone {
@@ -89,8 +89,9 @@ class Particle_object {
   Walked_surface walked_surface() const { return {&edges_.graph, &vertex_faces_, walked_corners(), corners(), &read_}; }
   /// The tree below the regions, after `prepare_meetings`.
   Tree_on_demand& tree() { return tree_; }
-  /// The surface, for contacts that are followed, after `prepare_meetings`. The first call takes O(V + F).
-  Followed_surface followed_surface();
+  /// The leaves beside each face, for contacts that are followed, after `prepare_meetings`. The first call takes
+  /// O(V + F).
+  const Leaf_neighbours& leaf_neighbours();
 
   /// Moves the particle of a vertex's region to that vertex.
   /// @return whether it was elsewhere

@@ -22,7 +22,8 @@ struct Opening_request {
   bool all = false;  ///< every contact that can be found; false: one
   double reach = 1;  ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are
                      ///< farther apart than c (rho_a + rho_b)
-  std::size_t budget = 0;  ///< most vertices to read in both trees together
+  std::size_t budget = 0;  ///< most vertices to read in both trees together, of which `follow` before `open` may take
+                           ///< three quarters
 };
 
 /// A leaf of each of two trees.
@@ -32,13 +33,6 @@ struct Leaf_pair {
 
   /// By the first leaf, then by the second.
   friend auto operator<=>(const Leaf_pair&, const Leaf_pair&) = default;
-};
-
-/// A surface along which contacts are followed.
-struct Followed_surface {
-  std::span<const Corners> walked;    ///< F: its faces, with the vertices of closed seams as one
-  const Vertex_faces* vertex_faces;   ///< of `walked`
-  const Leaf_neighbours* neighbours;  ///< of the leaves of its tree
 };
 
 /// Searches two surfaces for contacts from coarse to fine: pairs of nodes are opened in the order of how near their
@@ -59,24 +53,29 @@ class Opening_search {
   void add_start(Node_pair nodes, float order) { waiting_.push(nodes, in_order_ ? order : 0); }
 
   /// Opens the pairs that were added, and what is below, until there is no more to find, or the budget is used up.
-  /// Appends the contacts to `found`; one, unless all are asked for. For all, the workers share the tests of faces.
+  /// Appends the contacts to `found`; one, unless all are asked for. For all, the workers share the tests of faces, and
+  /// leaf pairs that `follow` has compared are left out.
   /// @return whether a contact was found
   /// @throws Bad_mesh  a coordinate that is read is not finite
   bool open(std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
-  /// Follows the curves of intersection on which contacts lie, after `begin` for all contacts, with or without `open`.
-  /// Compares the leaves of each contact, and the leaves beside it where it lies at their border. So it finds what
-  /// `open` left, where the budget ended it or a surface is stretched beyond its radii. The workers share the tests.
+  /// Follows the curves of intersection on which contacts lie, after `begin` for all contacts, before or without
+  /// `open`. Compares the leaves of each contact, and the leaves beside it where it lies at their border. So it finds
+  /// what `open` left, where the budget ended it or a surface is stretched beyond its radii. The workers share the
+  /// tests.
+  /// @param a, b      neighbours of the leaves of the two trees
   /// @param compared  sorted leaf pairs that are not compared again; not `compared()` itself
   /// @param contacts  all contacts of those, and any others, whose leaves are compared; not `found` itself
   /// @param found     all contacts of the curves, and of the leaves on them, are appended, each once
   /// @throws Bad_mesh  a coordinate that is read is not finite
-  void follow(const Followed_surface& a, const Followed_surface& b, std::span<const Leaf_pair> compared,
+  void follow(const Leaf_neighbours& a, const Leaf_neighbours& b, std::span<const Leaf_pair> compared,
               std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
+  /// Whether the budget may end the search.
+  bool is_limited() const { return in_order_; }
   /// Whether the last `open` ended because its budget was used up.
   bool out_of_budget() const { return out_of_budget_; }
-  /// The leaf pairs that the last `open` for all contacts, or the last `follow`, did not find apart by anchors; sorted.
+  /// The leaf pairs that `open` for all contacts, and `follow`, did not find apart by anchors since `begin`; sorted.
   std::span<const Leaf_pair> compared() const { return compared_; }
   /// Leaf pairs tested since `begin`.
   std::size_t leaf_tests() const { return leaf_tests_; }
@@ -97,12 +96,6 @@ class Opening_search {
     std::array<std::vector<Node_pair>, 64> stacks_;
     std::uint64_t filled_ = 0;  ///< a bit per stack
   };
-  /// The leaves beside the face that was asked about last: contacts of one face mostly follow each other.
-  struct Leaves_beside {
-    std::optional<std::uint32_t> face;
-    std::vector<std::uint32_t> leaves;
-    std::span<const std::uint32_t> of(const Followed_surface& surface, std::uint32_t asked);
-  };
   /// What the tests of some leaf pairs have found.
   struct Tested {
     std::vector<Face_pair> found;
@@ -116,8 +109,9 @@ class Opening_search {
   void consider_children(Node_pair pair);
   void open_for_one(std::vector<Face_pair>& found);
   void open_for_all(std::vector<Face_pair>& found, Workers& workers);
-  void follow_contact(const Followed_surface& a, const Followed_surface& b, Face_pair contact);
+  void follow_contact(const Leaf_neighbours& a, const Leaf_neighbours& b, Face_pair contact);
   void compare_beside(std::vector<Face_pair>& found, Workers& workers);
+  void note_compared(const std::vector<Leaf_pair>& leaves);
   void begin_filters(std::size_t count);
   void test(Leaf_pair leaves, Face_filter& filter, Tested& tested) const;
   void test_listed(std::vector<Face_pair>& found, Workers& workers);
@@ -128,13 +122,13 @@ class Opening_search {
   Opening_request request_;
   bool in_order_ = false;
   Waiting waiting_;
-  std::size_t limit_ = 0;            ///< of the vertices read
-  std::vector<Leaf_pair> listed_;    ///< to be tested
-  std::vector<Tested> tested_;       ///< per task, then memory of earlier searches
-  std::vector<Leaf_pair> compared_;  ///< sorted
-  std::vector<Leaf_pair> beside_;    ///< to be compared, unless they have been
-  std::vector<Leaf_pair> merged_;    ///< memory, for lists that are joined
-  Leaves_beside beside_a_, beside_b_;
+  std::size_t read_before_ = 0;         ///< vertices that had been read by `begin`
+  std::size_t limit_ = 0;               ///< of the vertices read
+  std::vector<Leaf_pair> listed_;       ///< to be tested
+  std::vector<Tested> tested_;          ///< per task, then memory of earlier searches
+  std::vector<Leaf_pair> compared_;     ///< sorted
+  std::vector<Leaf_pair> beside_;       ///< to be compared, unless they have been
+  std::vector<Leaf_pair> merged_;       ///< memory, for lists that are joined
   std::vector<Face_filter> filters_;    ///< per worker
   Aabb bounds_a_ = {}, bounds_b_ = {};  ///< what the filters have been told
   std::size_t begun_ = 0;               ///< filters that have been told
