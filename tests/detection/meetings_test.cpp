@@ -58,6 +58,23 @@ TEST(Meetings, the_statistics_count_every_position_that_is_read) {
     }
 }
 
+TEST(Meetings, the_budget_goes_farther_where_the_curves_of_the_last_frame_are_known) {
+  Owned_meshes scene{icosphere(40), icosphere(40)};
+  shift(scene[1], 1.2);
+  const auto truth = exhaustive_face_pairs(scene[0], scene[1]);
+  auto options = by_meetings();
+  options.opening_budget = 2000;
+  Detector<> detector(options);
+  add_all(detector, scene);
+  const std::size_t first = detector.detect().statistics.vertices_read;
+  ASSERT_GT(first, options.opening_budget + 200) << "curves were followed farther than the budget reached";
+  for (int frame = 0; frame < 3; ++frame) {
+    const Frame& found = detector.detect();
+    EXPECT_EQ(found.face_pairs.size(), truth.size());
+    EXPECT_LT(found.statistics.vertices_read, first);
+  }
+}
+
 TEST(Meetings, positions_that_are_read_by_a_point_map_give_the_frames_of_those_in_memory) {
   auto one = two_spheres(2.2), other = two_spheres(2.2);
   std::size_t reads = 0;

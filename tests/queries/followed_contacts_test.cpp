@@ -178,40 +178,71 @@ TEST(Followed_contacts, complete_what_a_search_has_left) {
   EXPECT_GT(completed, 1U);
 }
 
-TEST(Followed_contacts, leave_the_budget_to_the_rest) {
-  // Two curves: a long plate passes through a sphere, and only the curve on one side is known.
-  Opening_search search;
-  Face_soup plate = grid(60, 20);
-  deform(plate, [](const Point& p) { return Point(0.1 * p.x() - 2.9, 0.02 * p.y() - 0.2, 0.01); });
-  Followed_object a(icosphere(20)), b(plate);
-  const auto truth = true_contacts(a, b);
-  const auto known = followed_from(search, a, b, {truth.front()});
-  ASSERT_GT(known.size(), 10U);
-  ASSERT_LT(known.size() + 10, truth.size());
-  for (const std::size_t budget : {100'000, 300}) {
-    const auto search_with = [&](const std::vector<Face_pair>& contacts) {
-      a.start_frame(), b.start_frame();
-      search.begin(a.tree(), b.tree(), {.all = true, .budget = budget});
-      std::vector<Face_pair> found;
-      search.follow(a.neighbours(), b.neighbours(), {}, contacts, found);
-      search.add_start({0, 0}, 0);
-      search.open(found);
-      std::ranges::sort(found);
-      EXPECT_TRUE(std::ranges::includes(truth, found));
-      EXPECT_EQ(std::ranges::adjacent_find(found), found.end()) << "no leaf pair is compared twice";
-      EXPECT_TRUE(std::ranges::is_sorted(search.compared()));
-      EXPECT_EQ(std::ranges::adjacent_find(search.compared()), search.compared().end());
-      return found;
-    };
-    const auto alone = search_with({}), after = search_with({truth.front()});
-    if (search.is_limited()) {
-      EXPECT_LT(alone.size(), truth.size());
-      EXPECT_GT(after.size(), alone.size());
-    } else {
-      EXPECT_EQ(alone, truth);
-      EXPECT_EQ(after, truth);
-    }
+/// A sphere, and a long plate that passes through it: two curves, of which one contact of one is known.
+class Followed_contacts_of_two_curves : public testing::Test {
+ protected:
+  struct Searched {
+    std::vector<Face_pair> found;
+    std::size_t followed = 0;  ///< vertices that were read to follow
+    std::size_t read = 0;      ///< all
+  };
+
+  static Face_soup plate() {
+    Face_soup plate = grid(60, 20);
+    deform(plate, [](const Point& p) { return Point(0.1 * p.x() - 2.9, 0.02 * p.y() - 0.2, 0.01); });
+    return plate;
   }
+
+  std::size_t read() { return a_.tree().vertices_read() + b_.tree().vertices_read(); }
+
+  /// Follows, then opens with the rest of a budget.
+  Searched search(std::size_t budget, const std::vector<Face_pair>& contacts) {
+    a_.start_frame(), b_.start_frame();
+    search_.begin(a_.tree(), b_.tree(), {.all = true, .budget = budget});
+    Searched searched;
+    search_.follow(a_.neighbours(), b_.neighbours(), {}, contacts, searched.found);
+    searched.followed = read();
+    search_.add_start({0, 0}, 0);
+    search_.open(searched.found);
+    searched.read = read();
+    std::ranges::sort(searched.found);
+    EXPECT_TRUE(std::ranges::includes(truth_, searched.found));
+    EXPECT_EQ(std::ranges::adjacent_find(searched.found), searched.found.end()) << "no leaf pair is compared twice";
+    EXPECT_TRUE(std::ranges::is_sorted(search_.compared()));
+    EXPECT_EQ(std::ranges::adjacent_find(search_.compared()), search_.compared().end());
+    return searched;
+  }
+
+  static constexpr std::size_t two_leaves = 80;  ///< more vertices than two leaves have
+
+  Opening_search search_;
+  Followed_object a_{icosphere(20)}, b_{plate()};
+  const std::vector<Face_pair> truth_ = true_contacts(a_, b_);
+  const std::vector<Face_pair> known_{truth_.front()};
+};
+
+TEST_F(Followed_contacts_of_two_curves, are_not_compared_again_by_openings) {
+  EXPECT_EQ(search(100'000, {}).found, truth_);
+  EXPECT_EQ(search(100'000, known_).found, truth_);
+  EXPECT_FALSE(search_.is_limited());
+}
+
+TEST_F(Followed_contacts_of_two_curves, count_towards_the_budget_of_openings) {
+  const std::size_t followed = search(1, known_).followed, budget = 2 * followed;
+  const auto searched = search(budget, known_);
+  EXPECT_TRUE(search_.is_limited());
+  EXPECT_TRUE(search_.out_of_budget());
+  EXPECT_EQ(searched.followed, followed);
+  EXPECT_GE(searched.read, budget);
+  EXPECT_LE(searched.read, budget + two_leaves);
+}
+
+TEST_F(Followed_contacts_of_two_curves, leave_a_quarter_of_the_budget_to_openings) {
+  const std::size_t followed = search(1, known_).followed, budget = followed;
+  const auto searched = search(budget, known_);
+  EXPECT_TRUE(search_.out_of_budget());
+  EXPECT_GE(searched.read, followed + budget / 4);
+  EXPECT_LE(searched.read, followed + budget / 4 + two_leaves);
 }
 
 TEST(Followed_contacts, lead_to_what_has_been_stretched_beyond_its_radii) {

@@ -31,15 +31,18 @@ struct Met_pair {
   std::size_t near_count = 0;    ///< how many they are
   std::size_t first_seed = 0;    ///< place of its contacts in the list of all pairs: see `Meeting_search::seeds`
   std::size_t seed_count = 0;    ///< how many they are
-  std::size_t first_opened = 0;  ///< place of all contacts that openings found, in the list of all pairs
-  std::size_t opened_count = 0;  ///< how many they are
+  std::size_t first_opened = 0;  ///< place of its contacts that were found before particles walk, in the list of all
+                                 ///< pairs: first those on the curves of the last frame, then those of openings
+  std::size_t first_new = 0;     ///< where those of openings begin
+  std::size_t opened_count = 0;  ///< how many they all are
   std::size_t first_compared = 0;  ///< place of the leaf pairs that were compared, in the list of all pairs
   std::size_t compared_count = 0;  ///< how many they are
   bool out_of_budget = false;      ///< the regions could not all be opened
 };
 
 /// The search for contacts of object pairs in mode `particles`, from what is cheapest to what finds most:
-///  1. `look`: at the place where particles met in the last frame, then below the regions, which are opened;
+///  1. `look`: at the place where particles met in the last frame, then below the regions, which are opened; with the
+///     query `all`, and surfaces that the budget does not cover, before that along the curves of the last frame;
 ///  2. `meet_nearest`, where the budget has ended the openings, after the particles have walked;
 ///  3. `report`: with the query `all`, along the curves of intersection through the contacts that were found.
 ///
@@ -53,7 +56,8 @@ class Meeting_search {
   void start_frame();
   /// As if the frame had not been started, for the next one.
   void undo_frame() { memory_.undo_frame(); }
-  /// Searches where particles met in the last frame, then below the regions. The workers share tests of faces.
+  /// Searches where particles met in the last frame, maybe along the curves there, then below the regions. The workers
+  /// share tests of faces.
   void look(Met_pair& pair, Workers& workers);
   /// Lets the particles of near regions meet, and checks the faces around: the nearest first, as many as the options
   /// allow.
@@ -68,7 +72,7 @@ class Meeting_search {
   std::span<const Near_regions> near_regions(const Met_pair& pair) const {
     return std::span(near_regions_).subspan(pair.first_near, pair.near_count);
   }
-  /// Contacts of a pair that were found so far, and where particles met there: of those of openings one.
+  /// Where particles met, and the contacts there. If they have met nowhere, one contact of the openings.
   std::span<const Remembered_meeting> seeds(const Met_pair& pair) const {
     return std::span(seeds_).subspan(pair.first_seed, pair.seed_count);
   }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,8 +21,8 @@ struct Opening_request {
   bool all = false;  ///< every contact that can be found; false: one
   double reach = 1;  ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are
                      ///< farther apart than c (rho_a + rho_b)
-  std::size_t budget = 0;  ///< most vertices to read in both trees together, of which `follow` before `open` may take
-                           ///< three quarters
+  std::size_t budget = 0;  ///< how many vertices of both trees together `open` may read, less those that `follow` has
+                           ///< read before; but at least a quarter of it. `follow` has no limit.
 };
 
 /// A leaf of each of two trees.
@@ -60,9 +59,9 @@ class Opening_search {
   bool open(std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
   /// Follows the curves of intersection on which contacts lie, after `begin` for all contacts, before or without
-  /// `open`. Compares the leaves of each contact, and the leaves beside it where it lies at their border. So it finds
-  /// what `open` left, where the budget ended it or a surface is stretched beyond its radii. The workers share the
-  /// tests.
+  /// `open`. Compares the leaves of each contact, and the leaves beside it where it lies at their border. Given what an
+  /// earlier search has compared and found, it finds what that left: where the budget ended it, or a surface is
+  /// stretched beyond its radii. The workers share the tests.
   /// @param a, b      neighbours of the leaves of the two trees
   /// @param compared  sorted leaf pairs that are not compared again; not `compared()` itself
   /// @param contacts  all contacts of those, and any others, whose leaves are compared; not `found` itself
@@ -75,7 +74,8 @@ class Opening_search {
   bool is_limited() const { return in_order_; }
   /// Whether the last `open` ended because its budget was used up.
   bool out_of_budget() const { return out_of_budget_; }
-  /// The leaf pairs that `open` for all contacts, and `follow`, did not find apart by anchors since `begin`; sorted.
+  /// Leaf pairs that need not be compared again: those given to `follow`, those that it has looked at, and those that
+  /// `open` for all contacts has tested since; sorted.
   std::span<const Leaf_pair> compared() const { return compared_; }
   /// Leaf pairs tested since `begin`.
   std::size_t leaf_tests() const { return leaf_tests_; }

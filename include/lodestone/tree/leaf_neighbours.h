@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,14 +19,15 @@ class Leaf_neighbours {
   /// would grow with the square of their number.
   static constexpr std::size_t most_per_edge = 8;
 
-  /// O(V + F), and O(n log n) for n faces at a vertex.
+  /// O(V + F log d) for at most d faces at a vertex.
   /// @param walked        F: the faces, with the vertices of closed seams as one
   /// @param vertex_faces  of `walked`
   Leaf_neighbours(const Tree_layout& layout, std::span<const Corners> walked, const Vertex_faces& vertex_faces);
 
   /// The leaf of a face.
   std::uint32_t leaf_of(std::uint32_t face) const { return faces_[face].leaf; }
-  /// The leaves of the faces that share an edge with a face, except its own leaf; some more than once. O(1).
+  /// The leaves of the faces that share an edge with a face, except its own leaf, and at most `most_per_edge` for each
+  /// edge; some more than once. O(1).
   std::span<const std::uint32_t> beside(std::uint32_t face) const {
     return std::span(beside_).subspan(faces_[face].first, faces_[face + 1].first - faces_[face].first);
   }
