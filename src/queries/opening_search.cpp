@@ -16,9 +16,9 @@ namespace {
 
 /// Leaf pairs of one task: some 50 microseconds.
 constexpr std::size_t pairs_per_task = 32;
-/// Openings have at least one in so many parts of the budget: however long the curves are that were followed, new ones
-/// can be found.
-constexpr std::size_t parts_of_budget = 4;
+/// So much of the budget openings have in any case: however long the curves are that were followed, new ones can be
+/// found.
+constexpr std::size_t least_share(std::size_t budget) { return budget / 2; }
 
 }  // namespace
 
@@ -59,7 +59,7 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
 
 bool Opening_search::open(std::vector<Face_pair>& found, Workers& workers) {
   const std::size_t before = found.size();
-  limit_ = in_order_ ? std::max(read_before_ + request_.budget, vertices_read() + request_.budget / parts_of_budget)
+  limit_ = in_order_ ? std::max(read_before_ + request_.budget, vertices_read() + least_share(request_.budget))
                      : std::numeric_limits<std::size_t>::max();
   request_.all ? open_for_all(found, workers) : open_for_one(found);
   return found.size() > before;

@@ -228,7 +228,7 @@ TEST_F(Followed_contacts_of_two_curves, are_not_compared_again_by_openings) {
 }
 
 TEST_F(Followed_contacts_of_two_curves, count_towards_the_budget_of_openings) {
-  const std::size_t followed = search(1, known_).followed, budget = 2 * followed;
+  const std::size_t followed = search(1, known_).followed, budget = 3 * followed;
   const auto searched = search(budget, known_);
   EXPECT_TRUE(search_.is_limited());
   EXPECT_TRUE(search_.out_of_budget());
@@ -237,12 +237,12 @@ TEST_F(Followed_contacts_of_two_curves, count_towards_the_budget_of_openings) {
   EXPECT_LE(searched.read, budget + two_leaves);
 }
 
-TEST_F(Followed_contacts_of_two_curves, leave_a_quarter_of_the_budget_to_openings) {
+TEST_F(Followed_contacts_of_two_curves, leave_half_of_the_budget_to_openings) {
   const std::size_t followed = search(1, known_).followed, budget = followed;
   const auto searched = search(budget, known_);
   EXPECT_TRUE(search_.out_of_budget());
-  EXPECT_GE(searched.read, followed + budget / 4);
-  EXPECT_LE(searched.read, followed + budget / 4 + two_leaves);
+  EXPECT_GE(searched.read, followed + budget / 2);
+  EXPECT_LE(searched.read, followed + budget / 2 + two_leaves);
 }
 
 TEST(Followed_contacts, lead_to_what_has_been_stretched_beyond_its_radii) {

@@ -74,7 +74,7 @@ struct Detector_options {
   std::size_t meetings = 4;
   /// With meetings: vertices that a frame may read per object pair below the regions. What was begun is finished, so it
   /// can be some hundred more; two surfaces that have fewer are searched to the end. Curves, for all contacts, are
-  /// followed without limit; those of the last frame are followed first, and leave at least a quarter of this. 0:
+  /// followed without limit; those of the last frame are followed first, and leave at least half of this. 0:
   /// regions are not opened.
   std::size_t opening_budget = 16384;
   /// With meetings: two parts of surfaces are taken to be apart if the distance of their anchors is more than so many

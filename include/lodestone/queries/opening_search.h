@@ -22,7 +22,7 @@ struct Opening_request {
   double reach = 1;  ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are
                      ///< farther apart than c (rho_a + rho_b)
   std::size_t budget = 0;  ///< how many vertices of both trees together `open` may read, less those that `follow` has
-                           ///< read before; but at least a quarter of it. `follow` has no limit.
+                           ///< read before; but at least half of it. `follow` has no limit.
 };
 
 /// A leaf of each of two trees.
