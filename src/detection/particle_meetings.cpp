@@ -139,8 +139,11 @@ void Particle_detection::move_to_meetings() {
   for (const auto& pair : met_pairs_) {
     if (pair.seed_count == 0) continue;
     const Meeting at = meeting_search_.seeds(pair).front().at;
-    for (const auto& [object, vertex] : {std::pair{pair.a, at.a}, std::pair{pair.b, at.b}})
-      if (object->move_particle(vertex)) object->mesh().move_particles(object->particles().at);
+    for (const auto& [object, vertex] : {std::pair{pair.a, at.a}, std::pair{pair.b, at.b}}) {
+      if (!object->move_particle(vertex)) continue;
+      ++frame_.statistics().vertices_read;
+      object->mesh().move_particles(object->particles().at);
+    }
   }
 }
 
