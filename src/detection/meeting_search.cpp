@@ -129,16 +129,16 @@ void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found,
   if (wants_all()) {
     const std::size_t first = found.size();
     follow_curves(pair, found, workers);
-    remember(pair, std::span(found).subspan(first));
+    remember_some(pair, std::span(found).subspan(first));
   } else {
     found.push_back(seeds(pair).front().contact);
-    remember(pair);
+    remember_one(pair);
   }
 }
 
-/// Remembers contacts at equal steps in the list of all; if openings have found a curve beside those of the last frame,
-/// also one of its contacts, since a short curve may have none at such a step.
-void Meeting_search::remember(const Met_pair& pair, std::span<const Face_pair> contacts) {
+/// Remembers contacts at equal steps in the list of all. If openings have found a curve beside those of the last frame,
+/// remembers a contact of it too: a short curve may have none at such a step.
+void Meeting_search::remember_some(const Met_pair& pair, std::span<const Face_pair> contacts) {
   const std::size_t step = (contacts.size() + options_.meetings - 1) / options_.meetings;
   for (std::size_t i = 0; i < contacts.size(); i += step) memory_.keep(pair.ids, met_at(pair, contacts[i]));
   if (pair.first_opened < pair.first_new && pair.first_new < pair.first_opened + pair.opened_count)
@@ -158,7 +158,7 @@ void Meeting_search::follow_curves(const Met_pair& pair, std::vector<Face_pair>&
 
 /// Remembers the contact that was found, and the meetings of the last frame: one of them may be of use once this one
 /// parts.
-void Meeting_search::remember(const Met_pair& pair) {
+void Meeting_search::remember_one(const Met_pair& pair) {
   const Remembered_meeting& found = seeds(pair).front();
   memory_.keep(pair.ids, found);
   std::size_t kept = 1;

@@ -2,27 +2,10 @@
 #include "lodestone/tree/leaf_neighbours.h"
 
 #include <algorithm>
-#include <limits>
-#include <utility>
 
 namespace lodestone {
 
 namespace {
-
-/// V: whether the faces at a vertex are in several leaves.
-std::vector<bool> shared_vertices(const Tree_layout& layout, std::span<const Corners> walked,
-                                  std::size_t vertex_count) {
-  constexpr auto none = std::numeric_limits<std::uint32_t>::max();
-  std::vector<bool> shared(vertex_count);
-  std::vector<std::uint32_t> last(vertex_count, none);
-  for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf)
-    for (const auto face : layout.faces(leaf))
-      for (const auto corner : walked[face]) {
-        const std::uint32_t before = std::exchange(last[corner], leaf);
-        if (before != none && before != leaf) shared[corner] = true;
-      }
-  return shared;
-}
 
 /// A leaf beside a face.
 struct Beside {
@@ -32,11 +15,12 @@ struct Beside {
 /// Lists which leaves are beside which faces, edge by edge.
 class Edge_search {
  public:
-  Edge_search(std::span<const Corners> walked, const Vertex_faces& vertex_faces, std::span<const std::uint32_t> leaf_of)
-      : walked_(walked), vertex_faces_(vertex_faces), leaf_of_(leaf_of) {}
+  /// @param neighbours  knows the leaf of each face
+  Edge_search(std::span<const Corners> walked, const Vertex_faces& vertex_faces, const Leaf_neighbours& neighbours)
+      : walked_(walked), vertex_faces_(vertex_faces), neighbours_(neighbours) {}
 
   /// Appends those of the edges from a vertex to others of higher index.
-  void list(std::uint32_t vertex, const std::vector<bool>& shared, std::vector<Beside>& beside);
+  void list(std::uint32_t vertex, std::vector<Beside>& beside);
 
  private:
   /// A face at an edge from the vertex.
@@ -45,20 +29,28 @@ class Edge_search {
     friend auto operator<=>(const Edge_face&, const Edge_face&) = default;
   };
 
+  bool is_inside_a_leaf(std::uint32_t vertex) const;
   void list_edge(std::span<const Edge_face> faces, std::vector<Beside>& beside);
 
   std::span<const Corners> walked_;
   const Vertex_faces& vertex_faces_;
-  std::span<const std::uint32_t> leaf_of_;
+  const Leaf_neighbours& neighbours_;
   std::vector<Edge_face> around_;
   std::vector<std::uint32_t> leaves_;
 };
 
-void Edge_search::list(std::uint32_t vertex, const std::vector<bool>& shared, std::vector<Beside>& beside) {
+bool Edge_search::is_inside_a_leaf(std::uint32_t vertex) const {
+  const auto faces = vertex_faces_.at(vertex);
+  return std::ranges::all_of(
+      faces, [&](auto face) { return neighbours_.leaf_of(face) == neighbours_.leaf_of(faces.front()); });
+}
+
+void Edge_search::list(std::uint32_t vertex, std::vector<Beside>& beside) {
+  if (is_inside_a_leaf(vertex)) return;
   around_.clear();
   for (const auto face : vertex_faces_.at(vertex))
     for (const auto to : walked_[face])
-      if (to > vertex && shared[to]) around_.push_back({to, leaf_of_[face], face});
+      if (to > vertex) around_.push_back({to, neighbours_.leaf_of(face), face});
   std::ranges::sort(around_);
   for (std::size_t first = 0, end = 0; first < around_.size(); first = end) {
     while (end < around_.size() && around_[end].to == around_[first].to) ++end;
@@ -84,14 +76,11 @@ void Edge_search::list_edge(std::span<const Edge_face> faces, std::vector<Beside
 Leaf_neighbours::Leaf_neighbours(const Tree_layout& layout, std::span<const Corners> walked,
                                  const Vertex_faces& vertex_faces)
     : faces_(walked.size() + 1) {
-  std::vector<std::uint32_t> leaf_of(walked.size());
   for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf)
-    for (const auto face : layout.faces(leaf)) leaf_of[face] = leaf;
-  const auto shared = shared_vertices(layout, walked, vertex_faces.vertex_count());
+    for (const auto face : layout.faces(leaf)) faces_[face].leaf = leaf;
   std::vector<Beside> beside;
-  Edge_search edges(walked, vertex_faces, leaf_of);
-  for (std::uint32_t vertex = 0; vertex < vertex_faces.vertex_count(); ++vertex)
-    if (shared[vertex]) edges.list(vertex, shared, beside);
+  Edge_search edges(walked, vertex_faces, *this);
+  for (std::uint32_t vertex = 0; vertex < vertex_faces.vertex_count(); ++vertex) edges.list(vertex, beside);
 
   // Sorted by faces, by counting.
   for (const auto& [face, leaf] : beside) ++faces_[face].first;
@@ -99,7 +88,6 @@ Leaf_neighbours::Leaf_neighbours(const Tree_layout& layout, std::span<const Corn
   for (auto& face : faces_) face.first = sum += face.first;
   beside_.resize(beside.size());
   for (const auto& [face, leaf] : beside) beside_[--faces_[face].first] = leaf;
-  for (std::size_t face = 0; face < walked.size(); ++face) faces_[face].leaf = leaf_of[face];
 }
 
 }  // namespace lodestone

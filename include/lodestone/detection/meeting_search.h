@@ -31,18 +31,18 @@ struct Met_pair {
   std::size_t near_count = 0;    ///< how many they are
   std::size_t first_seed = 0;    ///< place of its contacts in the list of all pairs: see `Meeting_search::seeds`
   std::size_t seed_count = 0;    ///< how many they are
-  std::size_t first_opened = 0;  ///< place of its contacts that were found before particles walk, in the list of all
-                                 ///< pairs: first those on the curves of the last frame, then those of openings
+  std::size_t first_opened = 0;  ///< place of the contacts that `look` found, in the list of all pairs: first those on
+                                 ///< the curves of the last frame, then those of openings
   std::size_t first_new = 0;     ///< where those of openings begin
-  std::size_t opened_count = 0;  ///< how many they all are
+  std::size_t opened_count = 0;  ///< how many there are of both
   std::size_t first_compared = 0;  ///< place of the leaf pairs that were compared, in the list of all pairs
   std::size_t compared_count = 0;  ///< how many they are
   bool out_of_budget = false;      ///< the regions could not all be opened
 };
 
 /// The search for contacts of object pairs in mode `particles`, from what is cheapest to what finds most:
-///  1. `look`: at the place where particles met in the last frame, then below the regions, which are opened; with the
-///     query `all`, and surfaces that the budget does not cover, before that along the curves of the last frame;
+///  1. `look`: at the place where particles met in the last frame, then below the regions, which are opened. If all
+///     contacts are asked for and the budget does not cover both surfaces, the curves through that place come first;
 ///  2. `meet_nearest`, where the budget has ended the openings, after the particles have walked;
 ///  3. `report`: with the query `all`, along the curves of intersection through the contacts that were found.
 ///
@@ -56,8 +56,7 @@ class Meeting_search {
   void start_frame();
   /// As if the frame had not been started, for the next one.
   void undo_frame() { memory_.undo_frame(); }
-  /// Searches where particles met in the last frame, maybe along the curves there, then below the regions. The workers
-  /// share tests of faces.
+  /// Searches where particles met in the last frame, then below the regions. The workers share tests of faces.
   void look(Met_pair& pair, Workers& workers);
   /// Lets the particles of near regions meet, and checks the faces around: the nearest first, as many as the options
   /// allow.
@@ -72,7 +71,7 @@ class Meeting_search {
   std::span<const Near_regions> near_regions(const Met_pair& pair) const {
     return std::span(near_regions_).subspan(pair.first_near, pair.near_count);
   }
-  /// Where particles met, and the contacts there. If they have met nowhere, one contact of the openings.
+  /// Where particles of a pair met, and the contacts there. If they met nowhere, one contact that openings found.
   std::span<const Remembered_meeting> seeds(const Met_pair& pair) const {
     return std::span(seeds_).subspan(pair.first_seed, pair.seed_count);
   }
@@ -94,8 +93,8 @@ class Meeting_search {
   void count_openings();
   void add_seed(Met_pair& pair, const Remembered_meeting& seed);
   void follow_curves(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers);
-  void remember(const Met_pair& pair);
-  void remember(const Met_pair& pair, std::span<const Face_pair> contacts);
+  void remember_one(const Met_pair& pair);
+  void remember_some(const Met_pair& pair, std::span<const Face_pair> contacts);
 
   const Detector_options options_;
   Meeting_memory memory_;
