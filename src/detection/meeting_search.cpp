@@ -70,7 +70,6 @@ void Meeting_search::open(Met_pair& pair, Workers& workers) {
                   {.all = wants_all(), .reach = options_.opening_reach, .budget = options_.opening_budget});
   pair.first_opened = opened_.size();
   if (wants_all() && openings_.is_limited() && pair.seed_count > 0) follow_seeds(pair, workers);
-  pair.first_new = opened_.size();
   for (const auto& near : near_regions(pair))
     openings_.add_start({pair.a->regions().node(near.a), pair.b->regions().node(near.b)}, near.order);
   openings_.open(opened_, workers);
@@ -136,13 +135,10 @@ void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found,
   }
 }
 
-/// Remembers contacts at equal steps in the list of all. If openings have found a curve beside those of the last frame,
-/// remembers a contact of it too: a short curve may have none at such a step.
+/// Remembers contacts at equal steps in the list of all.
 void Meeting_search::remember_some(const Met_pair& pair, std::span<const Face_pair> contacts) {
   const std::size_t step = (contacts.size() + options_.meetings - 1) / options_.meetings;
   for (std::size_t i = 0; i < contacts.size(); i += step) memory_.keep(pair.ids, met_at(pair, contacts[i]));
-  if (pair.first_opened < pair.first_new && pair.first_new < pair.first_opened + pair.opened_count)
-    memory_.keep(pair.ids, met_at(pair, opened_[pair.first_new]));
 }
 
 /// Reports the curves on which the seeds lie.

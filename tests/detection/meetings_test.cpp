@@ -60,27 +60,6 @@ TEST(Meetings, the_statistics_count_every_position_that_is_read) {
     }
 }
 
-TEST(Meetings, less_is_read_where_the_contacts_of_the_last_frame_are_known) {
-  auto options = by_meetings();
-  options.opening_budget = 2000;
-  // One detector has seen the contacts in the frame before, the other has not.
-  Owned_meshes known_scene{icosphere(40), icosphere(40)}, new_scene{icosphere(40), icosphere(40)};
-  shift(known_scene[1], 1.2);
-  shift(new_scene[1], 3);
-  Detector<> knows(options), looks(options);
-  add_all(knows, known_scene);
-  add_all(looks, new_scene);
-  EXPECT_TRUE(knows.detect().collides());
-  EXPECT_FALSE(looks.detect().collides());
-  shift(new_scene[1], -1.8);
-  const Frame &known = knows.detect(), &found = looks.detect();
-  const std::size_t contacts = exhaustive_face_pairs(known_scene[0], known_scene[1]).size();
-  EXPECT_EQ(known.face_pairs.size(), contacts);
-  EXPECT_EQ(found.face_pairs.size(), contacts);
-  ASSERT_GT(found.statistics.vertices_read, options.opening_budget + 200) << "curves went on where the budget ended";
-  EXPECT_LT(known.statistics.vertices_read + 150, found.statistics.vertices_read);
-}
-
 TEST(Meetings, a_small_budget_finds_nearly_all_contacts_since_known_curves_are_followed_first) {
   auto scene = read_scene(std::filesystem::path(LODESTONE_DATA) / "scenes" / "torus_knots.json");
   Detector<> particles({.mode = Mode::particles, .opening_budget = 500, .contacts = Contact_query::all});

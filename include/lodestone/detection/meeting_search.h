@@ -31,10 +31,9 @@ struct Met_pair {
   std::size_t near_count = 0;    ///< how many they are
   std::size_t first_seed = 0;    ///< place of its contacts in the list of all pairs: see `Meeting_search::seeds`
   std::size_t seed_count = 0;    ///< how many they are
-  std::size_t first_opened = 0;  ///< place of the contacts that `look` found, in the list of all pairs: first those on
-                                 ///< the curves of the last frame, then those of openings
-  std::size_t first_new = 0;     ///< where those of openings begin
-  std::size_t opened_count = 0;  ///< how many there are of both
+  std::size_t first_opened = 0;  ///< place of the contacts that curves and openings gave to `look`, in the list of all
+                                 ///< pairs
+  std::size_t opened_count = 0;  ///< how many they are
   std::size_t first_compared = 0;  ///< place of the leaf pairs that were compared, in the list of all pairs
   std::size_t compared_count = 0;  ///< how many they are
   bool out_of_budget = false;      ///< the regions could not all be opened
