@@ -187,8 +187,8 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
       ->capture_default_str();
   app.add_option(
          "--opening-budget", options.opening_budget,
-         "Mode particles, with meetings: number of vertices that a frame may read per object pair to look below "
-         "the regions")
+         "Mode particles, with meetings: number of vertices that openings may read per object pair in a frame to "
+         "look below the regions")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000'000'000}).description("0 or more"))
       ->capture_default_str();
   app.add_option("--opening-reach", options.opening_reach,

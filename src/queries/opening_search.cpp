@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
-#include <limits>
 #include <span>
 
 #include "lodestone/queries/leaf_triangle.h"
@@ -44,25 +43,38 @@ Node_pair Opening_search::Waiting::pop() {
   return nodes;
 }
 
-void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_request& request) {
+void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_request& request,
+                           std::span<const Opening_start> starts) {
   a_ = &a, b_ = &b;
   request_ = request;
-  in_order_ = request.budget < a.vertex_count() + b.vertex_count();
+  starts_.begin(a, b, starts, request.most_whole);
   begun_ = 0;
   read_before_ = vertices_read();
   out_of_budget_ = false;
   leaf_tests_ = exact_tests_ = 0;
-  waiting_.clear();
   compared_.clear();
   beside_.clear();
 }
 
 bool Opening_search::open(std::vector<Face_pair>& found, Workers& workers) {
   const std::size_t before = found.size();
-  limit_ = in_order_ ? std::max(read_before_ + request_.budget, vertices_read() + least_share(request_.budget))
-                     : std::numeric_limits<std::size_t>::max();
+  waiting_.clear();
+  if (is_limited()) {
+    limit_ = std::max(read_before_ + request_.budget, vertices_read() + least_share(request_.budget));
+    for (const auto& start : starts_.pairs()) waiting_.push(start.nodes, start.order);
+  } else {
+    pose_starts();
+    for (const auto& start : starts_.pairs()) push_if_near(start.nodes);
+  }
   request_.all ? open_for_all(found, workers) : open_for_one(found);
   return found.size() > before;
+}
+
+void Opening_search::pose_starts() {
+  for (const auto& start : starts_.pairs()) {
+    a_->pose_below(start.nodes.a);
+    b_->pose_below(start.nodes.b);
+  }
 }
 
 void Opening_search::open_for_one(std::vector<Face_pair>& found) {
@@ -96,7 +108,7 @@ void Opening_search::follow(const Leaf_neighbours& a, const Leaf_neighbours& b, 
   std::size_t followed = found.size();
   for (const Face_pair contact : contacts) {
     const Leaf_pair leaves{a.leaf_of(contact.a), b.leaf_of(contact.b)};
-    if (std::ranges::binary_search(compared_, leaves))
+    if (was_opened(leaves) || std::ranges::binary_search(compared_, leaves))
       found.push_back(contact);
     else
       beside_.push_back(leaves);
@@ -112,8 +124,12 @@ void Opening_search::follow(const Leaf_neighbours& a, const Leaf_neighbours& b, 
 
 /// Lists the leaf pairs beside a contact.
 void Opening_search::follow_contact(const Leaf_neighbours& a, const Leaf_neighbours& b, Face_pair contact) {
-  for (const auto leaf : a.beside(contact.a)) beside_.push_back({leaf, b.leaf_of(contact.b)});
-  for (const auto leaf : b.beside(contact.b)) beside_.push_back({a.leaf_of(contact.a), leaf});
+  const auto list = [this](Leaf_pair leaves) {
+    if (!was_opened(leaves)) beside_.push_back(leaves);
+  };
+  const Leaf_pair at{a.leaf_of(contact.a), b.leaf_of(contact.b)};
+  for (const auto leaf : a.beside(contact.a)) list({leaf, at.b});
+  for (const auto leaf : b.beside(contact.b)) list({at.a, leaf});
 }
 
 /// Compares the leaf pairs that were listed, unless they have been compared.
@@ -138,9 +154,36 @@ void Opening_search::note_compared(const std::vector<Leaf_pair>& leaves) {
   compared_.swap(merged_);
 }
 
-/// The next pair of leaves that may meet.
+/// The next pair of leaves whose boxes meet, below nodes that have been posed.
+/// @return false if there is none
+bool Opening_search::next_by_boxes(Leaf_pair& leaves) {
+  const Tree_layout &a = a_->layout(), &b = b_->layout();
+  while (!waiting_.empty()) {
+    const Node_pair pair = waiting_.pop();
+    if (a.is_leaf(pair.a) && b.is_leaf(pair.b)) {
+      leaves = {a.node(pair.a).leaf, b.node(pair.b).leaf};
+      return true;
+    }
+    const bool open_a =
+        b.is_leaf(pair.b) || (!a.is_leaf(pair.a) && a_->box(pair.a).extent() >= b_->box(pair.b).extent());
+    if (open_a) {
+      push_if_near({pair.a + 1, pair.b});
+      push_if_near({a.node(pair.a).second_child, pair.b});
+    } else {
+      push_if_near({pair.a, pair.b + 1});
+      push_if_near({pair.a, b.node(pair.b).second_child});
+    }
+  }
+  return false;
+}
+
+void Opening_search::push_if_near(Node_pair pair) {
+  if (near(a_->box(pair.a), b_->box(pair.b), 0)) waiting_.push(pair, 0);
+}
+
+/// The next pair of leaves that may meet, as far as anchors tell.
 /// @return false if there is none, or the budget is used up
-bool Opening_search::next(Leaf_pair& leaves) {
+bool Opening_search::next_by_anchors(Leaf_pair& leaves) {
   const Tree_layout &a = a_->layout(), &b = b_->layout();
   out_of_budget_ = false;
   while (!waiting_.empty()) {
@@ -164,7 +207,7 @@ void Opening_search::consider(Node_pair pair) {
   const double squared = (a_->anchor(pair.a) - b_->anchor(pair.b)).squaredNorm();
   const double radii = request_.reach * (a_->radius(pair.a) + b_->radius(pair.b));
   if (squared > radii * radii) return;
-  waiting_.push(pair, in_order_ && radii > 0 ? static_cast<float>(squared / (radii * radii)) : 0);
+  waiting_.push(pair, radii > 0 ? static_cast<float>(squared / (radii * radii)) : 0);
 }
 
 /// Opens the node with the larger radius, since that separates most.

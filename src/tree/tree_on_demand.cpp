@@ -29,6 +29,7 @@ Tree_on_demand::Tree_on_demand(std::span<const Corners> corners, std::span<const
 Tree_on_demand::Tree_on_demand(Tree_layout layout, std::span<const Node_anchor> anchors, std::size_t vertex_count)
     : layout_(std::move(layout)),
       posed_(layout_.leaf_count()),
+      posed_below_(layout_.node_count()),
       boxes_(layout_.node_count()),
       vertex_count_(vertex_count) {
   nodes_.reserve(layout_.node_count());
@@ -87,18 +88,41 @@ void Tree_on_demand::read_anchor(Node& node) {
   ++vertices_read_;
 }
 
-void Tree_on_demand::read_leaf(std::uint32_t leaf) {
-  const auto vertices = layout_.vertices(leaf);
-  if (positions_.memory() == nullptr) copy_leaf(leaf);
-  const Leaf_sums sums = fit_leaves(layout_, coordinates_, leaf, leaf + 1, std::span(boxes_));
+/// Reads leaves none of which has been posed in this frame.
+void Tree_on_demand::read_leaves(std::uint32_t first, std::uint32_t end) {
+  if (positions_.memory() == nullptr)
+    for (std::uint32_t leaf = first; leaf < end; ++leaf) copy_leaf(leaf);
+  const Leaf_sums sums = fit_leaves(layout_, coordinates_, first, end, std::span(boxes_));
   // Finite coordinates can have a sum that overflows.
   if (!std::isfinite(sums.coordinates))
-    for (const auto vertex : vertices)
-      if (!positions_(vertex).allFinite()) fail_not_finite(vertex);
-  posed_[leaf] = frame_;
-  vertices_read_ += vertices.size();
+    for (std::uint32_t leaf = first; leaf < end; ++leaf)
+      for (const auto vertex : layout_.vertices(leaf))
+        if (!positions_(vertex).allFinite()) fail_not_finite(vertex);
   if (!std::exchange(bounded_, true)) bounds_ = guessed_bounds();
-  bounds_.enclose(bounds_, boxes_[layout_.leaf_node(leaf)]);
+  for (std::uint32_t leaf = first; leaf < end; ++leaf) {
+    posed_[leaf] = frame_;
+    vertices_read_ += layout_.vertices(leaf).size();
+    bounds_.enclose(bounds_, boxes_[layout_.leaf_node(leaf)]);
+  }
+}
+
+void Tree_on_demand::read_below(std::uint32_t n) {
+  const auto [first, end] = leaves_below(n);
+  for (std::uint32_t leaf = first; leaf < end; ++leaf) {
+    const std::uint32_t unread = leaf;
+    while (leaf < end && posed_[leaf] != frame_) ++leaf;
+    if (unread < leaf) read_leaves(unread, leaf);
+  }
+  for (std::uint32_t node = layout_.leaf_node(end - 1); node-- > n;)
+    if (!layout_.is_leaf(node)) boxes_[node].enclose(boxes_[node + 1], boxes_[layout_.node(node).second_child]);
+  posed_below_[n] = frame_;
+}
+
+std::pair<std::uint32_t, std::uint32_t> Tree_on_demand::leaves_below(std::uint32_t n) const {
+  std::uint32_t first = n, last = n;
+  while (!layout_.is_leaf(first)) ++first;
+  while (!layout_.is_leaf(last)) last = layout_.node(last).second_child;
+  return {layout_.node(first).leaf, layout_.node(last).leaf + 1};
 }
 
 void Tree_on_demand::copy_leaf(std::uint32_t leaf) {

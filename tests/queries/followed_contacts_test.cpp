@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 #include "lodestone/mesh/errors.h"
@@ -12,6 +13,8 @@
 
 namespace lodestone {
 namespace {
+
+const std::vector<Opening_start> root_start{{{0, 0}, 0}};
 
 /// A surface with a tree that was built from another pose.
 class Followed_object {
@@ -157,8 +160,7 @@ TEST(Followed_contacts, complete_what_a_search_has_left) {
   std::size_t completed = 0;
   for (const std::size_t budget : {50, 100, 200, 400, 1000, 100'000}) {
     a.start_frame(), b.start_frame();
-    search.begin(a.tree(), b.tree(), {.all = true, .budget = budget});
-    search.add_start({0, 0}, 0);
+    search.begin(a.tree(), b.tree(), {.all = true, .budget = budget}, root_start);
     std::vector<Face_pair> opened, found;
     search.open(opened);
     if (opened.empty()) continue;
@@ -198,11 +200,10 @@ class Followed_contacts_of_two_curves : public testing::Test {
   /// Follows, then opens with the rest of a budget.
   Searched search(std::size_t budget, const std::vector<Face_pair>& contacts) {
     a_.start_frame(), b_.start_frame();
-    search_.begin(a_.tree(), b_.tree(), {.all = true, .budget = budget});
+    search_.begin(a_.tree(), b_.tree(), {.all = true, .budget = budget}, root_start);
     Searched searched;
     search_.follow(a_.neighbours(), b_.neighbours(), {}, contacts, searched.found);
     searched.followed = read();
-    search_.add_start({0, 0}, 0);
     search_.open(searched.found);
     searched.read = read();
     std::ranges::sort(searched.found);
@@ -224,7 +225,7 @@ class Followed_contacts_of_two_curves : public testing::Test {
 TEST_F(Followed_contacts_of_two_curves, are_not_compared_again_by_openings) {
   EXPECT_EQ(search(100'000, {}).found, truth_);
   EXPECT_EQ(search(100'000, known_).found, truth_);
-  EXPECT_FALSE(search_.is_limited());
+  EXPECT_FALSE(search_.out_of_budget());
 }
 
 TEST_F(Followed_contacts_of_two_curves, count_towards_the_budget_of_openings) {
@@ -245,6 +246,38 @@ TEST_F(Followed_contacts_of_two_curves, leave_half_of_the_budget_to_openings) {
   EXPECT_LE(searched.read, followed + budget / 2 + two_leaves);
 }
 
+TEST(Followed_contacts, of_starts_that_were_opened_as_a_whole_are_compared_only_beyond_them) {
+  Followed_object a(icosphere(20)), b(moved(icosphere(20), 0.9, 0.2, 0.1));
+  const auto truth = true_contacts(a, b);
+  const auto children = [](Followed_object& object) {
+    return std::array{1U, object.tree().layout().node(0).second_child};
+  };
+  Opening_search search;
+  std::size_t all_tests = 0;
+  // All halves with all others, then some with some: the others are not covered, though their leaves are read.
+  for (const std::size_t count : {4, 3, 2, 1}) {
+    std::vector<Opening_start> starts;
+    for (const auto half_a : children(a))
+      for (const auto half_b : children(b))
+        if (starts.size() < count) starts.push_back({{half_a, half_b}, 0});
+    a.start_frame(), b.start_frame();
+    search.begin(a.tree(), b.tree(), {.all = true, .most_whole = 100'000}, starts);
+    std::vector<Face_pair> opened, found;
+    search.open(opened);
+    const std::size_t leaf_tests = search.leaf_tests();
+    ASSERT_FALSE(opened.empty());
+    ASSERT_LE(opened.size(), truth.size());
+    search.begin(a.tree(), b.tree(), {.all = true, .most_whole = 100'000, .opened = true}, starts);
+    search.follow(a.neighbours(), b.neighbours(), {}, opened, found);
+    std::ranges::sort(found);
+    EXPECT_EQ(found, truth) << count;
+    const std::size_t beyond = search.leaf_tests();
+    EXPECT_EQ(beyond == 0, count == 4) << count;
+    if (count == 4) all_tests = leaf_tests;
+    EXPECT_LE(leaf_tests + beyond, all_tests) << "no leaf pair is compared twice";
+  }
+}
+
 TEST(Followed_contacts, lead_to_what_has_been_stretched_beyond_its_radii) {
   // A plate, of which one end has been pulled out to ten times its length. Another plate cuts it along.
   const Face_soup rest = grid(40, 4);
@@ -260,8 +293,7 @@ TEST(Followed_contacts, lead_to_what_has_been_stretched_beyond_its_radii) {
   const auto truth = true_contacts(a, b);
   Opening_search search;
   a.start_frame(), b.start_frame();
-  search.begin(a.tree(), b.tree(), {.all = true, .budget = 100'000});
-  search.add_start({0, 0}, 0);
+  search.begin(a.tree(), b.tree(), {.all = true, .budget = 100'000}, root_start);
   std::vector<Face_pair> opened;
   search.open(opened);
   ASSERT_FALSE(opened.empty());

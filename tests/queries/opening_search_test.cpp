@@ -52,19 +52,29 @@ struct Opened {
   std::size_t leaf_tests = 0, exact_tests = 0, vertices_read = 0;
 };
 
+const std::vector<Opening_start> from_roots{{{0, 0}, 0}};
+
+std::vector<Opening_start> near_starts(const Opened_object& a, const Opened_object& b) {
+  std::vector<Near_regions> near;
+  list_near_regions(a.regions(), b.regions(), near);
+  std::vector<Opening_start> starts;
+  for (const auto& pair : near) starts.push_back({{a.regions().node(pair.a), b.regions().node(pair.b)}, pair.order});
+  return starts;
+}
+
+/// Whether a node is another one, or lies below it.
+bool is_below(const Tree_layout& layout, std::uint32_t node, std::uint32_t above) {
+  if (node == above) return true;
+  return !layout.is_leaf(above) &&
+         (is_below(layout, node, above + 1) || is_below(layout, node, layout.node(above).second_child));
+}
+
 /// Searches below the roots, or below the regions that may touch, in a new frame.
 Opened opened(Opening_search& search, Opened_object& a, Opened_object& b, const Opening_request& request,
               bool from_regions = false) {
   a.start_frame(), b.start_frame();
   const std::size_t before = a.tree().vertices_read() + b.tree().vertices_read();
-  search.begin(a.tree(), b.tree(), request);
-  if (from_regions) {
-    std::vector<Near_regions> near;
-    list_near_regions(a.regions(), b.regions(), near);
-    for (const auto& pair : near) search.add_start({a.regions().node(pair.a), b.regions().node(pair.b)}, pair.order);
-  } else {
-    search.add_start({0, 0}, 0);
-  }
+  search.begin(a.tree(), b.tree(), request, from_regions ? near_starts(a, b) : from_roots);
   Opened result;
   const bool some = search.open(result.found);
   EXPECT_EQ(some, !result.found.empty());
@@ -80,12 +90,14 @@ Opened opened(Opening_search& search, Opened_object& a, Opened_object& b, const 
 /// Checks all queries with a large budget.
 void expect_opened(Opening_search& search, Opened_object& a, Opened_object& b) {
   const auto truth = true_pairs(a.now(), b.now());
-  for (const bool from_regions : {false, true}) {
-    const auto all = opened(search, a, b, {.all = true, .budget = large_budget}, from_regions);
+  for (const auto& [from_regions, most_whole] :
+       {std::pair{false, 0UL}, std::pair{true, 0UL}, std::pair{false, large_budget}, std::pair{true, large_budget}}) {
+    const auto all =
+        opened(search, a, b, {.all = true, .budget = large_budget, .most_whole = most_whole}, from_regions);
     EXPECT_EQ(all.found, truth);
     EXPECT_FALSE(all.out_of_budget);
     EXPECT_GE(all.exact_tests, truth.size());
-    const auto first = opened(search, a, b, {.budget = large_budget}, from_regions);
+    const auto first = opened(search, a, b, {.budget = large_budget, .most_whole = most_whole}, from_regions);
     EXPECT_EQ(first.found.size(), std::min<std::size_t>(1, truth.size()));
     EXPECT_TRUE(std::ranges::includes(truth, first.found));
     EXPECT_LE(first.leaf_tests, all.leaf_tests);
@@ -225,8 +237,8 @@ TEST(Opening_search, the_faces_of_two_leaves_are_compared_exactly) {
   for (const bool all : {false, true})
     for (std::uint32_t leaf_a = 0; leaf_a < layout_a.leaf_count(); ++leaf_a)
       for (std::uint32_t leaf_b = 0; leaf_b < layout_b.leaf_count(); ++leaf_b) {
-        search.begin(a.tree(), b.tree(), {.all = all, .budget = large_budget});
-        search.add_start({layout_a.leaf_node(leaf_a), layout_b.leaf_node(leaf_b)}, 0);
+        const Opening_start start{{layout_a.leaf_node(leaf_a), layout_b.leaf_node(leaf_b)}, 0};
+        search.begin(a.tree(), b.tree(), {.all = all, .budget = large_budget}, std::span(&start, 1));
         std::vector<Face_pair> found;
         const bool some = search.open(found);
         EXPECT_EQ(some, !found.empty());
@@ -251,8 +263,7 @@ TEST(Opening_search, workers_find_the_same_in_the_same_order) {
     Opening_search search;
     for (int again = 0; again < 3; ++again) {
       a.start_frame(), b.start_frame();
-      search.begin(a.tree(), b.tree(), {.all = true, .budget = 4000});
-      search.add_start({0, 0}, 0);
+      search.begin(a.tree(), b.tree(), {.all = true, .budget = 4000}, from_roots);
       std::vector<Face_pair> found;
       search.open(found, workers);
       if (alone.empty()) {
@@ -267,6 +278,64 @@ TEST(Opening_search, workers_find_the_same_in_the_same_order) {
       EXPECT_EQ(a.tree().vertices_read() + b.tree().vertices_read(), vertices_read);
     }
   }
+}
+
+TEST(Opening_search, reads_regions_as_a_whole_up_to_a_number_of_vertices) {
+  Opening_search search;
+  Opened_object a(icosphere(12)), b(icosphere(12));
+  b.move_to(moved(b.rest(), 1.5, 0.01, 0.02));
+  const auto vertices_near = [&] {
+    std::set<std::uint32_t> nodes_a, nodes_b;
+    for (const auto& start : near_starts(a, b)) nodes_a.insert(start.nodes.a), nodes_b.insert(start.nodes.b);
+    std::size_t vertices = 0;
+    for (const auto& [nodes, layout] :
+         {std::pair(&nodes_a, &a.tree().layout()), std::pair(&nodes_b, &b.tree().layout())})
+      for (const auto node : *nodes)
+        for (std::uint32_t leaf = 0; leaf < layout->leaf_count(); ++leaf)
+          if (is_below(*layout, layout->leaf_node(leaf), node)) vertices += layout->vertices(leaf).size();
+    return vertices;
+  };
+  a.start_frame(), b.start_frame();
+  const std::size_t vertices = vertices_near();
+  ASSERT_GT(vertices, 100U);
+  ASSERT_LT(vertices, a.tree().layout().vertex_begin().back() + b.tree().layout().vertex_begin().back())
+      << "far regions are left out";
+  const auto truth = true_pairs(a.now(), b.now());
+  ASSERT_FALSE(truth.empty());
+
+  const auto whole = opened(search, a, b, {.all = true, .budget = 10, .most_whole = vertices}, true);
+  EXPECT_FALSE(search.is_limited());
+  EXPECT_FALSE(whole.out_of_budget);
+  EXPECT_EQ(whole.found, truth);
+  const std::size_t roots = 2;  // whose anchors tell the bounds
+  EXPECT_EQ(whole.vertices_read, vertices + roots) << "each leaf once";
+  const auto first = opened(search, a, b, {.budget = 10, .most_whole = vertices}, true);
+  EXPECT_EQ(first.found.size(), 1U);
+  EXPECT_EQ(first.vertices_read, vertices + roots);
+
+  const auto some = opened(search, a, b, {.all = true, .budget = 10, .most_whole = vertices - 1}, true);
+  EXPECT_TRUE(search.is_limited());
+  EXPECT_TRUE(some.out_of_budget);
+  EXPECT_LT(some.vertices_read, vertices);
+}
+
+TEST(Opening_search, regions_read_as_a_whole_are_searched_whatever_their_stretch) {
+  // One end of a plate has been pulled out to ten times its length; another plate cuts it along.
+  Face_soup pulled = grid(40, 4), blade = grid(201, 2);
+  for (std::size_t v = 0; v < blade.vertex_count(); ++v) {
+    double* const p = &blade.coordinates[3 * v];
+    std::tie(p[0], p[1], p[2]) = std::tuple(1.1 * p[0], 1.7 + 0.001 * p[0], p[1] - 0.5);
+  }
+  Opened_object a(pulled, 4), b(blade);
+  for (std::size_t v = 0; v < pulled.vertex_count(); ++v)
+    if (double& x = pulled.coordinates[3 * v]; x > 20) x = 20 + 10 * (x - 20);
+  a.move_to(pulled), b.move_to(blade);
+  Opening_search search;
+  const auto truth = true_pairs(a.now(), b.now());
+  const auto by_anchors = opened(search, a, b, {.all = true, .budget = large_budget});
+  EXPECT_LT(by_anchors.found.size(), truth.size());
+  const auto whole = opened(search, a, b, {.all = true, .most_whole = large_budget});
+  EXPECT_EQ(whole.found, truth);
 }
 
 TEST(Opening_search, surfaces_that_meet_in_a_small_place_are_read_only_around_it) {

@@ -72,10 +72,11 @@ struct Detector_options {
   /// there. Also, regions are opened. 0: the published method, whose particles stay in their regions, and which checks
   /// whole regions.
   std::size_t meetings = 4;
-  /// With meetings: vertices that a frame may read per object pair below the regions. What was begun is finished, so it
-  /// can be some hundred more; two surfaces that have fewer are searched to the end. Curves, for all contacts, are
-  /// followed without limit; those of the last frame are followed first, and leave at least half of this. 0:
-  /// regions are not opened.
+  /// With meetings: vertices that openings may read per object pair below the regions in a frame. What was begun is
+  /// finished, so it can be some hundred more. Regions near each other that have no more vertices than this are read as
+  /// a whole; for all contacts, and with positions in memory, four times as many. Curves, for all contacts, are
+  /// followed without limit; those of the last frame are followed first, and leave at least half of this. 0: regions
+  /// are not opened.
   std::size_t opening_budget = 16384;
   /// With meetings: two parts of surfaces are taken to be apart if the distance of their anchors is more than so many
   /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed, with

@@ -10,6 +10,7 @@
 #include "lodestone/filter/face_filter.h"
 #include "lodestone/mesh/pairs.h"
 #include "lodestone/mesh/workers.h"
+#include "lodestone/queries/opening_starts.h"
 #include "lodestone/tree/leaf_neighbours.h"
 #include "lodestone/tree/node_pair.h"
 #include "lodestone/tree/tree_on_demand.h"
@@ -21,37 +22,29 @@ struct Opening_request {
   bool all = false;  ///< every contact that can be found; false: one
   double reach = 1;  ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are
                      ///< farther apart than c (rho_a + rho_b)
-  std::size_t budget = 0;  ///< how many vertices of both trees together `open` may read, less those that `follow` has
-                           ///< read before; but at least half of it. `follow` has no limit.
+  std::size_t budget = 0;  ///< how many vertices of both trees together openings may read, less those that `follow`
+                           ///< has read before; but at least half of it. `follow` has no limit.
+  std::size_t most_whole = 0;  ///< vertices of both trees below the starts up to which they are read as a whole
+  bool opened = false;         ///< for `follow` alone: a search for all has opened the same starts in this frame
 };
 
-/// A leaf of each of two trees.
-struct Leaf_pair {
-  std::uint32_t a;  ///< of the first
-  std::uint32_t b;  ///< of the second
-
-  /// By the first leaf, then by the second.
-  friend auto operator<=>(const Leaf_pair&, const Leaf_pair&) = default;
-};
-
-/// Searches two surfaces for contacts from coarse to fine: pairs of nodes are opened in the order of how near their
-/// anchors are, relative to their radii, to within a 64th; the faces of leaves are tested exactly. The order matters
-/// only where the budget may end the search: two surfaces that it covers as a whole are searched in the order that is
-/// fastest.
+/// Searches two surfaces for contacts below pairs of nodes, in one of two ways. If the leaves below these nodes have no
+/// more vertices than `most_whole`, they are read as a whole, and the boxes of nodes tell which leaves may meet.
+/// Otherwise pairs of nodes are opened from coarse to fine, in the order of how near their anchors are, relative to
+/// their radii, to within a 64th, until the budget is used up; this reads one vertex per node that it looks at, and the
+/// vertices of the leaves that it compares. In both ways the faces of leaves are tested exactly.
 ///
-/// What is found is true. Contacts are missed where a surface is stretched beyond its radii, with c below 1, and once
-/// the budget is used up. Reads one vertex per node that it looks at, and the vertices of the leaves that it compares.
+/// What is found is true. Below nodes that are read as a whole everything is found. Otherwise contacts are missed once
+/// the budget is used up, where a surface is stretched beyond its radii, and with c below 1.
 ///
 /// Keeps its memory from one search to the next.
 class Opening_search {
  public:
-  /// Starts a search of two trees.
-  void begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_request& request);
-  /// Adds two nodes below which to search.
-  /// @param order  squared distance of their anchors, relative to the sum of their radii
-  void add_start(Node_pair nodes, float order) { waiting_.push(nodes, in_order_ ? order : 0); }
+  /// Starts a search of two trees below some pairs of nodes. Costs what `Opening_starts::begin` does.
+  void begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_request& request,
+             std::span<const Opening_start> starts = {});
 
-  /// Opens the pairs that were added, and what is below, until there is no more to find, or the budget is used up.
+  /// Opens the pairs of nodes, and what is below, until there is no more to find, or the budget is used up.
   /// Appends the contacts to `found`; one, unless all are asked for. For all, the workers share the tests of faces, and
   /// leaf pairs that `follow` has compared are left out.
   /// @return whether a contact was found
@@ -70,8 +63,8 @@ class Opening_search {
   void follow(const Leaf_neighbours& a, const Leaf_neighbours& b, std::span<const Leaf_pair> compared,
               std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
-  /// Whether the budget may end the search.
-  bool is_limited() const { return in_order_; }
+  /// Whether nodes are opened, so that the budget may end the search.
+  bool is_limited() const { return !starts_.are_whole(); }
   /// Whether the last `open` ended because its budget was used up.
   bool out_of_budget() const { return out_of_budget_; }
   /// Leaf pairs that need not be compared again: those given to `follow`, those that it has looked at, and those that
@@ -102,11 +95,16 @@ class Opening_search {
     std::size_t exact_tests = 0;
   };
 
-  bool next(Leaf_pair& leaves);
+  void pose_starts();
+  bool was_opened(Leaf_pair leaves) const { return request_.opened && starts_.cover(leaves); }
+  bool next(Leaf_pair& leaves) { return is_limited() ? next_by_anchors(leaves) : next_by_boxes(leaves); }
+  bool next_by_anchors(Leaf_pair& leaves);
+  bool next_by_boxes(Leaf_pair& leaves);
   bool near_leaves(Leaf_pair leaves);
   bool is_apart(const Aabb& box, Tree_on_demand& tree, std::uint32_t node) const;
   void consider(Node_pair pair);
   void consider_children(Node_pair pair);
+  void push_if_near(Node_pair pair);
   void open_for_one(std::vector<Face_pair>& found);
   void open_for_all(std::vector<Face_pair>& found, Workers& workers);
   void follow_contact(const Leaf_neighbours& a, const Leaf_neighbours& b, Face_pair contact);
@@ -120,7 +118,7 @@ class Opening_search {
   Tree_on_demand* a_ = nullptr;
   Tree_on_demand* b_ = nullptr;
   Opening_request request_;
-  bool in_order_ = false;
+  Opening_starts starts_;
   Waiting waiting_;
   std::size_t read_before_ = 0;         ///< vertices that had been read by `begin`
   std::size_t limit_ = 0;               ///< of the vertices read

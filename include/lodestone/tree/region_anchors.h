@@ -59,7 +59,6 @@ class Region_anchors {
   }
 
   /// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
-  /// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
   friend void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
 
  private:

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lodestone/mesh/live_positions.h"
@@ -38,6 +39,8 @@ class Tree_on_demand {
 
   /// How the faces are grouped.
   const Tree_layout& layout() const { return layout_; }
+  /// Whether the positions of this frame lie in memory; otherwise each one is computed where it is read.
+  bool in_memory() const { return positions_.memory() != nullptr; }
   /// Number of vertices, V.
   std::size_t vertex_count() const { return vertex_count_; }
 
@@ -58,6 +61,15 @@ class Tree_on_demand {
     if (posed_[leaf] != frame_) read_leaf(leaf);
     return boxes_[layout_.leaf_node(leaf)];
   }
+  /// Poses all leaves below a node, and fits the boxes of all nodes there, unless that has been done in this frame.
+  /// @throws Bad_mesh  a coordinate is not finite
+  void pose_below(std::uint32_t n) {
+    if (posed_below_[n] != frame_) read_below(n);
+  }
+  /// The box of a node, if it or a node above has been given to `pose_below` in this frame, or if it is a posed leaf.
+  const Aabb& box(std::uint32_t n) const { return boxes_[n]; }
+  /// The leaves below a node: from the first to before the end. O(depth).
+  std::pair<std::uint32_t, std::uint32_t> leaves_below(std::uint32_t n) const;
   /// Whether a leaf has been posed in this frame.
   bool is_posed(std::uint32_t leaf) const { return posed_[leaf] == frame_; }
   /// What has been posed. Only leaves that were posed in this frame may be read.
@@ -88,13 +100,16 @@ class Tree_on_demand {
 
   Aabb guessed_bounds();
   void read_anchor(Node& node);
-  void read_leaf(std::uint32_t leaf);
+  void read_leaf(std::uint32_t leaf) { read_leaves(leaf, leaf + 1); }
+  void read_leaves(std::uint32_t first, std::uint32_t end);
+  void read_below(std::uint32_t n);
   void copy_leaf(std::uint32_t leaf);
 
   Tree_layout layout_;
   std::vector<Node> nodes_;
-  std::vector<std::uint64_t> posed_;  ///< per leaf: the frame in which it was last posed
-  std::vector<Aabb> boxes_;           ///< per node: only those of posed leaves mean something
+  std::vector<std::uint64_t> posed_;        ///< per leaf: the frame in which it was last posed
+  std::vector<std::uint64_t> posed_below_;  ///< per node: the frame in which all below was last posed
+  std::vector<Aabb> boxes_;                 ///< per node: see `box`
   std::size_t vertex_count_ = 0;
   Coordinates coordinates_ = {};  ///< 3 V, of the mesh or `copied_`: only those of posed leaves may be read
   std::vector<double> copied_;    ///< 3 V, where the positions do not lie in memory

@@ -197,7 +197,7 @@ void write_animation(const fs::path& output, const Animation& animation, const A
                                    output.string()));
   if (animation.faces.empty())
     throw Bad_argument(
-        fmt::format("{}: needs faces, which a point cache does not have: give its mesh", output.string()));
+        fmt::format("{}: there are no faces to write; a point cache needs its mesh", output.string()));
   if (is_mesh) return write_meshes(output, extension, {output, animation, options}, animation.faces, options.numbered);
   write_gltf(output, animation, options);
 }
