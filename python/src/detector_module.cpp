@@ -30,6 +30,9 @@ py::object self_collisions(const py::object& self, Object_id object) {
   auto& detector = self.cast<Python_detector&>();
   Python_frame frame = detector.detect(object, object);
   frame.detector = self;
+  if (frame.frame->pairs.empty())
+    throw Bad_argument("object " + std::to_string(object) +
+                       " is left out of collisions with itself, by its groups or by `ignore`");
   return only_pair(std::move(frame));
 }
 
@@ -356,10 +359,11 @@ void add_detector(py::module_& module) {
            "in mode 'exact' that saves most of the time.")
       .def("detect", detect, py::arg("a") = py::none(), py::arg("b") = py::none(),
            "Finds the collisions between all objects where their vertices are now, or of objects a and b: a Frame.\n"
+           "Pairs that groups or `ignore` leave out have no part in it, whichever are asked for.\n"
            "Raises BadMesh: a coordinate that is not finite.")
       .def("self_collisions", self_collisions, py::arg("object"),
            "Faces of one object that intersect each other: a Pair, a = b. Modes 'exact' "
-           "and 'certified'.")
+           "and 'certified'.\nRaises BadArgument: groups or `ignore` leave it out.")
       .def("closest",
            [](Python_detector& self, Object_id a, Object_id b) {
              return closest_fields(self.ask([&](auto& detector) { return detector.closest(a, b); }));

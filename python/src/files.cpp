@@ -98,7 +98,9 @@ void write(const Path& path, const py::object& frames, const py::object& faces,
 
 void write_animation_file(const Path& path, const py::object& frames, const py::object& faces,
                           double frames_per_second) {
-  write(path, frames, faces, {.frames_per_second = frames_per_second});
+  // Those of an Animation, unless the caller gives others.
+  const py::object given = faces.is_none() ? py::getattr(frames, "faces", py::none()) : faces;
+  write(path, frames, given, {.frames_per_second = frames_per_second});
 }
 
 void write_mesh_file(const Path& path, const py::object& mesh, const py::object& faces) {
@@ -111,8 +113,8 @@ void write_mesh_file(const Path& path, const py::object& mesh, const py::object&
 void add_files(py::module_& module) {
   const std::size_t max_faces = Mesh_file_options().max_faces;
   module.def("read_mesh", read_mesh_file, py::arg("path"), py::kw_only(), py::arg("max_faces") = max_faces,
-             "Reads a mesh: OFF, OBJ, PLY, STL, glTF at rest, MD2, MD3. An Animation, whose `vertices` and `faces` are those "
-             "of the file.\nmax_faces: a file with more is refused. Raises BadMesh, with file, line and cause.");
+             "Reads a mesh: OFF, OBJ, PLY, STL, glTF, MD2, MD3. An Animation, whose `vertices` are those of the first "
+             "frame, of a glTF file with\nanimations of the first one.\nmax_faces: a file with more is refused. Raises BadMesh, with file, line and cause.");
   module.def("read_animation", read_animation_file, py::arg("path"), py::kw_only(), py::arg("mesh") = py::none(),
              py::arg("animation") = std::size_t{0}, py::arg("frames_per_second") = py::none(),
              py::arg("max_faces") = max_faces,
@@ -125,8 +127,8 @@ void add_files(py::module_& module) {
   module.def("write_animation", write_animation_file, py::arg("path"), py::arg("frames"), py::arg("faces") = py::none(), py::kw_only(),
              py::arg("frames_per_second") = 30.0,
              "Writes an animation: a point cache (.pc2, .mdd), glTF (.gltf, .glb), or a pattern of mesh files such as "
-             "'cloth_####.ply'.\nframes: arrays (V, 3), one per frame; an Animation will do. faces: (F, 3); point caches have "
-             "none.");
+             "'cloth_####.ply'.\nframes: arrays (V, 3), one per frame, or an Animation. faces: (F, 3), or those of the Animation; a "
+             "point cache has none.");
 
   py::class_<Python_scene>(module, "Scene", "What a scene file describes: objects that move.")
       .def_readonly("name", &Python_scene::name, "Its name.")

@@ -219,11 +219,12 @@ void add_frames(py::module_& module) {
           "apart: the nearest point of each. None unless `contact_points` was asked for.")
       .def_property_readonly(
           "normals", [](const py::object& self) { return kept(self, "_normals", normals_of_frame); },
-          "Direction in which to push face a until the two faces only touch: (k, 3) float64 unit vectors, from b\n"
-          "towards a; 0 if neither face has an area. None unless `contact_normals` was asked for.")
+          "A direction in which face a and face b part: (k, 3) float64 unit vectors, from b towards a;\n"
+          " 0 if neither face has an area. None unless `contact_normals` was asked for.")
       .def_property_readonly(
           "depths", [](const py::object& self) { return kept(self, "_depths", depths_of_frame); },
-          "How far to push: (k,) float64, in units of the coordinates. Negative where faces are near but apart: minus\n"
+          "How far to move face a along the normal, so that it touches face b at most, wherever they meet: (k,) float64,\n"
+          "in units of the coordinates. The faces may part sooner. Negative where faces are near but apart: minus\n"
           "their distance. None unless `contact_normals` was asked for.")
       .def("outline", outline_of, py::arg("contact"),
            "Where two faces meet: (n, 3) float64, the one corner of a point, the two of a segment or those of a polygon.")

@@ -167,11 +167,12 @@ Positions positions_of(const py::object& positions, const std::string& name) {
 void add_one_call(py::module_& module) {
   module.def("find_collisions", find_collisions, py::arg("a"), py::arg("b"),
              "Finds the collisions of two meshes with one call: a Pair.\n\n"
-             "a, b: an object with `vertices` and `faces`, or a tuple (vertices, faces). Options as of Detector.");
+             "a, b: an object with `vertices` and `faces`, or a tuple (vertices, faces). Options as of Detector; only\n"
+             "what is between the two counts, so `self_collision` changes nothing.");
   module.def("self_collisions", self_collisions, py::arg("mesh"), py::arg("faces") = py::none(),
              py::arg("file_vertex") = py::none(),
              "Finds the faces of one mesh that intersect each other: a Pair, with a = b. Faces that share a vertex count\n"
-             "where they intersect beyond it. Options as of Detector, mode 'exact'.\n\n"
+             "where they intersect beyond it. Options as of Detector, mode 'exact'; those about two objects change nothing.\n\n"
              "file_vertex: (V,) int; vertices with the same number are one, as at the seams of a mesh that stores them twice.");
   module.def(
       "closest",

@@ -138,6 +138,21 @@ def test_points_and_normals_of_two_crossing_triangles():
         pair.frame.outline(1)
 
 
+def test_an_object_that_is_left_out_of_collisions_with_itself_is_told():
+    crossing = [[0, 0, 0], [2, 0, 0], [0, 2, 0], [0.5, 0.5, -1], [0.6, 0.5, 1], [0.5, 0.6, 1]], [[0, 1, 2], [3, 4, 5]]
+    detector = lodestone.Detector()
+    detector.add(sphere(3))
+    by_groups = detector.add(*crossing, groups=2, meets=1)
+    by_choice = detector.add(*crossing)
+    detector.ignore(by_choice, by_choice)
+    for left_out in (by_groups, by_choice):
+        with pytest.raises(lodestone.BadArgument, match=f"object {left_out} is left out of collisions with itself"):
+            detector.self_collisions(left_out)
+    detector.ignore(by_choice, by_choice, ignored=False)
+    found = detector.self_collisions(by_choice)
+    assert (found.a, found.b, found.collides) == (by_choice, by_choice, True)
+
+
 @pytest.mark.parametrize("mode", ["exact", "certified", "particles"])
 def test_many_objects_groups_and_ignored_pairs(mode):
     detector = lodestone.Detector(mode=mode)

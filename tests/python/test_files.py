@@ -79,6 +79,8 @@ def test_an_animation_goes_to_a_file_and_back(tmp_path, extension):
     assert np.array_equal(read[-1], read.pose(4))
     with pytest.raises(IndexError):
         read[5]
+    lodestone.write_animation(tmp_path / "again.glb", read)
+    assert np.array_equal(lodestone.read_animation(tmp_path / "again.glb").faces, read.faces)
     detector = lodestone.Detector()
     moving = detector.add(read)
     detector.add(cube().moved(3.5))
