@@ -22,8 +22,8 @@ struct Opening_request {
   bool all = false;  ///< every contact that can be found; false: one
   double reach = 1;  ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are
                      ///< farther apart than c (rho_a + rho_b)
-  std::size_t budget = 0;  ///< how many vertices of both trees together openings may read, less those that `follow`
-                           ///< has read before; but at least half of it. `follow` has no limit.
+  std::size_t budget = 0;      ///< how many vertices of both trees together openings may read, less those that `follow`
+                               ///< has read before; but at least half of it. `follow` has no limit.
   std::size_t most_whole = 0;  ///< vertices of both trees below the starts up to which they are read as a whole
   bool opened = false;         ///< for `follow` alone: a search for all has opened the same starts in this frame
 };

@@ -196,8 +196,7 @@ void write_animation(const fs::path& output, const Animation& animation, const A
     throw Bad_argument(fmt::format("{}: animations are written as .pc2, .mdd, .gltf, .glb, .obj, .off, .ply or .stl",
                                    output.string()));
   if (animation.faces.empty())
-    throw Bad_argument(
-        fmt::format("{}: there are no faces to write; a point cache needs its mesh", output.string()));
+    throw Bad_argument(fmt::format("{}: there are no faces to write; a point cache needs its mesh", output.string()));
   if (is_mesh) return write_meshes(output, extension, {output, animation, options}, animation.faces, options.numbered);
   write_gltf(output, animation, options);
 }
