@@ -378,7 +378,8 @@ void add_detector(py::module_& module) {
            },
            py::arg("a"), py::arg("end_a"), py::arg("b"), py::arg("end_b"),
            "When two objects first meet if every vertex moves on a straight line, from where it is now at t = 0 to the row\n"
-           "of end_a or end_b, arrays (V, 3), at t = 1: a dict with time, faces and point; None if they do not. Exact.")
+           "of end_a or end_b, arrays (V, 3), at t = 1, all as in `vertices(object)`: a dict with time, faces and\n"
+           "point; None if they do not. Exact.")
       .def("first_self_impact",
            [](Python_detector& self, Object_id object, const py::object& end) {
              const Positions at_end = positions_of(end, "end");

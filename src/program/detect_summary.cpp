@@ -201,8 +201,8 @@ void print_times(const Run_subject& subject, const Run_summary& summary) {
              median_microseconds_without_build(measurement), work_of(options, measurement),
              mean_count(measurement, &Frame_statistics::exact_tests));
   if (summary.builds == 0) return;
-  fmt::print("{:.1f} milliseconds to build {} objects: {}\n", 1e3 * measurement.build_seconds, summary.builds,
-             building_of(subject));
+  fmt::print("{:.1f} milliseconds to build {} object{}: {}\n", 1e3 * measurement.build_seconds, summary.builds,
+             summary.builds == 1 ? "" : "s", building_of(subject));
 }
 
 }  // namespace
