@@ -25,13 +25,19 @@ constexpr const char* type_name<bool> = "True or False";
 template <>
 constexpr const char* type_name<std::string> = "a text";
 
+/// A bool of Python or numpy, whose name there depends on its version.
+bool is_bool(const py::handle& value) {
+  const auto name = py::type::of(value).attr("__name__").cast<std::string>();
+  return name == "bool" || name == "bool_";
+}
+
 template <class Value>
 Set_option to(Value& option) {
   return [&option](const std::string& name, const py::handle& value) {
     try {
-      // numpy's numbers and bools pass too; True is no number of threads, and 2 is no yes.
-      const bool is_bool = PyBool_Check(value.ptr()) || py::str(py::type::of(value).attr("__name__")).equal(py::str("bool_"));
-      if (is_bool != std::is_same_v<Value, bool>) throw py::cast_error();
+      // numpy's numbers and bools pass too; True is no number of threads, 2 is no yes, and 2.5 is no integer.
+      if (is_bool(value) != std::is_same_v<Value, bool>) throw py::cast_error();
+      if (std::is_same_v<Value, std::size_t> && PyIndex_Check(value.ptr()) == 0) throw py::cast_error();
       option = value.cast<Value>();
     } catch (const py::cast_error&) {
       throw py::type_error("the option " + name + " must be " + type_name<Value> + ", but is " +

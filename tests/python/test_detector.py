@@ -399,6 +399,7 @@ def test_a_vertex_that_is_no_number_is_an_error(mode):
     (dict(threads=-1), TypeError, "threads must be an integer >= 0, but is -1"),
     (dict(threads=1.5), TypeError, "threads must be"),
     (dict(threads=True), TypeError, "threads must be"),
+    (dict(most_contacts=np.float32(2.5)), TypeError, "most_contacts must be an integer >= 0, but is 2.5"),
     (dict(tolerance="1"), TypeError, "tolerance must be a number"),
     (dict(tolerance=-1), lodestone.BadArgument, "tolerance"),
     (dict(self_collision=2), TypeError, "self_collision must be True or False"),
