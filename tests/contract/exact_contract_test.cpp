@@ -295,5 +295,20 @@ TEST(Exact_detector, follows_100_000_vertices) {
   }
 }
 
+TEST(Open_mesh_with_removed_elements, is_refused_until_its_garbage_is_collected) {
+  auto mesh = converted<Open_mesh>(icosphere(3));
+  const auto other = icosphere(2);
+  mesh.request_face_status(), mesh.request_edge_status(), mesh.request_vertex_status();
+  mesh.delete_face(*mesh.faces_begin(), true);
+  Detector<> detector;
+  EXPECT_THROW(detector.add(mesh), Bad_mesh);
+  EXPECT_THROW(find_collisions(mesh, other), Bad_mesh);
+  EXPECT_THROW(find_self_collisions(mesh), Bad_mesh);
+  mesh.garbage_collection();
+  EXPECT_NO_THROW(detector.add(mesh));
+  detector.add(other);
+  EXPECT_EQ(detector.detect().face_pairs, find_collisions(mesh, other).faces);
+}
+
 }  // namespace
 }  // namespace lodestone

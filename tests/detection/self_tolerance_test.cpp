@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/volumes/bounding_sphere.h"
@@ -121,6 +122,38 @@ TEST(Self_tolerance_of_a_detector, out_of_range_or_in_another_mode_is_refused) {
   for (const double bad : {-1.0, infinity, not_a_number})
     EXPECT_THROW(Exact_detector({.exact = {.self_tolerance = bad}}), Bad_argument) << bad;
   EXPECT_THROW(Exact_detector({.mode = Mode::particles, .exact = {.self_tolerance = 0.1}}), Bad_argument);
+}
+
+/// Rebuilds two meshes, the second with a coordinate that is not finite.
+void rebuild_in_vain(Detector<>& detector, Surface_mesh& second, Surface_mesh::Vertex_index vertex) {
+  detector.rebuild(0, Changed_faces{std::vector<std::uint32_t>{0}});
+  detector.rebuild(1);
+  const Point before = second.point(vertex);
+  second.point(vertex) = Point(before.x(), std::numeric_limits<double>::quiet_NaN(), before.z());
+  EXPECT_THROW(detector.detect(), Bad_mesh);
+  second.point(vertex) = before;
+}
+
+TEST(Self_tolerance_of_a_detector, knows_the_positions_at_rest_after_a_frame_that_another_object_has_ended) {
+  auto sheet = cloth(16, 16), ball = icosphere(3);
+  // Faces of the flat sheet are nearer than this.
+  Detector<> detector(within_one(0.2));
+  detector.add(sheet), detector.add(ball);
+  EXPECT_FALSE(detector.detect().near());
+  rebuild_in_vain(detector, ball, ball.add_vertex(Point(0, 0, 0)));
+  rebuild_in_vain(detector, ball, *ball.vertices().begin());
+  EXPECT_FALSE(detector.detect().near());
+}
+
+TEST(Self_tolerance_of_a_detector, saves_finite_positions_at_rest) {
+  auto sheet = cloth(16, 16), ball = icosphere(3);
+  const auto lone = sheet.add_vertex(Point(0, 0, 0));
+  Detector<> detector(within_one(0.2));
+  detector.add(sheet), detector.add(ball);
+  detector.detect();
+  rebuild_in_vain(detector, sheet, lone);
+  EXPECT_FALSE(detector.detect().near());
+  EXPECT_NO_THROW(detector.load(0, detector.save(0)));
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ class Exact_object {
     return regions_ ? regions_->labels : std::vector<Region_index>(faces_.mesh->vertex_count(), 0);
   }
 
-  /// Takes the positions with which it has been built as those at rest, unless it has some.
+  /// Takes the positions that it has now as those at rest, unless it has some. Once it is built.
   void keep_rest() {
     if (!surface.rest().empty()) return;
     built = false;  // without them it is not, if memory runs out

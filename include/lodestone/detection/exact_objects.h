@@ -119,6 +119,11 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   // Refitted first: a tree that is built now holds the current positions.
   timed(work_.seconds.refit, [&] { refit_built(whole_); });
   build_new(whole_);
+  // Not before all positions are known to be finite: those of an object that has been mended may be taken a frame later.
+  if (options_.exact.self_tolerance > 0)
+    timed(work_.seconds.build, [&] {
+      for (const auto id : whole_) objects_[id]->keep_rest();
+    });
   rebuild_loose(whole_);
   if (options_.mode == Mode::certified) bound_refitted(whole_);
 }
@@ -178,8 +183,6 @@ void Exact_objects<Volume>::build_new(std::span<const Object_id> ids) {
     std::vector<Coordinates> coordinates;
     for (const auto id : fresh) coordinates.push_back(objects_[id]->read());
     build(fresh, coordinates);
-    if (options_.exact.self_tolerance > 0)
-      for (const auto id : fresh) objects_[id]->keep_rest();
   });
   work_.builds += fresh.size();
   // A mended tree has looked at the vertices of its faces only.

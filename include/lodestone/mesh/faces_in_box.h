@@ -60,7 +60,7 @@ class Box_reader {
   /// Reads the faces whose boxes meet a box. O(V + F), once per mesh.
   /// @param part   an empty box: no face is listed, but all are checked
   /// @param found  empty so far; valid as long as the mesh stays as it is
-  /// @return false if a face is no triangle
+  /// @return false if a face is no triangle, or has been removed
   bool read_faces(const Box& part, Faces_in_box& found) const;
 
  private:
@@ -116,7 +116,7 @@ bool Box_reader<Mesh, Points>::use_triangle(std::uint32_t index, Face<Mesh> f, b
 }
 
 /// The same for each face.
-/// @return false if a face is no triangle
+/// @return false if a face is no triangle, or has been removed
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 template <class Use>
 bool Box_reader<Mesh, Points>::for_each_face(Use use) const {
@@ -124,7 +124,7 @@ bool Box_reader<Mesh, Points>::for_each_face(Use use) const {
   std::uint32_t index = 0;
   for (const auto f : faces(*mesh_))
     if (!use_triangle(index++, f, all_triangles, use)) return false;
-  return true;
+  return index == num_faces(*mesh_);  // removed faces may be counted, but are not listed
 }
 
 /// Lists the faces whose corners do not all lie beyond one side.

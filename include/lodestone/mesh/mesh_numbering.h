@@ -82,7 +82,7 @@ class Mesh_numbering {
  public:
   /// Cost O(V + F).
   /// @throws Bad_mesh  no face, a face that is not a triangle, more than 2^32 - 2 vertices or faces, or removed
-  /// elements in a CGAL::Surface_mesh
+  /// elements that the mesh still counts
   explicit Mesh_numbering(const Mesh& mesh);
 
   /// Number of vertices, V.
@@ -136,6 +136,9 @@ Mesh_numbering<Mesh>::Mesh_numbering(const Mesh& mesh) : table_(mesh) {
   vertex_count_ = static_cast<std::uint32_t>(table_.count(mesh));
   corners_.reserve(num_faces(mesh));
   for (const auto f : faces(mesh)) corners_.push_back(corners_of(f, corners_.size(), mesh));
+  // Some types of meshes count removed elements, and leave them out where they list the others.
+  if (corners_.size() != num_faces(mesh) || vertex_count_ != num_vertices(mesh))
+    throw Bad_mesh("the mesh holds removed elements: collect its garbage first");
 }
 
 template <Triangle_mesh Mesh>
