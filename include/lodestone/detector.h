@@ -180,8 +180,8 @@ class Detector {
   ///                       another number of vertices or faces than when it was added or rebuilt
   /// @throws Broken_bound  mode `certified` with `Exact_options::throw_if_broken`; so does every query
   const Frame& detect() { return detection_->detect(filter_); }
-  /// The same for a single pair, in mode `exact`; a = b: collisions of a with itself. Reads only these two. The frame has
-  /// no pair if groups or `ignore` leave this one out.
+  /// The same for a single pair, in mode `exact`; a = b: collisions of a with itself. Reads only these two. The frame
+  /// has no pair if groups or `ignore` leave this one out.
   /// @throws Bad_argument  no such object, another mode
   const Frame& detect(Object_id a, Object_id b) {
     return ask<Exact>(a, b).detect(filter_, {std::min(a, b), std::max(a, b)});

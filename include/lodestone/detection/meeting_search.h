@@ -40,8 +40,8 @@ struct Met_pair {
 };
 
 /// The search for contacts of object pairs in mode `particles`, from what is cheapest to what finds most:
-///  1. `look`: at the place where particles met in the last frame, then below the regions, which are opened. If all
-///     contacts are asked for and the budget does not cover both surfaces, the curves through that place come first;
+///  1. `look`: at the place where particles met in the last frame, then below the regions, which are read as a whole or
+///     opened. If all contacts are asked for and regions are opened, the curves through that place come first;
 ///  2. `meet_nearest`, where the budget has ended the openings, after the particles have walked;
 ///  3. `report`: with the query `all`, along the curves of intersection through the contacts that were found.
 ///

@@ -13,7 +13,7 @@ namespace lodestone {
 
 /// Two nodes below which to search.
 struct Opening_start {
-  Node_pair nodes;
+  Node_pair nodes;  ///< of the first and of the second tree
   float order = 0;  ///< squared distance of their anchors, relative to the sum of their radii
 };
 
@@ -31,7 +31,7 @@ struct Leaf_pair {
 class Opening_starts {
  public:
   /// Takes the starts of a search. No node may lie below another one of the same tree. O(starts x depth + leaves below
-  /// them), of which no more are looked at than have `most` vertices.
+  /// them), of which hardly more are looked at than have `most` vertices.
   /// @param most  vertices of both trees that may be read as a whole
   void begin(const Tree_on_demand& a, const Tree_on_demand& b, std::span<const Opening_start> starts, std::size_t most);
 
