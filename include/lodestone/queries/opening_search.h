@@ -34,8 +34,8 @@ struct Opening_request {
 /// their radii, to within a 64th, until the budget is used up; this reads one vertex per node that it looks at, and the
 /// vertices of the leaves that it compares. In both ways the faces of leaves are tested exactly.
 ///
-/// What is found is true. Below nodes that are read as a whole nothing is missed. Otherwise contacts are missed once the
-/// budget is used up, where a surface is stretched beyond its radii, and with c below 1.
+/// What is found is true. Below nodes that are read as a whole nothing is missed. Otherwise contacts are missed once
+/// the budget is used up, where a surface is stretched beyond its radii, and with c below 1.
 ///
 /// Keeps its memory from one search to the next.
 class Opening_search {
