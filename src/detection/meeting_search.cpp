@@ -80,12 +80,10 @@ void Meeting_search::open(Met_pair& pair, Workers& workers) {
   if (pair.seed_count == 0 && pair.opened_count > 0) add_seed(pair, met_at(pair, opened_[pair.first_opened]));
 }
 
-/// How many vertices are read as a whole. In order, from memory, that takes a quarter of the time per vertex that
-/// openings take. But openings may find one contact soon.
-std::size_t Meeting_search::most_whole(const Met_pair& pair) const {
-  const bool worth_more = wants_all() && pair.a->tree().in_memory() && pair.b->tree().in_memory();
-  const std::size_t budget = options_.opening_budget, most = std::numeric_limits<std::size_t>::max() / 4;
-  return worth_more ? 4 * std::min(budget, most) : budget;
+/// How many vertices are read as a whole. In order that takes a small fraction of the time per vertex that openings take.
+/// But openings may find one contact soon.
+std::size_t Meeting_search::most_whole() const {
+  return wants_all() ? 4 * std::min(options_.opening_budget, std::numeric_limits<std::size_t>::max() / 4) : 0;
 }
 
 /// Starts a search below the regions that may touch.
@@ -97,7 +95,7 @@ void Meeting_search::begin_openings(const Met_pair& pair, bool opened) {
   const Opening_request request{.all = wants_all(),
                                 .reach = options_.opening_reach,
                                 .budget = options_.opening_budget,
-                                .most_whole = most_whole(pair),
+                                .most_whole = most_whole(),
                                 .opened = opened};
   openings_.begin(pair.a->tree(), pair.b->tree(), request, starts_);
 }

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
+#include <utility>
 
 #include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
@@ -123,13 +125,24 @@ void print_table(const Mesh_file& file, const Divided& divided, const Partition_
   if (!command.out.empty()) fmt::print("\ncoloured mesh: {}\n", printable(command.out.string()));
 }
 
+/// No result may take the place of the mesh or of another result.
+void check_files_differ(const Partition_command& command) {
+  std::error_code unknown;
+  const auto mesh = weakly_canonical(command.mesh, unknown), out = weakly_canonical(command.out, unknown),
+             json = weakly_canonical(command.json, unknown);
+  if (!command.out.empty() && out == json)
+    throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics cannot be the same file");
+  for (const auto& [result, file] : {std::pair(&command.out, &out), std::pair(&command.json, &json)})
+    if (!result->empty() && *file == mesh)
+      throw Bad_argument(result->string() + ": is the mesh that is read, which is never overwritten");
+}
+
 }  // namespace
 
 int run(const Partition_command& command) {
   if (!command.out.empty() && command.out.extension() != ".ply")
     throw Bad_argument(command.out.string() + ": the coloured mesh is written as .ply");
-  if (!command.out.empty() && command.out == command.json)
-    throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics cannot be the same file");
+  check_files_differ(command);
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, command.json);
   Mesh_file file = read_mesh(command.mesh, command.limits);

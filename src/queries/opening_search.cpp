@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <limits>
 #include <span>
 
 #include "lodestone/queries/leaf_triangle.h"
@@ -47,7 +48,8 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
                            std::span<const Opening_start> starts) {
   a_ = &a, b_ = &b;
   request_ = request;
-  starts_.begin(a, b, starts, request.most_whole);
+  starts_.begin(a.layout(), b.layout(), starts, request.most_whole);
+  in_order_ = request.budget < a.vertex_count() + b.vertex_count();
   begun_ = 0;
   read_before_ = vertices_read();
   out_of_budget_ = false;
@@ -59,12 +61,13 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
 bool Opening_search::open(std::vector<Face_pair>& found, Workers& workers) {
   const std::size_t before = found.size();
   waiting_.clear();
-  if (is_limited()) {
-    limit_ = std::max(read_before_ + request_.budget, vertices_read() + least_share(request_.budget));
-    for (const auto& start : starts_.pairs()) waiting_.push(start.nodes, start.order);
-  } else {
+  if (starts_.are_whole()) {
     pose_starts();
     for (const auto& start : starts_.pairs()) push_if_near(start.nodes);
+  } else {
+    limit_ = in_order_ ? std::max(read_before_ + request_.budget, vertices_read() + least_share(request_.budget))
+                       : std::numeric_limits<std::size_t>::max();
+    for (const auto& start : starts_.pairs()) waiting_.push(start.nodes, in_order_ ? start.order : 0);
   }
   request_.all ? open_for_all(found, workers) : open_for_one(found);
   return found.size() > before;
@@ -207,7 +210,7 @@ void Opening_search::consider(Node_pair pair) {
   const double squared = (a_->anchor(pair.a) - b_->anchor(pair.b)).squaredNorm();
   const double radii = request_.reach * (a_->radius(pair.a) + b_->radius(pair.b));
   if (squared > radii * radii) return;
-  waiting_.push(pair, radii > 0 ? static_cast<float>(squared / (radii * radii)) : 0);
+  waiting_.push(pair, in_order_ && radii > 0 ? static_cast<float>(squared / (radii * radii)) : 0);
 }
 
 /// Opens the node with the larger radius, since that separates most.

@@ -2,41 +2,58 @@
 #include "lodestone/queries/opening_starts.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace lodestone {
 
-void Opening_starts::begin(const Tree_on_demand& a, const Tree_on_demand& b, std::span<const Opening_start> starts,
+namespace {
+
+bool comes_before(Node_pair one, Node_pair other) { return std::tie(one.a, one.b) < std::tie(other.a, other.b); }
+
+}  // namespace
+
+void Opening_starts::begin(const Tree_layout& a, const Tree_layout& b, std::span<const Opening_start> starts,
                            std::size_t most) {
   start_search();
   pairs_.assign(starts.begin(), starts.end());
-  places_.clear();
-  a_.leaves.resize(std::max(a_.leaves.size(), a.layout().leaf_count()));
-  b_.leaves.resize(std::max(b_.leaves.size(), b.layout().leaf_count()));
+  a_.resize(std::max(a_.size(), a.leaf_count()));
+  b_.resize(std::max(b_.size(), b.leaf_count()));
+  std::size_t vertices = 0;
   for (const auto& start : starts) {
-    places_.push_back({place(a_, a, start.nodes.a), place(b_, b, start.nodes.b)});
-    whole_ = a_.vertices + b_.vertices <= most;
+    vertices += mark_below(a_, a, start.nodes.a, most - vertices);
+    whole_ = vertices <= most;
+    if (whole_) vertices += mark_below(b_, b, start.nodes.b, most - vertices);
+    whole_ = vertices <= most;
     if (!whole_) return;
   }
-  is_start_.assign(a_.nodes * b_.nodes, 0);
-  for (const Node_pair at : places_) is_start_[std::size_t{at.a} * b_.nodes + at.b] = 1;
+  nodes_.clear();
+  for (const auto& start : starts) nodes_.push_back(start.nodes);
+  std::ranges::sort(nodes_, comes_before);
+}
+
+bool Opening_starts::cover(Leaf_pair leaves) const {
+  if (!whole_) return false;
+  const Mark a = a_[leaves.a], b = b_[leaves.b];
+  return a.search == search_ && b.search == search_ &&
+         std::ranges::binary_search(nodes_, Node_pair{a.node, b.node}, comes_before);
 }
 
 void Opening_starts::start_search() {
   whole_ = true;
-  for (Side* side : {&a_, &b_}) side->nodes = side->vertices = 0;
   if (++search_ != 0) return;
-  for (Side* side : {&a_, &b_}) side->leaves.clear();
+  a_.clear(), b_.clear();
   search_ = 1;
 }
 
-/// The place of a node, whose leaves are marked if it comes first.
-std::uint32_t Opening_starts::place(Side& side, const Tree_on_demand& tree, std::uint32_t node) const {
-  const auto [first, end] = tree.leaves_below(node);
-  if (side.leaves[first].search == search_) return side.leaves[first].node;
-  const auto place = static_cast<std::uint32_t>(side.nodes++);
-  std::fill(side.leaves.begin() + first, side.leaves.begin() + end, Place{search_, place});
-  side.vertices += tree.layout().vertex_begin()[end] - tree.layout().vertex_begin()[first];
-  return place;
+/// Marks the leaves below a node, unless they have been marked, or have more than `most` vertices.
+/// @return the number of their vertices; 0 if they have been marked
+std::size_t Opening_starts::mark_below(Marks& marks, const Tree_layout& tree, std::uint32_t node,
+                                       std::size_t most) const {
+  const Tree_layout::Node& below = tree.node(node);
+  if (marks[below.leaf].search == search_) return 0;
+  const std::size_t vertices = tree.vertex_begin()[below.end_leaf] - tree.vertex_begin()[below.leaf];
+  if (vertices <= most) std::fill(marks.begin() + below.leaf, marks.begin() + below.end_leaf, Mark{search_, node});
+  return vertices;
 }
 
 }  // namespace lodestone

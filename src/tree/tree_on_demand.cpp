@@ -107,8 +107,8 @@ void Tree_on_demand::read_leaves(std::uint32_t first, std::uint32_t end) {
 }
 
 void Tree_on_demand::read_below(std::uint32_t n) {
-  const auto [first, end] = leaves_below(n);
-  for (std::uint32_t leaf = first; leaf < end; ++leaf) {
+  const std::uint32_t end = layout_.node(n).end_leaf;
+  for (std::uint32_t leaf = layout_.node(n).leaf; leaf < end; ++leaf) {
     const std::uint32_t unread = leaf;
     while (leaf < end && posed_[leaf] != frame_) ++leaf;
     if (unread < leaf) read_leaves(unread, leaf);
@@ -116,13 +116,6 @@ void Tree_on_demand::read_below(std::uint32_t n) {
   for (std::uint32_t node = layout_.leaf_node(end - 1); node-- > n;)
     if (!layout_.is_leaf(node)) boxes_[node].enclose(boxes_[node + 1], boxes_[layout_.node(node).second_child]);
   posed_below_[n] = frame_;
-}
-
-std::pair<std::uint32_t, std::uint32_t> Tree_on_demand::leaves_below(std::uint32_t n) const {
-  std::uint32_t first = n, last = n;
-  while (!layout_.is_leaf(first)) ++first;
-  while (!layout_.is_leaf(last)) last = layout_.node(last).second_child;
-  return {layout_.node(first).leaf, layout_.node(last).leaf + 1};
 }
 
 void Tree_on_demand::copy_leaf(std::uint32_t leaf) {

@@ -2,14 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "program/run_program.h"
 #include "support/mesh_samples.h"
+#include "support/read_file.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
 
@@ -119,6 +122,21 @@ TEST_F(Detect_scripts, the_statistics_of_a_partition_have_the_region_of_each_ver
   std::vector<std::size_t> sizes(2);
   for (const std::size_t v : {0, 2, 3, 4}) ++sizes.at(labels[v].get<std::size_t>());
   EXPECT_EQ(Json(sizes), statistics["region_sizes"]);
+}
+
+TEST_F(Detect_scripts, a_partition_replaces_neither_its_mesh_nor_another_result_nor_a_pipe) {
+  const std::string text = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const auto mesh = write("kept.off", text);
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  expect_error(run_program({"partition", mesh, "--regions", "1", "--json", path("./x/../kept.off")}), 2,
+               "never overwritten");
+  EXPECT_EQ(read_bytes(mesh), text);
+  expect_error(run_program({"partition", mesh, "--regions", "1", "--out", path("a.ply"), "--json", path("./a.ply")}), 2,
+               "cannot be the same file");
+  EXPECT_FALSE(std::filesystem::exists(path("a.ply")));
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  expect_error(run_program({"partition", mesh, "--regions", "1", "--json", path("pipe")}), 4, "no regular file");
+  EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
 }
 
 }  // namespace

@@ -225,7 +225,7 @@ class Followed_contacts_of_two_curves : public testing::Test {
 TEST_F(Followed_contacts_of_two_curves, are_not_compared_again_by_openings) {
   EXPECT_EQ(search(100'000, {}).found, truth_);
   EXPECT_EQ(search(100'000, known_).found, truth_);
-  EXPECT_FALSE(search_.out_of_budget());
+  EXPECT_FALSE(search_.is_limited());
 }
 
 TEST_F(Followed_contacts_of_two_curves, count_towards_the_budget_of_openings) {

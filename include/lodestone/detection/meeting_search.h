@@ -87,7 +87,7 @@ class Meeting_search {
   void meet_from(Met_pair& pair, Meeting start);
   void list_regions(Met_pair& pair);
   void open(Met_pair& pair, Workers& workers);
-  std::size_t most_whole(const Met_pair& pair) const;
+  std::size_t most_whole() const;
   void begin_openings(const Met_pair& pair, bool opened);
   void follow_seeds(const Met_pair& pair, Workers& workers);
   static Remembered_meeting met_at(const Met_pair& pair, Face_pair contact);

@@ -25,14 +25,16 @@ struct Opening_request {
   std::size_t budget = 0;      ///< how many vertices of both trees together openings may read, less those that `follow`
                                ///< has read before; but at least half of it. `follow` has no limit.
   std::size_t most_whole = 0;  ///< vertices of both trees below the starts up to which they are read as a whole
-  bool opened = false;         ///< for `follow` alone: a search for all has opened the same starts in this frame
+  bool opened = false;         ///< for `follow` alone: a search for all, with equal requests but for this, has opened
+                               ///< the same starts in this frame
 };
 
 /// Searches two surfaces for contacts below pairs of nodes, in one of two ways. If the leaves below these nodes have no
 /// more vertices than `most_whole`, they are read as a whole, and the boxes of nodes tell which leaves may meet.
 /// Otherwise pairs of nodes are opened from coarse to fine, in the order of how near their anchors are, relative to
-/// their radii, to within a 64th, until the budget is used up; this reads one vertex per node that it looks at, and the
-/// vertices of the leaves that it compares. In both ways the faces of leaves are tested exactly.
+/// their radii, to within a 64th, until the budget is used up. Two surfaces that the budget covers are searched to the
+/// end, in the order that is fastest. Openings read one vertex per node that they look at, and the vertices of the
+/// leaves that they compare. In both ways the faces of leaves are tested exactly.
 ///
 /// What is found is true. Below nodes that are read as a whole nothing is missed. Otherwise contacts are missed once
 /// the budget is used up, where a surface is stretched beyond its radii, and with c below 1.
@@ -57,14 +59,15 @@ class Opening_search {
   /// stretched beyond its radii. The workers share the tests.
   /// @param a, b      neighbours of the leaves of the two trees
   /// @param compared  sorted leaf pairs that are not compared again; not `compared()` itself
-  /// @param contacts  all contacts of those, and any others, whose leaves are compared; not `found` itself
+  /// @param contacts  all contacts of those, and of starts that were `opened` and may be read as a whole; and any
+  ///                  others, whose leaves are compared; not `found` itself
   /// @param found     all contacts of the curves, and of the leaves on them, are appended, each once
   /// @throws Bad_mesh  a coordinate that is read is not finite
   void follow(const Leaf_neighbours& a, const Leaf_neighbours& b, std::span<const Leaf_pair> compared,
               std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
-  /// Whether nodes are opened, so that the budget may end the search.
-  bool is_limited() const { return !starts_.are_whole(); }
+  /// Whether the budget may end the search: nodes are opened, and the two surfaces have more vertices.
+  bool is_limited() const { return !starts_.are_whole() && in_order_; }
   /// Whether the last `open` ended because its budget was used up.
   bool out_of_budget() const { return out_of_budget_; }
   /// Leaf pairs that need not be compared again: those given to `follow`, those that it has looked at, and those that
@@ -97,7 +100,7 @@ class Opening_search {
 
   void pose_starts();
   bool was_opened(Leaf_pair leaves) const { return request_.opened && starts_.cover(leaves); }
-  bool next(Leaf_pair& leaves) { return is_limited() ? next_by_anchors(leaves) : next_by_boxes(leaves); }
+  bool next(Leaf_pair& leaves) { return starts_.are_whole() ? next_by_boxes(leaves) : next_by_anchors(leaves); }
   bool next_by_anchors(Leaf_pair& leaves);
   bool next_by_boxes(Leaf_pair& leaves);
   bool near_leaves(Leaf_pair leaves);
@@ -119,6 +122,7 @@ class Opening_search {
   Tree_on_demand* b_ = nullptr;
   Opening_request request_;
   Opening_starts starts_;
+  bool in_order_ = false;
   Waiting waiting_;
   std::size_t read_before_ = 0;         ///< vertices that had been read by `begin`
   std::size_t limit_ = 0;               ///< of the vertices read

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lodestone/tree/node_pair.h"
-#include "lodestone/tree/tree_on_demand.h"
+#include "lodestone/tree/tree_layout.h"
 
 namespace lodestone {
 
@@ -30,42 +30,33 @@ struct Leaf_pair {
 /// from one search to the next.
 class Opening_starts {
  public:
-  /// Takes the starts of a search. No node may lie below another one of the same tree. O(starts x depth + leaves below
-  /// them), of which hardly more are looked at than have `most` vertices.
-  /// @param most  vertices of both trees that may be read as a whole
-  void begin(const Tree_on_demand& a, const Tree_on_demand& b, std::span<const Opening_start> starts, std::size_t most);
+  /// Takes the starts of a search. No node may lie below another one of the same tree. O(starts x log starts + leaves
+  /// below them, as long as these have at most `most` vertices).
+  /// @param most  vertices of both trees that may be read as a whole, counted once for each leaf that lists them
+  void begin(const Tree_layout& a, const Tree_layout& b, std::span<const Opening_start> starts, std::size_t most);
 
   /// The pairs.
   std::span<const Opening_start> pairs() const { return pairs_; }
   /// Whether the leaves below the nodes may be read as a whole.
   bool are_whole() const { return whole_; }
-  /// Whether the starts may be read as a whole, and two leaves lie below the nodes of one of them. O(1).
-  bool cover(Leaf_pair leaves) const {
-    if (!whole_) return false;
-    const Place a = a_.leaves[leaves.a], b = b_.leaves[leaves.b];
-    return a.search == search_ && b.search == search_ && is_start_[std::size_t{a.node} * b_.nodes + b.node] != 0;
-  }
+  /// Whether the starts may be read as a whole, and two leaves lie below the nodes of one of them. O(log starts).
+  bool cover(Leaf_pair leaves) const;
 
  private:
-  /// Of a leaf: below which of the nodes of its tree it lies.
-  struct Place {
+  /// Of a leaf: the node of a start that it lies below.
+  struct Mark {
     std::uint32_t search = 0;  ///< the search that this is of
-    std::uint32_t node = 0;    ///< counted in the order in which nodes come first
+    std::uint32_t node = 0;
   };
-  /// The nodes of one tree.
-  struct Side {
-    std::vector<Place> leaves;  ///< of the tree of this search, and others before
-    std::size_t nodes = 0;      ///< different ones
-    std::size_t vertices = 0;   ///< below them
-  };
+  /// Per leaf of the tree of this search, and of others before.
+  using Marks = std::vector<Mark>;
 
   void start_search();
-  std::uint32_t place(Side& side, const Tree_on_demand& tree, std::uint32_t node) const;
+  std::size_t mark_below(Marks& marks, const Tree_layout& tree, std::uint32_t node, std::size_t most) const;
 
   std::vector<Opening_start> pairs_;
-  std::vector<Node_pair> places_;  ///< parallel: of their nodes
-  std::vector<char> is_start_;     ///< per node of a, per node of b
-  Side a_, b_;
+  std::vector<Node_pair> nodes_;  ///< of the pairs, sorted; only if they may be read as a whole
+  Marks a_, b_;
   std::uint32_t search_ = 0;
   bool whole_ = true;
 };

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "lodestone/mesh/live_positions.h"
@@ -39,8 +38,6 @@ class Tree_on_demand {
 
   /// How the faces are grouped.
   const Tree_layout& layout() const { return layout_; }
-  /// Whether the positions of this frame lie in memory; otherwise each one is computed where it is read.
-  bool in_memory() const { return positions_.memory() != nullptr; }
   /// Number of vertices, V.
   std::size_t vertex_count() const { return vertex_count_; }
 
@@ -68,8 +65,6 @@ class Tree_on_demand {
   }
   /// The box of a node, if it or a node above has been given to `pose_below` in this frame, or if it is a posed leaf.
   const Aabb& box(std::uint32_t n) const { return boxes_[n]; }
-  /// The leaves below a node: from the first to before the end. O(depth).
-  std::pair<std::uint32_t, std::uint32_t> leaves_below(std::uint32_t n) const;
   /// Whether a leaf has been posed in this frame.
   bool is_posed(std::uint32_t leaf) const { return posed_[leaf] == frame_; }
   /// What has been posed. Only leaves that were posed in this frame may be read.

@@ -9,7 +9,7 @@
 
 namespace lodestone {
 
-/// Direction and distance by which to push one of two triangles until they only touch.
+/// A direction in which to move one of two triangles, and a distance after which they touch at most.
 struct Contact_normal {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit vector, from the inside of b towards a; or zero
   double depth = 0;  ///< unit of the coordinates; >= 0 if they intersect, minus the distance if they are apart
@@ -24,8 +24,8 @@ struct Contact_normal {
 ///  - -n_a if b has no area;
 ///  - zero if neither has an area.
 ///
-/// Whether a face has an area is decided exactly. The error of a normal is below 10^-8 for any face, and near 10^-15
-/// for a face that is not thin.
+/// Whether a face has an area is decided exactly. The error of a face's normal is below 10^-8, and near
+/// 10^-15 if the face is not thin. In the contact normal it is divided by the length of n_b - n_a.
 ///
 /// The depth is how far a must move along the normal until the projections of both triangles onto it only touch: the
 /// maximum of normal . x over b, minus the minimum over a. It is zero if the normal is zero or the projections are

@@ -22,6 +22,8 @@ Atomic_file::Atomic_file(std::filesystem::path target) : target_(std::move(targe
   std::error_code error;
   if (target_.filename().empty() || std::filesystem::is_directory(target_, error))
     throw Bad_output(target_.string() + ": is a folder, expected a file name");
+  if (std::filesystem::exists(target_, error) && !std::filesystem::is_regular_file(target_, error))
+    throw Bad_output(target_.string() + ": is no regular file, which alone is replaced");
   if (target_.has_parent_path()) made_folders_.emplace(target_.parent_path());
   // O_EXCL: never opens an existing file or link, which another user may have put there.
   for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
