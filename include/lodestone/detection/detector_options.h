@@ -74,9 +74,9 @@ struct Detector_options {
   std::size_t meetings = 4;
   /// With meetings: vertices that openings may read per object pair below the regions in a frame. What was begun is
   /// finished, so it can be some hundred more; two surfaces that have fewer are searched to the end. For all contacts
-  /// regions that may touch are read as a whole if they have no more than four times this.
-  /// Curves, for all contacts, are followed without limit; those of the last frame are followed first, and leave at
-  /// least half of this. 0: regions are not opened.
+  /// regions that may touch are read as a whole if they have no more than four times this. Curves, for all contacts,
+  /// are followed without limit; those of the last frame are followed first, and leave at least half of this. 0:
+  /// regions are not opened.
   std::size_t opening_budget = 16384;
   /// With meetings: two parts of surfaces are taken to be apart if the distance of their anchors is more than so many
   /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed, with
