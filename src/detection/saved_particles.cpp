@@ -118,7 +118,6 @@ void Particle_object::Saved::check(std::span<const Corners> corners, std::size_t
   State_reader::require(std::ranges::all_of(joined, [&](auto v) { return v < vertex_count; }),
                         "a vertex is joined to one that does not exist");
   State_reader::require(labels.size() == vertex_count, "it has not one region for each vertex");
-  State_reader::require(!particles.at.empty(), "it has no particle");
   State_reader::require(particles.hop_limit <= vertex_count && rings <= vertex_count, "it reaches too many hops");
   check_places(corners);
   // Scattered particles are all in one region.
@@ -129,11 +128,17 @@ void Particle_object::Saved::check(std::span<const Corners> corners, std::size_t
     State_reader::require(labels[particles.at[region]] == region, "a particle is not in its region");
 }
 
-/// Particles and the edges by which directions are found are where the surface has faces, with seams closed.
+/// Particles and the edges by which directions are found are where the surface has faces, with seams closed. There is
+/// no particle only where all faces are points.
 void Particle_object::Saved::check_places(std::span<const Corners> corners) const {
+  const auto place_of = [&](std::uint32_t vertex) { return joined.empty() ? vertex : joined[vertex]; };
   std::vector<bool> has_faces(labels.size(), false);
-  for (const auto& face : corners)
-    for (const auto vertex : face) has_faces[joined.empty() ? vertex : joined[vertex]] = true;
+  bool has_edge = false;
+  for (const auto& [a, b, c] : corners) {
+    for (const auto vertex : {a, b, c}) has_faces[place_of(vertex)] = true;
+    has_edge = has_edge || place_of(a) != place_of(b) || place_of(b) != place_of(c);
+  }
+  State_reader::require(!particles.at.empty() || !has_edge, "it has no particle");
   const auto on_surface = [&](std::uint32_t vertex) { return vertex < has_faces.size() && has_faces[vertex]; };
   State_reader::require(std::ranges::all_of(particles.at, on_surface), "a particle is not on the surface");
   State_reader::require(

@@ -9,16 +9,30 @@
 
 namespace lodestone {
 
+namespace {
+
+/// The vertices whose offset from the mean of all of them along a direction is at least half of the largest.
+std::vector<std::uint32_t> farthest_along(const Eigen::Vector3d& direction, const std::vector<std::uint32_t>& vertices,
+                                          const Positions& positions) {
+  const Positions at = positions(vertices, Eigen::all);
+  const Eigen::VectorXd along = (at.rowwise() - at.colwise().mean()) * direction;
+  const double least = along.maxCoeff() / 2;
+  std::vector<std::uint32_t> farthest;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (along[static_cast<Eigen::Index>(i)] >= least) farthest.push_back(vertices[i]);
+  return farthest;
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Positions& positions,
                                              std::size_t particles, const Senin_options& options) {
   if (options.side && !(options.side->allFinite() && !options.side->isZero(0)))
     throw Bad_argument("the side on which particles are scattered must be a finite direction");
-  Eigen::VectorXd along = Eigen::VectorXd::Zero(positions.rows());
-  if (options.side) along = (positions.rowwise() - positions.colwise().mean()) * *options.side;
-  const double least = options.side ? along.maxCoeff() / 2 : -1;
   std::vector<std::uint32_t> drawn;
   for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
-    if (along[v] >= least && out_degree(v, graph) > 0) drawn.push_back(v);
+    if (out_degree(v, graph) > 0) drawn.push_back(v);
+  if (options.side && !drawn.empty()) drawn = farthest_along(*options.side, drawn, positions);
 
   // The first steps of a shuffle. It uses remainders, because they are the same on every platform, unlike the
   // distributions of the standard library.

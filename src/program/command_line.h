@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -25,6 +27,26 @@ namespace lodestone {
 /// Rejects an empty text: a script whose variable is empty must not lose its results silently.
 inline CLI::Validator not_empty() {
   return {[](const std::string& text) { return std::string(text.empty() ? "expected a name, found none" : ""); }, ""};
+}
+
+/// Whole numbers are decimal: CLI11 reads 010 as 8, and takes the nearest number for one that is too large.
+inline CLI::Validator decimal() {
+  return {[](const std::string& text) -> std::string {
+            std::uint64_t value = 0;
+            const char* const end = text.data() + text.size();
+            const auto read = std::from_chars(text.data(), end, value);
+            const bool is_plain = text.size() == 1 || !text.starts_with('0');
+            if (read.ec == std::errc() && read.ptr == end && is_plain) return {};
+            return fmt::format("expected a whole number in decimal digits, found '{}'", text);
+          },
+          ""};
+}
+
+/// Lets all options that take whole numbers, of all commands, take decimal ones only.
+inline void read_decimals(CLI::App& app) {
+  for (auto* option : app.get_options())
+    if (option->get_type_name().find("UINT") != std::string::npos) option->check(decimal());
+  for (auto* command : app.get_subcommands(nullptr)) read_decimals(*command);
 }
 
 inline CLI::Option* add_html(CLI::App& app, std::filesystem::path& html, const char* what) {
@@ -75,6 +97,7 @@ inline std::optional<int> parse(CLI::App& program, int argc, char** argv) {
     fmt::print("{}\n", description_of(program).dump(2));
     return exit_code::success;
   }
+  read_decimals(program);
   try {
     program.parse(argc, argv);
     return std::nullopt;

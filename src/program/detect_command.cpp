@@ -3,9 +3,11 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 
 #include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
+#include "lodestone/mesh/errors.h"
 #include "program/commands.h"
 #include "program/detect_run.h"
 #include "program/detect_shards.h"
@@ -17,6 +19,16 @@
 namespace lodestone {
 
 namespace {
+
+/// A scene may have the name that a result has.
+void check_inputs_are_kept(const Detect_command& command) {
+  if (command.out.empty()) return;
+  std::error_code unknown;
+  const auto summary = weakly_canonical(command.out / "summary.json", unknown);
+  for (const auto& input : command.inputs)
+    if (weakly_canonical(input, unknown) == summary)
+      throw Bad_argument(input.string() + ": --out would replace this input, which is never overwritten");
+}
 
 /// Writes all files to disk before the first appears.
 void write_results(Detect_run& scene_run, std::optional<Atomic_file>& frames, const Detect_command& command) {
@@ -57,6 +69,7 @@ int exit_code_of(const Detect_run& scene_run, const Detect_command& command) {
 
 int run(const Detect_command& command) {
   check_shard_options(command);
+  check_inputs_are_kept(command);
   if (command.shard) return run_shard(command);
   Detect_run scene_run(command);
   std::optional<Atomic_file> frames;

@@ -2,7 +2,9 @@
 #include "program/frame_log.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace lodestone {
 
@@ -24,10 +26,8 @@ Json inside_json(const std::vector<Scene_object>& objects, const Pair_result& pa
   return objects[pair.containment == Containment::a_in_b ? pair.a : pair.b].name;
 }
 
-Json normals_json(std::span<const Contact_normal> normals) {
-  Json json = Json::array();
-  for (const auto& [normal, depth] : normals) json.push_back({{"normal", vector_json(normal)}, {"depth", depth}});
-  return json;
+Json normal_json(const Contact_normal& contact) {
+  return {{"normal", vector_json(contact.normal)}, {"depth", contact.depth}};
 }
 
 Json parting_json(const std::optional<Parting>& parting) {
@@ -46,6 +46,35 @@ Json patches_json(std::span<const Contact_patch> patches) {
   return json;
 }
 
+using Faces_in_files = std::array<std::uint32_t, 2>;
+
+/// The faces of each contact as the files number them, and the place of that contact in the frame. Sorted: the triangles
+/// of a polygon have not always neighbouring numbers.
+std::vector<std::pair<Faces_in_files, std::size_t>> contacts_in_files(const Scene_object& a, const Scene_object& b,
+                                                                      const Frame& frame, const Pair_result& pair) {
+  std::vector<std::pair<Faces_in_files, std::size_t>> contacts;
+  std::size_t place = pair.first_contact;
+  for (const auto& [face_a, face_b] : frame.contacts(pair))
+    contacts.push_back({{a.file_face[face_a], b.file_face[face_b]}, place++});
+  std::ranges::sort(contacts);
+  return contacts;
+}
+
+/// What is told of each contact: its faces, and if asked for its normal and points.
+void add_contacts(Json& json, std::span<const std::pair<Faces_in_files, std::size_t>> contacts, const Frame& frame,
+                  const Detector_options& options) {
+  auto& faces = json["faces"] = Json::array();
+  for (const auto& [pair, place] : contacts) faces.push_back(pair);
+  if (options.contact_normals) {
+    auto& normals = json["normals"] = Json::array();
+    for (const auto& [pair, place] : contacts) normals.push_back(normal_json(frame.contact_normals[place]));
+  }
+  if (options.contact_points) {
+    auto& points = json["points"] = Json::array();
+    for (const auto& [pair, place] : contacts) points.push_back(points_json(frame.contact_points[place]));
+  }
+}
+
 Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, const Pair_result& pair,
                const Detector_options& options) {
   const auto &a = objects[pair.a], &b = objects[pair.b];
@@ -54,18 +83,9 @@ Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, con
   if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(objects, pair);
   if (options.exact.parting && pair.a != pair.b) json["parting"] = parting_json(pair.parting);
   if (pair.capped) json["capped"] = true;
-  if (options.contacts != Contact_query::yes_no) {
-    json["faces"] = Json::array();
-    for (const auto& [face_a, face_b] : frame.contacts(pair))
-      json["faces"].push_back({a.file_face[face_a], b.file_face[face_b]});
-  }
-  if (options.contact_normals)
-    json["normals"] = normals_json(std::span(frame.contact_normals).subspan(pair.first_contact, pair.contacts));
+  if (options.contacts != Contact_query::yes_no)
+    add_contacts(json, contacts_in_files(a, b, frame, pair), frame, options);
   if (options.exact.patches) json["patches"] = patches_json(frame.patches_of(pair));
-  if (!options.contact_points) return json;
-  json["points"] = Json::array();
-  for (std::size_t i = 0; i < pair.contacts; ++i)
-    json["points"].push_back(points_json(frame.contact_points[pair.first_contact + i]));
   return json;
 }
 

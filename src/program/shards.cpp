@@ -171,7 +171,7 @@ Shard_folder::Shard_folder(std::filesystem::path results, const Work& work, Shar
 void Shard_folder::read_manifest() {
   const auto file = folder() / "manifest.json";
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw Bad_argument(file.string() + ": cannot be read: the folder has no shards");
+  if (!in) fail(file, "cannot be read: the folder has no shards");
   manifest_ = Json::parse(in, is_shallow, false);
   const auto is_list = [](const Json& json) {
     return json.is_array() && !json.empty() && std::ranges::all_of(json, [](const Json& j) { return j.is_string(); });
@@ -180,7 +180,7 @@ void Shard_folder::read_manifest() {
                      manifest_.value("shards", Json()).is_number_unsigned() && manifest_["shards"] >= 1 &&
                      manifest_["shards"] <= most_shards && manifest_.value("pieces", Json()).is_number_unsigned() &&
                      manifest_.value("folder", Json()).is_string() && manifest_.value("revision", Json()).is_string();
-  if (!right) throw Bad_argument(file.string() + ": is no manifest of shards");
+  if (!right) fail(file, "is no manifest of shards");
   work_ = hash_of_work(manifest_);
 }
 

@@ -67,7 +67,7 @@ enum class Shard_use { make, merge };
 class Shard_folder {
  public:
   /// Opens a folder that has shards.
-  /// @throws Bad_argument  it has none, or something else in their place
+  /// @throws Bad_shard     it has none, or something else in their place
   explicit Shard_folder(std::filesystem::path results);
   /// Opens a folder for this work, and writes its manifest if it has none.
   /// @throws Bad_argument  the folder has shards of another command, revision, number of shards or input

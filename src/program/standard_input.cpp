@@ -16,13 +16,6 @@ namespace lodestone {
 
 namespace {
 
-std::filesystem::path make_temporary_folder() {
-  auto name = (std::filesystem::temp_directory_path() / "lodestone.XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw Bad_output(fmt::format("{}: cannot be created: {}", name, std::generic_category().message(errno)));
-  return name;
-}
-
 void copy_standard_input(Atomic_file& file) {
   std::array<char, 1 << 16> bytes{};
   for (;;) {
@@ -36,16 +29,22 @@ void copy_standard_input(Atomic_file& file) {
 
 }  // namespace
 
-Standard_input::Standard_input(const std::string& format)
-    : folder_(make_temporary_folder()), file_(folder_ / ("standard_input." + format)) {
+Temporary_folder::Temporary_folder() {
+  auto name = (std::filesystem::temp_directory_path() / "lodestone.XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr)
+    throw Bad_output(fmt::format("{}: cannot be created: {}", name, std::generic_category().message(errno)));
+  path_ = name;
+}
+
+Temporary_folder::~Temporary_folder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+Standard_input::Standard_input(const std::string& format) : file_(folder_.path() / ("standard_input." + format)) {
   Atomic_file file(file_);
   copy_standard_input(file);
   file.commit();
-}
-
-Standard_input::~Standard_input() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
 }
 
 void replace_standard_input(std::vector<std::filesystem::path*> inputs, const std::string& format,

@@ -8,6 +8,21 @@
 
 namespace lodestone {
 
+/// A new folder in the system's place for temporary files; it disappears with this, and all that is in it.
+class Temporary_folder {
+ public:
+  /// @throws Bad_output  it cannot be created
+  Temporary_folder();
+  ~Temporary_folder();
+  Temporary_folder(const Temporary_folder&) = delete;
+  Temporary_folder& operator=(const Temporary_folder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 /// A mesh from the standard input, kept as a file: readers map their files into memory. The file disappears with this.
 class Standard_input {
  public:
@@ -15,14 +30,12 @@ class Standard_input {
   /// @param format  extension without the dot, such as `obj`
   /// @throws Bad_output    the temporary file cannot be written
   explicit Standard_input(const std::string& format);
-  ~Standard_input();
-  Standard_input(const Standard_input&) = delete;
-  Standard_input& operator=(const Standard_input&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
 
  private:
-  std::filesystem::path folder_, file_;
+  Temporary_folder folder_;
+  std::filesystem::path file_;
 };
 
 /// Replaces an input that is `-` by the standard input.

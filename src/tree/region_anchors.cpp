@@ -59,12 +59,25 @@ Region_anchors Region_anchors::load(State_reader& state, const Tree_layout& layo
                             std::ranges::all_of(loaded.nodes_, below(layout.node_count())) &&
                             std::ranges::all_of(loaded.regions_, below(regions)),
                         "a region has no node of the tree");
+  loaded.check_apart(layout, regions);
   State_reader::require(!loaded.probes_.empty() && loaded.probes_.size() == loaded.rest_distances_.size() &&
                             std::ranges::all_of(loaded.probes_, below(layout.node_count())),
                         "the nodes that tell its stretch are not in the tree");
   State_reader::require(all_finite(loaded.rest_distances_), "a number is not finite");
   loaded.make_room();
   return loaded;
+}
+
+/// Nodes are as the constructor lists them: in depth-first order, none of them below another, one for each region.
+void Region_anchors::check_apart(const Tree_layout& layout, std::size_t regions) const {
+  std::uint32_t end_leaf = 0;
+  std::vector<bool> listed(regions);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto& node = layout.node(nodes_[i]);
+    State_reader::require(node.leaf >= end_leaf && !listed[regions_[i]], "two of its regions share faces");
+    end_leaf = node.end_leaf;
+    listed[regions_[i]] = true;
+  }
 }
 
 /// The regions, and the leaves that reach farthest along an axis: where a pull shows most.

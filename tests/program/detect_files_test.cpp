@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -111,6 +113,30 @@ TEST_F(Detect_files, a_polygon_is_listed_once_per_triangle_that_collides) {
     for (const auto& faces : pair["faces"]) EXPECT_EQ(faces, Json({0, 0}));
     EXPECT_EQ(pair["points"].size(), pair["faces"].size());
     EXPECT_GT(pair["faces"].size(), 1U);
+  }
+}
+
+TEST_F(Detect_files, face_pairs_of_polygons_are_sorted_as_the_files_number_them) {
+  // A needle through each of the six triangles; the later triangles of quads come after all first ones.
+  std::string corners, faces;
+  int count = 0;
+  for (int quad = 0; quad < 3; ++quad)
+    for (const double side : {0.25, 0.75}) {
+      const double x = quad + side;
+      corners += fmt::format("{} {} -1\n{} {} 1\n{} {} 1\n", x, 1 - side, x, 1 - side, x + 0.01, 1 - side);
+      faces += fmt::format("3 {} {} {}\n", count, count + 1, count + 2);
+      count += 3;
+    }
+  const auto needles = write("needles.off", fmt::format("OFF\n{} {} 0\n{}{}", count, count / 3, corners, faces));
+  detect({write("quads.off", three_quads), needles, "--points"});
+  const Json pair = frames().at(0)["pairs"].at(0);
+  ASSERT_EQ(pair["faces"].size(), 6U);
+  EXPECT_TRUE(std::ranges::is_sorted(pair["faces"]));
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double x = pair["points"][i][0][0];
+    const int quad = pair["faces"][i][0], needle = pair["faces"][i][1];
+    EXPECT_EQ(needle / 2, quad);
+    EXPECT_NEAR(x, quad + (needle % 2 == 0 ? 0.25 : 0.75), 0.02);
   }
 }
 

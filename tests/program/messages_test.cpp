@@ -74,6 +74,15 @@ TEST_F(Messages, about_a_distance_name_its_option) {
   }
 }
 
+TEST_F(Messages, about_a_whole_number_expect_decimal_digits_that_fit) {
+  for (const char* number : {"010", "0x10", "18446744073709551616", "1e3"}) {
+    const auto result = run_program({"detect", mesh, mesh, "--most-contacts", number, "--contacts", "all"});
+    EXPECT_EQ(result.exit_code, 2) << number;
+    EXPECT_NE(result.err.find("--most-contacts"), std::string::npos) << result.err;
+  }
+  expect_error(run_program({"partition", mesh, "--regions", "010"}), 2, "whole number in decimal digits, found '010'");
+}
+
 TEST_F(Messages, about_a_shape_are_those_of_a_scene) {
   expect_error(run_program({"detect", mesh, "shape:kettle"}), 3, "shape:kettle: /: unknown key \"kettle\" (expected one");
 }

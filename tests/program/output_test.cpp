@@ -103,6 +103,18 @@ TEST_F(Program_output, a_folder_that_is_a_file_is_an_error) {
   }
 }
 
+TEST_F(Program_output, a_result_does_not_replace_the_scene) {
+  const auto input = scene(2);
+  create_directory(out);
+  rename(std::filesystem::path(input), out / "summary.json");
+  for (const char* mesh : {"a.off", "b.off"}) rename(folder.path() / mesh, out / mesh);
+  const auto before = read_bytes(out / "summary.json");
+  expect_error(run_program({"detect", (out / "summary.json").string(), "--out", (out / ".." / "out").string()}), 2,
+               "never overwritten");
+  EXPECT_EQ(content_of(out), (std::set<std::string>{"a.off", "b.off", "summary.json"}));
+  EXPECT_EQ(read_bytes(out / "summary.json"), before);
+}
+
 TEST_F(Program_output, a_folder_in_place_of_a_result_is_an_error) {
   for (const auto* name : {"frames.jsonl", "summary.json"}) {
     create_directories(out / name);

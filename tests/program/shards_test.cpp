@@ -264,16 +264,16 @@ TEST_F(Shards, refuse_options_that_need_all_frames) {
 }
 
 TEST_F(Shards, of_no_folder_are_refused) {
-  expect_error(run_program({"status", path("none").string()}), 2, "the folder has no shards");
-  expect_error(run_program({"merge", path("none").string()}), 2, "the folder has no shards");
+  expect_error(run_program({"status", path("none").string()}), 3, "the folder has no shards");
+  expect_error(run_program({"merge", path("none").string()}), 3, "the folder has no shards");
   create_directories(path("a") / "shards");
   folder.write("a/shards/manifest.json", R"({"command": ["convert"], "shards": 0, "pieces": 1})");
-  expect_error(run_program({"status", path("a").string()}), 2, "is no manifest of shards");
+  expect_error(run_program({"status", path("a").string()}), 3, "is no manifest of shards");
   for (const char* lacking : {R"("folder": "/")", R"("revision": "")"}) {
     folder.write("a/shards/manifest.json",
                  std::string(R"({"command": ["detect"], "shards": 1, "pieces": 1, )") + lacking + "}");
-    expect_error(run_program({"status", path("a").string()}), 2, "is no manifest of shards");
-    expect_error(run_program({"merge", path("a").string()}), 2, "is no manifest of shards");
+    expect_error(run_program({"status", path("a").string()}), 3, "is no manifest of shards");
+    expect_error(run_program({"merge", path("a").string()}), 3, "is no manifest of shards");
   }
   const std::string deep = std::string(300'000, '[') + std::string(300'000, ']');
   folder.write(

@@ -26,7 +26,7 @@ struct Senin_options {
 };
 
 /// Vertices at which N particles start: different vertices drawn at random, among those with edges. With `side`, only
-/// those are drawn whose offset from the mean along `side` is at least half of the largest.
+/// those are drawn whose offset from the mean of all with edges along `side` is at least half of the largest.
 /// @return N vertices, or all if there are fewer to draw from
 /// @throws Bad_argument  `side` is zero or not finite
 std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Positions& positions,

@@ -62,6 +62,7 @@ class Region_anchors {
   friend void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
 
  private:
+  void check_apart(const Tree_layout& layout, std::size_t regions) const;
   void make_room();
   Eigen::Vector3d mean(Tree_on_demand& tree) const;
   void note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;

@@ -18,12 +18,16 @@ constexpr std::size_t buffer_size = std::size_t{1} << 20;
 
 }  // namespace
 
-Atomic_file::Atomic_file(std::filesystem::path target) : target_(std::move(target)) {
+void check_replaceable(const std::filesystem::path& target) {
   std::error_code error;
-  if (target_.filename().empty() || std::filesystem::is_directory(target_, error))
-    throw Bad_output(target_.string() + ": is a folder, expected a file name");
-  if (std::filesystem::exists(target_, error) && !std::filesystem::is_regular_file(target_, error))
-    throw Bad_output(target_.string() + ": is no regular file, which alone is replaced");
+  if (target.filename().empty() || std::filesystem::is_directory(target, error))
+    throw Bad_output(target.string() + ": is a folder, expected a file name");
+  if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error))
+    throw Bad_output(target.string() + ": is no regular file, which alone is replaced");
+}
+
+Atomic_file::Atomic_file(std::filesystem::path target) : target_(std::move(target)) {
+  check_replaceable(target_);
   if (target_.has_parent_path()) made_folders_.emplace(target_.parent_path());
   // O_EXCL: never opens an existing file or link, which another user may have put there.
   for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {

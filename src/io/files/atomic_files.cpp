@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 
+#include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -29,6 +30,7 @@ Atomic_files::~Atomic_files() {
 }
 
 fs::path Atomic_files::add(const fs::path& name) {
+  check_replaceable(folder_ / name);
   names_.push_back(name);
   return hidden_ / name;
 }

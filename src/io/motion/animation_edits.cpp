@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -96,6 +97,11 @@ void drop_degenerate_faces(Animation& animation) {
   animation.file_face.resize(kept);
 }
 
+/// Finite for all finite points, unlike CGAL::midpoint.
+Point middle_of(const Point& a, const Point& b) {
+  return {std::midpoint(a.x(), b.x()), std::midpoint(a.y(), b.y()), std::midpoint(a.z(), b.z())};
+}
+
 Animation subdivided_once(Animation animation) {
   const auto count = static_cast<std::uint32_t>(animation.vertices);
   std::map<Edge_ends, std::uint32_t> middles;
@@ -120,7 +126,7 @@ Animation subdivided_once(Animation animation) {
   animation.motion = computed(std::move(animation.motion), count,
                               [edges](const std::vector<Point>& original, std::span<Point> positions) {
                                 auto next = std::ranges::copy(original, positions.begin()).out;
-                                for (const auto& [a, b] : *edges) *next++ = CGAL::midpoint(original[a], original[b]);
+                                for (const auto& [a, b] : *edges) *next++ = middle_of(original[a], original[b]);
                               });
   return animation;
 }

@@ -2,6 +2,7 @@
 #include "lodestone/io/files/atomic_files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -73,12 +74,13 @@ TEST_F(Atomic_files_test, two_sets_in_one_folder_do_not_interfere) {
   EXPECT_EQ(text_of("a"), "first");
 }
 
-TEST_F(Atomic_files_test, are_refused_in_an_impossible_folder_or_over_a_folder) {
+TEST_F(Atomic_files_test, are_refused_in_an_impossible_folder_or_over_anything_but_a_file) {
   EXPECT_THROW(Atomic_files(folder.write("file", "") / "inner"), Bad_output);
   fs::create_directories(folder.path() / "a" / "b");
   Atomic_files files(folder.path());
-  write(files.add("a"), "text");
-  EXPECT_THROW(files.commit(), Bad_output);
+  EXPECT_THROW(files.add("a"), Bad_output);
+  EXPECT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(files.add("pipe"), Bad_output);
 }
 
 TEST_F(Atomic_files_test, that_are_not_committed_leave_no_folder_that_they_made) {

@@ -10,11 +10,15 @@
 
 namespace lodestone {
 
+/// A result replaces files only: no folder, device or pipe.
+/// @throws Bad_output  the target is one, or has no name
+void check_replaceable(const std::filesystem::path& target);
+
 /// A file that appears whole or not at all: written under a temporary name in the same folder, renamed by `commit`.
 class Atomic_file {
  public:
   /// Creates the folder if it is missing.
-  /// @throws Bad_output  the folder or the file cannot be created
+  /// @throws Bad_output  the folder or the file cannot be created, the target is no file
   explicit Atomic_file(std::filesystem::path target);
   Atomic_file(const Atomic_file&) = delete;
   Atomic_file& operator=(const Atomic_file&) = delete;

@@ -21,6 +21,7 @@ class Atomic_files {
   ~Atomic_files();
 
   /// Returns the path to write to. `commit` then renames the file to `name`, a path relative to and inside the folder.
+  /// @throws Bad_output  there is something else than a file in its place
   std::filesystem::path add(const std::filesystem::path& name);
   /// Renames the files to their targets in the order of `add`, replacing existing files. Only a rename can fail.
   /// @throws Bad_output
