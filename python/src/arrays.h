@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "integers.h"
 #include "lodestone/mesh/coordinates.h"
 #include "lodestone/mesh/mesh_numbering.h"
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "integers.h"
 #include "lodestone/detection/frame.h"
 
 /// What a frame brought, for Python: a copy of the library's, which lasts until the next frame only.

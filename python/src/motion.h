@@ -11,6 +11,7 @@
 
 #include "deadlock_mutex.h"
 #include "gil.h"
+#include "integers.h"
 #include "lodestone/detection/collision_groups.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/mesh/errors.h"

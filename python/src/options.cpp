@@ -35,9 +35,8 @@ template <class Value>
 Set_option to(Value& option) {
   return [&option](const std::string& name, const py::handle& value) {
     try {
-      // numpy's numbers and bools pass too; True is no number of threads, 2 is no yes, and 2.5 is no integer.
+      // numpy's numbers and bools pass too; True is no number of threads, and 2 is no yes.
       if (is_bool(value) != std::is_same_v<Value, bool>) throw py::cast_error();
-      if (std::is_same_v<Value, std::size_t> && PyIndex_Check(value.ptr()) == 0) throw py::cast_error();
       option = value.cast<Value>();
     } catch (const py::cast_error&) {
       throw py::type_error("the option " + name + " must be " + type_name<Value> + ", but is " +

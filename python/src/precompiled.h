@@ -8,4 +8,5 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "integers.h"
 #include "lodestone/detector.h"

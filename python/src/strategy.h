@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "integers.h"
 #include "lodestone/partition/strategies.h"
 
 namespace lodestone::python {

@@ -221,6 +221,32 @@ TEST(Saved_objects, are_followed_by_their_own_leaves) {
   EXPECT_EQ(expect_exhaustive(loaded.detect(), {&a, &b}), 1U);
 }
 
+TEST(Saved_objects, may_have_only_faces_that_are_points) {
+  Surface_mesh point;
+  const auto a = point.add_vertex({0, 0, 0}), b = point.add_vertex({0, 0, 0}), c = point.add_vertex({0, 0, 0});
+  point.add_face(a, b, c);
+  for (const auto mode : {Mode::exact, Mode::particles, Mode::senin}) {
+    const Detector_options options{.mode = mode};
+    Owned_meshes meshes{point, flat_shaded(point), sphere(6)};
+    std::vector<std::uint32_t> one_vertex{0, 0, 0};
+    Detector<> first(options), second(options);
+    for (auto* detector : {&first, &second}) {
+      detector->add(meshes[0], {.file_vertex = one_vertex}), detector->add(meshes[1]), detector->add(meshes[2]);
+      detector->detect();
+    }
+    for (const Object_id id : {0, 1}) {
+      const Bytes saved = first.save(id);
+      second.load(id, saved);
+      EXPECT_EQ(second.save(id), saved);
+    }
+    for (const Object_id id : {0, 1}) {
+      shift(meshes[id], 1);
+      first.update(id), second.update(id);
+    }
+    expect_same_frame(first.detect(), second.detect());
+  }
+}
+
 TEST(Saved_objects, can_change_afterwards) {
   expect_right_after_a_change({});
   expect_right_after_a_change({.exact = {.tree = {.leaf_faces = 16}}});

@@ -63,6 +63,14 @@ TEST(Scatter_particles, with_a_side_stays_on_it) {
   for (const auto v : at) EXPECT_LE(mesh.point(Surface_mesh::Vertex_index(v)).y() - 20, -1 + 1e-9);
 }
 
+TEST(Scatter_particles, with_a_side_does_not_heed_vertices_without_edges) {
+  auto mesh = sphere(8);
+  const auto expected = scatter(mesh, 30, {.side = Eigen::Vector3d(1, 0, 0)});
+  EXPECT_EQ(expected.size(), 30U);
+  for (int i = 0; i < 30; ++i) mesh.add_vertex({100, 0, 0});
+  EXPECT_EQ(scatter(mesh, 30, {.side = Eigen::Vector3d(1, 0, 0)}), expected);
+}
+
 TEST(Default_rings, contain_as_many_vertices_as_a_region) {
   // 7, 19, 37 and 61 vertices lie within 1, 2, 3 and 4 hops on a surface of degree 6.
   EXPECT_EQ(default_rings(700, 100), 1U);

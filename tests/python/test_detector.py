@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The class Detector: how it reads arrays, what it answers, what it refuses."""
 
+import decimal
 import gc
 import weakref
 
@@ -409,6 +410,19 @@ def test_a_vertex_that_is_no_number_is_an_error(mode):
 def test_options_are_checked(arguments, error, text):
     with pytest.raises(error, match=text):
         lodestone.Detector(**arguments)
+
+
+def test_numbers_of_objects_and_frames_are_integers():
+    detector = lodestone.Detector()
+    ball = detector.add(sphere())
+    with pytest.raises(TypeError):
+        detector.vertices(np.float32(0.9))
+    with pytest.raises(TypeError):
+        detector.add(sphere(), particles=np.float32(2.5))
+    with pytest.raises(TypeError):
+        lodestone.partition(sphere(), regions=decimal.Decimal("2.5"))
+    assert len(detector.vertices(np.uint8(ball))) == len(sphere().vertices)
+    assert lodestone.partition(sphere(), regions=np.int64(3)).labels.max() == 2
 
 
 @pytest.mark.parametrize("vertices, faces, text", [

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 
+#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/saved_state.h"
 #include "support/face_soup.h"
 
 namespace lodestone {
@@ -195,6 +198,44 @@ TEST(Region_anchors, objects_far_apart_have_no_near_regions) {
   a.move_to(a.rest()), b.move_to(moved(b.rest(), 9, 0, 0));
   EXPECT_TRUE(listed_pairs(a, b).empty());
   EXPECT_TRUE(a.regions().box().intersection(b.regions().box()).isEmpty());
+}
+
+/// The message of refusing regions at these nodes of an object of octants; empty: they are taken.
+std::string refusal_of(Anchored_object& object, const std::vector<std::uint32_t>& nodes,
+                       const std::vector<Region_index>& regions) {
+  State_writer writer;
+  writer.list(nodes), writer.list(regions);
+  writer.list(std::vector<std::uint32_t>{0}), writer.list(std::vector<double>{1});
+  writer.value(1.0);
+  const auto bytes = writer.take();
+  State_reader reader(bytes);
+  try {
+    Region_anchors::load(reader, object.tree().layout(), 8);
+    return "";
+  } catch (const Bad_saved_object& error) {
+    return error.what();
+  }
+}
+
+TEST(Region_anchors, that_are_loaded_share_no_faces) {
+  Anchored_object object(icosphere(4));
+  std::vector<std::uint32_t> nodes;
+  std::vector<Region_index> regions;
+  for (std::uint32_t place = 0; place < object.regions().size(); ++place) {
+    nodes.push_back(object.regions().node(place));
+    regions.push_back(object.regions().region(place));
+  }
+  ASSERT_EQ(nodes.size(), 8U);
+  EXPECT_EQ(refusal_of(object, nodes, regions), "");
+  const std::string shared = "the saved object is broken: two of its regions share faces";
+  auto wrong = nodes;
+  wrong[0] = 0;  // the root
+  EXPECT_EQ(refusal_of(object, wrong, regions), shared);
+  wrong = nodes, wrong[3] = wrong[2];
+  EXPECT_EQ(refusal_of(object, wrong, regions), shared);
+  auto twice = regions;
+  twice[5] = twice[1];
+  EXPECT_EQ(refusal_of(object, nodes, twice), shared);
 }
 
 }  // namespace

@@ -111,6 +111,18 @@ TEST(Animation_edits, subdividing_cuts_each_triangle_into_four_that_tile_it) {
   EXPECT_EQ(subdivided(welded(split_square(), 0.01), 1).vertices, 9U) << "a shared edge has one midpoint";
 }
 
+TEST(Animation_edits, subdividing_the_largest_triangle_stays_finite) {
+  static constexpr double largest = std::numeric_limits<double>::max();
+  Animation animation = split_square();
+  const auto pose = animation.motion.pose;
+  animation.motion.pose = [pose](std::size_t frame, std::span<Point> points) {
+    pose(frame, points);
+    for (auto& p : points) p = {largest, -largest, p.z()};
+  };
+  const auto points = positions_of(subdivided(std::move(animation), 1), 0);
+  for (std::size_t v = 6; v < 12; ++v) EXPECT_EQ(points[v], Point(largest, -largest, points[v].z()));
+}
+
 TEST(Animation_edits, changes_of_faces_need_faces) {
   Animation cache = split_square();
   cache.faces.clear();
