@@ -224,6 +224,7 @@ void Particle_detection::make_room() {
   confirmation_.reserve(faces, vertices);
   broad_phase_.reserve(objects_.size());
   object_candidates_.reserve(std::min<std::size_t>(objects_.size() * objects_.size() / 2, 100 * objects_.size()));
+  ids_.reserve(objects_.size());
   boxes_.resize(objects_.size());
   reach_.resize(objects_.size());
   opponents_.resize(objects_.size());
@@ -233,10 +234,11 @@ void Particle_detection::make_room() {
 }
 
 void Particle_detection::find_candidates(const Collision_filter& filter) {
-  for (std::size_t o = 0; o < objects_.size(); ++o) {
-    boxes_[o].setEmpty();
-    reach_[o] = 0;
+  ids_.clear();
+  for (Object_id o = 0; o < objects_.size(); ++o) {
     if (!objects_[o]) continue;
+    ids_.push_back(o);
+    boxes_[o].setEmpty();
     auto& particle_object = objects_[o]->particle_object;
     objects_[o]->named([&] { particle_object.read_particles(); });
     frame_.statistics().vertices_read += particle_object.particles().at.size();
@@ -250,7 +252,7 @@ void Particle_detection::find_candidates(const Collision_filter& filter) {
 void Particle_detection::list_object_pairs(const Collision_filter& filter) {
   object_candidates_.clear();
   for (auto& list : opponents_) list.clear();
-  for (const auto& [a, b] : broad_phase_.find(boxes_, reach_)) {
+  for (const auto& [a, b] : broad_phase_.find(ids_, boxes_, reach_)) {
     if (!filter.may_collide(a, b)) continue;
     object_candidates_.push_back({a, b});
     opponents_[a].push_back(b);

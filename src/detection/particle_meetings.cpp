@@ -58,11 +58,12 @@ void Particle_detection::name_the_bad_object() {
 }
 
 void Particle_detection::find_near_objects(const Collision_filter& filter) {
-  for (std::size_t o = 0; o < objects_.size(); ++o) {
-    boxes_[o].setEmpty();
-    reach_[o] = 0;
+  ids_.clear();
+  for (Object_id o = 0; o < objects_.size(); ++o) {
     if (!objects_[o]) continue;
     Object& object = *objects_[o];
+    ids_.push_back(o);
+    reach_[o] = 0;
     object.named([&] { object.particle_object.read_regions(options_.opening_reach); });
     boxes_[o] = object.particle_object.regions().box();
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 
 namespace lodestone {
@@ -11,16 +12,25 @@ namespace {
 
 using Pairs = std::vector<Object_pair>;
 
-Pairs found(Broad_phase& phase, const std::vector<Box>& boxes, const std::vector<double>& reach) {
-  const auto pairs = phase.find(boxes, reach);
+using Ids = std::vector<std::uint32_t>;
+
+Pairs found(Broad_phase& phase, const Ids& ids, const std::vector<Box>& boxes, const std::vector<double>& reach) {
+  const auto pairs = phase.find(ids, boxes, reach);
   return {pairs.begin(), pairs.end()};
+}
+/// Of all objects.
+Pairs found(Broad_phase& phase, const std::vector<Box>& boxes, const std::vector<double>& reach) {
+  Ids ids(boxes.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  return found(phase, ids, boxes, reach);
 }
 
 /// Every pair of boxes that overlap once one has grown by the larger reach on all sides.
-Pairs expected(const std::vector<Box>& boxes, const std::vector<double>& reach) {
+Pairs expected(const Ids& ids, const std::vector<Box>& boxes, const std::vector<double>& reach) {
   Pairs pairs;
-  for (std::uint32_t a = 0; a < boxes.size(); ++a)
-    for (std::uint32_t b = a + 1; b < boxes.size(); ++b) {
+  for (const auto a : ids)
+    for (const auto b : ids) {
+      if (a >= b) continue;
       const Eigen::Vector3d grow = Eigen::Vector3d::Constant(std::max(reach[a], reach[b]));
       if (Box(boxes[a].min() - grow, boxes[a].max() + grow).intersects(boxes[b])) pairs.push_back({a, b});
     }
@@ -58,6 +68,7 @@ TEST(Broad_phase, equal_brute_force_over_many_frames_of_moving_boxes) {
   std::uniform_real_distribution<double> coordinate(0, 10), step(-0.7, 0.7), extent(0, 1.5);
   Broad_phase phase;
   std::size_t seen = 0;
+  Ids ids;
   std::vector<Box> boxes;
   std::vector<double> reach;
   for (int frame = 0; frame < 300; ++frame) {
@@ -67,11 +78,37 @@ TEST(Broad_phase, equal_brute_force_over_many_frames_of_moving_boxes) {
         const Eigen::Vector3d low(coordinate(random), coordinate(random), coordinate(random));
         boxes.emplace_back(low, low + Eigen::Vector3d(extent(random), extent(random), extent(random)));
         reach.push_back(extent(random));
+        ids.push_back(static_cast<std::uint32_t>(boxes.size() - 1));
       }
+    if (frame % 23 == 22) ids.erase(ids.begin() + static_cast<std::ptrdiff_t>(random() % ids.size()));
     if (frame % 37 == 0) boxes[random() % boxes.size()].translate(Eigen::Vector3d(-9, 9, 0));
     if (frame % 10 == 0) reach[random() % reach.size()] = 4 * extent(random);
+    const auto pairs = found(phase, ids, boxes, reach);
+    EXPECT_EQ(pairs, expected(ids, boxes, reach)) << frame;
+    seen += pairs.size();
+  }
+  EXPECT_GT(seen, 1000U);
+}
+
+TEST(Broad_phase, equal_brute_force_where_boxes_turn_to_another_axis_or_change_places_at_once) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> along(0, 100), across(0, 1), extent(0, 1.5);
+  Broad_phase phase;
+  constexpr std::size_t count = 120;
+  const std::vector<double> reach(count);
+  std::vector<Box> boxes(count);
+  std::size_t seen = 0;
+  for (int frame = 0; frame < 24; ++frame) {
+    const int axis = frame / 4 % 3;
+    for (auto& box : boxes) {
+      Eigen::Vector3d low(across(random), across(random), across(random));
+      low[axis] = 1e9 + along(random);
+      box = Box(low, low + Eigen::Vector3d(extent(random), extent(random), extent(random)));
+    }
     const auto pairs = found(phase, boxes, reach);
-    EXPECT_EQ(pairs, expected(boxes, reach)) << frame;
+    Ids ids(count);
+    std::iota(ids.begin(), ids.end(), 0);
+    EXPECT_EQ(pairs, expected(ids, boxes, reach)) << frame;
     seen += pairs.size();
   }
   EXPECT_GT(seen, 1000U);

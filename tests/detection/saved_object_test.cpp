@@ -230,10 +230,8 @@ TEST(Saved_objects, may_have_only_faces_that_are_points) {
     Owned_meshes meshes{point, flat_shaded(point), sphere(6)};
     std::vector<std::uint32_t> one_vertex{0, 0, 0};
     Detector<> first(options), second(options);
-    for (auto* detector : {&first, &second}) {
+    for (auto* detector : {&first, &second})
       detector->add(meshes[0], {.file_vertex = one_vertex}), detector->add(meshes[1]), detector->add(meshes[2]);
-      detector->detect();
-    }
     for (const Object_id id : {0, 1}) {
       const Bytes saved = first.save(id);
       second.load(id, saved);

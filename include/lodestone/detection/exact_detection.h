@@ -201,7 +201,6 @@ class Exact_detection final : public Detection {
 
   Motions motions_to(std::span<const Positions> ends);
   /// Lists the ids of all objects that have not been removed.
-  void list_all();
 
   /// A visitor's walk reads positions and trees, which no other call may change.
   void check_no_visitor() const {
@@ -259,7 +258,6 @@ class Exact_detection final : public Detection {
   bool visited_ = false;     ///< a visitor is being shown face pairs
 
   // Memory of the stages, kept from frame to frame.
-  std::vector<Object_id> all_;  ///< but removed ones
   std::vector<Box> boxes_;
   std::vector<double> reach_;
   Broad_phase broad_phase_;
@@ -275,15 +273,14 @@ void Exact_detection<Volume>::update(Object_id id, const Eigen::Ref<const Positi
 
 template <Bounding_volume Volume>
 const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter) {
-  list_all();
-  start_frame(all_);
-  until_settled(all_, [&] {
+  start_frame(objects_.ids());
+  until_settled(objects_.ids(), [&] {
     frame_.clear_pairs();
     candidates_.clear();
     timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
     timed(frame_.seconds().confirmation, [&] { check_candidates(); });
   });
-  return finish_frame(all_);
+  return finish_frame(objects_.ids());
 }
 
 template <Bounding_volume Volume>
@@ -350,25 +347,18 @@ auto Exact_detection<Volume>::motions_to(std::span<const Positions> ends) -> Mot
   if (ends.size() != objects_.size())
     throw Bad_argument("expected one entry for each of the " + std::to_string(objects_.size()) +
                        " object ids, but got " + std::to_string(ends.size()));
-  list_all();
+  const auto ids = objects_.ids();
   std::vector<Positions> checked(objects_.size());
-  for (const auto id : all_)
+  for (const auto id : ids)
     if (ends[id].rows() > 0) checked[id] = objects_[id].checked(ends[id]);
-  refresh(all_);
-  for (const auto id : all_) objects_.pose_all(id);
+  refresh(ids);
+  for (const auto id : ids) objects_.pose_all(id);
   Motions motions(objects_.size());
-  workers_.run(all_.size(), [&](std::size_t i, std::size_t) {
-    const Object_id id = all_[i];
+  workers_.run(ids.size(), [&](std::size_t i, std::size_t) {
+    const Object_id id = ids[i];
     motions[id] = std::make_unique<const Object_motion<Volume>>(objects_.surface(id), std::move(checked[id]));
   });
   return motions;
-}
-
-template <Bounding_volume Volume>
-void Exact_detection<Volume>::list_all() {
-  all_.clear();
-  for (Object_id id = 0; id < objects_.size(); ++id)
-    if (objects_.has(id)) all_.push_back(id);
 }
 
 template <Bounding_volume Volume>
@@ -461,13 +451,14 @@ const Frame& Exact_detection<Volume>::finish_frame(std::span<const Object_id> id
 
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::find_candidates(const Collision_filter& filter) {
-  boxes_.assign(objects_.size(), {});  // that of a removed object stays empty
-  for (const auto id : all_) boxes_[id] = to_box(whole_box(id));
-  reach_.assign(objects_.size(), options_.exact.tolerance);
-  for (const auto pair : broad_phase_.find(boxes_, reach_))
+  const auto ids = objects_.ids();
+  boxes_.resize(objects_.size());
+  for (const auto id : ids) boxes_[id] = to_box(whole_box(id));
+  reach_.resize(objects_.size(), options_.exact.tolerance);
+  for (const auto pair : broad_phase_.find(ids, boxes_, reach_))
     if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
   if (!options_.exact.self_collision) return;
-  for (const auto id : all_)
+  for (const auto id : ids)
     if (filter.may_collide(id, id)) candidates_.push_back({id, id});
   std::ranges::sort(candidates_);
 }

@@ -31,7 +31,15 @@ class Exact_objects {
   /// Adds an object, whose tree is built by the next `refresh`.
   /// @throws Bad_mesh, Bad_argument  nothing has been added
   void add(const Watch_mesh& watch, const Object_options& options) {
-    timed(work_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(size(), watch(), options)); });
+    timed(work_.seconds.build, [&] {
+      ids_.push_back(size());
+      try {
+        objects_.push_back(std::make_unique<Object>(ids_.back(), watch(), options));
+      } catch (...) {
+        ids_.pop_back();
+        throw;
+      }
+    });
   }
   /// Reads the faces of the mesh anew.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
@@ -52,13 +60,16 @@ class Exact_objects {
     timed(work_.seconds.build, [&] { objects_[id]->load(state, options_.exact.self_tolerance > 0); });
   }
 
-  /// Forgets an object.
-  void remove(Object_id id) { objects_[id].reset(); }
+  /// Forgets an object. O(objects).
+  void remove(Object_id id) {
+    objects_[id].reset();
+    std::erase(ids_, id);
+  }
 
   /// Objects added, removed ones included.
   Object_id size() const { return static_cast<Object_id>(objects_.size()); }
-  /// Whether an object has not been removed. All other calls are about such objects.
-  bool has(Object_id id) const { return objects_[id] != nullptr; }
+  /// The objects that have not been removed, ascending. All other calls are about such objects.
+  std::span<const Object_id> ids() const { return ids_; }
   /// An object by its id.
   Object& operator[](Object_id id) { return *objects_[id]; }
   /// The same, not to be changed.
@@ -97,7 +108,8 @@ class Exact_objects {
 
   Detector_options options_;
   Workers& workers_;
-  std::vector<std::unique_ptr<Object>> objects_;
+  std::vector<std::unique_ptr<Object>> objects_;  ///< null: removed
+  std::vector<Object_id> ids_;                    ///< of the others
   Frame_statistics work_;
 
   // Memory, kept from frame to frame.

@@ -55,11 +55,15 @@ class Object_motion {
 template <Bounding_volume Volume>
 std::span<const Object_pair> pairs_near(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions,
                                         Broad_phase& broad_phase) {
+  std::vector<std::uint32_t> ids;
   std::vector<Box> boxes(motions.size());
-  for (std::size_t id = 0; id < motions.size(); ++id)
-    if (motions[id]) boxes[id] = motions[id]->box();
+  for (std::uint32_t id = 0; id < motions.size(); ++id) {
+    if (!motions[id]) continue;
+    ids.push_back(id);
+    boxes[id] = motions[id]->box();
+  }
   const std::vector<double> no_reach(motions.size());
-  return broad_phase.find(boxes, no_reach);
+  return broad_phase.find(ids, boxes, no_reach);
 }
 
 /// The first impact of each pair of objects that meet and may collide, in the order of the pairs.
