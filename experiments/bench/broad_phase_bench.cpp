@@ -18,7 +18,7 @@ namespace lodestone {
 
 namespace {
 
-enum class Place { cube, floor, column };
+enum class Place { cube, floor, column, runaway };  // runaway: a column, and one box far off
 enum class Change { small_steps, one_added, all_anew };
 
 /// Unit boxes, each of which overlaps about three others wherever they are.
@@ -26,6 +26,7 @@ class Crowd {
  public:
   Crowd(std::size_t count, Place place) : place_(place), count_(count) {
     for (std::size_t i = 0; i < count; ++i) add();
+    if (place == Place::runaway) boxes.front().translate(Eigen::Vector3d(1e6, 1e6, 0));
   }
 
   void add() {
@@ -66,13 +67,14 @@ std::vector<Object_pair> pairs_by_cgal(const Crowd& crowd) {
   using Cgal_box = CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_intersection_d::ID_EXPLICIT>;
   std::vector<Cgal_box> boxes;
   boxes.reserve(crowd.boxes.size());
-  for (const auto& box : crowd.boxes) boxes.emplace_back(box.min().data(), box.max().data());
-  const std::size_t first = boxes.empty() ? 0 : boxes.front().id();
+  for (const auto& box : crowd.boxes)
+    boxes.emplace_back(
+        CGAL::Bbox_3(box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()));
+  const auto first = boxes.front().id();
   std::vector<Object_pair> pairs;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Cgal_box& a, const Cgal_box& b) {
-    const auto [i, j] =
-        std::minmax(static_cast<std::uint32_t>(a.id() - first), static_cast<std::uint32_t>(b.id() - first));
-    pairs.push_back({i, j});
+    const auto i = static_cast<std::uint32_t>(a.id() - first), j = static_cast<std::uint32_t>(b.id() - first);
+    pairs.push_back({std::min(i, j), std::max(i, j)});
   });
   std::ranges::sort(pairs);
   return pairs;
@@ -126,6 +128,7 @@ BENCHMARK_CAPTURE(broad_phase, cube_one_added, Place::cube, Change::one_added)->
 BENCHMARK_CAPTURE(broad_phase, cube_all_anew, Place::cube, Change::all_anew)->Apply(many);
 BENCHMARK_CAPTURE(broad_phase, floor_small_steps, Place::floor, Change::small_steps)->Apply(many);
 BENCHMARK_CAPTURE(broad_phase, column_small_steps, Place::column, Change::small_steps)->Apply(many);
+BENCHMARK_CAPTURE(broad_phase, runaway_small_steps, Place::runaway, Change::small_steps)->Apply(many);
 
 }  // namespace
 

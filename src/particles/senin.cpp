@@ -16,7 +16,7 @@ std::vector<std::uint32_t> farthest_along(const Eigen::Vector3d& direction, cons
                                           const Positions& positions) {
   const Positions at = positions(vertices, Eigen::all);
   const Eigen::VectorXd along = (at.rowwise() - at.colwise().mean()) * direction;
-  const double least = along.maxCoeff() / 2;
+  const double largest = along.maxCoeff(), least = std::min(largest, largest / 2);  // rounded means can exceed all
   std::vector<std::uint32_t> farthest;
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (along[static_cast<Eigen::Index>(i)] >= least) farthest.push_back(vertices[i]);

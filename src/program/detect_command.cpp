@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <system_error>
 
 #include "io/files/small_text.h"
@@ -20,14 +21,18 @@ namespace lodestone {
 
 namespace {
 
-/// A scene may have the name that a result has.
+/// A scene may have the name that a result has, alone or before the name of one of its objects.
 void check_inputs_are_kept(const Detect_command& command) {
   if (command.out.empty()) return;
   std::error_code unknown;
   const auto summary = weakly_canonical(command.out / "summary.json", unknown);
-  for (const auto& input : command.inputs)
-    if (weakly_canonical(input, unknown) == summary)
-      throw Bad_argument(input.string() + ": --out would replace this input, which is never overwritten");
+  for (const auto& input : command.inputs) {
+    const std::string text = input.string();
+    const auto mark = text.find(".json#");
+    const auto file = mark == text.npos ? text : text.substr(0, text.find('#', mark));
+    if (std::filesystem::weakly_canonical(file, unknown) == summary)
+      throw Bad_argument(file + ": --out would replace this input, which is never overwritten");
+  }
 }
 
 /// Writes all files to disk before the first appears.

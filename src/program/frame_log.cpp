@@ -35,21 +35,10 @@ Json parting_json(const std::optional<Parting>& parting) {
   return {{"translation", vector_json(parting->translation)}, {"length", parting->length}};
 }
 
-Json patches_json(std::span<const Contact_patch> patches) {
-  Json json = Json::array();
-  for (const auto& patch : patches)
-    json.push_back({{"point", vector_json(patch.point)},
-                    {"normal", vector_json(patch.normal)},
-                    {"depth", patch.depth},
-                    {"length", patch.length},
-                    {"contacts", patch.contacts}});
-  return json;
-}
-
 using Faces_in_files = std::array<std::uint32_t, 2>;
 
-/// The faces of each contact as the files number them, and the place of that contact in the frame. Sorted: the triangles
-/// of a polygon have not always neighbouring numbers.
+/// The faces of each contact as the files number them, and the place of that contact in the frame. Sorted: the
+/// triangles of a polygon have not always neighbouring numbers.
 std::vector<std::pair<Faces_in_files, std::size_t>> contacts_in_files(const Scene_object& a, const Scene_object& b,
                                                                       const Frame& frame, const Pair_result& pair) {
   std::vector<std::pair<Faces_in_files, std::size_t>> contacts;
@@ -58,6 +47,28 @@ std::vector<std::pair<Faces_in_files, std::size_t>> contacts_in_files(const Scen
     contacts.push_back({{a.file_face[face_a], b.file_face[face_b]}, place++});
   std::ranges::sort(contacts);
   return contacts;
+}
+
+/// @param contacts  as they are listed: patches refer to them by their indices in that list
+Json patches_json(std::span<const Contact_patch> patches, const Pair_result& pair,
+                  std::span<const std::pair<Faces_in_files, std::size_t>> contacts) {
+  std::vector<std::uint32_t> listed(contacts.size());
+  for (std::uint32_t i = 0; i < contacts.size(); ++i) listed[contacts[i].second - pair.first_contact] = i;
+  std::vector<std::pair<std::vector<std::uint32_t>, const Contact_patch*>> sorted;
+  for (const auto& patch : patches) {
+    auto& indices = sorted.emplace_back(std::vector<std::uint32_t>(), &patch).first;
+    for (const auto contact : patch.contacts) indices.push_back(listed[contact]);
+    std::ranges::sort(indices);
+  }
+  std::ranges::sort(sorted);  // by their first contacts, of which no two have the same
+  Json json = Json::array();
+  for (const auto& [indices, patch] : sorted)
+    json.push_back({{"point", vector_json(patch->point)},
+                    {"normal", vector_json(patch->normal)},
+                    {"depth", patch->depth},
+                    {"length", patch->length},
+                    {"contacts", indices}});
+  return json;
 }
 
 /// What is told of each contact: its faces, and if asked for its normal and points.
@@ -83,9 +94,10 @@ Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, con
   if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(objects, pair);
   if (options.exact.parting && pair.a != pair.b) json["parting"] = parting_json(pair.parting);
   if (pair.capped) json["capped"] = true;
-  if (options.contacts != Contact_query::yes_no)
-    add_contacts(json, contacts_in_files(a, b, frame, pair), frame, options);
-  if (options.exact.patches) json["patches"] = patches_json(frame.patches_of(pair));
+  if (options.contacts == Contact_query::yes_no) return json;
+  const auto contacts = contacts_in_files(a, b, frame, pair);
+  add_contacts(json, contacts, frame, options);
+  if (options.exact.patches) json["patches"] = patches_json(frame.patches_of(pair), pair, contacts);
   return json;
 }
 

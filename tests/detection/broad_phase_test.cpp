@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -30,7 +31,7 @@ Pairs expected(const Ids& ids, const std::vector<Box>& boxes, const std::vector<
   Pairs pairs;
   for (const auto a : ids)
     for (const auto b : ids) {
-      if (a >= b) continue;
+      if (a >= b || boxes[a].isEmpty() || boxes[b].isEmpty()) continue;
       const Eigen::Vector3d grow = Eigen::Vector3d::Constant(std::max(reach[a], reach[b]));
       if (Box(boxes[a].min() - grow, boxes[a].max() + grow).intersects(boxes[b])) pairs.push_back({a, b});
     }
@@ -112,6 +113,33 @@ TEST(Broad_phase, equal_brute_force_where_boxes_turn_to_another_axis_or_change_p
     seen += pairs.size();
   }
   EXPECT_GT(seen, 1000U);
+}
+
+TEST(Broad_phase, equal_brute_force_where_some_boxes_are_long_or_far_away_or_endless) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  constexpr double largest = std::numeric_limits<double>::max(), infinity = std::numeric_limits<double>::infinity();
+  for (const double long_share : {0.0, 0.05, 0.4, 0.9})
+    for (const double length : {5.0, 300.0, 1e9, largest}) {
+      Broad_phase phase;
+      std::vector<Box> boxes;
+      std::vector<double> reach;
+      for (int i = 0; i < 400; ++i) {
+        const Eigen::Vector3d low = 20 * Eigen::Vector3d(unit(random), unit(random), unit(random));
+        boxes.emplace_back(low, low + Eigen::Vector3d::Ones());
+        reach.push_back(unit(random) < 0.1 ? unit(random) : 0);
+        const auto axis = static_cast<Eigen::Index>(random() % 3);
+        if (unit(random) < long_share) boxes.back().max()[axis] += length;
+        if (unit(random) < 0.05) boxes.back().translate(Eigen::Vector3d(1e6 * unit(random), 0, 1e12));
+      }
+      boxes[7].setEmpty();
+      boxes[8] = Box(Eigen::Vector3d::Constant(-largest / 2), Eigen::Vector3d::Constant(largest / 2));
+      boxes[9] = Box(Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones());
+      reach[10] = length == 5 ? infinity : 0;
+      Ids ids(boxes.size());
+      std::iota(ids.begin(), ids.end(), 0);
+      EXPECT_EQ(found(phase, boxes, reach), expected(ids, boxes, reach)) << long_share << ' ' << length;
+    }
 }
 
 TEST(Broad_phase, of_fewer_than_two_objects_are_none) {

@@ -71,6 +71,15 @@ TEST(Scatter_particles, with_a_side_does_not_heed_vertices_without_edges) {
   EXPECT_EQ(scatter(mesh, 30, {.side = Eigen::Vector3d(1, 0, 0)}), expected);
 }
 
+TEST(Scatter_particles, with_a_side_finds_a_place_on_a_surface_across_it) {
+  for (const int size : {3, 4})
+    for (const double direction : {-1.0, 1.0}) {
+      Surface_mesh mesh = grid(size, size);
+      deform(mesh, [](const Point& p) { return Point(0.1, p.x(), p.y()); });
+      EXPECT_EQ(scatter(mesh, 5, {.side = Eigen::Vector3d(direction, 0, 0)}).size(), 5U);
+    }
+}
+
 TEST(Default_rings, contain_as_many_vertices_as_a_region) {
   // 7, 19, 37 and 61 vertices lie within 1, 2, 3 and 4 hops on a surface of degree 6.
   EXPECT_EQ(default_rings(700, 100), 1U);

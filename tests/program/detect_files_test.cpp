@@ -128,7 +128,7 @@ TEST_F(Detect_files, face_pairs_of_polygons_are_sorted_as_the_files_number_them)
       count += 3;
     }
   const auto needles = write("needles.off", fmt::format("OFF\n{} {} 0\n{}{}", count, count / 3, corners, faces));
-  detect({write("quads.off", three_quads), needles, "--points"});
+  detect({write("quads.off", three_quads), needles, "--points", "--patches"});
   const Json pair = frames().at(0)["pairs"].at(0);
   ASSERT_EQ(pair["faces"].size(), 6U);
   EXPECT_TRUE(std::ranges::is_sorted(pair["faces"]));
@@ -137,6 +137,11 @@ TEST_F(Detect_files, face_pairs_of_polygons_are_sorted_as_the_files_number_them)
     const int quad = pair["faces"][i][0], needle = pair["faces"][i][1];
     EXPECT_EQ(needle / 2, quad);
     EXPECT_NEAR(x, quad + (needle % 2 == 0 ? 0.25 : 0.75), 0.02);
+  }
+  ASSERT_EQ(pair["patches"].size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(pair["patches"][i]["contacts"], Json({i}));
+    EXPECT_NEAR(pair["patches"][i]["point"][0].get<double>(), pair["points"][i][0][0].get<double>(), 0.02);
   }
 }
 

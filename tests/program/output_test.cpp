@@ -111,6 +111,8 @@ TEST_F(Program_output, a_result_does_not_replace_the_scene) {
   const auto before = read_bytes(out / "summary.json");
   expect_error(run_program({"detect", (out / "summary.json").string(), "--out", (out / ".." / "out").string()}), 2,
                "never overwritten");
+  const auto object = [&](const char* name) { return (out / "summary.json#").string() + name; };
+  expect_error(run_program({"detect", object("a"), object("b"), "--out", out.string()}), 2, "never overwritten");
   EXPECT_EQ(content_of(out), (std::set<std::string>{"a.off", "b.off", "summary.json"}));
   EXPECT_EQ(read_bytes(out / "summary.json"), before);
 }

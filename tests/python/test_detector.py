@@ -412,7 +412,7 @@ def test_options_are_checked(arguments, error, text):
         lodestone.Detector(**arguments)
 
 
-def test_numbers_of_objects_and_frames_are_integers():
+def test_numbers_of_objects_and_frames_are_integers(tmp_path):
     detector = lodestone.Detector()
     ball = detector.add(sphere())
     with pytest.raises(TypeError):
@@ -421,6 +421,10 @@ def test_numbers_of_objects_and_frames_are_integers():
         detector.add(sphere(), particles=np.float32(2.5))
     with pytest.raises(TypeError):
         lodestone.partition(sphere(), regions=decimal.Decimal("2.5"))
+    lodestone.write_animation(tmp_path / "still.pc2", [sphere().vertices] * 2)
+    animation = lodestone.read_animation(tmp_path / "still.pc2")
+    with pytest.raises(TypeError):
+        animation.pose(np.float32(0.9))
     assert len(detector.vertices(np.uint8(ball))) == len(sphere().vertices)
     assert lodestone.partition(sphere(), regions=np.int64(3)).labels.max() == 2
 

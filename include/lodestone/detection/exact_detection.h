@@ -200,7 +200,6 @@ class Exact_detection final : public Detection {
   using Motions = std::vector<std::unique_ptr<const Object_motion<Volume>>>;
 
   Motions motions_to(std::span<const Positions> ends);
-  /// Lists the ids of all objects that have not been removed.
 
   /// A visitor's walk reads positions and trees, which no other call may change.
   void check_no_visitor() const {

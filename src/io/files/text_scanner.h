@@ -9,16 +9,22 @@
 
 namespace lodestone {
 
+/// Some programs begin files in UTF-8 with it.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// Reads a text file line by line and word by word, and keeps the line number for error messages.
 ///
-/// Words are separated by blanks; a line ends with LF or CR LF. Where the format has them, a line that ends with the
-/// continuation character goes on in the next line.
+/// Words are separated by blanks; a line ends with LF or CR LF. A byte order mark is skipped. Where the format has
+/// them, a line that ends with the continuation character goes on in the next line.
 class Text_scanner {
  public:
   /// @param comment       character that starts a comment to the end of the line; 0: none
   /// @param continuation  character at the end of a line that goes on in the next one; 0: none
   explicit Text_scanner(const File_bytes& file, char comment = '\0', char continuation = '\0')
-      : file_(&file), comment_(comment), continuation_(continuation) {}
+      : file_(&file),
+        comment_(comment),
+        continuation_(continuation),
+        next_(file.view().starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
 
   /// Moves to the next line with a word; false at the end of the file. Continued lines count as one line.
   bool next_line();
@@ -54,7 +60,7 @@ class Text_scanner {
 
   const File_bytes* file_;
   char comment_, continuation_;
-  std::size_t next_ = 0;         // offset of the next line
+  std::size_t next_;             // offset of the next line
   std::size_t line_number_ = 0;  // from 1; 0 before the first line
   std::string_view line_;        // the unread rest of the current line
   bool continued_ = false;       // the current line goes on in the next one

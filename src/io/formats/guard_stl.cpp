@@ -100,6 +100,7 @@ Guarded_mesh guard_binary(const File_bytes& file, std::size_t max_faces) {
 
 /// The header of a binary file may begin with 'solid' too, but the face count after it contains a zero byte.
 bool is_text(std::string_view bytes) {
+  if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
   const auto begin = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   return is_keyword(bytes.substr(begin, 5), "solid") &&
          bytes.substr(0, header_bytes + count_bytes).find('\0') == std::string_view::npos;

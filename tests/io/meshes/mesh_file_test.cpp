@@ -100,6 +100,14 @@ TEST_F(Mesh_reading, accepts_windows_line_ends_in_text) {
   }
 }
 
+TEST_F(Mesh_reading, accepts_a_byte_order_mark_in_text) {
+  for (auto [name, bytes] : all_squares()) {
+    if (bytes.find('\0') != std::string::npos) continue;
+    SCOPED_TRACE(name);
+    expect_square(read(name, "\xEF\xBB\xBF" + bytes));
+  }
+}
+
 TEST_F(Mesh_reading, accepts_text_without_a_final_line_end) {
   for (auto [name, bytes] : all_squares())
     if (bytes.back() == '\n') {
