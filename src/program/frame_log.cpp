@@ -71,18 +71,19 @@ Json patches_json(std::span<const Contact_patch> patches, const Pair_result& pai
   return json;
 }
 
-/// What is told of each contact: its faces, and if asked for its normal and points.
+/// What is told of the contacts: their faces, and if asked for their normals, patches and points.
 void add_contacts(Json& json, std::span<const std::pair<Faces_in_files, std::size_t>> contacts, const Frame& frame,
-                  const Detector_options& options) {
+                  const Pair_result& pair, const Detector_options& options) {
   auto& faces = json["faces"] = Json::array();
-  for (const auto& [pair, place] : contacts) faces.push_back(pair);
+  for (const auto& [in_files, place] : contacts) faces.push_back(in_files);
   if (options.contact_normals) {
     auto& normals = json["normals"] = Json::array();
-    for (const auto& [pair, place] : contacts) normals.push_back(normal_json(frame.contact_normals[place]));
+    for (const auto& [in_files, place] : contacts) normals.push_back(normal_json(frame.contact_normals[place]));
   }
+  if (options.exact.patches) json["patches"] = patches_json(frame.patches_of(pair), pair, contacts);
   if (options.contact_points) {
     auto& points = json["points"] = Json::array();
-    for (const auto& [pair, place] : contacts) points.push_back(points_json(frame.contact_points[place]));
+    for (const auto& [in_files, place] : contacts) points.push_back(points_json(frame.contact_points[place]));
   }
 }
 
@@ -94,10 +95,8 @@ Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, con
   if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(objects, pair);
   if (options.exact.parting && pair.a != pair.b) json["parting"] = parting_json(pair.parting);
   if (pair.capped) json["capped"] = true;
-  if (options.contacts == Contact_query::yes_no) return json;
-  const auto contacts = contacts_in_files(a, b, frame, pair);
-  add_contacts(json, contacts, frame, options);
-  if (options.exact.patches) json["patches"] = patches_json(frame.patches_of(pair), pair, contacts);
+  if (options.contacts != Contact_query::yes_no)
+    add_contacts(json, contacts_in_files(a, b, frame, pair), frame, pair, options);
   return json;
 }
 
