@@ -8,7 +8,6 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace lodestone {
 
@@ -59,11 +58,10 @@ Broad_phase::Interval Broad_phase::grown(const Box& box, double reach, int axis)
 
 /// Boxes are sorted along the axis along which the fewest of a sample overlap. Another axis must be twice as good to be
 /// worth sorting anew. Few boxes are not worth the sample.
-/// @return whether it is another axis than before
-bool Broad_phase::choose_axes(std::span<const Box> boxes, std::span<const double> reach) {
+void Broad_phase::choose_axes(std::span<const Box> boxes, std::span<const double> reach) {
   constexpr std::size_t few = 64, sampled = 32, sampled_pairs = sampled * (sampled - 1) / 2;
   divides_ = false;
-  if (order_.size() < few) return false;
+  if (order_.size() < few) return;
   std::array<std::size_t, 3> overlaps{};
   for (int axis = 0; axis < 3; ++axis) {
     std::array<Interval, sampled> sample;
@@ -79,19 +77,19 @@ bool Broad_phase::choose_axes(std::span<const Box> boxes, std::span<const double
   const int second = (best + 1) % 3, third = (best + 2) % 3;
   across_ = overlaps[third] < overlaps[second] ? third : second;
   divides_ = 4 * overlaps[across_] < sampled_pairs;
-  return std::exchange(axis_, best) != best;
+  axis_ = best;
 }
 
 void Broad_phase::sort(std::span<const std::uint32_t> ids, std::span<const Box> boxes, std::span<const double> reach) {
   const std::size_t kept = take(ids);
-  const bool turned = choose_axes(boxes, reach);
+  choose_axes(boxes, reach);
   const auto begin = [&](std::uint32_t object) { return boxes[object].min()[axis_] - reach[object]; };
   const auto middle = order_.begin() + static_cast<std::ptrdiff_t>(kept);
-  if (turned || !insertion_sort({order_.begin(), middle}, begin)) {
-    std::ranges::sort(order_, {}, begin);
-  } else {
+  if (insertion_sort({order_.begin(), middle}, begin)) {
     std::ranges::sort(middle, order_.end(), {}, begin);
     std::ranges::inplace_merge(order_, middle, {}, begin);
+  } else {
+    std::ranges::sort(order_, {}, begin);
   }
 }
 
@@ -109,8 +107,8 @@ double Broad_phase::strip_width(std::span<const Box> boxes, std::span<const doub
   return 2 * *middle;
 }
 
-/// How many strips there are across the axis, and how wide: as two usual boxes. Each strip is also every other one at a
-/// multiple of their number, so that a few boxes far away cost nothing.
+/// How many strips there are across the axis, and how wide: as two usual boxes. Strips repeat: of k of them, place p
+/// belongs to strip p modulo k. So a few boxes far away need no more strips.
 void Broad_phase::choose_strips(std::span<const Box> boxes, std::span<const double> reach) {
   strips_ = 1;
   width_ = divides_ ? strip_width(boxes, reach) : 0;

@@ -37,8 +37,8 @@ Json parting_json(const std::optional<Parting>& parting) {
 
 using Faces_in_files = std::array<std::uint32_t, 2>;
 
-/// The faces of each contact as the files number them, and the place of that contact in the frame. Sorted: the
-/// triangles of a polygon have not always neighbouring numbers.
+/// The faces of each contact as the files number them, and the place of that contact in the frame. Sorted here, since
+/// the triangles of a polygon need not follow each other in the mesh.
 std::vector<std::pair<Faces_in_files, std::size_t>> contacts_in_files(const Scene_object& a, const Scene_object& b,
                                                                       const Frame& frame, const Pair_result& pair) {
   std::vector<std::pair<Faces_in_files, std::size_t>> contacts;

@@ -31,7 +31,7 @@ class Broad_phase {
  private:
   struct Interval {
     double begin, end;
-    /// Without a branch, which could seldom be foretold.
+    /// Without a branch, which would often be mispredicted.
     friend bool overlap(const Interval& a, const Interval& b) { return (a.begin <= b.end) & (b.begin <= a.end); }
   };
   /// A box grown by its reach.
@@ -42,7 +42,7 @@ class Broad_phase {
 
   std::size_t take(std::span<const std::uint32_t> ids);
   static Interval grown(const Box& box, double reach, int axis);
-  bool choose_axes(std::span<const Box> boxes, std::span<const double> reach);
+  void choose_axes(std::span<const Box> boxes, std::span<const double> reach);
   void sort(std::span<const std::uint32_t> ids, std::span<const Box> boxes, std::span<const double> reach);
   double strip_width(std::span<const Box> boxes, std::span<const double> reach) const;
   void choose_strips(std::span<const Box> boxes, std::span<const double> reach);

@@ -126,7 +126,7 @@ class Particle_detection final : public Detection {
   Frame_statistics since_last_frame_;  ///< what other calls have to tell the next frame
 
   // Memory of the stages, kept from frame to frame.
-  std::vector<Object_id> ids_;  ///< but removed ones
+  std::vector<Object_id> ids_;  ///< of the objects that have not been removed
   std::vector<Box> boxes_;
   std::vector<double> reach_;
   Broad_phase broad_phase_;
