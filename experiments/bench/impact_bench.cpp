@@ -37,8 +37,7 @@ struct Two_frames {
   std::vector<double> rest, start, end;
 
   explicit Two_frames(const Surface_mesh& mesh) {
-    const Mesh_numbering<Surface_mesh> numbering(mesh);
-    faces = numbering.corners();
+    faces = Mesh_numbering<Surface_mesh>(mesh).corners();
     for (const auto v : mesh.vertices())
       for (int axis = 0; axis < 3; ++axis) rest.push_back(mesh.point(v)[axis]);
     start = end = rest;

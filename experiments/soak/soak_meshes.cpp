@@ -123,7 +123,8 @@ Soak_mesh sphere_mesh(Random& random) {
   const Surface_mesh mesh = icosphere(4 + below(random, 7));
   const Mesh_numbering<Surface_mesh> numbering(mesh);
   const Positions rest = read_positions(numbering, mesh.points());
-  Soak_mesh result{.faces = numbering.corners(), .poses = {}};
+  const auto corners = numbering.corners();
+  Soak_mesh result{.faces = {corners.begin(), corners.end()}, .poses = {}};
   for (std::size_t pose = 0; pose < soak_poses; ++pose) {
     const double rough = magnitude(random, 0.003, 0.5);
     const Eigen::RowVector3d middle = place(random, 0.4), wave = place(random, 5), side = place(random, 0.4);

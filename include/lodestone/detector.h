@@ -68,8 +68,8 @@ class Detector {
     check_new(&mesh);
     return add_watched(
         &mesh,
-        [&] {
-          auto watched = watch(mesh, CGAL::get_const_property_map(CGAL::vertex_point, std::as_const(mesh)));
+        [&](Workers& workers) {
+          auto watched = watch(mesh, CGAL::get_const_property_map(CGAL::vertex_point, std::as_const(mesh)), workers);
           watched->add_maps(mesh);
           return watched;
         },
@@ -85,7 +85,8 @@ class Detector {
   /// mesh may be added several times with other points; its property maps are not written.
   template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
   Object_id add(const Mesh& mesh, Points points, const Object_options& options = {}) {
-    return add_watched(&mesh, [&] { return watch(mesh, std::move(points)); }, options);
+    return add_watched(
+        &mesh, [&](Workers& workers) { return watch(mesh, std::move(points), workers); }, options);
   }
   /// Temporaries are rejected.
   template <Triangle_mesh Mesh>
@@ -379,8 +380,8 @@ class Detector {
     if (std::ranges::find(meshes_, mesh) != meshes_.end()) throw Bad_argument("the mesh has been added before");
   }
   template <class Mesh, class Points>
-  auto watch(const Mesh& mesh, Points points) const {
-    return std::make_unique<Typed_watched_mesh<Mesh, Points, Strategy>>(mesh, std::move(points), strategy_);
+  auto watch(const Mesh& mesh, Points points, Workers& workers) const {
+    return std::make_unique<Typed_watched_mesh<Mesh, Points, Strategy>>(mesh, std::move(points), strategy_, workers);
   }
   /// Adds an object to all that lists objects, or to nothing.
   template <class Watch>

@@ -13,7 +13,7 @@ namespace lodestone {
 
 void Particle_detection::add(const Watch_mesh& watch, const Object_options& options) {
   const auto id = static_cast<Object_id>(objects_.size());
-  timed(since_last_frame_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(id, watch(), options)); });
+  timed(since_last_frame_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(id, watch(workers_), options)); });
 }
 
 void Particle_detection::update(Object_id id) {
@@ -37,7 +37,7 @@ bool Particle_detection::has_outgrown(Particle_object& object) {
 void Particle_detection::rebuild(Object_id id, std::span<const std::uint32_t> /*file_vertex*/) {
   timed(since_last_frame_.seconds.build, [&] {
     const Object& old = *objects_[id];
-    auto anew = std::make_unique<Object>(id, old.particle_object.mesh().renumbered(), old.options);
+    auto anew = std::make_unique<Object>(id, old.particle_object.mesh().renumbered(workers_), old.options);
     anew->particle_object.place(old.particle_object.placement());
     objects_[id] = std::move(anew);
     meeting_search_.forget(id);

@@ -74,7 +74,8 @@ Page_log::Page_log(const Detect_command& command, const Scene& scene, const Scen
       file_(command.html, command.out) {
   for (const auto& object : scene.objects) {
     const Mesh_numbering<Surface_mesh> numbering(object.mesh);
-    page_.add_object(object.name, numbering.vertex_count(), numbering.corners());
+    const auto corners = numbering.corners();
+    page_.add_object(object.name, numbering.vertex_count(), {corners.begin(), corners.end()});
     exact_.add(object.mesh,
                {.groups = object.collision.groups, .meets = object.collision.meets, .file_vertex = object.file_vertex});
   }

@@ -88,12 +88,14 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
 /// The mesh as a page of one frame, with each particle at its start vertex.
 Page page_of(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
   const Mesh_numbering numbering(file.mesh);
+  const auto corners = numbering.corners();
   Json numbers = statistics(file, divided, command);
   numbers.erase("seconds");  // so that equal partitions give equal pages
   numbers.erase("labels");   // the page has them
   Page page(
       {.kind = Page_kind::partition, .title = command.mesh.filename().string(), .strategy = command.strategy.name});
-  page.set_regions(page.add_object(command.mesh.stem().string(), numbering.vertex_count(), numbering.corners()),
+  page.set_regions(page.add_object(command.mesh.stem().string(), numbering.vertex_count(),
+                                   {corners.begin(), corners.end()}),
                    divided.labels);
   const auto& starts = divided.partition.particles;
   page.add_frame({.positions = {read_positions(numbering, file.mesh.points())},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lodestone/mesh/pairs.h"
+#include "lodestone/mesh/unset_vector.h"
 #include "lodestone/tree/node_pair.h"
 #include "lodestone/tree/tree_view.h"
 #include "lodestone/triangles/clearance.h"
@@ -101,7 +102,7 @@ class Clearance_search {
   // Memory of `try_leaves`.
   std::vector<Node_pair> below_;
   kernel::Face_spans spans_a_, spans_b_;
-  std::vector<kernel::Face_slots> in_line_;
+  Unset_vector<kernel::Face_slots> in_line_;
   std::vector<Face_candidate> candidates_;
 
   /// The face pairs with the largest clearance in earlier searches, the last of them first to be tried: along a

@@ -41,16 +41,16 @@ std::vector<Eigen::Vector3d> normals_between(const Object_surface& a, const Obje
   return directions;
 }
 
-/// Searches along several directions at once: one search for each worker, each of which keeps the leaves that it has
-/// read.
+/// Searches along several directions at once: one search for each worker that takes part, each of which keeps the
+/// leaves that it has read.
 class Shared_search {
  public:
-  Shared_search(const Layout_view& a, const Layout_view& b, Workers& workers) : workers_(workers) {
-    searches_.reserve(workers.count());
-    for (std::size_t i = 0; i < workers.count(); ++i) searches_.emplace_back(a, b);
+  Shared_search(const Layout_view& a, const Layout_view& b, Workers& workers)
+      : a_(a), b_(b), workers_(workers), searches_(workers.count()) {
+    of_worker(0);
   }
 
-  const Clearance_search& any() const { return searches_.front(); }
+  const Clearance_search& any() const { return *searches_.front(); }
 
   /// The clearance along each of some directions, none where it is not below the limit, or not below that along an
   /// earlier direction. The last that is there is the least.
@@ -59,7 +59,7 @@ class Shared_search {
     clearances.assign(directions.size(), std::nullopt);
     Limit least(limit);
     const auto search = [&](std::size_t index, std::size_t worker) {
-      clearances[index] = searches_[worker](directions[index], least.before(index));
+      clearances[index] = of_worker(worker)(directions[index], least.before(index));
       if (clearances[index]) least.lower(clearances[index]->length, index);
     };
     workers_.run(directions.size(), std::cref(search));
@@ -92,8 +92,14 @@ class Shared_search {
     std::size_t index_ = 0;  ///< of the direction that has it
   };
 
+  Clearance_search& of_worker(std::size_t worker) {
+    auto& search = searches_[worker];
+    return search ? *search : search.emplace(a_, b_);
+  }
+
+  const Layout_view &a_, &b_;
   Workers& workers_;
-  std::vector<Clearance_search> searches_;
+  std::vector<std::optional<Clearance_search>> searches_;
 };
 
 /// The shortest way found so far.

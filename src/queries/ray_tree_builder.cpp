@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "queries/ray_fit_kernel.h"
+#include "tree/rank_kernel.h"
 
 namespace lodestone {
 
@@ -152,7 +153,7 @@ void Ray_tree_builder::pack_leaf(std::uint32_t leaf, Leaf_memory& memory) {
     const auto place = static_cast<std::uint32_t>((sum[along] - memory.around.low[along]) * steps_per_unit);
     memory.order[face] = (strip << along_bits | (strip % 2 == 0 ? place : along_mask - place)) << face_bits | face;
   }
-  memory.sort(memory.order.data(), memory.order.size(), hwy::SortAscending());
+  kernel::sort_few(memory.order);
   for (std::size_t begin = 0; begin < memory.order.size(); begin += ray_tree_width)
     add_block(leaf, first + static_cast<std::uint32_t>(begin / ray_tree_width),
               std::span(memory.order).subspan(begin, std::min(ray_tree_width, memory.order.size() - begin)));

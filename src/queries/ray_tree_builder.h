@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <hwy/contrib/sort/vqsort.h>
-
 #include <vector>
 
 #include "lodestone/queries/ray_tree.h"
@@ -33,7 +31,6 @@ class Ray_tree_builder {
     std::vector<std::array<float, 3>> sums;  ///< of the corners, per face
     Ray_box around;                          ///< the sums
     std::vector<std::uint32_t> order;        ///< the faces, as they are packed; their indices are in the low bits
-    hwy::Sorter sort;
   };
 
   bool place();

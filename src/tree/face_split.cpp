@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace lodestone {
 
@@ -13,6 +14,23 @@ namespace {
 /// Below this number of items a selection in place is faster than counting them.
 constexpr std::size_t few_items = 192;
 constexpr std::size_t slices = 256;
+
+/// How many items a worker takes at once.
+constexpr std::size_t items_at_once = 16384;
+
+/// Bounds of the centres.
+struct Bounds {
+  Eigen::Array4f low, high;  ///< the fourth means nothing
+
+  void extend(const Eigen::Array4f& numbers) {
+    low = low.min(numbers);
+    high = high.max(numbers);
+  }
+  void extend(const Bounds& other) {
+    low = low.min(other.low);
+    high = high.max(other.high);
+  }
+};
 
 /// The axis on which the centres are spread widest, and where they begin and end on it.
 struct Spread {
@@ -29,24 +47,22 @@ Eigen::Array4f in_register(const Split_item& item) {
 }
 
 /// Four pairs of bounds, since each waits for its own last result.
-Spread widest_spread(std::span<const Split_item> items) {
-  std::array<Eigen::Array4f, 4> low, high;
-  low.fill(in_register(items.front()));
-  high = low;
-  const auto extend = [&](std::size_t bounds, const Split_item& item) {
-    const Eigen::Array4f numbers = in_register(item);
-    low[bounds] = low[bounds].min(numbers);
-    high[bounds] = high[bounds].max(numbers);
-  };
+Bounds bounds_of(std::span<const Split_item> items) {
+  const Eigen::Array4f first = in_register(items.front());
+  std::array<Bounds, 4> bounds;
+  bounds.fill({first, first});
   std::size_t i = 0;
   for (; i + 4 <= items.size(); i += 4)
-    for (std::size_t bounds = 0; bounds < 4; ++bounds) extend(bounds, items[i + bounds]);
-  for (; i < items.size(); ++i) extend(0, items[i]);
-  const Eigen::Array4f lowest = low[0].min(low[1]).min(low[2].min(low[3]));
-  const Eigen::Array4f highest = high[0].max(high[1]).max(high[2].max(high[3]));
+    for (std::size_t b = 0; b < 4; ++b) bounds[b].extend(in_register(items[i + b]));
+  for (; i < items.size(); ++i) bounds[0].extend(in_register(items[i]));
+  for (std::size_t b = 1; b < 4; ++b) bounds[0].extend(bounds[b]);
+  return bounds[0];
+}
+
+Spread widest_spread(const Bounds& bounds) {
   Eigen::Index axis = 0;
-  (highest - lowest).head<3>().maxCoeff(&axis);
-  return {.axis = static_cast<std::size_t>(axis), .low = lowest[axis], .high = highest[axis]};
+  (bounds.high - bounds.low).head<3>().maxCoeff(&axis);
+  return {.axis = static_cast<std::size_t>(axis), .low = bounds.low[axis], .high = bounds.high[axis]};
 }
 
 /// Ties are broken by index, so that a split does not depend on the order of the items.
@@ -73,11 +89,14 @@ class Slices {
   float low_, per_unit_;
 };
 
-/// How many items each slice holds. Neighbours in the list are mostly neighbours in space, so a single list of counts
-/// would wait for its own last increment most of the time.
-std::array<std::uint32_t, slices> count_slices(std::span<const Split_item> items, const Slices& of) {
+/// How many items each slice holds.
+using Counts = std::array<std::uint32_t, slices>;
+
+/// Neighbours in the list are mostly neighbours in space, so a single list of counts would wait for its own last
+/// increment most of the time.
+Counts count_slices(std::span<const Split_item> items, const Slices& of) {
   constexpr std::size_t lists = 4;
-  std::array<std::array<std::uint32_t, slices>, lists> counts = {};
+  std::array<Counts, lists> counts = {};
   std::size_t i = 0;
   for (; i + lists <= items.size(); i += lists)
     for (std::size_t list = 0; list < lists; ++list) ++counts[list][of.slice(items[i + list])];
@@ -87,32 +106,114 @@ std::array<std::uint32_t, slices> count_slices(std::span<const Split_item> items
   return counts[0];
 }
 
+/// The slice in which the first items end, and how many are in those before.
+struct Middle {
+  std::size_t slice = 0, begin = 0;
+};
+
+Middle find_middle(const Counts& counts, std::size_t first_count) {
+  Middle middle;
+  while (middle.begin + counts[middle.slice] <= first_count) middle.begin += counts[middle.slice++];
+  return middle;
+}
+
+/// Where the next item before, within or behind the middle slice goes.
+struct Places {
+  std::size_t before, within, behind;
+
+  /// Past items of which so many are in each slice.
+  void skip(const Counts& counts, std::size_t middle) {
+    for (std::size_t slice = 0; slice < slices; ++slice)
+      (slice < middle ? before : slice > middle ? behind : within) += counts[slice];
+  }
+};
+
+/// Without a branch that depends on an item.
+void move_items(std::span<const Split_item> items, const Slices& of, std::size_t middle, Places places,
+                std::span<Split_item> to) {
+  for (const Split_item& item : items) {
+    const std::size_t slice = of.slice(item);
+    const bool is_before = slice<middle, is_behind = slice> middle;
+    to[is_before ? places.before : is_behind ? places.behind : places.within] = item;
+    places.before += is_before ? 1 : 0;
+    places.behind += is_behind ? 1 : 0;
+    places.within += is_before || is_behind ? 0 : 1;
+  }
+}
+
+/// Equal parts of many items, which workers share.
+class Parts {
+ public:
+  Parts(std::span<const Split_item> items, Workers& workers)
+      : items_(items), workers_(workers), count_((items.size() + items_at_once - 1) / items_at_once) {}
+
+  std::size_t count() const { return count_; }
+  /// Calls `task(index, items)` for each part.
+  template <class Task>
+  void each(const Task& task) const {
+    workers_.run(count_, [&](std::size_t part, std::size_t) {
+      const std::size_t begin = part * items_at_once;
+      task(part, items_.subspan(begin, std::min(items_at_once, items_.size() - begin)));
+    });
+  }
+
+ private:
+  std::span<const Split_item> items_;
+  Workers& workers_;
+  std::size_t count_;
+};
+
+Bounds bounds_of(const Parts& parts) {
+  std::vector<Bounds> bounds(parts.count());
+  parts.each([&](std::size_t part, auto items) { bounds[part] = bounds_of(items); });
+  for (const auto& other : bounds) bounds.front().extend(other);
+  return bounds.front();
+}
+
+/// Each part counts, then moves its items behind those of the parts before it: the same places as by one worker.
+Middle move_items(const Parts& parts, const Slices& of, std::size_t first_count, std::span<Split_item> to,
+                  Counts& counts) {
+  std::vector<Counts> of_part(parts.count());
+  parts.each([&](std::size_t part, auto items) { of_part[part] = count_slices(items, of); });
+  counts = {};
+  for (const auto& others : of_part)
+    for (std::size_t slice = 0; slice < slices; ++slice) counts[slice] += others[slice];
+  const Middle middle = find_middle(counts, first_count);
+  std::vector<Places> places{{0, middle.begin, middle.begin + counts[middle.slice]}};
+  for (std::size_t part = 0; part + 1 < parts.count(); ++part) {
+    places.push_back(places.back());
+    places.back().skip(of_part[part], middle.slice);
+  }
+  parts.each([&](std::size_t part, auto items) { move_items(items, of, middle.slice, places[part], to); });
+  return middle;
+}
+
+Middle move_items(std::span<const Split_item> items, const Slices& of, std::size_t first_count,
+                  std::span<Split_item> to, Counts& counts) {
+  counts = count_slices(items, of);
+  const Middle middle = find_middle(counts, first_count);
+  move_items(items, of, middle.slice, {0, middle.begin, middle.begin + counts[middle.slice]}, to);
+  return middle;
+}
+
 }  // namespace
 
 /// Many items are counted by slice. The slice in which the first `first_count` end is the only one whose items have to
-/// be told apart. The others are copied before and behind it, without a branch that depends on them.
-bool split_items(std::span<Split_item> items, std::span<Split_item> spare, std::size_t first_count) {
-  const Spread spread = widest_spread(items);
+/// be told apart. The others are copied before and behind it.
+bool split_items(std::span<Split_item> items, std::span<Split_item> spare, std::size_t first_count, Workers& workers) {
+  const bool shared = workers.count() > 1 && items.size() > 2 * items_at_once;
+  const Parts parts(items, workers);
+  const Spread spread = widest_spread(shared ? bounds_of(parts) : bounds_of(items));
   const bool flat = !std::isnormal(static_cast<float>(slices) / (spread.high - spread.low));
   if (items.size() < few_items || flat) {
     select(items, first_count, spread.axis);
     return false;
   }
   const Slices of(spread);
-  const auto counts = count_slices(items, of);
-  std::size_t middle = 0, middle_begin = 0;
-  while (middle_begin + counts[middle] <= first_count) middle_begin += counts[middle++];
-
-  std::size_t before = 0, within = middle_begin, behind = middle_begin + counts[middle];
-  for (const Split_item& item : items) {
-    const std::size_t slice = of.slice(item);
-    const bool is_before = slice<middle, is_behind = slice> middle;
-    spare[is_before ? before : is_behind ? behind : within] = item;
-    before += is_before ? 1 : 0;
-    behind += is_behind ? 1 : 0;
-    within += is_before || is_behind ? 0 : 1;
-  }
-  select(spare.subspan(middle_begin, counts[middle]), first_count - middle_begin, spread.axis);
+  Counts counts;
+  const Middle middle = shared ? move_items(parts, of, first_count, spare, counts)
+                               : move_items(items, of, first_count, spare, counts);
+  select(spare.subspan(middle.begin, counts[middle.slice]), first_count - middle.begin, spread.axis);
   return true;
 }
 

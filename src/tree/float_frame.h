@@ -6,9 +6,11 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "lodestone/mesh/coordinates.h"
 #include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/workers.h"
 
 namespace lodestone {
 
@@ -16,11 +18,16 @@ namespace lodestone {
 class Float_frame {
  public:
   /// Relative to the box around all positions.
-  explicit Float_frame(Coordinates coordinates) : coordinates_(coordinates) {
-    Eigen::AlignedBox3d box;
-    for (std::size_t i = 0; i < coordinates.size(); i += 3)
-      box.extend(Eigen::Map<const Eigen::Vector3d>(coordinates.data() + i));
-    place(box);
+  Float_frame(Coordinates coordinates, Workers& workers) : coordinates_(coordinates) {
+    constexpr std::size_t at_once = 3 * 16384;  // a worker takes so many
+    std::vector<Eigen::AlignedBox3d> boxes(coordinates.size() / at_once + 1);
+    workers.run(boxes.size(), [&](std::size_t index, std::size_t) {
+      const std::size_t end = std::min((index + 1) * at_once, coordinates.size());
+      for (std::size_t i = index * at_once; i < end; i += 3)
+        boxes[index].extend(Eigen::Map<const Eigen::Vector3d>(coordinates.data() + i));
+    });
+    for (const auto& box : boxes) boxes.front().extend(box);
+    place(boxes.front());
   }
   /// Relative to the box around some faces.
   Float_frame(Coordinates coordinates, std::span<const Corners> corners, std::span<const std::uint32_t> faces)

@@ -13,9 +13,6 @@ namespace lodestone {
 /// in the innermost cache, where a number per vertex of the mesh would not.
 class Leaf_numbering {
  public:
-  /// A vertex of the mesh, and in the lower half its number in the leaf.
-  using Numbered_vertex = std::uint64_t;
-
   /// Forgets all vertices. O(1), but for once in 2^32 leaves.
   void start_leaf() {
     count_ = 0;
@@ -32,11 +29,11 @@ class Leaf_numbering {
       index = (index + 1) % slots_.size();
     }
     slots_[index] = {.vertex = vertex, .leaf = leaf_, .number = count_};
-    vertices_[count_] = Numbered_vertex{vertex} << 32U | count_;
+    vertices_[count_] = vertex;
     return count_++;
   }
   /// In the order of their numbers.
-  std::span<Numbered_vertex> vertices() { return {vertices_.data(), count_}; }
+  std::span<const std::uint32_t> vertices() const { return {vertices_.data(), count_}; }
 
  private:
   struct Slot {
@@ -49,7 +46,7 @@ class Leaf_numbering {
 
   std::array<Slot, 1U << bits> slots_{};
   std::uint32_t leaf_ = 0;
-  std::array<Numbered_vertex, 3 * most_leaf_faces> vertices_;
+  std::array<std::uint32_t, 3 * most_leaf_faces> vertices_;
   std::uint16_t count_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tree/float_frame.h"
+#include "tree/rank_kernel.h"
 #include "tree/read_ahead.h"
 
 namespace lodestone {
@@ -41,7 +42,7 @@ void Tree_builder::make_room(std::size_t faces) {
 }
 
 void Tree_builder::read_items() {
-  const Float_frame frame(coordinates_);
+  const Float_frame frame(coordinates_, workers_);
   workers_.run(items_.size() / faces_at_once + 1, [&](std::size_t index, std::size_t) {
     const std::size_t end = std::min((index + 1) * faces_at_once, items_.size());
     for (std::size_t face = index * faces_at_once; face < end; ++face)
@@ -81,8 +82,9 @@ void Tree_builder::size_lists(std::size_t leaves) {
   item_begin_.resize(leaves);
 }
 
-/// The regions that have faces.
+/// The regions that have faces. A single one needs no centre.
 std::vector<Split_item> Tree_builder::region_items() const {
+  if (labels_.empty()) return {{.centre = {}, .index = 0}};
   std::vector<Split_item> regions;
   for (Region_index region = 0; region + 1 < region_begin_.size(); ++region) {
     const std::uint32_t count = faces_of(region);
@@ -119,37 +121,42 @@ void Tree_builder::add_regions(std::span<Split_item> regions, std::span<Split_it
   add_regions(regions.subspan(half), spare.subspan(half), second, branches);
 }
 
-/// Halves branches until there are enough for all workers, which then share them.
+/// Halves branches until there are enough for all workers, which then share them. While there are fewer than workers,
+/// these share each.
 void Tree_builder::add_branches(std::vector<Branch> branches) {
   const std::size_t enough = workers_.count() == 1 ? 0 : 8 * workers_.count();
   while (branches.size() < enough && std::ranges::any_of(branches, [](const auto& b) { return b.leaves > 1; })) {
     std::vector<std::pair<Branch, Branch>> halves(branches.size());
-    workers_.run(branches.size(), [&](std::size_t i, std::size_t) {
-      halves[i] = branches[i].leaves > 1 ? halve(branches[i]) : std::pair(branches[i], Branch{});
-    });
+    const auto halve_one = [&](std::size_t i, Workers& workers) {
+      halves[i] = branches[i].leaves > 1 ? halve(branches[i], workers) : std::pair(branches[i], Branch{});
+    };
+    if (branches.size() < workers_.count())
+      for (std::size_t i = 0; i < branches.size(); ++i) halve_one(i, workers_);
+    else
+      workers_.run(branches.size(), [&](std::size_t i, std::size_t) { halve_one(i, Workers::alone()); });
     branches.clear();
     for (const auto& [first, second] : halves) {
       branches.push_back(first);
       if (second.leaves > 0) branches.push_back(second);
     }
   }
-  std::vector<Leaf_maker> makers(workers_.count());
-  workers_.run(branches.size(), [&](std::size_t i, std::size_t worker) { add_branch(branches[i], makers[worker]); });
+  std::vector<Leaf_numbering> numbers(workers_.count());
+  workers_.run(branches.size(), [&](std::size_t i, std::size_t worker) { add_branch(branches[i], numbers[worker]); });
 }
 
-void Tree_builder::add_branch(const Branch& branch, Leaf_maker& maker) {
-  if (branch.leaves == 1) return add_leaf(branch, maker);
+void Tree_builder::add_branch(const Branch& branch, Leaf_numbering& numbers) {
+  if (branch.leaves == 1) return add_leaf(branch, numbers);
   const auto [first, second] = halve(branch);
-  add_branch(first, maker);
-  add_branch(second, maker);
+  add_branch(first, numbers);
+  add_branch(second, numbers);
 }
 
-std::pair<Tree_builder::Branch, Tree_builder::Branch> Tree_builder::halve(const Branch& branch) {
+std::pair<Tree_builder::Branch, Tree_builder::Branch> Tree_builder::halve(const Branch& branch, Workers& workers) {
   const std::size_t count = branch.end - branch.begin, leaves = branch.leaves / 2;
   const std::size_t first_count = count * leaves / branch.leaves;
   auto items = std::span(items_).subspan(branch.begin, count), spare = std::span(spare_).subspan(branch.begin, count);
   if (branch.in_spare) std::swap(items, spare);
-  const bool moved = split_items(items, spare, first_count);
+  const bool moved = split_items(items, spare, first_count, workers);
   auto [first, second] =
       add_inner_node(branch, static_cast<std::uint32_t>(first_count), static_cast<std::uint32_t>(leaves));
   first.end = second.begin = branch.begin + static_cast<std::uint32_t>(first_count);
@@ -173,14 +180,13 @@ std::pair<Tree_builder::Branch, Tree_builder::Branch> Tree_builder::add_inner_no
   return {first, second};
 }
 
-void Tree_builder::add_leaf(const Branch& branch, Leaf_maker& maker) {
+void Tree_builder::add_leaf(const Branch& branch, Leaf_numbering& numbers) {
   const std::size_t count = branch.end - branch.begin;
   const auto faces = std::span(tree_.faces_).subspan(branch.face, count);
   const auto items = std::span(branch.in_spare ? spare_ : items_).subspan(branch.begin, count);
   std::ranges::transform(items, faces.begin(), &Split_item::index);
-  maker.sort(faces.data(), count, hwy::SortAscending());
+  kernel::sort_few(faces);
 
-  auto& numbers = maker.numbers;
   numbers.start_leaf();
   const auto corners = std::span(tree_.corners_).subspan(branch.face, count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -188,14 +194,12 @@ void Tree_builder::add_leaf(const Branch& branch, Leaf_maker& maker) {
     corners[i] = {numbers[a], numbers[b], numbers[c]};
   }
   const auto numbered = numbers.vertices();
-  maker.sort(numbered.data(), numbered.size(), hwy::SortAscending());
+  kernel::Ranks places;  // by number
+  kernel::find_ranks(numbered, places);
   const auto vertices = vertices_.begin() + 3 * static_cast<std::ptrdiff_t>(branch.begin);
-  std::array<std::uint16_t, 3 * most_leaf_faces> places;  // by number
-  for (std::uint16_t place = 0; place < numbered.size(); ++place) {
-    vertices[place] = static_cast<std::uint32_t>(numbered[place] >> 32U);
-    places[numbered[place] & 0xffffU] = place;
-  }
-  for (auto& [a, b, c] : corners) a = places[a], b = places[b], c = places[c];
+  for (std::size_t number = 0; number < numbered.size(); ++number) vertices[places[number]] = numbered[number];
+  const auto place = [&](std::uint16_t number) { return static_cast<std::uint16_t>(places[number]); };
+  for (auto& [a, b, c] : corners) a = place(a), b = place(b), c = place(c);
   item_begin_[branch.leaf] = branch.begin;
   add_leaf_node(branch, numbered.size());
 }

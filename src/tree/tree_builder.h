@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <hwy/contrib/sort/vqsort.h>
-
 #include <utility>
 
 #include "lodestone/mesh/workers.h"
@@ -37,12 +35,6 @@ class Tree_builder {
     std::uint32_t leaves = 0;                    ///< how many; 1: the node is one
     std::uint32_t node = 0, leaf = 0, face = 0;  ///< places in the tree's lists: of the node, its first leaf, its faces
   };
-  /// What a worker needs to make leaves.
-  struct Leaf_maker {
-    Leaf_numbering numbers;
-    hwy::Sorter sort;
-  };
-
   void make_room(std::size_t faces);
   void read_items();
   void group_by_region();
@@ -52,10 +44,10 @@ class Tree_builder {
   void add_regions(std::span<Split_item> regions, std::span<Split_item> spare, const Branch& whole,
                    std::vector<Branch>& branches);
   void add_branches(std::vector<Branch> branches);
-  void add_branch(const Branch& branch, Leaf_maker& maker);
-  std::pair<Branch, Branch> halve(const Branch& branch);
+  void add_branch(const Branch& branch, Leaf_numbering& numbers);
+  std::pair<Branch, Branch> halve(const Branch& branch, Workers& workers = Workers::alone());
   std::pair<Branch, Branch> add_inner_node(const Branch& branch, std::uint32_t first_faces, std::uint32_t first_leaves);
-  void add_leaf(const Branch& branch, Leaf_maker& maker);
+  void add_leaf(const Branch& branch, Leaf_numbering& numbers);
   void add_leaf_node(const Branch& branch, std::size_t vertex_count);
   void size_vertices();
   void gather_vertices(std::size_t first_leaf, std::size_t end_leaf);

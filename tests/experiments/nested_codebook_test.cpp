@@ -22,7 +22,7 @@ struct Sphere {
   explicit Sphere(double x = 0) {
     for (auto& point : mesh.points()) point = Point(point.x() + x, point.y(), point.z());
     const Mesh_numbering<Surface_mesh> numbering(mesh);
-    corners = numbering.corners();
+    corners = Mesh_numbering<Surface_mesh>(mesh).corners();
     positions = read_positions(numbering, mesh.points());
     for (const auto& face : corners) regions.push_back(positions(face[0], 1) > 0 ? 1 : 0);
   }

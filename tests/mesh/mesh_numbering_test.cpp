@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
+#include "lodestone/io/shapes/shapes.h"
 #include "support/special_numbers.h"
 #include "support/test_meshes.h"
 
@@ -63,6 +65,37 @@ TEST(Mesh_numbering, a_mesh_with_removed_elements_is_refused_until_garbage_is_co
   EXPECT_THROW(Mesh_numbering<Surface_mesh>{mesh}, Bad_mesh);
   mesh.collect_garbage();
   EXPECT_EQ(Mesh_numbering<Surface_mesh>(mesh).corners().size(), 8 * 2 * 2 - 1);
+}
+
+TEST(Mesh_numbering, is_the_same_for_any_number_of_workers) {
+  const auto mesh = icosphere(60);
+  const Mesh_numbering<Surface_mesh> alone(mesh);
+  for (const std::size_t threads : {2, 3, 8}) {
+    Workers workers(threads);
+    const Mesh_numbering<Surface_mesh> shared(mesh, workers);
+    EXPECT_EQ(shared.vertex_count(), alone.vertex_count());
+    EXPECT_TRUE(std::ranges::equal(shared.corners(), alone.corners()));
+  }
+}
+
+TEST(Mesh_numbering, names_the_first_face_that_is_not_a_triangle_for_any_number_of_workers) {
+  auto mesh = icosphere(60);
+  for (const std::uint32_t face : {70'000, 40'000}) {
+    const auto inner = CGAL::Euler::add_center_vertex(mesh.halfedge(Surface_mesh::Face_index(face)), mesh);
+    CGAL::Euler::join_face(inner, mesh);  // of the three new faces two are a quadrangle now
+  }
+  mesh.collect_garbage();
+  const auto message = [&](std::size_t threads) -> std::string {
+    Workers workers(threads);
+    try {
+      Mesh_numbering<Surface_mesh>(mesh, workers);
+    } catch (const Bad_mesh& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message(1), "");
+  for (const std::size_t threads : {2, 3, 8}) EXPECT_EQ(message(threads), message(1));
 }
 
 TEST(Mesh_numbering, positions_come_from_the_given_map) {

@@ -330,13 +330,12 @@ std::deque<Walker> crowd(std::uint64_t seed, double effective_radius) {
   std::deque<Walker> walkers;
   for (int o = 0; o < 6; ++o) {
     const Surface_mesh mesh = sphere(8, 1, {place(random), place(random), place(random)});
-    const Mesh_numbering<Surface_mesh> numbering(mesh);
     std::vector<Eigen::Vector3d> points;
     for (const auto v : mesh.vertices()) points.push_back(coordinates(mesh.point(v)));
     std::vector<std::uint32_t> at;
     for (int p = 0; p < 12; ++p) at.push_back(static_cast<std::uint32_t>(random() % points.size()));
     const std::vector<Region_index> labels(points.size(), 0);
-    walkers.emplace_back(points, numbering.corners(), labels, at, 40, effective_radius);
+    walkers.emplace_back(points, Mesh_numbering<Surface_mesh>(mesh).corners(), labels, at, 40, effective_radius);
   }
   return walkers;
 }

@@ -78,7 +78,9 @@ TEST(Region_tree, of_a_hundred_thousand_faces_is_valid) {
 }
 
 TEST(Region_tree, is_the_same_for_any_number_of_workers) {
-  for (const auto& soup : {Face_soup(icosphere(40)), shuffled(Face_soup(cloth(90, 70)), 1), Face_soup(icosphere(1))})
+  // The first two are large enough for workers to share their uppermost splits.
+  for (const auto& soup : {Face_soup(icosphere(60)), shuffled(Face_soup(cloth(210, 170)), 1),
+                           shuffled(Face_soup(cloth(90, 70)), 1), Face_soup(icosphere(1))})
     for (const bool divided : {false, true}) {
       const Labels labels = divided ? octants(soup) : Labels();
       const Region_tree alone(soup.faces, labels, soup.coordinates);

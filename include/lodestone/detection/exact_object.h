@@ -74,9 +74,11 @@ class Exact_object {
 
   /// Reads the faces of the mesh anew; given positions, which may be those of other vertices, are dropped.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
-  void rebuild(std::span<const std::uint32_t> file_vertex) { replace(Faces(mesh().renumbered(), file_vertex)); }
+  void rebuild(std::span<const std::uint32_t> file_vertex, Workers& workers) {
+    replace(Faces(mesh().renumbered(workers), file_vertex));
+  }
   /// The same, reading only what has changed where the type of the mesh allows that.
-  void rebuild(const Changed_faces& changed);
+  void rebuild(const Changed_faces& changed, Workers& workers);
 
   /// Mends the tree that the surface had before its faces changed, if there is one and it has no regions. Call it
   /// before `build`, which is then needless.
@@ -168,7 +170,7 @@ class Exact_object {
     Faces(std::unique_ptr<Watched_mesh> watched, std::span<const std::uint32_t> file_vertex)
         : mesh(std::move(watched)), joined(join_vertices(mesh->corners(), mesh->vertex_count(), file_vertex)) {}
 
-    std::span<const Corners> corners() const { return joined.empty() ? mesh->corners() : joined; }
+    std::span<const Corners> corners() const { return joined.empty() ? mesh->corners() : std::span(joined); }
 
     std::unique_ptr<Watched_mesh> mesh;
     std::vector<Corners> joined;  ///< none if no vertex is doubled
@@ -280,11 +282,11 @@ void Exact_object<Volume>::replace(Faces anew) {
 }
 
 template <Bounding_volume Volume>
-void Exact_object<Volume>::rebuild(const Changed_faces& changed) {
+void Exact_object<Volume>::rebuild(const Changed_faces& changed, Workers& workers) {
   const std::size_t former_faces = corners().size();
   std::vector<std::uint32_t> all(changed.faces.begin(), changed.faces.end());
   if (!faces_.joined.empty() || !mesh().renumber(changed.faces)) {
-    Faces anew(mesh().renumbered(), {});
+    Faces anew(mesh().renumbered(workers), {});
     check_faces(changed.faces, anew.corners().size());
     return replace(std::move(anew));
   }

@@ -34,7 +34,7 @@ class Exact_objects {
     timed(work_.seconds.build, [&] {
       ids_.push_back(size());
       try {
-        objects_.push_back(std::make_unique<Object>(ids_.back(), watch(), options));
+        objects_.push_back(std::make_unique<Object>(ids_.back(), watch(workers_), options));
       } catch (...) {
         ids_.pop_back();
         throw;
@@ -44,11 +44,11 @@ class Exact_objects {
   /// Reads the faces of the mesh anew.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
   void rebuild(Object_id id, std::span<const std::uint32_t> file_vertex) {
-    timed(work_.seconds.build, [&] { objects_[id]->rebuild(file_vertex); });
+    timed(work_.seconds.build, [&] { objects_[id]->rebuild(file_vertex, workers_); });
   }
   /// The same where it is known which faces have changed.
   void rebuild(Object_id id, const Changed_faces& changed) {
-    timed(work_.seconds.build, [&] { objects_[id]->rebuild(changed); });
+    timed(work_.seconds.build, [&] { objects_[id]->rebuild(changed, workers_); });
   }
 
   /// Writes what was built of an object, which is built first if it has not been.

@@ -118,7 +118,7 @@ class Particle_object {
   /// Where the object is placed; none: where its mesh is.
   const std::optional<Rigid_motion>& placement() const { return placement_; }
   /// The faces of the mesh, F.
-  const std::vector<Corners>& corners() const { return mesh_->corners(); }
+  std::span<const Corners> corners() const { return mesh_->corners(); }
   /// Where its vertices are, as of the last `read_particles`.
   const Live_positions& positions() const { return read_; }
   /// Where a particle can step.

@@ -15,6 +15,7 @@
 #include "lodestone/mesh/connectivity.h"
 #include "lodestone/mesh/coordinate_reader.h"
 #include "lodestone/mesh/region_maps.h"
+#include "lodestone/mesh/workers.h"
 #include "lodestone/partition/partition.h"
 
 namespace lodestone {
@@ -32,7 +33,7 @@ class Watched_mesh {
   /// Number of vertices, V.
   virtual std::uint32_t vertex_count() const = 0;
   /// Corners of every face, in the order of `faces(mesh)`.
-  virtual const std::vector<Corners>& corners() const = 0;
+  virtual std::span<const Corners> corners() const = 0;
   /// Notices that the mesh has changed since it was numbered: see `lodestone::check_connectivity`.
   /// @param title      names the mesh in the message
   /// @throws Bad_mesh  the mesh has another number of vertices or faces than when it was numbered, or removed elements
@@ -70,14 +71,14 @@ class Watched_mesh {
 
   /// The same mesh, its vertices and faces numbered anew, and its maps fetched again.
   /// @throws Bad_mesh  see Mesh_numbering
-  virtual std::unique_ptr<Watched_mesh> renumbered() const = 0;
+  virtual std::unique_ptr<Watched_mesh> renumbered(Workers& workers) const = 0;
   /// Numbers this mesh anew after a change of its faces: see `Mesh_numbering::renumber`.
   /// @return false if a mesh of this type must be numbered as a whole: nothing has been done
   virtual bool renumber(std::span<const std::uint32_t> changed) = 0;
 };
 
-/// Makes a Watched_mesh. The time that this takes counts as `build`.
-using Watch_mesh = std::function<std::unique_ptr<Watched_mesh>()>;
+/// Makes a Watched_mesh, whose faces workers share. The time that this takes counts as `build`.
+using Watch_mesh = std::function<std::unique_ptr<Watched_mesh>(Workers&)>;
 
 /// A mesh of a known type, with its property maps.
 template <Triangle_mesh Mesh>
@@ -85,10 +86,10 @@ class Watched_mesh_of : public Watched_mesh {
  public:
   /// @param mesh       must outlive this
   /// @throws Bad_mesh  see Mesh_numbering
-  explicit Watched_mesh_of(const Mesh& mesh) : mesh_(&mesh), numbering_(mesh) {}
+  Watched_mesh_of(const Mesh& mesh, Workers& workers) : mesh_(&mesh), numbering_(mesh, workers) {}
 
   std::uint32_t vertex_count() const override { return numbering_.vertex_count(); }
-  const std::vector<Corners>& corners() const override { return numbering_.corners(); }
+  std::span<const Corners> corners() const override { return numbering_.corners(); }
   void check_connectivity(const std::string& title) const override {
     lodestone::check_connectivity(*mesh_, numbering_, [&] { return title; });
   }
@@ -138,8 +139,9 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
  public:
   /// @param mesh, points  must outlive this
   /// @param strategy      shared by the meshes of a detector
-  Typed_watched_mesh(const Mesh& mesh, Points points, std::shared_ptr<const Strategy> strategy)
-      : Watched_mesh_of<Mesh>(mesh),
+  Typed_watched_mesh(const Mesh& mesh, Points points, std::shared_ptr<const Strategy> strategy,
+                     Workers& workers = Workers::alone())
+      : Watched_mesh_of<Mesh>(mesh, workers),
         points_(points),
         all_points_(std::move(points)),
         strategy_(std::move(strategy)) {
@@ -182,8 +184,8 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
           Partition_input<Mesh>{*this->mesh_, this->numbering_, surface.graph, surface.positions}, regions, *strategy_,
           options);
   }
-  std::unique_ptr<Watched_mesh> renumbered() const override {
-    auto anew = std::make_unique<Typed_watched_mesh>(*this->mesh_, points_, strategy_);
+  std::unique_ptr<Watched_mesh> renumbered(Workers& workers) const override {
+    auto anew = std::make_unique<Typed_watched_mesh>(*this->mesh_, points_, strategy_, workers);
     anew->renew_maps_of(*this);
     return anew;
   }

@@ -15,6 +15,8 @@
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/triangle_corners.h"
+#include "lodestone/mesh/unset_vector.h"
+#include "lodestone/mesh/workers.h"
 
 namespace lodestone {
 
@@ -81,9 +83,10 @@ template <Triangle_mesh Mesh>
 class Mesh_numbering {
  public:
   /// Cost O(V + F).
+  /// @param workers    share the faces, where descriptors are indices
   /// @throws Bad_mesh  no face, a face that is not a triangle, more than 2^32 - 2 vertices or faces, or removed
   /// elements that the mesh still counts
-  explicit Mesh_numbering(const Mesh& mesh);
+  explicit Mesh_numbering(const Mesh& mesh, Workers& workers = Workers::alone());
 
   /// Number of vertices, V.
   std::uint32_t vertex_count() const { return vertex_count_; }
@@ -92,7 +95,9 @@ class Mesh_numbering {
   /// Index of a vertex.
   std::uint32_t index(Vertex<Mesh> v) const { return table_.index(v); }
   /// Corners of every face, in the order of `faces(mesh)`.
-  const std::vector<Corners>& corners() const { return corners_; }
+  std::span<const Corners> corners() const& { return corners_; }
+  /// The same of a temporary, copied.
+  std::vector<Corners> corners() const&& { return {corners_.begin(), corners_.end()}; }
 
   /// Numbers the mesh anew after a change of its faces, reading it only where it has changed. CGAL::Surface_mesh only.
   /// @param changed        indices of faces that have other corners than before; new faces need not be listed
@@ -103,6 +108,7 @@ class Mesh_numbering {
 
  private:
   static void check_counts(const Mesh& mesh);
+  void read_faces(const Mesh& mesh, Workers& workers);
   void check_kept_faces(std::span<const std::uint32_t> changed, std::size_t face_count,
                         std::uint32_t vertex_count) const;
   template <class Face>
@@ -110,7 +116,7 @@ class Mesh_numbering {
 
   Vertex_table<Mesh> table_;
   std::uint32_t vertex_count_ = 0;
-  std::vector<Corners> corners_;
+  Unset_vector<Corners> corners_;
 };
 
 template <Triangle_mesh Mesh>
@@ -131,14 +137,29 @@ Corners Mesh_numbering<Mesh>::corners_of(Face f, std::size_t face, const Mesh& m
 }
 
 template <Triangle_mesh Mesh>
-Mesh_numbering<Mesh>::Mesh_numbering(const Mesh& mesh) : table_(mesh) {
+Mesh_numbering<Mesh>::Mesh_numbering(const Mesh& mesh, Workers& workers) : table_(mesh) {
   check_counts(mesh);
   vertex_count_ = static_cast<std::uint32_t>(table_.count(mesh));
-  corners_.reserve(num_faces(mesh));
-  for (const auto f : faces(mesh)) corners_.push_back(corners_of(f, corners_.size(), mesh));
+  read_faces(mesh, workers);
   // Some types of meshes count removed elements, and leave them out where they list the others.
   if (corners_.size() != num_faces(mesh) || vertex_count_ != num_vertices(mesh))
     throw Bad_mesh("the mesh holds removed elements: collect its garbage first");
+}
+
+template <Triangle_mesh Mesh>
+void Mesh_numbering<Mesh>::read_faces(const Mesh& mesh, Workers& workers) {
+  if constexpr (Vertex_table<Mesh>::by_index) {
+    constexpr std::size_t at_once = 16384;  // a worker takes so many
+    corners_.resize(num_faces(mesh));
+    workers.run((corners_.size() + at_once - 1) / at_once, [&](std::size_t index, std::size_t) {
+      const std::size_t end = std::min((index + 1) * at_once, corners_.size());
+      for (std::size_t face = index * at_once; face < end; ++face)
+        corners_[face] = corners_of(lodestone::Face<Mesh>(static_cast<std::uint32_t>(face)), face, mesh);
+    });
+  } else {
+    corners_.reserve(num_faces(mesh));
+    for (const auto f : faces(mesh)) corners_.push_back(corners_of(f, corners_.size(), mesh));
+  }
 }
 
 template <Triangle_mesh Mesh>
