@@ -211,8 +211,8 @@ bool split_items(std::span<Split_item> items, std::span<Split_item> spare, std::
   }
   const Slices of(spread);
   Counts counts;
-  const Middle middle = shared ? move_items(parts, of, first_count, spare, counts)
-                               : move_items(items, of, first_count, spare, counts);
+  const Middle middle =
+      shared ? move_items(parts, of, first_count, spare, counts) : move_items(items, of, first_count, spare, counts);
   select(spare.subspan(middle.begin, counts[middle.slice]), first_count - middle.begin, spread.axis);
   return true;
 }
