@@ -153,7 +153,8 @@ class Detector {
   /// Positions may be others than when it was saved. It has the regions, particles and leaves with which it was saved,
   /// whatever the options say; they count when it is built anew. O(V + F).
   /// @throws Bad_argument      no such object, a call of a visitor
-  /// @throws Bad_saved_object  the bytes are broken, or from another mode, mesh or format; the object stays as it was
+  /// @throws Bad_saved_object  the bytes are broken, or from another mode, mesh or format, or a tolerance within objects
+  ///                           needs positions at rest, with which they were not saved; the object stays as it was
   void load(Object_id object, std::span<const std::byte> saved) {
     State_reader state(open_saved(saved));
     detection_->load(checked(object), state);

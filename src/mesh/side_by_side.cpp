@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <vector>
 
 namespace lodestone {
 
@@ -17,11 +18,20 @@ bool are_alike(std::span<const std::size_t> sizes, std::size_t workers) {
 }  // namespace
 
 void side_by_side(std::span<const std::size_t> sizes, Workers& workers,
-                  const std::function<void(std::size_t, Workers&)>& work) {
-  std::size_t alone = sizes.size() - sizes.size() % workers.count();
-  if (workers.count() == 1 || alone == 0 || !are_alike(sizes, workers.count())) alone = 0;
-  workers.run(alone, [&](std::size_t index, std::size_t) { work(index, Workers::alone()); });
-  for (std::size_t index = alone; index < sizes.size(); ++index) work(index, workers);
+                  const std::function<void(std::size_t, Workers&)>& work, std::size_t shared_from) {
+  std::vector<std::size_t> others, other_sizes;
+  for (std::size_t index = 0; index < sizes.size(); ++index) {
+    if (sizes[index] >= shared_from) {
+      work(index, workers);
+    } else {
+      others.push_back(index);
+      other_sizes.push_back(sizes[index]);
+    }
+  }
+  std::size_t alone = others.size() - others.size() % workers.count();
+  if (workers.count() == 1 || alone == 0 || !are_alike(other_sizes, workers.count())) alone = 0;
+  workers.run(alone, [&](std::size_t i, std::size_t) { work(others[i], Workers::alone()); });
+  for (std::size_t i = alone; i < others.size(); ++i) work(others[i], workers);
 }
 
 }  // namespace lodestone

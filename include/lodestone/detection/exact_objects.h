@@ -243,9 +243,13 @@ void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<cons
   };
   for (Build& build : builds) divide_if(build, false);
   workers_.run(builds.size(), [&](std::size_t i, std::size_t) { divide_if(builds[i], true); });
-  side_by_side(faces, workers_, [&](std::size_t i, Workers& workers) {
-    builds[i].object->build(std::move(builds[i].regions), builds[i].coordinates, options_.exact.tree, workers);
-  });
+  constexpr std::size_t shared_well = 131072;  // faces per worker
+  side_by_side(
+      faces, workers_,
+      [&](std::size_t i, Workers& workers) {
+        builds[i].object->build(std::move(builds[i].regions), builds[i].coordinates, options_.exact.tree, workers);
+      },
+      shared_well * workers_.count());
   for (const auto& build : builds) build.object->finish();
 }
 
