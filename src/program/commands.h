@@ -56,7 +56,7 @@ struct Partition_command {
 };
 
 struct Info_command {
-  std::filesystem::path file;
+  std::filesystem::path file;  ///< or `SCENE.json#OBJECT`, or `shape:SHAPE`
   std::filesystem::path mesh;  ///< of a point cache; may be empty
   bool json = false;
   Scene_options reading = {};  ///< limits of the input; where a scene may name files

@@ -17,6 +17,7 @@
 #include "program/commands.h"
 #include "program/exit_codes.h"
 #include "program/frame_choice.h"
+#include "program/mesh_beside.h"
 #include "program/notes.h"
 #include "program/progress.h"
 
@@ -29,8 +30,12 @@ namespace fs = std::filesystem;
 constexpr double usual_rate = 30;
 
 Animation read_input(const Convert_command& command) {
-  if (const auto object = named_object(command.input, command.reading)) return animation_of(*object, 1);
-  if (command.input.extension() == ".json") return animation_of(object_of_scene(command.input, "", command.reading), 1);
+  const auto the_only_object = [&](const Scene_object& object) {
+    refuse_mesh_beside(command.input, command.mesh);
+    return animation_of(object, 1);
+  };
+  if (const auto object = named_object(command.input, command.reading)) return the_only_object(*object);
+  if (command.input.extension() == ".json") return the_only_object(object_of_scene(command.input, "", command.reading));
   const auto rate = command.rate > 0 ? std::optional(command.rate) : std::nullopt;
   return read_animation(command.input,
                         {.mesh = command.mesh, .frames_per_second = rate, .limits = command.reading.limits});

@@ -17,6 +17,7 @@
 #include "program/commands.h"
 #include "program/exit_codes.h"
 #include "program/frame_log.h"
+#include "program/mesh_beside.h"
 #include "program/progress.h"
 
 namespace lodestone {
@@ -116,7 +117,13 @@ Object_report report_of(Scene_object& object, std::size_t frames) {
 }
 
 Info look_at(const Info_command& command) {
+  if (auto object = named_object(command.file, command.reading)) {
+    refuse_mesh_beside(command.file, command.mesh);
+    const std::size_t frames = std::max<std::size_t>(1, object->motion.frames);
+    return {.kind = "object", .frames = frames, .objects = {report_of(*object, frames)}};
+  }
   if (command.file.extension() == ".json") {
+    refuse_mesh_beside(command.file, command.mesh);
     Scene scene = read_scene(command.file, command.reading);
     Info info{.kind = "scene", .frames = scene.frames};
     for (auto& object : scene.objects) info.objects.push_back(report_of(object, scene.frames));

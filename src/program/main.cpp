@@ -261,7 +261,9 @@ void add_partition(CLI::App& program, Partition_command& command, std::string& f
 
 void add_info(CLI::App& program, Info_command& command, std::string& format) {
   auto& app = *program.add_subcommand("info", "Report the contents of a file, and possible problems");
-  app.add_option("FILE", command.file, "Mesh, pattern of meshes such as 'cloth_*.obj', point cache, glTF or scene")
+  app.add_option("FILE", command.file,
+                 "Mesh, pattern such as 'cloth_*.obj', point cache (.pc2 .mdd), glTF, scene, SCENE.json#OBJECT, "
+                 "shape:teapot; - is the standard input")
       ->required()
       ->type_name("FILE");
   app.add_option("--mesh", command.mesh, "The mesh that a point cache moves")->type_name("FILE")->check(not_empty());

@@ -94,9 +94,9 @@ Page page_of(const Mesh_file& file, const Divided& divided, const Partition_comm
   numbers.erase("labels");   // the page has them
   Page page(
       {.kind = Page_kind::partition, .title = command.mesh.filename().string(), .strategy = command.strategy.name});
-  page.set_regions(page.add_object(command.mesh.stem().string(), numbering.vertex_count(),
-                                   {corners.begin(), corners.end()}),
-                   divided.labels);
+  page.set_regions(
+      page.add_object(command.mesh.stem().string(), numbering.vertex_count(), {corners.begin(), corners.end()}),
+      divided.labels);
   const auto& starts = divided.partition.particles;
   page.add_frame({.positions = {read_positions(numbering, file.mesh.points())},
                   .particles = {{starts.begin(), starts.end()}},

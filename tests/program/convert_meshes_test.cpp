@@ -85,6 +85,8 @@ TEST_F(Convert_meshes, built_in_shapes_are_converted) {
   EXPECT_EQ(convert("shape:teapot", "teapot.obj").mesh.number_of_faces(), 5680U);
   EXPECT_EQ(convert(R"(shape:{"icosphere": {"frequency": 2}})", "ball.stl").mesh.number_of_faces(), 80U);
   expect_error(run_program({"convert", "shape:kettle", path("b.obj")}), 3, "teapot");
+  const auto mesh = write("a.off", square_off);
+  expect_error(run_program({"convert", "shape:teapot", path("b.obj"), "--mesh", mesh}), 2, "only a point cache");
 }
 
 TEST_F(Convert_meshes, surfaces_are_welded_subdivided_and_scaled) {

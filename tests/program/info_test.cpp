@@ -112,6 +112,31 @@ TEST_F(Info, reads_a_sequence_a_gltf_file_and_a_scene) {
   EXPECT_EQ(scene["objects"][1]["closed"], true);
 }
 
+TEST_F(Info, reads_an_object_of_a_scene_and_a_built_in_shape) {
+  write("a.off", square_off);
+  const auto scene = write("scene.json", R"({"frames": 5, "objects": [
+    {"name": "square", "mesh": "a.off", "place": {"translate": [5, 0, 0]}},
+    {"name": "ball", "shape": {"icosphere": {"frequency": 2}}, "motion": {"deform": [{"spin": {}}]}}]})");
+  const Json square = info({scene + "#square"});
+  EXPECT_EQ(square["kind"], "object");
+  EXPECT_EQ(square["objects"].size(), 1U);
+  EXPECT_EQ(square["objects"][0]["name"], "square");
+  EXPECT_EQ(square["objects"][0]["box"][0][0], 5);
+  const Json ball = info({scene + "#ball"});
+  EXPECT_EQ(ball["frames"], 5);
+  EXPECT_EQ(ball["objects"][0]["faces"], 80);
+  EXPECT_EQ(info({"shape:teapot"})["objects"][0]["faces"], 5680);
+  expect_error(run_program({"info", scene + "#kettle"}), 2, "#NAME: square, ball");
+  expect_error(run_program({"info", "shape:kettle"}), 3, "teapot");
+}
+
+TEST_F(Info, refuses_a_mesh_beside_what_is_no_point_cache) {
+  const auto mesh = write("a.off", square_off);
+  const auto scene = write("scene.json", R"({"objects": [{"name": "square", "mesh": "a.off"}]})");
+  for (const auto& input : {mesh, scene, scene + "#square", std::string("shape:teapot")})
+    expect_error(run_program({"info", input, "--mesh", mesh}), 2, "only a point cache needs a mesh");
+}
+
 /// An outward cube of quads, a tetrahedron that looks inward, and an open triangle.
 const std::string three_bodies =
     "OFF\n15 11 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
