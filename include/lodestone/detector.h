@@ -161,7 +161,7 @@ class Detector {
   }
 
   /// Removes an object. The others keep their ids, and no object is given this one again. Afterwards the detector
-  /// refers to its mesh no more; `v:region` and `v:particle` stay on it as they are. O(ignored pairs).
+  /// refers to its mesh no more; `v:region` and `v:particle` stay on it as they are. O(n log n) for its n ignored pairs.
   /// @throws Bad_argument  no such object, a call of a visitor
   void remove(Object_id object) {
     detection_->remove(checked(object));

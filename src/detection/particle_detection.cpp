@@ -13,7 +13,8 @@ namespace lodestone {
 
 void Particle_detection::add(const Watch_mesh& watch, const Object_options& options) {
   const auto id = static_cast<Object_id>(objects_.size());
-  timed(since_last_frame_.seconds.build, [&] { objects_.push_back(std::make_unique<Object>(id, watch(workers_), options)); });
+  timed(since_last_frame_.seconds.build,
+        [&] { objects_.push_back(std::make_unique<Object>(id, watch(workers_), options)); });
 }
 
 void Particle_detection::update(Object_id id) {
@@ -76,7 +77,7 @@ void Particle_detection::load(Object_id id, State_reader& state) {
     object.radius = radius;
     write_maps(object);
     meeting_search_.forget(id);
-    make_room();
+    has_room_ = false;
     object.prepared = true;
   });
 }
@@ -127,8 +128,13 @@ void Particle_detection::prepare() {
   for (auto& object : objects_)
     if (object && !object->prepared) fresh.push_back(object.get());
   // An object that was removed before it was built has left a place, for which there is no room yet.
-  if (fresh.empty() && boxes_.size() == objects_.size()) return;
-  timed(since_last_frame_.seconds.build, [&] { prepare(fresh, options_.close_seams); });
+  if (fresh.empty() && has_room_ && boxes_.size() == objects_.size()) return;
+  auto& seconds = since_last_frame_.seconds;
+  const bool repartitioned = fresh.empty() && since_last_frame_.repartitions > 0;
+  timed(repartitioned ? seconds.repartition : seconds.build, [&] {
+    if (!fresh.empty()) prepare(fresh, options_.close_seams);
+    make_room();
+  });
   since_last_frame_.builds += fresh.size();
 }
 
@@ -168,7 +174,7 @@ void Particle_detection::prepare(std::span<Object* const> objects, bool close_se
   });
 
   for (Object* object : objects) write_maps(*object);
-  make_room();
+  has_room_ = false;
   for (Object* object : objects) object->prepared = true;
 }
 
@@ -204,13 +210,14 @@ std::size_t Particle_detection::particles_of(const Object& object, const Positio
   return std::min(std::max(by_rule, options_.least_particles), rule.most_particles);
 }
 
-/// Sizes the memory of all stages, so that frames need none.
+/// Sizes the memory of all stages, so that frames need none. O(objects), so once for all that have changed.
 void Particle_detection::make_room() {
   std::vector<std::size_t> counts;
-  std::size_t faces = 0, vertices = 0;
+  std::size_t live = 0, faces = 0, vertices = 0;
   for (const auto& object : objects_) {
     counts.push_back(object ? object->particle_object.particles().at.size() : 0);
     if (!object) continue;
+    ++live;
     object->before.reserve(counts.back());
     for (const auto& patch : object->particle_object.patches()) {
       faces = std::max(faces, patch.faces.size());
@@ -220,17 +227,26 @@ void Particle_detection::make_room() {
   const std::size_t most = counts.empty() ? 0 : *std::ranges::max_element(counts);
   relaxation_.reserve(counts);
   region_candidates_.reserve(std::min<std::size_t>(most * most, 1 << 16));
-  walking_.reserve(objects_.size());
+  walking_.reserve(live);
   confirmation_.reserve(faces, vertices);
-  broad_phase_.reserve(objects_.size());
-  object_candidates_.reserve(std::min<std::size_t>(objects_.size() * objects_.size() / 2, 100 * objects_.size()));
-  ids_.reserve(objects_.size());
+  broad_phase_.reserve(live);
+  const std::size_t pairs = std::min<std::size_t>(live * live / 2, 100 * live);
+  object_candidates_.reserve(pairs);
+  ids_.reserve(live);
   boxes_.resize(objects_.size());
   reach_.resize(objects_.size());
   opponents_.resize(objects_.size());
   pulls_.resize(objects_.size());
-  for (auto& list : opponents_) list.reserve(std::min<std::size_t>(objects_.size(), 1000));
-  frame_.reserve(std::min<std::size_t>(objects_.size() * objects_.size() / 2, 100 * objects_.size()), 1024);
+  for (std::size_t o = 0; o < objects_.size(); ++o) {
+    if (objects_[o]) {
+      opponents_[o].reserve(std::min<std::size_t>(live, 1000));
+    } else {
+      opponents_[o] = {};
+      pulls_[o] = {};
+    }
+  }
+  frame_.reserve(pairs, 1024);
+  has_room_ = true;
 }
 
 void Particle_detection::find_candidates(const Collision_filter& filter) {

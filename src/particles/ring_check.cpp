@@ -11,6 +11,13 @@ void Ring_check::start(Rings& rings, std::uint32_t vertex) {
   rings.fresh.assign(1, vertex);
 }
 
+/// Whether the next ring does not make them more than are tested, even if its vertices share no faces.
+bool Ring_check::is_small_enough(const Walked_surface& surface, const Rings& rings) {
+  std::size_t faces = rings.faces.size();
+  for (const auto vertex : rings.fresh) faces += surface.vertex_faces->at(vertex).size();
+  return faces <= most_faces;
+}
+
 /// Adds the faces at the vertices of the last ring that are not there yet: those without a corner in an earlier ring.
 void Ring_check::grow(const Walked_surface& surface, Rings& rings) {
   rings.rim.clear();
@@ -50,6 +57,7 @@ bool Ring_check::check(const Walked_surface& a, const Walked_surface& b, Meeting
   start(a_, at.a);
   start(b_, at.b);
   for (std::size_t ring = 0; ring < rings; ++ring) {
+    if (!is_small_enough(a, a_) || !is_small_enough(b, b_)) return false;
     const std::size_t old_a = a_.faces.size(), old_b = b_.faces.size();
     grow(a, a_);
     grow(b, b_);

@@ -132,5 +132,21 @@ TEST(Collision_filter, an_ignored_pair_does_not_ignore_the_objects_themselves) {
   EXPECT_TRUE(filter.may_collide(1, 1));
 }
 
+TEST(Collision_filter, forgets_the_ignored_pairs_of_a_removed_object_and_no_others) {
+  Collision_filter filter;
+  for (int o = 0; o < 4; ++o) filter.add({});
+  for (const Object_pair pair : {Object_pair{1, 0}, {1, 2}, {1, 1}, {3, 2}}) filter.ignore(pair, true);
+  filter.remove(1);
+  EXPECT_FALSE(filter.may_collide(1, 1));
+  for (const std::uint32_t other : {0, 2, 3})
+    EXPECT_FALSE(filter.may_collide(1, other) || filter.may_collide(other, 1));
+  EXPECT_FALSE(filter.may_collide(2, 3));
+  EXPECT_FALSE(filter.may_collide(3, 2));
+  EXPECT_TRUE(filter.may_collide(0, 2));
+  EXPECT_TRUE(filter.may_collide(0, 3));
+  filter.ignore({2, 3}, false);
+  EXPECT_TRUE(filter.may_collide(2, 3));
+}
+
 }  // namespace
 }  // namespace lodestone

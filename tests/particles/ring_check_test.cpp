@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "lodestone/mesh/errors.h"
@@ -88,6 +90,37 @@ TEST(Ring_check, counts_what_it_tests_and_reads_until_told_to_begin_anew) {
   EXPECT_EQ(check.vertices_read(), 2 * reads);
   check.reset_counts();
   EXPECT_EQ(check.exact_tests() + check.vertices_read(), 0U);
+}
+
+/// A cone of so many faces around its tip, which is vertex 0.
+Face_soup cone(std::uint32_t count) {
+  Face_soup soup;
+  soup.coordinates = {0, 0, 0};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    soup.coordinates.insert(soup.coordinates.end(), {std::cos(angle), std::sin(angle), 1});
+    soup.faces.push_back({0, 1 + i, 1 + (i + 1) % count});
+  }
+  return soup;
+}
+
+TEST(Ring_check, a_vertex_with_too_many_faces_is_not_tested) {
+  for (const std::uint32_t faces : {512, 513}) {
+    const Owned_surface many(cone(faces)), few(moved(cone(16), 0, 0, 0.1));
+    const bool tested = faces <= Ring_check::most_faces;
+    for (const bool swapped : {false, true}) {
+      Ring_check check;
+      Face_pair found;
+      const bool touches = swapped ? check.check(few.view(), many.view(), {0, 0}, 1, found)
+                                   : check.check(many.view(), few.view(), {0, 0}, 1, found);
+      EXPECT_EQ(touches, tested && !contacts_of_rings(many, few, {0, 0}, 1).empty());
+      EXPECT_EQ(check.vertices_read() > 0, tested);
+    }
+  }
+  const Owned_surface a(cone(512)), b(moved(cone(512), 0.01, 0, 0));
+  Ring_check check;
+  Face_pair found;
+  EXPECT_TRUE(check.check(a.view(), b.view(), {0, 0}, 1, found));
 }
 
 TEST(Ring_check, a_coordinate_that_is_not_finite_is_refused) {

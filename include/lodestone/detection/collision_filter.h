@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
+#include <cstdint>
 #include <set>
 #include <vector>
 
@@ -15,32 +15,42 @@ namespace lodestone {
 class Collision_filter {
  public:
   /// Adds an object, with its groups.
-  void add(const Object_options& object) { objects_.push_back({object.groups, object.meets}); }
+  void add(const Object_options& object) { objects_.push_back({{object.groups, object.meets}, {}}); }
   /// Undoes the last `add`.
   void take_back() { objects_.pop_back(); }
-  /// Leaves out all pairs of an object from now on. O(ignored pairs).
+  /// Leaves out all pairs of an object from now on. O(n log n) for its n ignored pairs.
   void remove(std::uint32_t object) {
-    objects_[object] = {.groups = 0, .meets = 0};
-    std::erase_if(ignored_, [object](const Object_pair& pair) { return pair.a == object || pair.b == object; });
+    for (const auto other : objects_[object].ignored)
+      if (other != object) objects_[other].ignored.erase(object);
+    objects_[object] = {.groups = {.groups = 0, .meets = 0}, .ignored = {}};
   }
-  /// Leaves out a pair, or takes it in again. O(log ignored pairs).
+  /// Leaves out a pair, or takes it in again. O(log n) for n ignored pairs of one of the two.
   void ignore(Object_pair pair, bool ignored) {
-    if (ignored)
-      ignored_.insert(ordered(pair));
-    else
-      ignored_.erase(ordered(pair));
+    auto &of_a = objects_[pair.a].ignored, &of_b = objects_[pair.b].ignored;
+    if (!ignored) {
+      of_a.erase(pair.b);
+      of_b.erase(pair.a);
+    } else if (of_a.insert(pair.b).second && pair.a != pair.b) {
+      try {
+        of_b.insert(pair.a);
+      } catch (...) {
+        of_a.erase(pair.b);
+        throw;
+      }
+    }
   }
   /// Whether a face of a and a face of b, or two faces of a = b, may be reported.
   bool may_collide(std::uint32_t a, std::uint32_t b) const {
-    if (!meet(objects_[a], objects_[b])) return false;
-    return ignored_.empty() || !ignored_.contains(ordered({a, b}));
+    return meet(objects_[a].groups, objects_[b].groups) && !objects_[a].ignored.contains(b);
   }
 
  private:
-  static Object_pair ordered(Object_pair pair) { return {std::min(pair.a, pair.b), std::max(pair.a, pair.b)}; }
+  struct Object {
+    Collision_groups groups;
+    std::set<std::uint32_t> ignored = {};  ///< objects with which its pairs are left out
+  };
 
-  std::vector<Collision_groups> objects_;
-  std::set<Object_pair> ignored_;
+  std::vector<Object> objects_;
 };
 
 }  // namespace lodestone

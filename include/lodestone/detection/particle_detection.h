@@ -126,6 +126,7 @@ class Particle_detection final : public Detection {
   Frame_statistics since_last_frame_;  ///< what other calls have to tell the next frame
 
   // Memory of the stages, kept from frame to frame.
+  bool has_room_ = true;        ///< whether it is as large as the objects need
   std::vector<Object_id> ids_;  ///< of the objects that have not been removed
   std::vector<Box> boxes_;
   std::vector<double> reach_;

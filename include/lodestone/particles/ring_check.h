@@ -15,13 +15,17 @@ namespace lodestone {
 /// intersect. Keeps its memory from one check to the next.
 class Ring_check {
  public:
-  /// Tests the faces with a corner less than `rings` hops from either vertex.
+  /// Most faces on a side that are tested. Around a vertex with more, such as the tip of a cone, testing all against
+  /// all would take longer than any other search.
+  static constexpr std::size_t most_faces = 512;
+
+  /// Tests the faces with a corner less than `rings` hops from either vertex; not from the ring on that has more than
+  /// `most_faces`.
   /// @param found  receives one contact, if there is one among those faces
   /// @return whether there is
   /// @throws Bad_mesh  a coordinate that is read is not finite
   bool check(const Walked_surface& a, const Walked_surface& b, Meeting at, std::size_t rings, Face_pair& found);
 
-  /// Face pairs that went to the exact test, and positions read, since `reset_counts`.
   /// Face pairs that went to the exact test since `reset_counts`.
   std::size_t exact_tests() const { return exact_tests_; }
   /// Positions read since `reset_counts`, some more than once.
@@ -39,6 +43,7 @@ class Ring_check {
   };
 
   void start(Rings& rings, std::uint32_t vertex);
+  static bool is_small_enough(const Walked_surface& surface, const Rings& rings);
   void grow(const Walked_surface& surface, Rings& rings);
   bool test(std::span<const Read_face> faces_a, std::span<const Read_face> faces_b, Face_pair& found);
 
