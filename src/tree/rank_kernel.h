@@ -11,8 +11,8 @@
 
 /// Sorting the few numbers of a leaf, built for several instruction sets and chosen at run time.
 ///
-/// Highway's vqsort asks the operating system for random numbers at each call, which takes several times as long as
-/// sorting so few. To compare each number with all others takes no branch and no memory.
+/// Highway's vqsort asks the operating system for random numbers at each call. To compare each number with all others
+/// takes no system call and no branch that depends on them.
 namespace lodestone::kernel {
 
 /// Most numbers that are ranked at once: all corners of a leaf.

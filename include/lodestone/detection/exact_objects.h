@@ -243,7 +243,7 @@ void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<cons
   };
   for (Build& build : builds) divide_if(build, false);
   workers_.run(builds.size(), [&](std::size_t i, std::size_t) { divide_if(builds[i], true); });
-  constexpr std::size_t shared_well = 131072;  // faces per worker
+  constexpr std::size_t shared_well = 131072;  // faces per worker from which on building a tree is shared well
   side_by_side(
       faces, workers_,
       [&](std::size_t i, Workers& workers) {

@@ -19,8 +19,8 @@ class Ring_check {
   /// all would take longer than any other search.
   static constexpr std::size_t most_faces = 512;
 
-  /// Tests the faces with a corner less than `rings` hops from either vertex; not from the ring on that has more than
-  /// `most_faces`.
+  /// Tests the faces with a corner less than `rings` hops from either vertex. Ends before a ring with which one side
+  /// could have more than `most_faces`.
   /// @param found  receives one contact, if there is one among those faces
   /// @return whether there is
   /// @throws Bad_mesh  a coordinate that is read is not finite
