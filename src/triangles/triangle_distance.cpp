@@ -115,13 +115,58 @@ Triangle_point<Number> converted(const Triangle_point<double>& p) {
 
 /// Whether a pair of points is proven to be nearer than `limit`. Even if s and r are rounded, they name points of the
 /// triangles.
+template <class Number>
 bool surely_nearer(const Triangle& a, const Triangle& b, const Nearest_points<double>& points, double limit) {
-  using Interval = CGAL::Interval_nt<false>;
-  const CGAL::Protect_FPU_rounding<true> upwards;
-  const auto on_a = converted<Interval>(points.a), on_b = converted<Interval>(points.b);
-  Interval squared = 0;
+  const auto on_a = converted<Number>(points.a), on_b = converted<Number>(points.b);
+  Number squared = 0;
   for (int axis = 0; axis < 3; ++axis) squared += CGAL::square(coordinate(a, on_a, axis) - coordinate(b, on_b, axis));
-  return CGAL::certainly(squared < CGAL::square(Interval(limit)));
+  return CGAL::certainly(squared < CGAL::square(Number(limit)));
+}
+bool surely_nearer_in_intervals(const Triangle& a, const Triangle& b, const Nearest_points<double>& points,
+                                double limit) {
+  const CGAL::Protect_FPU_rounding<true> upwards;
+  return surely_nearer<CGAL::Interval_nt<false>>(a, b, points, limit);
+}
+
+/// Exact numbers for sums and products, much faster than those that can be divided.
+using Ring = Kernel::Exact_kernel_rt;
+
+/// The direction of the gap between the corner, edge or face that each of two near points lies on, of any length,
+/// without rounding.
+/// @param corners  of a and of b
+Ring::Vector_3 exact_gap_direction(const std::array<std::array<Ring::Point_3, 3>, 2>& corners,
+                                   const Nearest_points<double>& near) {
+  const std::array points{near.a, near.b};
+  const auto edge = [&](std::size_t t, int after) {
+    const auto corner = [&](int i) { return corners[t][static_cast<std::size_t>((points[t].corner + i) % 3)]; };
+    return corner(after + 1) - corner(after);
+  };
+  const Ring::Vector_3 gap = corners[0][static_cast<std::size_t>(near.a.corner)] -
+                             corners[1][static_cast<std::size_t>(near.b.corner)];
+  const auto along_gap = [&gap](const Ring::Vector_3& normal) { return normal * gap < 0 ? -normal : normal; };
+  if (near.a.r > 0) return along_gap(CGAL::cross_product(edge(0, 0), edge(0, 1)));
+  if (near.b.r > 0) return along_gap(CGAL::cross_product(edge(1, 0), edge(1, 1)));
+  if (near.a.s > 0 && near.b.s > 0) return along_gap(CGAL::cross_product(edge(0, 0), edge(1, 0)));
+  if (near.a.s == 0 && near.b.s == 0) return gap;
+  const Ring::Vector_3 of_edge = near.a.s > 0 ? edge(0, 0) : edge(1, 0);
+  return gap * of_edge.squared_length() - of_edge * (gap * of_edge);
+}
+
+/// Whether a plane orthogonal to the gap proves the triangles to be `limit` apart or more. Without rounding; so only a
+/// gap that is not the nearest proves nothing.
+bool exactly_apart(const Triangle& a, const Triangle& b, const Nearest_points<double>& near, double limit) {
+  const auto exact = [](const Triangle& t) {
+    const auto point = [&t](std::size_t i) { return Ring::Point_3(t[i].x(), t[i].y(), t[i].z()); };
+    return std::array{point(0), point(1), point(2)};
+  };
+  const std::array corners{exact(a), exact(b)};
+  const Ring::Vector_3 across = exact_gap_direction(corners, near);
+  const auto heights = [&](std::size_t t) {
+    const auto height = [&](std::size_t i) { return across * (corners[t][i] - CGAL::ORIGIN); };
+    return std::minmax({height(0), height(1), height(2)});
+  };
+  const Ring::FT gap = heights(0).first - heights(1).second;
+  return gap > 0 && CGAL::square(gap) >= CGAL::square(Ring::FT(limit)) * across.squared_length();
 }
 
 Nearest_points<Exact_number> exact_nearest_points(const Triangle& a, const Triangle& b) {
@@ -162,6 +207,20 @@ Box box(const Triangle& t) {
   return bounds;
 }
 
+/// Whether the boxes are `distance` apart or more along one axis. Exact, since a gap as wide as the distance is what
+/// people lay out: a box above a floor, parts with a clearance.
+bool apart_along_an_axis(const Box& a, const Box& b, double distance) {
+  const auto apart = [distance](double upper, double lower) {
+    const double gap = upper - lower;
+    if (gap != distance) return gap > distance;
+    const double of_lower = upper - gap, of_upper = gap + of_lower;
+    return (upper - of_upper) + (of_lower - lower) >= 0;  // what the rounding of the gap left out \cite knuth1969
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    if (apart(a.min()[axis], b.max()[axis]) || apart(b.min()[axis], a.max()[axis])) return true;
+  return false;
+}
+
 double positive(double distance) { return std::max(distance, std::numeric_limits<double>::denorm_min()); }
 
 }  // namespace
@@ -184,11 +243,14 @@ Closest_points closest_points(const Triangle& a, const Triangle& b) {
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance) {
   if (!(distance > 0)) return triangles_intersect(a, b);
   if (!std::isfinite(distance)) return true;
-  if (distance_lower_bound(box(a), box(b)) >= distance) return false;
+  const Box box_a = box(a), box_b = box(b);
+  if (distance_lower_bound(box_a, box_b) >= distance || apart_along_an_axis(box_a, box_b, distance)) return false;
   Estimate estimate(a, b);
   if (estimate.proves_apart(distance)) return false;
-  if (surely_nearer(a, b, estimate.points(), distance)) return true;
+  if (surely_nearer_in_intervals(a, b, estimate.points(), distance)) return true;
   if (!estimate.proves_apart() && triangles_intersect(a, b)) return true;
+  if (surely_nearer<Ring::FT>(a, b, estimate.points(), distance)) return true;
+  if (exactly_apart(a, b, estimate.points(), distance)) return false;
   return exact_nearest_points(a, b).squared < CGAL::square(Exact_number(distance));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/triangles/triangle_intersection.h"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Intersections_3/Segment_3_Segment_3.h>
 #include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
 #include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
@@ -11,13 +10,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "triangles/crossing_segment.h"
+#include "triangles/shared_corners.h"
 
 namespace lodestone {
 
@@ -61,46 +59,26 @@ struct Shapes_intersect {
   }
 };
 
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-
-Exact::Point_3 exact(const Point& p) { return {p.x(), p.y(), p.z()}; }
-
-/// The nearest double. CGAL's own conversion may be off in the last digits.
-double nearest(const Exact::FT& number) {
-  const auto& x = number.exact();
-  using Number = std::remove_cvref_t<decltype(x)>;
-  double best = CGAL::to_double(x);
-  const auto is_nearer = [&](double other) {
-    return std::isfinite(other) && CGAL::abs(Number(x - Number(other))) < CGAL::abs(Number(x - Number(best)));
-  };
-  for (const double end : {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()})
-    while (is_nearer(std::nextafter(best, end))) best = std::nextafter(best, end);
-  return best;
-}
-
-Point rounded(const Exact::Point_3& p) { return {nearest(p.x()), nearest(p.y()), nearest(p.z())}; }
-
 struct Collect_points {
   Intersection_points& points;
 
-  void operator()(const Exact::Point_3& p) const { points.push_back(rounded(p)); }
-  void operator()(const Exact::Segment_3& s) const {
-    for (const auto& end : {s.source(), s.target()}) points.push_back(rounded(end));
-    std::ranges::sort(points);
+  void operator()(const Rational_kernel::Point_3& p) const { points.push_back(nearest_point(p)); }
+  void operator()(const Rational_kernel::Segment_3& s) const {
+    for (const auto& end : {s.source(), s.target()}) points.push_back(nearest_point(end));
   }
-  void operator()(const Exact::Triangle_3& t) const {
-    for (int i = 0; i < 3; ++i) points.push_back(rounded(t[i]));
+  void operator()(const Rational_kernel::Triangle_3& t) const {
+    for (int i = 0; i < 3; ++i) points.push_back(nearest_point(t[i]));
   }
-  void operator()(const std::vector<Exact::Point_3>& polygon) const {
-    for (const auto& p : polygon) points.push_back(rounded(p));
+  void operator()(const std::vector<Rational_kernel::Point_3>& polygon) const {
+    for (const auto& p : polygon) points.push_back(nearest_point(p));
   }
 };
 
 struct Shapes_intersection {
   Intersection_points& points;
 
-  void operator()(const Exact::Point_3& a, const Exact::Point_3& b) const {
-    if (a == b) points.push_back(rounded(a));
+  void operator()(const Rational_kernel::Point_3& a, const Rational_kernel::Point_3& b) const {
+    if (a == b) points.push_back(nearest_point(a));
   }
   template <class A, class B>
   void operator()(const A& a, const B& b) const {
@@ -141,9 +119,22 @@ bool passes_through(const double* p, const double* q, const Triangle_corners& t)
          positive(1, 0, 3, 4) && positive(1, 0, 4, 2);
 }
 
-void intersect_exactly(const Triangle& a, const Triangle& b, Intersection_points& points) {
-  std::visit(Shapes_intersection{points}, shape<Exact>(exact(a[0]), exact(a[1]), exact(a[2])),
-             shape<Exact>(exact(b[0]), exact(b[1]), exact(b[2])));
+bool have_area(const Triangle& a, const Triangle& b) {
+  const auto has_area = [](const Triangle& t) {
+    return surely_not_collinear(t) || !CGAL::collinear(t[0], t[1], t[2]);
+  };
+  return has_area(a) && has_area(b);
+}
+
+/// The intersection of triangles of which some may be segments or points.
+Intersection_points shapes_intersection(const Triangle& a, const Triangle& b) {
+  const auto rational_shape = [](const Triangle& t) {
+    return shape<Rational_kernel>(rational(t[0]), rational(t[1]), rational(t[2]));
+  };
+  Intersection_points points;
+  std::visit(Shapes_intersection{points}, rational_shape(a), rational_shape(b));
+  put_in_order(points);
+  return points;
 }
 
 }  // namespace
@@ -185,12 +176,11 @@ void triangle_intersections(std::span<const Triangle_pair> pairs, std::span<Inte
     const auto batch = pairs.subspan(first, std::min(most_crossing_pairs, pairs.size() - first));
     crossing_segments(batch, segments);
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      Intersection_points& points = intersections[first + i];
-      points.clear();
+      const auto& [a, b] = batch[i];
       if (segments[i])
-        points.assign(segments[i]->begin(), segments[i]->end());
+        intersections[first + i].assign(segments[i]->begin(), segments[i]->end());
       else
-        intersect_exactly(batch[i].a, batch[i].b, points);
+        intersections[first + i] = have_area(a, b) ? shared_corners(a, b) : shapes_intersection(a, b);
     }
   }
 }

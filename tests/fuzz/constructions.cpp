@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two triangles: where they meet, and how far apart they are. Slower than whether they meet, and on the way to the same
 // answer.
+#include <array>
 #include <cmath>
 
 #include "fuzz/triangle_truth.h"
@@ -19,6 +20,8 @@ LODESTONE_FUZZ_TARGET(constructions) {
 
   const auto points = lodestone::triangle_intersection(a, b);
   expect(points.empty() != truth, "triangle_intersection is wrong:");
+  const std::array turned{b[1], b[2], b[0]};
+  expect(lodestone::triangle_intersection(turned, a) == points, "triangle_intersection depends on an order:");
 
   const auto closest = lodestone::closest_points(a, b);
   expect((closest.distance == 0) == truth, "closest_points is wrong:");

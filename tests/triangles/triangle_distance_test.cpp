@@ -149,6 +149,33 @@ TEST(Triangles_nearer_than, equals_the_oracle_to_the_last_digit) {
   });
 }
 
+TEST(Triangles_nearer_than, equals_the_oracle_where_parallel_triangles_are_as_far_apart_as_the_limit) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const double angle : {0.0, 0.3}) {
+    int nearer = 0, apart = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+      const double limit = 0.1 * std::abs(unit(random)), height = 0.7 * unit(random);
+      const double c = std::cos(angle), s = std::sin(angle);
+      const auto triangle = [&](double z) {
+        const auto corner = [&] {
+          const double x = unit(random), y = unit(random);
+          return Point(c * x - s * z, y, s * x + c * z);
+        };
+        return Triangle{corner(), corner(), corner()};
+      };
+      const Triangle a = triangle(height), b = trial % 2 == 0 ? triangle(height + limit) : triangle(height - limit);
+      const bool expected = exact_squared_distance(a, b) < square(limit);
+      ASSERT_EQ(triangles_nearer_than(a, b, limit), expected) << "angle " << angle << ", trial " << trial;
+      ASSERT_EQ(triangles_nearer_than(b, a, limit), expected) << "angle " << angle << ", trial " << trial;
+      ++(expected ? nearer : apart);
+    }
+    // Sums are rounded up and down.
+    EXPECT_GT(nearer, 40) << angle;
+    EXPECT_GT(apart, 40) << angle;
+  }
+}
+
 struct Exactly_apart {
   const char* name;
   Integer_triangle a, b;

@@ -335,8 +335,9 @@ TEST(Triangle_intersection, has_the_nearest_doubles_to_the_exact_corners) {
 TEST(Triangle_intersection, is_the_same_for_each_instruction_set) {
   std::mt19937_64 random(10);
   for (int trial = 0; trial < 2000; ++trial) {
-    const Triangle a = triangle_in_box(random, {1, 1, 1}, Point(0, 0, 5));
-    const Triangle b = triangle_in_box(random, {1, 1, 1}, Point(0, 0, 5));
+    const auto touching = [&] { return as_triangle(random_triangle(random, 4), 1 / 3.0); };
+    const auto any = [&] { return triangle_in_box(random, {1, 1, 1}, Point(0, 0, 5)); };
+    const Triangle a = trial % 2 == 0 ? any() : touching(), b = trial % 2 == 0 ? any() : touching();
     std::vector<Intersection_points> found;
     for_instruction_sets([&] { found.push_back(triangle_intersection(a, b)); });
     for (const auto& points : found) ASSERT_EQ(points, found[0]);
@@ -364,6 +365,74 @@ TEST(Triangle_intersection, of_a_segment_has_its_ends_in_lexicographic_order_for
     do EXPECT_EQ(triangle_intersection(a, b), expected);
     while (std::ranges::next_permutation(b).found);
   } while (std::ranges::next_permutation(a).found);
+}
+
+/// A random triangle that has an area, in the plane z = x + 2y.
+Triangle triangle_in_plane(std::mt19937_64& random, int size, double scale) {
+  for (;;) {
+    auto triangle = random_triangle(random, size);
+    for (auto& corner : triangle) corner[2] = corner[0] + 2 * corner[1];
+    if (!is_degenerate(triangle)) return as_triangle(triangle, scale);
+  }
+}
+
+TEST(Triangle_intersection, of_coplanar_triangles_goes_round_the_polygon_by_the_first_of_all_ways) {
+  std::mt19937_64 random(11);
+  std::array<int, 7> found{};
+  for (int trial = 0; trial < 6000; ++trial) {
+    const double scale = std::array{1.0, 0x1p-1060, 0x1p1000}[static_cast<std::size_t>(trial % 3)];
+    const Triangle a = triangle_in_plane(random, 12, scale), b = triangle_in_plane(random, 12, scale);
+    const auto points = triangle_intersection(a, b);
+    ASSERT_EQ(points, triangle_intersection(b, a)) << "trial " << trial;
+    // CGAL goes round too, from any corner in any direction.
+    auto exact = exact_corners(a, b);
+    ASSERT_EQ(points.size(), exact.size()) << "trial " << trial;
+    ++found[points.size()];
+    bool equals_a_way_round = exact.empty();
+    for (int direction = 0; direction < 2; ++direction, std::ranges::reverse(exact))
+      for (std::size_t start = 0; start < exact.size(); ++start) {
+        std::ranges::rotate(exact, exact.begin() + 1);
+        Intersection_points way;
+        for (std::size_t i = 0; i < exact.size(); ++i) {
+          const auto near = [&](double x, const Rational& y) { return is_nearest(x, y); };
+          const Point& p = points[i];
+          if (near(p.x(), exact[i].x()) && near(p.y(), exact[i].y()) && near(p.z(), exact[i].z())) way.push_back(p);
+        }
+        equals_a_way_round |= way.size() == exact.size();
+      }
+    ASSERT_TRUE(equals_a_way_round) << "trial " << trial;
+    if (points.empty()) continue;
+    ASSERT_EQ(*std::ranges::min_element(points), points.front());
+    ASSERT_LE(points[points.size() > 1 ? 1 : 0], points.back());
+  }
+  EXPECT_GT(found[0], 500);
+  for (std::size_t corners = 1; corners < found.size(); ++corners) EXPECT_GT(found[corners], 10) << corners;
+}
+
+TEST(Triangle_intersection, of_touching_triangles_is_the_same_for_any_order_of_corners_and_triangles) {
+  std::mt19937_64 random(12);
+  for (int trial = 0; trial < 300; ++trial) {
+    Triangle a = as_triangle(random_triangle(random, 4), 1 / 3.0), b = as_triangle(random_triangle(random, 4), 1 / 3.0);
+    const auto expected = triangle_intersection(a, b);
+    std::ranges::sort(a);
+    do {
+      std::ranges::sort(b);
+      do {
+        ASSERT_EQ(triangle_intersection(a, b), expected) << "trial " << trial;
+        ASSERT_EQ(triangle_intersection(b, a), expected) << "trial " << trial;
+      } while (std::ranges::next_permutation(b).found);
+    } while (std::ranges::next_permutation(a).found);
+  }
+}
+
+TEST(Triangle_intersection, has_no_negative_zero) {
+  const Triangle a{Point(-0.0, -0.0, -0.0), Point(4, -0.0, -0.0), Point(-0.0, 4, -0.0)};
+  const Triangle b{Point(-0.0, -0.0, -0.0), Point(-0.0, -0.0, 1), Point(-1, -1, 1)};
+  for (const auto& points : {triangle_intersection(a, b), triangle_intersection(a, a)}) {
+    ASSERT_FALSE(points.empty());
+    for (const Point& p : points)
+      for (int axis = 0; axis < 3; ++axis) EXPECT_FALSE(std::signbit(p[axis]));
+  }
 }
 
 TEST(Triangle_intersection, is_rounded_to_a_neighbouring_double) {

@@ -46,15 +46,17 @@ bool triangles_intersect_given(const Triangle_corners& a, const Triangle_corners
 /// `triangles_intersect`, and faster where the segment passes through the triangle.
 bool segment_intersects(const Point& p, const Point& q, const Triangle& triangle);
 
-/// Corners of the intersection of two triangles: one point, the two ends of a segment in lexicographic order, or the
-/// corners of the polygon in which two coplanar triangles overlap (at most 6).
+/// Corners of the intersection of two triangles: one point, the two ends of a segment, or the corners of the polygon in
+/// which two coplanar triangles overlap (at most 6), as one goes round it. Of all ways to list them it is the first in
+/// lexicographic order, so the order of the triangles and of their corners makes no difference.
 using Intersection_points = boost::container::static_vector<Point, 6>;
 
 /// The intersection of two triangles. Each coordinate is the nearest double to that of the exact intersection. Empty if
 /// they have no point in common.
 ///
-/// Two triangles that cross cost about as much as twice the test whether they do. Exact numbers are needed where a
-/// corner or an edge of one touches the other, for coplanar triangles, and where rounding is in doubt: some 0.1 ms.
+/// Two triangles that cross cost about as much as twice the test whether they do; if they touch or are coplanar, up to
+/// 20 times as much. Rational numbers are needed where rounding is in doubt, some microseconds for each point, and if a
+/// triangle has no area, up to 0.1 ms.
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b);
 
 /// Two triangles that are asked about together.

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include "lodestone/triangles/triangle_intersection.h"
+
+namespace lodestone {
+
+/// The corners of the intersection of two triangles, as `triangle_intersection` returns them.
+///
+/// Which corners there are is decided by exact predicates alone. A corner of a triangle is a corner of the intersection
+/// wherever the other triangle contains it. All others are crossings: of two edges, or of an edge and a face. They are
+/// rounded as those of `crossing_segments` are, and by rational numbers where that proves nothing.
+///
+/// @param a,b  triangles that have an area
+Intersection_points shared_corners(const Triangle& a, const Triangle& b);
+
+using Rational_kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+
+Rational_kernel::Point_3 rational(const Point& p);
+/// Each coordinate is the nearest double.
+Point nearest_point(const Rational_kernel::Point_3& p);
+
+/// Puts the corners of a segment or polygon in the order that `Intersection_points` promises.
+void put_in_order(Intersection_points& corners);
+
+}  // namespace lodestone
