@@ -38,7 +38,7 @@ Eigen::Vector3d unit_normal(const std::array<Eigen::Vector3d, 3>& edges, const T
 
 /// For triangles of any shape and size.
 Contact_normal careful_normal(const Triangle& a, const Triangle& b) {
-  const auto& [differences, exponent] = scaled_differences(a, b);
+  const auto& [differences, exponent] = scaled_differences<double>(a, b);
   const Eigen::Vector3d normal_a = unit_normal(differences.edges_a, a), normal_b = unit_normal(differences.edges_b, b);
   if (normal_a.isZero(0) && normal_b.isZero(0)) return {};
   const Eigen::Vector3d outwards = normal_b - normal_a;

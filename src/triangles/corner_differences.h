@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lodestone/triangles/triangle_intersection.h"
+#include "triangles/double_double.h"
 
 namespace lodestone {
 
@@ -41,24 +42,29 @@ Corner_differences<Number> corner_differences(const Triangle& a, const Triangle&
 
 /// Differences times 2^-exponent, such that the largest absolute coordinate of `between` is between 2^-74 and 2^16. So
 /// products of a few differences neither overflow nor lose digits that count. Each coordinate has a relative error of
-/// at most 2^-53, or an absolute error below 2^-1070.
+/// at most 2^-53 in double and none in `Double_double`, or an absolute error below 2^-1070.
+template <class Number>
 struct Scaled_differences {
-  Corner_differences<double> vectors;
+  Corner_differences<Number> vectors;
   int exponent = 0;
 };
 
-inline Scaled_differences scaled_differences(const Triangle& a, const Triangle& b) {
-  const auto greatest = [](const Corner_differences<double>& d) {
-    Eigen::Array3d most = Eigen::Array3d::Zero();
+inline double times_power_of_two(double a, double power) { return a * power; }
+
+template <class Number>
+Scaled_differences<Number> scaled_differences(const Triangle& a, const Triangle& b) {
+  const auto greatest = [](const Corner_differences<Number>& d) {
+    double most = 0;
     for (const auto& row : d.between)
-      for (const auto& difference : row) most = most.max(difference.array().abs());
-    return most.maxCoeff();
+      for (const auto& difference : row)
+        for (int axis = 0; axis < 3; ++axis) most = std::max(most, std::abs(static_cast<double>(difference[axis])));
+    return most;
   };
-  Scaled_differences scaled{corner_differences<double>(a, b, [](double x) { return x; })};
+  Scaled_differences<Number> scaled{corner_differences<Number>(a, b, [](double x) { return Number(x); })};
   double size = greatest(scaled.vectors);
   // An edge is at most twice as long as the longest of `between`, so it could overflow where those do not.
   if (!(size < 0x1p1022)) {
-    scaled.vectors = corner_differences<double>(a, b, [](double x) { return 0.5 * x; });
+    scaled.vectors = corner_differences<Number>(a, b, [](double x) { return Number(0.5 * x); });
     scaled.exponent = 1;
     size = greatest(scaled.vectors);
   }
@@ -66,10 +72,12 @@ inline Scaled_differences scaled_differences(const Triangle& a, const Triangle& 
   // Without the limit the factor could overflow. The smallest size that the limit leaves is 2^-74.
   const int shift = std::max(std::ilogb(size), -1000);
   const double factor = std::ldexp(1.0, -shift);
-  for (auto& row : scaled.vectors.between)
-    for (auto& difference : row) difference *= factor;
-  for (auto* edges : {&scaled.vectors.edges_a, &scaled.vectors.edges_b})
-    for (auto& edge : *edges) edge *= factor;
+  const auto scale = [factor](auto& vector) {
+    for (int axis = 0; axis < 3; ++axis) vector[axis] = times_power_of_two(vector[axis], factor);
+  };
+  for (auto& row : scaled.vectors.between) std::ranges::for_each(row, scale);
+  std::ranges::for_each(scaled.vectors.edges_a, scale);
+  std::ranges::for_each(scaled.vectors.edges_b, scale);
   scaled.exponent += shift;
   return scaled;
 }

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "triangles/double_double.h"
 #include "triangles/nearest_points.h"
 
 namespace lodestone {
@@ -14,51 +15,72 @@ namespace {
 
 using Exact_number = CGAL::Exact_predicates_exact_constructions_kernel::FT;
 
-/// Eight roundings of double: above every relative error that it bounds here.
+/// Eight roundings: above every relative error that it bounds here.
+template <class Number>
 constexpr double roundings = 0x1p-50;
+template <>
+constexpr double roundings<Double_double> = 0x1p-96;
 
 /// Above what underflow takes from any sum of products of scaled numbers here.
 constexpr double underflow = 1e-300;
+
+template <class Number>
+using Difference = typename Corner_differences<Number>::Vector;
+
+/// Sum of the absolute coordinates.
+template <class Number>
+double size(const Difference<Number>& v) {
+  return std::abs(double(v[0])) + std::abs(double(v[1])) + std::abs(double(v[2]));
+}
 
 /// Lower bound on the distance of triangles with these scaled differences: how far apart they are across a plane
 /// orthogonal to `across`; 0 if no such plane separates them. In the unit of the differences.
 ///
 /// The inner product of a difference with `across` carries the roundings of the difference, of three products and of
 /// two sums: four in each term.
-double separation(const Corner_differences<double>& d, const Eigen::Vector3d& across) {
-  const double squared = across.squaredNorm();
+template <class Number>
+double separation(const Corner_differences<Number>& d, const Difference<Number>& across) {
+  constexpr double of_double = roundings<double>;
+  const double squared(across.squaredNorm());
   if (!(squared > 1e-280)) return 0;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& row : d.between)
     for (const auto& difference : row) {
-      const Eigen::Array3d terms = difference.array() * across.array();
-      least = std::min(least, terms.sum() - roundings * terms.abs().sum());
+      const Difference<Number> terms = difference.cwiseProduct(across);
+      least = std::min(least, double(terms.sum()) - roundings<Number> * size<Number>(terms));
     }
   least -= underflow;
-  return least > 0 ? least / (std::sqrt(squared) * (1 + roundings)) : 0;
+  return least > 0 ? least / (std::sqrt(squared) * (1 + of_double)) : 0;
 }
 
 /// A pair of near points, and the proven lower bound on the distance of the triangles. Lengths here are scaled: times
 /// 2^exponent they are those of the triangles.
+template <class Number>
 class Estimate {
  public:
   Estimate(const Triangle& a, const Triangle& b)
-      : scaled_(scaled_differences(a, b)), nearest_(Nearest_points_search(scaled_.vectors)()) {
-    distance_ = std::sqrt(nearest_.squared);
+      : scaled_(scaled_differences<Number>(a, b)), nearest_(Nearest_points_search(scaled_.vectors)()) {
+    distance_ = std::sqrt(double(nearest_.squared));
     at_least_ = separation(scaled_.vectors, nearest_.across);
     // Four roundings in each term of the gap, three in its length.
-    const auto size = [](const Eigen::Vector3d& v) { return v.cwiseAbs().sum(); };
-    const auto way = [&](const std::array<Eigen::Vector3d, 3>& edges, const Triangle_point<double>& p) {
-      return p.s * size(edges[p.corner]) + p.r * size(edges[(p.corner + 2) % 3]);
+    const auto way = [&](const std::array<Difference<Number>, 3>& edges, const Triangle_point<Number>& p) {
+      return double(p.s) * size<Number>(edges[static_cast<std::size_t>(p.corner)]) +
+             double(p.r) * size<Number>(edges[static_cast<std::size_t>((p.corner + 2) % 3)]);
     };
-    error_ = roundings * (size(scaled_.vectors.between[nearest_.a.corner][nearest_.b.corner]) +
-                          way(scaled_.vectors.edges_a, nearest_.a) + way(scaled_.vectors.edges_b, nearest_.b)) +
+    error_ = roundings<Number> * (size<Number>(gap_of_corners()) + way(scaled_.vectors.edges_a, nearest_.a) +
+                                  way(scaled_.vectors.edges_b, nearest_.b)) +
              underflow;
   }
 
-  const Nearest_points<double>& points() const { return nearest_; }
+  /// s and r are rounded.
+  Nearest_points<double> points() const {
+    const auto rounded_point = [](const Triangle_point<Number>& p) {
+      return Triangle_point<double>{p.corner, double(p.s), double(p.r)};
+    };
+    return {rounded_point(nearest_.a), rounded_point(nearest_.b), {}, {}};
+  }
   double distance() const { return std::ldexp(distance_, scaled_.exponent); }
-  Eigen::Vector3d direction() const { return nearest_.gap.stableNormalized(); }
+  Eigen::Vector3d direction() const { return gap().stableNormalized(); }
 
   /// Whether the triangles are proven not to intersect.
   bool proves_apart() const { return at_least_ > 0; }
@@ -80,12 +102,20 @@ class Estimate {
   }
 
  private:
+  const Difference<Number>& gap_of_corners() const {
+    return scaled_.vectors.between[static_cast<std::size_t>(nearest_.a.corner)]
+                                  [static_cast<std::size_t>(nearest_.b.corner)];
+  }
+  Eigen::Vector3d gap() const {
+    return {double(nearest_.gap[0]), double(nearest_.gap[1]), double(nearest_.gap[2])};
+  }
+
   /// A short gap has few correct digits. Planes along a face, or along an edge of each triangle, do not depend on the
   /// gap.
   void try_more_planes() {
     const auto& [between, edges_a, edges_b] = scaled_.vectors;
-    const auto try_plane = [&](const Eigen::Vector3d& normal) {
-      const Eigen::Vector3d across = normal.dot(nearest_.gap) < 0 ? Eigen::Vector3d(-normal) : normal;
+    const auto try_plane = [&](const Difference<Number>& normal) {
+      const Difference<Number> across = normal.dot(nearest_.gap) < 0 ? Difference<Number>(-normal) : normal;
       at_least_ = std::max(at_least_, separation(scaled_.vectors, across));
     };
     try_plane(edges_a[0].cross(edges_a[1]));
@@ -94,8 +124,8 @@ class Estimate {
       for (const auto& f : edges_b) try_plane(e.cross(f));
   }
 
-  Scaled_differences scaled_;
-  Nearest_points<double> nearest_;
+  Scaled_differences<Number> scaled_;
+  Nearest_points<Number> nearest_;
   double distance_ = 0;  ///< between the points, as computed
   double error_ = 0;     ///< of that computation, at most
   double at_least_ = 0;  ///< lower bound on the distance of the triangles
@@ -226,14 +256,18 @@ double positive(double distance) { return std::max(distance, std::numeric_limits
 }  // namespace
 
 Closest_points closest_points(const Triangle& a, const Triangle& b) {
-  Estimate estimate(a, b);
-  const auto& points = estimate.points();
-  if (estimate.proves_accuracy())
+  const auto estimated = [&](const auto& estimate) -> Closest_points {
+    const auto points = estimate.points();
     return {point(a, points.a), point(b, points.b), positive(estimate.distance()), estimate.direction()};
+  };
+  Estimate<double> estimate(a, b);
+  if (estimate.proves_accuracy()) return estimated(estimate);
   if (!estimate.proves_apart() && triangles_intersect(a, b)) {
     const Point common = triangle_intersection(a, b).front();
     return {.a = common, .b = common};
   }
+  Estimate<Double_double> finer(a, b);
+  if (finer.proves_accuracy()) return estimated(finer);
   const auto nearest = exact_nearest_points(a, b);
   const auto& gap = nearest.gap;
   return {point(a, nearest.a), point(b, nearest.b),
@@ -245,17 +279,18 @@ bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance
   if (!std::isfinite(distance)) return true;
   const Box box_a = box(a), box_b = box(b);
   if (distance_lower_bound(box_a, box_b) >= distance || apart_along_an_axis(box_a, box_b, distance)) return false;
-  Estimate estimate(a, b);
+  Estimate<double> estimate(a, b);
   if (estimate.proves_apart(distance)) return false;
   if (surely_nearer_in_intervals(a, b, estimate.points(), distance)) return true;
   if (!estimate.proves_apart() && triangles_intersect(a, b)) return true;
-  if (surely_nearer<Ring::FT>(a, b, estimate.points(), distance)) return true;
-  if (exactly_apart(a, b, estimate.points(), distance)) return false;
+  const Nearest_points<double> near = Estimate<Double_double>(a, b).points();
+  if (surely_nearer<Ring::FT>(a, b, near, distance)) return true;
+  if (exactly_apart(a, b, near, distance)) return false;
   return exact_nearest_points(a, b).squared < CGAL::square(Exact_number(distance));
 }
 
 double distance_lower_bound(const Box& a, const Box& b) {
-  constexpr double down = 1 - roundings;
+  constexpr double down = 1 - roundings<double>;
   const Eigen::Array3d gaps = (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0);
   const double greatest = gaps.maxCoeff();
   // If a square could overflow or underflow, the largest coordinate is the bound. A subnormal gap is exact and stays
