@@ -83,7 +83,11 @@ class Earliest {
   }
 
   void try_faces(Face_pair faces, const Moving_triangle& a, const Moving_triangle& b) {
-    offer(faces, a, b, found_ && faces > faces_ ? first_impact_before(time_, a, b) : first_impact(a, b, latest()));
+    const auto first = [&] {
+      if (!found_) return first_impact(a, b, limit_);
+      return faces > faces_ ? first_impact_before(time_, a, b) : first_impact_until(time_, a, b);
+    };
+    offer(faces, a, b, first());
   }
   void offer(Face_pair faces, const Moving_triangle& a, const Moving_triangle& b,
              const std::optional<Impact_time>& time) {

@@ -196,6 +196,24 @@ double Algebraic_time::round_up() const {
   return equals(low) ? low : std::nextafter(low, 2.0);
 }
 
+double Algebraic_time::rounded_up_above(double low) const {
+  const double high = std::nextafter(low, 2.0);
+  int exponent = 0;
+  std::frexp(high - low, &exponent);  // a power of two
+  const auto digits = static_cast<unsigned long>(42 - exponent);
+  Algebraic_time narrowed = *this;
+  while (!narrowed.exact_ && narrowed.start_.e < digits) narrowed.leap();
+  // end - low, in units of 2^-digits, rounded up
+  const Dyadic from = dyadic(low), end = narrowed.end();
+  const unsigned long e = std::max({from.e, end.e, digits});
+  Integer first = from.m, last = end.m;
+  first <<= e - from.e;
+  last <<= e - end.e;
+  Integer units = last - first;
+  units >>= e - digits;
+  return std::min(std::ldexp(CGAL::to_double(units) + 1, -static_cast<int>(digits)), high - low);
+}
+
 /// The bits of doubles >= 0, read as integers, are in the order of the doubles. The steps from the estimate become
 /// longer and longer, so an estimate that is off costs time only.
 double Algebraic_time::round_down() const {

@@ -27,18 +27,24 @@ Dyadic middle(double low, double high) {
 
 std::array<int, 2> edge_of(int first) { return {first, first < 3 ? (first + 1) % 3 : 3 + (first + 1) % 3}; }
 
+/// Which impacts count, of those that `latest` leaves.
+struct Limit {
+  const Impact_time* time = nullptr;  ///< null: all do; else `latest` is the least double that is not below it
+  bool counts = false;                ///< whether an impact at this time does, or only earlier ones
+};
+
 /// Gives the exact test the pairs of features that may meet, the earliest first.
 class Contact_search {
  public:
   Contact_search(const Moving_triangle& a, const Moving_triangle& b, double latest)
       : a_(a), b_(b), filter_(a, b, latest) {}
 
-  /// @param before  if not null, only earlier times count
-  std::optional<Impact_time> run(const Impact_time* before) {
+  std::optional<Impact_time> run(const Limit& limit) {
     list_candidates();
+    if (limit.time != nullptr) drop_later_candidates(*limit.time);
     if (candidates_.empty()) return std::nullopt;
     std::ranges::sort(candidates_, {}, &Candidate::bound);
-    Exact_contacts exact(a_, b_, before);
+    Exact_contacts exact(a_, b_, limit.counts ? nullptr : limit.time);
     for (const Candidate& candidate : candidates_) {
       if (candidate.bound > exact.latest()) break;
       try_exactly(candidate, exact);
@@ -64,6 +70,17 @@ class Contact_search {
       for (int second = 3; second < 6; ++second) add({filter_.edges(first, second), first, second});
   }
 
+  /// Faces of a block that falls flat meet a floor at times of which doubles do not tell which is earlier.
+  void drop_later_candidates(const Impact_time& limit) {
+    const Double_double until = Double_double(limit.low()) + Double_double(limit.above_low());
+    const auto later = std::ranges::remove_if(candidates_, [&](const Candidate& candidate) {
+      const auto [bound, first, second] = candidate;
+      return second != none ? filter_.edges_apart(first, second, bound, until)
+                            : filter_.corner_and_face_apart(first, bound, until);
+    });
+    candidates_.erase(later.begin(), later.end());
+  }
+
   static void try_exactly(const Candidate& candidate, Exact_contacts& exact) {
     const auto [bound, first, second] = candidate;
     if (second != none)
@@ -80,15 +97,15 @@ class Contact_search {
   boost::container::static_vector<Candidate, 15> candidates_;
 };
 
-/// @param before  null, or a time of which `latest` is the least double that is not below it
 std::optional<Impact_time> search(const Moving_triangle& a, const Moving_triangle& b, double latest,
-                                  const Impact_time* before) {
+                                  const Limit& limit) {
   const double overlap_from = overlap_time_lower_bound(box_around(a), box_around(b));
   if (!(overlap_from <= latest)) return std::nullopt;
   if (overlap_from == 0 && triangles_intersect(a.start, b.start)) return Impact_time();
-  const auto first = Contact_search(a, b, latest).run(before);
-  // Beyond `latest` the filter may have dropped what is earlier than this.
-  return first && first->high() <= latest ? first : std::nullopt;
+  const auto first = Contact_search(a, b, latest).run(limit);
+  // Beyond these the filter may have dropped what is earlier than this.
+  const bool counts = first && first->high() <= latest && (limit.time == nullptr || *first <= *limit.time);
+  return counts ? first : std::nullopt;
 }
 
 }  // namespace
@@ -97,6 +114,7 @@ Impact_time::Impact_time(const Algebraic_time& exact) : low_(exact.round_down())
   if (exact.equals(low_)) return;
   high_ = std::nextafter(low_, std::numeric_limits<double>::infinity());
   value_ = exact.compare(middle(low_, high_)) > 0 ? high_ : low_;
+  above_low_ = exact.rounded_up_above(low_);
   exact_ = std::make_shared<const Algebraic_time>(exact);
 }
 
@@ -119,12 +137,17 @@ Moving_box box_around(const Moving_triangle& moving) {
 }
 
 std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_triangle& b, double latest) {
-  return search(a, b, latest, nullptr);
+  return search(a, b, latest, {});
 }
 
 std::optional<Impact_time> first_impact_before(const Impact_time& limit, const Moving_triangle& a,
                                                const Moving_triangle& b) {
-  return limit == Impact_time() ? std::nullopt : search(a, b, limit.high(), &limit);
+  return limit == Impact_time() ? std::nullopt : search(a, b, limit.high(), {.time = &limit, .counts = false});
+}
+
+std::optional<Impact_time> first_impact_until(const Impact_time& limit, const Moving_triangle& a,
+                                              const Moving_triangle& b) {
+  return search(a, b, limit.high(), {.time = &limit, .counts = true});
 }
 
 }  // namespace lodestone

@@ -19,18 +19,46 @@ int next_corner(int corner) { return corner < 3 ? (corner + 1) % 3 : 3 + (corner
 /// Cuts a polynomial in Bernstein's form at a part of its interval: de Casteljau.
 /// @param low   is left with the coefficients for what lies before
 /// @param high  those for what lies after
-template <class Coefficient, std::size_t size>
-void cut(const std::array<Coefficient, size>& whole, double part, std::array<Coefficient, size>& low,
+template <class Coefficient, class Number, std::size_t size>
+void cut(const std::array<Coefficient, size>& whole, const Number& part, std::array<Coefficient, size>& low,
          std::array<Coefficient, size>& high) {
   std::array<Coefficient, size> row = whole;
   for (std::size_t length = size; length > 0; --length) {
     low[size - length] = row[0];
     high[length - 1] = row[length - 1];
-    for (std::size_t i = 0; i + 1 < length; ++i) row[i] = (1 - part) * row[i] + part * row[i + 1];
+    for (std::size_t i = 0; i + 1 < length; ++i) row[i] = (Number(1) - part) * row[i] + part * row[i + 1];
   }
 }
 
+/// Whether products of three components cannot overflow.
+template <class Differences>
+bool are_moderate(const Differences& differences) {
+  return std::ranges::all_of(differences, [](const auto& difference) { return difference.size < 1e100; });
+}
+
+/// By which power of two the error bounds for double become those for a number type.
+template <class Number>
+constexpr double finer = 1;
+/// 2^-99 is the largest relative error of an operation, where it is 2^-53 in double.
+template <>
+constexpr double finer<Double_double> = 0x1p-46;
+
 }  // namespace
+
+/// Twice the area that two differences span: a quadratic polynomial in Bernstein's form.
+template <class Number>
+Impact_filter::Quadratic<Number> Impact_filter::area(const Moving_difference<Number>& p,
+                                                     const Moving_difference<Number>& q) {
+  return {p.start.cross(q.start), Number(0.5) * (p.start.cross(q.end) + p.end.cross(q.start)), p.end.cross(q.end)};
+}
+
+/// The sign of a polynomial all the time, from its coefficients in Bernstein's form; 0 if it may change.
+/// @param error  a bound of that of each coefficient
+template <class Number>
+int lasting_sign(std::initializer_list<Number> coefficients, double error) {
+  if (std::min(coefficients) > error) return 1;
+  return std::max(coefficients) < -error ? -1 : 0;
+}
 
 /// Polynomials of a pair of features over an interval of time. Its four corners are o, p, q and r; u, v and w are the
 /// differences of the last three from o. The volume is the determinant of u, v and w; areas are u x v, v x w and w x u.
@@ -38,50 +66,71 @@ void cut(const std::array<Coefficient, size>& whole, double part, std::array<Coe
 /// With eps = 2^-53 and all components of u, v and w at most m, each term of a coefficient is a product of three of
 /// these, with a rounding of each difference and two of products. There are at most 18 terms, in a mean of three
 /// determinants, which carry at most 10 roundings of sums. A halving adds three roundings of coefficients of at most
-/// 6 m^3, the first cut nine, and there are at most 20 halvings. So the error is below (15 + 69) eps 6 m^3 < 2^-43 m^3.
+/// 6 m^3, each of the first two cuts nine, and there are at most 20 halvings. So the error is below
+/// (15 + 78) eps 6 m^3 < 2^-43 m^3.
 /// Likewise that of an area is below 2^-45 m^2. What underflows is below 10^-200, as m is below 10^100.
-class Impact_filter::Piece {
+template <class Number>
+class Impact_filter::Volume {
  public:
-  Piece(const Moving_difference& u, const Moving_difference& v, const Moving_difference& w) {
-    areas_ = {area(u, v), area(v, w), area(w, u)};
-    const auto& a = areas_[1];
-    constexpr double third = 1.0 / 3;
-    volume_ = {u.start.dot(a[0]), third * (u.end.dot(a[0]) + 2 * u.start.dot(a[1])),
-               third * (2 * u.end.dot(a[1]) + u.start.dot(a[2])), u.end.dot(a[2])};
+  explicit Volume(const std::array<Moving_difference<Number>, 3>& differences)
+      : Volume(differences, area(differences[1], differences[2])) {}
+  /// @param a  v x w
+  Volume(const std::array<Moving_difference<Number>, 3>& differences, const Quadratic<Number>& a) {
+    const auto& [u, v, w] = differences;
+    const Number third = Number(1) / Number(3);
+    coefficients_ = {u.start.dot(a[0]), third * (u.end.dot(a[0]) + Number(2) * u.start.dot(a[1])),
+                     third * (Number(2) * u.end.dot(a[1]) + u.start.dot(a[2])), u.end.dot(a[2])};
     const double size = std::max({u.size, v.size, w.size});
-    area_error_ = 0x1p-42 * size * size + 1e-200;
-    volume_error_ = 0x1p-41 * size * size * size + 1e-200;
+    error_ = finer<Number> * 0x1p-41 * size * size * size + 1e-200;
   }
 
-  void halve(Piece& low, Piece& high) const { cut_at(0.5, low, high); }
-  void cut_at(double part, Piece& low, Piece& high) const {
+  void cut_at(const Number& part, Volume& low, Volume& high) const {
     low = high = *this;
-    cut(volume_, part, low.volume_, high.volume_);
+    cut(coefficients_, part, low.coefficients_, high.coefficients_);
+  }
+  /// Whether it is not zero at any time.
+  bool keeps_its_sign() const {
+    const auto& c = coefficients_;
+    return lasting_sign({c[0], c[1], c[2], c[3]}, error_) != 0;
+  }
+
+ private:
+  std::array<Number, 4> coefficients_;
+  double error_;
+};
+
+template <class Number>
+class Impact_filter::Piece {
+ public:
+  explicit Piece(const std::array<Moving_difference<Number>, 3>& differences)
+      : areas_{area(differences[0], differences[1]), area(differences[1], differences[2]),
+               area(differences[2], differences[0])},
+        volume_(differences, areas_[1]) {
+    const auto& [u, v, w] = differences;
+    const double size = std::max({u.size, v.size, w.size});
+    area_error_ = finer<Number> * 0x1p-42 * size * size + 1e-200;
+  }
+
+  void halve(Piece& low, Piece& high) const { cut_at(Number(0.5), low, high); }
+  void cut_at(const Number& part, Piece& low, Piece& high) const {
+    low = high = *this;
+    volume_.cut_at(part, low.volume_, high.volume_);
     for (Index i = 0; i < 3; ++i) cut(areas_[i], part, low.areas_[i], high.areas_[i]);
   }
 
   /// Whether the features are apart all the time: if they meet, the volume is zero, and they also meet as seen along
   /// each axis.
-  bool apart(Features features) const {
-    if (sign(volume_[0], volume_[1], volume_[2], volume_[3], volume_error_) != 0) return true;
+  bool apart(const Features& features) const {
+    if (volume_.keeps_its_sign()) return true;
     for (int axis = 0; axis < 3; ++axis)
-      if (features == Features::edges ? edges_apart(axis) : corner_outside(axis)) return true;
+      if (features.are_edges ? edges_apart(axis) : corner_outside(axis)) return true;
     return false;
   }
 
  private:
-  using Quadratic = std::array<Eigen::Vector3d, 3>;
-
-  static Quadratic area(const Moving_difference& p, const Moving_difference& q) {
-    return {p.start.cross(q.start), 0.5 * (p.start.cross(q.end) + p.end.cross(q.start)), p.end.cross(q.end)};
-  }
-  static int sign(double a, double b, double c, double d, double error) {
-    if (std::min({a, b, c, d}) > error) return 1;
-    return std::max({a, b, c, d}) < -error ? -1 : 0;
-  }
   int sign_of_area(Index index, int axis) const {
-    const Quadratic& a = areas_[index];
-    return sign(a[0][axis], a[1][axis], a[2][axis], a[2][axis], area_error_);
+    const Quadratic<Number>& a = areas_[index];
+    return lasting_sign({a[0][axis], a[1][axis], a[2][axis]}, area_error_);
   }
 
   /// If o is in the triangle p q r, no two of the areas have opposite signs.
@@ -95,12 +144,12 @@ class Impact_filter::Piece {
     const int side = sign_of_area(1, axis);
     if (side == 0) return false;
     const auto sum = [&](Index i) { return areas_[0][i][axis] + areas_[1][i][axis] + areas_[2][i][axis]; };
-    return side * sign(sum(0), sum(1), sum(2), sum(2), 4 * area_error_) > 0;
+    return side * lasting_sign<Number>({sum(0), sum(1), sum(2)}, 4 * area_error_) > 0;
   }
 
-  std::array<double, 4> volume_;
-  std::array<Quadratic, 3> areas_;  ///< u x v, v x w, w x u
-  double volume_error_, area_error_;
+  std::array<Quadratic<Number>, 3> areas_;  ///< u x v, v x w, w x u
+  Volume<Number> volume_;
+  double area_error_;
 };
 
 Impact_filter::Impact_filter(const Moving_triangle& a, const Moving_triangle& b, double latest)
@@ -117,51 +166,97 @@ Moving_box Impact_filter::box_around(int first, int second) const {
   return {{p.start.cwiseMin(q.start), p.start.cwiseMax(q.start)}, {p.end.cwiseMin(q.end), p.end.cwiseMax(q.end)}};
 }
 
-Impact_filter::Moving_difference Impact_filter::between(int from, int to) const {
+template <class Number>
+Impact_filter::Moving_difference<Number> Impact_filter::between(int from, int to) const {
+  const auto difference = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+    return Eigen::Matrix<Number, 3, 1>(Number(q[0]) - Number(p[0]), Number(q[1]) - Number(p[1]),
+                                       Number(q[2]) - Number(p[2]));
+  };
   const Moving_corner &p = corners_[static_cast<Index>(from)], &q = corners_[static_cast<Index>(to)];
-  Moving_difference result{q.start - p.start, q.end - p.end, 0};
-  result.size = std::max(result.start.cwiseAbs().maxCoeff(), result.end.cwiseAbs().maxCoeff());
-  return result;
+  const Eigen::Vector3d start = q.start - p.start, end = q.end - p.end;
+  return {difference(p.start, q.start), difference(p.end, q.end),
+          std::max(start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff())};
+}
+
+template <class Number>
+std::array<Impact_filter::Moving_difference<Number>, 3> Impact_filter::differences(const Features& features) const {
+  const auto [o, p, q, r] = features.corners;
+  return {between<Number>(o, p), between<Number>(o, q), between<Number>(o, r)};
+}
+
+Impact_filter::Features Impact_filter::features_of_corner(int corner) {
+  const int other = corner < 3 ? 3 : 0;
+  return {.are_edges = false, .corners = {corner, other, other + 1, other + 2}};
+}
+
+Impact_filter::Features Impact_filter::features_of_edges(int first, int second) {
+  return {.are_edges = true, .corners = {first, next_corner(first), second, next_corner(second)}};
 }
 
 double Impact_filter::corner_and_face(int corner) const {
-  const int other = corner < 3 ? 3 : 0;
   const Moving_box& face_box = face_boxes_[corner < 3 ? 1 : 0];
   if (!(overlap_time_lower_bound(box_around(corner, corner), face_box) <= latest_)) return no_contact;
-  return first_possible(Features::corner_and_face, corner, other, other + 1, other + 2);
+  return first_possible(features_of_corner(corner));
 }
 
 double Impact_filter::edges(int first, int second) const {
   if (!(overlap_time_lower_bound(edge_boxes_[static_cast<Index>(first)], edge_boxes_[static_cast<Index>(second)]) <=
         latest_))
     return no_contact;
-  return first_possible(Features::edges, first, next_corner(first), second, next_corner(second));
+  return first_possible(features_of_edges(first, second));
+}
+
+bool Impact_filter::corner_and_face_apart(int corner, double bound, const Double_double& until) const {
+  return apart(features_of_corner(corner), bound, until);
+}
+
+bool Impact_filter::edges_apart(int first, int second, double bound, const Double_double& until) const {
+  return apart(features_of_edges(first, second), bound, until);
 }
 
 /// Halves the time again and again, and drops the halves in which the features are apart, until one is short.
-double Impact_filter::first_possible(Features features, int origin, int p, int q, int r) const {
+double Impact_filter::first_possible(const Features& features) const {
   constexpr int most_halvings = 20;
-  const Moving_difference u = between(origin, p), v = between(origin, q), w = between(origin, r);
-  if (!(std::max({u.size, v.size, w.size}) < 1e100)) return 0;
+  constexpr double shortest = 0x1p-20;
+  const auto differences = this->differences<double>(features);
+  if (!are_moderate(differences)) return 0;
   struct Open {
-    Piece piece;
+    Piece<double> piece;
     double low, width;
   };
-  Piece whole(u, v, w), rest = whole;
+  Piece<double> whole(differences), rest = whole;
   // If `latest` is rounded up here, so is the interval.
   if (latest_ < 1) whole.cut_at(latest_, whole, rest);
-  boost::container::static_vector<Open, most_halvings + 2> open{{whole, 0, latest_}};
+  // What can meet only at the end takes two pieces instead of halvings.
+  const double end = (1 - shortest) * latest_;
+  boost::container::static_vector<Open, most_halvings + 3> open{{whole, end, shortest * latest_}, {whole, 0, end}};
+  whole.cut_at(1 - shortest, open[1].piece, open[0].piece);
   while (!open.empty()) {
     const Open now = open.back();
     open.pop_back();
     if (now.piece.apart(features)) continue;
-    if (now.width <= 0x1p-20 * latest_) return (1 - 0x1p-48) * now.low;  // at most 20 roundings of sums
+    if (now.width <= shortest * latest_) return (1 - 0x1p-48) * now.low;  // at most 20 roundings of sums
     const double half = 0.5 * now.width;
     open.push_back({now.piece, now.low + half, half});
     open.push_back({now.piece, now.low, half});
     now.piece.halve(open.back().piece, open[open.size() - 2].piece);
   }
   return no_contact;
+}
+
+bool Impact_filter::apart(const Features& features, double from, const Double_double& until) const {
+  if (Double_double(from) >= until) return true;
+  const auto differences = this->differences<Double_double>(features);
+  if (!are_moderate(differences)) return false;
+  const auto is_apart = [&](auto piece, const auto& apart_in) {
+    auto rest = piece;
+    piece.cut_at(until, piece, rest);
+    // Where the quotient is rounded up, the piece begins later by 2^-99: less than `first_possible` has rounded down.
+    piece.cut_at(Double_double(from) / until, rest, piece);
+    return apart_in(piece);
+  };
+  return is_apart(Volume(differences), [](const auto& volume) { return volume.keeps_its_sign(); }) ||
+         is_apart(Piece(differences), [&](const auto& piece) { return piece.apart(features); });
 }
 
 }  // namespace lodestone

@@ -7,6 +7,7 @@
 
 #include "lodestone/triangles/impact.h"
 #include "lodestone/triangles/moving_box.h"
+#include "triangles/double_double.h"
 
 namespace lodestone {
 
@@ -22,21 +23,45 @@ class Impact_filter {
   /// For an edge of each triangle.
   double edges(int first, int second) const;
 
+  /// Whether a corner and the other triangle are proven apart all the time between the bound above and another time.
+  /// Has twice as many digits.
+  bool corner_and_face_apart(int corner, double bound, const Double_double& until) const;
+  bool edges_apart(int first, int second, double bound, const Double_double& until) const;
+
  private:
   using Index = std::size_t;
   struct Moving_corner {
     Eigen::Vector3d start, end;
   };
+  template <class Number>
   struct Moving_difference {
-    Eigen::Vector3d start, end;
+    Eigen::Matrix<Number, 3, 1> start, end;
     double size;  ///< largest component of both
   };
-  enum class Features { corner_and_face, edges };
+  /// Four corners. Of a corner and a triangle the corner comes first, of two edges the ends of one.
+  struct Features {
+    bool are_edges;
+    std::array<int, 4> corners;
+  };
+  template <class Number>
+  using Quadratic = std::array<Eigen::Matrix<Number, 3, 1>, 3>;
+  template <class Number>
+  class Volume;
+  template <class Number>
   class Piece;
 
-  Moving_difference between(int from, int to) const;
+  template <class Number>
+  static Quadratic<Number> area(const Moving_difference<Number>& p, const Moving_difference<Number>& q);
+
+  static Features features_of_corner(int corner);
+  static Features features_of_edges(int first, int second);
+  template <class Number>
+  Moving_difference<Number> between(int from, int to) const;
+  template <class Number>
+  std::array<Moving_difference<Number>, 3> differences(const Features& features) const;
   Moving_box box_around(int first, int second) const;
-  double first_possible(Features features, int origin, int p, int q, int r) const;
+  double first_possible(const Features& features) const;
+  bool apart(const Features& features, double from, const Double_double& until) const;
 
   double latest_;
   std::array<Moving_corner, 6> corners_;

@@ -41,6 +41,8 @@ class Impact_time {
   double high() const { return high_; }
   /// The nearest double; of two, the lower.
   double value() const { return value_; }
+  /// For the library's own sources: what is between `low` and the time, rounded up to some 40 digits. 0 for a double.
+  double above_low() const { return above_low_; }
 
   /// Which one is earlier.
   friend std::strong_ordering operator<=>(const Impact_time& a, const Impact_time& b);
@@ -48,7 +50,7 @@ class Impact_time {
   friend bool operator==(const Impact_time& a, const Impact_time& b) { return (a <=> b) == 0; }
 
  private:
-  double low_ = 0, high_ = 0, value_ = 0;
+  double low_ = 0, high_ = 0, value_ = 0, above_low_ = 0;
   std::shared_ptr<const Algebraic_time> exact_;  ///< null: the time is a double
 };
 
@@ -71,5 +73,8 @@ std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_t
 /// than `first_impact`, since only what can be earlier is looked at.
 std::optional<Impact_time> first_impact_before(const Impact_time& limit, const Moving_triangle& a,
                                                const Moving_triangle& b);
+/// The same if it is not later than `limit`.
+std::optional<Impact_time> first_impact_until(const Impact_time& limit, const Moving_triangle& a,
+                                              const Moving_triangle& b);
 
 }  // namespace lodestone
