@@ -103,12 +103,10 @@ class Estimate {
 
  private:
   const Difference<Number>& gap_of_corners() const {
-    return scaled_.vectors.between[static_cast<std::size_t>(nearest_.a.corner)]
-                                  [static_cast<std::size_t>(nearest_.b.corner)];
+    return scaled_.vectors
+        .between[static_cast<std::size_t>(nearest_.a.corner)][static_cast<std::size_t>(nearest_.b.corner)];
   }
-  Eigen::Vector3d gap() const {
-    return {double(nearest_.gap[0]), double(nearest_.gap[1]), double(nearest_.gap[2])};
-  }
+  Eigen::Vector3d gap() const { return {double(nearest_.gap[0]), double(nearest_.gap[1]), double(nearest_.gap[2])}; }
 
   /// A short gap has few correct digits. Planes along a face, or along an edge of each triangle, do not depend on the
   /// gap.
@@ -171,8 +169,8 @@ Ring::Vector_3 exact_gap_direction(const std::array<std::array<Ring::Point_3, 3>
     const auto corner = [&](int i) { return corners[t][static_cast<std::size_t>((points[t].corner + i) % 3)]; };
     return corner(after + 1) - corner(after);
   };
-  const Ring::Vector_3 gap = corners[0][static_cast<std::size_t>(near.a.corner)] -
-                             corners[1][static_cast<std::size_t>(near.b.corner)];
+  const Ring::Vector_3 gap =
+      corners[0][static_cast<std::size_t>(near.a.corner)] - corners[1][static_cast<std::size_t>(near.b.corner)];
   const auto along_gap = [&gap](const Ring::Vector_3& normal) { return normal * gap < 0 ? -normal : normal; };
   if (near.a.r > 0) return along_gap(CGAL::cross_product(edge(0, 0), edge(0, 1)));
   if (near.b.r > 0) return along_gap(CGAL::cross_product(edge(1, 0), edge(1, 1)));

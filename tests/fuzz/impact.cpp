@@ -60,12 +60,15 @@ LODESTONE_FUZZ_TARGET(impact) {
     const auto again = lodestone::first_impact(a, b, impact->high());
     expect(again && *again == *impact, "an impact is not found until its own time:");
     expect(!lodestone::first_impact_before(*impact, b, a), "an impact is found before itself:");
+    expect(lodestone::first_impact_until(*impact, b, a) == impact, "an impact is not found until itself:");
     if (impact->low() > 0)
       expect(!lodestone::first_impact(a, b, std::nextafter(impact->low(), 0)), "an impact is found before its time:");
   }
   if (const auto limit = lodestone::first_impact({a.end, a.start}, {b.end, b.start})) {
     const auto before = lodestone::first_impact_before(*limit, a, b);
     expect(before == (impact && *impact < *limit ? impact : std::nullopt), "an impact before a time is another one:");
+    const auto until = lodestone::first_impact_until(*limit, a, b);
+    expect(until == (impact && *impact <= *limit ? impact : std::nullopt), "an impact until a time is another one:");
   }
   for (int step = 0; step <= steps; ++step) {
     const double t = static_cast<double>(step) / steps;

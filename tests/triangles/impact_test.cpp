@@ -372,27 +372,56 @@ TEST(Impact_time, of_fractions_is_rounded_and_ordered_like_rational_numbers) {
   EXPECT_LT(different, 350);
 }
 
-TEST(First_impact_before, is_the_first_impact_or_none_if_that_is_not_earlier) {
-  Moving_pairs pairs(7);
-  std::vector<Moving_pair> asked;
+/// Expects of all pairs, and of the first impacts of all as limits, that nothing later is found and nothing is missed.
+/// @return how many first impacts were earlier than a limit, and how many the same
+std::array<int, 2> expect_limits_hold(const std::vector<Moving_pair>& pairs) {
   std::vector<Impact_time> limits{Impact_time()};
-  for (int i = 0; i < 60; ++i)
-    for (const Moving_pair& pair : {pairs.on_a_lattice(), pairs.beside_a_lattice(), pairs.anywhere()}) {
-      asked.push_back(pair);
-      if (const auto time = first_impact(pair.a, pair.b)) limits.push_back(*time);
-    }
+  for (const auto& [a, b] : pairs)
+    if (const auto time = first_impact(a, b)) limits.push_back(*time);
   int earlier = 0, equal = 0;
-  for (const auto& [a, b] : asked) {
+  for (const auto& [a, b] : pairs) {
     const auto first = first_impact(a, b);
     for (const Impact_time& limit : limits) {
-      const auto found = first_impact_before(limit, a, b);
-      EXPECT_EQ(found, first && *first < limit ? first : std::nullopt);
-      earlier += found ? 1 : 0;
+      EXPECT_EQ(first_impact_before(limit, a, b), first && *first < limit ? first : std::nullopt);
+      EXPECT_EQ(first_impact_until(limit, a, b), first && *first <= limit ? first : std::nullopt);
+      earlier += first && *first < limit ? 1 : 0;
       equal += first && *first == limit ? 1 : 0;
     }
   }
+  return {earlier, equal};
+}
+
+TEST(First_impact_before_or_until, is_the_first_impact_or_none_if_that_is_later) {
+  Moving_pairs pairs(7);
+  std::vector<Moving_pair> asked;
+  for (int i = 0; i < 60; ++i)
+    for (const Moving_pair& pair : {pairs.on_a_lattice(), pairs.beside_a_lattice(), pairs.anywhere()})
+      asked.push_back(pair);
+  const auto [earlier, equal] = expect_limits_hold(asked);
   EXPECT_GT(earlier, 1000);
   EXPECT_GT(equal, 200);
+}
+
+TEST(First_impact_before_or_until, tells_times_apart_that_only_rounding_keeps_from_being_the_same) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  const auto turned = [&](double x, double y, double z) { return Point(c * x - s * z, y, s * x + c * z); };
+  std::vector<Moving_pair> landing;
+  for (int i = 0; i < 40; ++i) {
+    // One lies in a slope, the other falls on it.
+    Moving_pair pair;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      pair.a.start[corner] = pair.a.end[corner] = turned(unit(random), unit(random), 0);
+      const double x = unit(random), y = unit(random);
+      pair.b.start[corner] = turned(x, y, 1);
+      pair.b.end[corner] = turned(x, y, -1);
+    }
+    landing.push_back(pair);
+  }
+  const auto [earlier, equal] = expect_limits_hold(landing);
+  EXPECT_GT(earlier, 100);
+  EXPECT_GT(equal, 10);
 }
 
 /// Three planes through the origin that the faces' corners cross at times 2^-2098 apart: two thousand halvings tell

@@ -41,10 +41,10 @@ double greatest_coordinate(const Triangle& a, const Triangle& b) {
 Rational square(double x) { return Rational(x) * Rational(x); }
 
 TEST(Distance_oracle, equals_that_of_cgal_on_exact_numbers) {
-  using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+  using Epeck = CGAL::Exact_predicates_exact_constructions_kernel;
   const auto exact = [](const Triangle& t) {
-    const auto point = [](const Point& p) { return Exact::Point_3(p.x(), p.y(), p.z()); };
-    return Exact::Triangle_3(point(t[0]), point(t[1]), point(t[2]));
+    const auto point = [](const Point& p) { return Epeck::Point_3(p.x(), p.y(), p.z()); };
+    return Epeck::Triangle_3(point(t[0]), point(t[1]), point(t[2]));
   };
   for_pairs(50, [&](const Triangle& a, const Triangle& b) {
     ASSERT_EQ(Rational(CGAL::exact(CGAL::squared_distance(exact(a), exact(b)))), exact_squared_distance(a, b));
