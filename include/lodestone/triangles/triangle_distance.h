@@ -28,15 +28,17 @@ struct Closest_points {
 /// few last digits of their coordinates.
 ///
 /// A pair of points computed in double is accepted if a plane between the triangles proves that no nearer pair exists.
-/// Otherwise exact arithmetic takes over, which is hundreds of times slower. This happens mostly at distances below
-/// 10^-6 of the triangles' size.
+/// Otherwise, mostly at distances below 10^-6 of the triangles' size, double-double takes over, which is some ten times
+/// slower. Exact arithmetic, hundreds of times slower, is left for thin triangles, and where the error bounds of
+/// double-double are too wide: at distances below some 10^-20 of the size.
 Closest_points closest_points(const Triangle& a, const Triangle& b);
 
 /// Whether two triangles intersect or have points nearer to each other than `distance`. Exact, and strict: triangles
 /// exactly `distance` apart are not nearer. For a `distance` of zero or less: whether they intersect.
 ///
 /// Floating point decides only what it can prove: 'no' by a plane between the triangles, with the distance across it
-/// rounded down; 'yes' by one pair of their points, in interval arithmetic. Exact arithmetic decides the rest.
+/// rounded down; 'yes' by one pair of their points, in interval arithmetic. A plane and a pair of points in exact
+/// arithmetic mostly decide the rest.
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance);
 
 /// Lower bound on the distance of two non-empty boxes: 0 if they overlap, otherwise the distance rounded down.
