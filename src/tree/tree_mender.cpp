@@ -17,7 +17,50 @@ namespace {
 /// With more than this share of its faces changed, a tree is built anew.
 constexpr std::size_t most_changed = 8;
 
+/// With more comparisons than so many per face to find leaves for new pieces, too: they take about as long as half of
+/// a build.
+constexpr std::size_t most_compared = 32;
+
 constexpr std::uint32_t not_placed = std::numeric_limits<std::uint32_t>::max();
+
+/// Places of leaves, to find the nearest one.
+class Leaf_places {
+ public:
+  /// Of the leaves that still have faces: each where one of its vertices is.
+  Leaf_places(const Tree_layout& tree, std::span<const std::uint32_t> face_count, Coordinates coordinates)
+      : coordinates_(coordinates) {
+    const auto is_there = [&](std::uint32_t vertex) { return std::size_t{vertex} < coordinates.size() / 3; };
+    for (std::uint32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+      if (face_count[leaf] == 0) continue;
+      const auto vertices = tree.vertices(leaf);
+      const auto vertex = std::ranges::find_if(vertices, is_there);
+      if (vertex != vertices.end()) places_.push_back({position(*vertex), leaf});
+    }
+  }
+
+  std::size_t size() const { return places_.size(); }
+  /// O(leaves).
+  std::uint32_t nearest(std::uint32_t vertex) const {
+    const Eigen::Vector3d here = position(vertex);
+    return std::ranges::min_element(places_, {}, [&](const Place& place) {
+             const double squared = (place.position - here).squaredNorm();
+             return std::isnan(squared) ? std::numeric_limits<double>::infinity() : squared;
+           })->leaf;
+  }
+
+ private:
+  struct Place {
+    Eigen::Vector3d position;
+    std::uint32_t leaf;
+  };
+
+  Eigen::Vector3d position(std::uint32_t vertex) const {
+    return Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * std::size_t{vertex});
+  }
+
+  Coordinates coordinates_;
+  std::vector<Place> places_;
+};
 
 }  // namespace
 
@@ -65,8 +108,9 @@ void Tree_mender::find_left_faces() {
 }
 
 /// Gives each moved face to a leaf that has one of its vertices, or one of a moved face beside it, and so on. Most find
-/// one among the leaves that faces have left, so the others are looked through only for those that do not.
-/// @return false if there is none: the face belongs to a piece that is new
+/// one among the leaves that faces have left, so the others are looked through only for those that do not. A piece that
+/// is new goes to the leaf that is nearest to one of its vertices.
+/// @return false if there are many new pieces
 bool Tree_mender::place_faces() {
   Vertex_leaves leaf_of(coordinates_.size() / 3);
   for (const auto face : moved_)
@@ -77,7 +121,7 @@ bool Tree_mender::place_faces() {
     find_leaves_of_vertices(waiting, everywhere, leaf_of);
     std::erase_if(waiting, [&](std::uint32_t face) { return place(face, leaf_of, reached); });
   }
-  if (!waiting.empty() && !place_waiting_faces(leaf_of, std::move(waiting))) return false;
+  if (!waiting.empty() && !place_waiting_faces(leaf_of, waiting)) return false;
   hwy::Sorter()(placed_.data(), placed_.size(), hwy::SortAscending());
   return true;
 }
@@ -100,31 +144,44 @@ bool Tree_mender::place(std::uint32_t face, Vertex_leaves& leaf_of, std::vector<
 
 /// Faces between new vertices: from the faces that have been placed outwards.
 /// @return whether all have been placed
-bool Tree_mender::place_waiting_faces(Vertex_leaves& leaf_of, std::vector<std::uint32_t> waiting) {
+bool Tree_mender::place_waiting_faces(Vertex_leaves& leaf_of, std::span<const std::uint32_t> waiting) {
   using Vertex_and_face = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<Vertex_and_face> faces_at;  // by their vertices
   for (const auto face : waiting)
     for (const auto vertex : corners_[face]) faces_at.emplace_back(vertex, face);
   std::ranges::sort(faces_at);
   std::vector<bool> waits(corners_.size(), false);
-  std::size_t left = waiting.size();
   std::vector<std::uint32_t> queue;
   for (const auto face : waiting) {
     waits[face] = true;
     for (const auto vertex : corners_[face])
       if (leaf_of[vertex] != not_placed) queue.push_back(vertex);  // since a face beside it was placed later
   }
-  while (!queue.empty()) {
-    const std::uint32_t vertex = queue.back();
-    queue.pop_back();
-    auto next = std::ranges::lower_bound(faces_at, vertex, {}, &Vertex_and_face::first);
-    for (; next != faces_at.end() && next->first == vertex; ++next)
-      if (waits[next->second] && place(next->second, leaf_of, queue)) {
-        waits[next->second] = false;
-        --left;
-      }
+  const auto spread = [&] {
+    while (!queue.empty()) {
+      const std::uint32_t vertex = queue.back();
+      queue.pop_back();
+      auto next = std::ranges::lower_bound(faces_at, vertex, {}, &Vertex_and_face::first);
+      for (; next != faces_at.end() && next->first == vertex; ++next)
+        if (waits[next->second] && place(next->second, leaf_of, queue)) waits[next->second] = false;
+    }
+  };
+  spread();
+
+  const auto new_piece = [&](std::uint32_t face) { return waits[face]; };
+  if (std::ranges::none_of(waiting, new_piece)) return true;
+  const Leaf_places places(former_, face_count_, coordinates_);
+  std::size_t compared = 0;
+  for (const auto face : waiting) {
+    if (!new_piece(face)) continue;
+    compared += places.size();
+    if (places.size() == 0 || compared > most_compared * corners_.size()) return false;
+    const std::uint32_t vertex = corners_[face][0];
+    leaf_of[vertex] = places.nearest(vertex);
+    queue.push_back(vertex);
+    spread();
   }
-  return left == 0;
+  return true;
 }
 
 /// The first former leaf of each vertex that has none yet.

@@ -28,7 +28,7 @@ class Tree_mender : private Tree_builder {
 
   void find_left_faces();
   bool place_faces();
-  bool place_waiting_faces(Vertex_leaves& leaf_of, std::vector<std::uint32_t> waiting);
+  bool place_waiting_faces(Vertex_leaves& leaf_of, std::span<const std::uint32_t> waiting);
   bool place(std::uint32_t face, Vertex_leaves& leaf_of, std::vector<std::uint32_t>& reached);
   void find_leaves_of_vertices(std::span<const std::uint32_t> faces, bool everywhere, Vertex_leaves& leaf_of) const;
   bool size_leaves();

@@ -102,18 +102,58 @@ TEST(Tree_mender, parts_without_faces_are_left_out) {
   }
 }
 
-TEST(Tree_mender, many_changes_and_new_pieces_ask_for_a_new_tree) {
-  const Face_soup before(icosphere(10));
-  Region_tree tree(before.faces, {}, before.coordinates);
-  Changed many;
-  for (std::uint32_t face = 0; face < before.faces.size(); face += 4) many.push_back(face);
-  EXPECT_FALSE(tree.mend(before.faces, many, before.coordinates, {}));
-
-  auto soup = before;
+/// Adds a face that touches no other.
+void add_piece(Face_soup& soup, double x, double y, double z) {
   const std::uint32_t first = soup.vertex_count();
-  soup.coordinates.insert(soup.coordinates.end(), {5, 0, 0, 6, 0, 0, 5, 1, 0});
+  soup.coordinates.insert(soup.coordinates.end(), {x, y, z, x + 0.1, y, z, x, y + 0.1, z});
   soup.faces.push_back({first, first + 1, first + 2});
-  EXPECT_FALSE(tree.mend(soup.faces, {}, soup.coordinates, {}));
+}
+
+TEST(Tree_mender, many_changes_ask_for_a_new_tree) {
+  const Face_soup soup(icosphere(10));
+  Region_tree tree(soup.faces, {}, soup.coordinates);
+  Changed many;
+  for (std::uint32_t face = 0; face < soup.faces.size(); face += 4) many.push_back(face);
+  EXPECT_FALSE(tree.mend(soup.faces, many, soup.coordinates, {}));
+  expect_tree(tree, soup, soup.coordinates);
+}
+
+TEST(Tree_mender, a_new_piece_goes_to_the_leaf_beside_it) {
+  const Face_soup before(icosphere(20));
+  const Region_tree tree(before.faces, {}, before.coordinates, {.leaf_faces = 16});
+  for (const double x : {-1.2, 1.2}) {
+    auto soup = before;
+    add_piece(soup, x, 0, 0);
+    auto mended = tree;
+    ASSERT_TRUE(mended.mend(soup.faces, {}, soup.coordinates, {.leaf_faces = 16}));
+    expect_tree(mended, soup, soup.coordinates);
+    const auto new_face = static_cast<std::uint32_t>(before.faces.size());
+    std::size_t leaf = 0;
+    while (!std::ranges::binary_search(mended.faces(leaf), new_face)) ++leaf;
+    for (const std::uint32_t face : mended.faces(leaf))
+      EXPECT_LT((soup.point(soup.faces[face][0]) - Kernel::Point_3(x, 0, 0)).squared_length(), 1);
+  }
+}
+
+TEST(Tree_mender, a_large_new_piece_gets_leaves_of_its_own) {
+  const Face_soup before(icosphere(20)), piece(icosphere(5));
+  auto soup = before;
+  for (auto corners : piece.faces) {
+    for (auto& corner : corners) corner += before.vertex_count();
+    soup.faces.push_back(corners);
+  }
+  for (const double x : piece.coordinates) soup.coordinates.push_back(x + 5);
+  Region_tree tree(before.faces, {}, before.coordinates);
+  ASSERT_TRUE(tree.mend(soup.faces, {}, soup.coordinates, {}));
+  expect_tree(tree, soup, soup.coordinates);
+}
+
+TEST(Tree_mender, very_many_new_pieces_ask_for_a_new_tree) {
+  const Face_soup before(icosphere(40));
+  Region_tree tree(before.faces, {}, before.coordinates, {.leaf_faces = 4});
+  auto soup = before;
+  for (int i = 0; i < 1000; ++i) add_piece(soup, 2 + i, 0, 0);
+  EXPECT_FALSE(tree.mend(soup.faces, {}, soup.coordinates, {.leaf_faces = 4}));
   expect_tree(tree, before, before.coordinates);
 }
 
