@@ -198,6 +198,8 @@ double Algebraic_time::round_up() const {
 
 double Algebraic_time::rounded_up_above(double low) const {
   const double high = std::nextafter(low, 2.0);
+  // To narrow a number that is so small takes long, and could underflow.
+  if (low < 0x1p-60) return high - low;
   int exponent = 0;
   std::frexp(high - low, &exponent);  // a power of two
   const auto digits = static_cast<unsigned long>(42 - exponent);

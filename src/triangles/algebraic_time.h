@@ -30,8 +30,8 @@ class Algebraic_time {
   double round_down() const;
   /// The least double that is not below this number.
   double round_up() const;
-  /// What is between a double and this number, which lies strictly between it and the next: rounded up by less than
-  /// 2^-40 of their distance.
+  /// What is between a double and this number, which lies strictly between it and the next: rounded up, by less than
+  /// 2^-40 of their distance unless the double is below 2^-60.
   double rounded_up_above(double low) const;
   /// Whether this number is a double, in which case `round_down` is this number.
   bool equals(double number) const { return compare(dyadic(number)) == std::strong_ordering::equal; }

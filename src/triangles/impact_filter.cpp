@@ -251,8 +251,9 @@ bool Impact_filter::apart(const Features& features, double from, const Double_do
   const auto is_apart = [&](auto piece, const auto& apart_in) {
     auto rest = piece;
     piece.cut_at(until, piece, rest);
-    // Where the quotient is rounded up, the piece begins later by 2^-99: less than `first_possible` has rounded down.
-    piece.cut_at(Double_double(from) / until, rest, piece);
+    // Where the quotient is rounded up, the piece begins later by 2^-99: less than `first_possible` has rounded down. Of
+    // tiny numbers it could be off by more.
+    if (from > 0x1p-500) piece.cut_at(Double_double(from) / until, rest, piece);
     return apart_in(piece);
   };
   return is_apart(Volume(differences), [](const auto& volume) { return volume.keeps_its_sign(); }) ||

@@ -424,6 +424,22 @@ TEST(First_impact_before_or_until, tells_times_apart_that_only_rounding_keeps_fr
   EXPECT_GT(equal, 10);
 }
 
+TEST(First_impact_before_or_until, at_times_below_the_smallest_double) {
+  // A corner meets a face at t = 2^-1075, where it has moved by 2^-1074, which is how far away it was.
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  const Moving_triangle still = standing({Point(-1, -1, 0), Point(1, -1, 0), Point(0, 1, 0)});
+  const Moving_triangle point = moving_point({0, 0, least}, {0, 0, -2});
+  const auto time = first_impact(still, point);
+  ASSERT_TRUE(time);
+  EXPECT_EQ(time->low(), 0);
+  EXPECT_EQ(time->high(), least);
+  EXPECT_EQ(first_impact_until(*time, still, point), time);
+  EXPECT_EQ(first_impact_before(*time, still, point), std::nullopt);
+  // One that is half as fast comes later, one that is twice as fast earlier.
+  EXPECT_EQ(first_impact_until(*time, still, moving_point({0, 0, least}, {0, 0, -1})), std::nullopt);
+  EXPECT_TRUE(first_impact_before(*time, still, moving_point({0, 0, least}, {0, 0, -4})));
+}
+
 /// Three planes through the origin that the faces' corners cross at times 2^-2098 apart: two thousand halvings tell
 /// their roots from each other.
 TEST(First_impact, at_times_that_only_thousands_of_digits_tell_apart_needs_little_stack) {

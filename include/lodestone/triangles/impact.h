@@ -41,7 +41,7 @@ class Impact_time {
   double high() const { return high_; }
   /// The nearest double; of two, the lower.
   double value() const { return value_; }
-  /// For the library's own sources: what is between `low` and the time, rounded up to some 40 digits. 0 for a double.
+  /// For the library's own sources: what is between `low` and the time, rounded up to 40 bits or to `high`.
   double above_low() const { return above_low_; }
 
   /// Which one is earlier.
