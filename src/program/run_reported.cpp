@@ -13,6 +13,7 @@
 #include "program/assumed_machine.h"
 #include "program/exit_codes.h"
 #include "program/progress.h"
+#include "program/standard_input.h"
 
 namespace lodestone {
 
@@ -20,7 +21,7 @@ namespace {
 
 /// Always one line, even if file names contain line breaks. Nobody can be told if the line cannot be written.
 int report(const char* what, int code) {
-  std::fputs(fmt::format("lodestone: {}\n", printable(what)).c_str(), stderr);
+  std::fputs(fmt::format("lodestone: {}\n", printable(naming_standard_input(what))).c_str(), stderr);
   return code;
 }
 

@@ -16,6 +16,12 @@ namespace lodestone {
 
 namespace {
 
+/// The file of the standard input, also after it has disappeared: errors are told then.
+std::string& kept_path() {
+  static std::string path;
+  return path;
+}
+
 void copy_standard_input(Atomic_file& file) {
   std::array<char, 1 << 16> bytes{};
   for (;;) {
@@ -42,9 +48,18 @@ Temporary_folder::~Temporary_folder() {
 }
 
 Standard_input::Standard_input(const std::string& format) : file_(folder_.path() / ("standard_input." + format)) {
+  kept_path() = file_.string();
   Atomic_file file(file_);
   copy_standard_input(file);
   file.commit();
+}
+
+std::string naming_standard_input(std::string message) {
+  const std::string& path = kept_path();
+  if (path.empty()) return message;
+  for (auto at = message.find(path); at != std::string::npos; at = message.find(path, at))
+    message.replace(at, path.size(), "standard input");
+  return message;
 }
 
 void replace_standard_input(std::vector<std::filesystem::path*> inputs, const std::string& format,

@@ -23,7 +23,8 @@ class Temporary_folder {
   std::filesystem::path path_;
 };
 
-/// A mesh from the standard input, kept as a file: readers map their files into memory. The file disappears with this.
+/// A mesh from the standard input, kept as a file: readers go back and forth in their files. The file disappears with
+/// this.
 class Standard_input {
  public:
   /// Reads the standard input to its end.
@@ -37,6 +38,10 @@ class Standard_input {
   Temporary_folder folder_;
   std::filesystem::path file_;
 };
+
+/// The message of an error, in which the standard input is called so, and not by the path of the file that it was kept
+/// in.
+std::string naming_standard_input(std::string message);
 
 /// Replaces an input that is `-` by the standard input.
 /// @param format  of the standard input; empty: not given

@@ -17,9 +17,8 @@ namespace {
 /// With more than this share of its faces changed, a tree is built anew.
 constexpr std::size_t most_changed = 8;
 
-/// With more comparisons than so many per face to find leaves for new pieces, too: they take about as long as half of
-/// a build.
-constexpr std::size_t most_compared = 32;
+/// A tree is also built anew if finding leaves for new pieces would take more comparisons than so many per face.
+constexpr std::size_t most_compared = 4;
 
 constexpr std::uint32_t not_placed = std::numeric_limits<std::uint32_t>::max();
 
@@ -42,10 +41,13 @@ class Leaf_places {
   /// O(leaves).
   std::uint32_t nearest(std::uint32_t vertex) const {
     const Eigen::Vector3d here = position(vertex);
-    return std::ranges::min_element(places_, {}, [&](const Place& place) {
-             const double squared = (place.position - here).squaredNorm();
-             return std::isnan(squared) ? std::numeric_limits<double>::infinity() : squared;
-           })->leaf;
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t nearest = places_.front().leaf;
+    for (const Place& place : places_) {
+      const double squared = (place.position - here).squaredNorm();
+      if (squared < least) least = squared, nearest = place.leaf;
+    }
+    return nearest;
   }
 
  private:
@@ -142,8 +144,8 @@ bool Tree_mender::place(std::uint32_t face, Vertex_leaves& leaf_of, std::vector<
   return true;
 }
 
-/// Faces between new vertices: from the faces that have been placed outwards.
-/// @return whether all have been placed
+/// Faces between new vertices: from the faces that have been placed outwards, then new pieces.
+/// @return false if there are many new pieces
 bool Tree_mender::place_waiting_faces(Vertex_leaves& leaf_of, std::span<const std::uint32_t> waiting) {
   using Vertex_and_face = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<Vertex_and_face> faces_at;  // by their vertices

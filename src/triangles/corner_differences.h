@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "lodestone/triangles/triangle_intersection.h"
 #include "triangles/double_double.h"
@@ -57,7 +58,11 @@ Scaled_differences<Number> scaled_differences(const Triangle& a, const Triangle&
     double most = 0;
     for (const auto& row : d.between)
       for (const auto& difference : row)
-        for (int axis = 0; axis < 3; ++axis) most = std::max(most, std::abs(static_cast<double>(difference[axis])));
+        for (int axis = 0; axis < 3; ++axis) {
+          const double length = std::abs(static_cast<double>(difference[axis]));
+          if (!std::isfinite(length)) return std::numeric_limits<double>::infinity();  // NaN in double-double
+          most = std::max(most, length);
+        }
     return most;
   };
   Scaled_differences<Number> scaled{corner_differences<Number>(a, b, [](double x) { return Number(x); })};

@@ -94,8 +94,10 @@ void crossing_points_kernel(const Edges_and_planes& edges, Crossing_points& poin
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Number coordinate = Number{from[axis], hn::Zero(d)} + share * edge[axis];
       const Edges length = hn::Abs(edge[axis].high);
-      const Edges error =
-          hn::Add(hn::Mul(length, share_error), hn::Mul(all(0x1p-100), hn::Add(hn::Abs(from[axis]), length)));
+      // Products of a tiny length may underflow. Without length the coordinate is that of `from`.
+      const Edges underflow = hn::IfThenZeroElse(hn::Eq(length, hn::Zero(d)), all(0x1p-1060));
+      const Edges error = hn::Add(underflow, hn::Add(hn::Mul(length, share_error),
+                                                     hn::Mul(all(0x1p-100), hn::Add(hn::Abs(from[axis]), length))));
       // A coordinate that all corners of the triangle share is that of the point too, whatever its rounding.
       const Edge_mask shared =
           hn::And(hn::Eq(corners[0][axis], corners[1][axis]), hn::Eq(corners[0][axis], corners[2][axis]));

@@ -9,10 +9,12 @@ namespace lodestone {
 
 /// The unevaluated sum of two doubles, `low` at most half of the last digit of `high`: some 106 bits.
 ///
-/// Without overflow, and for products beyond 2^-900 without underflow, the absolute error of a result is at most
-///  - 2^-103 (|a| + |b|) for a + b and a - b, and 0 if both have a `low` of 0,
+/// If nothing overflows and products are above 2^-900 in size, the absolute error of a result is at most
+///  - 0 for the sum and the difference of two doubles,
+///  - 2^-103 (|a| + |b|) for a + b and a - b,
 ///  - 2^-101 |a b| for a b,
 ///  - 2^-99 |a / b| for a / b.
+/// Products overflow, and are then NaN, if a factor is beyond 2^996.
 /// The operations are those of \cite knuth1969 and \cite dekker1971, as in simd/double_double-inl.h.
 class Double_double {
  public:

@@ -27,9 +27,9 @@ Dyadic middle(double low, double high) {
 
 std::array<int, 2> edge_of(int first) { return {first, first < 3 ? (first + 1) % 3 : 3 + (first + 1) % 3}; }
 
-/// Which impacts count, of those that `latest` leaves.
+/// Which impacts count.
 struct Limit {
-  const Impact_time* time = nullptr;  ///< null: all do; else `latest` is the least double that is not below it
+  const Impact_time* time = nullptr;  ///< later impacts do not count; null: all impacts count
   bool counts = false;                ///< whether an impact at this time does, or only earlier ones
 };
 
@@ -70,7 +70,8 @@ class Contact_search {
       for (int second = 3; second < 6; ++second) add({filter_.edges(first, second), first, second});
   }
 
-  /// Faces of a block that falls flat meet a floor at times of which doubles do not tell which is earlier.
+  /// Drops the candidates that double-double proves to be later. Many are: the faces of a block that falls flat meet
+  /// the floor at times that are the same double.
   void drop_later_candidates(const Impact_time& limit) {
     const Double_double until = Double_double(limit.low()) + Double_double(limit.above_low());
     const auto later = std::ranges::remove_if(candidates_, [&](const Candidate& candidate) {
@@ -97,6 +98,7 @@ class Contact_search {
   boost::container::static_vector<Candidate, 15> candidates_;
 };
 
+/// @param latest  if there is a limit, the least double that is not below it
 std::optional<Impact_time> search(const Moving_triangle& a, const Moving_triangle& b, double latest,
                                   const Limit& limit) {
   const double overlap_from = overlap_time_lower_bound(box_around(a), box_around(b));

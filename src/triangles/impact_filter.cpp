@@ -30,10 +30,10 @@ void cut(const std::array<Coefficient, size>& whole, const Number& part, std::ar
   }
 }
 
-/// Whether products of three components cannot overflow.
+/// Whether products of three components cannot overflow, nor what double-double multiplies them by.
 template <class Differences>
 bool are_moderate(const Differences& differences) {
-  return std::ranges::all_of(differences, [](const auto& difference) { return difference.size < 1e100; });
+  return std::ranges::all_of(differences, [](const auto& difference) { return difference.size < 1e95; });
 }
 
 /// By which power of two the error bounds for double become those for a number type.
@@ -56,8 +56,8 @@ Impact_filter::Quadratic<Number> Impact_filter::area(const Moving_difference<Num
 /// @param error  a bound of that of each coefficient
 template <class Number>
 int lasting_sign(std::initializer_list<Number> coefficients, double error) {
-  if (std::min(coefficients) > error) return 1;
-  return std::max(coefficients) < -error ? -1 : 0;
+  if (std::ranges::all_of(coefficients, [error](const Number& c) { return c > error; })) return 1;
+  return std::ranges::all_of(coefficients, [error](const Number& c) { return c < -error; }) ? -1 : 0;
 }
 
 /// Polynomials of a pair of features over an interval of time. Its four corners are o, p, q and r; u, v and w are the
@@ -68,7 +68,7 @@ int lasting_sign(std::initializer_list<Number> coefficients, double error) {
 /// determinants, which carry at most 10 roundings of sums. A halving adds three roundings of coefficients of at most
 /// 6 m^3, each of the first two cuts nine, and there are at most 20 halvings. So the error is below
 /// (15 + 78) eps 6 m^3 < 2^-43 m^3.
-/// Likewise that of an area is below 2^-45 m^2. What underflows is below 10^-200, as m is below 10^100.
+/// Likewise that of an area is below 2^-45 m^2. What underflows is below 10^-200, as m is below 10^95.
 template <class Number>
 class Impact_filter::Volume {
  public:
@@ -227,7 +227,8 @@ double Impact_filter::first_possible(const Features& features) const {
   Piece<double> whole(differences), rest = whole;
   // If `latest` is rounded up here, so is the interval.
   if (latest_ < 1) whole.cut_at(latest_, whole, rest);
-  // What can meet only at the end takes two pieces instead of halvings.
+  if (whole.apart(features)) return no_contact;
+  // Features that can meet only near `latest` take two pieces instead of halvings.
   const double end = (1 - shortest) * latest_;
   boost::container::static_vector<Open, most_halvings + 3> open{{whole, end, shortest * latest_}, {whole, 0, end}};
   whole.cut_at(1 - shortest, open[1].piece, open[0].piece);
@@ -251,8 +252,8 @@ bool Impact_filter::apart(const Features& features, double from, const Double_do
   const auto is_apart = [&](auto piece, const auto& apart_in) {
     auto rest = piece;
     piece.cut_at(until, piece, rest);
-    // Where the quotient is rounded up, the piece begins later by 2^-99: less than `first_possible` has rounded down. Of
-    // tiny numbers it could be off by more.
+    // If the quotient is rounded up, the piece begins later by a factor of 1 + 2^-99 at most, which is less than
+    // `first_possible` has rounded down by. The quotient of tiny numbers could have a larger error.
     if (from > 0x1p-500) piece.cut_at(Double_double(from) / until, rest, piece);
     return apart_in(piece);
   };

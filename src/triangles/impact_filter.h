@@ -12,19 +12,19 @@
 namespace lodestone {
 
 /// What floating point proves about features of two moving triangles. Corners are counted from 0 to 5, as in
-/// `Exact_contacts`; edges likewise, edge i of a triangle from its corner i to the next. Each answer is a lower bound
-/// on the first time at which two features meet; infinity: not before `latest`, if at all.
+/// `Exact_contacts`; edges likewise, edge i of a triangle from its corner i to the next. A bound is a lower bound on
+/// the first time at which two features meet; infinity: not before `latest`, if at all.
 class Impact_filter {
  public:
   Impact_filter(const Moving_triangle& a, const Moving_triangle& b, double latest);
 
-  /// For a corner of one triangle and the whole other one.
+  /// The bound for a corner of one triangle and the whole other one.
   double corner_and_face(int corner) const;
-  /// For an edge of each triangle.
+  /// The bound for an edge of each triangle.
   double edges(int first, int second) const;
 
-  /// Whether a corner and the other triangle are proven apart all the time between the bound above and another time.
-  /// Has twice as many digits.
+  /// Whether a corner and the other triangle are proven apart all the time from their bound until another time. The
+  /// proof is in double-double, so it succeeds until nearly the time at which they meet.
   bool corner_and_face_apart(int corner, double bound, const Double_double& until) const;
   bool edges_apart(int first, int second, double bound, const Double_double& until) const;
 

@@ -24,7 +24,7 @@ class Projected_triangle {
     const auto normal = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
     for (int axis = 1; axis < 3; ++axis)
       if (std::abs(normal[axis]) > std::abs(normal[axis_])) axis_ = axis;
-    // What is rounded, or overflows, may choose badly.
+    // The normal is rounded, and may overflow, so this axis may be a bad choice.
     for (int tried = 0; tried < 3 && !project(); ++tried) axis_ = (axis_ + 1) % 3;
   }
 
@@ -36,7 +36,7 @@ class Projected_triangle {
   bool contains(const Point& p) const {
     return side(0, p) != CGAL::NEGATIVE && side(1, p) != CGAL::NEGATIVE && side(2, p) != CGAL::NEGATIVE;
   }
-  /// A triangle whose plane passes through edge i and not through the third corner: it stands on this one.
+  /// A triangle that has edge i in common with this one and stands on it: the third corner is outside its plane.
   Triangle standing_on(std::size_t i) const {
     const Point& corner = triangle_[i];
     std::array shifted{corner.x(), corner.y(), corner.z()};

@@ -15,7 +15,7 @@ namespace {
 
 using Exact_number = CGAL::Exact_predicates_exact_constructions_kernel::FT;
 
-/// Eight roundings: above every relative error that it bounds here.
+/// Eight times the largest relative error of an operation: more than any error that this file bounds by it.
 template <class Number>
 constexpr double roundings = 0x1p-50;
 template <>
@@ -47,7 +47,9 @@ double separation(const Corner_differences<Number>& d, const Difference<Number>&
   for (const auto& row : d.between)
     for (const auto& difference : row) {
       const Difference<Number> terms = difference.cwiseProduct(across);
-      least = std::min(least, double(terms.sum()) - roundings<Number> * size<Number>(terms));
+      const double height = double(terms.sum()) - roundings<Number> * size<Number>(terms);
+      if (!(height > 0)) return 0;
+      least = std::min(least, height);
     }
   least -= underflow;
   return least > 0 ? least / (std::sqrt(squared) * (1 + of_double)) : 0;
@@ -60,7 +62,8 @@ class Estimate {
  public:
   Estimate(const Triangle& a, const Triangle& b)
       : scaled_(scaled_differences<Number>(a, b)), nearest_(Nearest_points_search(scaled_.vectors)()) {
-    distance_ = std::sqrt(double(nearest_.squared));
+    const double squared(nearest_.squared);
+    distance_ = squared > 1e-280 ? std::sqrt(squared) : gap().stableNorm();
     at_least_ = separation(scaled_.vectors, nearest_.across);
     // Four roundings in each term of the gap, three in its length.
     const auto way = [&](const std::array<Difference<Number>, 3>& edges, const Triangle_point<Number>& p) {
@@ -72,10 +75,12 @@ class Estimate {
              underflow;
   }
 
-  /// s and r are rounded.
+  const Nearest_points<Number>& unrounded_points() const { return nearest_; }
+  /// s and r are rounded; their sum stays at most 1.
   Nearest_points<double> points() const {
     const auto rounded_point = [](const Triangle_point<Number>& p) {
-      return Triangle_point<double>{p.corner, double(p.s), double(p.r)};
+      const double s(p.s), r(p.r);
+      return Triangle_point<double>{p.corner, s, r > 0 ? std::min(r, std::nextafter(1 - s, 0.0)) : r};
     };
     return {rounded_point(nearest_.a), rounded_point(nearest_.b), {}, {}};
   }
@@ -87,7 +92,7 @@ class Estimate {
 
   /// Whether the relative error of `distance` is proven to be at most 2^-31.
   bool proves_accuracy() {
-    const auto accurate = [&] { return std::max(distance_ - at_least_, error_) <= 0x1p-31 * at_least_; };
+    const auto accurate = [&] { return std::max(std::abs(distance_ - at_least_), error_) <= 0x1p-31 * at_least_; };
     return accurate() || (try_more_planes(), accurate());
   }
 
@@ -137,15 +142,25 @@ Number coordinate(const Triangle& t, const Triangle_point<Number>& p, int axis) 
 }
 
 template <class Number>
-Triangle_point<Number> converted(const Triangle_point<double>& p) {
-  return {p.corner, Number(p.s), Number(p.r)};
+Number converted(double x) {
+  return Number(x);
+}
+template <class Number>
+Number converted(const Double_double& x) {
+  const double high(x), low(x - Double_double(high));
+  return Number(high) + Number(low);
+}
+template <class Number, class From>
+Triangle_point<Number> converted(const Triangle_point<From>& p) {
+  return {p.corner, converted<Number>(p.s), converted<Number>(p.r)};
 }
 
 /// Whether a pair of points is proven to be nearer than `limit`. Even if s and r are rounded, they name points of the
-/// triangles.
-template <class Number>
-bool surely_nearer(const Triangle& a, const Triangle& b, const Nearest_points<double>& points, double limit) {
+/// triangles as long as their sum is at most 1.
+template <class Number, class From>
+bool surely_nearer(const Triangle& a, const Triangle& b, const Nearest_points<From>& points, double limit) {
   const auto on_a = converted<Number>(points.a), on_b = converted<Number>(points.b);
+  if (!CGAL::certainly(on_a.s + on_a.r <= 1) || !CGAL::certainly(on_b.s + on_b.r <= 1)) return false;
   Number squared = 0;
   for (int axis = 0; axis < 3; ++axis) squared += CGAL::square(coordinate(a, on_a, axis) - coordinate(b, on_b, axis));
   return CGAL::certainly(squared < CGAL::square(Number(limit)));
@@ -180,8 +195,8 @@ Ring::Vector_3 exact_gap_direction(const std::array<std::array<Ring::Point_3, 3>
   return gap * of_edge.squared_length() - of_edge * (gap * of_edge);
 }
 
-/// Whether a plane orthogonal to the gap proves the triangles to be `limit` apart or more. Without rounding; so only a
-/// gap that is not the nearest proves nothing.
+/// Whether a plane orthogonal to the gap proves the triangles to be `limit` apart or more. Nothing is rounded, so it
+/// fails only if the triangles are nearer, or if the gap is not where they are nearest.
 bool exactly_apart(const Triangle& a, const Triangle& b, const Nearest_points<double>& near, double limit) {
   const auto exact = [](const Triangle& t) {
     const auto point = [&t](std::size_t i) { return Ring::Point_3(t[i].x(), t[i].y(), t[i].z()); };
@@ -281,9 +296,9 @@ bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance
   if (estimate.proves_apart(distance)) return false;
   if (surely_nearer_in_intervals(a, b, estimate.points(), distance)) return true;
   if (!estimate.proves_apart() && triangles_intersect(a, b)) return true;
-  const Nearest_points<double> near = Estimate<Double_double>(a, b).points();
-  if (surely_nearer<Ring::FT>(a, b, near, distance)) return true;
-  if (exactly_apart(a, b, near, distance)) return false;
+  const Estimate<Double_double> finer(a, b);
+  if (surely_nearer<Ring::FT>(a, b, finer.unrounded_points(), distance)) return true;
+  if (exactly_apart(a, b, finer.points(), distance)) return false;
   return exact_nearest_points(a, b).squared < CGAL::square(Exact_number(distance));
 }
 

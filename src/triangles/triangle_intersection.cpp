@@ -120,9 +120,7 @@ bool passes_through(const double* p, const double* q, const Triangle_corners& t)
 }
 
 bool have_area(const Triangle& a, const Triangle& b) {
-  const auto has_area = [](const Triangle& t) {
-    return surely_not_collinear(t) || !CGAL::collinear(t[0], t[1], t[2]);
-  };
+  const auto has_area = [](const Triangle& t) { return surely_not_collinear(t) || !CGAL::collinear(t[0], t[1], t[2]); };
   return has_area(a) && has_area(b);
 }
 

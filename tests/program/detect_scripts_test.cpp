@@ -108,7 +108,7 @@ TEST_F(Detect_scripts, a_mesh_may_come_from_the_standard_input) {
   expect_error(run({"detect", "-", again}), 2, "--format");
   expect_error(run({"detect", "-", "-", "--format", "off"}), 2, "only one");
   expect_error(run({"detect", here, again, "--format", "off"}), 2, "--format");
-  expect_error(run({"info", "-", "--format", "obj"}), 3, "standard_input.obj:1:");
+  expect_error(run({"info", "-", "--format", "obj"}), 3, "lodestone: standard input:1:");
 }
 
 TEST_F(Detect_scripts, the_statistics_of_a_partition_have_the_region_of_each_vertex) {

@@ -424,6 +424,23 @@ TEST(First_impact_before_or_until, tells_times_apart_that_only_rounding_keeps_fr
   EXPECT_GT(equal, 10);
 }
 
+TEST(First_impact_before_or_until, of_coordinates_whose_volumes_nearly_overflow) {
+  const Moving_triangle floor = standing({Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)});
+  const auto limit = first_impact(floor, {{Point(0, 0, 1), Point(1, 0, 1), Point(0, 1, 1)},
+                                          {Point(0, 0, -1.1), Point(1, 0, -1.1), Point(0, 1, -1.1)}});
+  ASSERT_TRUE(limit);
+  for (const double m : {1e90, 1e94, 1e97, 9e99, 1e103}) {
+    const Moving_triangle rising{{Point(m, 0, -1e-9 * m), Point(-m, m, -1e-9 * m), Point(-m, -m, -1e-9 * m)},
+                                 {Point(m, 0, m), Point(-m, m, m), Point(-m, -m, m)}};
+    const Moving_triangle still =
+        standing({Point(0, 0, 0), Point(.1 * m, .1 * m, .5 * m), Point(-.1 * m, .1 * m, .5 * m)});
+    const auto first = first_impact(rising, still);
+    ASSERT_TRUE(first && *first < *limit) << m;
+    EXPECT_EQ(first_impact_before(*limit, rising, still), first) << m;
+    EXPECT_EQ(first_impact_until(*limit, rising, still), first) << m;
+  }
+}
+
 TEST(First_impact_before_or_until, at_times_below_the_smallest_double) {
   // A corner meets a face at t = 2^-1075, where it has moved by 2^-1074, which is how far away it was.
   constexpr double least = std::numeric_limits<double>::denorm_min();

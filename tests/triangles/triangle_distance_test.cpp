@@ -87,6 +87,32 @@ TEST(Closest_points, are_at_distance_zero_if_and_only_if_the_triangles_intersect
   EXPECT_GT(met, 2000U);
 }
 
+TEST(Closest_points, have_the_distance_of_gaps_whose_squares_underflow) {
+  for (const bool is_flat : {false, true})
+    for (const int exponent : {-500, -522, -525, -530, -537, -600, -1000}) {
+      const double gap = std::ldexp(1.18, exponent), z = is_flat ? gap : 1;
+      const Triangle a{Point(0, 0, gap), Point(1, 0, z), Point(0, 1, z)},
+          b{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};
+      EXPECT_NEAR(closest_points(a, b).distance / gap, 1, 0x1p-30) << exponent;
+    }
+}
+
+TEST(Closest_points, have_the_distance_of_triangles_that_are_wider_than_the_greatest_double) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto corner = [&](double x) {
+      return Point(std::ldexp(x + 1e-9 * unit(random), 1023), std::ldexp(unit(random), 942),
+                   std::ldexp(unit(random), 916));
+    };
+    const Triangle a{corner(-1.5), corner(1.5), corner(1.5)}, b{corner(1.5), corner(-1.5), corner(1.5)};
+    const Rational squared = exact_squared_distance(a, b);
+    const Rational distance(closest_points(a, b).distance);
+    const Rational error(0x1p-28);
+    EXPECT_LE(CGAL::abs(Rational(distance * distance - squared)), Rational(error * squared)) << trial;
+  }
+}
+
 TEST(Closest_points, scale_with_powers_of_two) {
   for_pairs(100, [](const Triangle& a, const Triangle& b) {
     const auto found = closest_points(a, b);

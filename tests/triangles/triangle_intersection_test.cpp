@@ -425,6 +425,16 @@ TEST(Triangle_intersection, of_touching_triangles_is_the_same_for_any_order_of_c
   }
 }
 
+TEST(Triangle_intersection, has_the_nearest_double_where_an_edge_is_subnormal_along_an_axis) {
+  constexpr double least = std::numeric_limits<double>::denorm_min(), normal = 0x1p-1021;
+  const Triangle face{Point(-1, -1, 0), Point(3, -1, 0), Point(-1, 3, 0)};
+  const Triangle rising{Point(normal, 0, -11), Point(normal + 2 * least, 0, 9), Point(1, 0.5, 9)};
+  const auto exact = exact_corners(face, rising);
+  EXPECT_EQ(exact.size(), 2U);
+  EXPECT_TRUE(are_nearest(triangle_intersection(face, rising), exact));
+  EXPECT_EQ(triangle_intersection(face, rising), triangle_intersection(rising, face));
+}
+
 TEST(Triangle_intersection, has_no_negative_zero) {
   const Triangle a{Point(-0.0, -0.0, -0.0), Point(4, -0.0, -0.0), Point(-0.0, 4, -0.0)};
   const Triangle b{Point(-0.0, -0.0, -0.0), Point(-0.0, -0.0, 1), Point(-1, -1, 1)};

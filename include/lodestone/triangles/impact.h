@@ -41,7 +41,8 @@ class Impact_time {
   double high() const { return high_; }
   /// The nearest double; of two, the lower.
   double value() const { return value_; }
-  /// For the library's own sources: what is between `low` and the time, rounded up to 40 bits or to `high`.
+  /// For the library's own sources: how far above `low` the time is, rounded up by less than 2^-40 of what is between
+  /// `low` and `high`; for times below 2^-60, all of that.
   double above_low() const { return above_low_; }
 
   /// Which one is earlier.
@@ -73,7 +74,8 @@ std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_t
 /// than `first_impact`, since only what can be earlier is looked at.
 std::optional<Impact_time> first_impact_before(const Impact_time& limit, const Moving_triangle& a,
                                                const Moving_triangle& b);
-/// The same if it is not later than `limit`.
+/// The first impact of two moving triangles if it is not later than `limit`, else none. As `first_impact_before`, but
+/// an impact at the same time counts.
 std::optional<Impact_time> first_impact_until(const Impact_time& limit, const Moving_triangle& a,
                                               const Moving_triangle& b);
 

@@ -22,23 +22,23 @@ struct Closest_points {
 ///
 /// `distance` has a relative error below 2^-30 if it is a normal number, however thin or nearly parallel the triangles
 /// are. It is zero if and only if `triangles_intersect`; a and b are then the same point of the intersection. The error
-/// of `direction` is mostly near 10^-15 times the triangles' size over their distance. Where that is so large that
-/// exact arithmetic takes over, the error is near 10^-15. It is never above 10^-4. Distance and direction are computed
-/// from the triangles, not from a and b. These two are rounded to double, so far from the origin they may be off by a
-/// few last digits of their coordinates.
+/// of `direction` is mostly near 10^-15 times the triangles' size over their distance; it is smaller where more digits
+/// are needed to know the distance, and never above 10^-4. Distance and direction are computed from the triangles, not
+/// from a and b. These two are rounded to double, so far from the origin they may be off by a few last digits of their
+/// coordinates.
 ///
 /// A pair of points computed in double is accepted if a plane between the triangles proves that no nearer pair exists.
 /// Otherwise, mostly at distances below 10^-6 of the triangles' size, double-double takes over, which is some ten times
-/// slower. Exact arithmetic, hundreds of times slower, is left for thin triangles, and where the error bounds of
-/// double-double are too wide: at distances below some 10^-20 of the size.
+/// slower. Exact arithmetic, hundreds of times slower, decides what the error bounds of double-double leave open: thin
+/// triangles, and distances below some 10^-20 of the size.
 Closest_points closest_points(const Triangle& a, const Triangle& b);
 
 /// Whether two triangles intersect or have points nearer to each other than `distance`. Exact, and strict: triangles
 /// exactly `distance` apart are not nearer. For a `distance` of zero or less: whether they intersect.
 ///
 /// Floating point decides only what it can prove: 'no' by a plane between the triangles, with the distance across it
-/// rounded down; 'yes' by one pair of their points, in interval arithmetic. A plane and a pair of points in exact
-/// arithmetic mostly decide the rest.
+/// rounded down; 'yes' by one pair of their points, in interval arithmetic. The same two
+/// proofs in exact arithmetic decide most of the rest.
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance);
 
 /// Lower bound on the distance of two non-empty boxes: 0 if they overlap, otherwise the distance rounded down.

@@ -54,9 +54,10 @@ using Intersection_points = boost::container::static_vector<Point, 6>;
 /// The intersection of two triangles. Each coordinate is the nearest double to that of the exact intersection. Empty if
 /// they have no point in common.
 ///
-/// Two triangles that cross cost about as much as twice the test whether they do; if they touch or are coplanar, up to
-/// 20 times as much. Rational numbers are needed where rounding is in doubt, some microseconds for each point, and if a
-/// triangle has no area, up to 0.1 ms.
+/// Two triangles that cross cost about as much as twice the test whether they do. If they touch or are coplanar, it is
+/// mostly up to 20 times as much; 100 times if they are coplanar on a slope, where predicates need exact numbers.
+/// Rational numbers are needed where rounding is in doubt, some microseconds for each point, and if a triangle has no
+/// area, up to 0.1 ms.
 Intersection_points triangle_intersection(const Triangle& a, const Triangle& b);
 
 /// Two triangles that are asked about together.

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/files/small_text.h"
 #include "io/meshes/read_mesh_soup.h"
 #include "lodestone/io/motion/motion.h"
 #include "lodestone/mesh/errors.h"
@@ -32,10 +33,14 @@ struct First_frame {
   Faces faces;
 };
 
-void check_same_faces(const std::filesystem::path& file, const Faces& faces, const First_frame& first) {
+void check_face_count(const std::filesystem::path& file, const Faces& faces, const First_frame& first) {
   if (faces.size() != first.faces.size())
     throw Bad_motion(fmt::format("{}: the mesh has {} faces, {} has {}", file.string(), faces.size(),
                                  first.file.string(), first.faces.size()));
+}
+
+void check_same_faces(const std::filesystem::path& file, const Faces& faces, const First_frame& first) {
+  check_face_count(file, faces, first);
   const auto differing = std::ranges::mismatch(faces, first.faces).in1;
   if (differing != faces.end())
     throw Bad_motion(fmt::format("{}: face {} (counted from 0) has other corners than in {}", file.string(),
@@ -45,6 +50,28 @@ void check_same_faces(const std::filesystem::path& file, const Faces& faces, con
 void check_vertices(const std::filesystem::path& file, std::size_t found, std::size_t expected) {
   if (found != expected)
     throw Bad_motion(fmt::format("{}: the mesh has {} vertices, expected {}", file.string(), found, expected));
+}
+
+bool is_stl(const std::filesystem::path& file) { return lower_case(file.extension().string()) == ".stl"; }
+
+/// Takes positions from the corners of the faces. STL files have no numbers for vertices: corners at one place are one
+/// vertex, and in some frames other vertices may come to be there too.
+void pose_by_corners(const std::filesystem::path& file, const Polygon_soup& posed, const First_frame& first,
+                     std::span<Point> positions) {
+  check_face_count(file, posed.faces, first);
+  std::vector<bool> is_posed(positions.size(), false);
+  for (std::size_t face = 0; face < posed.faces.size(); ++face)
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::size_t vertex = first.faces[face][corner];
+      const Point& here = posed.points[posed.faces[face][corner]];
+      if (is_posed[vertex] && positions[vertex] != here)
+        throw Bad_motion(
+            fmt::format("{}: corner {} of face {} (counted from 0) is not where others are with which it "
+                        "is one vertex in {}",
+                        file.string(), corner, face, first.file.string()));
+      positions[vertex] = here;
+      is_posed[vertex] = true;
+    }
 }
 
 void check_files(const std::vector<std::filesystem::path>& files) {
@@ -69,8 +96,9 @@ Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t 
       throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is requested, the sequence has {}",
                                    first->file.string(), frame, files.size()));
     const auto posed = read_frame(files[frame], limits);
+    check_vertices(files[frame], vertices, positions.size());
+    if (is_stl(first->file) && is_stl(files[frame])) return pose_by_corners(files[frame], posed, *first, positions);
     check_vertices(files[frame], posed.points.size(), vertices);
-    check_vertices(files[frame], posed.points.size(), positions.size());
     check_same_faces(files[frame], posed.faces, *first);
     std::ranges::copy(posed.points, positions.begin());
   };

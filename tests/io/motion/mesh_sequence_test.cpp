@@ -61,6 +61,43 @@ TEST_F(Mesh_sequence, mixes_formats) {
   }
 }
 
+/// Two triangles with an edge in common; the last corner is at height z.
+std::string stl_of_two_triangles(const std::string& z, const std::string& common = "0 1 0") {
+  const auto triangle = [](const std::string& a, const std::string& b, const std::string& c) {
+    return "facet normal 0 0 0\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c + "\nendloop\nendfacet\n";
+  };
+  return "solid s\n" + triangle("0 0 0", "1 0 0", "0 1 0") + triangle("1 0 0", "1 1 " + z, common) + "endsolid s\n";
+}
+
+TEST_F(Mesh_sequence, of_stl_files_follows_vertices_that_come_to_one_place) {
+  const auto first = folder.write("0.stl", stl_of_two_triangles("5"));
+  auto flat = stl_of_two_triangles("0");
+  flat.replace(flat.find("vertex 1 1 0"), 12, "vertex 1 0 0");  // where another vertex is
+  const auto motion = read_mesh_sequence({first, folder.write("1.stl", flat)}, 4);
+  std::vector<Point> positions(4);
+  motion.pose(1, positions);
+  EXPECT_EQ(positions, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}}));
+  motion.pose(0, positions);
+  EXPECT_EQ(positions, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 5}}));
+}
+
+TEST_F(Mesh_sequence, of_stl_files_refuses_corners_of_one_vertex_at_two_places_and_other_numbers_of_faces) {
+  const auto first = folder.write("0.stl", stl_of_two_triangles("5"));
+  std::vector<Point> positions(4);
+  const auto expect_refused = [&](const std::string& second, const std::string& reason) {
+    const auto motion = read_mesh_sequence({first, folder.write("1.stl", second)}, 4);
+    try {
+      motion.pose(1, positions);
+      ADD_FAILURE() << "expected " << reason;
+    } catch (const Bad_motion& error) {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  };
+  expect_refused(stl_of_two_triangles("5", "0 2 0"), "1.stl: corner 2 of face 1 (counted from 0)");
+  const auto two = stl_of_two_triangles("5");
+  expect_refused(two.substr(0, two.find("facet", 20)) + "endsolid s\n", "1.stl: the mesh has 1 faces");
+}
+
 TEST_F(Mesh_sequence, refuses_an_empty_list_and_a_file_that_does_not_exist) {
   EXPECT_THROW(read_mesh_sequence({}, 4), Bad_motion);
   const auto first = folder.write("0.off", raised_triangle("0"));
