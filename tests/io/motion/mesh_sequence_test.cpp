@@ -95,7 +95,7 @@ TEST_F(Mesh_sequence, of_stl_files_refuses_corners_of_one_vertex_at_two_places_a
   };
   expect_refused(stl_of_two_triangles("5", "0 2 0"), "1.stl: corner 2 of face 1 (counted from 0)");
   const auto two = stl_of_two_triangles("5");
-  expect_refused(two.substr(0, two.find("facet", 20)) + "endsolid s\n", "1.stl: the mesh has 1 faces");
+  expect_refused(two.substr(0, two.find("endfacet") + 9) + "endsolid s\n", "1.stl: the mesh has 1 faces");
 }
 
 TEST_F(Mesh_sequence, refuses_an_empty_list_and_a_file_that_does_not_exist) {
