@@ -80,9 +80,10 @@ Scaled_differences<Number> scaled_differences(const Triangle& a, const Triangle&
   const auto scale = [factor](auto& vector) {
     for (int axis = 0; axis < 3; ++axis) vector[axis] = times_power_of_two(vector[axis], factor);
   };
-  for (auto& row : scaled.vectors.between) std::ranges::for_each(row, scale);
-  std::ranges::for_each(scaled.vectors.edges_a, scale);
-  std::ranges::for_each(scaled.vectors.edges_b, scale);
+  for (auto& row : scaled.vectors.between)
+    for (auto& difference : row) scale(difference);
+  for (auto* edges : {&scaled.vectors.edges_a, &scaled.vectors.edges_b})
+    for (auto& edge : *edges) scale(edge);
   scaled.exponent += shift;
   return scaled;
 }

@@ -74,12 +74,12 @@ class Contact_search {
   /// the floor at times that are the same double.
   void drop_later_candidates(const Impact_time& limit) {
     const Double_double until = Double_double(limit.low()) + Double_double(limit.above_low());
-    const auto later = std::ranges::remove_if(candidates_, [&](const Candidate& candidate) {
+    const auto is_later = [&](const Candidate& candidate) {
       const auto [bound, first, second] = candidate;
       return second != none ? filter_.edges_apart(first, second, bound, until)
                             : filter_.corner_and_face_apart(first, bound, until);
-    });
-    candidates_.erase(later.begin(), later.end());
+    };
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), is_later), candidates_.end());
   }
 
   static void try_exactly(const Candidate& candidate, Exact_contacts& exact) {

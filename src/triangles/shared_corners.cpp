@@ -270,8 +270,8 @@ void put_in_order(Intersection_points& corners) {
   Intersection_points way = corners, first = corners;
   for (int direction = 0; direction < 2; ++direction) {
     for (std::size_t start = 0; start < way.size(); ++start) {
-      std::ranges::rotate(way, way.begin() + 1);
-      if (std::ranges::lexicographical_compare(way, first)) first = way;
+      std::rotate(way.begin(), way.begin() + 1, way.end());
+      if (way < first) first = way;
     }
     std::ranges::reverse(way);
   }
