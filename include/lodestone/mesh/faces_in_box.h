@@ -77,7 +77,7 @@ class Box_reader {
   bool for_each_face(Use use) const;
   template <class Use>
   bool use_triangle(std::uint32_t index, Face<Mesh> f, bool all_triangles, Use use) const;
-  bool select(std::span<const std::uint8_t> sides, Faces_in_box& found) const requires in_memory;
+  bool select(std::span<const std::uint8_t> sides, Faces_in_box& found) const;
 
   const Mesh* mesh_;
   Points points_;
@@ -127,12 +127,11 @@ bool Box_reader<Mesh, Points>::for_each_face(Use use) const {
   return index == num_faces(*mesh_);  // removed faces may be counted, but are not listed
 }
 
-/// Lists the faces whose corners do not all lie beyond one side.
+/// Lists the faces whose corners do not all lie beyond one side. For positions in memory.
 /// @param sides  of each vertex
 /// @return false if a face is no triangle
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
-bool Box_reader<Mesh, Points>::select(std::span<const std::uint8_t> sides,
-                                      Faces_in_box& found) const requires in_memory {
+bool Box_reader<Mesh, Points>::select(std::span<const std::uint8_t> sides, Faces_in_box& found) const {
   static_assert(Vertex_table<Mesh>::by_index);  // no face has been removed: to ask before each face takes time
   constexpr std::size_t block = 1024;
   const bool all_triangles = all_triangles_by_count();
