@@ -37,8 +37,8 @@ Closest_points closest_points(const Triangle& a, const Triangle& b);
 /// exactly `distance` apart are not nearer. For a `distance` of zero or less: whether they intersect.
 ///
 /// Floating point decides only what it can prove: 'no' by a plane between the triangles, with the distance across it
-/// rounded down; 'yes' by one pair of their points, in interval arithmetic. The same two
-/// proofs in exact arithmetic decide most of the rest.
+/// rounded down; 'yes' by one pair of their points, in interval arithmetic. The same two proofs in exact arithmetic
+/// decide most of the rest.
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance);
 
 /// Lower bound on the distance of two non-empty boxes: 0 if they overlap, otherwise the distance rounded down.

@@ -66,8 +66,8 @@ void pose_by_corners(const std::filesystem::path& file, const Polygon_soup& pose
       const Point& here = posed.points[posed.faces[face][corner]];
       if (is_posed[vertex] && positions[vertex] != here)
         throw Bad_motion(
-            fmt::format("{}: corner {} of face {} (counted from 0) is not where others are with which it "
-                        "is one vertex in {}",
+            fmt::format("{}: corner {} of face {} (counted from 0) is not where the others of its vertex are: they "
+                        "are at one place in {}",
                         file.string(), corner, face, first.file.string()));
       positions[vertex] = here;
       is_posed[vertex] = true;
