@@ -47,6 +47,7 @@ Closest_point rounded(const Query_point& query, const Near_face& nearest) {
   const auto& distance = nearest.distance;
   const auto& weights = distance.weights;
   const Triangle& t = nearest.triangle;
+  if (distance.high == 0) return {nearest.face, query.point, 0};
   if (distance.high - distance.low <= 0x1p-31 * distance.low) {
     const auto mean = [&](int axis) {
       return (1 - weights[0] - weights[1]) * t[0][axis] + weights[0] * t[1][axis] + weights[1] * t[2][axis];

@@ -10,18 +10,15 @@ namespace lodestone {
 
 namespace {
 
-/// Without exact() a lazy number converts to the midpoint of its interval, which may be off in the last digits.
-double rounded(const Exact_depth& x) {
-  x.exact();
-  return CGAL::to_double(x);
-}
-
 Ray_hit rounded(const Ray_frame& frame, Hit_on_ray& hit) {
   const double d_z = std::abs(frame.direction[frame.axes[2]]);
   const bool is_precise = hit.high - hit.low <= 0x1p-32 * hit.low && hit.low > 0x1p-1000;
-  const double depth = is_precise ? hit.low / 2 + hit.high / 2 : rounded(hit.exact_depth_on(frame));
+  const auto exactly_over = [&](double divisor) {
+    return rounded_quotient(hit.exact_depth_on(frame), divisor, frame, hit.triangle);
+  };
+  const double depth = is_precise ? hit.low / 2 + hit.high / 2 : exactly_over(1);
   Ray_hit result{.face = hit.face};
-  result.t = is_precise ? depth / d_z : rounded(hit.exact_depth_on(frame) / Exact_depth(d_z));
+  result.t = is_precise ? depth / d_z : exactly_over(d_z);
   result.t += 0.0;  // no negative zero
   for (int axis = 0; axis < 3; ++axis) result.point[axis] = frame.origin[axis] + depth * (frame.direction[axis] / d_z);
   return result;

@@ -4,23 +4,22 @@
 #include <array>
 #include <cstddef>
 
-namespace lodestone::kernel {
+#include "triangles/most_planes.h"
 
-/// As many edges as the widest vectors hold.
-inline constexpr std::size_t most_edges = 8;
+namespace lodestone::kernel {
 
 /// Edges, and for each a triangle whose plane it crosses. The last index is that of the edge.
 struct Edges_and_planes {
   std::size_t count = 0;                ///< of edges; what follows them is ignored
-  double plane[3][3][most_edges] = {};  ///< [corner][axis]
-  double from[3][most_edges] = {}, to[3][most_edges] = {};
+  double plane[3][3][most_planes] = {};  ///< [corner][axis]
+  double from[3][most_planes] = {}, to[3][most_planes] = {};
 };
 
 /// Where the edges cross the planes.
 struct Crossing_points {
-  double coordinates[3][most_edges];
+  double coordinates[3][most_planes];
   /// Whether the coordinates are the nearest doubles to the exact ones; if not, they mean nothing.
-  std::array<bool, most_edges> proven;
+  std::array<bool, most_planes> proven;
 };
 
 /// @param edges  the ends of each edge lie on different sides of its plane

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "triangles/crossing_kernel.h"
+#include "triangles/orientation.h"
 
 namespace lodestone {
 
@@ -28,7 +29,7 @@ class Side_test {
     constexpr double tiny = 0x1p-900, huge = 0x1p900;
     if (std::abs(height) > bound && size_ > tiny && bound > tiny && bound < huge && size_ < huge)
       return height > 0 ? CGAL::POSITIVE : CGAL::NEGATIVE;
-    return CGAL::orientation(p_, q_, r_, s);
+    return doubtful_orientation(p_, q_, r_, s);
   }
 
  private:

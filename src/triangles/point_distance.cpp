@@ -71,6 +71,13 @@ struct Region_search {
   }
 };
 
+/// Of a triangle that has the query as a corner.
+Distance_estimate no_distance(std::size_t corner, std::uint32_t vertex) {
+  Distance_estimate found{.low = 0, .high = 0, .part = corner_part(vertex)};
+  if (corner > 0) found.weights[corner - 1] = 1;
+  return found;
+}
+
 }  // namespace
 
 Query_point::Query_point(const Point& p, const double* low, const double* high)
@@ -87,6 +94,9 @@ Distance_estimate estimate_distance(const Query_point& query, const Triangle_cor
     return Vector(p[0] * query.scale - q[0] * query.scale, p[1] * query.scale - q[1] * query.scale,
                   p[2] * query.scale - q[2] * query.scale);
   };
+  for (std::size_t i = 0; i < 3; ++i)
+    if (corners[i][0] == query.point.x() && corners[i][1] == query.point.y() && corners[i][2] == query.point.z())
+      return no_distance(i, vertices[i]);
   Region_search search{.a = difference(corners[0], query.point),
                        .b = difference(corners[1], query.point),
                        .c = difference(corners[2], query.point),
@@ -115,39 +125,39 @@ Distance_estimate estimate_distance(const Query_point& query, const Triangle_cor
 }
 
 Exact_squared exact_squared_distance(const Point& point, const Triangle& triangle) {
-  using Exact_vector = std::array<Exact_squared, 3>;
+  using Number = Exact_squared::NT;
+  using Exact_vector = std::array<Number, 3>;
   const auto difference = [](const Point& p, const Point& q) -> Exact_vector {
-    return {Exact_squared(p.x()) - Exact_squared(q.x()), Exact_squared(p.y()) - Exact_squared(q.y()),
-            Exact_squared(p.z()) - Exact_squared(q.z())};
+    return {Number(p.x()) - Number(q.x()), Number(p.y()) - Number(q.y()), Number(p.z()) - Number(q.z())};
   };
-  const auto dot = [](const Exact_vector& u, const Exact_vector& v) -> Exact_squared {
+  const auto dot = [](const Exact_vector& u, const Exact_vector& v) -> Number {
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
   };
   const auto cross = [](const Exact_vector& u, const Exact_vector& v) -> Exact_vector {
     return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
   };
   std::array<Exact_vector, 3> corners, edges;
+  std::array<Number, 3> squares;
   for (std::size_t i = 0; i < 3; ++i) {
     corners[i] = difference(triangle[i], point);
     edges[i] = difference(triangle[(i + 1) % 3], triangle[i]);
+    squares[i] = dot(corners[i], corners[i]);
   }
-  Exact_squared least = dot(corners[0], corners[0]);
-  const auto offer = [&](const Exact_squared& squared) {
-    if (squared < least) least = squared;
-  };
+  Exact_squared least = std::min({squares[0], squares[1], squares[2]});
   for (std::size_t i = 0; i < 3; ++i) {
-    offer(dot(corners[i], corners[i]));
-    const Exact_squared along = -dot(corners[i], edges[i]), length = dot(edges[i], edges[i]);
-    if (CGAL::is_positive(along) && along < length) offer(dot(corners[i], corners[i]) - along * along / length);
+    const Number along = -dot(corners[i], edges[i]);
+    if (!CGAL::is_positive(along)) continue;
+    const Number length = dot(edges[i], edges[i]);
+    if (along < length) least = std::min(least, Exact_squared(squares[i] * length - along * along, length));
   }
   const Exact_vector normal = cross(edges[0], edges[1]);
-  const Exact_squared squared_normal = dot(normal, normal);
+  const Number squared_normal = dot(normal, normal);
   if (CGAL::is_zero(squared_normal)) return least;
   // The foot is within the face if it is on the inner side of each edge.
   for (std::size_t i = 0; i < 3; ++i)
     if (CGAL::is_positive(dot(cross(edges[i], corners[i]), normal))) return least;
-  const Exact_squared height = dot(corners[0], normal);
-  return height * height / squared_normal;
+  const Number height = dot(corners[0], normal);
+  return {height * height, squared_normal};
 }
 
 }  // namespace lodestone

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Quotient.h>
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,8 @@
 /// exactly.
 namespace lodestone {
 
-using Exact_squared = CGAL::Exact_predicates_exact_constructions_kernel::FT;
+/// Not reduced: greatest common divisors take longer than all the rest.
+using Exact_squared = CGAL::Quotient<Kernel::Exact_kernel_rt::FT>;
 
 /// A point, and a power of two by which all lengths are multiplied, so that products of a few of them neither overflow
 /// nor lose digits that count.

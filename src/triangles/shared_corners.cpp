@@ -5,9 +5,10 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <cmath>
-#include <limits>
 
 #include "triangles/crossing_kernel.h"
+#include "triangles/exact_crossing.h"
+#include "triangles/orientation.h"
 
 namespace lodestone {
 
@@ -59,26 +60,6 @@ class Projected_triangle {
   CGAL::Sign orientation_ = CGAL::ZERO;
 };
 
-/// CGAL's own conversion may be off in the last digits.
-double nearest_double(const CGAL::Exact_rational& number) {
-  using Number = CGAL::Exact_rational;
-  double best = CGAL::to_double(number);
-  const auto is_nearer = [&](double other) {
-    return std::isfinite(other) && CGAL::abs(Number(number - Number(other))) < CGAL::abs(Number(number - Number(best)));
-  };
-  for (const double end : {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()})
-    while (is_nearer(std::nextafter(best, end))) best = std::nextafter(best, end);
-  return best;
-}
-
-/// Where an edge crosses the plane of a triangle, to the nearest doubles.
-Point exact_crossing(const Point& from, const Point& to, const Triangle& plane) {
-  const Rational_kernel::Point_3 p = rational(from), corner = rational(plane[0]);
-  const Rational_kernel::Vector_3 edge = rational(to) - p;
-  const auto normal = CGAL::cross_product(rational(plane[1]) - corner, rational(plane[2]) - corner);
-  return nearest_point(p + edge * ((normal * (corner - p)) / (normal * edge)));
-}
-
 /// Collects corners of an intersection, each once.
 class Collected_corners {
  public:
@@ -116,7 +97,9 @@ class Collected_corners {
     kernel::Crossing_points rounded;
     kernel::crossing_points(crossings_, rounded);
     for (std::size_t i = 0; i < crossings_.count; ++i) {
-      const auto vector = [i](const double(&of)[3][kernel::most_edges]) { return Point(of[0][i], of[1][i], of[2][i]); };
+      const auto vector = [i](const double(&of)[3][kernel::most_planes]) {
+        return Point(of[0][i], of[1][i], of[2][i]);
+      };
       points_[crossing_at_[i]] =
           rounded.proven[i]
               ? vector(rounded.coordinates)
@@ -138,7 +121,7 @@ class Collected_corners {
   Intersection_points points_;
   boost::container::static_vector<Lines, 6> lines_;
   kernel::Edges_and_planes crossings_;
-  std::array<std::size_t, kernel::most_edges> crossing_at_;  ///< per crossing: its place in `points_`
+  std::array<std::size_t, kernel::most_planes> crossing_at_;  ///< per crossing: its place in `points_`
 };
 
 constexpr unsigned line(std::size_t triangle, std::size_t edge) { return 1U << (3 * triangle + edge); }
@@ -180,8 +163,8 @@ Intersection_points coplanar_corners(const Triangles& triangles) {
 using Sides = std::array<CGAL::Sign, 3>;
 
 Sides sides_of(const Triangle& t, const Triangle& plane) {
-  const auto side = [&](std::size_t i) { return CGAL::orientation(plane[0], plane[1], plane[2], t[i]); };
-  return {side(0), side(1), side(2)};
+  const auto beside = [&](std::size_t i) { return Point_quadruple{&plane[0], &plane[1], &plane[2], &t[i]}; };
+  return orientations(std::array{beside(0), beside(1), beside(2)});
 }
 
 bool all_are(const Sides& sides, CGAL::Sign sign) { return std::ranges::count(sides, sign) == 3; }
@@ -193,8 +176,8 @@ struct Way_past {
 };
 
 Way_past way_past(const Point& from, const Point& to, const Triangle& t) {
-  Sides of_edge;
-  for (std::size_t j = 0; j < 3; ++j) of_edge[j] = CGAL::orientation(from, to, t[j], t[after(j)]);
+  const auto beside = [&](std::size_t j) { return Point_quadruple{&from, &to, &t[j], &t[after(j)]}; };
+  const Sides of_edge = orientations(std::array{beside(0), beside(1), beside(2)});
   if (all_are(of_edge, CGAL::POSITIVE) || all_are(of_edge, CGAL::NEGATIVE)) return {.through_face = true};
   const auto zero = static_cast<std::size_t>(std::ranges::find(of_edge, CGAL::ZERO) - of_edge.begin());
   if (zero < 3 && of_edge[after(zero)] * of_edge[before(zero)] == CGAL::POSITIVE)
@@ -257,12 +240,6 @@ Intersection_points shared_corners(const Triangle& a, const Triangle& b) {
     if (all_are(sides[t], CGAL::ZERO)) return coplanar_corners(triangles);
   }
   return Transversal_corners(triangles, sides)();
-}
-
-Rational_kernel::Point_3 rational(const Point& p) { return {p.x(), p.y(), p.z()}; }
-
-Point nearest_point(const Rational_kernel::Point_3& p) {
-  return {nearest_double(p.x()), nearest_double(p.y()), nearest_double(p.z())};
 }
 
 void put_in_order(Intersection_points& corners) {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CGAL/Exact_rational.h>
-#include <CGAL/Simple_cartesian.h>
-
 #include "lodestone/triangles/triangle_intersection.h"
 
 namespace lodestone {
@@ -12,17 +9,11 @@ namespace lodestone {
 ///
 /// Which corners there are is decided by exact predicates alone. A corner of a triangle is a corner of the intersection
 /// wherever the other triangle contains it. All others are crossings: of two edges, or of an edge and a face. Their
-/// coordinates are computed in double-double; where an error bound does not prove which double is the nearest, in
-/// rational numbers.
+/// coordinates are computed in double-double; where an error bound does not prove which double is the nearest, in exact
+/// numbers.
 ///
 /// @param a,b  triangles that have an area
 Intersection_points shared_corners(const Triangle& a, const Triangle& b);
-
-using Rational_kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
-
-Rational_kernel::Point_3 rational(const Point& p);
-/// Each coordinate is the nearest double.
-Point nearest_point(const Rational_kernel::Point_3& p);
 
 /// Puts the corners of a segment or polygon in the order that `Intersection_points` promises.
 void put_in_order(Intersection_points& corners);

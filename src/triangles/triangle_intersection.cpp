@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "triangles/crossing_segment.h"
+#include "triangles/exact_crossing.h"
+#include "triangles/orientation.h"
 #include "triangles/shared_corners.h"
 
 namespace lodestone {
@@ -112,11 +114,12 @@ bool passes_through(const double* p, const double* q, const Triangle_corners& t)
   const Point points[]{stretched(p), stretched(q), stretched(t[0]), stretched(t[1]), stretched(t[2])};
   double largest = 0;
   for (const Point& point : points) largest = std::max(largest, std::abs(point.z()));
-  const auto positive = [&points](int a, int b, int c, int d) {
-    return CGAL::orientation(points[a], points[b], points[c], points[d]) == CGAL::POSITIVE;
+  const auto points_at = [&points](int a, int b, int c, int d) {
+    return Point_quadruple{&points[a], &points[b], &points[c], &points[d]};
   };
-  return std::isfinite(largest) && positive(2, 3, 4, 0) && positive(2, 4, 3, 1) && positive(1, 0, 2, 3) &&
-         positive(1, 0, 3, 4) && positive(1, 0, 4, 2);
+  return std::isfinite(largest) &&
+         all_positive(std::array{points_at(2, 3, 4, 0), points_at(2, 4, 3, 1), points_at(1, 0, 2, 3),
+                                 points_at(1, 0, 3, 4), points_at(1, 0, 4, 2)});
 }
 
 bool have_area(const Triangle& a, const Triangle& b) {
@@ -139,7 +142,8 @@ Intersection_points shapes_intersection(const Triangle& a, const Triangle& b) {
 
 bool triangles_intersect(const Triangle& a, const Triangle& b) {
   if (surely_not_collinear(a) && surely_not_collinear(b))
-    return CGAL::do_intersect(Kernel::Triangle_3(a[0], a[1], a[2]), Kernel::Triangle_3(b[0], b[1], b[2]));
+    return CGAL::CommonKernelFunctors::Do_intersect_3<Staged_kernel>()(Kernel::Triangle_3(a[0], a[1], a[2]),
+                                                                       Kernel::Triangle_3(b[0], b[1], b[2]));
   return std::visit(Shapes_intersect(), shape<Kernel>(a[0], a[1], a[2]), shape<Kernel>(b[0], b[1], b[2]));
 }
 
