@@ -129,6 +129,65 @@ BENCHMARK(first_hit_of_rays)
     ->Iterations(7)
     ->Unit(benchmark::kMillisecond);
 
+/// The first face of rays that are sent from outside to vertices of the sphere, and to the middles of edges: whether a
+/// face there is met, and which of several is met first, is mostly too close for floating point. In turns with random
+/// rays and with CGAL. Counters: nanoseconds per ray, the least of all passes; ratios to ours; rays for which CGAL
+/// names no face, though one is met.
+void first_hit_at_vertices(benchmark::State& state) {
+  Wavy_sphere sphere(static_cast<std::size_t>(state.range(0)));
+  sphere.move(2);
+  Cgal_tree cgal(faces(sphere.mesh).first, faces(sphere.mesh).second, sphere.mesh);
+  cgal.build();
+  const auto random = random_rays(4000);
+  std::vector<Ray> rays = random;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto& [a, b, c] = sphere.corners[i * 7919 % sphere.corners.size()];
+    const auto at = [&](std::uint32_t v) { return Eigen::Vector3d(sphere.coordinates.data() + 3 * std::size_t{v}); };
+    const Eigen::Vector3d target = state.range(1) == 0 ? at(a) : Eigen::Vector3d(0.5 * (at(a) + at(b)));
+    rays[i].origin = 2 * target + 0.1 * rays[i].direction.normalized();
+    rays[i].direction = target - rays[i].origin;
+  }
+  const std::span<const Ray> few(rays.data(), 400);
+  const Layout_view view = sphere.tree.view();
+  const Ray_tree tree(view);
+  Answers ours, of_random, of_tree, of_cgal;
+  const auto ask = [&](const Ray& ray) {
+    const auto hit = first_hit(view, ray);
+    return hit ? hit->face : no_face;
+  };
+  for (auto _ : state) {
+    ours.ask(rays, ask);
+    of_random.ask(random, ask);
+    of_tree.ask_at_once(rays, [&](std::span<const Ray> all) { return faces_of(first_hits(tree, all)); });
+    of_cgal.ask(few, [&](const Ray& ray) {
+      const auto &o = ray.origin, &d = ray.direction;
+      const auto hit = cgal.first_intersected_primitive(
+          Kernel::Ray_3(Point(o.x(), o.y(), o.z()), Kernel::Vector_3(d.x(), d.y(), d.z())));
+      return hit ? static_cast<std::uint32_t>(*hit) : no_face;
+    });
+    state.SetIterationTime(1e-9 * ours.nanoseconds.back() * static_cast<double>(rays.size()));
+  }
+  std::size_t missed = 0;
+  for (std::size_t i = 0; i < few.size(); ++i)
+    missed += of_cgal.faces[i] == no_face && ours.faces[i] != no_face ? 1 : 0;
+  state.counters["faces"] = static_cast<double>(sphere.corners.size());
+  state.counters["lodestone_ns"] = ours.least();
+  state.counters["random_ns"] = of_random.least();
+  state.counters["tree_ns"] = of_tree.least();
+  state.counters["tree_other"] = static_cast<double>(differences(of_tree.faces, ours.faces));
+  state.counters["cgal_ns"] = of_cgal.least();
+  state.counters["cgal_ratio"] = of_cgal.least() / ours.least();
+  state.counters["cgal_missed"] = static_cast<double>(missed);
+}
+
+BENCHMARK(first_hit_at_vertices)
+    ->Name("ray/at_vertices")
+    ->ArgsProduct({{22, 71}, {0, 1}})
+    ->ArgNames({"frequency", "edges"})
+    ->UseManualTime()
+    ->Iterations(7)
+    ->Unit(benchmark::kMillisecond);
+
 /// One ray per frame at a skinned worm, which takes a new pose in each: `first_hit` of its Bounded_surface, beside
 /// posing all vertices, refitting the tree and then `first_hit`. Some of the time is that of `set_joints`, in neither.
 ///

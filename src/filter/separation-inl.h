@@ -197,8 +197,9 @@ HWY_INLINE hn::Vec<Tag> telling_gap(const Two_triangles<Tag>& two, hn::TFromD<Ta
   return hn::IfThenElse(measurable, allowed, hn::Set(d, std::numeric_limits<T>::infinity()));
 }
 
-/// The lanes, of those `among` which is asked, where no direction that one of the triangles alone decides proves them
-/// farther apart than the margin: neither normal, nor one across an edge within a plane.
+/// The lanes, of those `among` which is asked, where no direction that is tried proves them farther apart than the
+/// margin. Tried are both normals, the directions across the edges within the planes, and with a margin the direction
+/// from centre to centre, which comes near the best for triangles that are small beside the margin.
 /// @param reach  see `apart_along`
 template <class Tag>
 HWY_INLINE hn::Mask<Tag> not_apart_by_planes(const Two_triangles<Tag>& two, const Vector3<Tag>& reach,
@@ -212,6 +213,10 @@ HWY_INLINE hn::Mask<Tag> not_apart_by_planes(const Two_triangles<Tag>& two, cons
   const auto normal_b = cross(f0, f1);
   among = hn::AndNot(apart(normal_b), among);
   if (hn::AllFalse(d, among)) return among;
+  if (margin > 0) {
+    among = hn::AndNot(apart((two.b0 + two.b1 + two.b2) - (two.a1 + two.a2)), among);
+    if (hn::AllFalse(d, among)) return among;
+  }
   // Nearly coplanar ones lie apart within their plane.
   among = hn::AndNot(apart(cross(normal_a, two.a1)), among);
   among = hn::AndNot(apart(cross(normal_a, two.a2 - two.a1)), among);

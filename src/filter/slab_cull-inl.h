@@ -49,12 +49,19 @@ struct Slab_normal {
   }
 };
 
+/// At least the length of the normal.
+HWY_INLINE float length_bound(const Slab_normal& normal) {
+  const auto [x, y, z] = normal.of;
+  const double length = std::sqrt(double{x} * x + double{y} * y + double{z} * z);
+  return static_cast<float>(length) * (1 + 0x1p-20F) + Safe_range<float>::least;
+}
+
 /// How far apart projections onto a normal must be to prove the corners farther apart than the margin.
 ///
 /// Let u = 2^-24. A rounded corner is off by 1.01 u of the largest coordinate, and its projection by less than 4 u of
 /// the sum of the sizes of its terms: two projections together by less than 11 u |normal| . largest. The allowance is
-/// nearly three times that, plus what is lost below the normal floats. It is infinite where a projection could be
-/// beyond all floats.
+/// nearly three times that, plus what is lost below the normal floats, plus the margin times the length of the normal.
+/// It is infinite where a projection could be beyond all floats.
 HWY_INLINE float slab_allowance(const Slab_normal& normal, const Rounding& rounding) {
   using Range = Safe_range<float>;
   float allowed = Range::least;
@@ -62,8 +69,9 @@ HWY_INLINE float slab_allowance(const Slab_normal& normal, const Rounding& round
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float largest = rounding.largest[axis];
     safe &= largest < Range::most;
-    allowed += std::abs(normal.of[axis]) * (0x1p-19F * largest + rounding.margin + Range::least);
+    allowed += std::abs(normal.of[axis]) * (0x1p-19F * largest + Range::least);
   }
+  if (rounding.margin > 0) allowed += rounding.margin * length_bound(normal);
   return safe && allowed < Range::most ? allowed : std::numeric_limits<float>::infinity();
 }
 

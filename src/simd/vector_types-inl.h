@@ -59,6 +59,10 @@ HWY_INLINE Vector3<Tag> in_all_lanes(Tag d, const T* vector) {
 }
 
 template <class Tag>
+HWY_INLINE Vector3<Tag> operator+(const Vector3<Tag>& p, const Vector3<Tag>& q) {
+  return {hn::Add(p.x, q.x), hn::Add(p.y, q.y), hn::Add(p.z, q.z)};
+}
+template <class Tag>
 HWY_INLINE Vector3<Tag> operator-(const Vector3<Tag>& p, const Vector3<Tag>& q) {
   return {hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
 }

@@ -15,9 +15,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// A box, its high sides moved out by the margin.
 struct Grown_box {
+  const Aabb& box;
   Position_vector low[position_vectors], high[position_vectors];
 
-  HWY_INLINE Grown_box(const Aabb& box, double margin) {
+  HWY_INLINE Grown_box(const Aabb& around, double margin) : box(around) {
     const Position_lanes d;
     for (std::size_t i = 0; i < position_vectors; ++i) {
       low[i] = hn::Load(d, box.low + i * position_lanes);
@@ -34,7 +35,8 @@ HWY_INLINE std::size_t is_candidate(const Grown_box& a, const Aabb& b, double ma
     const auto overlap = hn::And(hn::Le(a.low[i], other.high[i]), hn::Le(other.low[i], a.high[i]));
     bits |= mask_bits(Position_lanes(), overlap) << (i * position_lanes);
   }
-  return (bits & 7U) == 7U ? 1 : 0;  // x, y and z
+  const std::size_t overlap = (bits & 7U) == 7U ? 1 : 0;  // x, y and z
+  return margin > 0 && overlap != 0 ? static_cast<std::size_t>(near(a.box, b, margin)) : overlap;
 }
 
 /// Lists the leaves that are near a box. Which are is unpredictable, so branchless.

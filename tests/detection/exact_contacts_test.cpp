@@ -46,6 +46,27 @@ TEST(Exact_tolerance, does_not_list_faces_at_just_this_distance) {
   }
 }
 
+/// As many exact tests as there are faces near each, not as there are within the tolerance along every axis.
+TEST(Exact_tolerance, that_is_the_gap_of_wide_plates_leaves_few_pairs_to_exact_tests) {
+  for (const bool turned : {false, true}) {
+    auto low = cloth(20, 20), high = cloth(20, 20);
+    shift(high, 0, 0, 0.5);
+    if (turned)
+      for (auto* plate : {&low, &high})
+        deform(*plate, [](const Point& p) {
+          return Point(0.8 * p.x() - 0.36 * p.y() + 0.48 * p.z(), 0.6 * p.x() + 0.48 * p.y() - 0.64 * p.z(),
+                       0.8 * p.y() + 0.6 * p.z());
+        });
+    for (const double tolerance : {0.5, 0.5 * (1 - 1e-9), 0.5 * (1 + 1e-9)}) {
+      Exact_detector detector({.mode = Mode::exact, .exact = {.tolerance = tolerance}});
+      add_all(detector, {&low, &high});
+      const Frame& frame = detector.detect();
+      expect_near_contacts(frame, 0, 1, low, high, tolerance);
+      EXPECT_LT(frame.statistics.exact_tests, 40 * low.number_of_faces()) << turned << ", " << tolerance;
+    }
+  }
+}
+
 TEST(Exact_tolerance, reaches_across_many_objects) {
   std::deque<Surface_mesh> owned;
   for (int i = 0; i < 12; ++i) owned.push_back(sphere(3, 1, {2.1 * (i % 4), 2.2 * (i / 4), 0.1 * i}));

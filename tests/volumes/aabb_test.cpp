@@ -33,21 +33,55 @@ TEST(Aabb, touching_boxes_are_near_along_every_axis) {
   }
 }
 
+CGAL::Gmpq squared_distance(const Aabb& a, const Aabb& b) {
+  CGAL::Gmpq squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const CGAL::Gmpq above = CGAL::Gmpq(a.low[axis]) - b.high[axis], below = CGAL::Gmpq(b.low[axis]) - a.high[axis];
+    if (above > 0) squared += above * above;
+    if (below > 0) squared += below * below;
+  }
+  return squared;
+}
+
 TEST(Aabb, boxes_not_farther_apart_than_the_margin_are_near) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> coordinate(-1, 1), exponent(-60, 0);
-  std::size_t far = 0;
+  std::size_t near_ones = 0, far = 0;
   for (int trial = 0; trial < 100000; ++trial) {
-    const double low = coordinate(random), high = low + std::exp2(exponent(random)),
-                 margin = std::exp2(exponent(random));
-    const double next = high + margin * (trial % 2 == 0 ? 1 : 1 + 0x1p-50);
-    const bool apart = CGAL::Gmpq(next) - CGAL::Gmpq(high) > CGAL::Gmpq(margin);
-    if (!near(box(low, high), box(next, 2 * std::abs(next) + 9), margin)) {
+    const double margin = std::exp2(exponent(random)), unit = std::exp2((trial % 3 - 1) * 400.0);
+    Aabb a, b;
+    // Gaps along one axis, two or three, that make the margin but for rounding.
+    const int axes = 1 + trial % 3;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = axis < axes ? margin / std::sqrt(axes) * (trial % 2 == 0 ? 1 : 1 + 0x1p-40) : -0.5;
+      const double low = coordinate(random), high = low + std::exp2(exponent(random));
+      a.low[axis] = low * unit, a.high[axis] = high * unit;
+      b.low[axis] = (high + gap) * unit, b.high[axis] = (high + gap + 1) * unit;
+    }
+    if (trial % 4 < 2) std::swap(a, b);
+    if (near(a, b, margin * unit)) {
+      ++near_ones;
+    } else {
       ++far;
-      ASSERT_TRUE(apart);
+      ASSERT_GT(squared_distance(a, b), CGAL::Gmpq(margin * unit) * CGAL::Gmpq(margin * unit));
     }
   }
-  EXPECT_GT(far, 1000U);
+  EXPECT_GT(far, 10000U);
+  EXPECT_GT(near_ones, 10000U);
+}
+
+TEST(Aabb, boxes_that_are_within_the_margin_along_every_axis_can_be_farther_apart) {
+  EXPECT_FALSE(near(box(0, 1), box(1.6, 2), 1));
+  EXPECT_TRUE(near(box(0, 1), box(1.57, 2), 1));
+  Aabb beside = box(1.6, 2);
+  beside.low[2] = 0.5;
+  EXPECT_TRUE(near(box(0, 1), beside, 1));
+}
+
+TEST(Aabb, squares_that_overflow_or_underflow_do_not_part_boxes) {
+  EXPECT_TRUE(near(box(0, 1), box(1e200, 2e200), 1.8e200));
+  EXPECT_FALSE(near(box(0, 1), box(1e200, 2e200), 1e100));
+  EXPECT_TRUE(near(box(0, 0), box(1e-200, 1), 1e-200));
 }
 
 TEST(Aabb, extent_is_the_sum_of_the_sides) {

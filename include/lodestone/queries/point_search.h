@@ -22,7 +22,7 @@ struct Closest_point {
 ///
 /// Branch and bound, the nearer box first. O(log F) nodes are opened, and the faces of a few leaves compared, unless
 /// the point is nearly as far from all of the surface. Exact numbers are needed where two faces are at nearly the same
-/// distance, except where this is that of a vertex or an edge that both share: some 0.1 ms.
+/// distance, except where this is that of a vertex or an edge that both share: some microseconds per face.
 /// @param surface  with boxes
 /// @throws Bad_argument  the point is not finite
 Closest_point closest_point(const Layout_view& surface, const Point& point);

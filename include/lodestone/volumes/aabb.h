@@ -42,14 +42,28 @@ struct alignas(64) Aabb {
   }
 };
 
-/// Whether two boxes come within `margin` >= 0 of each other along every axis; with 0: whether they have a point in
-/// common. `false` proves them farther apart, since rounding to nearest is monotonic: where the exact sum is at least a
+/// What the squared distance of boxes, as computed, exceeds only if they are farther apart than the margin.
+///
+/// The gaps, their squares and the sums make six roundings of each square, and the square of the margin has one. 64 are
+/// allowed for, and 1e-300 for what squares lose below the normal numbers. If the square of the margin, with the
+/// allowance, is finite, a sum that overflows is greater.
+inline double most_squared_gap(double margin) { return margin * margin * (1 + 0x1p-47) + 1e-300; }
+
+/// Whether two boxes come within `margin` >= 0 of each other; with 0: whether they have a point in common. `false`
+/// proves them farther apart. Along each axis rounding to nearest is monotonic: where the exact sum is at least a
 /// double, so is the rounded sum.
 inline bool near(const Aabb& a, const Aabb& b, double margin) {
   bool result = true;
   for (int axis = 0; axis < 3; ++axis)
     result &= (a.low[axis] <= b.high[axis] + margin) & (b.low[axis] <= a.high[axis] + margin);
-  return result;
+  if (margin == 0 || !result) return result;
+  double squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double above = a.low[axis] - b.high[axis], below = b.low[axis] - a.high[axis];
+    const double gap = above > below ? above : below;
+    squared += gap > 0 ? gap * gap : 0;
+  }
+  return squared <= most_squared_gap(margin);
 }
 
 }  // namespace lodestone

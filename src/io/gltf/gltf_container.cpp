@@ -95,19 +95,28 @@ Bytes read_start(const fs::path& file, std::size_t length, const Json_value& uri
   return bytes;
 }
 
+/// What a data URI holds, whatever it names as its media type.
+/// @param data  what follows `data:`
+Bytes from_data_uri(const Json_value& uri, std::string_view data, std::size_t length) {
+  constexpr std::string_view base64 = ";base64";
+  const auto comma = data.find(',');
+  if (comma == data.npos || !data.substr(0, comma).ends_with(base64)) uri.fail("expected a data URI in base64");
+  const auto text = data.substr(comma + 1);
+  if (text.size() < length) uri.fail(fmt::format("{} bytes are announced, the data URI is too short for them", length));
+  Bytes bytes;
+  std::string media_type;
+  const bool is_decoded = tinygltf::DecodeDataURI(
+      &bytes, media_type, fmt::format("data:application/octet-stream;base64,{}", text), 0, false);
+  if (!is_decoded || bytes.size() < length)
+    uri.fail(fmt::format("{} bytes are announced, the data URI has {}", length, bytes.size()));
+  bytes.resize(length);
+  return bytes;
+}
+
 Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder, Gltf_document& document) {
   const auto text = uri.text();
-  if (tinygltf::IsDataURI(text)) {
-    if (text.size() < length)
-      uri.fail(fmt::format("{} bytes are announced, the data URI is too short for them", length));
-    Bytes bytes;
-    std::string mime_type;
-    const bool is_decoded = tinygltf::DecodeDataURI(&bytes, mime_type, text, 0, false);
-    if (!is_decoded || bytes.size() < length)
-      uri.fail(fmt::format("{} bytes are announced, the data URI has {}", length, bytes.size()));
-    bytes.resize(length);
-    return bytes;
-  }
+  constexpr std::string_view data = "data:";
+  if (text.starts_with(data)) return from_data_uri(uri, std::string_view(text).substr(data.size()), length);
   const auto name = decoded(text);
   const bool is_printable = std::ranges::none_of(name, [](unsigned char c) { return c < ' ' || c == 0x7f; });
   if (!is_printable || name.find(':') != name.npos || !is_inside(folder, name))

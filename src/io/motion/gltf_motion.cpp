@@ -62,7 +62,13 @@ double rate_of(const std::vector<double>& keys) {
   return std::round(rate * unit) / unit;
 }
 
+/// Whether nothing moves, since no curve has a second key.
+bool is_still(const Gltf_animation& animation) {
+  return std::ranges::all_of(animation.curves, [](const auto& curve) { return curve.times.size() == 1; });
+}
+
 std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate) {
+  if (is_still(animation)) return 1;
   // The tolerance allows for an end that was rounded down to a float.
   const double frames = std::floor(animation.seconds * rate * (1 + 1e-6)) + 1;
   if (!(frames <= double{most_sampled_frames}))

@@ -235,14 +235,23 @@ TEST_F(Gltf_damage, buffers_stay_in_the_folder) {
   for (const auto& uri :
        {outside.string(), "../" + other.path().filename().string() + "/a.bin", std::string("link.bin"),
         "%2e%2e/" + other.path().filename().string() + "/a.bin", "file://" + outside.string(),
-        std::string("https://example.org/a.bin"), std::string("data:text/plain,hello"), std::string("%00")})
+        std::string("https://example.org/a.bin"), std::string("%00")})
     expect_error(sample.gltf(uri), "is not a file inside the folder");
   expect_error(sample.gltf("none.bin"), "none.bin': there is no such file");
   create_directory(folder.path() / "folder.bin");
   expect_error(sample.gltf("folder.bin"), "this is not a regular file");
   folder.write("short.bin", sample.bytes.substr(1));
   expect_error(sample.gltf("short.bin"), "the file is shorter than the 60 bytes of its buffer");
-  expect_error(sample.gltf("data:application/octet-stream;base64,AAAA"), "the data URI is too short");
+}
+
+TEST_F(Gltf_damage, data_uris_are_base64_of_any_media_type) {
+  const auto sample = square_gltf();
+  for (const std::string uri : {"data:application/octet-stream;base64,", "data:;base64,", "data:a/b;c=d;base64,"}) {
+    expect_error(sample.gltf(uri + "AAAA"), "the data URI is too short");
+    expect_error(sample.gltf(uri + std::string(80, '!')), "60 bytes are announced, the data URI has 0");
+  }
+  for (const std::string uri : {"data:text/plain,hello", "data:", "data:;base64", "data:application/octet-stream;AAAA"})
+    expect_error(sample.gltf(uri), "expected a data URI in base64");
 }
 
 TEST_F(Gltf_damage, a_short_file_cannot_exhaust_memory) {

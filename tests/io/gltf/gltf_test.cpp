@@ -56,6 +56,8 @@ TEST_F(Gltf, text_binary_and_separate_buffer_give_the_same_scene) {
   folder.write("own buffer.bin", sample.bytes + "more");
   for (const auto& file : {folder.write("a.glb", sample.glb()), folder.write("a.gltf", sample.gltf()),
                            folder.write("b.gltf", sample.gltf("own%20buffer.bin")),
+                           folder.write("d.gltf", sample.gltf("data:;base64," + base64(sample.bytes))),
+                           folder.write("e.gltf", sample.gltf("data:a/b;c=d;base64," + base64(sample.bytes))),
                            folder.write("c.GLTF", sample.gltf("./own buffer.bin"))}) {
     const auto mesh = read_mesh(file);
     EXPECT_EQ(mesh.file_vertices, 4U);
@@ -309,6 +311,7 @@ TEST_F(Gltf, uniform_keys_are_frames) {
   EXPECT_EQ(frames_and_rate({0, 0.2, 0.4}, {0}), Frames_and_rate(3, 5));
   EXPECT_EQ(frames_and_rate({0, 1, 2}, {0, 2}), Frames_and_rate(61, 30)) << "too few keys to be frames";
   EXPECT_EQ(frames_and_rate({0}, {0}), Frames_and_rate(1, 30));
+  EXPECT_EQ(frames_and_rate({5}, {1e9}), Frames_and_rate(1, 30)) << "nothing moves";
 }
 
 TEST_F(Gltf, animations_are_chosen_by_index_or_name) {
