@@ -66,8 +66,8 @@ HWY_INLINE Two_triangles<Float_lanes> load_rounded_pairs(const Leaf_input& a, co
                                     load_rounded_corners(b, scratch.pairs_b + first).of);
 }
 
-/// Removes the listed pairs that planes prove farther apart than the margin, whatever rounding lost. Tried are the
-/// normals of both faces, and the directions across their edges within their planes.
+/// Removes the listed pairs that a direction proves farther apart than the margin, whatever rounding lost: see
+/// `not_apart_by_planes`.
 /// @return number of pairs left
 HWY_NOINLINE inline std::size_t cull_by_rounded_planes(const Leaf_input& a, const Leaf_input& b,
                                                        const Rounding& rounding, std::size_t count,

@@ -39,7 +39,7 @@ HWY_INLINE std::size_t is_candidate(const Grown_box& a, const Aabb& b, double ma
   return margin > 0 && overlap != 0 ? static_cast<std::size_t>(near(a.box, b, margin)) : overlap;
 }
 
-/// Lists the leaves that are near a box. Which are is unpredictable, so branchless.
+/// Lists the leaves that are near a box. Which are is unpredictable, so branchless, but for a margin.
 HWY_INLINE std::size_t cull_by_box(const Leaf_bunch& leaves, const Aabb& box, double margin, std::uint8_t* list) {
   const Grown_box grown(box, margin);
   std::size_t count = 0;

@@ -47,8 +47,10 @@ class Share {
   /// @param beyond  how far the number is beyond x; known to some digits where half a step of x is
   bool surely_nearest(double x, double beyond) const {
     const double size = std::abs(x), half_a_step = (size - std::nextafter(size, 0.0)) / 2;
+    // The divisor too must be a normal number, or it would be known to no digits.
     const double told = std::abs(half_a_step * divisor_);
-    return told > 0x1p-1000 && told < infinity && std::abs(beyond) < 0.99 * half_a_step;
+    return std::abs(divisor_) > 0x1p-1000 && told > 0x1p-1000 && told < infinity &&
+           std::abs(beyond) < 0.99 * half_a_step;
   }
 
   const Ring_number &rise_, &whole_;

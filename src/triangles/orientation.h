@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CGAL/Filtered_kernel/internal/Static_filters/Orientation_3.h>
-
 #include <array>
 #include <span>
 
 #include "lodestone/mesh/concepts.h"
 #include "triangles/most_planes.h"
+
+// Last, since it needs the kernel's headers.
+#include <CGAL/Filtered_kernel/internal/Static_filters/Orientation_3.h>
 
 namespace lodestone {
 

@@ -40,8 +40,14 @@ std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, s
   throw Bad_motion(fmt::format("{}: there is no animation {}", scene.name, in_quotes(name)));
 }
 
+/// Whether nothing moves, since no curve has a second key.
+bool is_still(const Gltf_animation& animation) {
+  return std::ranges::all_of(animation.curves, [](const auto& curve) { return curve.times.size() == 1; });
+}
+
 /// The times of all keys of all curves, if they follow each other at equal distances; else nothing.
 std::vector<double> uniform_keys(const Gltf_animation& animation) {
+  if (is_still(animation)) return {};
   std::vector<double> times;
   for (const auto& curve : animation.curves) times.insert(times.end(), curve.times.begin(), curve.times.end());
   std::ranges::sort(times);
@@ -60,11 +66,6 @@ double rate_of(const std::vector<double>& keys) {
   const double rate = static_cast<double>(keys.size() - 1) / (keys.back() - keys.front());
   const double unit = std::pow(10, 5 - std::floor(std::log10(rate)));
   return std::round(rate * unit) / unit;
-}
-
-/// Whether nothing moves, since no curve has a second key.
-bool is_still(const Gltf_animation& animation) {
-  return std::ranges::all_of(animation.curves, [](const auto& curve) { return curve.times.size() == 1; });
 }
 
 std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate) {

@@ -312,6 +312,7 @@ TEST_F(Gltf, uniform_keys_are_frames) {
   EXPECT_EQ(frames_and_rate({0, 1, 2}, {0, 2}), Frames_and_rate(61, 30)) << "too few keys to be frames";
   EXPECT_EQ(frames_and_rate({0}, {0}), Frames_and_rate(1, 30));
   EXPECT_EQ(frames_and_rate({5}, {1e9}), Frames_and_rate(1, 30)) << "nothing moves";
+  EXPECT_EQ(frames_and_rate({0}, {0.1}), Frames_and_rate(1, 30)) << "nothing moves";
 }
 
 TEST_F(Gltf, animations_are_chosen_by_index_or_name) {
