@@ -2,7 +2,11 @@
 #include "lodestone/queries/closest_faces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <queue>
+#include <ranges>
 #include <tuple>
 
 #include "lodestone/filter/face_filter.h"
@@ -16,64 +20,70 @@ namespace lodestone {
 
 namespace {
 
-/// A face of a leaf, with its box.
-struct Boxed_face {
-  std::uint32_t face;
-  Triangle triangle;
-  Box box;
-  double reach = 0;  ///< towards the other leaf: see Gap_direction
-};
-
-/// The direction across the gap between the closest faces so far. Along it nearly all other faces are farther apart.
-class Gap_direction {
+/// A direction from one surface to the other, along which faces can be seen to be apart.
+class Direction {
  public:
-  explicit Gap_direction(const Closest_points& across)
-      : origin_(coordinates(across.a)), along_(coordinates(across.b) - origin_) {
-    // The distances that are compared have relative errors of 2^-30.
-    least_gap_ = across.distance * along_.stableNorm() * (1 + 0x1p-28);
-  }
+  Direction(const Eigen::Vector3d& from, const Eigen::Vector3d& to) : origin_(from), along_(to - from) {}
 
-  /// How far a face of a may reach along the direction.
-  double reach_of_a(const Triangle& t) const {
-    const auto [p, q, r] = t;
-    return std::max({most(p), most(q), most(r)});
+  /// How far points of a may reach along the direction.
+  double reach_of_a(const auto& points) const { return farthest(points, 1); }
+  /// How far points of b may reach against it.
+  double reach_of_b(const auto& points) const { return farthest(points, -1); }
+  /// Whether reaches prove the points farther apart than a distance that was computed, by more than its error of 2^-30.
+  /// Never if a number is not finite.
+  bool parts(double reach_a, double reach_b, double distance) const {
+    return -(reach_a + reach_b) > distance * along_.stableNorm() * (1 + 0x1p-28);
   }
-  /// The same for a face of b, against the direction.
-  double reach_of_b(const Triangle& t) const {
-    const auto [p, q, r] = t;
-    return std::max({-least(p), -least(q), -least(r)});
-  }
-  /// Whether two faces with these reaches are farther apart than the closest faces so far. Never if a number is not
-  /// finite.
-  bool parts(double reach_a, double reach_b) const { return -(reach_a + reach_b) > least_gap_; }
 
  private:
-  // Three differences, three products and two sums: less than 8 roundings of the sum of the absolute products.
-  static constexpr double roundings = 0x1p-49, underflow = 1e-300;
-
-  double most(const Point& p) const { return sum(p) + error(p); }
-  double least(const Point& p) const { return sum(p) - error(p); }
-  double sum(const Point& p) const { return along_.dot(coordinates(p) - origin_); }
-  double error(const Point& p) const {
-    return roundings * along_.cwiseAbs().dot((coordinates(p) - origin_).cwiseAbs()) + underflow;
+  /// A product has three roundings, that of the difference included, and is in two sums: less than 8 of all.
+  double farthest(const auto& points, double sense) const {
+    constexpr double roundings = 0x1p-49, lost = 1e-300;
+    double most = -std::numeric_limits<double>::infinity();
+    for (const auto& p : points) {
+      const Eigen::Vector3d away = Eigen::Vector3d(p[0], p[1], p[2]) - origin_;
+      const double error = roundings * along_.cwiseAbs().dot(away.cwiseAbs()) + lost;
+      most = std::max(most, sense * along_.dot(away) + error);
+    }
+    return most;
   }
 
   Eigen::Vector3d origin_, along_;
-  double least_gap_;
 };
 
-/// Lists the faces of a leaf that can be as near to a box as some distance.
-void list_near_faces(const Layout_view& view, std::uint32_t leaf, const Box& other, double distance,
-                     std::vector<Boxed_face>& near) {
-  near.clear();
-  const Leaf_faces faces = view.leaf(leaf);
-  const auto indices = view.layout->faces(leaf);
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    const Triangle triangle = triangle_of(leaf_triangle(faces, i));
-    Box box;
-    for (const Point& p : triangle) box.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
-    if (distance_lower_bound(box, other) <= distance) near.push_back({indices[i], triangle, box});
-  }
+Box box_of(const Triangle& triangle) {
+  Box box;
+  for (const Point& p : triangle) box.extend(coordinates(p));
+  return box;
+}
+
+Eigen::Vector3d centre_of(const Aabb& box) {
+  const Eigen::Map<const Eigen::Vector3d> low(box.low), high(box.high);
+  return 0.5 * low + 0.5 * high;
+}
+
+/// The vertices of a leaf.
+auto vertices_of(const Leaf_faces& leaf) {
+  return std::views::transform(leaf.vertices,
+                               [&leaf](std::uint32_t v) { return leaf.coordinates.data() + 3 * std::size_t{v}; });
+}
+
+/// The distance of two vertices, one of each leaf, that are near each other.
+double distance_of_near_vertices(const Leaf_faces& a, const Leaf_faces& b) {
+  const auto nearest = [](const Leaf_faces& leaf, const Eigen::Vector3d& to) {
+    double least = std::numeric_limits<double>::infinity();
+    Eigen::Vector3d found = Eigen::Map<const Eigen::Vector3d>(leaf.position(0));
+    for (const double* p : vertices_of(leaf)) {
+      const Eigen::Map<const Eigen::Vector3d> at(p);
+      if (const double squared = (at - to).squaredNorm(); squared < least) least = squared, found = at;
+    }
+    return found;
+  };
+  const Eigen::Vector3d start = Eigen::Map<const Eigen::Vector3d>(a.position(0)), of_b = nearest(b, start),
+                        of_a = nearest(a, of_b);
+  const double distance = (of_a - of_b).stableNorm();
+  constexpr double largest_number = std::numeric_limits<double>::max();
+  return distance < largest_number ? distance : largest_number;  // differences can overflow
 }
 
 template <Surface_on_demand Surface>
@@ -130,39 +140,44 @@ class Search {
 
   void try_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b) {
     if (best_.points.distance == 0) return look_for_lower(leaf_a, leaf_b);
-    list_near_faces(a_.view(), leaf_a, to_box(b_.pose(leaf_b)), best_.points.distance, near_a_);
-    list_near_faces(b_.view(), leaf_b, to_box(a_.pose(leaf_a)), best_.points.distance, near_b_);
-    Gap_direction direction = point_across_gap();
-    for (const Boxed_face& a : near_a_) {
-      if (direction.parts(a.reach, reach_of_b_)) continue;
-      for (const Boxed_face& b : near_b_) {
-        if (direction.parts(a.reach, b.reach)) continue;
-        const Face_pair faces{a.face, b.face};
-        const double bound = distance_lower_bound(a.box, b.box);
-        if (std::tie(bound, faces) >= std::tie(best_.points.distance, best_.faces)) continue;
-        const Closest_points points = closest_points(a.triangle, b.triangle);
-        if (std::tie(points.distance, faces) >= std::tie(best_.points.distance, best_.faces)) continue;
-        best_ = {faces, points};
-        direction = point_across_gap();
-      }
-    }
+    const Leaf_faces all_a = a_.view().leaf(leaf_a), all_b = b_.view().leaf(leaf_b);
+    const auto indices_a = a_.layout().faces(leaf_a), indices_b = b_.layout().faces(leaf_b);
+    const auto offer_pair = [&](std::size_t a, std::size_t b) {
+      offer({indices_a[a], indices_b[b]}, triangle_of(leaf_triangle(all_a, a)), triangle_of(leaf_triangle(all_b, b)));
+    };
+    const Aabb &box_a = a_.pose(leaf_a), &box_b = b_.pose(leaf_b);
+    const Face_pair lowest{std::ranges::min(indices_a), std::ranges::min(indices_b)};
+    if (!can_be_closer(to_box(box_a), to_box(box_b), lowest)) return;
+    double most = best_.points.distance;
+    if (!std::isfinite(most)) most = distance_of_near_vertices(all_a, all_b);
+    const Direction between(centre_of(box_a), centre_of(box_b));
+    if (between.parts(between.reach_of_a(vertices_of(all_a)), between.reach_of_b(vertices_of(all_b)), most)) return;
+    begin_filter(most);
+    for (const Face_candidate& candidate : face_filter_.face_candidates(leaf_a, leaf_b))
+      offer_pair(candidate.a, candidate.b);
   }
 
-  /// Measures the reaches of the near faces along the gap.
-  Gap_direction point_across_gap() {
-    const Gap_direction direction(best_.points);
-    for (Boxed_face& a : near_a_) a.reach = direction.reach_of_a(a.triangle);
-    reach_of_b_ = -std::numeric_limits<double>::infinity();
-    for (Boxed_face& b : near_b_) {
-      b.reach = direction.reach_of_b(b.triangle);
-      reach_of_b_ = std::max(reach_of_b_, b.reach);
-    }
-    return direction;
+  /// Whether boxes do not prove that faces are farther apart than the closest so far, or as far and not lower.
+  bool can_be_closer(const Box& a, const Box& b, const Face_pair& faces) const {
+    const double bound = distance_lower_bound(a, b);
+    return std::tie(bound, faces) < std::tie(best_.points.distance, best_.faces);
+  }
+
+  void offer(const Face_pair& faces, const Triangle& a, const Triangle& b) {
+    // Along the gap between the closest faces so far nearly all others are farther apart.
+    if (across_gap_ &&
+        across_gap_->parts(across_gap_->reach_of_a(a), across_gap_->reach_of_b(b), best_.points.distance))
+      return;
+    if (!can_be_closer(box_of(a), box_of(b), faces)) return;
+    const Closest_points points = closest_points(a, b);
+    if (std::tie(points.distance, faces) >= std::tie(best_.points.distance, best_.faces)) return;
+    best_ = {faces, points};
+    across_gap_.emplace(coordinates(points.a), coordinates(points.b));
   }
 
   /// The objects intersect, so only a lower intersecting face pair can still be the answer.
   void look_for_lower(std::uint32_t leaf_a, std::uint32_t leaf_b) {
-    begin_filter();
+    begin_filter(0);
     const Leaf_faces all_a = a_.view().leaf(leaf_a), all_b = b_.view().leaf(leaf_b);
     const auto indices_a = a_.layout().faces(leaf_a), indices_b = b_.layout().faces(leaf_b);
     for (const Face_candidate& candidate : face_filter_.face_candidates(leaf_a, leaf_b)) {
@@ -174,12 +189,15 @@ class Search {
     }
   }
 
-  /// Once for the positions in each memory: a surface that is posed as a whole can have them elsewhere.
-  void begin_filter() {
+  /// Lets the filter keep what may be within a distance. Once for the positions in each memory: a surface that is posed
+  /// as a whole can have them elsewhere. A filter that keeps a little more will do.
+  void begin_filter(double distance) {
     const Layout_view a = a_.view(), b = b_.view();
-    if (a.coordinates.data() == filter_of_a_ && b.coordinates.data() == filter_of_b_) return;
-    face_filter_.begin(a, b, 0);
-    filter_of_a_ = a.coordinates.data(), filter_of_b_ = b.coordinates.data();
+    const double margin = distance * (1 + 0x1p-28);
+    const bool same_positions = a.coordinates.data() == filter_of_a_ && b.coordinates.data() == filter_of_b_;
+    if (same_positions && margin <= margin_ && margin_ <= 1.001 * margin) return;
+    face_filter_.begin(a, b, margin);
+    filter_of_a_ = a.coordinates.data(), filter_of_b_ = b.coordinates.data(), margin_ = margin;
   }
 
   Surface& a_;
@@ -187,11 +205,11 @@ class Search {
   Closest_faces best_;
   std::priority_queue<Candidate> queue_;
   std::vector<Node_pair> below_;
-  std::vector<Boxed_face> near_a_, near_b_;
-  double reach_of_b_ = 0;  ///< the greatest of `near_b_`
+  std::optional<Direction> across_gap_;
   Face_filter face_filter_;
   const double* filter_of_a_ = nullptr;  ///< which positions the filter has been told of; null: none
   const double* filter_of_b_ = nullptr;
+  double margin_ = 0;
 };
 
 template <Surface_on_demand Surface>

@@ -12,7 +12,7 @@ namespace lodestone {
 
 namespace {
 
-/// On which side of the plane through p, q and r points lie. Exact: what doubles cannot tell is left to CGAL.
+/// On which side of the plane through p, q and r points lie. Exact: what doubles cannot tell is left to `orientation`.
 class Side_test {
  public:
   Side_test(const Point& p, const Point& q, const Point& r) : p_(p), q_(q), r_(r) {
@@ -29,7 +29,7 @@ class Side_test {
     constexpr double tiny = 0x1p-900, huge = 0x1p900;
     if (std::abs(height) > bound && size_ > tiny && bound > tiny && bound < huge && size_ < huge)
       return height > 0 ? CGAL::POSITIVE : CGAL::NEGATIVE;
-    return doubtful_orientation(p_, q_, r_, s);
+    return orientation(p_, q_, r_, s);
   }
 
  private:

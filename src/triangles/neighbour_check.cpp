@@ -51,8 +51,7 @@ bool meet_beyond_vertex(const Point& origin, const Point& a, const Point& b, con
 bool meet_beyond_edge(const Point& p, const Point& q, const Point& a, const Point& b) {
   const bool flat = CGAL::collinear(p, q, a), other_flat = CGAL::collinear(p, q, b);
   if (!flat && !other_flat)
-    return Staged_kernel::Orientation_3()(p, q, a, b) == CGAL::ZERO &&
-           CGAL::coplanar_orientation(p, q, a, b) == CGAL::POSITIVE;
+    return orientation(p, q, a, b) == CGAL::ZERO && CGAL::coplanar_orientation(p, q, a, b) == CGAL::POSITIVE;
   // A face with an area meets the line of its edge in that edge only.
   if (!flat || !other_flat) return false;
   if (p == q) return same_direction(p, a, b);

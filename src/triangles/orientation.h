@@ -54,4 +54,9 @@ struct Staged_kernel : Kernel {
   Orientation_3 orientation_3_object() const { return {}; }
 };
 
+/// The same of one set of points.
+inline CGAL::Sign orientation(const Point& p, const Point& q, const Point& r, const Point& s) {
+  return Staged_kernel::Orientation_3()(p, q, r, s);
+}
+
 }  // namespace lodestone

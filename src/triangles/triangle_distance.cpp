@@ -250,17 +250,20 @@ Box box(const Triangle& t) {
   return bounds;
 }
 
+/// upper - lower, rounded down. If it overflows, infinity.
+double difference_rounded_down(double upper, double lower) {
+  const double gap = upper - lower, of_lower = upper - gap, of_upper = gap + of_lower;
+  const double left_out = (upper - of_upper) + (of_lower - lower);  // by the rounding of the gap \cite knuth1969
+  return left_out < 0 ? std::nextafter(gap, 0.0) : gap;
+}
+
 /// Whether the boxes are `distance` apart or more along one axis. Exact, since a gap as wide as the distance is what
 /// people lay out: a box above a floor, parts with a clearance.
 bool apart_along_an_axis(const Box& a, const Box& b, double distance) {
-  const auto apart = [distance](double upper, double lower) {
-    const double gap = upper - lower;
-    if (gap != distance) return gap > distance;
-    const double of_lower = upper - gap, of_upper = gap + of_lower;
-    return (upper - of_upper) + (of_lower - lower) >= 0;  // what the rounding of the gap left out \cite knuth1969
-  };
   for (int axis = 0; axis < 3; ++axis)
-    if (apart(a.min()[axis], b.max()[axis]) || apart(b.min()[axis], a.max()[axis])) return true;
+    if (difference_rounded_down(a.min()[axis], b.max()[axis]) >= distance ||
+        difference_rounded_down(b.min()[axis], a.max()[axis]) >= distance)
+      return true;
   return false;
 }
 
@@ -305,11 +308,18 @@ bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance
 double distance_lower_bound(const Box& a, const Box& b) {
   constexpr double down = 1 - roundings<double>;
   const Eigen::Array3d gaps = (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0);
-  const double greatest = gaps.maxCoeff();
+  Eigen::Index axis = 0;
+  const double greatest = gaps.maxCoeff(&axis);
+  constexpr double largest_number = std::numeric_limits<double>::max();
+  // Boxes that overlap along the other axes are as far apart as their sides: a bound that ties can be told by.
+  if (greatest > 0 && gaps.sum() == greatest)
+    return std::min(std::max(difference_rounded_down(a.min()[axis], b.max()[axis]),
+                             difference_rounded_down(b.min()[axis], a.max()[axis])),
+                    largest_number);
   // If a square could overflow or underflow, the largest coordinate is the bound. A subnormal gap is exact and stays
   // so.
   const double bound = greatest > 1e-150 && greatest < 1e150 ? std::sqrt(gaps.square().sum()) : greatest;
-  return std::min(bound * down, std::numeric_limits<double>::max());
+  return std::min(bound * down, largest_number);
 }
 
 }  // namespace lodestone

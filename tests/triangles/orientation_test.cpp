@@ -66,7 +66,7 @@ TEST(Orientation, is_exact_in_planes_but_for_rounding_and_in_planes_at_any_scale
     const std::array<Point_quadruple, 1> alone{pointers(p)};
     ASSERT_EQ(orientations(alone)[0], expected);
     ASSERT_EQ(doubtful_orientation(p[0], p[1], p[2], p[3]), expected);
-    ASSERT_EQ(Staged_kernel().orientation_3_object()(p[0], p[1], p[2], p[3]), expected);
+    ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]), expected);
     ASSERT_EQ(all_positive(alone), expected == CGAL::POSITIVE);
   }
   for (const int count : of_sign) EXPECT_GT(count, 1000);

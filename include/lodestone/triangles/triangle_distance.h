@@ -43,8 +43,9 @@ bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance
 
 /// Lower bound on the distance of two non-empty boxes: 0 if they overlap, otherwise the distance rounded down.
 ///
-/// The bound falls short by a few roundings. For distances outside 10^-150 to 10^150 it falls short by a factor of at
-/// most sqrt(3). Some ten floating-point operations.
+/// Where the boxes are apart along one axis alone, the bound is the distance, rounded down once. Else it falls short by
+/// a few roundings. For distances outside 10^-150 to 10^150 it falls short by a factor of at most sqrt(3). Some twenty
+/// floating-point operations.
 double distance_lower_bound(const Box& a, const Box& b);
 
 }  // namespace lodestone
