@@ -23,8 +23,11 @@ constexpr double underflow = 0x1p-1070;
 /// The sum, or more.
 double sum_above(double a, double b) { return b == 0 ? a : next_above(a + b); }
 
-/// `now` - `then`, or more.
-double growth(double now, double then) { return now == then ? 0 : next_above(now - then); }
+/// `now` - `then`, or more. A sum that has overflowed says nothing any more.
+double growth(double now, double then) {
+  if (std::isinf(now)) return now;
+  return now == then ? 0 : next_above(now - then);
+}
 
 }  // namespace
 

@@ -32,4 +32,14 @@ Aabb placed_box(const Eigen::Matrix3d& linear, const Eigen::Vector3d& translatio
   return placed;
 }
 
+bool Placed_bound::note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
+  if (!*placement_) return bound_->note_read(leaf, fitted, coordinates);
+  if (!bound_->watches()) return true;
+  in_mesh_.resize(coordinates.size());
+  positions_->pose(layout_->vertices(leaf), in_mesh_);
+  Aabb box;
+  box.enclose(layout_->leaf_faces(leaf, in_mesh_));
+  return bound_->note_read(leaf, box, in_mesh_);
+}
+
 }  // namespace lodestone

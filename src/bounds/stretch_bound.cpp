@@ -69,10 +69,13 @@ Aabb Stretch_bound::box(std::uint32_t node) const {
 
 bool Stretch_bound::note_read(std::uint32_t leaf, const Aabb& /*fitted*/, Coordinates coordinates) const {
   const double most = (1 + slack) * promise_->stretch(), error = 2 * (1 + slack) * promise_->error();
+  // Not known of squares that underflow or overflow.
   const auto shorter = [&](const Eigen::Vector3d& now, const Eigen::Vector3d& then) {
-    return now.squaredNorm() <= most * most * then.squaredNorm();
+    constexpr double smallest = 1e-290, largest = 1e300;
+    const double longest = most * most * then.squaredNorm();
+    return (now.squaredNorm() <= longest) & (longest > smallest) & (longest < largest);
   };
-  // What fails for squares that underflow or overflow, and for the error allowed.
+  // What that leaves, and the error allowed.
   const auto kept = [&](const Eigen::Vector3d& now, const Eigen::Vector3d& then) {
     constexpr double smallest = 1e-150;
     return shorter(now, then) || now.stableNorm() <= most * (then.stableNorm() + smallest) + error;

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <fstream>
 #include <span>
+#include <string>
 
 #include "io/files/small_text.h"
 #include "lodestone/mesh/saved_state.h"
@@ -29,12 +30,21 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 const double program_start = now();
 
-/// Of this process, and of the largest of its children.
-long peak_kib() {
-  rusage self{}, children{};
+/// Of this program. What `getrusage` tells begins with what the process had before it became this program.
+long peak_of_program() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (long kib = 0; word == "VmHWM:" && status >> kib) return kib;
+  rusage self{};
   ::getrusage(RUSAGE_SELF, &self);
+  return self.ru_maxrss;
+}
+
+/// Of this program, and of the largest of its children.
+long peak_kib() {
+  rusage children{};
   ::getrusage(RUSAGE_CHILDREN, &children);
-  return self.ru_maxrss + children.ru_maxrss;
+  return peak_of_program() + children.ru_maxrss;
 }
 
 /// Hash of lines, one after the other.

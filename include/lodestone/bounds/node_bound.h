@@ -25,6 +25,8 @@ class Node_bound {
   virtual Aabb box(std::uint32_t node) const = 0;
   /// See Watching_bound.
   virtual bool note_read(std::uint32_t /*leaf*/, const Aabb& /*fitted*/, Coordinates /*coordinates*/) { return true; }
+  /// Whether `note_read` does anything.
+  virtual bool watches() const { return false; }
 };
 
 /// A bound as a Node_bound.
@@ -44,6 +46,12 @@ class Node_bound_of final : public Node_bound {
       return bound_.note_read(leaf, fitted, coordinates);
     else
       return true;
+  }
+  bool watches() const override {
+    if constexpr (requires { bound_.watches(); })
+      return bound_.watches();
+    else
+      return Watching_bound<std::remove_reference_t<B>>;
   }
 
  private:
@@ -68,6 +76,8 @@ class Any_bound {
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
     return bound_->note_read(leaf, fitted, coordinates);
   }
+  /// Whether the bound watches.
+  bool watches() const { return bound_->watches(); }
 
  private:
   std::unique_ptr<Node_bound> bound_;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "lodestone/bounds/node_bound.h"
 #include "lodestone/mesh/rigid_motion.h"
@@ -27,8 +28,10 @@ class Placed_bound final : public Node_bound {
  public:
   /// @param bound      of the object where its mesh is
   /// @param placement  looked at for each box; must outlive this
-  Placed_bound(std::unique_ptr<Node_bound> bound, const std::optional<Rigid_motion>& placement)
-      : bound_(std::move(bound)), placement_(&placement) {}
+  /// @param object     where its mesh is; its layout and positions must outlive this
+  Placed_bound(std::unique_ptr<Node_bound> bound, const std::optional<Rigid_motion>& placement,
+               const Bounded_object& object)
+      : bound_(std::move(bound)), placement_(&placement), layout_(&object.layout), positions_(&object.positions) {}
 
   /// Number of nodes of the tree.
   std::size_t node_count() const override { return bound_->node_count(); }
@@ -37,10 +40,16 @@ class Placed_bound final : public Node_bound {
     const Aabb box = bound_->box(node);
     return *placement_ ? placed_box((*placement_)->rotation(), (*placement_)->translation(), box) : box;
   }
+  /// Shows the bound where the vertices of a leaf are in the mesh. Moving them back would round.
+  bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) override;
+  bool watches() const override { return bound_->watches(); }
 
  private:
   std::unique_ptr<Node_bound> bound_;
   const std::optional<Rigid_motion>* placement_;
+  const Tree_layout* layout_;
+  const Position_source* positions_;
+  std::vector<double> in_mesh_;  ///< 3 V where it was needed
 };
 
 }  // namespace lodestone

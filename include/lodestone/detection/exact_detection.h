@@ -90,6 +90,8 @@ class Exact_detection final : public Detection {
     check_no_visitor();
     save_origin(origin(object), state);
     objects_.save(object, state);
+    const Object_id ids[] = {object};
+    throw_if_broken(ids);
   }
   void load(Object_id object, State_reader& state) override {
     check_no_visitor();
@@ -153,7 +155,7 @@ class Exact_detection final : public Detection {
   {
     const Object_id ids[] = {object};
     refresh(ids);
-    objects_.pose_all(object);
+    pose_all(ids);
     return objects_[object].ray_tree(workers_);
   }
   /// See `Detector::first_hits`.
@@ -219,6 +221,11 @@ class Exact_detection final : public Detection {
   template <class Answer>
   void until_settled(std::span<const Object_id> ids, Answer answer);
   void throw_if_broken(std::span<const Object_id> ids) const;
+  /// Poses and refits all of these objects, for what must read everything.
+  void pose_all(std::span<const Object_id> ids) {
+    for (const auto id : ids) objects_.pose_all(id);
+    throw_if_broken(ids);
+  }
   /// An answer about these objects, unless a broken bound is to be an error.
   template <class Answer>
   Answer unbroken(std::span<const Object_id> ids, Answer answer) const {
@@ -311,7 +318,7 @@ std::optional<Impact> Exact_detection<Volume>::first_impact(Object_pair pair, co
   Positions at_end_a = objects_[pair.a].checked(end_a), at_end_b = objects_[pair.b].checked(end_b);
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
-  for (const auto id : ids) objects_.pose_all(id);
+  pose_all(ids);
   const Object_motion<Volume> a(objects_.surface(pair.a), std::move(at_end_a)),
       b(objects_.surface(pair.b), std::move(at_end_b));
   return lodestone::first_impact(a.view(), b.view());
@@ -323,7 +330,7 @@ std::optional<Impact> Exact_detection<Volume>::first_self_impact(Object_id objec
   Positions at_end = objects_[object].checked(end);
   const Object_id ids[] = {object};
   refresh(ids);
-  objects_.pose_all(object);
+  pose_all(ids);
   const Object_motion<Volume> motion(objects_.surface(object), std::move(at_end));
   return lodestone::first_self_impact(motion.view());
 }
@@ -351,7 +358,7 @@ auto Exact_detection<Volume>::motions_to(std::span<const Positions> ends) -> Mot
   for (const auto id : ids)
     if (ends[id].rows() > 0) checked[id] = objects_[id].checked(ends[id]);
   refresh(ids);
-  for (const auto id : ids) objects_.pose_all(id);
+  pose_all(ids);
   Motions motions(objects_.size());
   workers_.run(ids.size(), [&](std::size_t i, std::size_t) {
     const Object_id id = ids[i];
@@ -375,7 +382,7 @@ template <Bounding_volume Volume>
 std::optional<Parting> Exact_detection<Volume>::parting(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
-  for (const auto id : ids) objects_.pose_all(id);
+  pose_all(ids);
   return lodestone::parting(objects_.surface(pair.a), objects_.surface(pair.b), workers_);
 }
 

@@ -204,6 +204,26 @@ class Exact_object {
     Exact_object* object_;
   };
 
+  /// Where the vertices are in the mesh.
+  class Mesh_positions final : public Position_source {
+   public:
+    explicit Mesh_positions(Exact_object& object) : object_(&object) {}
+
+    std::uint32_t vertex_count() const override { return object_->mesh().vertex_count(); }
+    std::uint64_t pose_number() const override { return object_->mesh().pose_number(); }
+    Eigen::Vector3d operator()(std::uint32_t vertex) const override { return object_->mesh().read(vertex); }
+    void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
+      object_->mesh().read(vertices, coordinates);
+    }
+    void pose_all(std::span<double> coordinates) const override {
+      std::ranges::copy(object_->mesh().read(), coordinates.begin());
+    }
+
+   private:
+    Exact_object* object_;
+  };
+
+  std::unique_ptr<Node_bound> bound_of_points(const Bounded_object& object);
   void replace(Faces anew);
   void start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces);
 
@@ -216,6 +236,8 @@ class Exact_object {
   std::uint64_t changes_ = 0;  ///< of both, and of positions of which nobody says whether they have changed
   std::vector<Make_bound> promises_;
   std::vector<double> rest_;  ///< 3 V: the first positions that a promise was about; none before
+  std::vector<double> rest_of_points_;               ///< 3 V: the first positions that points with a bound had
+  std::unique_ptr<Mesh_positions> mesh_positions_;  ///< what bounds of points look at
   std::unique_ptr<Bounded_surface> bounded_;
   std::optional<Ray_tree> ray_tree_;   ///< of the surface; none before it is asked for
   std::size_t rays_without_tree_ = 0;  ///< of calls for which the refit of a tree would have paid
@@ -253,10 +275,26 @@ void Exact_object<Volume>::Object_positions::pose(std::span<const std::uint32_t>
   }
 }
 
+/// The bound that the points of the mesh have by themselves, which know nothing of where the object is placed; null:
+/// none.
+template <Bounding_volume Volume>
+std::unique_ptr<Node_bound> Exact_object<Volume>::bound_of_points(const Bounded_object& object) {
+  if (mesh().own_bound_needs_rest() && rest_of_points_.empty()) {
+    rest_of_points_.resize(3 * std::size_t{mesh().vertex_count()});
+    Mesh_positions(*this).pose_all(rest_of_points_);
+  }
+  mesh_positions_ = std::make_unique<Mesh_positions>(*this);
+  const Bounded_object in_mesh{
+      .layout = object.layout, .labels = object.labels, .rest = rest_of_points_, .positions = *mesh_positions_};
+  auto bound = mesh().own_bound(in_mesh);
+  return bound ? std::make_unique<Placed_bound>(std::move(bound), placement_, in_mesh) : nullptr;
+}
+
 template <Bounding_volume Volume>
 void Exact_object<Volume>::make_bounds(Workers& workers) {
   if constexpr (std::same_as<Volume, Aabb>) {
     if (!promises_.empty() && rest_.empty()) rest_.assign(surface.coordinates().begin(), surface.coordinates().end());
+    const Coordinates now = surface.coordinates();
     auto positions = std::make_unique<Object_positions>(*this);
     const Bounded_object object{
         .layout = surface.tree(),
@@ -264,10 +302,8 @@ void Exact_object<Volume>::make_bounds(Workers& workers) {
         .rest = rest_,
         .positions = *positions};
     std::vector<std::unique_ptr<Node_bound>> bounds;
-    if (auto own = mesh().own_bound(object))
-      bounds.push_back(std::make_unique<Placed_bound>(std::move(own), placement_));
+    if (auto own = bound_of_points(object)) bounds.push_back(std::move(own));
     for (const Make_bound& make : promises_) bounds.push_back(make(object));
-    const Coordinates now = surface.coordinates();
     bounded_ = std::make_unique<Bounded_surface>(surface, std::move(positions), std::move(bounds), workers, title);
     surface.follow(now);
     bounded_->take_refitted();
@@ -302,6 +338,7 @@ void Exact_object<Volume>::start_anew(std::vector<std::uint32_t> changed, std::s
   bounded_.reset();
   forget_ray_tree();
   rest_.clear();
+  rest_of_points_.clear();
   surface = Basic_tree_surface<Volume>(corners());
   give({});
   auto former = std::exchange(former_, std::nullopt);

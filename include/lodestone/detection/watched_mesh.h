@@ -52,6 +52,8 @@ class Watched_mesh {
   virtual std::uint64_t pose_number() const = 0;
   /// The bound that the positions have by themselves; null: none.
   virtual std::unique_ptr<Node_bound> own_bound(const Bounded_object& object) const = 0;
+  /// Whether that bound is made from positions at rest.
+  virtual bool own_bound_needs_rest() const = 0;
 
   /// Whether the detector's strategy needs only a surface by index, which need not be that of the mesh.
   virtual bool divides_by_index() const = 0;
@@ -171,6 +173,12 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
           return std::make_unique<Node_bound_of<decltype(bound)>>(std::move(bound));
         }
     return nullptr;
+  }
+  bool own_bound_needs_rest() const override {
+    if constexpr (is_computed<Points>)
+      return Motion_promise<std::remove_cvref_t<decltype(points_.points())>>;
+    else
+      return false;
   }
 
   bool divides_by_index() const override { return Labels_by_index<Strategy>; }

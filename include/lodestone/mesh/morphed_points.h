@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "lodestone/mesh/pose_number.h"
+
 namespace lodestone {
 
 /// A shape that vertices move towards.
@@ -83,7 +85,7 @@ class Morphed_points {
   std::vector<std::uint64_t> slice_begin_;  ///< per block and past the last
   std::vector<double> offsets_;
   std::vector<double> weights_;
-  std::uint64_t pose_number_ = 1;
+  Pose_number pose_number_;
 };
 
 }  // namespace lodestone

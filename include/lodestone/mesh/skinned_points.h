@@ -87,7 +87,7 @@ class Skinned_points {
   std::vector<std::uint32_t> joints_;
   std::vector<double> weights_;
   std::vector<double> columns_;  ///< per joint: the columns of T_j, each padded to four numbers
-  std::uint64_t pose_number_ = 1;
+  Pose_number pose_number_;
 };
 
 }  // namespace lodestone

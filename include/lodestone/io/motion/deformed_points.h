@@ -9,6 +9,7 @@
 
 #include "lodestone/bounds/node_bound.h"
 #include "lodestone/io/motion/deformation.h"
+#include "lodestone/mesh/pose_number.h"
 
 namespace lodestone {
 
@@ -74,7 +75,7 @@ class Deformed_points {
   struct State;
 
   std::unique_ptr<State> state_;
-  std::uint64_t pose_number_ = 1;
+  Pose_number pose_number_;
 };
 
 }  // namespace lodestone

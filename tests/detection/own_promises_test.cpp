@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Computed points that promise something about themselves, in mode certified; and promises at their limits.
+#include <limits>
+#include <type_traits>
+
+#include "detection/certified_scene.h"
+#include "lodestone/bounds/displacement_bound.h"
+#include "lodestone/bounds/lipschitz_bound.h"
+#include "lodestone/bounds/stretch_bound.h"
+
+namespace lodestone {
+namespace {
+
+/// Points that somebody writes, with a promise about them.
+template <class Promise>
+struct Promised_points {
+  std::vector<double> now;
+  Promise promise{};
+  std::uint64_t number = 1;
+
+  explicit Promised_points(const Surface_mesh& mesh) : now(Face_soup(mesh).coordinates) {}
+
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(now.size() / 3); }
+  std::uint64_t pose_number() const { return number; }
+  Eigen::Vector3d operator()(std::uint32_t v) const { return Eigen::Vector3d(now.data() + 3 * std::size_t{v}); }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> to) const {
+    for (const auto v : vertices) Eigen::Map<Eigen::Vector3d>(to.data() + 3 * std::size_t{v}) = (*this)(v);
+  }
+  void pose_all(std::span<double> to) const { std::ranges::copy(now, to.begin()); }
+  auto bound(const Bounded_object& object) const { return promise.bound(object); }
+
+  void shift(double x, double y) {
+    for (std::size_t i = 0; i < now.size(); i += 3) now[i] += x, now[i + 1] += y;
+    ++number;
+  }
+};
+
+template <class Promise>
+class Own_promise : public testing::Test {};
+using Promises = testing::Types<Displacement_promise, Lipschitz_promise, Stretch_promise>;
+TYPED_TEST_SUITE(Own_promise, Promises);
+
+/// The object moves as a whole, which keeps all of these promises.
+TYPED_TEST(Own_promise, has_the_answers_of_mode_exact_wherever_the_object_is_placed) {
+  for (const bool placed : {false, true}) {
+    const Surface_mesh a = potato(12, 1), b = potato(12, 2);
+    Promised_points<TypeParam> points(a);
+    Detector certified({.mode = Mode::certified}), exact({.mode = Mode::exact});
+    for (Detector<>* detector : {&certified, &exact}) {
+      detector->add(a, point_map(a, points));
+      detector->add(b);
+    }
+    Eigen::Isometry3d placement(Eigen::AngleAxisd(0.4, Eigen::Vector3d(0.6, 0, 0.8)));
+    placement.translation() = Eigen::Vector3d(4, 0.1, 0);
+    std::size_t colliding = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+      if (placed)
+        for (Detector<>* detector : {&certified, &exact}) detector->place(0, placement);
+      const Frame& found = certified.detect();
+      expect_same_answers(found, exact.detect(), 2);
+      EXPECT_EQ(found.statistics.violations, 0U);
+      colliding += found.collides() ? 1 : 0;
+      const double step = (frame / 10) % 2 == 0 ? -0.25 : 0.25;
+      points.shift(placed ? step : frame < 20 ? 0.25 : -0.25, 0.01);
+      if constexpr (std::is_same_v<TypeParam, Displacement_promise>) points.promise.move(0.2503);
+    }
+    EXPECT_GT(colliding, 3U);
+    EXPECT_LT(colliding, 37U);
+  }
+}
+
+TEST(Own_stretch, is_watched_wherever_the_object_is_placed) {
+  for (const bool placed : {false, true}) {
+    const Surface_mesh a = potato(12, 1), b = potato(12, 2);
+    Promised_points<Stretch_promise> points(a);
+    Detector detector({.mode = Mode::certified});
+    detector.add(a, point_map(a, points));
+    detector.add(b);
+    if (placed) detector.place(0, Eigen::Isometry3d(Eigen::Translation3d(0.5, 0, 0)));
+    detector.detect();
+    points.shift(0, 0);
+    EXPECT_EQ(detector.detect().statistics.violations, 0U);
+    for (std::size_t i = 0; i < points.now.size(); i += 3) points.now[i] *= 1.5;
+    ++points.number;
+    EXPECT_GT(detector.detect().statistics.violations, 0U);
+  }
+}
+
+TEST(Own_displacement, is_tight_again_where_leaves_are_read) {
+  const Surface_mesh a = potato(40, 1), b = potato(40, 2);
+  Promised_points<Displacement_promise> points(a);
+  Detector detector({.mode = Mode::certified});
+  detector.add(a, point_map(a, points));
+  detector.add(b);
+  points.shift(1.6, 0);
+  points.promise.move(1.6001);
+  std::size_t first = 0, last = 0;
+  for (int frame = 0; frame < 100; ++frame) {
+    points.shift(frame % 2 == 0 ? 0.01 : -0.01, 0);
+    points.promise.move(0.01001);
+    last = detector.detect().statistics.leaves_posed;
+    if (frame == 2) first = last;
+  }
+  EXPECT_LT(last, 3 * first + 10);
+}
+
+TEST(Displacement, whose_sum_overflows_promises_nothing) {
+  Surface_mesh a = potato(8, 1), b = potato(8, 2);
+  shift(b, 9);
+  Displacement_promise promise;
+  Detector detector({.mode = Mode::certified});
+  detector.add(std::as_const(a));
+  detector.add(std::as_const(b));
+  detector.promise(1, promise);
+  EXPECT_FALSE(detector.detect().collides());
+  for (int i = 0; i < 2; ++i) {
+    promise.move(1e308);
+    EXPECT_FALSE(detector.detect().collides());
+  }
+  shift(b, -9);
+  promise.move(9);
+  EXPECT_TRUE(detector.detect().collides());
+}
+
+TEST(Skinned_points, that_are_assigned_are_in_a_new_pose) {
+  Surface_mesh a = long_body(9, 1), b = potato(6, 2);
+  shift(b, 0, 4);
+  Skinned_points points = limb(a), other = points;
+  Detector certified({.mode = Mode::certified}), exact({.mode = Mode::exact});
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(a, point_map(a, points));
+    detector->add(b);
+  }
+  bend(points, 0, {0, 0, 0});
+  bend(other, 0, {0, 3.5, 0});
+  EXPECT_FALSE(certified.detect().collides());
+  points = other;
+  EXPECT_TRUE(exact.detect().collides());
+  EXPECT_TRUE(certified.detect().collides());
+}
+
+TEST(Broken_promise, is_an_error_of_queries_that_read_everything_too) {
+  Surface_mesh a = potato(10, 1), b = potato(10, 2);
+  const auto expect_broken = [&](const auto& ask) {
+    Surface_mesh body = b;
+    Stretch_promise promise;
+    Detector detector({.mode = Mode::certified, .exact = {.throw_if_broken = true}});
+    detector.add(std::as_const(a));
+    detector.add(std::as_const(body));
+    detector.promise(1, promise);
+    detector.detect();
+    deform(body, [](const Point& p) { return Point(2.5 * p.x(), p.y(), p.z()); });
+    EXPECT_THROW(ask(detector), Broken_bound);
+  };
+  const auto positions = [](const Surface_mesh& mesh) -> Positions {
+    const auto coordinates = Face_soup(mesh).coordinates;
+    return Eigen::Map<const Positions>(coordinates.data(), static_cast<Eigen::Index>(coordinates.size() / 3), 3);
+  };
+  const Positions end_of_a = positions(a), end = positions(b);
+  expect_broken([](Detector<>& detector) { detector.parting(0, 1); });
+  expect_broken([](Detector<>& detector) { detector.ray_tree(1); });
+  expect_broken([](Detector<>& detector) { detector.save(1); });
+  expect_broken([&](Detector<>& detector) { detector.first_self_impact(1, end); });
+  expect_broken([&](Detector<>& detector) { detector.first_impact(0, end_of_a, 1, end); });
+}
+
+}  // namespace
+}  // namespace lodestone
