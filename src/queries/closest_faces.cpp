@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <queue>
-#include <ranges>
 #include <tuple>
 
 #include "lodestone/filter/face_filter.h"
@@ -40,7 +39,8 @@ class Direction {
   double farthest(const auto& points, double sense) const {
     constexpr double roundings = 0x1p-49, lost = 1e-300;
     double most = -std::numeric_limits<double>::infinity();
-    for (const auto& p : points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto& p = points[i];
       const Eigen::Vector3d away = Eigen::Vector3d(p[0], p[1], p[2]) - origin_;
       const double error = roundings * along_.cwiseAbs().dot(away.cwiseAbs()) + lost;
       most = std::max(most, sense * along_.dot(away) + error);
@@ -62,19 +62,21 @@ Eigen::Vector3d centre_of(const Aabb& box) {
   return 0.5 * low + 0.5 * high;
 }
 
-/// The vertices of a leaf.
-auto vertices_of(const Leaf_faces& leaf) {
-  return std::views::transform(leaf.vertices,
-                               [&leaf](std::uint32_t v) { return leaf.coordinates.data() + 3 * std::size_t{v}; });
-}
+/// The positions of a leaf's vertices.
+struct Leaf_positions {
+  const Leaf_faces& leaf;
+
+  std::size_t size() const { return leaf.vertices.size(); }
+  const double* operator[](std::size_t i) const { return leaf.position(i); }
+};
 
 /// The distance of two vertices, one of each leaf, that are near each other.
 double distance_of_near_vertices(const Leaf_faces& a, const Leaf_faces& b) {
   const auto nearest = [](const Leaf_faces& leaf, const Eigen::Vector3d& to) {
     double least = std::numeric_limits<double>::infinity();
     Eigen::Vector3d found = Eigen::Map<const Eigen::Vector3d>(leaf.position(0));
-    for (const double* p : vertices_of(leaf)) {
-      const Eigen::Map<const Eigen::Vector3d> at(p);
+    for (std::size_t i = 0; i < leaf.vertices.size(); ++i) {
+      const Eigen::Map<const Eigen::Vector3d> at(leaf.position(i));
       if (const double squared = (at - to).squaredNorm(); squared < least) least = squared, found = at;
     }
     return found;
@@ -146,12 +148,14 @@ class Search {
       offer({indices_a[a], indices_b[b]}, triangle_of(leaf_triangle(all_a, a)), triangle_of(leaf_triangle(all_b, b)));
     };
     const Aabb &box_a = a_.pose(leaf_a), &box_b = b_.pose(leaf_b);
-    const Face_pair lowest{std::ranges::min(indices_a), std::ranges::min(indices_b)};
+    const Face_pair lowest{*std::min_element(indices_a.begin(), indices_a.end()),
+                           *std::min_element(indices_b.begin(), indices_b.end())};
     if (!can_be_closer(to_box(box_a), to_box(box_b), lowest)) return;
     double most = best_.points.distance;
     if (!std::isfinite(most)) most = distance_of_near_vertices(all_a, all_b);
     const Direction between(centre_of(box_a), centre_of(box_b));
-    if (between.parts(between.reach_of_a(vertices_of(all_a)), between.reach_of_b(vertices_of(all_b)), most)) return;
+    if (between.parts(between.reach_of_a(Leaf_positions{all_a}), between.reach_of_b(Leaf_positions{all_b}), most))
+      return;
     begin_filter(most);
     for (const Face_candidate& candidate : face_filter_.face_candidates(leaf_a, leaf_b))
       offer_pair(candidate.a, candidate.b);
