@@ -34,6 +34,14 @@ std::vector<std::uint32_t> faces_of(std::span<const std::optional<Ray_hit>> hits
   return faces;
 }
 
+/// The first face that a ray meets, by CGAL.
+std::uint32_t first_face(const Cgal_tree& tree, const Ray& ray) {
+  const auto &o = ray.origin, &d = ray.direction;
+  const auto hit = tree.first_intersected_primitive(
+      Kernel::Ray_3(Point(o.x(), o.y(), o.z()), Kernel::Vector_3(d.x(), d.y(), d.z())));
+  return hit ? static_cast<std::uint32_t>(*hit) : no_face;
+}
+
 /// The first face that each of some random rays meets. The libraries take turns in each pass. All have been refitted to
 /// new positions, but for CGAL, which cannot: it has built its tree for them. Lodestone is asked ray by ray, and by a
 /// Ray_tree that is made in each pass, about all rays at once and ray by ray; also about all rays at once by one that
@@ -83,12 +91,7 @@ void first_hit_of_rays(benchmark::State& state) {
     of_float.ask(rays, [&](const Ray& ray) { return in_float.first_face(ray); });
     of_double.ask(rays, [&](const Ray& ray) { return in_double.first_face(ray); });
 #endif
-    of_cgal.ask(few, [&](const Ray& ray) {
-      const auto &o = ray.origin, &d = ray.direction;
-      const auto hit = cgal.first_intersected_primitive(
-          Kernel::Ray_3(Point(o.x(), o.y(), o.z()), Kernel::Vector_3(d.x(), d.y(), d.z())));
-      return hit ? static_cast<std::uint32_t>(*hit) : no_face;
-    });
+    of_cgal.ask(few, [&](const Ray& ray) { return first_face(cgal, ray); });
     state.SetIterationTime(1e-9 * ours.nanoseconds.back() * static_cast<double>(rays.size()));
   }
   state.counters["faces"] = static_cast<double>(sphere.corners.size());
@@ -159,12 +162,7 @@ void first_hit_at_vertices(benchmark::State& state) {
     ours.ask(rays, ask);
     of_random.ask(random, ask);
     of_tree.ask_at_once(rays, [&](std::span<const Ray> all) { return faces_of(first_hits(tree, all)); });
-    of_cgal.ask(few, [&](const Ray& ray) {
-      const auto &o = ray.origin, &d = ray.direction;
-      const auto hit = cgal.first_intersected_primitive(
-          Kernel::Ray_3(Point(o.x(), o.y(), o.z()), Kernel::Vector_3(d.x(), d.y(), d.z())));
-      return hit ? static_cast<std::uint32_t>(*hit) : no_face;
-    });
+    of_cgal.ask(few, [&](const Ray& ray) { return first_face(cgal, ray); });
     state.SetIterationTime(1e-9 * ours.nanoseconds.back() * static_cast<double>(rays.size()));
   }
   std::size_t missed = 0;

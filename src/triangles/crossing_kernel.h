@@ -10,7 +10,7 @@ namespace lodestone::kernel {
 
 /// Edges, and for each a triangle whose plane it crosses. The last index is that of the edge.
 struct Edges_and_planes {
-  std::size_t count = 0;                ///< of edges; what follows them is ignored
+  std::size_t count = 0;                 ///< of edges; what follows them is ignored
   double plane[3][3][most_planes] = {};  ///< [corner][axis]
   double from[3][most_planes] = {}, to[3][most_planes] = {};
 };

@@ -94,14 +94,14 @@ TEST(Own_displacement, is_tight_again_where_leaves_are_read) {
   detector.add(b);
   points.shift(1.6, 0);
   points.promise.move(1.6001);
-  std::size_t first = 0, last = 0;
+  std::size_t posed = 0;
   for (int frame = 0; frame < 100; ++frame) {
     points.shift(frame % 2 == 0 ? 0.01 : -0.01, 0);
     points.promise.move(0.01001);
-    last = detector.detect().statistics.leaves_posed;
-    if (frame == 2) first = last;
+    posed = detector.detect().statistics.leaves_posed;
   }
-  EXPECT_LT(last, 3 * first + 10);
+  EXPECT_GT(posed, 0U);
+  EXPECT_LT(posed, detector.bounded(0)->layout().leaf_count() / 3);
 }
 
 TEST(Displacement, whose_sum_overflows_promises_nothing) {

@@ -73,15 +73,15 @@ TEST(Exact_crossing, is_the_nearest_double_along_each_axis) {
 }
 
 TEST(Exact_crossing, is_nearer_to_zero_of_two_that_are_as_near) {
-  // Halfway along an edge from an odd number of steps to an even one.
+  // Halfway between neighbouring doubles. The one nearer to zero is even in the first case, odd in the second.
   const double step = 0x1p-52;
   const Triangle plane{Point(0, -1, -1), Point(0, 1, -1), Point(0, 0, 1)};
-  for (const double sign : {-1.0, 1.0}) {
-    const double start = sign * (1 + 2 * step), end = sign * (1 + 3 * step);
-    EXPECT_TRUE(expect_nearest(Point(-1, start, 0), Point(1, end, 0), plane));
-    EXPECT_EQ(exact_crossing(Point(-1, start, 0), Point(1, end, 0), plane).y(), start);
-    EXPECT_EQ(exact_crossing(Point(-1, end, 0), Point(1, start, 0), plane).y(), start);
-  }
+  for (const double sign : {-1.0, 1.0})
+    for (const int steps : {2, 3}) {
+      const double nearer = sign * (1 + steps * step), farther = sign * (1 + (steps + 1) * step);
+      EXPECT_EQ(exact_crossing(Point(-1, nearer, 0), Point(1, farther, 0), plane).y(), nearer);
+      EXPECT_EQ(exact_crossing(Point(-1, farther, 0), Point(1, nearer, 0), plane).y(), nearer);
+    }
 }
 
 TEST(Exact_crossing, is_right_where_the_whole_is_hardly_a_double) {

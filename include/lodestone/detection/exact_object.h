@@ -235,8 +235,8 @@ class Exact_object {
   std::optional<Rigid_motion> placement_ = {};
   std::uint64_t changes_ = 0;  ///< of both, and of positions of which nobody says whether they have changed
   std::vector<Make_bound> promises_;
-  std::vector<double> rest_;  ///< 3 V: the first positions that a promise was about; none before
-  std::vector<double> rest_of_points_;               ///< 3 V: the first positions that points with a bound had
+  std::vector<double> rest_;            ///< 3 V: the first positions that a promise was about; none before
+  std::vector<double> rest_of_points_;  ///< 3 V: the first positions that points with a bound had; none before
   std::unique_ptr<Mesh_positions> mesh_positions_;  ///< what bounds of points look at
   std::unique_ptr<Bounded_surface> bounded_;
   std::optional<Ray_tree> ray_tree_;   ///< of the surface; none before it is asked for
