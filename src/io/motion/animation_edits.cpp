@@ -102,6 +102,13 @@ Point middle_of(const Point& a, const Point& b) {
   return {std::midpoint(a.x(), b.x()), std::midpoint(a.y(), b.y()), std::midpoint(a.z(), b.z())};
 }
 
+/// Refuses at once what would otherwise take long before it fails.
+void check_subdivided_faces(std::size_t faces, std::size_t times) {
+  for (; times > 0 && faces <= most_subdivided_faces; --times) faces *= 4;
+  if (faces > most_subdivided_faces)
+    throw Bad_argument(fmt::format("subdivision gives more than {} faces", most_subdivided_faces));
+}
+
 Animation subdivided_once(Animation animation) {
   const auto count = static_cast<std::uint32_t>(animation.vertices);
   std::map<Edge_ends, std::uint32_t> middles;
@@ -178,12 +185,10 @@ Animation welded(Animation animation, double distance) {
 }
 
 Animation subdivided(Animation animation, std::size_t times) {
-  if (times > 0) need_faces(animation);
-  for (; times > 0; --times) {
-    if (animation.faces.size() > most_subdivided_faces / 4)
-      throw Bad_argument(fmt::format("subdivision gives more than {} faces", most_subdivided_faces));
-    animation = subdivided_once(std::move(animation));
-  }
+  if (times == 0) return animation;
+  need_faces(animation);
+  check_subdivided_faces(animation.faces.size(), times);
+  for (; times > 0; --times) animation = subdivided_once(std::move(animation));
   return animation;
 }
 
