@@ -308,6 +308,21 @@ TEST(Open_mesh_with_removed_elements, is_refused_until_its_garbage_is_collected)
   EXPECT_NO_THROW(detector.add(mesh));
   detector.add(other);
   EXPECT_EQ(detector.detect().face_pairs, find_collisions(mesh, other).faces);
+
+  // Also if they are removed between two frames.
+  for (const Mode mode : {Mode::exact, Mode::certified, Mode::particles}) {
+    auto open = converted<Open_mesh>(icosphere(3));
+    open.request_face_status(), open.request_edge_status(), open.request_vertex_status();
+    Detector<> kept({.mode = mode});
+    kept.add(open);
+    kept.add(other);
+    kept.detect();
+    open.delete_face(*open.faces_begin(), true);
+    EXPECT_THROW(kept.detect(), Bad_mesh);
+    open.garbage_collection();
+    kept.rebuild(0);
+    EXPECT_EQ(kept.detect().collides(), find_collisions(open, other).collide);
+  }
 }
 
 }  // namespace

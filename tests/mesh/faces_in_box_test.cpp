@@ -146,6 +146,21 @@ TEST(Box_reader, refuses_a_face_that_is_no_triangle_inside_and_outside_of_the_bo
   }
 }
 
+TEST(Box_reader, refuses_a_quadrilateral_that_a_face_of_two_edges_makes_up_for) {
+  Surface_mesh mesh;
+  CGAL::make_tetrahedron(Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1), mesh);
+  CGAL::Euler::join_face(*mesh.halfedges().begin(), mesh);  // a quadrilateral and two triangles
+  mesh.collect_garbage();
+  auto h = *mesh.halfedges().begin();
+  while (mesh.degree(mesh.face(h)) != 3) h = mesh.opposite(mesh.next(h));
+  CGAL::Euler::split_face(mesh.prev(h), h, mesh);  // doubles an edge
+  ASSERT_EQ(mesh.number_of_halfedges(), 3 * mesh.number_of_faces());
+  Reader reader(mesh, mesh.points());
+  ASSERT_TRUE(reader.read_positions());
+  Faces_in_box found;
+  EXPECT_FALSE(reader.read_faces(reader.box(), found));
+}
+
 TEST(Box_reader, of_an_empty_box_checks_the_faces_of_closed_and_of_open_surfaces) {
   for (const auto& mesh : {potato(3), grid(4, 4)}) {
     Reader reader(mesh, mesh.points());

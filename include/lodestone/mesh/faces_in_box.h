@@ -67,8 +67,8 @@ class Box_reader {
   static constexpr bool in_memory = Coordinate_reader<Mesh, Points>::in_memory;
 
   Coordinates memory() const requires in_memory { return Coordinate_reader<Mesh, Points>::memory(*mesh_, points_); }
-  /// Whether the numbers of faces and edges prove that every face is a triangle, which they can if there is no border:
-  /// a face has at least three edges. O(1).
+  /// Whether the numbers of faces and edges prove that every face is a triangle, if none has less than three edges.
+  /// They can if there is no border. O(1).
   bool all_triangles_by_count() const {
     if constexpr (requires { num_halfedges(*mesh_); }) return num_halfedges(*mesh_) == 3 * num_faces(*mesh_);
     return false;
@@ -109,7 +109,8 @@ template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 template <class Use>
 bool Box_reader<Mesh, Points>::use_triangle(std::uint32_t index, Face<Mesh> f, bool all_triangles, Use use) const {
   const auto first = halfedge(f, *mesh_);
-  if (!all_triangles && !is_triangle(first, *mesh_)) return false;
+  // Operations of CGAL can make faces of two edges.
+  if (all_triangles ? next(next(first, *mesh_), *mesh_) == first : !is_triangle(first, *mesh_)) return false;
   const auto [p, q, r] = triangle_corners(first, *mesh_);
   use(index, p, q, r);
   return true;
