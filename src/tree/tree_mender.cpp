@@ -4,6 +4,7 @@
 #include <hwy/contrib/sort/vqsort.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,6 +20,10 @@ constexpr std::size_t most_changed = 8;
 
 /// A tree is also built anew if finding leaves for new pieces would take more comparisons than so many per face.
 constexpr std::size_t most_compared = 4;
+
+/// A tree is also built anew if it has more levels than a balanced one could need. One that grows at the same place
+/// again and again, such as a rope that is laid out, would otherwise become a list.
+std::size_t most_mended_levels(std::size_t leaves) { return 2 * static_cast<std::size_t>(std::bit_width(leaves)) + 32; }
 
 constexpr std::uint32_t not_placed = std::numeric_limits<std::uint32_t>::max();
 
@@ -87,8 +92,8 @@ bool Tree_mender::mend() {
   if (!place_faces() || !size_leaves()) return false;
   size_lists(leaf_begin_.back());
   std::vector<Branch> branches;
-  add_node(0, branches);
-  if (!finite_) return false;
+  add_node(0, 1, branches);
+  if (!finite_ || levels_ > most_mended_levels(leaf_begin_.back())) return false;
   add_branches(std::move(branches));
   size_vertices();
   copy_leaves();
@@ -237,7 +242,8 @@ std::uint32_t Tree_mender::leaves_below(std::uint32_t former_node) const {
 }
 
 /// Adds what becomes of a former node and all below it. A node of whose children one has no faces left is left out.
-void Tree_mender::add_node(std::uint32_t former_node, std::vector<Branch>& branches) {
+/// @param level  of the node; 1 for the root
+void Tree_mender::add_node(std::uint32_t former_node, std::size_t level, std::vector<Branch>& branches) {
   const auto& node = former_.node(former_node);
   if (former_.is_leaf(former_node)) {
     Branch branch{.leaves = leaves_below(former_node),
@@ -245,6 +251,7 @@ void Tree_mender::add_node(std::uint32_t former_node, std::vector<Branch>& branc
                   .leaf = leaf_begin_[node.leaf],
                   .face = face_begin_[node.leaf]};
     next_node_ += 2 * branch.leaves - 1;
+    levels_ = std::max(levels_, level + static_cast<std::size_t>(std::bit_width(branch.leaves - 1U)));
     if (!touched_[node.leaf]) return add_leaf_node(branch, former_.vertices(node.leaf).size());
     branch.begin = next_item_;
     next_item_ = branch.end = branch.begin + face_count_[node.leaf];
@@ -253,13 +260,13 @@ void Tree_mender::add_node(std::uint32_t former_node, std::vector<Branch>& branc
     return;
   }
   const std::uint32_t first = former_node + 1, second = node.second_child;
-  if (leaves_below(first) == 0) return add_node(second, branches);
-  if (leaves_below(second) == 0) return add_node(first, branches);
+  if (leaves_below(first) == 0) return add_node(second, level, branches);
+  if (leaves_below(second) == 0) return add_node(first, level, branches);
   const std::uint32_t here = next_node_++;
-  add_node(first, branches);
+  add_node(first, level + 1, branches);
   tree_.nodes_[here] = {
       .second_child = next_node_, .leaf = leaf_begin_[node.leaf], .end_leaf = leaf_begin_[node.end_leaf]};
-  add_node(second, branches);
+  add_node(second, level + 1, branches);
 }
 
 /// The lists of untouched leaves, as many at once as follow each other, and the vertices of the others.

@@ -32,7 +32,7 @@ class Tree_mender : private Tree_builder {
   bool place(std::uint32_t face, Vertex_leaves& leaf_of, std::vector<std::uint32_t>& reached);
   void find_leaves_of_vertices(std::span<const std::uint32_t> faces, bool everywhere, Vertex_leaves& leaf_of) const;
   bool size_leaves();
-  void add_node(std::uint32_t former_node, std::vector<Branch>& branches);
+  void add_node(std::uint32_t former_node, std::size_t level, std::vector<Branch>& branches);
   void copy_leaves();
   void fill_items(std::uint32_t former_leaf, std::uint32_t begin, bool with_centres);
   std::uint32_t leaves_below(std::uint32_t former_node) const;
@@ -46,6 +46,7 @@ class Tree_mender : private Tree_builder {
   std::vector<std::uint32_t> leaf_begin_;  ///< per former leaf and past the last: the first of the leaves it becomes
   std::vector<std::uint32_t> face_begin_;  ///< per former leaf: where its faces start
   std::uint32_t next_node_ = 0, next_item_ = 0;
+  std::size_t levels_ = 0;  ///< of the mended tree
   bool finite_ = true;  ///< the centres of faces that are split
 };
 

@@ -174,6 +174,39 @@ TEST(Tree_mender, a_strip_of_new_faces_is_placed_from_its_first_on) {
   expect_tree(tree, soup, soup.coordinates);
 }
 
+std::size_t levels_below(const Tree_layout& tree, std::uint32_t node) {
+  if (tree.is_leaf(node)) return 1;
+  return 1 + std::max(levels_below(tree, node + 1), levels_below(tree, tree.node(node).second_child));
+}
+
+TEST(Tree_mender, a_strip_that_grows_at_its_end_never_becomes_a_list) {
+  Face_soup soup;
+  soup.coordinates = {0, 0, 0, 0, 1, 0};
+  const auto grow = [&](int faces) {
+    for (int i = 0; i < faces; ++i) {
+      const std::uint32_t next = soup.vertex_count();
+      soup.coordinates.insert(soup.coordinates.end(), {0.5 * next, next % 2 == 0 ? 0.0 : 1.0, 0});
+      soup.faces.push_back({next - 2, next - 1, next});
+    }
+  };
+  grow(400);
+  const Region_tree_options options{.leaf_faces = 4};
+  Region_tree tree(soup.faces, {}, soup.coordinates, options);
+  int mended = 0, made_anew = 0;
+  for (int round = 0; round < 600; ++round) {
+    grow(8);
+    if (tree.mend(soup.faces, {}, soup.coordinates, options)) {
+      ++mended;
+    } else {
+      tree = Region_tree(soup.faces, {}, soup.coordinates, options);
+      ++made_anew;
+    }
+    ASSERT_LE(levels_below(tree, 0), 60U) << "after " << round << " rounds; " << tree.leaf_count() << " leaves";
+  }
+  expect_tree(tree, soup, soup.coordinates);
+  EXPECT_GT(mended, 10 * made_anew);
+}
+
 TEST(Tree_mender, a_new_face_beside_leaves_without_a_change_is_placed_in_one_of_them) {
   const Face_soup before(icosphere(20));
   const Region_tree tree(before.faces, {}, before.coordinates);
