@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -56,8 +57,8 @@ class Detector {
   explicit Detector(const Detector_options& options = {}, Strategy strategy = {})
       : strategy_(std::make_shared<const Strategy>(std::move(strategy))), detection_(make_detection<Volume>(options)) {}
 
-  /// Adds an object, and adds the maps `v:region` and `v:particle` to its mesh. Two detectors that share a mesh write
-  /// to the same maps.
+  /// Adds an object, and adds the maps `v:region` and `v:particle` to its mesh. Maps of these names that the mesh has
+  /// already are taken, and their values replaced. Two detectors that share a mesh write to the same maps.
   /// @throws Bad_mesh      no face, a face that is not a triangle; a Surface_mesh with removed elements: call its
   ///                       `collect_garbage` first
   /// @throws Bad_argument  the mesh has been added before; mode `exact`: `file_vertex` does not have one entry per
@@ -166,7 +167,8 @@ class Detector {
   void remove(Object_id object) {
     detection_->remove(checked(object));
     filter_.remove(object);
-    meshes_[object] = nullptr;
+    const auto entry = objects_of_.find(std::exchange(meshes_[object], nullptr));
+    if (--entry->second == 0) objects_of_.erase(entry);
   }
   /// Whether there is an object with this id: it has been added, and not removed.
   bool has(Object_id object) const { return object < meshes_.size() && meshes_[object] != nullptr; }
@@ -378,7 +380,8 @@ class Detector {
   using Exact = Exact_detection<Volume>;
 
   void check_new(const void* mesh) const {
-    if (std::ranges::find(meshes_, mesh) != meshes_.end()) throw Bad_argument("the mesh has been added before");
+    const auto entry = objects_of_.find(mesh);
+    if (entry != objects_of_.end() && entry->second > 0) throw Bad_argument("the mesh has been added before");
   }
   template <class Mesh, class Points>
   auto watch(const Mesh& mesh, Points points, Workers& workers) const {
@@ -387,7 +390,8 @@ class Detector {
   /// Adds an object to all that lists objects, or to nothing.
   template <class Watch>
   Object_id add_watched(const void* mesh, const Watch& watch, const Object_options& options) {
-    meshes_.reserve(meshes_.size() + 1 + meshes_.size() / 2);
+    if (meshes_.size() == meshes_.capacity()) meshes_.reserve(2 * meshes_.size() + 1);
+    std::size_t& objects = objects_of_[mesh];
     filter_.add(options);
     try {
       detection_->add(watch, options);
@@ -396,6 +400,7 @@ class Detector {
       throw;
     }
     meshes_.push_back(mesh);
+    ++objects;
     return static_cast<Object_id>(meshes_.size() - 1);
   }
 
@@ -423,7 +428,8 @@ class Detector {
   std::shared_ptr<const Strategy> strategy_;
   std::unique_ptr<Detection> detection_;
   Collision_filter filter_;
-  std::vector<const void*> meshes_;  ///< null: the object has been removed
+  std::vector<const void*> meshes_;                          ///< null: the object has been removed
+  std::unordered_map<const void*, std::size_t> objects_of_;  ///< per mesh: how many objects have it
 };
 
 // The library holds what a detector of Surface_mesh needs: a file that uses one does not compile it again.

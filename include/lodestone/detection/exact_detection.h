@@ -212,7 +212,7 @@ class Exact_detection final : public Detection {
     objects_.refresh(ids);
   }
   Saved_origin origin(Object_id object) {
-    return {.mode = "exact with volumes of kind " + std::string(Volume::name),
+    return {.mode = std::string("exact with volumes of kind ").append(Volume::name),
             .vertices = objects_[object].mesh().vertex_count(),
             .corners = objects_[object].corners()};
   }

@@ -63,7 +63,7 @@ class Exact_objects {
   /// Forgets an object. O(objects).
   void remove(Object_id id) {
     objects_[id].reset();
-    std::erase(ids_, id);
+    ids_.erase(std::ranges::lower_bound(ids_, id));
   }
 
   /// Objects added, removed ones included.
