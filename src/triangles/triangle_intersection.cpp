@@ -122,6 +122,14 @@ bool passes_through(const double* p, const double* q, const Triangle_corners& t)
                                  points_at(1, 0, 3, 4), points_at(1, 0, 4, 2)});
 }
 
+/// Whether a corner of one is a corner of the other, as of two copies of a surface in one place, where predicates would
+/// need exact numbers.
+bool have_a_common_corner(const Triangle& a, const Triangle& b) {
+  return std::ranges::any_of(a, [&](const Point& p) {
+    return std::ranges::any_of(b, [&](const Point& q) { return p.x() == q.x() && p.y() == q.y() && p.z() == q.z(); });
+  });
+}
+
 bool have_area(const Triangle& a, const Triangle& b) {
   const auto has_area = [](const Triangle& t) { return surely_not_collinear(t) || !CGAL::collinear(t[0], t[1], t[2]); };
   return has_area(a) && has_area(b);
@@ -141,6 +149,7 @@ Intersection_points shapes_intersection(const Triangle& a, const Triangle& b) {
 }  // namespace
 
 bool triangles_intersect(const Triangle& a, const Triangle& b) {
+  if (have_a_common_corner(a, b)) return true;
   if (surely_not_collinear(a) && surely_not_collinear(b))
     return CGAL::CommonKernelFunctors::Do_intersect_3<Staged_kernel>()(Kernel::Triangle_3(a[0], a[1], a[2]),
                                                                        Kernel::Triangle_3(b[0], b[1], b[2]));
