@@ -13,6 +13,7 @@ Collisions collisions_of(const Frame& frame) {
           .containment = frame.pairs.empty() ? Containment::none : frame.pairs.front().containment,
           .parting = frame.pairs.empty() ? std::nullopt : frame.pairs.front().parting,
           .patches = frame.patches,
+          .unfinished = frame.unfinished(),
           .statistics = frame.statistics};
 }
 

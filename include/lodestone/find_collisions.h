@@ -21,6 +21,7 @@ struct Collisions {
   Containment containment = Containment::none;  ///< which mesh lies inside the other; none unless asked for
   std::optional<Parting> parting = {};          ///< moves a; none unless asked for and needed
   std::vector<Contact_patch> patches = {};      ///< of `faces`; empty unless asked for
+  bool unfinished = false;                      ///< see `Pair_result::unfinished`
   Frame_statistics statistics = {};             ///< what it took
 };
 

@@ -202,6 +202,8 @@ void add_frames(py::module_& module) {
                              "Whether any two faces are nearer than the tolerance; False without one.")
       .def_property_readonly("capped", [](const Python_frame& self) { return self.frame->capped(); },
                              "Whether contacts are missing because of `most_contacts`.")
+      .def_property_readonly("unfinished", [](const Python_frame& self) { return self.frame->unfinished(); },
+                             "Whether the budget of openings ended the search of a pair.")
       .def_property_readonly(
           "pairs", pairs_of_frame,  // not kept: a pair holds its frame, and neither would ever be freed
           "The object pairs that the broad phase let pass, in the order of (a, b): a tuple of `Pair`, made anew each "
@@ -246,6 +248,9 @@ void add_frames(py::module_& module) {
                              "Whether two faces are nearer than the tolerance, or intersect; False without one.")
       .def_property_readonly("capped", [](const Python_pair& self) { return self.result.capped; },
                              "Whether contacts are missing because of `most_contacts`.")
+      .def_property_readonly("unfinished", [](const Python_pair& self) { return self.result.unfinished; },
+                             "Whether the budget of openings ended the search, so that contacts can be missing. Mode\n"
+                             "`particles`.")
       .def_property_readonly("containment", [](const Python_pair& self) { return containment_of(self.result); },
                              "'a_in_b' or 'b_in_a' if one object lies inside the other, else 'none'. With the option\n"
                              "`containment`.")

@@ -10,6 +10,9 @@ namespace {
 
 /// Rings of faces around the two ends of a meeting that are checked.
 constexpr std::size_t checked_rings = 2;
+/// Hops of two particles from where they met in the last frame. It takes some ten where surfaces slide on each other.
+/// Beside a face as wide as a floor, a particle at its far corner would draw the other across the whole surface.
+constexpr std::size_t most_hops_back = 64;
 
 }  // namespace
 
@@ -34,11 +37,13 @@ void Meeting_search::look(Met_pair& pair, Workers& workers) {
 
 /// Looks where the particles met in the last frame: at the same two faces, then where a meeting from there leads to.
 void Meeting_search::revisit(Met_pair& pair) {
+  const std::size_t most_hops = std::min(hop_limit(pair), most_hops_back);
+  bool walk = true;
   for (const auto& meeting : memory_.recall(pair.ids)) {
     if (still_meet(pair, meeting.contact))
       add_seed(pair, meeting);
-    else
-      meet_from(pair, meeting.at);
+    else if (walk)
+      walk = meet_from(pair, meeting.at, most_hops) < most_hops_back;
     if (decided(pair)) return;
   }
 }
@@ -51,13 +56,19 @@ bool Meeting_search::still_meet(const Met_pair& pair, Face_pair contact) {
 }
 
 /// Lets two particles meet, and checks the faces around.
-void Meeting_search::meet_from(Met_pair& pair, Meeting start) {
+/// @return the hops that they took
+std::size_t Meeting_search::meet_from(Met_pair& pair, Meeting start, std::size_t most_hops) {
   const Walked_surface a = pair.a->walked_surface(), b = pair.b->walked_surface();
-  const Ended_meeting ended = meet(a, b, start, pair.a->particles().hop_limit + pair.b->particles().hop_limit);
+  const Ended_meeting ended = meet(a, b, start, most_hops);
   ++counts_.meetings;
   counts_.vertices_read += ended.vertices_read;
   Remembered_meeting meeting{.at = ended.at, .contact = {}};
   if (rings_.check(a, b, ended.at, checked_rings, meeting.contact)) add_seed(pair, meeting);
+  return ended.hops;
+}
+
+std::size_t Meeting_search::hop_limit(const Met_pair& pair) {
+  return pair.a->particles().hop_limit + pair.b->particles().hop_limit;
 }
 
 void Meeting_search::list_regions(Met_pair& pair) {
@@ -80,10 +91,10 @@ void Meeting_search::open(Met_pair& pair, Workers& workers) {
   if (pair.seed_count == 0 && pair.opened_count > 0) add_seed(pair, met_at(pair, opened_[pair.first_opened]));
 }
 
-/// How many vertices are read as a whole. In order that takes a small fraction of the time per vertex that openings take.
-/// But openings may find one contact soon.
+/// How many vertices are read as a whole. In order that takes a small fraction of the time per vertex that openings
+/// take.
 std::size_t Meeting_search::most_whole() const {
-  return wants_all() ? 4 * std::min(options_.opening_budget, std::numeric_limits<std::size_t>::max() / 4) : 0;
+  return 4 * std::min(options_.opening_budget, std::numeric_limits<std::size_t>::max() / 4);
 }
 
 /// Starts a search below the regions that may touch.
@@ -133,7 +144,8 @@ void Meeting_search::meet_nearest(Met_pair& pair) {
   const std::size_t old = pair.first_seed;
   pair.first_seed = seeds_.size();
   for (std::size_t seed = 0; seed < pair.seed_count; ++seed) seeds_.push_back(Remembered_meeting(seeds_[old + seed]));
-  for (std::size_t i = 0; i < count && !decided(pair); ++i) meet_from(pair, {a.at[nearest_[i].a], b.at[nearest_[i].b]});
+  for (std::size_t i = 0; i < count && !decided(pair); ++i)
+    meet_from(pair, {a.at[nearest_[i].a], b.at[nearest_[i].b]}, hop_limit(pair));
 }
 
 void Meeting_search::add_seed(Met_pair& pair, const Remembered_meeting& seed) {
@@ -155,7 +167,7 @@ void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found,
 
 /// Remembers contacts at equal steps in the list of all.
 void Meeting_search::remember_some(const Met_pair& pair, std::span<const Face_pair> contacts) {
-  const std::size_t step = (contacts.size() + options_.meetings - 1) / options_.meetings;
+  const std::size_t step = contacts.size() / options_.meetings + (contacts.size() % options_.meetings > 0 ? 1 : 0);
   for (std::size_t i = 0; i < contacts.size(); i += step) memory_.keep(pair.ids, met_at(pair, contacts[i]));
 }
 

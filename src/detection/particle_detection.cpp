@@ -157,9 +157,10 @@ void Particle_detection::prepare(std::span<Object* const> objects, bool close_se
     if (close_seams) objects[i]->particle_object.close_seams(positions[i]);
     if (options_.particles == 0) objects[i]->radius = bounding_sphere(positions[i]).radius;
   });
+  const Radius_range range = radii();
   for_each([&](std::size_t i) {
     objects[i]->particle_object.measure_distance(positions[i], options_.distance_measure);
-    particles[i] = particles_of(*objects[i], positions[i]);
+    particles[i] = particles_of(*objects[i], positions[i], range);
   });
   std::vector<Numbered_partition> divisions(objects.size());
   const auto divide_if = [&](std::size_t i, bool concurrent) {
@@ -199,12 +200,17 @@ void Particle_detection::write_maps(Object& object) {
   object.particle_object.mesh().write_maps(object.particle_object.labels(), object.particle_object.particles().at);
 }
 
-std::size_t Particle_detection::particles_of(const Object& object, const Positions& positions) const {
+Radius_range Particle_detection::radii() const {
+  std::vector<double> radii;
+  for (const auto& object : objects_)
+    if (object) radii.push_back(object->radius);
+  return radius_range(radii);
+}
+
+std::size_t Particle_detection::particles_of(const Object& object, const Positions& positions,
+                                             const Radius_range& radii) const {
   if (object.options.particles > 0) return object.options.particles;
   if (options_.particles > 0) return options_.particles;
-  std::vector<double> radii;
-  for (const auto& other : objects_)
-    if (other) radii.push_back(other->radius);
   const auto& rule = options_.particle_count;
   const std::size_t by_rule = particle_count(object.particle_object.sphere_collection(positions, rule), radii, rule);
   return std::min(std::max(by_rule, options_.least_particles), rule.most_particles);

@@ -111,6 +111,7 @@ void Particle_detection::add_pulls(const Met_pair& pair) {
 void Particle_detection::report(const Met_pair& pair) {
   Pair_result result = frame_.start_pair(pair.ids);
   result.collides = pair.seed_count > 0;
+  result.unfinished = pair.out_of_budget && !meeting_search_.decided(pair);
   result.candidates = pair.near_count > 0 ? pair.near_count : std::min<std::size_t>(pair.seed_count, 1);
   frame_.statistics().candidates += result.candidates;
   meeting_search_.report(pair, frame_.face_pairs(), workers_);

@@ -168,15 +168,15 @@ void Particle_object::prepare_meetings(const Positions& positions, const Region_
                                        Workers& workers) {
   const Coordinates coordinates(positions.data(), static_cast<std::size_t>(positions.size()));
   tree_ = Tree_on_demand(corners(), labels_, coordinates, options, workers);
-  neighbours_.reset();
+  neighbours_ = Leaf_neighbours(tree_.layout(), corners().size());
   tree_.start_frame(Live_positions(positions.data()));  // as they were read: other threads may be reading the mesh
   regions_ = Region_anchors(tree_, corners(), labels_, coordinates);
   tree_.start_frame(read_);
 }
 
-const Leaf_neighbours& Particle_object::leaf_neighbours() {
-  if (!neighbours_) neighbours_.emplace(tree_.layout(), walked_corners(), vertex_faces_);
-  return *neighbours_;
+Leaf_neighbours& Particle_object::leaf_neighbours() {
+  neighbours_.look_at(tree_.layout(), walked_corners(), vertex_faces_);
+  return neighbours_;
 }
 
 void Particle_object::read_regions(double reach) {

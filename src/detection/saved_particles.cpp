@@ -161,6 +161,8 @@ void Particle_object::load(State_reader& state) {
   else
     find_edges();
   Region_steps steps(edges_.graph, saved.labels);
+  Leaf_neighbours neighbours;
+  if (saved.has_tree != 0) neighbours = Leaf_neighbours(saved.tree.layout(), corners().size());
   // From here on nothing can fail but for want of memory.
   steps_ = std::move(steps);
   labels_ = std::move(saved.labels);
@@ -172,7 +174,7 @@ void Particle_object::load(State_reader& state) {
   largest_area_ = saved.largest_area;
   rest_compass_ = saved.rest_compass;
   tree_ = std::move(saved.tree);
-  neighbours_.reset();
+  neighbours_ = std::move(neighbours);
   regions_ = std::move(saved.regions);
   if (homes_.empty())
     start_patches(saved.rings);

@@ -130,15 +130,20 @@ std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions
   return spheres;
 }
 
-std::size_t particle_count(std::span<const Sphere> object, std::span<const double> radii,
+Radius_range radius_range(std::span<const double> radii) {
+  const auto [smallest, largest] = std::ranges::minmax(radii);
+  return {.smallest = smallest, .largest = largest, .count = radii.size()};
+}
+
+std::size_t particle_count(std::span<const Sphere> object, const Radius_range& radii,
                            const Particle_count_options& options) {
   check(options);
-  const auto [smallest, largest] = std::ranges::minmax(radii);
-  const bool equal_sizes = largest <= smallest * (1 + options.equal_sizes);
+  const double smallest = radii.smallest;
+  const bool equal_sizes = radii.largest <= smallest * (1 + options.equal_sizes);
   const bool is_sphere = object.size() == 1 && object[0].roundness >= options.least_roundness;
   // An object without extent casts no shadow to compare with.
   if (smallest <= 0 || (equal_sizes && is_sphere))
-    return std::min(kissing_particle_count(radii.size()), options.most_particles);
+    return std::min(kissing_particle_count(radii.count), options.most_particles);
   std::size_t count = 0;
   for (const Sphere& sphere : object)
     if (sphere.radius > 0) count += shadow_particle_count(sphere.radius, smallest);

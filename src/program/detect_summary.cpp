@@ -56,6 +56,7 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
             {"face_pairs", summary.face_pairs}};
   if (tolerance_of(subject.command.options, pair) > 0) json["near_frames"] = summary.near_frames;
   if (summary.capped_frames > 0) json["capped_frames"] = summary.capped_frames;
+  if (summary.unfinished_frames > 0) json["unfinished_frames"] = summary.unfinished_frames;
   if (subject.command.options.exact.containment) json["contained_frames"] = summary.contained_frames;
   if (subject.command.options.exact.parting && pair.a != pair.b)
     json["longest_parting"] = summary.longest_parting ? Json(*summary.longest_parting) : Json();
@@ -158,10 +159,11 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
 void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   const bool many = subject.scene.objects.size() > 4;
   Text_table table(table_header(subject.command));
-  std::size_t capped = 0, rows = 0;
+  std::size_t capped = 0, unfinished = 0, rows = 0;
   const std::size_t row_limit = subject.command.all_rows ? summary.pairs.size() : most_rows;
   for (const auto& [pair, results] : summary.pairs) {
     capped += results.capped_frames;
+    unfinished += results.unfinished_frames;
     if (many && is_empty(results)) continue;
     if (++rows <= row_limit) table.add(table_row(subject, pair, results));
   }
@@ -169,6 +171,10 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   if (rows > row_limit) fmt::print("{} more pairs are omitted: --all-rows prints them.\n", rows - row_limit);
   if (many) fmt::print("Pairs of which nothing was found are omitted.\n");
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
+  if (unfinished > 0)
+    fmt::print(
+        "The budget of openings was used up {} times, and contacts can be missing: --opening-budget raises it.\n",
+        unfinished);
 }
 
 const char* building_of(const Run_subject& subject) {
@@ -211,6 +217,7 @@ void Pair_summary::add(std::size_t frame, const Pair_result& pair) {
   near_frames += pair.near ? 1 : 0;
   face_pairs += pair.contacts;
   capped_frames += pair.capped ? 1 : 0;
+  unfinished_frames += pair.unfinished ? 1 : 0;
   contained_frames += pair.containment != Containment::none ? 1 : 0;
   if (pair.parting) longest_parting = std::max(longest_parting.value_or(0), pair.parting->length);
   if (!pair.collides) return;

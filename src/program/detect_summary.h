@@ -35,6 +35,7 @@ struct Pair_summary {
   std::size_t near_frames = 0;                 ///< in which faces are nearer than the tolerance, or intersect
   std::size_t face_pairs = 0;                  ///< over all frames
   std::size_t capped_frames = 0;               ///< in which face pairs were dropped at the limit
+  std::size_t unfinished_frames = 0;           ///< in which the budget of openings ended the search
   std::size_t contained_frames = 0;            ///< in which one object is inside the other
   std::optional<double> longest_parting = {};  ///< of the translations that part the two
   std::optional<std::size_t> first_colliding = {}, last_colliding = {};  ///< frames

@@ -95,6 +95,7 @@ Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, con
   if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(objects, pair);
   if (options.exact.parting && pair.a != pair.b) json["parting"] = parting_json(pair.parting);
   if (pair.capped) json["capped"] = true;
+  if (pair.unfinished) json["unfinished"] = true;
   if (options.contacts != Contact_query::yes_no)
     add_contacts(json, contacts_in_files(a, b, frame, pair), frame, pair, options);
   return json;

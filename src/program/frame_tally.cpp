@@ -43,7 +43,8 @@ Json pair_json(const Pair_result& pair) {
           pair.contacts,
           pair.capped,
           static_cast<int>(pair.containment),
-          pair.parting ? Json(pair.parting->length) : Json()};
+          pair.parting ? Json(pair.parting->length) : Json(),
+          pair.unfinished};
 }
 
 Pair_result pair_of(const Json& json) {
@@ -53,6 +54,7 @@ Pair_result pair_of(const Json& json) {
   pair.capped = json.at(5);
   pair.containment = static_cast<Containment>(count_of(json.at(6), static_cast<std::uint64_t>(Containment::b_in_a)));
   if (!json.at(7).is_null()) pair.parting.emplace().length = json.at(7);
+  pair.unfinished = json.at(8);
   return pair;
 }
 

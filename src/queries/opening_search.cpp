@@ -9,6 +9,7 @@
 
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/triangles/triangle_intersection.h"
+#include "queries/leaf_distance.h"
 
 namespace lodestone {
 
@@ -19,28 +20,43 @@ constexpr std::size_t pairs_per_task = 32;
 /// So much of the budget openings have in any case: however long the curves are that were followed, new ones can be
 /// found.
 constexpr std::size_t least_share(std::size_t budget) { return budget / 2; }
+/// One contact is searched for by openings that read so small a share of both surfaces, before regions are read as a
+/// whole. To read vertices in order takes a small fraction of the time that openings take for as many. So the search
+/// takes little longer than either way alone.
+constexpr std::size_t first_share = 4, least_first = 256;
+/// Pairs of nodes that count as much as one vertex that is read: where anchors are known, as of the slivers of a long
+/// pipe, pairs take all the time.
+constexpr std::size_t pairs_per_vertex = 4;
+/// A leaf whose radius is so many times that of the other node is looked at face by face: the ball around a wall, or
+/// around the floor of a room, holds all that is in the room.
+constexpr double wide = 4;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 void Opening_search::Waiting::clear() {
-  for (auto& stack : stacks_) stack.clear();
-  filled_ = 0;
+  for (std::size_t beyond = 0; beyond < 2; ++beyond)
+    for (std::uint64_t& filled = filled_[beyond]; filled != 0; filled &= filled - 1)
+      stacks_[beyond][static_cast<std::size_t>(std::countr_zero(filled))].clear();
 }
 
-void Opening_search::Waiting::push(Node_pair nodes, float order) {
+void Opening_search::Waiting::push(Node_pair nodes, double order) {
+  constexpr double count = 64;
+  const bool beyond = order > 1;
   // Where squares overflow, or vanish, the order is no number.
-  const float part = order > 0 ? std::min(order, 1.0F) : 0, count = static_cast<float>(stacks_.size());
+  const double part = beyond ? 1 - 1 / order : order > 0 ? order : 0;
   const auto stack = static_cast<std::size_t>(std::min(part * count, count - 1));
-  stacks_[stack].push_back(nodes);
-  filled_ |= std::uint64_t{1} << stack;
+  stacks_[beyond][stack].push_back(nodes);
+  filled_[beyond] |= std::uint64_t{1} << stack;
 }
 
 Node_pair Opening_search::Waiting::pop() {
-  const auto first = static_cast<std::size_t>(std::countr_zero(filled_));
-  auto& stack = stacks_[first];
+  const bool beyond = filled_[0] == 0;
+  std::uint64_t& filled = filled_[beyond];
+  auto& stack = stacks_[beyond][static_cast<std::size_t>(std::countr_zero(filled))];
   const Node_pair nodes = stack.back();
   stack.pop_back();
-  if (stack.empty()) filled_ &= filled_ - 1;
+  if (stack.empty()) filled &= filled - 1;
   return nodes;
 }
 
@@ -48,10 +64,12 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
                            std::span<const Opening_start> starts) {
   a_ = &a, b_ = &b;
   request_ = request;
-  starts_.begin(a.layout(), b.layout(), starts, request.most_whole);
+  given_starts_.assign(starts.begin(), starts.end());
+  whole_ = request.all && may_read_whole();
   in_order_ = request.budget < a.vertex_count() + b.vertex_count();
   begun_ = 0;
-  read_before_ = vertices_read();
+  considered_ = 0;
+  spent_before_ = spent();
   out_of_budget_ = false;
   leaf_tests_ = exact_tests_ = 0;
   compared_.clear();
@@ -60,17 +78,29 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
 
 bool Opening_search::open(std::vector<Face_pair>& found, Workers& workers) {
   const std::size_t before = found.size();
-  waiting_.clear();
-  if (starts_.are_whole()) {
-    pose_starts();
-    for (const auto& start : starts_.pairs()) push_if_near(start.nodes);
-  } else {
-    limit_ = in_order_ ? std::max(read_before_ + request_.budget, vertices_read() + least_share(request_.budget))
-                       : std::numeric_limits<std::size_t>::max();
-    for (const auto& start : starts_.pairs()) waiting_.push(start.nodes, in_order_ ? start.order : 0);
-  }
+  whole_ ? begin_whole() : begin_openings();
   request_.all ? open_for_all(found, workers) : open_for_one(found);
   return found.size() > before;
+}
+
+/// Whether there are few enough vertices below the starts. Prepares that they are read.
+bool Opening_search::may_read_whole() {
+  starts_.begin(a_->layout(), b_->layout(), given_starts_, request_.most_whole);
+  return starts_.are_whole();
+}
+
+void Opening_search::begin_openings() {
+  waiting_.clear();
+  limit_ = in_order_ ? std::max(spent_before_ + request_.budget, spent() + least_share(request_.budget))
+                     : std::numeric_limits<std::size_t>::max();
+  const double unit = request_.reach * request_.reach;
+  for (const auto& start : given_starts_) waiting_.push(start.nodes, in_order_ ? unit * start.order : 0);
+}
+
+void Opening_search::begin_whole() {
+  waiting_.clear();
+  pose_starts();
+  for (const auto& start : starts_.pairs()) push_if_near(start.nodes);
 }
 
 void Opening_search::pose_starts() {
@@ -80,7 +110,23 @@ void Opening_search::pose_starts() {
   }
 }
 
+/// By openings; if these take long, by reading the regions as a whole; if that is too much, by openings until the
+/// budget is used up.
 void Opening_search::open_for_one(std::vector<Face_pair>& found) {
+  const std::size_t share = (a_->vertex_count() + b_->vertex_count()) / first_share, most = limit_;
+  limit_ = std::min(limit_, spent() + std::max(share, least_first));
+  if (find_one(found) || !out_of_budget_) return;
+  limit_ = most;
+  if (request_.most_whole > 0 && may_read_whole()) {
+    whole_ = true;
+    out_of_budget_ = false;
+    begin_whole();
+  }
+  find_one(found);
+}
+
+/// @return whether a contact was found below the pairs of nodes that wait
+bool Opening_search::find_one(std::vector<Face_pair>& found) {
   tested_.resize(std::max<std::size_t>(tested_.size(), 1));
   Tested& tested = tested_.front();
   tested.found.clear();
@@ -93,6 +139,7 @@ void Opening_search::open_for_one(std::vector<Face_pair>& found) {
     exact_tests_ += tested.exact_tests;
   }
   found.insert(found.end(), tested.found.begin(), tested.found.end());
+  return !tested.found.empty();
 }
 
 /// Lists leaf pairs, then tests them. So leaves are read one after the other, and then each is prepared once.
@@ -105,7 +152,7 @@ void Opening_search::open_for_all(std::vector<Face_pair>& found, Workers& worker
   test_listed(found, workers);
 }
 
-void Opening_search::follow(const Leaf_neighbours& a, const Leaf_neighbours& b, std::span<const Leaf_pair> compared,
+void Opening_search::follow(Leaf_neighbours& a, Leaf_neighbours& b, std::span<const Leaf_pair> compared,
                             std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers) {
   compared_.assign(compared.begin(), compared.end());
   std::size_t followed = found.size();
@@ -126,7 +173,7 @@ void Opening_search::follow(const Leaf_neighbours& a, const Leaf_neighbours& b, 
 }
 
 /// Lists the leaf pairs beside a contact.
-void Opening_search::follow_contact(const Leaf_neighbours& a, const Leaf_neighbours& b, Face_pair contact) {
+void Opening_search::follow_contact(Leaf_neighbours& a, Leaf_neighbours& b, Face_pair contact) {
   const auto list = [this](Leaf_pair leaves) {
     if (!was_opened(leaves)) beside_.push_back(leaves);
   };
@@ -155,6 +202,10 @@ void Opening_search::note_compared(const std::vector<Leaf_pair>& leaves) {
   merged_.clear();
   std::merge(compared_.begin(), compared_.end(), leaves.begin(), leaves.end(), std::back_inserter(merged_));
   compared_.swap(merged_);
+}
+
+std::size_t Opening_search::spent() const {
+  return a_->vertices_read() + b_->vertices_read() + considered_ / pairs_per_vertex;
 }
 
 /// The next pair of leaves whose boxes meet, below nodes that have been posed.
@@ -190,7 +241,7 @@ bool Opening_search::next_by_anchors(Leaf_pair& leaves) {
   const Tree_layout &a = a_->layout(), &b = b_->layout();
   out_of_budget_ = false;
   while (!waiting_.empty()) {
-    if (vertices_read() >= limit_) {
+    if (spent() >= limit_) {
       out_of_budget_ = true;
       return false;
     }
@@ -207,10 +258,31 @@ bool Opening_search::next_by_anchors(Leaf_pair& leaves) {
 
 /// Puts a pair of nodes on the list unless they are taken to be apart.
 void Opening_search::consider(Node_pair pair) {
+  ++considered_;
+  const double radius_a = a_->radius(pair.a), radius_b = b_->radius(pair.b);
   const double squared = (a_->anchor(pair.a) - b_->anchor(pair.b)).squaredNorm();
-  const double radii = request_.reach * (a_->radius(pair.a) + b_->radius(pair.b));
-  if (squared > radii * radii) return;
-  waiting_.push(pair, in_order_ && radii > 0 ? static_cast<float>(squared / (radii * radii)) : 0);
+  const double radii = radius_a + radius_b, far = request_.reach * radii;
+  if (squared > far * far) return;
+  double order = squared / (radii * radii);
+  if (radius_a > wide * radius_b && a_->layout().is_leaf(pair.a))
+    order = order_beside(*a_, pair.a, *b_, pair.b);
+  else if (radius_b > wide * radius_a && b_->layout().is_leaf(pair.b))
+    order = order_beside(*b_, pair.b, *a_, pair.a);
+  if (order == infinity) return;
+  waiting_.push(pair, in_order_ ? order : 0);
+}
+
+/// The order of a wide leaf and another node: how far the anchor of that is from the faces of the leaf.
+/// @return infinity if they are taken to be apart
+double Opening_search::order_beside(Tree_on_demand& tree, std::uint32_t leaf, Tree_on_demand& other,
+                                    std::uint32_t node) {
+  const double radius = other.radius(node);
+  const std::uint32_t index = tree.layout().node(leaf).leaf;
+  const Aabb& box = tree.pose(index);
+  if (is_apart(box, other, node)) return infinity;
+  if (!(radius > 0)) return 0;
+  const double reach = request_.reach;
+  return reach * reach * relative_squared_distance(tree.view().leaf(index), box, other.anchor(node), reach * radius);
 }
 
 /// Opens the node with the larger radius, since that separates most.

@@ -124,10 +124,24 @@ void Region_anchors::note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& m
   tree.note_distance(std::sqrt(squares), std::sqrt(rest_squares));
 }
 
+/// A surface of one leaf has one anchor, which tells nothing. To read all of it takes no longer than to read the
+/// anchors of a larger one.
+void Region_anchors::note_farthest(Tree_on_demand& tree) {
+  tree.pose(0);
+  const Leaf_faces leaf = tree.view().leaf(0);
+  double farthest = 0;
+  for (std::size_t i = 0; i < leaf.vertices.size(); ++i)
+    farthest = std::max(farthest, (Eigen::Map<const Eigen::Vector3d>(leaf.position(i)) - tree.anchor(0)).squaredNorm());
+  tree.note_distance(std::sqrt(farthest), tree.radius(0));
+}
+
 void Region_anchors::read(Tree_on_demand& tree, double reach) {
   constexpr double rounding = 1 + 1e-9;  // of what touches where the sphere ends
   middle_ = mean(tree);
-  note_stretch(tree, middle_);
+  if (tree.layout().leaf_count() == 1)
+    note_farthest(tree);
+  else
+    note_stretch(tree, middle_);
   sphere_radius_ = rounding * reach * tree.stretch() * rest_radius_;
   box_.setEmpty();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {

@@ -230,6 +230,27 @@ TEST(Meeting_recall, objects_that_are_placed_are_found_where_they_are) {
   EXPECT_GT(contacts, 100U);
 }
 
+TEST(Meeting_recall, a_single_face_is_found_however_far_it_is_stretched) {
+  const auto one_face = [](const Triangle& t) {
+    Surface_mesh mesh;
+    mesh.add_face(mesh.add_vertex(t[0]), mesh.add_vertex(t[1]), mesh.add_vertex(t[2]));
+    return mesh;
+  };
+  auto needle = one_face({Point(0, 0, 0), Point(0, 0.1, 0), Point(0.5, 0, 0.5)});
+  auto wall = one_face({Point(1, -5, -5), Point(1, 5, -5), Point(1, 0, 5)});
+  Detector<> detector({.mode = Mode::particles});
+  detector.add(needle);
+  detector.add(wall);
+  std::size_t colliding = 0;
+  for (const double length : {0.5, 0.7, 0.9, 1.05, 1.5, 4.0}) {
+    needle.point(Surface_mesh::Vertex_index(2)) = Point(length, 0, 0.5);
+    const auto truth = exhaustive_face_pairs(needle, wall);
+    EXPECT_EQ(detector.detect().face_pairs, truth) << length;
+    colliding += truth.empty() ? 0 : 1;
+  }
+  EXPECT_GE(colliding, 2U);
+}
+
 TEST(Meeting_recall, pairs_that_part_and_meet_again_elsewhere_are_found_among_many_objects) {
   for (const auto query : {Contact_query::yes_no, Contact_query::all}) {
     std::mt19937_64 random(5);

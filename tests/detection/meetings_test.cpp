@@ -172,6 +172,36 @@ TEST(Meetings, happen_only_where_the_budget_has_ended_the_openings) {
   }
 }
 
+TEST(Meetings, a_frame_tells_where_the_budget_has_ended_the_search) {
+  auto scene = two_spheres(1.9);
+  scene.push_back(sphere(4));
+  shift(scene[2], 50);
+  for (const auto query : {Contact_query::yes_no, Contact_query::first, Contact_query::all})
+    for (const std::size_t budget : {std::size_t{1}, Detector_options{}.opening_budget})
+      for (const bool apart : {false, true}) {
+        auto options = by_meetings(query);
+        options.opening_budget = budget;
+        Detector<> detector(options);
+        auto meshes = scene;
+        if (apart) shift(meshes[1], 0.12);  // near, but not touching
+        add_all(detector, meshes);
+        const Frame& frame = detector.detect();
+        const bool has_more_to_find = query == Contact_query::all || !frame.collides();
+        EXPECT_EQ(frame.collides(), !apart);
+        EXPECT_EQ(frame.unfinished(), budget == 1 && has_more_to_find);
+        for (const auto& pair : frame.pairs) EXPECT_EQ(pair.unfinished, frame.unfinished() && pair.b == 1);
+      }
+}
+
+TEST(Meetings, may_be_as_many_as_there_are_numbers) {
+  auto scene = two_spheres(1.9);
+  auto options = by_meetings();
+  options.meetings = std::numeric_limits<std::size_t>::max();
+  Detector<> detector(options);
+  add_all(detector, scene);
+  for (int again = 0; again < 2; ++again) EXPECT_EQ(expect_exhaustive(detector.detect(), {&scene[0], &scene[1]}), 1U);
+}
+
 TEST(Meetings, with_a_small_budget_all_contacts_are_those_of_the_whole_curve) {
   for (const std::size_t budget : {1, 50, 200, 1000}) {
     auto scene = two_spheres(1.9);

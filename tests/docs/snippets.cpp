@@ -334,7 +334,7 @@ TEST_F(Snippets, of_vertices_that_a_file_has_once) {
 
 TEST_F(Snippets, of_the_partition_stage) {
   using Mesh = lodestone::Surface_mesh;
-  auto regions = mesh.add_property_map<Mesh::Vertex_index, lodestone::Region_index>("v:region").first;
+  auto regions = mesh.add_property_map<Mesh::Vertex_index, lodestone::Region_index>("v:part").first;
   const auto partition = lodestone::lbg(mesh, 32, regions, {.features = {.normal_weight = 0.5}});
   EXPECT_GT(partition.regions, 1U);
 

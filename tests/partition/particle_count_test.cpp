@@ -88,7 +88,7 @@ TEST(Sphere_collection, two_distant_spheres_in_one_mesh_are_two_parts) {
   EXPECT_NEAR(spheres[1].radius, 3, 1e-9);
   EXPECT_TRUE(spheres[1].centre.isApprox(Eigen::Vector3d(20, 0, 0), 1e-9));
   // Their counts add up: 14 for the one of the smallest size, 62 for the other.
-  EXPECT_EQ(particle_count(spheres, Sizes{1, 13}), 14U + 62U);
+  EXPECT_EQ(particle_count(spheres, radius_range(Sizes{1, 13})), 14U + 62U);
 }
 
 TEST(Sphere_collection, creases_split_a_box_into_its_six_sides) {
@@ -122,28 +122,29 @@ TEST(Sphere_collection, a_surface_without_extent_gives_a_sphere) {
 
 TEST(Particle_count, objects_of_one_size_get_the_kissing_number_or_their_number) {
   const std::vector<Sphere> one{{.radius = 1}};
-  EXPECT_EQ(particle_count(one, Sizes(20, 1.0)), 12U);
-  EXPECT_EQ(particle_count(one, Sizes(5, 1.0)), 5U);
-  EXPECT_EQ(particle_count(one, Sizes{1, 1.04, 1.02}), 3U);  // within equal_sizes
+  EXPECT_EQ(particle_count(one, radius_range(Sizes(20, 1.0))), 12U);
+  EXPECT_EQ(particle_count(one, radius_range(Sizes(5, 1.0))), 5U);
+  EXPECT_EQ(particle_count(one, radius_range(Sizes{1, 1.04, 1.02})), 3U);  // within equal_sizes
 }
 
 TEST(Particle_count, objects_of_different_sizes_are_counted_against_the_smallest) {
-  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 3}}, Sizes{3, 1}), 62U);
-  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1}}, Sizes{3, 1}), 14U);
-  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 3}, {.radius = 1}}, Sizes{5, 3, 1}), 76U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 3}}, radius_range(Sizes{3, 1})), 62U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1}}, radius_range(Sizes{3, 1})), 14U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 3}, {.radius = 1}}, radius_range(Sizes{5, 3, 1})), 76U);
 }
 
 TEST(Particle_count, stays_within_its_limits_for_any_sizes) {
-  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1000}}, Sizes{1000, 1}), 256U);
-  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1e200}}, Sizes{1e200, 1e-200}), 256U);
-  EXPECT_EQ(particle_count(std::vector<Sphere>(8, {.radius = 1e300}), Sizes{1e300, 1e-300}), 256U);
-  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1}}, Sizes(20, 1.0), {.most_particles = 5}), 5U);
-  EXPECT_GE(particle_count(std::vector<Sphere>{{.radius = 0}}, Sizes{0, 1}), 1U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1000}}, radius_range(Sizes{1000, 1})), 256U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1e200}}, radius_range(Sizes{1e200, 1e-200})), 256U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>(8, {.radius = 1e300}), radius_range(Sizes{1e300, 1e-300})), 256U);
+  EXPECT_EQ(particle_count(std::vector<Sphere>{{.radius = 1}}, radius_range(Sizes(20, 1.0)), {.most_particles = 5}),
+            5U);
+  EXPECT_GE(particle_count(std::vector<Sphere>{{.radius = 0}}, radius_range(Sizes{0, 1})), 1U);
 }
 
 TEST(Particle_count, options_out_of_range_are_refused) {
   const std::vector<Sphere> one{{.radius = 1}};
-  const Sizes sizes{1, 2};
+  const Radius_range sizes = radius_range(std::vector<double>{1, 2});
   EXPECT_THROW(particle_count(one, sizes, {.most_particles = 0}), Bad_argument);
   EXPECT_THROW(particle_count(one, sizes, {.equal_sizes = -1}), Bad_argument);
   EXPECT_THROW(spheres_of(cube(2), {.crease_degrees = 0}), Bad_argument);

@@ -17,11 +17,17 @@ bool share_an_edge(const Corners& f, const Corners& g) {
   return std::ranges::count_if(f, [&](auto corner) { return std::ranges::find(g, corner) != g.end(); }) >= 2;
 }
 
+Leaf_neighbours neighbours_in(const Tree_layout& layout, const Owned_surface& surface) {
+  Leaf_neighbours neighbours(layout, surface.soup().faces.size());
+  neighbours.look_at(layout, surface.walked(), *surface.view().vertex_faces);
+  return neighbours;
+}
+
 /// Compares with all faces. The edges are those that particles walk along.
 void expect_neighbours(const Owned_surface& surface, std::size_t leaf_faces) {
   const auto& soup = surface.soup();
   const Tree_layout layout(soup.faces, octants(soup), soup.coordinates, {.leaf_faces = leaf_faces});
-  const Leaf_neighbours neighbours(layout, surface.walked(), *surface.view().vertex_faces);
+  Leaf_neighbours neighbours = neighbours_in(layout, surface);
   std::vector<std::uint32_t> leaf_of(soup.faces.size());
   for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf)
     for (const auto face : layout.faces(leaf)) leaf_of[face] = leaf;
@@ -76,7 +82,7 @@ TEST(Leaf_neighbours, of_an_edge_with_very_many_leaves_are_some_in_a_ring) {
   const auto& soup = surface.soup();
   const std::vector<Region_index> labels(soup.vertex_count());
   const Tree_layout layout(soup.faces, labels, soup.coordinates, {.leaf_faces = 4});
-  const Leaf_neighbours neighbours(layout, surface.walked(), *surface.view().vertex_faces);
+  Leaf_neighbours neighbours = neighbours_in(layout, surface);
   std::map<std::uint32_t, std::set<std::uint32_t>> beside_leaf;
   for (std::uint32_t page = 0; page < pages; ++page) {
     const std::uint32_t bound = page * 2 * strips;  // the face at the edge

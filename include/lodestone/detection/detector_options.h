@@ -72,11 +72,12 @@ struct Detector_options {
   /// there. Also, regions are opened. 0: the published method, whose particles stay in their regions, and which checks
   /// whole regions.
   std::size_t meetings = 4;
-  /// With meetings: vertices that openings may read per object pair below the regions in a frame. What was begun is
-  /// finished, so it can be some hundred more; two surfaces that have fewer are searched to the end. For all contacts
-  /// regions that may touch are read as a whole if they have no more than four times this. Curves, for all contacts,
-  /// are followed without limit; those of the last frame are followed first, and leave at least half of this. 0:
-  /// regions are not opened.
+  /// With meetings: vertices that openings may read per object pair below the regions in a frame; four pairs of nodes
+  /// that are compared count as one. What was begun is finished, so it can be some hundred more; two surfaces that have
+  /// fewer are searched to the end. Regions that may touch are read as a whole if they have no more than four times
+  /// this: for all contacts at once, for one contact after openings have read a quarter of both surfaces. Curves, for
+  /// all contacts, are followed without limit; those of the last frame are followed first, and leave at least half of
+  /// this. Where it ends a search, `Pair_result::unfinished` says so. 0: regions are not opened.
   std::size_t opening_budget = 16384;
   /// With meetings: two parts of surfaces are taken to be apart if the distance of their anchors is more than so many
   /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed, with

@@ -75,6 +75,8 @@ struct Pair_result {
   std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
   std::size_t contacts = 0;       ///< number of its face pairs in `Frame::face_pairs`
   bool capped = false;            ///< there are more face pairs than `Detector_options::most_contacts`
+  bool unfinished = false;        ///< mode particles, with meetings: the budget of openings ended the search before it
+                                  ///< had found what was asked for, so contacts can be missing
   Containment containment = Containment::none;  ///< which object lies inside the other; none unless asked for
   std::optional<Parting> parting = {};          ///< `a` is moved; none unless asked for and needed
   std::size_t first_patch = 0;                  ///< place of the pair's contact patches in `Frame::patches`
@@ -139,6 +141,12 @@ struct Frame {
   bool capped() const {
     for (const auto& pair : pairs)
       if (pair.capped) return true;
+    return false;
+  }
+  /// Whether the budget of openings ended the search of a pair: see `Pair_result::unfinished`.
+  bool unfinished() const {
+    for (const auto& pair : pairs)
+      if (pair.unfinished) return true;
     return false;
   }
 };

@@ -84,7 +84,8 @@ class Meeting_search {
   bool wants_all() const { return options_.contacts == Contact_query::all; }
   void revisit(Met_pair& pair);
   bool still_meet(const Met_pair& pair, Face_pair contact);
-  void meet_from(Met_pair& pair, Meeting start);
+  std::size_t meet_from(Met_pair& pair, Meeting start, std::size_t most_hops);
+  static std::size_t hop_limit(const Met_pair& pair);
   void list_regions(Met_pair& pair);
   void open(Met_pair& pair, Workers& workers);
   std::size_t most_whole() const;

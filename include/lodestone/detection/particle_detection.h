@@ -96,7 +96,8 @@ class Particle_detection final : public Detection {
   void start(Object& object, const Positions& positions, std::size_t particles, Numbered_partition division,
              Workers& workers);
   bool has_outgrown(Particle_object& object);
-  std::size_t particles_of(const Object& object, const Positions& positions) const;
+  Radius_range radii() const;
+  std::size_t particles_of(const Object& object, const Positions& positions, const Radius_range& radii) const;
   void write_maps(Object& object);
   void make_room();
   bool meets() const { return options_.mode == Mode::particles && options_.meetings > 0; }

@@ -89,9 +89,8 @@ class Particle_object {
   Walked_surface walked_surface() const { return {&edges_.graph, &vertex_faces_, walked_corners(), corners(), &read_}; }
   /// The tree below the regions, after `prepare_meetings`.
   Tree_on_demand& tree() { return tree_; }
-  /// The leaves beside each face, for contacts that are followed, after `prepare_meetings`. The first call takes
-  /// O(V + F).
-  const Leaf_neighbours& leaf_neighbours();
+  /// The leaves beside each face, for contacts that are followed, after `prepare_meetings`.
+  Leaf_neighbours& leaf_neighbours();
 
   /// Moves the particle of a vertex's region to that vertex.
   /// @return whether it was elsewhere
@@ -182,7 +181,7 @@ class Particle_object {
 
   // Only for meetings.
   Tree_on_demand tree_;
-  std::optional<Leaf_neighbours> neighbours_;  ///< none: not needed so far
+  Leaf_neighbours neighbours_;
   Region_anchors regions_;
 
   std::vector<std::uint32_t> patch_centres_;  ///< only for scattered particles: the vertex each patch lies around

@@ -69,13 +69,23 @@ std::vector<Sphere> sphere_collection(const Mesh& mesh, const Particle_count_opt
                            read_positions(numbering, vertex_points(mesh, np)), numbering.corners(), options);
 }
 
+/// The bounding radii of the objects of a scene, as far as the particle count depends on them.
+struct Radius_range {
+  double smallest = 0;
+  double largest = 0;
+  std::size_t count = 0;  ///< objects
+};
+
+/// @param radii  one per object, not empty
+Radius_range radius_range(std::span<const double> radii);
+
 /// Particles for one object of a scene: `kissing_particle_count` for a sphere among objects of its own size; for any
 /// other object the sum of `shadow_particle_count` over its spheres, against the smallest object of the scene.
 ///
 /// @param object   spheres of the object
-/// @param radii    bounding radius of every object of the scene
+/// @param radii    of all objects of the scene
 /// @return at least 1, at most `most_particles`
-std::size_t particle_count(std::span<const Sphere> object, std::span<const double> radii,
+std::size_t particle_count(std::span<const Sphere> object, const Radius_range& radii,
                            const Particle_count_options& options = {});
 
 }  // namespace lodestone

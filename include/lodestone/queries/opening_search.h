@@ -23,7 +23,8 @@ struct Opening_request {
   double reach = 1;  ///< c, the dial between guess and proof: two nodes are taken to be apart if their anchors are
                      ///< farther apart than c (rho_a + rho_b)
   std::size_t budget = 0;      ///< how many vertices of both trees together openings may read, less those that `follow`
-                               ///< has read before; but at least half of it. `follow` has no limit.
+                               ///< has read before; but at least half of it. Four pairs of nodes that are compared
+                               ///< count as one. `follow` has no limit.
   std::size_t most_whole = 0;  ///< vertices of both trees below the starts up to which they are read as a whole
   bool opened = false;         ///< for `follow` alone: a search for all, with equal requests but for this, has opened
                                ///< the same starts in this frame
@@ -32,9 +33,11 @@ struct Opening_request {
 /// Searches two surfaces for contacts below pairs of nodes, in one of two ways. If the leaves below these nodes have no
 /// more vertices than `most_whole`, they are read as a whole, and the boxes of nodes tell which leaves may meet.
 /// Otherwise pairs of nodes are opened from coarse to fine, in the order of how near their anchors are, relative to
-/// their radii, to within a 64th, until the budget is used up. Two surfaces that the budget covers are searched to the
-/// end, in the order that is fastest. Openings read one vertex per node that they look at, and the vertices of the
-/// leaves that they compare. In both ways the faces of leaves are tested exactly.
+/// their radii, to within a 64th, until the budget is used up. Beside a much larger leaf, such as a wall, it is the
+/// distance from its faces that counts. Two surfaces that the budget covers are searched to the end, in the order that
+/// is fastest. Openings read one vertex per node that they look at, and the vertices of the leaves that they compare.
+/// In both ways the faces of leaves are tested exactly. One contact is searched for by openings first, which may find
+/// it soon; once these have read a quarter of both surfaces, as a whole if it may be.
 ///
 /// What is found is true. Below nodes that are read as a whole nothing is missed. Otherwise contacts are missed once
 /// the budget is used up, where a surface is stretched beyond its radii, and with c below 1.
@@ -63,11 +66,11 @@ class Opening_search {
   ///                  others, whose leaves are compared; not `found` itself
   /// @param found     all contacts of the curves, and of the leaves on them, are appended, each once
   /// @throws Bad_mesh  a coordinate that is read is not finite
-  void follow(const Leaf_neighbours& a, const Leaf_neighbours& b, std::span<const Leaf_pair> compared,
+  void follow(Leaf_neighbours& a, Leaf_neighbours& b, std::span<const Leaf_pair> compared,
               std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers = Workers::alone());
 
   /// Whether the budget may end the search: nodes are opened, and the two surfaces have more vertices.
-  bool is_limited() const { return !starts_.are_whole() && in_order_; }
+  bool is_limited() const { return !whole_ && in_order_; }
   /// Whether the last `open` ended because its budget was used up.
   bool out_of_budget() const { return out_of_budget_; }
   /// Leaf pairs that need not be compared again: those given to `follow`, those that it has looked at, and those that
@@ -79,18 +82,21 @@ class Opening_search {
   std::size_t exact_tests() const { return exact_tests_; }
 
  private:
-  /// Pairs of nodes that wait to be opened, in stacks of nearly one order each.
+  /// Pairs of nodes that wait to be opened, in stacks of nearly one order each. The order is the squared distance of
+  /// two nodes relative to their radii: 0 .. 1 where these reach each other, more where only a larger reach does.
   class Waiting {
    public:
     void clear();
-    bool empty() const { return filled_ == 0; }
-    void push(Node_pair nodes, float order);
+    bool empty() const { return (filled_[0] | filled_[1]) == 0; }
+    void push(Node_pair nodes, double order);
     /// Takes a pair of the lowest order: of several the one that was pushed last.
     Node_pair pop();
 
    private:
-    std::array<std::vector<Node_pair>, 64> stacks_;
-    std::uint64_t filled_ = 0;  ///< a bit per stack
+    using Stacks = std::array<std::vector<Node_pair>, 64>;
+
+    std::array<Stacks, 2> stacks_;              ///< of orders up to 1, and of those beyond
+    std::array<std::uint64_t, 2> filled_ = {};  ///< a bit per stack
   };
   /// What the tests of some leaf pairs have found.
   struct Tested {
@@ -98,34 +104,43 @@ class Opening_search {
     std::size_t exact_tests = 0;
   };
 
+  bool may_read_whole();
+  void begin_openings();
+  void begin_whole();
   void pose_starts();
   bool was_opened(Leaf_pair leaves) const { return request_.opened && starts_.cover(leaves); }
-  bool next(Leaf_pair& leaves) { return starts_.are_whole() ? next_by_boxes(leaves) : next_by_anchors(leaves); }
+  bool next(Leaf_pair& leaves) { return whole_ ? next_by_boxes(leaves) : next_by_anchors(leaves); }
   bool next_by_anchors(Leaf_pair& leaves);
   bool next_by_boxes(Leaf_pair& leaves);
   bool near_leaves(Leaf_pair leaves);
   bool is_apart(const Aabb& box, Tree_on_demand& tree, std::uint32_t node) const;
   void consider(Node_pair pair);
+  double order_beside(Tree_on_demand& tree, std::uint32_t leaf, Tree_on_demand& other, std::uint32_t node);
   void consider_children(Node_pair pair);
   void push_if_near(Node_pair pair);
   void open_for_one(std::vector<Face_pair>& found);
+  bool find_one(std::vector<Face_pair>& found);
   void open_for_all(std::vector<Face_pair>& found, Workers& workers);
-  void follow_contact(const Leaf_neighbours& a, const Leaf_neighbours& b, Face_pair contact);
+  void follow_contact(Leaf_neighbours& a, Leaf_neighbours& b, Face_pair contact);
   void compare_beside(std::vector<Face_pair>& found, Workers& workers);
   void note_compared(const std::vector<Leaf_pair>& leaves);
   void begin_filters(std::size_t count);
   void test(Leaf_pair leaves, Face_filter& filter, Tested& tested) const;
   void test_listed(std::vector<Face_pair>& found, Workers& workers);
-  std::size_t vertices_read() const { return a_->vertices_read() + b_->vertices_read(); }
+  /// What openings have cost, in vertices of both trees that were read.
+  std::size_t spent() const;
 
   Tree_on_demand* a_ = nullptr;
   Tree_on_demand* b_ = nullptr;
   Opening_request request_;
-  Opening_starts starts_;
+  std::vector<Opening_start> given_starts_;
+  Opening_starts starts_;  ///< the same, once it is known whether they may be read as a whole
+  bool whole_ = false;     ///< they are read as a whole
   bool in_order_ = false;
   Waiting waiting_;
-  std::size_t read_before_ = 0;         ///< vertices that had been read by `begin`
-  std::size_t limit_ = 0;               ///< of the vertices read
+  std::size_t considered_ = 0;          ///< pairs of nodes whose anchors were compared
+  std::size_t spent_before_ = 0;        ///< by `begin`
+  std::size_t limit_ = 0;               ///< of what is spent
   std::vector<Leaf_pair> listed_;       ///< to be tested
   std::vector<Tested> tested_;          ///< per task, then memory of earlier searches
   std::vector<Leaf_pair> compared_;     ///< sorted

@@ -65,6 +65,7 @@ class Region_anchors {
   void check_apart(const Tree_layout& layout, std::size_t regions) const;
   void make_room();
   Eigen::Vector3d mean(Tree_on_demand& tree) const;
+  static void note_farthest(Tree_on_demand& tree);
   void note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;
   std::vector<std::uint32_t> probes(const Tree_layout& layout, Coordinates rest) const;
   bool may_touch(std::uint32_t place, const Box& box) const;
