@@ -391,16 +391,21 @@ class Detector {
   template <class Watch>
   Object_id add_watched(const void* mesh, const Watch& watch, const Object_options& options) {
     if (meshes_.size() == meshes_.capacity()) meshes_.reserve(2 * meshes_.size() + 1);
-    std::size_t& objects = objects_of_[mesh];
     filter_.add(options);
-    try {
-      detection_->add(watch, options);
-    } catch (...) {
-      filter_.take_back();
-      throw;
-    }
+    const auto entry = [&] {
+      try {
+        const auto added = objects_of_.try_emplace(mesh, 0).first;
+        detection_->add(watch, options);
+        return added;
+      } catch (...) {
+        if (const auto left = objects_of_.find(mesh); left != objects_of_.end() && left->second == 0)
+          objects_of_.erase(left);
+        filter_.take_back();
+        throw;
+      }
+    }();
     meshes_.push_back(mesh);
-    ++objects;
+    ++entry->second;
     return static_cast<Object_id>(meshes_.size() - 1);
   }
 

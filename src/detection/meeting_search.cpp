@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace lodestone {
 
@@ -18,6 +19,7 @@ constexpr std::size_t most_hops_back = 64;
 
 void Meeting_search::start_frame() {
   memory_.start_frame();
+  curves_.start_frame();
   rings_.reset_counts();
   counts_ = {};
   near_regions_.clear();
@@ -80,7 +82,7 @@ void Meeting_search::list_regions(Met_pair& pair) {
 void Meeting_search::open(Met_pair& pair, Workers& workers) {
   begin_openings(pair, false);
   pair.first_opened = opened_.size();
-  if (wants_all() && openings_.is_limited() && pair.seed_count > 0) follow_seeds(pair, workers);
+  if (wants_all() && openings_.is_limited()) follow_known_curves(pair, workers);
   openings_.open(opened_, workers);
   pair.opened_count = opened_.size() - pair.first_opened;
   pair.out_of_budget = openings_.out_of_budget();
@@ -111,10 +113,14 @@ void Meeting_search::begin_openings(const Met_pair& pair, bool opened) {
   openings_.begin(pair.a->tree(), pair.b->tree(), request, starts_);
 }
 
-/// The curves of the last frame come first: it is known where they are, so the budget goes farther.
-void Meeting_search::follow_seeds(const Met_pair& pair, Workers& workers) {
+/// The curves of the last frame come first: it is known where they are, so the budget goes farther. A pair of leaves
+/// that had a contact in the last frame mostly has one in this frame.
+void Meeting_search::follow_known_curves(const Met_pair& pair, Workers& workers) {
   contacts_.clear();
   for (const auto& seed : seeds(pair)) contacts_.push_back(seed.contact);
+  const auto known = curves_.recall(pair.ids);
+  contacts_.insert(contacts_.end(), known.begin(), known.end());
+  if (contacts_.empty()) return;
   openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(), {}, contacts_, opened_, workers);
 }
 
@@ -159,6 +165,7 @@ void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found,
     const std::size_t first = found.size();
     follow_curves(pair, found, workers);
     remember_some(pair, std::span(found).subspan(first));
+    if (openings_.is_limited()) remember_curves(pair, std::span(found).subspan(first));
   } else {
     found.push_back(seeds(pair).front().contact);
     remember_one(pair);
@@ -169,6 +176,17 @@ void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found,
 void Meeting_search::remember_some(const Met_pair& pair, std::span<const Face_pair> contacts) {
   const std::size_t step = contacts.size() / options_.meetings + (contacts.size() % options_.meetings > 0 ? 1 : 0);
   for (std::size_t i = 0; i < contacts.size(); i += step) memory_.keep(pair.ids, met_at(pair, contacts[i]));
+}
+
+/// Remembers a contact in each pair of leaves that has any. Those of one pair mostly follow each other in the list.
+void Meeting_search::remember_curves(const Met_pair& pair, std::span<const Face_pair> contacts) {
+  const Leaf_neighbours &a = pair.a->leaf_neighbours(), &b = pair.b->leaf_neighbours();
+  std::optional<Leaf_pair> last;
+  for (const Face_pair contact : contacts)
+    if (const Leaf_pair leaves{a.leaf_of(contact.a), b.leaf_of(contact.b)}; leaves != last) {
+      curves_.keep(pair.ids, contact);
+      last = leaves;
+    }
 }
 
 /// Reports the curves on which the seeds lie.

@@ -188,7 +188,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   app.add_option(
          "--opening-budget", options.opening_budget,
          "Mode particles, with meetings: number of vertices that openings may read per object pair in a frame to "
-         "look below the regions")
+         "look below the regions; regions with up to four times as many are read as a whole")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000'000'000}).description("0 or more"))
       ->capture_default_str();
   app.add_option("--opening-reach", options.opening_reach,

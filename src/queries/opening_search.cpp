@@ -5,6 +5,7 @@
 #include <bit>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "lodestone/queries/leaf_triangle.h"
@@ -20,17 +21,16 @@ constexpr std::size_t pairs_per_task = 32;
 /// So much of the budget openings have in any case: however long the curves are that were followed, new ones can be
 /// found.
 constexpr std::size_t least_share(std::size_t budget) { return budget / 2; }
-/// One contact is searched for by openings that read so small a share of both surfaces, before regions are read as a
-/// whole. To read vertices in order takes a small fraction of the time that openings take for as many. So the search
-/// takes little longer than either way alone.
-constexpr std::size_t first_share = 4, least_first = 256;
+/// One contact is searched for by openings that read one vertex in so many of both surfaces, before regions are read as
+/// a whole. To read vertices in order takes a small fraction of the time that openings take for as many. So the search
+/// does not take much longer than either way alone.
+constexpr std::size_t first_share = 2, least_first = 256;
 /// Pairs of nodes that count as much as one vertex that is read: where anchors are known, as of the slivers of a long
 /// pipe, pairs take all the time.
 constexpr std::size_t pairs_per_vertex = 4;
 /// A leaf whose radius is so many times that of the other node is looked at face by face: the ball around a wall, or
 /// around the floor of a room, holds all that is in the room.
 constexpr double wide = 4;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -74,6 +74,7 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
   leaf_tests_ = exact_tests_ = 0;
   compared_.clear();
   beside_.clear();
+  opened_.clear();
 }
 
 bool Opening_search::open(std::vector<Face_pair>& found, Workers& workers) {
@@ -120,6 +121,7 @@ void Opening_search::open_for_one(std::vector<Face_pair>& found) {
   if (request_.most_whole > 0 && may_read_whole()) {
     whole_ = true;
     out_of_budget_ = false;
+    std::ranges::sort(opened_);
     begin_whole();
   }
   find_one(found);
@@ -132,6 +134,8 @@ bool Opening_search::find_one(std::vector<Face_pair>& found) {
   tested.found.clear();
   Leaf_pair leaves;
   while (tested.found.empty() && next(leaves)) {
+    if (whole_ && std::ranges::binary_search(opened_, leaves)) continue;
+    if (!whole_) opened_.push_back(leaves);
     begin_filters(1);
     tested.exact_tests = 0;
     test(leaves, filters_.front(), tested);
@@ -263,26 +267,27 @@ void Opening_search::consider(Node_pair pair) {
   const double squared = (a_->anchor(pair.a) - b_->anchor(pair.b)).squaredNorm();
   const double radii = radius_a + radius_b, far = request_.reach * radii;
   if (squared > far * far) return;
-  double order = squared / (radii * radii);
+  std::optional<double> order = in_order_ ? squared / (radii * radii) : 0;
   if (radius_a > wide * radius_b && a_->layout().is_leaf(pair.a))
     order = order_beside(*a_, pair.a, *b_, pair.b);
   else if (radius_b > wide * radius_a && b_->layout().is_leaf(pair.b))
     order = order_beside(*b_, pair.b, *a_, pair.a);
-  if (order == infinity) return;
-  waiting_.push(pair, in_order_ ? order : 0);
+  if (order) waiting_.push(pair, *order);
 }
 
 /// The order of a wide leaf and another node: how far the anchor of that is from the faces of the leaf.
-/// @return infinity if they are taken to be apart
-double Opening_search::order_beside(Tree_on_demand& tree, std::uint32_t leaf, Tree_on_demand& other,
-                                    std::uint32_t node) {
-  const double radius = other.radius(node);
+/// @return none if they are taken to be apart
+std::optional<double> Opening_search::order_beside(Tree_on_demand& tree, std::uint32_t leaf, Tree_on_demand& other,
+                                                   std::uint32_t node) {
+  const double reach = request_.reach;
   const std::uint32_t index = tree.layout().node(leaf).leaf;
   const Aabb& box = tree.pose(index);
-  if (is_apart(box, other, node)) return infinity;
+  if (is_apart(box, other, node, reach)) return std::nullopt;
+  const double radius = reach * other.radius(node);
   if (!(radius > 0)) return 0;
-  const double reach = request_.reach;
-  return reach * reach * relative_squared_distance(tree.view().leaf(index), box, other.anchor(node), reach * radius);
+  const double squared = relative_squared_distance(tree.view().leaf(index), box, other.anchor(node), radius);
+  if (squared == std::numeric_limits<double>::infinity()) return std::nullopt;
+  return reach * reach * squared;
 }
 
 /// Opens the node with the larger radius, since that separates most.
@@ -301,15 +306,15 @@ void Opening_search::consider_children(Node_pair pair) {
 /// The box of a leaf that has been read can spare reading the other.
 bool Opening_search::near_leaves(Leaf_pair leaves) {
   const bool a_first = a_->is_posed(leaves.a) || !b_->is_posed(leaves.b);
-  const bool apart = a_first ? is_apart(a_->pose(leaves.a), *b_, b_->layout().leaf_node(leaves.b))
-                             : is_apart(b_->pose(leaves.b), *a_, a_->layout().leaf_node(leaves.a));
+  const bool apart = a_first ? is_apart(a_->pose(leaves.a), *b_, b_->layout().leaf_node(leaves.b), request_.reach)
+                             : is_apart(b_->pose(leaves.b), *a_, a_->layout().leaf_node(leaves.a), request_.reach);
   return !apart && near(a_->pose(leaves.a), b_->pose(leaves.b), 0);
 }
 
 /// Whether a node is taken to be apart from a box.
-bool Opening_search::is_apart(const Aabb& box, Tree_on_demand& tree, std::uint32_t node) const {
+bool Opening_search::is_apart(const Aabb& box, Tree_on_demand& tree, std::uint32_t node, double reach) {
   const Eigen::Vector3d& anchor = tree.anchor(node);
-  const double radius = request_.reach * tree.radius(node);
+  const double radius = reach * tree.radius(node);
   double squared = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double beyond = std::max({box.low[axis] - anchor[axis], anchor[axis] - box.high[axis], 0.0});

@@ -2,6 +2,7 @@
 #include "lodestone/tree/leaf_neighbours.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lodestone {
 
@@ -50,22 +51,35 @@ void Leaf_neighbours::list_edge(std::uint32_t own, std::uint32_t v, std::uint32_
 std::span<const std::uint32_t> Leaf_neighbours::leaves_at(std::uint32_t v, std::uint32_t w) {
   constexpr std::size_t many = 64;
   if (vertex_faces_->at(w).size() < vertex_faces_->at(v).size()) std::swap(v, w);
-  if (vertex_faces_->at(v).size() <= many) {
-    find_leaves_at(v, w, leaves_);
-    return leaves_;
+  if (vertex_faces_->at(v).size() > many) {
+    const Crowd& crowd = crowd_at(v);
+    const auto at = std::ranges::equal_range(crowd.ends, w);
+    return std::span(crowd.leaves).subspan(static_cast<std::size_t>(at.begin() - crowd.ends.begin()), at.size());
   }
-  if (crowded_leaves_.empty() || crowded_ != std::pair(v, w)) find_leaves_at(v, w, crowded_leaves_);
-  crowded_ = {v, w};
-  return crowded_leaves_;
+  leaves_.clear();
+  for (const auto face : vertex_faces_->at(v))
+    if (std::ranges::find(walked_[face], w) != walked_[face].end()) leaves_.push_back(leaf_of(face));
+  std::ranges::sort(leaves_);
+  leaves_.erase(std::unique(leaves_.begin(), leaves_.end()), leaves_.end());
+  return leaves_;
 }
 
-/// @param few  the end of the edge with fewer faces
-void Leaf_neighbours::find_leaves_at(std::uint32_t few, std::uint32_t other, std::vector<std::uint32_t>& leaves) const {
-  leaves.clear();
-  for (const auto face : vertex_faces_->at(few))
-    if (std::ranges::find(walked_[face], other) != walked_[face].end()) leaves.push_back(leaf_of(face));
-  std::ranges::sort(leaves);
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+/// To look through the faces of such a vertex for each of its edges would take time that grows with their square.
+const Leaf_neighbours::Crowd& Leaf_neighbours::crowd_at(std::uint32_t vertex) {
+  const auto known = crowds_.find(vertex);
+  if (known != crowds_.end()) return known->second;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+  for (const auto face : vertex_faces_->at(vertex))
+    for (const auto end : walked_[face])
+      if (end != vertex) all.emplace_back(end, leaf_of(face));
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  Crowd crowd;
+  for (const auto& [end, leaf] : all) {
+    crowd.ends.push_back(end);
+    crowd.leaves.push_back(leaf);
+  }
+  return crowds_.emplace(vertex, std::move(crowd)).first->second;
 }
 
 }  // namespace lodestone

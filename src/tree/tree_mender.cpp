@@ -21,8 +21,8 @@ constexpr std::size_t most_changed = 8;
 /// A tree is also built anew if finding leaves for new pieces would take more comparisons than so many per face.
 constexpr std::size_t most_compared = 4;
 
-/// A tree is also built anew if it has more levels than a balanced one could need. One that grows at the same place
-/// again and again, such as a rope that is laid out, would otherwise become a list.
+/// A tree is also built anew if it has more than so many levels, twice those of a balanced one and some. One that grows
+/// at the same place again and again, such as a rope that is laid out, would otherwise become a list.
 std::size_t most_mended_levels(std::size_t leaves) { return 2 * static_cast<std::size_t>(std::bit_width(leaves)) + 32; }
 
 constexpr std::uint32_t not_placed = std::numeric_limits<std::uint32_t>::max();

@@ -68,7 +68,9 @@ bool soups_meet(const Face_soup& a, const Face_soup& b) {
 }
 
 bool within_margin(const Triangle& a, const Triangle& b, double margin) {
+  // Rational numbers only where the last digit decides.
   if (!triangles_nearer_than(a, b, std::nextafter(margin, std::numeric_limits<double>::infinity()))) return false;
+  if (triangles_nearer_than(a, b, std::nextafter(margin, 0))) return true;
   return exact_squared_distance(a, b) <= Rational(margin) * Rational(margin);
 }
 

@@ -193,6 +193,29 @@ TEST(Meetings, a_frame_tells_where_the_budget_has_ended_the_search) {
       }
 }
 
+TEST(Meetings, curves_that_were_found_once_are_found_again_and_leave_the_budget_to_others) {
+  Surface_mesh balls, plate = grid(60, 60);
+  for (int i = 0; i < 36; ++i) append(balls, sphere(6, 0.4, {1.3 + i % 6, 1.3 + i / 6, 0.1}));
+  deform(plate, [](const Point& p) { return Point(p.x() * 7 / 60, p.y() * 7 / 60, 0.03 * std::sin(p.x())); });
+  Owned_meshes scene{balls, plate};
+  auto options = by_meetings();
+  options.opening_budget = 700;
+  Detector<> detector(options);
+  add_all(detector, scene);
+  std::size_t found = 0, at_first = 0, truth = 0;
+  for (int frame = 0; frame < 40; ++frame) {
+    shift(scene[0], 1e-5);
+    const Frame& now = detector.detect();
+    expect_true(now, scene);
+    EXPECT_GE(now.face_pairs.size() + 2, found) << frame;
+    found = now.face_pairs.size();
+    if (frame == 0) at_first = found;
+  }
+  truth = exhaustive_face_pairs(scene[0], scene[1]).size();
+  EXPECT_LT(at_first, truth / 2);
+  EXPECT_EQ(found, truth);
+}
+
 TEST(Meetings, may_be_as_many_as_there_are_numbers) {
   auto scene = two_spheres(1.9);
   auto options = by_meetings();

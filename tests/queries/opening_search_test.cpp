@@ -404,6 +404,17 @@ TEST(Opening_search, a_larger_reach_does_not_hide_what_a_smaller_one_finds) {
     EXPECT_EQ(opened(search, a, b, {.reach = reach, .budget = 2000}).found.size(), 1U) << reach;
 }
 
+TEST(Opening_search, a_reach_whose_square_overflows_drops_nothing_in_silence) {
+  Opened_object ball(icosphere(60), 32), walls(room(40), 32);
+  ball.move_to(moved(ball.rest(), 19.001, 3.1, -5.2));
+  walls.start_frame();
+  Opening_search search;
+  for (const double reach : {1e100, 1e155, 1e200, 1e308}) {
+    const auto found = opened(search, ball, walls, {.reach = reach, .budget = 2000}, true);
+    EXPECT_TRUE(!found.found.empty() || found.out_of_budget) << reach;
+  }
+}
+
 /// Needles side by side, along x.
 Face_soup needles(std::uint32_t count, double y_step) {
   Face_soup soup;

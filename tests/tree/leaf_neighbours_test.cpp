@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 
 #include "support/owned_surface.h"
@@ -54,6 +55,19 @@ TEST(Leaf_neighbours, lie_beyond_seams_that_are_closed) {
   const Face_soup soup = flat_shaded(sphere(8));
   expect_neighbours(Owned_surface(soup, true), 8);
   expect_neighbours(Owned_surface(soup), 8);
+}
+
+TEST(Leaf_neighbours, are_found_at_vertices_with_very_many_faces) {
+  constexpr std::uint32_t vertices = 60;
+  std::mt19937_64 random(1);
+  Face_soup soup;
+  for (std::uint32_t i = 0; i < 3 * vertices; ++i) soup.coordinates.push_back(std::cos(7.0 * i));
+  while (soup.faces.size() < 1500) {
+    const auto corner = [&] { return static_cast<std::uint32_t>(random() % vertices); };
+    const std::uint32_t a = corner(), b = corner(), c = corner();
+    if (a != b && b != c && c != a) soup.faces.push_back({a, b, c});
+  }
+  expect_neighbours(Owned_surface(soup), 40);
 }
 
 /// Pages that are bound along one edge, each a strip of faces away from it.

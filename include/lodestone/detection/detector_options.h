@@ -75,7 +75,7 @@ struct Detector_options {
   /// With meetings: vertices that openings may read per object pair below the regions in a frame; four pairs of nodes
   /// that are compared count as one. What was begun is finished, so it can be some hundred more; two surfaces that have
   /// fewer are searched to the end. Regions that may touch are read as a whole if they have no more than four times
-  /// this: for all contacts at once, for one contact after openings have read a quarter of both surfaces. Curves, for
+  /// this: for all contacts at once, for one contact after openings have read half of both surfaces. Curves, for
   /// all contacts, are followed without limit; those of the last frame are followed first, and leave at least half of
   /// this. Where it ends a search, `Pair_result::unfinished` says so. 0: regions are not opened.
   std::size_t opening_budget = 16384;

@@ -7,7 +7,7 @@
 
 #include "lodestone/detection/detector_options.h"
 #include "lodestone/detection/frame.h"
-#include "lodestone/detection/meeting_memory.h"
+#include "lodestone/detection/pair_memory.h"
 #include "lodestone/detection/particle_object.h"
 #include "lodestone/particles/ring_check.h"
 #include "lodestone/queries/opening_search.h"
@@ -54,7 +54,10 @@ class Meeting_search {
   /// Starts a frame: counts begin at 0.
   void start_frame();
   /// As if the frame had not been started, for the next one.
-  void undo_frame() { memory_.undo_frame(); }
+  void undo_frame() {
+    memory_.undo_frame();
+    curves_.undo_frame();
+  }
   /// Searches where particles met in the last frame, then below the regions. The workers share tests of faces.
   void look(Met_pair& pair, Workers& workers);
   /// Lets the particles of near regions meet, and checks the faces around: the nearest first, as many as the options
@@ -78,7 +81,10 @@ class Meeting_search {
   Meeting_counts counts() const;
 
   /// Forgets an object, which has been rebuilt or removed.
-  void forget(Object_id object) { memory_.forget(object); }
+  void forget(Object_id object) {
+    memory_.forget(object);
+    curves_.forget(object);
+  }
 
  private:
   bool wants_all() const { return options_.contacts == Contact_query::all; }
@@ -90,16 +96,19 @@ class Meeting_search {
   void open(Met_pair& pair, Workers& workers);
   std::size_t most_whole() const;
   void begin_openings(const Met_pair& pair, bool opened);
-  void follow_seeds(const Met_pair& pair, Workers& workers);
+  void follow_known_curves(const Met_pair& pair, Workers& workers);
   static Remembered_meeting met_at(const Met_pair& pair, Face_pair contact);
   void count_openings();
   void add_seed(Met_pair& pair, const Remembered_meeting& seed);
   void follow_curves(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers);
   void remember_one(const Met_pair& pair);
   void remember_some(const Met_pair& pair, std::span<const Face_pair> contacts);
+  void remember_curves(const Met_pair& pair, std::span<const Face_pair> contacts);
 
   const Detector_options options_;
   Meeting_memory memory_;
+  Pair_memory<Face_pair> curves_;  ///< of searches for all contacts that openings do not finish: a contact in each pair
+                                   ///< of leaves that has any
   Ring_check rings_;
   Opening_search openings_;
   Meeting_counts counts_;

@@ -58,7 +58,7 @@ class Box_reader {
   const Box& box() const { return box_; }
 
   /// Reads the faces whose boxes meet a box. O(V + F), once per mesh.
-  /// @param part   an empty box: no face is listed, but all are checked
+  /// @param part   an empty box: no face is listed, but all are checked, in a mesh without border by their number alone
   /// @param found  empty so far; valid as long as the mesh stays as it is
   /// @return false if a face is no triangle, or has been removed
   bool read_faces(const Box& part, Faces_in_box& found) const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct Opening_request {
 /// distance from its faces that counts. Two surfaces that the budget covers are searched to the end, in the order that
 /// is fastest. Openings read one vertex per node that they look at, and the vertices of the leaves that they compare.
 /// In both ways the faces of leaves are tested exactly. One contact is searched for by openings first, which may find
-/// it soon; once these have read a quarter of both surfaces, as a whole if it may be.
+/// it soon; once these have read half of both surfaces, as a whole if it may be.
 ///
 /// What is found is true. Below nodes that are read as a whole nothing is missed. Otherwise contacts are missed once
 /// the budget is used up, where a surface is stretched beyond its radii, and with c below 1.
@@ -113,9 +114,10 @@ class Opening_search {
   bool next_by_anchors(Leaf_pair& leaves);
   bool next_by_boxes(Leaf_pair& leaves);
   bool near_leaves(Leaf_pair leaves);
-  bool is_apart(const Aabb& box, Tree_on_demand& tree, std::uint32_t node) const;
+  static bool is_apart(const Aabb& box, Tree_on_demand& tree, std::uint32_t node, double reach);
   void consider(Node_pair pair);
-  double order_beside(Tree_on_demand& tree, std::uint32_t leaf, Tree_on_demand& other, std::uint32_t node);
+  std::optional<double> order_beside(Tree_on_demand& tree, std::uint32_t leaf, Tree_on_demand& other,
+                                     std::uint32_t node);
   void consider_children(Node_pair pair);
   void push_if_near(Node_pair pair);
   void open_for_one(std::vector<Face_pair>& found);
@@ -138,14 +140,15 @@ class Opening_search {
   bool whole_ = false;     ///< they are read as a whole
   bool in_order_ = false;
   Waiting waiting_;
-  std::size_t considered_ = 0;          ///< pairs of nodes whose anchors were compared
-  std::size_t spent_before_ = 0;        ///< by `begin`
-  std::size_t limit_ = 0;               ///< of what is spent
-  std::vector<Leaf_pair> listed_;       ///< to be tested
-  std::vector<Tested> tested_;          ///< per task, then memory of earlier searches
-  std::vector<Leaf_pair> compared_;     ///< sorted
-  std::vector<Leaf_pair> beside_;       ///< to be compared, unless they have been
-  std::vector<Leaf_pair> merged_;       ///< memory, for lists that are joined
+  std::size_t considered_ = 0;       ///< pairs of nodes whose anchors were compared
+  std::size_t spent_before_ = 0;     ///< by `begin`
+  std::size_t limit_ = 0;            ///< of what is spent
+  std::vector<Leaf_pair> listed_;    ///< to be tested
+  std::vector<Tested> tested_;       ///< per task, then memory of earlier searches
+  std::vector<Leaf_pair> compared_;  ///< sorted
+  std::vector<Leaf_pair> opened_;    ///< for one contact: tested by openings; sorted before regions are read as a whole
+  std::vector<Leaf_pair> beside_;    ///< to be compared, unless they have been
+  std::vector<Leaf_pair> merged_;    ///< memory, for lists that are joined
   std::vector<Face_filter> filters_;    ///< per worker
   Aabb bounds_a_ = {}, bounds_b_ = {};  ///< what the filters have been told
   std::size_t begun_ = 0;               ///< filters that have been told

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
 #include "lodestone/mesh/mesh_numbering.h"
@@ -36,7 +36,7 @@ class Leaf_neighbours {
   std::uint32_t leaf_of(std::uint32_t face) const { return faces_[face].leaf; }
   /// The leaves of the faces that share an edge with a face, except its own leaf, and at most `most_per_edge` for each
   /// edge; some more than once. Valid until the next call. O(1); the first call for a leaf O(faces of the leaf x d) for
-  /// edges one of whose ends has d faces.
+  /// edges one of whose ends has d <= 64 faces, else O(d log d) once per vertex.
   std::span<const std::uint32_t> beside(std::uint32_t face) {
     if (!known_[leaf_of(face)]) list_leaf(leaf_of(face));
     const std::uint32_t first = faces_[face].first;
@@ -50,10 +50,16 @@ class Leaf_neighbours {
     std::uint32_t first = 0;  ///< place in `beside_` of the number of leaves, which follow it
   };
 
+  /// The edges at a vertex with many faces, by their other ends, ascending: a leaf that has faces there, for each of
+  /// which the end is listed.
+  struct Crowd {
+    std::vector<std::uint32_t> ends, leaves;
+  };
+
   void list_leaf(std::uint32_t leaf);
   void list_edge(std::uint32_t own, std::uint32_t v, std::uint32_t w);
   std::span<const std::uint32_t> leaves_at(std::uint32_t v, std::uint32_t w);
-  void find_leaves_at(std::uint32_t few, std::uint32_t other, std::vector<std::uint32_t>& leaves) const;
+  const Crowd& crowd_at(std::uint32_t vertex);
 
   const Tree_layout* layout_ = nullptr;
   std::span<const Corners> walked_;
@@ -62,9 +68,7 @@ class Leaf_neighbours {
   std::vector<bool> known_;               ///< per leaf
   std::vector<std::uint32_t> beside_{0};  ///< of the faces of known leaves; at 0 the list of those that have none
   std::vector<std::uint32_t> leaves_;     ///< memory
-  // The last edge between vertices with many faces: the faces of a leaf mostly share it.
-  std::pair<std::uint32_t, std::uint32_t> crowded_ = {};
-  std::vector<std::uint32_t> crowded_leaves_;
+  std::unordered_map<std::uint32_t, Crowd> crowds_;  ///< of the vertices with many faces that were needed
 };
 
 }  // namespace lodestone

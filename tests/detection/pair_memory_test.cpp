@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "lodestone/detection/meeting_memory.h"
+#include "lodestone/detection/pair_memory.h"
 
 #include <gtest/gtest.h>
 
