@@ -71,8 +71,8 @@ std::vector<Sphere> sphere_collection(const Mesh& mesh, const Particle_count_opt
 
 /// The bounding radii of the objects of a scene, as far as the particle count depends on them.
 struct Radius_range {
-  double smallest = 0;
-  double largest = 0;
+  double smallest = 0;    ///< in units of the coordinates
+  double largest = 0;     ///< the same
   std::size_t count = 0;  ///< objects
 };
 
