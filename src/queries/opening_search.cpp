@@ -29,8 +29,9 @@ constexpr std::size_t first_share = 2, least_first = 256;
 /// pipe, pairs take all the time.
 constexpr std::size_t pairs_per_vertex = 4;
 /// A leaf whose radius is so many times that of the other node is looked at face by face: the ball around a wall, or
-/// around the floor of a room, holds all that is in the room.
-constexpr double wide = 4;
+/// around the floor of a room, holds all that is in the room. Beside a leaf that is only some times as large its ball
+/// decides: that is slack for what has been stretched, which a larger reach makes larger.
+constexpr double wide = 16;
 
 }  // namespace
 
@@ -69,7 +70,7 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
   in_order_ = request.budget < a.vertex_count() + b.vertex_count();
   begun_ = 0;
   considered_ = 0;
-  spent_before_ = spent();
+  read_before_ = a.vertices_read() + b.vertices_read();
   out_of_budget_ = false;
   leaf_tests_ = exact_tests_ = 0;
   compared_.clear();
@@ -92,7 +93,7 @@ bool Opening_search::may_read_whole() {
 
 void Opening_search::begin_openings() {
   waiting_.clear();
-  limit_ = in_order_ ? std::max(spent_before_ + request_.budget, spent() + least_share(request_.budget))
+  limit_ = in_order_ ? std::max(request_.budget, spent() + least_share(request_.budget))
                      : std::numeric_limits<std::size_t>::max();
   const double unit = request_.reach * request_.reach;
   for (const auto& start : given_starts_) waiting_.push(start.nodes, in_order_ ? unit * start.order : 0);
@@ -209,7 +210,7 @@ void Opening_search::note_compared(const std::vector<Leaf_pair>& leaves) {
 }
 
 std::size_t Opening_search::spent() const {
-  return a_->vertices_read() + b_->vertices_read() + considered_ / pairs_per_vertex;
+  return a_->vertices_read() + b_->vertices_read() - read_before_ + considered_ / pairs_per_vertex;
 }
 
 /// The next pair of leaves whose boxes meet, below nodes that have been posed.

@@ -47,7 +47,7 @@ class Tree_mender : private Tree_builder {
   std::vector<std::uint32_t> face_begin_;  ///< per former leaf: where its faces start
   std::uint32_t next_node_ = 0, next_item_ = 0;
   std::size_t levels_ = 0;  ///< of the mended tree
-  bool finite_ = true;  ///< the centres of faces that are split
+  bool finite_ = true;      ///< the centres of faces that are split
 };
 
 }  // namespace lodestone

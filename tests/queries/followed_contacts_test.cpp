@@ -237,16 +237,18 @@ TEST_F(Followed_contacts_of_two_curves, count_towards_the_budget_of_openings) {
   EXPECT_TRUE(search_.is_limited());
   EXPECT_TRUE(search_.out_of_budget());
   EXPECT_EQ(searched.followed, followed);
-  EXPECT_GE(searched.read, budget - budget / 4) << "pairs of nodes count too";
-  EXPECT_LE(searched.read, budget + two_leaves);
+  EXPECT_GE(search_.spent(), budget);
+  EXPECT_LE(search_.spent(), budget + two_leaves);
+  EXPECT_LE(searched.read, search_.spent()) << "pairs of nodes count too";
 }
 
 TEST_F(Followed_contacts_of_two_curves, leave_half_of_the_budget_to_openings) {
   const std::size_t followed = search(1, known_).followed, budget = followed;
   const auto searched = search(budget, known_);
   EXPECT_TRUE(search_.out_of_budget());
-  EXPECT_GE(searched.read, followed + budget / 2 - budget / 8) << "pairs of nodes count too";
-  EXPECT_LE(searched.read, followed + budget / 2 + two_leaves);
+  EXPECT_GE(search_.spent(), followed + budget / 2);
+  EXPECT_LE(search_.spent(), followed + budget / 2 + two_leaves);
+  EXPECT_LE(searched.read, search_.spent()) << "pairs of nodes count too";
 }
 
 TEST(Followed_contacts, of_starts_that_were_opened_as_a_whole_are_compared_only_beyond_them) {

@@ -72,6 +72,8 @@ class Opening_search {
 
   /// Whether the budget may end the search: nodes are opened, and the two surfaces have more vertices.
   bool is_limited() const { return !whole_ && in_order_; }
+  /// What has been spent of the budget since `begin`, in vertices of both trees.
+  std::size_t spent() const;
   /// Whether the last `open` ended because its budget was used up.
   bool out_of_budget() const { return out_of_budget_; }
   /// Leaf pairs that need not be compared again: those given to `follow`, those that it has looked at, and those that
@@ -129,8 +131,6 @@ class Opening_search {
   void begin_filters(std::size_t count);
   void test(Leaf_pair leaves, Face_filter& filter, Tested& tested) const;
   void test_listed(std::vector<Face_pair>& found, Workers& workers);
-  /// What openings have cost, in vertices of both trees that were read.
-  std::size_t spent() const;
 
   Tree_on_demand* a_ = nullptr;
   Tree_on_demand* b_ = nullptr;
@@ -141,7 +141,7 @@ class Opening_search {
   bool in_order_ = false;
   Waiting waiting_;
   std::size_t considered_ = 0;       ///< pairs of nodes whose anchors were compared
-  std::size_t spent_before_ = 0;     ///< by `begin`
+  std::size_t read_before_ = 0;      ///< vertices of both trees, before `begin`
   std::size_t limit_ = 0;            ///< of what is spent
   std::vector<Leaf_pair> listed_;    ///< to be tested
   std::vector<Tested> tested_;       ///< per task, then memory of earlier searches
