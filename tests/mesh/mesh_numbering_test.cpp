@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "lodestone/io/shapes/shapes.h"
 #include "support/special_numbers.h"
@@ -13,6 +16,10 @@
 
 namespace lodestone {
 namespace {
+
+// Said by the constraint, not deep inside Boost.
+static_assert(Triangle_mesh<Surface_mesh> && !Triangle_mesh<Positions> && !Triangle_mesh<std::vector<Point>> &&
+              !Triangle_mesh<std::array<Corners, 2>> && !Triangle_mesh<std::span<const double>>);
 
 TEST(Mesh_numbering, indices_follow_the_order_of_the_mesh_and_map_back_to_its_vertices) {
   const auto mesh = sphere(3);

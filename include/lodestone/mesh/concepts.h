@@ -55,11 +55,12 @@ concept Region_map = requires(const Map& map, Vertex<Mesh> v, Region_index regio
   { get(map, v) } -> std::convertible_to<Region_index>;
 };
 
-/// An Eigen matrix. `Triangle_mesh` excludes it first, because boost::graph_traits of a matrix is a hard error rather
-/// than a failed constraint.
+/// A matrix of Eigen, or a sequence such as std::vector. `Triangle_mesh` excludes them first, because
+/// boost::graph_traits of them is a hard error rather than a failed constraint. Meshes that are arrays: Indexed_mesh.
 template <class M>
-concept Matrix = requires {
-  M::RowsAtCompileTime;
+concept Array = requires { M::RowsAtCompileTime; } || requires(const M& sequence) {
+  typename M::value_type;
+  sequence.data();
 };
 
 /// A model of CGAL's FaceListGraph with a vertex point map, all of whose faces are triangles.
@@ -68,7 +69,7 @@ concept Matrix = requires {
 /// CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper. The concept checks syntax only; `Mesh_numbering` checks
 /// that every face is a triangle.
 template <class Mesh>
-concept Triangle_mesh = !Matrix<Mesh> && requires(const Mesh& mesh, Vertex<Mesh> v, Face<Mesh> f, Halfedge<Mesh> h) {
+concept Triangle_mesh = !Array<Mesh> && requires(const Mesh& mesh, Vertex<Mesh> v, Face<Mesh> f, Halfedge<Mesh> h) {
   vertices(mesh);
   faces(mesh);
   { num_vertices(mesh) } -> std::convertible_to<std::size_t>;
