@@ -287,7 +287,8 @@ class Detector {
   }
 
   /// `first_hit` of many rays. Each query of an object reads its positions first; this does so once for all rays.
-  /// Shared among the threads, unless the object has bounds in mode `certified`.
+  /// Shared among the threads. In mode `certified` up to F / 64 rays of an object with bounds are not: they pose only
+  /// what they pass. More of them pose it as a whole.
   ///
   /// Calls with more than F / 64 rays are answered sooner once they have asked about F / 16 rays together: the detector
   /// then makes a Ray_tree. It keeps the tree, which takes some 70 bytes per face, and refits it in later calls.
@@ -330,6 +331,9 @@ class Detector {
   /// the object, or the detector; it may change between frames. It is about where the vertices are, placement included.
   /// The positions of the next query are those at rest, unless an earlier promise has set them. Several promises hold
   /// together. Computed points with joints, morph targets or other bounds of their own need no promise.
+  ///
+  /// The bound is made in the next query. If the promise does not fit the object, say with displacements for other
+  /// regions than it has, that query throws Bad_argument, and the promise is dropped.
   /// @throws Bad_argument  no such object, another mode
   template <Motion_promise Promise>
   void promise(Object_id object, const Promise& promise) {
@@ -426,8 +430,8 @@ class Detector {
   template <class Asked, class Question>
   auto ask_each(Object_id object, std::span<const Asked> asked, const Question& question) {
     auto& exact = ask<Exact>(object);
-    return exact.of_surface(
-        object, [&](auto& surface) { return lodestone::ask_each(surface, asked, question, exact.workers()); });
+    const auto ask_all = [&](auto& surface) { return lodestone::ask_each(surface, asked, question, exact.workers()); };
+    return exact.of_surface(object, ask_all, asked.size());
   }
 
   std::shared_ptr<const Strategy> strategy_;

@@ -22,6 +22,12 @@ bool contains(const Aabb& outer, const Aabb& inner) {
   return result;
 }
 
+bool is_empty(const Aabb& box) {
+  bool result = false;
+  for (int axis = 0; axis < 3; ++axis) result |= box.low[axis] > box.high[axis];
+  return result;
+}
+
 void check_nodes(const Node_bound& bound, const Tree_layout& layout) {
   if (bound.node_count() < layout.node_count()) throw Bad_argument("a bound was made for a tree of fewer nodes");
 }
@@ -73,7 +79,10 @@ void Bounded_surface::bound(std::uint32_t node) {
   if (bounds_.empty()) return pose_all();
   Aabb box = bounds_.front()->box(node);
   for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node));
-  bounded_.push_back(node);  // first: a box that is in use is also one that is compared with what is read
+  if (is_empty(box))  // though vertices must be in it
+    ++violations_;
+  else
+    bounded_.push_back(node);  // first: a box that is in use is also one that is compared with what is read
   boxes_[node] = box;
   boxed_in_[node] = frame_;
   ++nodes_bounded_;
@@ -107,7 +116,7 @@ void Bounded_surface::pose_all() {
   Tree_surface* const tree[] = {tree_};
   refit(tree, std::span(&coordinates, 1), *workers_);
   if (!tree_->finite()) {
-    pose_ = 0;  // no box means anything: the next frame is a new one, even in this pose
+    forget_pose();  // no box means anything
     for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf) check_finite(leaf);
   }
   for (std::size_t i = 0; i < bounded_.size(); ++i)

@@ -33,6 +33,7 @@ Aabb placed_box(const Eigen::Matrix3d& linear, const Eigen::Vector3d& translatio
 }
 
 bool Placed_bound::note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
+  if (*given_) return true;
   if (!*placement_) return bound_->note_read(leaf, fitted, coordinates);
   if (!bound_->watches()) return true;
   in_mesh_.resize(coordinates.size());

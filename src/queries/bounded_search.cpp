@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -49,13 +48,20 @@ Contact_summary Bounded_search::run(Bounded_surface& a, Bounded_surface& b, cons
 Visit Bounded_search::visit(Bounded_surface& a, Bounded_surface& b, double tolerance,
                             const std::function<Visit(Face_pair)>& visitor) {
   begin(a, b, tolerance);
-  std::set<Face_pair> shown;
+  std::vector<Face_pair> shown;  // each once; those of earlier walks sorted
+  std::size_t of_earlier_walks = 0;
+  const auto show = [&](Face_pair contact) {
+    if (std::binary_search(shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(of_earlier_walks), contact))
+      return Visit::go_on;
+    shown.push_back(contact);
+    return visitor(contact);
+  };
   End end;
   do {
     settle_broken();
-    end = walk(false, [&](Face_pair contact) {
-      return shown.insert(contact).second ? visitor(contact) : Visit::go_on;
-    });
+    std::ranges::sort(shown);
+    of_earlier_walks = shown.size();
+    end = walk(false, show);
   } while (end == End::broken);
   return end == End::stopped ? Visit::stop : Visit::go_on;
 }
@@ -98,7 +104,7 @@ Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor
     if (end == End::stopped) return end;  // even if a bound is broken: the contacts are there
     if (is_broken()) return End::broken;
   }
-  return End::complete;
+  return is_broken() ? End::broken : End::complete;
 }
 
 /// Of the two pairs that were pushed last, visits that first whose boxes lie deeper in each other, along the axis on

@@ -208,5 +208,92 @@ TEST(Certified, a_broken_bound_is_an_error_on_request) {
   EXPECT_TRUE(detector.detect().collides());
 }
 
+/// A body that jumps onto another. What its promises say of any part has no point in common.
+struct Contradiction {
+  Surface_mesh a = potato(12, 1), b = potato(12, 2);
+  double at = 0;
+  Displacement_promise nothing_moves;
+  Box_promise shifted{[this](Region_index, const Aabb& rest) {
+    Aabb box = rest;
+    box.low[0] += at, box.high[0] += at;
+    return box;
+  }};
+
+  void start(Detector<>& detector) {
+    shift(b, 9);
+    detector.add(std::as_const(a));
+    detector.add(std::as_const(b));
+    detector.promise(0, nothing_moves);
+    detector.promise(0, shifted);
+    EXPECT_FALSE(detector.detect().collides());
+    at = 8.5;
+    shift(a, at);
+  }
+};
+
+TEST(Certified, promises_that_contradict_each_other_are_broken) {
+  const auto answers = [](const auto& ask) {
+    Contradiction scene;
+    Detector detector({.mode = Mode::certified});
+    scene.start(detector);
+    return ask(detector);
+  };
+  EXPECT_TRUE(answers([](auto& detector) { return detector.detect().collides(); }));
+  EXPECT_GT(answers([](auto& detector) { return detector.detect().statistics.violations; }), 0U);
+  EXPECT_TRUE(answers([](auto& detector) { return detector.detect(0, 1).collides(); }));
+  EXPECT_TRUE(answers([](auto& detector) { return detector.within(0, 1, 0.1); }));
+  EXPECT_EQ(answers([](auto& detector) { return detector.closest(0, 1).points.distance; }), 0);
+  EXPECT_EQ(answers([](auto& detector) { return detector.point_side(0, Point(8.5, 0, 0)); }), Point_side::inside);
+  EXPECT_EQ(answers([](auto& detector) {
+              return detector.visit(0, 1, [](Face_pair) { return Visit::stop; });
+            }),
+            Visit::stop);
+}
+
+TEST(Certified, promises_that_contradict_each_other_are_an_error_on_request) {
+  Contradiction scene;
+  Detector detector({.mode = Mode::certified, .exact = {.throw_if_broken = true}});
+  scene.start(detector);
+  EXPECT_THROW(detector.detect(), Broken_bound);
+  EXPECT_THROW(detector.detect(), Broken_bound);  // nothing has been corrected
+  scene.nothing_moves.move(8.6);
+  EXPECT_TRUE(detector.detect().collides());
+}
+
+TEST(Certified, a_promise_may_be_corrected_in_the_same_pose) {
+  Surface_mesh a = long_body(12, 1), b = potato(8, 3);
+  Liar points{limb(a)};  // in poses that are numbered
+  Lipschitz_promise promise(1.0000001, 1e-9);
+  points.end = 100;
+  Detector detector({.mode = Mode::certified, .exact = {.throw_if_broken = true}});
+  detector.add(a, point_map(a, points));
+  detector.add(std::as_const(b));
+  detector.promise(0, promise);
+  detector.detect();
+  points.points.set_joints(std::vector<Eigen::Affine3d>(2, Eigen::Affine3d(Eigen::Scaling(1.3))));
+  EXPECT_THROW(detector.detect(), Broken_bound);
+  EXPECT_THROW(detector.detect(), Broken_bound);
+  promise.set_constant(1.3000001, 1e-9);
+  EXPECT_TRUE(detector.detect().collides());
+  EXPECT_TRUE(detector.first_hit(0, {.origin = {0, 0, 9}, .direction = {0, 0, -1}}).has_value());
+}
+
+TEST(Certified, a_promise_that_does_not_fit_is_dropped_with_an_error) {
+  Surface_mesh a = potato(8, 1), b = potato(8, 2);
+  Displacement_promise four_regions(4), fits;
+  Detector detector({.mode = Mode::certified, .particles = 8});
+  detector.add(a, {.name = "a body"});
+  detector.add(b);
+  detector.promise(0, four_regions);
+  detector.promise(0, fits);
+  const auto message = message_of<Bad_argument>([&] { detector.detect(); });
+  EXPECT_NE(message.find("object 0 (a body)"), std::string::npos) << message;
+  EXPECT_TRUE(detector.detect().collides());
+  EXPECT_TRUE(detector.bounded(0)->has_bounds());
+  shift(a, 100);
+  fits.move(100.1);
+  EXPECT_FALSE(detector.detect().collides());
+}
+
 }  // namespace
 }  // namespace lodestone

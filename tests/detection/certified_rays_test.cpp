@@ -59,5 +59,39 @@ TEST(Certified, a_ray_poses_only_what_it_passes) {
   EXPECT_THROW(Detector<>({.mode = Mode::particles}).point_side(0, Point(0, 0, 0)), Bad_argument);
 }
 
+TEST(Certified, many_rays_or_points_pose_all_and_have_the_answers_of_mode_exact) {
+  Surface_mesh mesh = long_body(20, 1);
+  Skinned_points points = limb(mesh);
+  Detector certified({.mode = Mode::certified}), exact({.mode = Mode::exact});
+  for (auto* detector : {&certified, &exact}) detector->add(mesh, point_map(mesh, points));
+  std::vector<Ray> rays;
+  std::vector<Point> places;
+  for (std::size_t i = 0; i <= mesh.number_of_faces() / 16; ++i) {
+    const double t = static_cast<double>(i);
+    rays.push_back({.origin = {2.5 * std::sin(t), 9, 0.5 * std::cos(3 * t)}, .direction = {0, -1, 0}});
+    places.emplace_back(2.5 * std::sin(t), std::cos(2 * t), 0.5 * std::cos(3 * t));
+  }
+  std::size_t hits = 0;
+  for (int frame = 1; frame < 4; ++frame) {
+    bend(points, 0.2 * frame, {0, 0, 0});
+    const auto found = certified.first_hits(0, rays), truth = exact.first_hits(0, rays);
+    EXPECT_TRUE(certified.bounded(0)->all_posed());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(found[i].has_value(), truth[i].has_value());
+      if (!found[i]) continue;
+      ++hits;
+      EXPECT_EQ(found[i]->face, truth[i]->face);
+      EXPECT_EQ(found[i]->t, truth[i]->t);
+    }
+    bend(points, 0.2 * frame + 0.1, {0, 0, 0});
+    EXPECT_EQ(certified.point_sides(0, places), exact.point_sides(0, places));
+    EXPECT_TRUE(certified.bounded(0)->all_posed());
+    bend(points, 0.2 * frame + 0.15, {0, 0, 0});
+    certified.first_hits(0, std::span(rays).first(1));
+    EXPECT_FALSE(certified.bounded(0)->all_posed());
+  }
+  EXPECT_GT(hits, 30U);
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Objects whose positions are computed when they are read: as if all had been written to the mesh.
 #include <CGAL/Polyhedron_3.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <gtest/gtest.h>
 
@@ -99,6 +100,36 @@ TEST_P(Computed_surfaces, have_the_regions_of_the_same_mesh) {
   EXPECT_EQ(regions, detector.regions(1));
   EXPECT_EQ(std::set(regions.begin(), regions.end()), (std::set<Region_index>{0, 1, 2, 3, 4}));
   for (const auto v : same.vertices()) EXPECT_EQ(get(detector.maps(1).region(), v), regions[v]);
+}
+
+/// A type of mesh without indices of its own: the point map has made some, which end with the old vertices.
+TEST(Computed_surface, of_a_mesh_without_indices_follows_vertices_that_are_added) {
+  using Polyhedron = CGAL::Polyhedron_3<Kernel>;
+  for (const Mode mode : {Mode::exact, Mode::certified, Mode::particles}) {
+    Polyhedron mesh;
+    CGAL::copy_face_graph(icosphere(3), mesh);
+    const auto still = [&] {
+      std::vector<double> rest;
+      for (const auto v : vertices(mesh))
+        for (int axis = 0; axis < 3; ++axis) rest.push_back(v->point()[axis]);
+      const std::size_t count = rest.size() / 3;
+      return Skinned_points(rest, Joint_influences::of(1, std::vector<std::uint32_t>(count, 0), std::vector(count, 1.0)),
+                            1);
+    };
+    Skinned_points points = still();
+    Surface_mesh ball = icosphere(2);
+    shift(ball, 3);
+    Detector detector({.mode = mode});
+    detector.add(std::as_const(mesh), point_map(mesh, points));
+    detector.add(std::as_const(ball));
+    EXPECT_FALSE(detector.detect().collides());
+    const auto centre = CGAL::Euler::add_center_vertex(halfedge(*faces(mesh).first, mesh), mesh);
+    target(centre, mesh)->point() = Point(2.5, 0, 0);
+    points = still();
+    detector.rebuild(0);
+    EXPECT_TRUE(detector.detect().collides());
+    if (mode != Mode::particles) EXPECT_EQ(detector.closest_point(0, Point(2.5, 0, 0)).distance, 0);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(modes, Computed_surfaces, testing::Values(Mode::exact, Mode::particles),

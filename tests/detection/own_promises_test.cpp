@@ -164,5 +164,29 @@ TEST(Broken_promise, is_an_error_of_queries_that_read_everything_too) {
   expect_broken([&](Detector<>& detector) { detector.first_impact(0, end_of_a, 1, end); });
 }
 
+TEST(Own_displacement, knows_nothing_of_given_positions) {
+  const Surface_mesh a = icosphere(12);
+  Surface_mesh b = icosphere(12);
+  shift(b, 5);
+  Promised_points<Displacement_promise> points(a);
+  Detector detector({.mode = Mode::certified});
+  detector.add(a, point_map(a, points));
+  detector.add(std::as_const(b));
+  EXPECT_FALSE(detector.detect().collides());
+  points.shift(3.5, 0);
+  points.promise.move(3.501);
+  EXPECT_TRUE(detector.detect().collides());
+  Positions far = Eigen::Map<const Positions>(points.now.data(), points.vertex_count(), 3);
+  far.col(1).array() += 100;
+  detector.update(0, far);
+  EXPECT_FALSE(detector.detect().collides());
+  detector.update(0);
+  EXPECT_TRUE(detector.detect().collides());
+  points.shift(0.01, 0);
+  points.promise.move(0.0101);
+  EXPECT_TRUE(detector.detect().collides());
+  EXPECT_EQ(detector.detect().statistics.violations, 0U);
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -21,8 +21,8 @@ namespace lodestone {
 /// Nothing is done before it is asked for, and nothing twice in a pose.
 ///
 /// A bound is a promise. The vertices of a leaf that is posed are compared with the boxes of the leaf and of the whole,
-/// and where all vertices are posed with all boxes in use. If one lies outside, `is_broken()` says so, and whoever
-/// relied on boxes must `settle` the surface and ask again.
+/// and where all vertices are posed with all boxes in use. If one lies outside, or if bounds have no point in common,
+/// `is_broken()` says so, and whoever relied on boxes must `settle` the surface and ask again.
 ///
 /// Where much is near, posing leaf by leaf takes longer than posing all. So all vertices are posed once a seventh of
 /// them has been, and in the next frames as soon as one leaf is needed: for 1 frame, then after another such try for 2,
@@ -57,6 +57,8 @@ class Bounded_surface {
 
   /// Forgets what was of an earlier pose, unless it is known to be that of now. O(1).
   void start_frame();
+  /// The next frame is a new one even in this pose: asks the bounds anew.
+  void forget_pose() { pose_ = 0; }
   /// Starts a frame to whose positions the tree has just been refitted. O(F).
   void take_refitted();
 

@@ -28,10 +28,16 @@ class Placed_bound final : public Node_bound {
  public:
   /// @param bound      of the object where its mesh is
   /// @param placement  looked at for each box; must outlive this
+  /// @param given      positions in place of those of the mesh, about which the bound says nothing; none: those of the
+  ///                   mesh count; must outlive this
   /// @param object     where its mesh is; its layout and positions must outlive this
   Placed_bound(std::unique_ptr<Node_bound> bound, const std::optional<Rigid_motion>& placement,
-               const Bounded_object& object)
-      : bound_(std::move(bound)), placement_(&placement), layout_(&object.layout), positions_(&object.positions) {}
+               const std::optional<Positions>& given, const Bounded_object& object)
+      : bound_(std::move(bound)),
+        placement_(&placement),
+        given_(&given),
+        layout_(&object.layout),
+        positions_(&object.positions) {}
 
   /// Number of nodes of the tree.
   std::size_t node_count() const override { return bound_->node_count(); }
@@ -40,13 +46,15 @@ class Placed_bound final : public Node_bound {
     const Aabb box = bound_->box(node);
     return *placement_ ? placed_box((*placement_)->rotation(), (*placement_)->translation(), box) : box;
   }
-  /// Shows the bound where the vertices of a leaf are in the mesh. Moving them back would round.
+  /// Shows the bound where the vertices of a leaf are in the mesh. Moving them back would round. Given positions it
+  /// must not see.
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) override;
   bool watches() const override { return bound_->watches(); }
 
  private:
   std::unique_ptr<Node_bound> bound_;
   const std::optional<Rigid_motion>* placement_;
+  const std::optional<Positions>* given_;
   const Tree_layout* layout_;
   const Position_source* positions_;
   std::vector<double> in_mesh_;  ///< 3 V where it was needed

@@ -140,12 +140,16 @@ class Exact_detection final : public Detection {
   bool contains(Object_id outer, Object_id inner);
   /// Asks the surface of one object, as it is now.
   /// @param question  called with a Layout_view or a Bounded_surface
+  /// @param parts     how many rays or points it is about: for many the object is posed as a whole
   template <class Question>
-  auto of_surface(Object_id object, const Question& question) {
+  auto of_surface(Object_id object, const Question& question, std::size_t parts = 1) {
     const Object_id ids[] = {object};
     refresh(ids);
     if constexpr (is_bounded)
-      if (objects_.on_demand(object)) return unbroken(ids, question(objects_.bounded(object)));
+      if (objects_.on_demand(object)) {
+        if (Ray_tree::refit_pays(parts, objects_[object].corners().size())) pose_all(ids);
+        if (!objects_.bounded(object).all_posed()) return unbroken(ids, question(objects_.bounded(object)));
+      }
     const Node_boxes boxes(objects_.surface(object).view());
     return question(boxes.layout());
   }
@@ -160,12 +164,13 @@ class Exact_detection final : public Detection {
   }
   /// See `Detector::first_hits`.
   std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {
-    return of_surface(object, [&](auto& surface) {
+    const auto question = [&](auto& surface) {
       if constexpr (std::same_as<Volume, Aabb> && std::same_as<decltype(surface), const Layout_view&>)
         if (objects_[object].pays_for(rays.size()))
           return lodestone::first_hits(objects_[object].ray_tree(workers_), rays, workers_);
       return lodestone::first_hits(surface, rays, workers_);
-    });
+    };
+    return of_surface(object, question, rays.size());
   }
   /// Who share the work.
   Workers& workers() { return workers_; }
@@ -437,9 +442,11 @@ void Exact_detection<Volume>::until_settled(std::span<const Object_id> ids, Answ
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::throw_if_broken(std::span<const Object_id> ids) const {
   if (!options_.exact.throw_if_broken) return;
-  for (const auto id : ids)
-    if (objects_.on_demand(id) && objects_.bounded(id).violations() > 0)
-      throw Broken_bound(objects_[id].title + " has vertices that are not where its bounds say");
+  for (const auto id : ids) {
+    if (!objects_.on_demand(id) || objects_.bounded(id).violations() == 0) continue;
+    objects_.bounded(id).forget_pose();  // by the next question the promise may have been corrected
+    throw Broken_bound(objects_[id].title + " has vertices that are not where its bounds say");
+  }
 }
 
 /// Adds what this frame has done to objects with bounds.

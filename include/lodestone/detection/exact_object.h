@@ -224,6 +224,7 @@ class Exact_object {
   };
 
   std::unique_ptr<Node_bound> bound_of_points(const Bounded_object& object);
+  std::vector<std::unique_ptr<Node_bound>> promised_bounds(const Bounded_object& object);
   void replace(Faces anew);
   void start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces);
 
@@ -287,7 +288,20 @@ std::unique_ptr<Node_bound> Exact_object<Volume>::bound_of_points(const Bounded_
   const Bounded_object in_mesh{
       .layout = object.layout, .labels = object.labels, .rest = rest_of_points_, .positions = *mesh_positions_};
   auto bound = mesh().own_bound(in_mesh);
-  return bound ? std::make_unique<Placed_bound>(std::move(bound), placement_, in_mesh) : nullptr;
+  return bound ? std::make_unique<Placed_bound>(std::move(bound), placement_, given_, in_mesh) : nullptr;
+}
+
+/// A promise that does not fit is forgotten: it would stand in the way of every query to come.
+template <Bounding_volume Volume>
+std::vector<std::unique_ptr<Node_bound>> Exact_object<Volume>::promised_bounds(const Bounded_object& object) {
+  std::vector<std::unique_ptr<Node_bound>> bounds;
+  for (std::size_t i = 0; i < promises_.size(); ++i) try {
+      bounds.push_back(promises_[i](object));
+    } catch (const Bad_argument& misfit) {
+      promises_.erase(promises_.begin() + static_cast<std::ptrdiff_t>(i));
+      throw Bad_argument("a promise about " + title + " is dropped: " + misfit.what());
+    }
+  return bounds;
 }
 
 template <Bounding_volume Volume>
@@ -303,7 +317,7 @@ void Exact_object<Volume>::make_bounds(Workers& workers) {
         .positions = *positions};
     std::vector<std::unique_ptr<Node_bound>> bounds;
     if (auto own = bound_of_points(object)) bounds.push_back(std::move(own));
-    for (const Make_bound& make : promises_) bounds.push_back(make(object));
+    for (auto& bound : promised_bounds(object)) bounds.push_back(std::move(bound));
     bounded_ = std::make_unique<Bounded_surface>(surface, std::move(positions), std::move(bounds), workers, title);
     surface.follow(now);
     bounded_->take_refitted();

@@ -193,12 +193,19 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
           options);
   }
   std::unique_ptr<Watched_mesh> renumbered(Workers& workers) const override {
-    auto anew = std::make_unique<Typed_watched_mesh>(*this->mesh_, points_, strategy_, workers);
+    auto anew = std::make_unique<Typed_watched_mesh>(*this->mesh_, points_of_now(), strategy_, workers);
     anew->renew_maps_of(*this);
     return anew;
   }
 
  private:
+  /// A map of computed points may have indices of the vertices that there were when it was made.
+  Points points_of_now() const {
+    if constexpr (is_computed<Points> && !Vertex_table<Mesh>::by_index)
+      return Points(*this->mesh_, points_.points());
+    else
+      return points_;
+  }
   /// Whether computed points are numbered as the vertices are.
   bool in_order() const {
     if constexpr (is_computed<Points> && Vertex_table<Mesh>::by_index)

@@ -17,7 +17,7 @@ namespace lodestone {
 /// - `box(node)` encloses the vertices of a node, unless the surface turns out to be broken. It may be infinite.
 /// - `pose(leaf)` makes the faces of a leaf readable, and returns the box fitted to them, which is finite.
 /// - `view()` has the coordinates of the leaves that have been posed. They may move in memory with each `pose`.
-/// - `is_broken()`: some vertex that has been posed lies outside a box that was handed out.
+/// - `is_broken()`: some vertex that has been posed lies outside a box that was handed out, or such a box is empty.
 /// - `settle()` poses all leaves and fits all boxes, so that nothing is broken any more.
 template <class Surface>
 concept Surface_on_demand = requires(Surface& surface, const Surface& fixed, std::uint32_t index) {
@@ -56,10 +56,12 @@ class Fitted_surface {
 };
 static_assert(Surface_on_demand<Fitted_surface>);
 
-/// Poses a surface as a whole if it is broken, or if no finite box around it is known.
+/// Poses a surface as a whole if it is broken, or if no box around it is known that is of any use. Distances in units of
+/// a box that is larger, though finite, underflow when they are squared.
 template <Surface_on_demand Surface>
 void settle_if_needed(Surface& surface) {
-  if (surface.is_broken() || !std::isfinite(surface.box(0).extent())) surface.settle();
+  constexpr double largest_extent = 1e100;
+  if (!(surface.box(0).extent() < largest_extent) || surface.is_broken()) surface.settle();
 }
 
 /// Asks a question of surfaces in the current frame. Where a surface turns out to be broken, the answer is dropped, the
