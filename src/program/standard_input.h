@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "io/files/file_bytes.h"
 
 namespace lodestone {
 
 /// A new folder in the system's place for temporary files; it disappears with this, and all that is in it.
 class Temporary_folder {
  public:
-  /// @throws Bad_output  it cannot be created
+  /// @throws Bad_output  it cannot be created, or there is no such place
   Temporary_folder();
   ~Temporary_folder();
   Temporary_folder(const Temporary_folder&) = delete;
@@ -28,9 +31,12 @@ class Temporary_folder {
 class Standard_input {
  public:
   /// Reads the standard input to its end.
-  /// @param format  extension without the dot, such as `obj`
-  /// @throws Bad_output    the temporary file cannot be written
-  explicit Standard_input(const std::string& format);
+  /// @param format      extension without the dot, such as `obj`
+  /// @param most_bytes  that are read; the limit of mesh files, which tests lower
+  /// @throws Bad_mesh     it cannot be read, or is longer than `most_bytes`
+  /// @throws Bad_output   the temporary file cannot be written
+  /// @throws Interrupted  the user has asked to stop
+  explicit Standard_input(const std::string& format, std::uintmax_t most_bytes = longest_mesh_file);
 
   const std::filesystem::path& file() const { return file_; }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -12,13 +11,6 @@
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
-
-namespace {
-
-/// Enough for 50 million faces as text.
-constexpr std::uintmax_t longest_file = std::uintmax_t{16} << 30U;
-
-}  // namespace
 
 File_bytes::File_bytes(const std::filesystem::path& file) : name_(file.string()) {
   std::error_code error;
@@ -30,7 +22,7 @@ File_bytes::File_bytes(const std::filesystem::path& file) : name_(file.string())
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw Bad_mesh(fmt::format("{}: the file cannot be read: {}", name_, error.message()));
   if (size == 0) throw Bad_mesh(fmt::format("{}: the file is empty", name_));
-  if (size > longest_file) throw Bad_mesh(fmt::format("{}: the file is longer than 16 GiB", name_));
+  if (size > longest_mesh_file) throw Bad_mesh(fmt::format("{}: the file is longer than 16 GiB", name_));
   size_ = size;
   bytes_ = std::make_unique_for_overwrite<char[]>(size_);
   read(file);

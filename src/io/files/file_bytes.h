@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,11 +10,15 @@
 
 namespace lodestone {
 
+/// Bytes of a mesh file at most: enough for 50 million faces as text.
+inline constexpr std::uintmax_t longest_mesh_file = std::uintmax_t{16} << 30U;
+
 /// The bytes of a mesh file, as they were when it was read. Not memory-mapped: a mapped file that another process cuts
 /// off ends the program.
 class File_bytes {
  public:
-  /// @throws Bad_mesh  the file does not exist, or is a directory, empty or unreadable, or has become shorter meanwhile
+  /// @throws Bad_mesh  the file does not exist, is a directory, empty, unreadable or longer than
+  ///                   `longest_mesh_file`, or has become shorter meanwhile
   explicit File_bytes(const std::filesystem::path& file);
 
   /// The file's name as the user gave it.
