@@ -95,9 +95,12 @@ Object_report report_of(const std::string& name, const Animation& animation) {
   if (animation.faces.empty()) return report;
   std::vector<Point> points(animation.vertices);
   animation.motion.pose(0, points);
+  check_interrupt();
   report.surface = inspect_surface(points, animation.faces);
   report.faces = count_file_faces(animation.file_face);
+  check_interrupt();
   report.components = component_orientations(points, animation.faces, animation.file_face);
+  check_interrupt();
   count_self_intersections(points, animation.faces, report);
   return report;
 }
@@ -257,6 +260,7 @@ void print(const Object_report& report, const std::string& kind, std::size_t fra
 
 int run(const Info_command& command) {
   const Info info = look_at(command);
+  check_interrupt();
   if (command.json) {
     Json json{{"file", command.file.filename().string()}, {"kind", info.kind}, {"frames", info.frames}};
     if (info.frames_per_second > 0) json["frames_per_second"] = info.frames_per_second;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "program/run_program.h"
@@ -53,6 +56,35 @@ TEST_F(Info, of_a_mesh_reports_its_defects) {
   EXPECT_EQ(object["unused_vertices"], 1);
   EXPECT_EQ(object["self_intersections"], 1);
   EXPECT_EQ(object["box"], Json({{0, 0, -1}, {1, 1, 1}}));
+}
+
+/// Parallel triangles, tilted and so close together that the boxes of all overlap.
+std::string stack_of_triangles(int faces) {
+  std::string bytes = "OFF\n" + std::to_string(3 * faces) + " " + std::to_string(faces) + " 0\n";
+  for (int face = 0; face < faces; ++face)
+    for (int corner = 0; corner < 3; ++corner)
+      for (int axis = 0; axis < 3; ++axis)
+        bytes += std::to_string(face + (axis == corner ? 2'000'000 : -1'000'000)) + (axis == 2 ? "\n" : " ");
+  for (int v = 0; v < 3 * faces; v += 3)
+    bytes += "3 " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + 2) + "\n";
+  return bytes;
+}
+
+TEST_F(Info, that_is_interrupted_while_it_looks_for_self_intersections_reports_nothing) {
+  using Clock = std::chrono::steady_clock;
+  using std::chrono::milliseconds;
+  Program_result result;
+  milliseconds left{0};  // until it ended
+  // A fast machine needs more faces to be still at work.
+  for (int faces = 20'000; faces <= 160'000 && result.exit_code != 130 && left < milliseconds(200); faces *= 2) {
+    Running_program program({"info", write("a.off", stack_of_triangles(faces))});
+    std::this_thread::sleep_for(milliseconds(700));
+    const auto sent = Clock::now();
+    program.send(SIGINT);
+    result = program.wait();
+    left = std::chrono::duration_cast<milliseconds>(Clock::now() - sent);
+  }
+  expect_error(result, 130, "interrupted");
 }
 
 TEST_F(Info, as_text_reports_the_same) {
