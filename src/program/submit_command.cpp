@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,18 +11,22 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
+#include "program/progress.h"
 #include "program/shards.h"
 #include "program/slurm_scripts.h"
 #include "program/source_revision.h"
@@ -40,10 +45,40 @@ bool is_on_path(const std::string& program) {
 
 std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
+/// How a program that was run has ended.
+struct Ended_program {
+  std::string output;  ///< what it wrote to its standard output
+  int status = 0;      ///< as of `waitpid`
+};
+
+/// All that comes out of a pipe.
+/// @throws Interrupted  the user has asked to stop
+std::string read_to_end(int pipe) {
+  constexpr int milliseconds = 100;  // the system starts `read` again after a signal, so an interrupt would not end it
+  std::string text;
+  std::array<char, 4096> bytes{};
+  for (;;) {
+    check_interrupt();
+    pollfd output{.fd = pipe, .events = POLLIN, .revents = 0};
+    if (::poll(&output, 1, milliseconds) <= 0) continue;
+    const auto count = ::read(pipe, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return text;
+    text.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+}
+
+int status_at_end_of(pid_t process) {
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
 /// Runs a program, found on the PATH, and waits for it.
-/// @return what it wrote to its standard output
-/// @throws Error  it cannot be started, or fails: it has then said why
-std::string output_of(std::vector<std::string> words) {
+/// @throws Error        it cannot be started
+/// @throws Interrupted  the user has asked to stop; it has then ended, too
+Ended_program run_to_end(std::vector<std::string> words) {
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -52,27 +87,36 @@ std::string output_of(std::vector<std::string> words) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  // A group of its own: the terminal's Ctrl-C would reach it beside the signal that is passed on, and a second one ends
+  // it at once.
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t process = 0;
-  const int cause = ::posix_spawnp(&process, pointers[0], &actions, nullptr, pointers.data(), environ);
+  const int cause = ::posix_spawnp(&process, pointers[0], &actions, &attributes, pointers.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
-  std::string text;
-  std::array<char, 4096> bytes{};
-  for (;;) {
-    const auto count = cause == 0 ? ::read(ends[0], bytes.data(), bytes.size()) : 0;
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
-    text.append(bytes.data(), static_cast<std::size_t>(count));
+  if (cause != 0) {
+    ::close(ends[0]);
+    throw Error(words[0] + " cannot be started: " + std::generic_category().message(cause));
   }
-  ::close(ends[0]);
-  if (cause != 0) throw Error(words[0] + " cannot be started: " + std::generic_category().message(cause));
-  int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  try {
+    auto output = read_to_end(ends[0]);
+    ::close(ends[0]);
+    return {.output = std::move(output), .status = status_at_end_of(process)};
+  } catch (const Interrupted&) {
+    ::kill(process, SIGTERM);
+    ::close(ends[0]);  // it must not wait for someone to read
+    status_at_end_of(process);
+    throw;
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Error(fmt::format("{} failed, with {} {}", words[0], WIFEXITED(status) ? "exit code" : "signal",
-                            WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status)));
-  return text;
+}
+
+/// @throws Error  always: it has said why it failed
+[[noreturn]] void throw_failure(const std::string& program, int status) {
+  throw Error(fmt::format("{} failed, with {} {}", program, WIFEXITED(status) ? "exit code" : "signal",
+                          WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status)));
 }
 
 /// The number that an option of the command has, such as --threads; 1 if it is not there.
@@ -128,14 +172,19 @@ Shards_to_do look_at(const Shard_folder& folder) {
 }
 
 /// Makes one shard, which counts.
-void run_pilot(const Submit_command& command, std::size_t shards) {
+/// @return its exit code; if it is not success, it has said why
+int run_pilot(const Submit_command& command, std::size_t shards) {
   std::vector<std::string> words{this_program()};
   words.insert(words.end(), command.words.begin(), command.words.end());
   const auto shard = fmt::format("{}/{}", (shards + 1) / 2, shards);
   words.insert(words.end(), {"--out", command.out.string(), "--quiet", "--shard", shard});
   fmt::print("pilot: shard {}\n", shard);
   std::fflush(stdout);
-  output_of(words);
+  const int status = run_to_end(words).status;
+  constexpr std::array told{exit_code::success,    exit_code::bad_usage,         exit_code::bad_input,
+                            exit_code::bad_output, exit_code::contradicts_truth, exit_code::interrupted};
+  if (!WIFEXITED(status) || std::ranges::find(told, WEXITSTATUS(status)) == told.end()) throw_failure(words[0], status);
+  return WEXITSTATUS(status);
 }
 
 std::size_t rounded_up(double value, std::size_t least) {
@@ -180,8 +229,9 @@ void write_whole(const std::filesystem::path& target, const std::string& text) {
 }
 
 /// @return the number of the job
-std::string submitted(std::vector<std::string> words) {
-  auto answer = output_of(std::move(words));
+std::string submitted(const std::vector<std::string>& words) {
+  auto [answer, status] = run_to_end(words);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw_failure(words[0], status);
   answer = answer.substr(0, answer.find_first_of(";\n"));  // --parsable: JOB[;CLUSTER]
   if (answer.empty()) throw Error("sbatch has not said which job it has made");
   return answer;
@@ -189,8 +239,15 @@ std::string submitted(std::vector<std::string> words) {
 
 void submit(const std::filesystem::path& array, const std::filesystem::path& merge, const Submit_command& command,
             std::size_t shards) {
+  check_interrupt();
   const auto job = submitted({"sbatch", "--parsable", array.string()});
-  const auto merging = submitted({"sbatch", "--parsable", "--dependency=afterany:" + job, merge.string()});
+  std::string merging;
+  try {
+    merging = submitted({"sbatch", "--parsable", "--dependency=afterany:" + job, merge.string()});
+  } catch (...) {
+    fmt::print("job {}: {}, without its merge\n", job, counted(shards, "shard"));  // it runs all the same
+    throw;
+  }
   fmt::print("job {}: {}; job {}: merge\nwatch: squeue --jobs {},{}; lodestone status {}\n", job,
              counted(shards, "shard"), merging, job, merging, printable(shell_word(command.out.string())));
 }
@@ -216,13 +273,18 @@ int run(const Submit_command& command) {
     to_do = look_at(folder);
   }
   if (to_do.shards.size() == shards && !measured) {
-    run_pilot(command, shards);
+    if (const int code = run_pilot(command, shards); code != exit_code::success) {
+      std::fputs(fmt::format("lodestone: the pilot failed, with exit code {}: nothing was submitted\n", code).c_str(),
+                 stderr);
+      return code;
+    }
     to_do = look_at(Shard_folder(command.out));
   }
   if (to_do.shards.empty()) {
     fmt::print("all shards are done; next: lodestone merge {}\n", printable(shell_word(command.out.string())));
     return exit_code::success;
   }
+  check_interrupt();
   const auto job = job_of(command, shards, to_do);
   const auto array = job.out / "slurm" / "array.sh", merge = job.out / "slurm" / "merge.sh";
   write_whole(array, array_script(job));

@@ -3,11 +3,15 @@
 // tests it with Slurm.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "program/run_program.h"
@@ -105,6 +109,11 @@ TEST_F(Submit, gives_both_scripts_to_sbatch_and_submits_only_what_is_missing) {
   expect_success(second);
   EXPECT_EQ(second.out.find("pilot"), std::string::npos);
   expect_line(script("array.sh"), "#SBATCH --array=3");
+  folder.write("sbatch", "#!/bin/sh\ncase \"$*\" in *dependency*) exit 1;; esac\necho 18\n");
+  std::filesystem::permissions(sbatch, std::filesystem::perms::owner_all);
+  const auto alone = submit({});
+  EXPECT_EQ(alone.exit_code, 3);
+  EXPECT_NE(alone.out.find("job 18: 1 shard, without its merge"), std::string::npos) << alone.out;
   folder.write("sbatch", "#!/bin/sh\nexit 1\n");
   std::filesystem::permissions(sbatch, std::filesystem::perms::owner_all);
   const auto failed = submit({});
@@ -136,6 +145,35 @@ TEST_F(Submit, of_a_command_that_fails_writes_no_scripts) {
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_NE(result.err.find("failed, with exit code 3"), std::string::npos) << result.err;
   EXPECT_FALSE(exists(out));
+}
+
+TEST_F(Submit, ends_with_the_exit_code_of_the_pilot) {
+  EXPECT_EQ(submit({"--dry-run"}, {"--contacts", "some"}).exit_code, 2);
+  const auto unwritable =
+      run_program({"submit", "--slurm", "--dry-run", "--out", "/proc/lodestone", "--", "detect", scene});
+  EXPECT_EQ(unwritable.exit_code, 4) << unwritable.err;
+  EXPECT_FALSE(exists(out));
+}
+
+TEST_F(Submit, passes_a_signal_on_to_the_pilot_and_writes_no_scripts) {
+  auto longer = nlohmann::json::parse(read_bytes(scene));
+  longer["frames"] = 1'000'000;
+  folder.write("a scene.json", longer.dump());
+  for (const int signal : {SIGINT, SIGTERM}) {
+    SCOPED_TRACE(signal);
+    Running_program program(
+        {"submit", "--slurm", "--dry-run", "--out", out.string(), "--shards", "2", "--", "detect", scene},
+        {.limit = std::chrono::seconds(20)});
+    const auto begun = [&] { return content_of(out / "shards").size() >= 2; };  // the manifest and a shard
+    for (int i = 0; i < 2000 && !begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(begun()) << "the pilot has not begun";
+    program.send(signal);
+    const auto result = program.wait();
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_NE(result.err.find("lodestone: interrupted"), std::string::npos) << result.err;
+    EXPECT_FALSE(exists(out / "slurm"));
+    EXPECT_EQ(content_of(out / "shards"), (std::set<std::string>{"manifest.json"}));
+  }
 }
 
 }  // namespace
