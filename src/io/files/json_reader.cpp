@@ -20,9 +20,11 @@ std::string in_quotes(std::string_view text) {
 Json_value::Json_value(const Json& value, std::string file, std::string place)
     : value_(&value), file_(std::move(file)), place_(std::move(place)) {}
 
-void Json_value::fail(std::string_view cause) const {
-  throw Bad_scene(fmt::format("{}: {}: {}", file_, place_.empty() ? "/" : place_, cause));
+std::string Json_value::at_place(std::string_view cause) const {
+  return fmt::format("{}: {}: {}", file_, place_.empty() ? "/" : place_, cause);
 }
+
+void Json_value::fail(std::string_view cause) const { throw Bad_scene(at_place(cause)); }
 
 void Json_value::wrong_type(std::string_view expected) const {
   fail(fmt::format("expected {}, found {}", expected, value_->type_name()));

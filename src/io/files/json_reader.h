@@ -79,6 +79,19 @@ class Json_value {
   std::size_t count(std::string_view key, std::size_t least, std::size_t most, std::size_t otherwise) const;
   Kernel::Vector_3 vector(std::string_view key, const Kernel::Vector_3& otherwise) const;
 
+  /// What `read` returns, which reads files that the value names. An error about them is thrown with the place of the
+  /// value before it: `FILE: POINTER: cause`.
+  template <class Read>
+  auto from_files(Read read) const {
+    try {
+      return read();
+    } catch (const Bad_mesh& error) {
+      throw Bad_mesh(at_place(error.what()));
+    } catch (const Bad_motion& error) {
+      throw Bad_motion(at_place(error.what()));
+    }
+  }
+
   /// What `build` returns. A Bad_argument that it throws is reported as a Bad_scene of this value.
   template <class Build>
   auto checked(Build build) const {
@@ -90,6 +103,8 @@ class Json_value {
   }
 
  private:
+  /// `FILE: POINTER: cause`.
+  std::string at_place(std::string_view cause) const;
   Json_value child(const Json& value, const std::string& key) const;
   [[noreturn]] void wrong_type(std::string_view expected) const;
 

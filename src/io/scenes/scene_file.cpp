@@ -60,7 +60,9 @@ Scene_object object_of(Surface_mesh&& shape) {
 
 Scene_object read_rest(const Json_value& value, Scene_folder& folder) {
   if (value.exactly_one_of({"mesh", "shape"}) == "shape") return object_of(detail::read_shape(value.at("shape")));
-  return object_of(read_mesh(folder.file(value.at("mesh")), folder.limits()));
+  const Json_value mesh = value.at("mesh");
+  const auto file = folder.file(mesh);
+  return object_of(mesh.from_files([&] { return read_mesh(file, folder.limits()); }));
 }
 
 /// Positions in file order. Vertices that no face uses are not in the mesh: they get the position of the first vertex,
@@ -124,11 +126,15 @@ Motion read_motion(const Json_value& value, const Scene_object& object, const Pl
   const std::string kind = value.expect_one_key({"pc2", "mdd", "gltf", "keyframes", "sequence", "deform"});
   const Json_value source = value.at(kind);
   if (kind == "deform") return deform(rest_positions(object), detail::read_deformations(source));
-  if (kind == "pc2") return placed(read_point_cache(folder.file(source), object.file_vertices), placement);
-  if (kind == "mdd") return placed(read_mdd_cache(folder.file(source), object.file_vertices), placement);
-  if (kind == "gltf") return placed(read_gltf(source, object.file_vertices, folder), placement);
-  if (kind == "keyframes") return placed(read_game_motion(folder.file(source), object.file_vertices), placement);
-  return placed(read_mesh_sequence(folder.sequence(source), object.file_vertices, folder.limits()), placement);
+  const std::size_t vertices = object.file_vertices;
+  Motion motion = source.from_files([&] {
+    if (kind == "pc2") return read_point_cache(folder.file(source), vertices);
+    if (kind == "mdd") return read_mdd_cache(folder.file(source), vertices);
+    if (kind == "gltf") return read_gltf(source, vertices, folder);
+    if (kind == "keyframes") return read_game_motion(folder.file(source), vertices);
+    return read_mesh_sequence(folder.sequence(source), vertices, folder.limits());
+  });
+  return placed(std::move(motion), placement);
 }
 
 // ---- Objects and scene ----

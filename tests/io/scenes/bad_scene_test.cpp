@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/mesh/errors.h"
@@ -207,8 +209,37 @@ TEST(Bad_scene_file, a_sequence_is_refused_at_its_first_missing_file) {
          with_object(R"("mesh": "a.off", "motion": {"sequence": {"pattern": "a#.off", "first": 7, "last": 1000000}})"));
     ADD_FAILURE() << "expected an error";
   } catch (const Bad_motion& error) {
-    EXPECT_EQ(error.what(), (folder.path() / "a7.off").string() + ": there is no such file");
+    EXPECT_EQ(error.what(), (folder.path() / "scene.json").string() + ": /objects/0/motion/sequence: " +
+                                (folder.path() / "a7.off").string() + ": there is no such file");
   }
+}
+
+TEST(Bad_scene_file, an_error_of_a_file_has_its_own_type_and_the_place_in_the_scene) {
+  const Temporary_folder folder;
+  folder.write("a.off", tetrahedron_off());
+  folder.write("b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
+  const auto expect_message = [&](const Error& error, const std::string& place, const std::string& file) {
+    const std::string scene = (folder.path() / "scene.json").string() + ": /objects/0/";
+    EXPECT_TRUE(std::string(error.what()).starts_with(scene + place + ": " + (folder.path() / file).string() + ":"))
+        << error.what();
+  };
+  for (const std::string file : {"none.off", "b.off"}) try {
+      read(folder, with_object(R"("mesh": ")" + file + R"(")"));
+      ADD_FAILURE() << "expected an error about " << file;
+    } catch (const Bad_mesh& error) {
+      expect_message(error, "mesh", file);
+    }
+  const std::vector<std::pair<std::string, std::string>> motions{{"pc2", "none.pc2"},
+                                                                 {"mdd", "none.mdd"},
+                                                                 {"gltf", "none.glb"},
+                                                                 {"keyframes", "none.md2"},
+                                                                 {"sequence", "n*.off"}};
+  for (const auto& [kind, file] : motions) try {
+      read(folder, with_object(R"("mesh": "a.off", "motion": {")" + kind + R"(": ")" + file + R"("})"));
+      ADD_FAILURE() << "expected an error about " << file;
+    } catch (const Bad_motion& error) {
+      expect_message(error, "motion/" + kind, file);
+    }
 }
 
 TEST(Bad_scene_file, a_missing_number_of_frames_is_refused_if_no_motion_ends) {
