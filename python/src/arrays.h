@@ -13,6 +13,7 @@
 
 #include "integers.h"
 #include "lodestone/mesh/coordinates.h"
+#include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/mesh_numbering.h"
 
 /// Between numpy arrays and the types of the library.
@@ -73,6 +74,16 @@ struct Given_mesh {
 /// @param faces  None: `mesh` has both
 /// @throws Bad_argument  it has not
 Given_mesh given_mesh(const py::object& mesh, const py::object& faces, const std::string& name);
+
+/// What `make` returns. A Bad_mesh that it throws is told with the name of the mesh before it; an empty name is not.
+template <class Make>
+auto naming_mesh(const std::string& name, const Make& make) {
+  try {
+    return make();
+  } catch (const Bad_mesh& error) {
+    throw Bad_mesh(name.empty() ? error.what() : name + ": " + error.what());
+  }
+}
 
 /// A new array of a list of plain numbers.
 template <class Number, class List>

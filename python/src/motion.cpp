@@ -74,10 +74,10 @@ void set_weights(Python_skin& skin, const py::object& weights) {
   });
 }
 
-py::array pose_array(const Python_animation& self, py::ssize_t frame) {
-  if (frame < 0) frame += static_cast<py::ssize_t>(self.frames);
+py::array pose_array(const Python_animation& self, py::ssize_t given) {
+  const auto frame = given < 0 ? given + static_cast<py::ssize_t>(self.frames) : given;
   if (frame < 0 || static_cast<std::size_t>(frame) >= self.frames)
-    throw py::index_error("there is no frame " + std::to_string(frame) + ": there are " + std::to_string(self.frames));
+    throw py::index_error("there is no frame " + std::to_string(given) + ": there are " + std::to_string(self.frames));
   std::vector<double> posed;
   {
     const Without_gil without_gil;

@@ -12,11 +12,14 @@ namespace {
 
 /// A mesh that is asked about once.
 struct Asked_mesh {
-  Asked_mesh(const py::object& asked, const py::object& asked_faces, const std::string& name)
+  Asked_mesh(const py::object& asked, const py::object& asked_faces, const std::string& name) try
       : given(given_mesh(asked, asked_faces, name)),
         faces(faces_of(given.faces)),
         vertices(given.vertices),
-        mesh(vertices.coordinates(), faces) {}
+        mesh(vertices.coordinates(), faces) {
+  } catch (const Bad_mesh& error) {
+    throw Bad_mesh(name + ": " + error.what());
+  }
 
   Given_mesh given;
   std::vector<Corners> faces;

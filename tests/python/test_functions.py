@@ -20,6 +20,26 @@ def test_a_mesh_is_an_object_with_vertices_and_faces_or_a_tuple():
         lodestone.find_collisions((a.vertices[:, :2], a.faces), b)
 
 
+@pytest.mark.parametrize("vertices, faces, text", [
+    (cube().vertices, cube().faces + 1, "face 2 refers to vertex 8 of 8"),
+    (cube().vertices, cube().faces - 1, "face 0 refers to vertex -1"),
+    (cube().vertices[:, :2], cube().faces, r"vertices must have the shape \(V, 3\), but have \(8, 2\)"),
+])
+def test_errors_of_arrays_name_the_mesh(vertices, faces, text):
+    bad, good = (vertices, faces), cube()
+    for arguments, name in [((bad, good), "a"), ((good, bad), "b")]:
+        with pytest.raises(lodestone.BadMesh, match=f"^{name}: {text}"):
+            lodestone.find_collisions(*arguments)
+    with pytest.raises(lodestone.BadMesh, match=f"^the second argument: {text}"):
+        lodestone.closest(good, bad)
+    with pytest.raises(lodestone.BadMesh, match=f"^mesh: {text}"):
+        lodestone.self_collisions(bad)
+    with pytest.raises(lodestone.BadMesh, match=f"^zed: {text}"):
+        lodestone.Detector().add(vertices, faces, name="zed")
+    with pytest.raises(lodestone.BadMesh, match=f"^{text}"):
+        lodestone.Detector().add(vertices, faces)
+
+
 @pytest.mark.parametrize("options", [{}, {"tolerance": 0.1}, {"patches": True}, {"threads": 2}, {"most_contacts": 5},
                                      {"containment": True, "parting": True}])
 def test_one_call_gives_what_a_detector_gives(options):
