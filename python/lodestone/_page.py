@@ -41,7 +41,8 @@ class Page(PageBase):
 def page(frames, path=None, *, title="Lodestone", frames_per_second=30.0):
     """Makes a page of frames as they are found, such as those of `play`, and saves it if there is a path.
 
-    frames: an iterable of Frame, of one detector. Each is added before the next is asked for.
+    frames: an iterable of Frame, of one detector. Each is added before the next is asked for, since it shows the
+    objects where they are then. So a list of frames that were kept is refused: give `play(...)` itself.
     """
     made = None
     for frame in frames:
@@ -62,7 +63,8 @@ def _check_has_detector(frame):
 
 
 def _show(self):
-    """A page of this frame, which a notebook shows. It shows the objects where their vertices are now."""
+    """A page of this frame, which a notebook shows. It must be the last that its detector found, and the
+    objects must not have moved since."""
     _check_has_detector(self)
     made = Page(self.detector)
     made.add(self)

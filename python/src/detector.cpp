@@ -122,6 +122,23 @@ Python_object& Python_detector::at(Object_id object) const {
   throw Bad_argument("there is no object " + std::to_string(object));
 }
 
+template <class Change>
+void Python_detector::change_object(Object_id object, const Change& change) {
+  auto& changed = at(object);
+  const auto title = [&] {
+    const auto id = "object " + std::to_string(object);
+    return changed.name().empty() ? id : id + " (" + changed.name() + ")";
+  };
+  try {
+    change(changed);
+  } catch (const Bad_argument& error) {
+    throw Bad_argument(title() + ": " + error.what());
+  } catch (const Bad_mesh& error) {
+    throw Bad_mesh(title() + ": " + error.what());
+  }
+  ++poses_;
+}
+
 Object_id Python_detector::add(const py::object& mesh, const py::object& faces, const std::string& name,
                                std::size_t particles, std::uint32_t groups, std::uint32_t meets,
                                const py::object& file_vertex) {
@@ -136,9 +153,12 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
                                              settings_.options.mode == Mode::certified);
   } else if (py::isinstance<Python_skin>(mesh)) {
     if (faces.is_none()) throw Bad_argument("a skin needs faces");
-    object = std::make_unique<Python_object>(name, mesh.cast<std::shared_ptr<Python_skin>>(), faces);
+    object = naming_mesh(name, [&] {
+      return std::make_unique<Python_object>(name, mesh.cast<std::shared_ptr<Python_skin>>(), faces);
+    });
   } else {
-    object = std::make_unique<Python_object>(name, given_mesh(mesh, faces, "a mesh"));
+    const auto given = given_mesh(mesh, faces, "a mesh");
+    object = naming_mesh(name, [&] { return std::make_unique<Python_object>(name, given); });
   }
   return change([&](auto& detector) {
     const Object_id id = object->add_to(detector, options);
@@ -150,7 +170,7 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
 void Python_detector::set_vertices(Object_id object, const py::object& vertices) {
   auto given = std::make_unique<Live_vertices>(vertices);
   change([&](auto& detector) {
-    at(object).exchange(given);
+    change_object(object, [&](auto& target) { target.exchange(given); });
     detector.update(object);
   });
   // With the GIL again: the former array goes.
@@ -158,13 +178,14 @@ void Python_detector::set_vertices(Object_id object, const py::object& vertices)
 
 void Python_detector::set_frame(Object_id object, std::size_t frame) {
   change([&](auto& detector) {
-    at(object).set_frame(frame);
+    change_object(object, [&](auto& target) { target.set_frame(frame); });
     detector.update(object);
   });
 }
 
 void Python_detector::update(std::optional<Object_id> object) {
   ask([&](auto& detector) {
+    ++poses_;
     if (object)
       detector.update(*object);
     else
@@ -180,7 +201,7 @@ void Python_detector::place(Object_id object, const py::object& matrix) {
   if (m.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw Bad_argument("the last row of matrix must be 0, 0, 0, 1");
   change([&](auto& detector) {
     detector.place(object, Eigen::Isometry3d(m));
-    at(object).place(Eigen::Isometry3d(m));
+    change_object(object, [&](auto& target) { target.place(Eigen::Isometry3d(m)); });
   });
 }
 
@@ -193,7 +214,7 @@ void Python_detector::rebuild(Object_id object, const py::object& vertices, cons
   if (!file_vertex.is_none()) doubled = indices_of(file_vertex, "file_vertex");
   if (!changed.is_none() && !file_vertex.is_none()) throw Bad_argument("give changed or file_vertex, not both");
   change([&](auto& detector) {
-    at(object).exchange(given, corners);
+    change_object(object, [&](auto& target) { target.exchange(given, corners); });
     try {
       if (changed.is_none())
         detector.rebuild(object, doubled);
@@ -207,14 +228,34 @@ void Python_detector::rebuild(Object_id object, const py::object& vertices, cons
 }
 
 Python_frame Python_detector::detect() {
-  std::shared_ptr<const Frame> frame = ask([](auto& detector) { return std::make_shared<Frame>(detector.detect()); });
-  return {std::move(frame), settings_.options.contact_points, settings_.options.contact_normals};
+  return found([](auto& detector) { return detector.detect(); });
 }
 
 Python_frame Python_detector::detect(Object_id a, Object_id b) {
-  std::shared_ptr<const Frame> frame =
-      ask([&](auto& detector) { return std::make_shared<Frame>(detector.detect(a, b)); });
-  return {std::move(frame), settings_.options.contact_points, settings_.options.contact_normals};
+  return found([&](auto& detector) { return detector.detect(a, b); });
+}
+
+template <class Detect>
+Python_frame Python_detector::found(const Detect& detect) {
+  Python_frame found{.with_points = settings_.options.contact_points, .with_normals = settings_.options.contact_normals};
+  ask([&](auto& detector) {
+    auto frame = std::make_shared<Frame>(detect(detector));
+    last_frame_ = frame->number;
+    found.frame = std::move(frame);
+    found.poses = poses_;
+  });
+  return found;
+}
+
+void Python_detector::check_is_shown(const Python_frame& frame) {
+  look([&](auto&) {
+    const auto number = frame.frame->number;
+    const auto before = "frame " + std::to_string(number) + " was found before ";
+    if (number != last_frame_)
+      throw Bad_argument(before + "frame " + std::to_string(last_frame_) +
+                         ": add each frame before the next is asked for");
+    if (frame.poses != poses_) throw Bad_argument(before + "objects were moved, removed or rebuilt: add each frame before that");
+  });
 }
 
 py::array Python_detector::positions(Object_id object) {
@@ -245,6 +286,7 @@ void Python_detector::remove(Object_id object) {
   std::unique_ptr<Python_object> removed;
   change([&](auto& detector) {
     detector.remove(object);
+    ++poses_;
     removed = std::move(objects_[object]);
   });
   // With the GIL again: what it keeps goes.

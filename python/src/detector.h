@@ -122,6 +122,8 @@ class Python_detector {
     std::vector<double> positions;
   };
   std::vector<Shown_object> shown();
+  /// @throws Bad_argument  another frame was found since, or objects were moved, removed or rebuilt
+  void check_is_shown(const Python_frame& frame);
 
   /// Promises something about the motion of an object, which keeps the promise.
   template <class Promise>
@@ -149,11 +151,18 @@ class Python_detector {
   /// @throws Bad_argument  a visitor called
   void check_no_visitor() const;
   Python_object& at(Object_id object) const;
+  /// Sets positions or faces of an object. Its errors name the object.
+  template <class Change>
+  void change_object(Object_id object, const Change& change);
+  template <class Detect>
+  Python_frame found(const Detect& detect);
 
   Detector_settings settings_;
   Deadlock_mutex mutex_;  ///< a visitor that calls the detector gets an error, not a deadlock
   bool reading_ = false;  ///< a query reads; who gets here then is its visitor
   std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed
+  std::uint64_t last_frame_ = 0;  ///< number of the frame that was found last
+  std::uint64_t poses_ = 0;       ///< how often objects were moved, removed or rebuilt; writing into arrays does not count
   Detector<Any_strategy> detector_;
 };
 

@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -18,9 +19,10 @@ namespace py = pybind11;
 
 /// A frame. Arrays are made when they are first asked for.
 struct Python_frame {
-  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<const Frame> frame = {};
   bool with_points = false, with_normals = false;  ///< whether these were asked for
   py::object detector = py::none();                ///< that made it; None: a function
+  std::uint64_t poses = 0;                         ///< of the detector, when it was made
 };
 
 /// One object pair of a frame. Its arrays are slices of the frame's.

@@ -32,13 +32,9 @@ Triangle triangle_of_face(const Shown_object& object, std::uint32_t face) {
 std::vector<Page_contact> contacts_of(const Frame& frame, const std::vector<Shown_object>& objects) {
   std::vector<Page_contact> contacts;
   for (const auto& pair : frame.pairs)
-    for (const auto& [a, b] : frame.contacts(pair)) {
-      if (pair.a >= objects.size() || pair.b >= objects.size() || a >= objects[pair.a].faces.size() ||
-          b >= objects[pair.b].faces.size())
-        throw Bad_argument("objects of the frame have been removed or rebuilt since it was found");
+    for (const auto& [a, b] : frame.contacts(pair))
       add_page_contacts(contacts, {.a = pair.a, .face_a = a, .b = pair.b, .face_b = b},
                         triangle_of_face(objects[pair.a], a), triangle_of_face(objects[pair.b], b));
-    }
   return contacts;
 }
 
@@ -46,7 +42,6 @@ std::vector<Page_contact> contacts_of(const Frame& frame, const std::vector<Show
 std::string numbers_of_frame(const Frame& frame, const std::vector<Shown_object>& objects) {
   Json pairs = Json::array();
   for (const auto& pair : frame.pairs) {
-    if (pair.a >= objects.size() || pair.b >= objects.size()) continue;  // removed since
     Json faces = Json::array();
     for (const auto& [a, b] : frame.contacts(pair)) faces.push_back({a, b});
     pairs.push_back({{"a", title_of_object(objects[pair.a], pair.a)},
@@ -109,6 +104,7 @@ class Python_page {
     const auto& options = detector_->options();
     auto objects = detector_->shown();
     check_objects(objects);
+    detector_->check_is_shown(frame);  // after `shown`, since another thread may move objects
     const Without_gil without_gil;
     Page_frame shown{.positions = {}, .numbers = numbers_of_frame(*frame.frame, objects)};
     if (finds_all(options.mode)) shown.stages = stages_of(*frame.frame, options.exact.tolerance > 0);
@@ -154,7 +150,8 @@ void add_pages(py::module_& module) {
       .def(py::init<std::shared_ptr<Python_detector>, const std::string&, double>(), py::arg("detector").none(false),
            py::arg("title") = "Lodestone", py::arg("frames_per_second") = 30.0)
       .def("add", &Python_page::add, py::arg("frame"),
-           "Adds a frame: what was found, and where the vertices of all objects are now. Call it before you move them.")
+           "Adds a frame: what was found, and where the vertices of all objects are now. Call it before you move them\n"
+           "and before you ask for the next frame: it refuses an earlier one.")
       .def("save", &Python_page::save, py::arg("path"), "Writes the page: one .html file that needs nothing else.")
       .def("__len__", &Python_page::frames, "Number of frames.");
 }

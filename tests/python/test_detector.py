@@ -86,6 +86,10 @@ def test_set_vertices_takes_another_array():
     assert detector.detect().collides
     with pytest.raises(lodestone.BadMesh, match="there are 8 vertices, but got 3"):
         detector.set_vertices(a, np.zeros((3, 3)))
+    with pytest.raises(lodestone.BadArgument, match=r"object 0 \(box\): it has no animation"):
+        detector.set_frame(a, 1)
+    with pytest.raises(lodestone.BadArgument, match="object 1: it has no animation"):
+        detector.set_frame(1, 1)
     assert detector.detect().collides
     assert detector.name(a) == "box"
 

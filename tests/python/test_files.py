@@ -89,6 +89,8 @@ def test_an_animation_goes_to_a_file_and_back(tmp_path, extension):
     assert detector.detect().collides and np.array_equal(detector.vertices(moving), read[3])
     with pytest.raises(lodestone.BadArgument, match="there is no frame 5"):
         detector.set_frame(moving, 5)
+    with pytest.raises(IndexError, match="there is no frame -100: there are 5"):
+        read[-100]
 
 
 def test_frames_of_other_lengths_are_refused(tmp_path):
@@ -185,6 +187,35 @@ def test_a_page_takes_only_frames_of_its_detector():
     assert len(page) == 1
 
 
+def test_a_page_refuses_a_frame_that_is_not_of_where_objects_are(scenes):
+    kept = list(lodestone.play(scenes / "teapot_sphere_1.json", frames=range(108, 111)))
+    with pytest.raises(lodestone.BadArgument, match="frame 1 was found before frame 3: add each frame before the next"):
+        lodestone.page(kept)
+    with pytest.raises(lodestone.BadArgument, match="frame 2 was found before frame 3"):
+        kept[1].show()
+    assert len(kept[2].show()) == 1
+    detector = lodestone.Detector()
+    ball = sphere(8)
+    detector.add(cube()), detector.add(ball)
+    moves = [
+        lambda: detector.set_vertices(1, ball.vertices + 0.25),
+        lambda: detector.place(0, np.eye(4)),
+        lambda: detector.update(1),
+        lambda: detector.rebuild(1, ball.vertices, ball.faces),
+    ]
+    for move in moves:
+        frame = detector.detect()
+        page = lodestone.Page(detector)
+        page.add(frame)
+        move()
+        with pytest.raises(lodestone.BadArgument, match=f"frame {frame.number} was found before objects were moved"):
+            page.add(frame)
+        assert len(page) == 1
+    kept[2].detector.set_frame(0, 7)
+    with pytest.raises(lodestone.BadArgument, match="frame 3 was found before objects were moved"):
+        kept[2].show()
+
+
 def test_a_page_refuses_what_changed_after_the_frame():
     detector = lodestone.Detector()
     box, ball = cube(), sphere(8)
@@ -199,6 +230,7 @@ def test_a_page_refuses_what_changed_after_the_frame():
         frame.show()
     with pytest.raises(lodestone.BadArgument, match="begin another page"):
         page.add(detector.detect())
+    frame = detector.detect()
     detector.remove(1)
     with pytest.raises(lodestone.BadArgument, match="removed or rebuilt"):
         frame.show()
