@@ -6,8 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -27,6 +29,19 @@ namespace lodestone {
 /// Rejects an empty text: a script whose variable is empty must not lose its results silently.
 inline CLI::Validator not_empty() {
   return {[](const std::string& text) { return std::string(text.empty() ? "expected a name, found none" : ""); }, ""};
+}
+
+/// Accepts a finite number of a range. CLI::Range accepts nan, and prints large limits with up to 309 digits.
+/// @param range  the range in words
+inline CLI::Validator finite_number(double least, double most, const std::string& range) {
+  return {[least, most, range](const std::string& text) {
+            char* end = nullptr;
+            const double number = std::strtod(text.c_str(), &end);
+            const bool is_in_range =
+                !text.empty() && *end == 0 && std::isfinite(number) && number >= least && number <= most;
+            return is_in_range ? std::string() : fmt::format("not a finite number of {}: {}", range, text);
+          },
+          range};
 }
 
 /// Whole numbers are decimal: CLI11 reads 010 as 8, and takes the nearest number for one that is too large.

@@ -85,6 +85,15 @@ void check_colours(const Convert_command& command) {
                                    command.output.string()));
 }
 
+/// @throws Bad_argument  there is no time that a rate could change
+void check_rate(const Animation& animation, const Convert_command& command) {
+  const bool is_written = is_gltf(command.output) || lower_case(command.output.extension().string()) == ".mdd";
+  if (command.rate > 0 && animation.kind != "gltf" && !is_written)
+    throw Bad_argument(
+        fmt::format("{}: --fps needs glTF to read, or .gltf, .glb or .mdd, the formats that are written with times",
+                    command.output.string()));
+}
+
 void check_faces(const Animation& animation, const Convert_command& command) {
   const auto use = use_of_faces(command);
   if (animation.faces.empty() && !use.empty())
@@ -115,6 +124,7 @@ void report(const Convert_command& command, const Animation& original, const Ani
 int run(const Convert_command& command) {
   check_colours(command);
   const auto original = read_input(command);
+  check_rate(original, command);
   check_faces(original, command);
   const auto animation = edited(original, command);
   auto options = output_options(animation, command);

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <cstdlib>
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -65,7 +65,7 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
   auto& options = choice.settings.lbg;
   app.add_option("--normal-weight", options.features.normal_weight,
                  "Weight of normals relative to positions; 0: positions only")
-      ->check(CLI::Range(0.0, largest_normal_weight).description("0 to 1e6"))
+      ->check(finite_number(0, largest_normal_weight, "0 to 1e6"))
       ->capture_default_str();
   app.add_option("--split", options.split_rule, "How a code vector is split: principal_axis, multiplicative")
       ->transform(one_of<Split>({{"principal_axis", Split::principal_axis}, {"multiplicative", Split::multiplicative}}))
@@ -80,16 +80,7 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
       ->capture_default_str();
 }
 
-/// Accepts a finite number that is not negative. CLI::Range would print its upper limit with 309 digits.
-CLI::Validator distance_check() {
-  return {[](const std::string& text) {
-            char* end = nullptr;
-            const double distance = std::strtod(text.c_str(), &end);
-            const bool is_distance = !text.empty() && *end == 0 && distance >= 0 && std::isfinite(distance);
-            return is_distance ? std::string() : "not a finite number of 0 or more: " + text;
-          },
-          "0 or more"};
-}
+CLI::Validator distance_check() { return finite_number(0, std::numeric_limits<double>::max(), "0 or more"); }
 
 void add_exact_options(CLI::App& app, Exact_options& options) {
   app.add_option("--within", options.tolerance,
@@ -239,7 +230,9 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
 
 void add_partition(CLI::App& program, Partition_command& command, std::string& format) {
   auto& app = *program.add_subcommand("partition", "Divide a mesh into regions");
-  app.add_option("MESH", command.mesh, "Mesh (.off .obj .ply .stl .gltf .glb .md2 .md3)")
+  app.add_option("MESH", command.mesh,
+                 "Mesh (.off .obj .ply .stl .gltf .glb .md2 .md3), SCENE.json#OBJECT, shape:teapot; - is the standard "
+                 "input")
       ->required()
       ->type_name("FILE");
   app.add_option("--regions", command.regions, "Number of regions")
@@ -288,7 +281,7 @@ void add_convert(CLI::App& program, Convert_command& command, std::string& forma
       ->type_name("FRAMES")
       ->check(not_empty());
   app.add_option("--fps", command.rate, "Frames per second, for reading glTF and writing glTF and MDD")
-      ->check(CLI::Range(1e-3, 1e6).description("0.001 to 1e6"))
+      ->check(finite_number(1e-3, 1e6, "0.001 to 1e6"))
       ->default_str("what IN says, else 30");
   app.add_option("--regions", command.regions, "glTF: divide the surface into this many regions and colour them")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
@@ -302,6 +295,16 @@ void add_convert(CLI::App& program, Convert_command& command, std::string& forma
   app.add_flag("--quiet", command.quiet, "No progress bar, no report");
   add_reading(app, command.reading);
   add_format(app, format);
+}
+
+/// Refuses --allow-outside where no input is a scene, or an object of one.
+/// @throws Bad_argument
+void refuse_allow_outside(const CLI::App& app, const std::vector<std::filesystem::path>& inputs) {
+  const auto is_of_a_scene = [](const std::filesystem::path& input) {
+    return input.extension() == ".json" || input.string().find(".json#") != std::string::npos;
+  };
+  if (app.count("--allow-outside") > 0 && std::ranges::none_of(inputs, is_of_a_scene))
+    throw Bad_argument("--allow-outside is for scenes: no input is one");
 }
 
 int run_commands(int argc, char** argv);
@@ -351,9 +354,13 @@ int run_commands(int argc, char** argv) {
   replace_standard_input(inputs, format, standard_input);
   if (program.got_subcommand("detect")) {
     const auto& app = *program.get_subcommand("detect");
+    refuse_allow_outside(app, detect.inputs);
     refuse_options_of_other_modes(app, detect.options.mode);
     if (app.count("--most-contacts") > 0 && detect.options.contacts != Contact_query::all)
       throw Bad_argument("--most-contacts needs --contacts all: otherwise one face pair is listed at most");
+    // yes_no is refused by the detector.
+    if (detect.options.exact.patches && app.count("--contacts") > 0 && detect.options.contacts == Contact_query::first)
+      throw Bad_argument("contact patches need --contacts all: otherwise one face pair is listed at most");
     detect.words = words_of_work({argv + 1, argv + argc});
     // Shards cannot know what earlier frames have done to the trees.
     detect.independent_frames |= finds_all(detect.options.mode) && (detect.shard || detect.merge_shards);
@@ -364,6 +371,8 @@ int run_commands(int argc, char** argv) {
     if (finds_all(detect.options.mode) && detect.chooses_strategy && detect.options.particles == 0)
       detect.options.particles = detect.options.least_particles;
   }
+  if (program.got_subcommand("info")) refuse_allow_outside(*program.get_subcommand("info"), {info.file});
+  if (program.got_subcommand("convert")) refuse_allow_outside(*program.get_subcommand("convert"), {convert.input});
   if (program.got_subcommand("partition"))
     refuse_options_of_other_strategies(*program.get_subcommand("partition"), partition.strategy.name, true);
   detect.options.senin.seed = detect.partition.settings.seed;

@@ -53,10 +53,10 @@ inline void add_submit(CLI::App& program, Submit_command& command) {
   app.add_option("--partition", command.partition, "Partition of the cluster")->type_name("NAME")->check(not_empty());
   app.add_option("--account", command.account, "Account to charge")->type_name("NAME")->check(not_empty());
   app.add_option("--time-factor", command.time_factor, "Time limit of a shard, in times of the longest one so far")
-      ->check(CLI::Range(1.0, 1000.0).description("1 to 1000"))
+      ->check(finite_number(1, 1000, "1 to 1000"))
       ->capture_default_str();
   app.add_option("--memory-factor", command.memory_factor, "Memory of a shard, in memories of the largest one so far")
-      ->check(CLI::Range(1.0, 1000.0).description("1 to 1000"))
+      ->check(finite_number(1, 1000, "1 to 1000"))
       ->capture_default_str();
   app.add_option("--minutes", command.minutes, "Time limit of a shard; with --megabytes no pilot is run")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))

@@ -74,6 +74,34 @@ TEST_F(Messages, about_a_distance_name_its_option) {
   }
 }
 
+TEST_F(Messages, about_a_number_that_is_not_finite_or_not_in_its_range_name_its_option) {
+  const auto cloth = path("b.obj");
+  for (const std::string wrong : {"nan", "-nan", "inf", "-inf", "1e400", "1e7", "-1", "", "2x"}) {
+    const std::string found = ": " + wrong;
+    expect_error(run_program({"convert", mesh, cloth, "--fps", wrong}), 2,
+                 "--fps: not a finite number of 0.001 to 1e6" + found);
+    expect_error(run_program({"partition", mesh, "--normal-weight", wrong}), 2,
+                 "--normal-weight: not a finite number of 0 to 1e6" + found);
+    for (const std::string option : {"--time-factor", "--memory-factor"})
+      expect_error(
+          run_program({"submit", "--slurm", "--out", path("out"), "--dry-run", option, wrong, "--", "detect", mesh}), 2,
+          option + ": not a finite number of 1 to 1000" + found);
+  }
+}
+
+TEST_F(Messages, name_the_option_that_no_file_takes) {
+  expect_error(run_program({"convert", mesh, path("b.obj"), "--fps", "50"}), 2, "b.obj: --fps needs glTF to read, or");
+  expect_success(run_program({"convert", mesh, path("b.glb"), "--fps", "50"}));
+  expect_success(run_program({"convert", mesh, path("b.mdd"), "--fps", "50"}));
+  expect_success(run_program({"convert", path("b.glb"), path("c.obj"), "--fps", "50", "--quiet"}));
+  const std::vector<std::vector<std::string>> without_scene{
+      {"detect", mesh, "shape:teapot"}, {"info", mesh}, {"convert", mesh, path("d.obj")}};
+  for (auto command : without_scene) {
+    command.emplace_back("--allow-outside");
+    expect_error(run_program(command), 2, "--allow-outside is for scenes: no input is one");
+  }
+}
+
 TEST_F(Messages, about_a_whole_number_expect_decimal_digits_that_fit) {
   for (const char* number : {"010", "0x10", "18446744073709551616", "1e3"}) {
     const auto result = run_program({"detect", mesh, mesh, "--most-contacts", number, "--contacts", "all"});
@@ -84,14 +112,16 @@ TEST_F(Messages, about_a_whole_number_expect_decimal_digits_that_fit) {
 }
 
 TEST_F(Messages, about_a_shape_are_those_of_a_scene) {
-  expect_error(run_program({"detect", mesh, "shape:kettle"}), 3, "shape:kettle: /: unknown key \"kettle\" (expected one");
+  expect_error(run_program({"detect", mesh, "shape:kettle"}), 3,
+               "shape:kettle: /: unknown key \"kettle\" (expected one");
 }
 
 TEST_F(Messages, about_a_frame_that_cannot_be_written_name_the_file) {
   const auto small = folder.write("small.off", "OFF\n3 1 0\n0 0 0\n1e-60 0 0\n0 1e-60 0\n3 0 1 2\n").string();
   expect_error(run_program({"convert", small, path("b.stl")}), 3, "b.stl: frame 0: its largest coordinate, 1e-60, is");
   const auto large = folder.write("large.off", "OFF\n3 1 0\n0 0 0\n1e60 0 0\n0 1 0\n3 0 1 2\n").string();
-  expect_error(run_program({"convert", large, path("b.glb")}), 3, "b.glb: frame 0, vertex 1 (counted from 0): 1e+60 is");
+  expect_error(run_program({"convert", large, path("b.glb")}), 3,
+               "b.glb: frame 0, vertex 1 (counted from 0): 1e+60 is");
 }
 
 TEST_F(Messages, name_the_option_that_the_mode_ignores_and_the_modes_that_take_it) {

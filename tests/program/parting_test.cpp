@@ -58,6 +58,14 @@ TEST_F(Detect_parting, reports_the_way_out_per_frame_and_its_greatest_length_per
   EXPECT_NE(result.out.find("| parting |"), std::string::npos) << result.out;
 }
 
+TEST_F(Detect_parting, refuses_contact_patches_of_fewer_contacts_than_all) {
+  for (const std::string contacts : {"first", "yes_no"}) {
+    const auto result = detect({"--patches", "--contacts", contacts});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("patches need"), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(Detect_parting, reports_contact_patches_with_their_face_pairs) {
   expect_success(detect({"--patches", "--contacts", "all"}));
   std::size_t patches = 0;
