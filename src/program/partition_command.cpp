@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
@@ -14,6 +15,7 @@
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/results/coloured_ply.h"
 #include "lodestone/io/results/text_table.h"
+#include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/partition/partition_measures.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
@@ -127,16 +129,31 @@ void print_table(const Mesh_file& file, const Divided& divided, const Partition_
   if (!command.out.empty()) fmt::print("\ncoloured mesh: {}\n", printable(command.out.string()));
 }
 
-/// No result may take the place of the mesh or of another result.
-void check_files_differ(const Partition_command& command) {
+void check_results_differ(const Partition_command& command) {
   std::error_code unknown;
-  const auto mesh = weakly_canonical(command.mesh, unknown), out = weakly_canonical(command.out, unknown),
-             json = weakly_canonical(command.json, unknown);
-  if (!command.out.empty() && out == json)
+  if (!command.out.empty() && weakly_canonical(command.out, unknown) == weakly_canonical(command.json, unknown))
     throw Bad_argument(command.out.string() + ": the coloured mesh and its statistics cannot be the same file");
-  for (const auto& [result, file] : {std::pair(&command.out, &out), std::pair(&command.json, &json)})
-    if (!result->empty() && *file == mesh)
-      throw Bad_argument(result->string() + ": is the mesh that is read, which is never overwritten");
+}
+
+/// No result may take the place of a file that is read.
+void check_input_is_kept(const Partition_command& command, const std::vector<std::filesystem::path>& inputs) {
+  std::error_code unknown;
+  for (const auto* result : {&command.out, &command.json})
+    for (const auto& input : inputs)
+      if (!result->empty() && weakly_canonical(*result, unknown) == weakly_canonical(input, unknown))
+        throw Bad_argument(result->string() + ": is a file of the mesh that is read, which is never overwritten");
+}
+
+/// A mesh, or an object of a scene in its first frame, or a shape.
+Mesh_file read_input(const Partition_command& command) {
+  auto object = named_object(command.mesh, {.limits = command.limits});
+  check_input_is_kept(command, object ? object->files : std::vector{command.mesh});
+  if (!object) return read_mesh(command.mesh, command.limits);
+  pose(*object, 0);
+  return {.mesh = std::move(object->mesh),
+          .file_vertex = std::move(object->file_vertex),
+          .file_vertices = object->file_vertices,
+          .file_face = std::move(object->file_face)};
 }
 
 }  // namespace
@@ -144,10 +161,10 @@ void check_files_differ(const Partition_command& command) {
 int run(const Partition_command& command) {
   if (!command.out.empty() && command.out.extension() != ".ply")
     throw Bad_argument(command.out.string() + ": the coloured mesh is written as .ply");
-  check_files_differ(command);
+  check_results_differ(command);
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, command.json);
-  Mesh_file file = read_mesh(command.mesh, command.limits);
+  Mesh_file file = read_input(command);
   const Divided divided = divide(file.mesh, command);
   check_interrupt();
   // Both on disk before the first appears: if one cannot be written, neither appears.

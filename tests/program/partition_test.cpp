@@ -56,6 +56,22 @@ TEST_F(Partition_program, writes_a_mesh_with_the_same_counts_and_positions) {
   EXPECT_EQ(content_of(folder.path() / "new"), (std::set<std::string>{"coloured.ply", "stats.json"}));
 }
 
+TEST_F(Partition_program, divides_a_shape_and_an_object_of_a_scene_in_its_first_frame) {
+  expect_success(run_program({"partition", "shape:{\"icosphere\": {\"frequency\": 8}}", "--out", ply.string()}));
+  EXPECT_EQ(read_mesh(ply).mesh.number_of_vertices(), vertices);
+  const auto scene = folder.write("scene.json", R"({"frames": 2, "objects": [
+    {"name": "still", "shape": {"icosphere": {"frequency": 2}}}, {"name": "moving", "mesh": "sphere.ply", "motion": {"deform": [{"travel":
+      {"path": "linear", "way_points": [{"frame": 0, "at": [40, 0, 0]}, {"frame": 1, "at": [50, 0, 0]}]}}]}}]})");
+  const auto moving = scene.string() + "#moving";
+  expect_success(run_program({"partition", moving, "--out", ply.string()}));
+  const auto divided = read_mesh(ply).mesh;
+  ASSERT_EQ(divided.number_of_vertices(), vertices);
+  for (const auto v : divided.vertices()) EXPECT_NEAR(divided.point(v).x(), 40, 1.5);
+  expect_error(run_program({"partition", moving, "--json", scene.string()}), 2, "never overwritten");
+  expect_error(run_program({"partition", moving, "--out", mesh.string()}), 2, "never overwritten");
+  expect_error(run_program({"partition", scene.string() + "#none"}), 2, "name one object of the scene");
+}
+
 TEST_F(Partition_program, writes_consistent_statistics) {
   for (const int regions : {1, 7, 16, 50}) {
     SCOPED_TRACE(regions);
