@@ -145,6 +145,19 @@ TEST(Partition, every_component_gets_a_region) {
   }
 }
 
+template <class Value>
+using Map_of = Surface_mesh::Property_map<Surface_mesh::Vertex_index, Value>;
+
+TEST(Partition, a_region_map_is_wide_enough_for_any_region) {
+  static_assert(Region_map<Map_of<Region_index>, Surface_mesh>);
+  static_assert(Region_map<Map_of<std::size_t>, Surface_mesh>);
+  static_assert(Region_map<Map_of<int>, Surface_mesh>);
+  static_assert(!Region_map<Map_of<unsigned char>, Surface_mesh>);
+  static_assert(!Region_map<Map_of<std::int16_t>, Surface_mesh>);
+  static_assert(!Region_map<Map_of<bool>, Surface_mesh>);
+  static_assert(!Region_map<Map_of<float>, Surface_mesh>);  // exact up to 2^24 only
+}
+
 TEST(Partition, isolated_vertices_do_not_form_regions) {
   auto mesh = sphere(4);
   for (int i = 0; i < 10; ++i) mesh.add_vertex({100.0 + 10 * i, 0, 0});

@@ -10,6 +10,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 /// What a mesh and its property maps must offer.
 namespace lodestone {
@@ -48,9 +49,17 @@ concept Vertex_point_map = requires(const Map& map, Vertex<Mesh> v) {
   { get(map, v) } -> Point_like;
 };
 
-/// A readable and writable property map from the vertices of `Mesh` to region indices.
+/// A property map whose value type, as its traits tell it, is a number too small for the index of a region. There are
+/// no more regions than vertices, so 31 bits are enough.
+template <class Map>
+concept Narrow_map = requires { typename boost::property_traits<Map>::value_type; } &&
+                     std::numeric_limits<typename boost::property_traits<Map>::value_type>::is_specialized &&
+                     std::numeric_limits<typename boost::property_traits<Map>::value_type>::digits < 31;
+
+/// A readable and writable property map from the vertices of `Mesh` to region indices. Its values must be wide enough:
+/// an `int` is, but an `unsigned char` would wrap beyond 255.
 template <class Map, class Mesh>
-concept Region_map = requires(const Map& map, Vertex<Mesh> v, Region_index region) {
+concept Region_map = !Narrow_map<Map> && requires(const Map& map, Vertex<Mesh> v, Region_index region) {
   put(map, v, region);
   { get(map, v) } -> std::convertible_to<Region_index>;
 };
