@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
+#include <span>
+#include <utility>
 
 namespace lodestone {
 
@@ -113,13 +114,100 @@ void settle_unreached(const Vertex_graph& graph, Pieces& all, const std::vector<
   }
 }
 
-/// Per piece: the number of edges to each other piece.
-std::vector<std::map<std::uint32_t, std::size_t>> piece_borders(const Vertex_graph& graph, const Pieces& pieces) {
-  std::vector<std::map<std::uint32_t, std::size_t>> borders(pieces.pieces.size());
-  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
-    for (const std::uint32_t w : neighbours(graph, v))
-      if (pieces.of_vertex[v] != pieces.of_vertex[w]) ++borders[pieces.of_vertex[v]][pieces.of_vertex[w]];
-  return borders;
+/// Islands join regions, round by round. A round looks only at those that touch what settled in the round before, so
+/// each island is looked at once.
+class Island_rounds {
+ public:
+  Island_rounds(const Vertex_graph& graph, Pieces& all, const std::vector<std::uint32_t>& loose);
+  /// @return how many islands joined
+  std::size_t run();
+
+ private:
+  std::span<const std::uint32_t> vertices_of(std::uint32_t piece) const {
+    return std::span(vertices_).subspan(first_[piece], first_[piece + 1] - first_[piece]);
+  }
+  template <class Visit>
+  void for_each_edge_out_of(std::uint32_t piece, Visit visit) const;
+  bool touches_settled(std::uint32_t piece) const;
+  Region_index longest_border(std::uint32_t piece);
+
+  const Vertex_graph& graph_;
+  Pieces& all_;
+  std::vector<std::size_t> first_;       ///< per piece: its first vertex in `vertices_`
+  std::vector<std::uint32_t> vertices_;  ///< of loose pieces, piece by piece
+  std::vector<std::uint32_t> front_;     ///< the islands that join in the next round
+  std::vector<bool> reached_;            ///< per piece: is or was in the front
+  std::vector<Region_index> beside_;     ///< the region at the far end of each edge; a buffer
+};
+
+Island_rounds::Island_rounds(const Vertex_graph& graph, Pieces& all, const std::vector<std::uint32_t>& loose)
+    : graph_(graph), all_(all), first_(all.pieces.size() + 1, 0), reached_(all.pieces.size(), false) {
+  std::vector<bool> is_loose(all.pieces.size(), false);
+  for (const auto p : loose) is_loose[p] = true;
+  for (std::size_t p = 0; p < all.pieces.size(); ++p)
+    first_[p + 1] = first_[p] + (is_loose[p] ? all.pieces[p].size : 0);
+  vertices_.resize(first_.back());
+  auto next = first_;
+  for (std::uint32_t v = 0; v < all.of_vertex.size(); ++v)
+    if (const auto p = all.of_vertex[v]; is_loose[p]) vertices_[next[p]++] = v;
+  for (const auto p : loose)
+    if (touches_settled(p)) {
+      reached_[p] = true;
+      front_.push_back(p);
+    }
+}
+
+/// Calls `visit` with the piece at the far end of each edge that leaves a loose piece.
+template <class Visit>
+void Island_rounds::for_each_edge_out_of(std::uint32_t piece, Visit visit) const {
+  for (const auto v : vertices_of(piece))
+    for (const auto w : neighbours(graph_, v))
+      if (all_.of_vertex[w] != piece) visit(all_.of_vertex[w]);
+}
+
+bool Island_rounds::touches_settled(std::uint32_t piece) const {
+  bool touches = false;
+  for_each_edge_out_of(piece, [&](std::uint32_t other) { touches = touches || all_.pieces[other].settled; });
+  return touches;
+}
+
+/// The region that shares the longest border with a piece that touches one. Ties go to the lowest index.
+Region_index Island_rounds::longest_border(std::uint32_t piece) {
+  beside_.clear();
+  for_each_edge_out_of(piece, [&](std::uint32_t other) {
+    if (all_.pieces[other].settled) beside_.push_back(all_.pieces[other].label);
+  });
+  std::ranges::sort(beside_);
+  Region_index best = 0;
+  std::ptrdiff_t longest = 0;
+  for (auto begin = beside_.begin(); begin != beside_.end();) {
+    const auto end = std::ranges::upper_bound(begin, beside_.end(), *begin);
+    if (end - begin > longest) {
+      longest = end - begin;
+      best = *begin;
+    }
+    begin = end;
+  }
+  return best;
+}
+
+std::size_t Island_rounds::run() {
+  std::size_t joined = 0;
+  while (!front_.empty()) {
+    for (const auto p : front_) all_.pieces[p].label = longest_border(p);
+    // Only now, because borders with islands of the same round do not count.
+    for (const auto p : front_) all_.pieces[p].settled = true;
+    joined += front_.size();
+    std::vector<std::uint32_t> next;
+    for (const auto p : front_)
+      for_each_edge_out_of(p, [&](std::uint32_t other) {
+        if (all_.pieces[other].settled || reached_[other]) return;
+        reached_[other] = true;
+        next.push_back(other);
+      });
+    front_ = std::move(next);
+  }
+  return joined;
 }
 
 }  // namespace
@@ -129,7 +217,8 @@ std::size_t count_pieces(const Vertex_graph& graph, const std::vector<Region_ind
   return all.pieces.size() - std::ranges::count(isolated_pieces(graph, all), true);
 }
 
-Island_repair repair_islands(const Vertex_graph& graph, std::vector<Region_index>& labels, std::size_t regions) {
+Island_repair repair_islands(const Vertex_graph& graph, std::vector<Region_index>& labels, std::size_t regions,
+                             std::size_t wanted) {
   Island_repair repair{.regions = regions};
   Pieces all = connected_pieces(graph, labels);
   auto& pieces = all.pieces;
@@ -141,30 +230,11 @@ Island_repair repair_islands(const Vertex_graph& graph, std::vector<Region_index
   for (std::uint32_t p = 0; p < pieces.size(); ++p)
     if (!pieces[p].settled && !isolated[p]) loose.push_back(p);
   if (loose.empty()) return repair;
-  settle_unreached(graph, all, isolated, regions + std::max<std::size_t>(regions, 64), repair);
+  settle_unreached(graph, all, isolated, most_regions(wanted > 0 ? wanted : regions), repair);
   std::erase_if(loose, [&](auto p) { return pieces[p].settled; });
 
-  const auto borders = piece_borders(graph, all);
-  const auto join_longest_border = [&](std::uint32_t p) {
-    std::map<Region_index, std::size_t> lengths;
-    for (const auto& [other, edges] : borders[p])
-      if (pieces[other].settled) lengths[pieces[other].label] += edges;
-    if (lengths.empty()) return false;
-    pieces[p].label = std::ranges::max_element(lengths, {}, [](const auto& entry) { return entry.second; })->first;
-    return true;
-  };
-  for (bool joining = true; joining && !loose.empty();) {
-    std::vector<std::uint32_t> joined;
-    std::erase_if(loose, [&](auto p) {
-      const bool joins = join_longest_border(p);
-      if (joins) joined.push_back(p);
-      return joins;
-    });
-    for (const auto p : joined) pieces[p].settled = true;
-    repair.islands_joined += joined.size();
-    joining = !joined.empty();
-  }
-  repair.islands_left = loose.size();
+  repair.islands_joined = Island_rounds(graph, all, loose).run();
+  repair.islands_left = loose.size() - repair.islands_joined;
 
   for (std::size_t v = 0; v < labels.size(); ++v) labels[v] = pieces[all.of_vertex[v]].label;
   return repair;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -131,6 +133,91 @@ TEST(Repair_islands, leaves_every_region_of_random_labels_connected) {
     EXPECT_EQ(pieces_before, repair.regions + repair.islands_joined);
     EXPECT_EQ(repair.regions, regions + repair.regions_added);
   }
+}
+
+using Borders = std::vector<std::map<std::uint32_t, std::size_t>>;
+
+/// Per piece the number of edges to each other piece.
+Borders borders_of(const Vertex_graph& graph, const std::vector<std::uint32_t>& piece) {
+  Borders borders(piece.size());
+  for (std::uint32_t v = 0; v < piece.size(); ++v)
+    for (const auto w : neighbours(graph, v))
+      if (piece[v] != piece[w]) ++borders[piece[v]][piece[w]];
+  return borders;
+}
+
+/// The connected pieces of the labels, each named by its lowest vertex, in ascending order of vertices.
+std::vector<std::uint32_t> lowest_of_piece(const Vertex_graph& graph, const Labels& labels) {
+  std::vector<std::uint32_t> lowest(labels.size());
+  std::iota(lowest.begin(), lowest.end(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::uint32_t v = 0; v < labels.size(); ++v)
+      for (const auto w : neighbours(graph, v))
+        if (labels[v] == labels[w] && lowest[w] < lowest[v]) {
+          lowest[v] = lowest[w];
+          changed = true;
+        }
+  }
+  return lowest;
+}
+
+/// Repairs islands by passes over all pieces, on a connected mesh: every island beside a settled piece joins it.
+void repair_by_passes(const Vertex_graph& graph, Labels& labels, std::size_t regions) {
+  const auto piece = lowest_of_piece(graph, labels);
+  const auto borders = borders_of(graph, piece);
+  std::map<std::uint32_t, std::size_t> sizes;
+  for (const auto p : piece) ++sizes[p];
+  std::set<std::uint32_t> settled;
+  for (Region_index region = 0; region < regions; ++region) {
+    std::pair<std::size_t, std::uint32_t> largest{0, 0};
+    for (const auto& [p, size] : sizes)
+      if (labels[p] == region && size > largest.first) largest = {size, p};
+    if (largest.first > 0) settled.insert(largest.second);
+  }
+  while (settled.size() < sizes.size()) {
+    std::vector<std::uint32_t> joined;
+    for (const auto& [p, size] : sizes) {
+      if (settled.contains(p)) continue;
+      std::map<Region_index, std::size_t> lengths;
+      for (const auto& [other, edges] : borders[p])
+        if (settled.contains(other)) lengths[labels[other]] += edges;
+      if (lengths.empty()) continue;
+      labels[p] = std::ranges::max_element(lengths, {}, [](const auto& entry) { return entry.second; })->first;
+      joined.push_back(p);
+    }
+    settled.insert(joined.begin(), joined.end());
+  }
+  for (std::size_t v = 0; v < labels.size(); ++v) labels[v] = labels[piece[v]];
+}
+
+TEST(Repair_islands, gives_the_labels_of_passes_over_all_islands) {
+  std::mt19937_64 random(3);
+  for (const auto& surface : {sphere(8), potato(10), cube(5), grid(60, 2), grid(17, 11)}) {
+    const Numbered_mesh mesh(surface);
+    for (const std::size_t regions : {2, 3, 5, 12, 40})
+      for (const std::size_t run : {1, 2, 9}) {
+        // Runs of one label make pieces of several sizes, and islands behind islands.
+        Labels labels(mesh.numbering.vertex_count());
+        for (std::size_t v = 0; v < labels.size(); ++v)
+          labels[v] = v % run == 0 ? static_cast<Region_index>(random() % regions) : labels[v - 1];
+        Labels expected = labels;
+        repair_by_passes(mesh.graph, expected, regions);
+        repair_islands(mesh.graph, labels, regions);
+        EXPECT_EQ(labels, expected) << labels.size() << " vertices, " << regions << " regions, runs of " << run;
+      }
+  }
+}
+
+TEST(Repair_islands, a_long_row_of_islands_joins_from_its_end) {
+  // Only the first two pieces are regions: each of 200 000 islands lies behind the one before.
+  Labels columns{0, 0, 1, 1};
+  for (Region_index i = 0; i < 200000; ++i) columns.push_back(i % 2);
+  Labels labels = strip_labels(columns);
+  const auto repair = repair_islands(grid_graph(static_cast<std::uint32_t>(columns.size()), 2), labels, 2);
+  EXPECT_EQ(repair.islands_joined, 200000U);
+  std::ranges::fill(columns.begin() + 2, columns.end(), 1);
+  EXPECT_EQ(labels, strip_labels(columns));
 }
 
 TEST(Repair_islands, isolated_vertices_keep_their_label) {

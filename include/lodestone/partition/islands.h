@@ -24,14 +24,21 @@ std::size_t count_pieces(const Vertex_graph& graph, const std::vector<Region_ind
 /// it shares the longest border, counted in mesh edges. Ties go to the lowest region index.
 ///
 /// A connected component of the mesh may hold the largest piece of no label. No particle could walk there, so the
-/// largest piece in this component becomes a new region. At most max(regions, 64) new regions are made, of the largest
-/// such pieces; otherwise a mesh of loose triangles would get a particle per triangle. Pieces beyond that limit keep
-/// their label. So their faces are still checked, with a region in which they are an island. Vertices without edges
-/// keep their label and count for no region. Cost O((V + E) p) for p passes: one more for each island behind an island;
-/// mostly 1.
+/// largest piece in this component becomes a new region. New regions are made of the largest such pieces, until there
+/// are `most_regions(wanted)`; otherwise a mesh of loose triangles would get a particle per triangle. Pieces beyond
+/// that limit keep their label. So their faces are still checked, with a region in which they are an island. Vertices
+/// without edges keep their label and count for no region.
+///
+/// Islands join in rounds, the next only after all that touch a region. Each is looked at once. Cost O(V + E log E).
 ///
 /// @param labels  V, each below `regions`; changed in place
-Island_repair repair_islands(const Vertex_graph& graph, std::vector<Region_index>& labels, std::size_t regions);
+/// @param wanted  number of regions that the caller wants; 0: `regions`
+Island_repair repair_islands(const Vertex_graph& graph, std::vector<Region_index>& labels, std::size_t regions,
+                             std::size_t wanted = 0);
+
+/// How many regions a mesh of many connected components gets at most: twice as many as wanted, or 64 more, whichever is
+/// more.
+constexpr std::size_t most_regions(std::size_t wanted) { return wanted + (wanted > 64 ? wanted : 64); }
 
 /// Removes the regions that own no vertex with edges. The indices of the other regions close up, and the isolated
 /// vertices of a removed region go to region 0, which stays even if no vertex has an edge, as where all faces are
