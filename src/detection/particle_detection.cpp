@@ -11,6 +11,14 @@
 
 namespace lodestone {
 
+namespace {
+
+double radius_of(const Particle_object& object, const Positions& positions) {
+  return bounding_sphere(positions, object.corners()).radius;
+}
+
+}  // namespace
+
 void Particle_detection::add(const Watch_mesh& watch, const Object_options& options) {
   const auto id = static_cast<Object_id>(objects_.size());
   timed(since_last_frame_.seconds.build,
@@ -57,7 +65,7 @@ void Particle_detection::save(Object_id id, State_writer& state) {
   Object& object = *objects_[id];
   save_origin(origin(object), state);
   // A detector that loads the object may need it.
-  const auto measured = [&] { return bounding_sphere(object.particle_object.read_positions()).radius; };
+  const auto measured = [&] { return radius_of(object.particle_object, object.particle_object.read_positions()); };
   state.value(object.radius > 0 ? object.radius : object.named(measured));
   object.particle_object.save(state);
 }
@@ -155,7 +163,7 @@ void Particle_detection::prepare(std::span<Object* const> objects, bool close_se
   for_each([&](std::size_t i) {
     objects[i]->particle_object.find_edges();
     if (close_seams) objects[i]->particle_object.close_seams(positions[i]);
-    if (options_.particles == 0) objects[i]->radius = bounding_sphere(positions[i]).radius;
+    if (options_.particles == 0) objects[i]->radius = radius_of(objects[i]->particle_object, positions[i]);
   });
   const Radius_range range = radii();
   for_each([&](std::size_t i) {

@@ -104,7 +104,7 @@ void Particle_object::start_particles(std::vector<std::uint32_t> vertices, const
   for (const auto vertex : particles_.at) particles_.positions.emplace_back(positions.row(vertex));
   if (particles_.at.size() == 1) {
     // One particle has no other to measure its reach by: it feels as far as the object is wide, and may walk all of it.
-    particles_.effective_radius = 2 * lodestone::bounding_sphere(positions).radius;
+    particles_.effective_radius = 2 * bounding_sphere(positions, corners()).radius;
     particles_.hop_limit = hop_eccentricity(edges_.graph, particles_.at.front());
   } else {
     particles_.effective_radius = effective_radius(particles_.positions);

@@ -8,6 +8,7 @@
 #include "lodestone/partition/farthest_point.h"
 #include "lodestone/partition/geodesic_voronoi.h"
 #include "lodestone/partition/random_voronoi.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -106,11 +107,13 @@ Centroidal_seeds centroidal_seeds(const Numbered_surface& surface, std::size_t c
 }
 
 Labelling Centroidal::label(const Numbered_surface& surface, std::size_t regions) const {
-  const Positions positions = scaled_positions(surface.positions);
-  const auto seeds = centroidal_seeds({surface.graph, positions, surface.faces}, regions, options);
-  Geodesic_voronoi cells(surface.graph, positions);
-  cells.add(seeds.vertices);
-  return {.labels = cells.labels(), .iterations = seeds.energies.size() - 1};
+  return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
+    const Positions positions = scaled_positions(used.positions);
+    const auto seeds = centroidal_seeds({used.graph, positions, used.faces}, wanted, options);
+    Geodesic_voronoi cells(used.graph, positions);
+    cells.add(seeds.vertices);
+    return {.labels = cells.labels(), .iterations = seeds.energies.size() - 1};
+  });
 }
 
 }  // namespace lodestone

@@ -7,6 +7,7 @@
 #include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/partition/geodesic_voronoi.h"
 #include "lodestone/partition/random_voronoi.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -40,11 +41,13 @@ std::vector<std::uint32_t> farthest_points(const Vertex_graph& graph, const Posi
 }
 
 Labelling Farthest_point::label(const Numbered_surface& surface, std::size_t regions) const {
-  const Positions positions = scaled_positions(surface.positions);
-  Geodesic_voronoi cells(surface.graph, positions);
-  // All at once, because cells that grow one after the other need not be connected if distances are equal.
-  cells.add(farthest_points(surface.graph, positions, regions, options.seed));
-  return {.labels = cells.labels()};
+  return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
+    const Positions positions = scaled_positions(used.positions);
+    Geodesic_voronoi cells(used.graph, positions);
+    // All at once, because cells that grow one after the other need not be connected if distances are equal.
+    cells.add(farthest_points(used.graph, positions, wanted, options.seed));
+    return {.labels = cells.labels()};
+  });
 }
 
 }  // namespace lodestone

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lodestone/mesh/scaled_positions.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -79,9 +80,7 @@ class Size_search {
   std::size_t tried_ = 0;
 };
 
-}  // namespace
-
-Labelling Grid::label(const Numbered_surface& surface, std::size_t regions) const {
+Labelling label_grid(const Numbered_surface& surface, std::size_t regions) {
   Positions offsets = scaled_positions(surface.positions);
   offsets.rowwise() -= offsets.colwise().minCoeff().eval();
   if (offsets.maxCoeff() == 0) return {.labels = std::vector<Region_index>(offsets.rows(), 0)};
@@ -96,6 +95,12 @@ Labelling Grid::label(const Numbered_surface& surface, std::size_t regions) cons
     labelling.labels.push_back(
         static_cast<Region_index>(std::ranges::lower_bound(occupied_cubes, cube) - occupied_cubes.begin()));
   return labelling;
+}
+
+}  // namespace
+
+Labelling Grid::label(const Numbered_surface& surface, std::size_t regions) const {
+  return label_used(surface, regions, label_grid);
 }
 
 }  // namespace lodestone

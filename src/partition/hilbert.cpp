@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "partition/used_surface.h"
+
 namespace lodestone {
 
 namespace {
@@ -34,9 +36,7 @@ struct Numbered_points {
   const Positions* positions;
 };
 
-}  // namespace
-
-Labelling Hilbert::label(const Numbered_surface& surface, std::size_t regions) const {
+Labelling label_hilbert(const Numbered_surface& surface, std::size_t regions) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(surface.positions.rows()));
   std::iota(order.begin(), order.end(), 0);
   CGAL::hilbert_sort(order.begin(), order.end(), Numbered_points{&surface.positions});
@@ -45,6 +45,12 @@ Labelling Hilbert::label(const Numbered_surface& surface, std::size_t regions) c
   for (std::size_t i = 0; i < order.size(); ++i)
     labelling.labels[order[i]] = static_cast<Region_index>(i * regions / order.size());
   return labelling;
+}
+
+}  // namespace
+
+Labelling Hilbert::label(const Numbered_surface& surface, std::size_t regions) const {
+  return label_used(surface, regions, label_hilbert);
 }
 
 }  // namespace lodestone

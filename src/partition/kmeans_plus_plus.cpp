@@ -9,6 +9,7 @@
 
 #include "lodestone/partition/nearest_code_vector.h"
 #include "partition/fixed_components.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -121,18 +122,20 @@ std::vector<std::size_t> kmeans_plus_plus_start(const Feature_vectors& vectors, 
 
 Labelling Kmeans_plus_plus::label(const Numbered_surface& surface, std::size_t regions) const {
   check(options);
-  Feature_vectors vectors = feature_vectors(surface.positions, surface.faces, options.features);
-  const auto start = kmeans_plus_plus_start(vectors, regions, options.seed);
-  Feature_vectors codes(static_cast<Eigen::Index>(start.size()), vectors.cols());
-  for (std::size_t c = 0; c < start.size(); ++c)
-    codes.row(static_cast<Eigen::Index>(c)) = vectors.row(static_cast<Eigen::Index>(start[c]));
+  return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
+    Feature_vectors vectors = feature_vectors(used.positions, used.faces, options.features);
+    const auto start = kmeans_plus_plus_start(vectors, wanted, options.seed);
+    Feature_vectors codes(static_cast<Eigen::Index>(start.size()), vectors.cols());
+    for (std::size_t c = 0; c < start.size(); ++c)
+      codes.row(static_cast<Eigen::Index>(c)) = vectors.row(static_cast<Eigen::Index>(start[c]));
 
-  Assignment assignment{.distance_evaluations = start.size() * static_cast<std::uint64_t>(vectors.rows())};
-  const std::size_t iterations = iterate(vectors, codes, options, assignment);
-  return {.labels = std::move(assignment.labels),
-          .vectors = std::move(vectors),
-          .iterations = iterations,
-          .distance_evaluations = assignment.distance_evaluations};
+    Assignment assignment{.distance_evaluations = start.size() * static_cast<std::uint64_t>(vectors.rows())};
+    const std::size_t iterations = iterate(vectors, codes, options, assignment);
+    return {.labels = std::move(assignment.labels),
+            .vectors = std::move(vectors),
+            .iterations = iterations,
+            .distance_evaluations = assignment.distance_evaluations};
+  });
 }
 
 }  // namespace lodestone

@@ -8,6 +8,7 @@
 #include "partition/cells.h"
 #include "partition/quantiser.h"
 #include "partition/training_sample.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -66,22 +67,26 @@ Quantisation quantise(const Feature_vectors& vectors, std::size_t cells, const L
 }
 
 Labelling Lbg::label(const Numbered_surface& surface, std::size_t regions) const {
-  Feature_vectors vectors = feature_vectors(surface.positions, surface.faces, options.features);
-  if (extra_factors.size() > 0) {
-    if (extra_factors.rows() != vectors.rows())
-      throw Bad_argument("extra factors have " + std::to_string(extra_factors.rows()) + " rows for " +
-                         std::to_string(vectors.rows()) + " vertices");
-    const Eigen::Index k = vectors.cols();
-    vectors.conservativeResize(Eigen::NoChange, k + extra_factors.cols());
-    vectors.rightCols(extra_factors.cols()) = extra_factors;
-  }
-  Quantisation quantisation = quantise(vectors, regions, options);
-  std::size_t iterations = 0;
-  for (const auto& run : quantisation.runs) iterations += run.distortion.size();
-  return {.labels = std::move(quantisation.labels),
-          .vectors = std::move(vectors),
-          .iterations = iterations,
-          .distance_evaluations = quantisation.distance_evaluations};
+  if (extra_factors.size() > 0 && extra_factors.rows() != surface.positions.rows())
+    throw Bad_argument("extra factors have " + std::to_string(extra_factors.rows()) + " rows for " +
+                       std::to_string(surface.positions.rows()) + " vertices");
+  const Used_surface used(surface);
+  const Feature_vectors factors = used.picked_rows(extra_factors);
+  return label_used(used, regions, [&](const Numbered_surface& part, std::size_t wanted) -> Labelling {
+    Feature_vectors vectors = feature_vectors(part.positions, part.faces, options.features);
+    if (factors.size() > 0) {
+      const Eigen::Index k = vectors.cols();
+      vectors.conservativeResize(Eigen::NoChange, k + factors.cols());
+      vectors.rightCols(factors.cols()) = factors;
+    }
+    Quantisation quantisation = quantise(vectors, wanted, options);
+    std::size_t iterations = 0;
+    for (const auto& run : quantisation.runs) iterations += run.distortion.size();
+    return {.labels = std::move(quantisation.labels),
+            .vectors = std::move(vectors),
+            .iterations = iterations,
+            .distance_evaluations = quantisation.distance_evaluations};
+  });
 }
 
 }  // namespace lodestone

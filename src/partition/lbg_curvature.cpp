@@ -3,21 +3,24 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "lodestone/mesh/scaled_positions.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
 Feature_vectors curvature_factor(const Numbered_surface& surface, const Curvature_options& options) {
+  const Used_surface used(surface);
   // Scaled, because curvature or radius alone may overflow where their product does not.
-  const Positions scaled = scaled_positions(surface.positions);
-  const auto curvatures = mean_curvatures({surface.graph, scaled, surface.faces}, options);
+  const Positions scaled = scaled_positions(used.surface().positions);
+  const auto curvatures = mean_curvatures({used.surface().graph, scaled, used.surface().faces}, options);
   const Eigen::RowVector3d mean = scaled.colwise().mean();
   const double radius = (scaled.rowwise() - mean).rowwise().stableNorm().maxCoeff();
   Feature_vectors factor(scaled.rows(), 1);
   for (Eigen::Index v = 0; v < factor.rows(); ++v)
     factor(v, 0) = 2 / std::numbers::pi * std::atan(curvatures[v] * radius);
-  return factor;
+  return used.spread_rows(std::move(factor));
 }
 
 Labelling Lbg_curvature::label(const Numbered_surface& surface, std::size_t regions) const {

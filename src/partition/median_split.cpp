@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lodestone/mesh/scaled_positions.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -44,9 +45,7 @@ std::pair<Part, Part> halves(const Positions& positions, const Part& part, Regio
   return {{part.vertices.first(half), part.label}, {part.vertices.subspan(half), fresh_label}};
 }
 
-}  // namespace
-
-Labelling Median_split::label(const Numbered_surface& surface, std::size_t regions) const {
+Labelling label_median_split(const Numbered_surface& surface, std::size_t regions) {
   // The sides of a bounding box must not overflow.
   const Positions positions = scaled_positions(surface.positions);
   std::vector<std::uint32_t> order(static_cast<std::size_t>(positions.rows()));
@@ -65,6 +64,12 @@ Labelling Median_split::label(const Numbered_surface& surface, std::size_t regio
   for (; !parts.empty(); parts.pop())
     for (const auto v : parts.top().vertices) labelling.labels[v] = parts.top().label;
   return labelling;
+}
+
+}  // namespace
+
+Labelling Median_split::label(const Numbered_surface& surface, std::size_t regions) const {
+  return label_used(surface, regions, label_median_split);
 }
 
 }  // namespace lodestone

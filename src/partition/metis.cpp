@@ -12,6 +12,7 @@
 #include "lodestone/partition/oriented_mesh.h"
 #include "lodestone/partition/region_count.h"
 #include "partition/refusals.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -66,13 +67,15 @@ std::size_t vertices_with_edges(const Vertex_graph& graph) {
 
 Labelling Metis::label(const Numbered_surface& surface, std::size_t regions) const {
   check(surface, options);
-  std::vector<Region_index> labels(num_vertices(surface.graph), 0);
-  const std::size_t parts = std::min(regions, vertices_with_edges(surface.graph) / options.vertices_a_part);
-  if (parts > 1)
-    labels = with_refusals_as_bad_mesh(name, [&] { return parts_of(oriented_mesh(surface).mesh, parts, options); });
-  labels.resize(num_vertices(surface.graph));  // drops the copies that `oriented_mesh` makes of vertices
-  adjust_region_count(surface.graph, surface.positions, labels, regions);
-  return {.labels = std::move(labels)};
+  return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
+    std::vector<Region_index> labels(num_vertices(used.graph), 0);
+    const std::size_t parts = std::min(wanted, vertices_with_edges(used.graph) / options.vertices_a_part);
+    if (parts > 1)
+      labels = with_refusals_as_bad_mesh(name, [&] { return parts_of(oriented_mesh(used).mesh, parts, options); });
+    labels.resize(num_vertices(used.graph));  // drops the copies that `oriented_mesh` makes of vertices
+    adjust_region_count(used.graph, used.positions, labels, wanted);
+    return {.labels = std::move(labels)};
+  });
 }
 
 }  // namespace lodestone

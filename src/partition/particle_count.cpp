@@ -9,8 +9,11 @@
 #include <boost/graph/filtered_graph.hpp>
 #include <boost/property_map/property_map.hpp>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <numeric>
 
+#include "lodestone/mesh/joined_vertices.h"
 #include "lodestone/partition/feature_vectors.h"
 
 namespace lodestone {
@@ -109,6 +112,16 @@ Sphere bounding_sphere(const Positions& positions) {
           .roundness = nearest / sphere.radius()};
 }
 
+Sphere bounding_sphere(const Positions& positions, std::span<const Corners> faces) {
+  const auto count = static_cast<std::uint32_t>(positions.rows());
+  const auto unused = unused_vertices(faces, count);
+  if (unused.empty() || faces.empty()) return bounding_sphere(positions);
+  std::vector<std::uint32_t> all(count), used;
+  std::iota(all.begin(), all.end(), 0);
+  std::ranges::set_difference(all, unused, std::back_inserter(used));
+  return bounding_sphere(Positions(positions(used, Eigen::all)));
+}
+
 std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions& positions,
                                       std::span<const Corners> faces, const Particle_count_options& options) {
   check(options);
@@ -126,7 +139,7 @@ std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions
     const Sphere sphere = bounding_sphere(positions(part, Eigen::all));
     if (sphere.radius > 0) spheres.push_back(sphere);
   }
-  if (spheres.empty()) spheres.push_back(bounding_sphere(positions));
+  if (spheres.empty()) spheres.push_back(bounding_sphere(positions, faces));
   return spheres;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lodestone/mesh/errors.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -46,6 +47,17 @@ void check(const Labelling& labelling, std::size_t vertices) {
                        std::to_string(vertices) + " vertices");
 }
 
+/// A strategy that gives more labels than any limit allows does not go by the wanted number; nor does its limit.
+std::size_t wanted_of(const Labelling& labelling, std::size_t labels) {
+  return labels > most_regions(labelling.wanted) ? labels : labelling.wanted;
+}
+
+/// `feature_vectors`; those of vertices without edges are 0, and do not count for the others.
+Feature_vectors used_feature_vectors(const Numbered_surface& surface) {
+  const Used_surface used(surface);
+  return used.spread_rows(feature_vectors(used.surface().positions, used.surface().faces));
+}
+
 }  // namespace
 
 Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
@@ -62,11 +74,11 @@ Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& 
   if (options.keep_islands)
     repair = {.regions = result.regions, .pieces_before = count_pieces(graph, result.labels)};
   else
-    repair = repair_islands(graph, result.labels, result.regions);
+    repair = repair_islands(graph, result.labels, result.regions, wanted_of(labelling, result.regions));
   result.regions = repair.regions;
   result.regions = drop_regions_without_edges(graph, result.labels, result.regions);
 
-  if (labelling.vectors.size() == 0) labelling.vectors = feature_vectors(positions, faces);
+  if (labelling.vectors.size() == 0) labelling.vectors = used_feature_vectors({graph, positions, faces});
   result.particles = seed_particles(graph, labelling.vectors, result.labels, result.regions);
   return result;
 }

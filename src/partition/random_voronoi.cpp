@@ -7,6 +7,7 @@
 
 #include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/partition/geodesic_voronoi.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -30,10 +31,12 @@ std::vector<std::uint32_t> random_vertices(const Vertex_graph& graph, std::size_
 }
 
 Labelling Random_voronoi::label(const Numbered_surface& surface, std::size_t regions) const {
-  const Positions positions = scaled_positions(surface.positions);
-  Geodesic_voronoi cells(surface.graph, positions);
-  cells.add(random_vertices(surface.graph, regions, options.seed));
-  return {.labels = cells.labels()};
+  return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
+    const Positions positions = scaled_positions(used.positions);
+    Geodesic_voronoi cells(used.graph, positions);
+    cells.add(random_vertices(used.graph, wanted, options.seed));
+    return {.labels = cells.labels()};
+  });
 }
 
 }  // namespace lodestone

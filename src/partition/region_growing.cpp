@@ -13,6 +13,7 @@
 #include "lodestone/partition/region_count.h"
 #include "partition/face_geometry.h"
 #include "partition/refusals.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -59,9 +60,11 @@ std::vector<Region_index> flat_areas(const Numbered_surface& surface, const Regi
 }
 
 Labelling Region_growing::label(const Numbered_surface& surface, std::size_t regions) const {
-  Labelling result{.labels = vertex_labels(surface, flat_areas(surface, options))};
-  adjust_region_count(surface.graph, surface.positions, result.labels, regions);
-  return result;
+  return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
+    Labelling result{.labels = vertex_labels(used, flat_areas(used, options)), .wanted = wanted};
+    adjust_region_count(used.graph, used.positions, result.labels, wanted);
+    return result;
+  });
 }
 
 }  // namespace lodestone

@@ -16,6 +16,7 @@
 #include "lodestone/partition/region_count.h"
 #include "partition/face_geometry.h"
 #include "partition/refusals.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -255,9 +256,11 @@ std::vector<Region_index> sdf_segments(const Numbered_surface& surface, const Sd
 }
 
 Labelling Sdf::label(const Numbered_surface& surface, std::size_t regions) const {
-  Labelling result{.labels = vertex_labels(surface, sdf_segments(surface, options))};
-  adjust_region_count(surface.graph, surface.positions, result.labels, regions);
-  return result;
+  return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
+    Labelling result{.labels = vertex_labels(used, sdf_segments(used, options)), .wanted = wanted};
+    adjust_region_count(used.graph, used.positions, result.labels, wanted);
+    return result;
+  });
 }
 
 }  // namespace lodestone

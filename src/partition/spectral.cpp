@@ -12,6 +12,7 @@
 #include <string>
 
 #include "lodestone/mesh/errors.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -282,9 +283,11 @@ Labelling Spectral::label(const Numbered_surface& surface, std::size_t regions) 
   if (num_vertices(surface.graph) > most_vertices)
     throw Bad_argument("spectral: the mesh has " + std::to_string(num_vertices(surface.graph)) +
                        " vertices; the strategy takes at most " + std::to_string(most_vertices));
-  Dissection dissection(surface.graph, options);
-  dissection.run(regions);
-  return dissection.result();
+  return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) {
+    Dissection dissection(used.graph, options);
+    dissection.run(wanted);
+    return dissection.result();
+  });
 }
 
 }  // namespace lodestone

@@ -73,6 +73,23 @@ TEST(Particle_count, a_bounding_sphere_is_the_smallest_one) {
   EXPECT_NEAR(bounding_sphere(line * 0x1p-600).radius * 0x1p600, 3, 1e-9);
 }
 
+TEST(Particle_count, a_bounding_sphere_of_a_surface_goes_around_what_faces_use) {
+  auto mesh = sphere(6, 2.5, {10, -3, 7});
+  mesh.add_vertex({1000, 0, 0});
+  const Numbered_mesh numbered(mesh);
+  EXPECT_NEAR(bounding_sphere(numbered.positions, numbered.faces).radius, 2.5, 1e-9);
+  EXPECT_GT(bounding_sphere(numbered.positions).radius, 400);
+  EXPECT_EQ(bounding_sphere(numbered.positions, {}).radius, bounding_sphere(numbered.positions).radius);
+}
+
+TEST(Sphere_collection, of_creases_only_does_not_reach_to_vertices_without_faces) {
+  auto mesh = cube(1);
+  mesh.add_vertex({1000, 0, 0});
+  const auto spheres = spheres_of(mesh, {.smallest_part = 1});
+  ASSERT_EQ(spheres.size(), 1U);
+  EXPECT_NEAR(spheres[0].radius, std::sqrt(3) / 2, 1e-9);
+}
+
 TEST(Sphere_collection, a_smooth_surface_is_one_sphere) {
   const auto spheres = spheres_of(sphere(10, 2, {1, 2, 3}));
   ASSERT_EQ(spheres.size(), 1U);

@@ -60,10 +60,14 @@ void expect_sound_on_awkward_meshes(const Strategy& strategy, Expected regions_e
   std::size_t number = 0;
   for (const auto& [mesh, positions] : awkward_meshes()) {
     const std::size_t vertices = mesh.number_of_vertices();
+    const Numbered_mesh numbered(mesh);
+    std::size_t used = 0;
+    for (std::uint32_t v = 0; v < vertices; ++v) used += out_degree(v, numbered.graph) > 0 ? 1 : 0;
     for (const std::size_t wanted : std::set<std::size_t>{1, 2, 3, vertices / 2, vertices - 1, vertices}) {
       SCOPED_TRACE("awkward mesh " + std::to_string(number) + ", " + std::to_string(wanted) + " regions");
       expect_sound_labels(strategy, mesh, wanted);
-      EXPECT_GE(different(labels_of(strategy, mesh, wanted)), regions_expected(wanted, vertices, positions));
+      EXPECT_GE(different(labels_of(strategy, mesh, wanted)),
+                regions_expected(std::min(wanted, used), used, positions));
     }
     ++number;
   }

@@ -17,8 +17,8 @@ struct Lbg_curvature_options {
 /// `Lbg`.
 ///
 /// The factor is 2 / pi atan(H R), where H is the mean curvature (see `mean_curvatures`) and R the largest distance of
-/// a vertex from the mean of all vertices. It has no unit, and is 1/2 on a sphere. It is bounded, so a spike counts no
-/// more than any sharp corner.
+/// a vertex from the mean of all vertices that have edges. It has no unit, and is 1/2 on a sphere. It is bounded, so a
+/// spike counts no more than any sharp corner.
 struct Lbg_curvature {
   static constexpr std::string_view name = "lbg_curvature";  ///< for `make_strategy`, tables and messages
   static constexpr bool is_concurrent = true;                ///< see Partition_strategy
@@ -35,7 +35,8 @@ struct Lbg_curvature {
   Labelling label(const Numbered_surface& surface, std::size_t regions) const;
 };
 
-/// The factor of `Lbg_curvature` per vertex, without its weight: V x 1, between -1 and 1.
+/// The factor of `Lbg_curvature` per vertex, without its weight: V x 1, between -1 and 1. It is 0 at vertices without
+/// edges.
 Feature_vectors curvature_factor(const Numbered_surface& surface, const Curvature_options& options = {});
 
 }  // namespace lodestone

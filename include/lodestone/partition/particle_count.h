@@ -47,12 +47,15 @@ std::size_t shadow_particle_count(double radius, double smallest);
 /// Smallest sphere around the positions, by CGAL's Min_sphere_of_spheres_d.
 Sphere bounding_sphere(const Positions& positions);
 
+/// Smallest sphere around a surface: around the positions that faces use; around all if there is no face.
+Sphere bounding_sphere(const Positions& positions, std::span<const Corners> faces);
+
 /// Approximates a surface by a few spheres, one per part.
 ///
 /// A vertex is critical if its normal differs by more than `crease_degrees` from that of a neighbour. Critical vertices
 /// split the surface into parts. Each part that is large enough gets the bounding sphere of its vertices. If no vertex
 /// is critical, or no part is large enough, each connected component is a part. If none of these is large enough, the
-/// whole surface gets one sphere. Cost O(V + E) expected.
+/// whole surface gets one sphere, as `bounding_sphere` of positions and faces. Cost O(V + E) expected.
 ///
 /// @return at least one sphere, in the order of the lowest vertices of the parts
 std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions& positions,

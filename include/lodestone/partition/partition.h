@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
@@ -42,6 +43,8 @@ struct Labelling {
   Feature_vectors vectors = {};            ///< V x k: the space in which particles are seeded; empty: position + normal
   std::size_t iterations = 0;              ///< of the strategy's main loop
   std::uint64_t distance_evaluations = 0;  ///< between a vector and a code vector; 0 without code vectors
+  std::size_t wanted = 0;  ///< number of regions that was wanted, from which the limit of `repair_islands` comes;
+                           ///< 0: the number of labels. `partition()` sets it
 };
 
 /// A partition strategy: a name, and one call operator that takes a mesh and returns a label per vertex. `partition()`
@@ -101,7 +104,8 @@ struct Partition {
 std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
                                           const std::vector<Region_index>& labels, std::size_t regions);
 
-/// The steps that all strategies share: checks, repair, numbering of the regions, particles.
+/// The steps that all strategies share: checks, repair, numbering of the regions, particles. Vertices without edges do
+/// not count for the vectors.
 /// @throws Bad_argument  the number of labels or vectors is not V, or a label is not below V
 Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
                                     std::span<const Corners> faces, Labelling labelling,
@@ -113,7 +117,9 @@ Numbered_partition partition_numbered(const Partition_input<Mesh>& input, std::s
                                       const Partition_options& options = {}) {
   if (regions == 0) throw Bad_argument("the number of regions must be at least 1");
   const auto wanted = std::min<std::size_t>(regions, input.numbering.vertex_count());
-  return finish_partition(input.graph, input.positions, input.numbering.corners(), strategy(input, wanted), options);
+  Labelling labelling = strategy(input, wanted);
+  labelling.wanted = wanted;
+  return finish_partition(input.graph, input.positions, input.numbering.corners(), std::move(labelling), options);
 }
 
 /// The same for a surface by index.
@@ -122,15 +128,20 @@ Numbered_partition partition_numbered(const Numbered_surface& surface, std::size
                                       const Partition_options& options = {}) {
   if (regions == 0) throw Bad_argument("the number of regions must be at least 1");
   const auto wanted = std::min<std::size_t>(regions, num_vertices(surface.graph));
-  return finish_partition(surface.graph, surface.positions, surface.faces, strategy.label(surface, wanted), options);
+  Labelling labelling = strategy.label(surface, wanted);
+  labelling.wanted = wanted;
+  return finish_partition(surface.graph, surface.positions, surface.faces, std::move(labelling), options);
 }
 
 /// Divides a surface into regions and places one particle in each.
 ///
 /// Every vertex gets one region. Every region is non-empty and, unless `keep_islands` is set, connected in the mesh
-/// graph. Its particle starts at the vertex nearest to the region's mean vector, in the strategy's own space. If the
-/// mesh has more connected components than regions, each component that no region reaches becomes an additional region,
-/// up to the limit of `repair_islands`.
+/// graph. Its particle starts at the vertex nearest to the region's mean vector, in the strategy's own space. Each
+/// connected component of the mesh that no region reaches becomes an additional region, up to the limit of
+/// `repair_islands`.
+///
+/// Vertices that no face uses form no region. The strategies of the library do not look at them, wherever they are, and
+/// give them to region 0.
 ///
 /// @param regions     wanted number of regions, >= 1; above V it is reduced to V
 /// @param region_map  vertex property map that receives the region of each vertex
