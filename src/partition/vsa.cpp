@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lodestone/partition/face_labels.h"
 #include "lodestone/partition/oriented_mesh.h"
 #include "lodestone/partition/region_count.h"
 #include "partition/face_geometry.h"
 #include "partition/refusals.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -34,6 +36,7 @@ class Normal_metric {
     for (std::size_t f = 0; f < oriented.face_indices.size(); ++f) {
       const auto index = oriented.face_indices[f];
       areas_.push_back(geometry.areas[index]);
+      area_ += geometry.areas[index];
       normals_.emplace_back((oriented.turned[f] ? -1 : 1) * geometry.normals.row(index));
     }
   }
@@ -50,7 +53,14 @@ class Normal_metric {
     return length > 0 ? Proxy(sum / length) : sum;
   }
 
+  /// An error of all faces together that may be nothing but the rounding of their normals.
+  double rounding() const {
+    constexpr double of_normal = 64 * std::numeric_limits<double>::epsilon();
+    return area_ * of_normal * of_normal;
+  }
+
  private:
+  double area_ = 0;            ///< of all faces
   std::vector<double> areas_;  ///< per face of the mesh
   std::vector<Proxy> normals_;
 };
@@ -59,15 +69,21 @@ using Approximation =
     CGAL::Variational_shape_approximation<Surface_mesh, Surface_mesh::Property_map<Surface_mesh::Vertex_index, Point>,
                                           Normal_metric>;
 
-/// Proxies one by one, then by doubling, then relaxed.
+/// Proxies one by one, then by doubling, then relaxed. None is added where the error is no more than rounding: it would
+/// be as good anywhere.
 /// @return the number of relaxations
-std::size_t approximate(Approximation& approximation, std::size_t proxies, const Vsa_options& options) {
+std::size_t approximate(Approximation& approximation, std::size_t proxies, double rounding,
+                        const Vsa_options& options) {
   std::size_t iterations = 0;
   approximation.initialize_seeds(CGAL::parameters::max_number_of_proxies(1));  // one per component
   const auto missing = [&](std::size_t target) { return target - std::min(target, approximation.number_of_proxies()); };
   const std::size_t singles = missing(std::min(proxies, options.single_insertions));
-  iterations += options.relaxations * approximation.add_to_furthest_proxies(singles, options.relaxations);
-  while (missing(proxies) > 0) {
+  const auto is_exact = [&] { return approximation.compute_total_error() <= rounding; };
+  for (std::size_t i = 0; i < singles && !is_exact(); ++i) {
+    if (approximation.add_to_furthest_proxies(1, options.relaxations) == 0) break;
+    iterations += options.relaxations;
+  }
+  while (missing(proxies) > 0 && !is_exact()) {
     const std::size_t wanted = std::min(missing(proxies), approximation.number_of_proxies());
     if (approximation.add_proxies_error_diffusion(wanted) == 0) break;
     approximation.run(options.relaxations);
@@ -83,29 +99,38 @@ std::size_t approximate(Approximation& approximation, std::size_t proxies, const
   return iterations + 1;
 }
 
+/// The proxy of each face; `no_region` for faces that `oriented_mesh` leaves out.
+/// @param iterations  set to the number of relaxations
+std::vector<Region_index> approximated(const Numbered_surface& surface, std::size_t regions, const Vsa_options& options,
+                                       std::size_t& iterations) {
+  const Oriented_mesh oriented = oriented_mesh(surface);
+  std::vector<Region_index> face_labels(surface.faces.size(), no_region);
+  const std::size_t faces = oriented.mesh.number_of_faces();
+  if (faces == 0) return face_labels;
+  const Normal_metric metric(oriented, face_geometry(surface));
+  with_refusals_as_bad_mesh(Vsa::name, [&] {
+    Approximation approximation(oriented.mesh, oriented.mesh.points(), metric);
+    iterations =
+        approximate(approximation, std::clamp<std::size_t>(regions, 1, faces / 4 + 1), metric.rounding(), options);
+    std::vector<std::size_t> proxies(faces);
+    approximation.output(CGAL::parameters::face_proxy_map(
+        boost::make_iterator_property_map(proxies.begin(), get(boost::face_index, oriented.mesh))));
+    for (std::size_t f = 0; f < faces; ++f)
+      face_labels[oriented.face_indices[f]] = static_cast<Region_index>(proxies[f]);
+  });
+  return face_labels;
+}
+
 }  // namespace
 
 Labelling Vsa::label(const Numbered_surface& surface, std::size_t regions) const {
   check(options);
-  const Oriented_mesh oriented = oriented_mesh(surface);
-  std::vector<Region_index> face_labels(surface.faces.size(), no_region);
-  Labelling result;
-  if (const std::size_t faces = oriented.mesh.number_of_faces(); faces > 0) {
-    const Normal_metric metric(oriented, face_geometry(surface));
-    result.iterations = with_refusals_as_bad_mesh(name, [&] {
-      Approximation approximation(oriented.mesh, oriented.mesh.points(), metric);
-      const auto iterations = approximate(approximation, std::clamp<std::size_t>(regions, 1, faces / 4 + 1), options);
-      std::vector<std::size_t> proxies(faces);
-      approximation.output(CGAL::parameters::face_proxy_map(
-          boost::make_iterator_property_map(proxies.begin(), get(boost::face_index, oriented.mesh))));
-      for (std::size_t f = 0; f < faces; ++f)
-        face_labels[oriented.face_indices[f]] = static_cast<Region_index>(proxies[f]);
-      return iterations;
-    });
-  }
-  result.labels = vertex_labels(surface, face_labels);
-  adjust_region_count(surface.graph, surface.positions, result.labels, regions);
-  return result;
+  return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
+    Labelling result{.labels = {}, .wanted = wanted};
+    result.labels = vertex_labels(used, approximated(used, wanted, options, result.iterations));
+    adjust_region_count(used.graph, used.positions, result.labels, wanted);
+    return result;
+  });
 }
 
 }  // namespace lodestone

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "lodestone/partition/region_count.h"
 #include "partition/partition_checks.h"
 #include "support/test_meshes.h"
 
@@ -50,6 +51,18 @@ TEST(Vsa, the_seeding_does_not_change_the_number_of_regions) {
   for (const std::size_t singles : {0, 5, 100}) {
     const auto sizes = label_sizes(Vsa{.options = {.single_insertions = singles}}, mesh, 40);
     EXPECT_EQ(sizes.size(), 40U);
+  }
+}
+
+TEST(Vsa, a_flat_surface_is_left_to_the_cuts_at_the_median) {
+  auto flat = grid(24, 18);
+  for (const double slope : {0.0, 0.3}) {
+    deform(flat, [&](const Point& p) { return Point(p.x(), p.y(), slope * p.x() + 0.7 * slope * p.y()); });
+    const Numbered_mesh numbered(flat);
+    std::vector<Region_index> cut(flat.number_of_vertices(), 0);
+    adjust_region_count(numbered.graph, numbered.positions, cut, 20);
+    EXPECT_EQ(labels_of(Vsa{}, flat, 20), cut) << slope;
+    EXPECT_EQ(labels_of(Vsa{.options = {.single_insertions = 0}}, flat, 20), cut) << slope;
   }
 }
 

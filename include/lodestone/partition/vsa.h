@@ -23,8 +23,9 @@ struct Vsa_options {
 /// instead, where the error is. Vertices take the label with the largest area around them, see `vertex_labels`.
 ///
 /// Normals and areas of faces are Lodestone's own: a face whose area is no more than rounding has neither. Areas of
-/// fewer than four faces describe no shape, so no more than about F / 4 proxies. `adjust_region_count` makes
-/// the missing regions, also for labels that no vertex could keep. Nothing is random. O(N (F log F)) up to
+/// fewer than four faces describe no shape, so no more than about F / 4 proxies. Where the error is no more than
+/// rounding, as on a flat surface, a further proxy would be as good anywhere, so none is added. `adjust_region_count`
+/// makes the missing regions, also for labels that no vertex could keep. Nothing is random. O(N (F log F)) up to
 /// `single_insertions`: 200 000 faces and 64 regions take about 20 s.
 struct Vsa {
   static constexpr std::string_view name = "vsa";  ///< for `make_strategy`, tables and messages
