@@ -11,11 +11,13 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <string>
 
 #include "lodestone/mesh/box.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/patch.h"
 #include "lodestone/partition/particle_count.h"
+#include "partition/used_surface.h"
 
 namespace lodestone {
 
@@ -34,6 +36,35 @@ void check(const Numbered_surface& surface, const Numbered_partition& partition)
   if (std::ranges::any_of(partition.labels, [&](auto label) { return label >= partition.regions; }) ||
       std::ranges::any_of(partition.particles, [&](auto vertex) { return vertex >= vertices; }))
     throw Bad_argument("the partition has a label or a particle out of range");
+}
+
+/// A partition without the vertices that `Used_surface` leaves out.
+Numbered_partition used_partition(const Used_surface& used, const Numbered_partition& partition) {
+  if (used.is_whole()) return partition;
+  const auto& vertices = used.vertices();
+  Numbered_partition result{
+      .labels = {}, .regions = partition.regions, .particles = {}, .statistics = partition.statistics};
+  for (const auto v : vertices) result.labels.push_back(partition.labels[v]);
+  for (const auto particle : partition.particles) {
+    const auto place = std::ranges::lower_bound(vertices, particle);
+    if (place == vertices.end() || *place != particle)
+      throw Bad_argument("the particle of region " + std::to_string(result.particles.size()) + " is at vertex " +
+                         std::to_string(particle) + ", which no face uses");
+    result.particles.push_back(static_cast<std::uint32_t>(place - vertices.begin()));
+  }
+  return result;
+}
+
+/// After `used_partition`: what it leaves out counts for no region.
+void check_regions(const Numbered_partition& partition) {
+  std::vector<bool> has_vertex(partition.regions, false);
+  for (const auto label : partition.labels) has_vertex[label] = true;
+  for (Region_index region = 0; region < partition.regions; ++region) {
+    if (!has_vertex[region])
+      throw Bad_argument("region " + std::to_string(region) + " of the partition has no vertex with a face");
+    if (const auto label = partition.labels[partition.particles[region]]; label != region)
+      throw Bad_argument("the particle of region " + std::to_string(region) + " is in region " + std::to_string(label));
+  }
 }
 
 double distortion(const Feature_vectors& vectors, const Labels& labels, std::size_t regions) {
@@ -168,9 +199,12 @@ void measure_volumes(const Positions& positions, std::span<const Corners> faces,
 
 }  // namespace
 
-Partition_measures measure_partition(const Numbered_surface& surface, const Numbered_partition& partition) {
-  check(surface, partition);
-  const auto& [graph, original, faces] = surface;
+Partition_measures measure_partition(const Numbered_surface& surface, const Numbered_partition& whole_partition) {
+  check(surface, whole_partition);
+  const Used_surface used(surface);
+  const Numbered_partition partition = used_partition(used, whole_partition);
+  check_regions(partition);
+  const auto [graph, original, faces] = used.surface();
   const auto& labels = partition.labels;
   const Feature_vectors vectors = feature_vectors(original, faces);
   const Positions positions = vectors.leftCols<3>();  // scaled to radius 1

@@ -134,5 +134,29 @@ TEST(Partition_measures, partitions_of_another_surface_are_refused) {
   EXPECT_THROW(measured(grid(6, 4), partition), Bad_argument);
 }
 
+TEST(Partition_measures, a_region_without_vertices_is_refused) {
+  auto partition = given({0, 0, 1, 1}, 2);
+  partition.regions = 3;
+  partition.particles = {0, 2, 2};
+  EXPECT_THROW(measured(grid(2, 2), partition), Bad_argument);
+}
+
+TEST(Partition_measures, a_particle_outside_its_region_is_refused) {
+  auto partition = given({0, 0, 1, 1}, 2);
+  EXPECT_NO_THROW(measured(grid(2, 2), partition));
+  partition.particles = {0, 1};
+  EXPECT_THROW(measured(grid(2, 2), partition), Bad_argument);
+}
+
+TEST(Partition_measures, a_region_or_particle_at_vertices_without_faces_only_is_refused) {
+  auto mesh = grid(2, 2);
+  mesh.add_vertex({9, 9, 9});
+  EXPECT_THROW(measured(mesh, given({0, 0, 1, 1, 2}, 3)), Bad_argument);
+  auto partition = given({0, 0, 1, 1, 1}, 2);
+  EXPECT_NO_THROW(measured(mesh, partition));
+  partition.particles[1] = 4;
+  EXPECT_THROW(measured(mesh, partition), Bad_argument);
+}
+
 }  // namespace
 }  // namespace lodestone

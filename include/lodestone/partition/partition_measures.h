@@ -27,10 +27,12 @@ struct Partition_measures {
 
 /// Measures a partition.
 ///
-/// The radius of the object is the largest distance of a vertex from the mean of all vertices. A face belongs to
-/// regions as in `region_patches`. If the corners of a face are in two regions, the border runs between the midpoints
-/// of two sides; if they are in three, it runs from the midpoints of all sides to the centroid. O(V log V + F log F).
-/// @throws Bad_argument  the labels or particles do not fit the surface
+/// The radius of the object is the largest distance of a vertex from the mean of all vertices. Vertices that no face
+/// uses do not count. A face belongs to regions as in `region_patches`. If the corners of a face are in two regions,
+/// the border runs between the midpoints of two sides; if they are in three, it runs from the midpoints of all sides to
+/// the centroid. O(V log V + F log F).
+/// @throws Bad_argument  the labels or particles do not fit the surface, a region has no vertex with a face, or a
+///                       particle is not at a vertex of its region that has a face
 Partition_measures measure_partition(const Numbered_surface& surface, const Numbered_partition& partition);
 
 /// The same for a mesh with its region map.
