@@ -7,11 +7,14 @@
 #include <numeric>
 #include <queue>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/scaled_positions.h"
+#include "lodestone/partition/islands.h"
+#include "lodestone/partition/nearest_code_vector.h"
 
 namespace lodestone {
 
@@ -57,6 +60,9 @@ class Joining {
   Joining(const Vertex_graph& graph, const std::vector<Region_index>& labels, std::size_t regions);
   /// @return the number of regions that joined another
   std::size_t run(std::size_t wanted);
+  /// Joins the smallest of what `run` has left, which are whole components, to the `most` largest that are kept. Each
+  /// goes to the one whose mean position is nearest.
+  void join_components(std::size_t most, const Positions& positions, const std::vector<Region_index>& labels);
   /// Per region: the region of which it is a part in the end.
   std::vector<Region_index> targets() const;
 
@@ -108,11 +114,68 @@ std::size_t Joining::run(std::size_t wanted) {
   return joined;
 }
 
+void Joining::join_components(std::size_t most, const Positions& positions, const std::vector<Region_index>& labels) {
+  const auto parts = targets();
+  std::vector<Region_index> by_size;
+  for (Region_index region = 0; region < parts.size(); ++region)
+    if (parts[region] == region) by_size.push_back(region);
+  if (by_size.size() <= most) return;
+  std::ranges::stable_sort(by_size, std::ranges::greater(), [this](Region_index region) { return sizes_[region]; });
+
+  Feature_vectors means = Feature_vectors::Zero(static_cast<Eigen::Index>(parts.size()), 3);
+  const Positions scaled = scaled_positions(positions);
+  for (std::size_t v = 0; v < labels.size(); ++v)
+    means.row(parts[labels[v]]) += scaled.row(static_cast<Eigen::Index>(v));
+  for (const auto region : by_size) means.row(region) /= static_cast<double>(sizes_[region]);
+  const std::span kept = std::span(by_size).first(most), others = std::span(by_size).subspan(most);
+  const Feature_vectors codes = means(kept, Eigen::all), vectors = means(others, Eigen::all);
+  Assignment nearest;
+  Bounded_assignment(vectors).assign(codes, nearest);
+  for (std::size_t i = 0; i < others.size(); ++i) joined_[others[i]] = kept[nearest.labels[i]];
+}
+
 std::vector<Region_index> Joining::targets() const {
   std::vector<Region_index> result = joined_;
   for (auto& target : result)
     while (target != joined_[target]) target = joined_[target];
   return result;
+}
+
+/// A region that is cut: its connected pieces. The largest is the last; of equally large ones, the one with the lowest
+/// vertex.
+class Pieces_of_region {
+ public:
+  explicit Pieces_of_region(std::vector<Vertices> pieces);
+
+  std::size_t size() const { return size_; }
+  const std::vector<Vertices>& pieces() const { return pieces_; }
+  /// Whether the largest piece holds the lowest vertex of the region.
+  bool largest_is_lowest() const { return lowest_.back() == pieces_.back().front(); }
+  /// Takes the largest piece out.
+  Vertices take_largest();
+
+ private:
+  std::vector<Vertices> pieces_;       ///< each in ascending order
+  std::vector<std::uint32_t> lowest_;  ///< per piece: the lowest vertex of this and all smaller pieces
+  std::size_t size_ = 0;
+};
+
+Pieces_of_region::Pieces_of_region(std::vector<Vertices> pieces) : pieces_(std::move(pieces)) {
+  std::ranges::sort(pieces_, [](const Vertices& a, const Vertices& b) {
+    return std::pair(a.size(), b.front()) < std::pair(b.size(), a.front());
+  });
+  for (const auto& piece : pieces_) {
+    size_ += piece.size();
+    lowest_.push_back(lowest_.empty() ? piece.front() : std::min(lowest_.back(), piece.front()));
+  }
+}
+
+Vertices Pieces_of_region::take_largest() {
+  Vertices largest = std::move(pieces_.back());
+  pieces_.pop_back();
+  lowest_.pop_back();
+  size_ -= largest.size();
+  return largest;
 }
 
 /// Cuts the largest regions in two, one after the other.
@@ -125,25 +188,24 @@ class Splitting {
 
  private:
   std::vector<Vertices> pieces(const Vertices& vertices);
-  Vertices cut_off(const Vertices& region);
+  Pieces_of_region cut_off(Pieces_of_region& region);
+  std::pair<Vertices, Vertices> halves(const Vertices& region);
   Vertices grown_half(const Vertices& region);
   Eigen::Vector3d longest_axis(const Vertices& region) const;
 
   const Vertex_graph& graph_;
   const Positions positions_;
   std::vector<Region_index>& labels_;
-  std::vector<Vertices> members_;
   std::vector<std::uint32_t> marks_;  ///< per vertex: the search that has yet to reach it
   std::uint32_t searches_ = 0;
+  std::vector<Pieces_of_region> regions_;
 };
 
 Splitting::Splitting(const Vertex_graph& graph, const Positions& positions, std::vector<Region_index>& labels,
                      std::size_t regions)
-    : graph_(graph),
-      positions_(scaled_positions(positions)),
-      labels_(labels),
-      members_(members(graph, labels, regions)),
-      marks_(labels.size(), 0) {}
+    : graph_(graph), positions_(scaled_positions(positions)), labels_(labels), marks_(labels.size(), 0) {
+  for (const auto& region : members(graph, labels, regions)) regions_.emplace_back(pieces(region));
+}
 
 /// Connected pieces of a set of vertices, in the order of their lowest vertex, each in ascending order.
 std::vector<Vertices> Splitting::pieces(const Vertices& vertices) {
@@ -215,35 +277,48 @@ Vertices without(const Vertices& all, const Vertices& some) {
   return rest;
 }
 
-/// The vertices that leave a region of two or more vertices. The lowest vertex always stays.
-Vertices Splitting::cut_off(const Vertices& region) {
-  auto parts = pieces(region);
-  if (parts.size() == 1) parts = pieces(without(region, grown_half(region)));
-  // One side is the largest piece. The other side is the rest of the region.
-  const Vertices side = *std::ranges::max_element(parts, {}, &Vertices::size);
-  return side.front() == region.front() ? without(region, side) : side;
+/// Two sides of a connected region of two or more vertices, both connected; the lowest vertex is in the first.
+std::pair<Vertices, Vertices> Splitting::halves(const Vertices& region) {
+  const auto parts = pieces(without(region, grown_half(region)));
+  Vertices side = *std::ranges::max_element(parts, {}, &Vertices::size);
+  Vertices rest = without(region, side);
+  if (side.front() == region.front()) std::swap(side, rest);
+  return {std::move(rest), std::move(side)};
+}
+
+/// What leaves a region of two or more vertices. The lowest vertex always stays.
+Pieces_of_region Splitting::cut_off(Pieces_of_region& region) {
+  const bool stays = region.largest_is_lowest(), is_connected = region.pieces().size() == 1;
+  Vertices largest = region.take_largest();
+  if (is_connected) {
+    auto [staying, leaving] = halves(largest);
+    region = Pieces_of_region({std::move(staying)});
+    return Pieces_of_region({std::move(leaving)});
+  }
+  if (!stays) return Pieces_of_region({std::move(largest)});
+  return std::exchange(region, Pieces_of_region({std::move(largest)}));
 }
 
 std::size_t Splitting::run(std::size_t wanted) {
   const auto smaller = [this](Region_index a, Region_index b) {
-    return std::pair(members_[a].size(), b) < std::pair(members_[b].size(), a);
+    return std::pair(regions_[a].size(), b) < std::pair(regions_[b].size(), a);
   };
   std::priority_queue<Region_index, Vertices, decltype(smaller)> by_size(smaller);
-  for (Region_index region = 0; region < members_.size(); ++region) by_size.push(region);
+  for (Region_index region = 0; region < regions_.size(); ++region) by_size.push(region);
   std::size_t cuts = 0;
-  while (members_.size() < wanted && !by_size.empty()) {
+  while (regions_.size() < wanted && !by_size.empty()) {
     const Region_index largest = by_size.top();
-    if (members_[largest].size() < 2) break;
+    if (regions_[largest].size() < 2) break;
     by_size.pop();
-    const auto fresh = static_cast<Region_index>(members_.size());
-    Vertices leaving = cut_off(members_[largest]);
-    for (const auto v : leaving) labels_[v] = fresh;
-    members_[largest] = without(members_[largest], leaving);
-    members_.push_back(std::move(leaving));
+    const auto fresh = static_cast<Region_index>(regions_.size());
+    regions_.push_back(cut_off(regions_[largest]));
     by_size.push(largest);
     by_size.push(fresh);
     ++cuts;
   }
+  for (Region_index region = 0; region < regions_.size(); ++region)
+    for (const auto& piece : regions_[region].pieces())
+      for (const auto v : piece) labels_[v] = region;
   return cuts;
 }
 
@@ -256,6 +331,7 @@ Region_adjustment adjust_region_count(const Vertex_graph& graph, const Positions
   if (result.regions > wanted) {
     Joining joining(graph, labels, result.regions);
     result.joined = joining.run(wanted);
+    joining.join_components(most_regions(wanted), positions, labels);
     const auto targets = joining.targets();
     for (auto& label : labels) label = targets[label];
     result.regions = close_up(graph, labels);

@@ -11,6 +11,7 @@
 #include "lodestone/partition/islands.h"
 #include "lodestone/partition/lbg.h"
 #include "lodestone/partition/partition.h"
+#include "lodestone/partition/strategies.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
@@ -116,6 +117,31 @@ TEST(Partition, an_unwelded_sphere_is_divided_at_once_into_a_bounded_number_of_r
   expect_every_region_used(result.labels, result.regions);
   for (Region_index region = 0; region < result.regions; ++region)
     EXPECT_EQ(result.labels[result.particles[region]], region);
+}
+
+TEST(Partition, of_loose_triangles_has_as_many_regions_whatever_the_strategy) {
+  const Numbered_mesh mesh(unwelded(sphere(10)));
+  const Numbered_surface surface{mesh.graph, mesh.positions, mesh.faces};
+  for (const auto& entry : strategies()) {
+    const auto strategy = entry.make({});
+    EXPECT_EQ(partition_numbered(surface, 8, strategy).regions, bound(8)) << entry.name;
+    EXPECT_EQ(partition_numbered(surface, 100, strategy).regions, bound(100)) << entry.name;
+  }
+}
+
+/// A strategy that gives the labels it has, whatever the wanted number.
+struct Own_number {
+  static constexpr std::string_view name = "own_number";
+  Labels labels = {};
+  Labelling label(const Numbered_surface&, std::size_t) const { return {.labels = labels}; }
+};
+
+TEST(Partition, of_a_strategy_that_ignores_the_wanted_number_is_limited_by_its_labels) {
+  // 200 labels on as many triangles, then a component that no region reaches.
+  const Numbered_mesh mesh(copies(single_triangle(), 201));
+  Own_number strategy;
+  for (std::uint32_t v = 0; v < 603; ++v) strategy.labels.push_back(std::min<Region_index>(v / 3, 199));
+  EXPECT_EQ(partition_numbered({mesh.graph, mesh.positions, mesh.faces}, 1, strategy).regions, 201U);
 }
 
 TEST(Partition, every_region_of_a_mesh_of_few_components_is_connected) {

@@ -160,6 +160,112 @@ TEST(Region_count, a_region_in_several_pieces_keeps_only_the_largest) {
   for (std::uint32_t v = 0; v < labels.size(); ++v) EXPECT_EQ(labels[v], v < 38 ? 0U : 1U);
 }
 
+/// Pieces of the vertices of one label, by repeated search.
+std::vector<std::vector<std::uint32_t>> pieces_of_label(const Vertex_graph& graph, const Labels& labels,
+                                                        Region_index label) {
+  std::vector<std::vector<std::uint32_t>> pieces;
+  std::vector<bool> seen(labels.size(), false);
+  for (std::uint32_t start = 0; start < labels.size(); ++start) {
+    if (labels[start] != label || seen[start]) continue;
+    std::vector<std::uint32_t> piece{start};
+    seen[start] = true;
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      for (const auto w : neighbours(graph, piece[i]))
+        if (labels[w] == label && !seen[w]) {
+          seen[w] = true;
+          piece.push_back(w);
+        }
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+/// One cut after the other, each with a new search for the pieces of the largest region. It must have several.
+void split_by_searches(const Vertex_graph& graph, Labels& labels, std::size_t regions, std::size_t wanted) {
+  for (; regions < wanted; ++regions) {
+    std::vector<std::size_t> sizes(regions, 0);
+    for (const auto label : labels) ++sizes[label];
+    const auto largest = static_cast<Region_index>(std::ranges::max_element(sizes) - sizes.begin());
+    const auto pieces = pieces_of_label(graph, labels, largest);
+    ASSERT_GT(pieces.size(), 1U);
+    const auto side = std::ranges::max_element(pieces, {}, [](const auto& piece) { return piece.size(); });
+    // The lowest vertex stays.
+    for (const auto& piece : pieces)
+      if ((&piece == &*side) != (side == pieces.begin()))
+        for (const auto v : piece) labels[v] = static_cast<Region_index>(regions);
+  }
+}
+
+TEST(Region_count, pieces_leave_a_region_in_the_order_of_repeated_searches) {
+  std::mt19937_64 random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    Surface_mesh mesh;
+    for (int part = 0; part < 40; ++part)
+      append(mesh, grid(2 + static_cast<std::uint32_t>(random() % 4), 2 + static_cast<std::uint32_t>(random() % 3)));
+    const std::size_t regions = 1 + random() % 3;
+    // Whole components have one label, so the largest region has several pieces for a while.
+    const Numbered_mesh numbered(mesh);
+    Labels labels(mesh.number_of_vertices(), 0);
+    for (std::uint32_t v = 1; v < labels.size(); ++v) {
+      const bool begins = std::ranges::none_of(neighbours(numbered.graph, v), [&](auto w) { return w < v; });
+      labels[v] =
+          begins ? static_cast<Region_index>(random() % regions) : labels[*neighbours(numbered.graph, v).begin()];
+    }
+    for (Region_index region = 0; region < regions; ++region)
+      ASSERT_NE(std::ranges::find(labels, region), labels.end());
+    Labels expected = labels;
+    split_by_searches(numbered.graph, expected, regions, regions + 12);
+    adjust(mesh, labels, regions + 12);
+    EXPECT_EQ(labels, expected);
+  }
+}
+
+TEST(Region_count, a_label_of_very_many_pieces_is_divided_into_them) {
+  constexpr std::uint32_t pieces = 100000;
+  std::vector<Corners> faces;
+  for (std::uint32_t f = 0; f < pieces; ++f) faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+  const Positions positions = Positions::Random(3 * pieces, 3);
+  Labels labels(3 * pieces, 0);
+  const auto result = adjust_region_count(vertex_graph(3 * pieces, faces), positions, labels, pieces);
+  EXPECT_EQ(result.regions, pieces);
+  EXPECT_EQ(result.split, pieces - 1);
+  const std::set<Region_index> different(labels.begin(), labels.end());
+  EXPECT_EQ(different.size(), pieces);
+  for (std::uint32_t f = 0; f < pieces; ++f) EXPECT_EQ(labels[3 * f], labels[3 * f + 2]);
+}
+
+TEST(Region_count, the_largest_of_very_many_components_keep_regions_and_the_others_join_the_nearest) {
+  // In a row: 100 strips of three squares, with three loose triangles between each and the next.
+  std::vector<Corners> faces;
+  std::vector<Eigen::RowVector3d> points;
+  Labels labels;
+  const auto add = [&](const Surface_mesh& part, double x) {
+    const auto first = static_cast<std::uint32_t>(points.size());
+    const Numbered_mesh numbered(part);
+    for (const auto& [a, b, c] : numbered.faces) faces.push_back({first + a, first + b, first + c});
+    for (const auto& row : numbered.positions.rowwise()) {
+      points.push_back(row + Eigen::RowVector3d(x, 0, 0));
+      labels.push_back(static_cast<Region_index>(labels.size()));
+    }
+  };
+  for (int strip = 0; strip < 100; ++strip) {
+    add(grid(4, 2), 100.0 * strip);
+    for (const double offset : {-20, -10, 10}) add(single_triangle(), 100.0 * strip + offset);
+  }
+  Positions positions(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t v = 0; v < points.size(); ++v) positions.row(static_cast<Eigen::Index>(v)) = points[v];
+  const auto graph = vertex_graph(static_cast<std::uint32_t>(points.size()), faces);
+
+  const Labels before = labels;
+  const std::size_t wanted = 50;  // at most twice as many, or 64 more
+  EXPECT_EQ(adjust_region_count(graph, positions, labels, wanted).regions, 114U);
+  labels = before;
+  EXPECT_EQ(adjust_region_count(graph, positions, labels, 36).regions, 100U);
+  for (std::size_t v = 0; v < labels.size(); ++v)
+    EXPECT_EQ(labels[v], labels[v / 17 * 17]) << "each triangle is beside the strip that its group of 17 begins with";
+  EXPECT_EQ(std::set<Region_index>(labels.begin(), labels.end()).size(), 100U);
+}
+
 TEST(Region_count, there_are_no_more_regions_than_vertices_with_edges) {
   auto mesh = tetrahedron();
   mesh.add_vertex({9, 9, 9});

@@ -21,7 +21,9 @@ struct Region_adjustment {
 ///
 /// Too many: the region with the fewest vertices joins the neighbour with which it shares the longest border, counted
 /// in mesh edges, until enough are gone. Ties go to the lowest index. A region that is a connected component of the
-/// mesh has no neighbour and stays. So more regions than wanted remain if there are more components.
+/// mesh has no neighbour and stays. So more regions than wanted remain if there are more components, but at most
+/// `most_regions(wanted)`: the largest, and of equally large ones those of lowest index. Each of the others gets the
+/// label of the remaining region whose mean position is nearest to its own.
 ///
 /// Too few: the region with the most vertices is cut in two, until there are enough. A region in several pieces gives
 /// up all but the largest. A connected region is cut at the median along the longest axis of its vertices, the main
@@ -31,7 +33,8 @@ struct Region_adjustment {
 /// the cuts end with regions of a single vertex.
 ///
 /// Vertices without edges are not part of any region and get label 0. The indices of the regions close up in the order
-/// that they had. Cost O(E log V) to join; O(V log V log N) to split into N regions.
+/// that they had. Cost O(E log V) to join, and O(C N) for C components beyond the limit; O(V log V log N) to split into
+/// N regions, if the halves are of similar size.
 ///
 /// @param positions  V x 3
 /// @param labels     V; changed in place
