@@ -6,7 +6,9 @@
 #include <CGAL/Monge_via_jet_fitting.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/scaled_positions.h"
@@ -36,9 +38,15 @@ using Jet_fitting = CGAL::Monge_via_jet_fitting<Local_kernel, Local_kernel, Leas
 
 constexpr std::size_t fitted_degree = 2;  // of the fitted polynomial
 constexpr std::size_t coefficients = 6;   // of the fitted polynomial
-constexpr std::size_t most_points = 1000;
+constexpr std::size_t whole_rings = 256;  // vertices up to which rings are taken whole
+// Vertices that are taken of a larger ring, and neighbours of a vertex of higher degree.
+constexpr std::size_t thinned_ring = 64;
 
-/// A vertex and its rings of neighbours, nearer rings first.
+/// The index of number `i` of `count` places spread evenly over `size`.
+std::size_t spread_index(std::size_t i, std::size_t count, std::size_t size) { return i * size / count; }
+
+/// A vertex and its rings of neighbours, nearer rings first. Few vertices stand for a large ring: a fit to all of them
+/// would take long, for each vertex around a hub, and a fit to the first of them would see one side only.
 class Rings {
  public:
   explicit Rings(const Vertex_graph& graph) : graph_(graph), seen_by_(num_vertices(graph), no_vertex) {}
@@ -49,19 +57,35 @@ class Rings {
     std::size_t begin = 0;
     for (std::size_t ring = 0; ring < rings; ++ring) {
       const std::size_t end = found_.size();
-      for (; begin < end; ++begin)
-        for (const auto w : neighbours(graph_, found_[begin])) {
-          if (seen_by_[w] == centre) continue;
-          if (found_.size() == most_points) return found_;
-          seen_by_[w] = centre;
-          found_.push_back(w);
-        }
+      for (; begin < end; ++begin) reach_neighbours(found_[begin], centre);
+      if (found_.size() > whole_rings) thin_out(end);
     }
     return found_;
   }
 
  private:
   static constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
+
+  void reach_neighbours(std::uint32_t vertex, std::uint32_t centre) {
+    const auto all = neighbours(graph_, vertex);
+    const auto degree = static_cast<std::size_t>(all.size());
+    const std::size_t count = std::min(degree, thinned_ring);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t w = all[static_cast<std::ptrdiff_t>(spread_index(i, count, degree))];
+      if (seen_by_[w] == centre) continue;
+      seen_by_[w] = centre;
+      found_.push_back(w);
+    }
+  }
+
+  /// Keeps some of the ring that begins at `begin`.
+  void thin_out(std::size_t begin) {
+    const std::size_t size = found_.size() - begin;
+    if (size <= thinned_ring) return;
+    for (std::size_t i = 0; i < thinned_ring; ++i)
+      found_[begin + i] = found_[begin + spread_index(i, thinned_ring, size)];
+    found_.resize(begin + thinned_ring);
+  }
 
   const Vertex_graph& graph_;
   std::vector<std::uint32_t> seen_by_;

@@ -107,6 +107,17 @@ TEST(Curvature, a_hub_with_many_neighbours_is_fitted_to_some_of_them) {
   EXPECT_TRUE(std::isfinite(curvatures[6000]));
 }
 
+TEST(Curvature, around_a_hub_is_that_of_the_sphere_on_which_it_lies) {
+  // 5000 sides around the pole of a unit sphere. The first thousand of them are on one side.
+  std::vector<Profile_point> profile;
+  for (int i = 30; i >= 1; --i) profile.push_back({std::cos(0.1 * i), std::sin(0.1 * i)});
+  const auto mesh = lathe(profile, 5000, 1 - std::cos(0.1));
+  const auto curvatures = curvatures_of(mesh);
+  const std::size_t pole = mesh.number_of_vertices() - 1;
+  EXPECT_NEAR(curvatures[pole], 1, 0.02);
+  for (std::size_t v = pole - 1 - 5000; v < pole - 1; ++v) EXPECT_NEAR(curvatures[v], 1, 0.05) << v;
+}
+
 TEST(Curvature, rings_out_of_range_are_refused) {
   EXPECT_THROW(curvatures_of(tetrahedron(), {.rings = 0}), Bad_argument);
   EXPECT_THROW(curvatures_of(tetrahedron(), {.rings = 11}), Bad_argument);

@@ -21,8 +21,12 @@ struct Curvature_options {
 ///
 /// The curvature is 0 where there is nothing to fit. That is so at a vertex with fewer than five neighbours in its
 /// rings (isolated vertices, a single triangle) and at a vertex without a normal. It is also so where all neighbours
-/// lie on a line or in a point. If a vertex has more than 1000 vertices in its rings, the fit takes the first 1000 that
-/// a breadth-first search meets, those of lower index first. O(V n) for n vertices in the rings of one.
+/// lie on a line or in a point.
+///
+/// The fit takes whole rings where degrees are ordinary. Of a vertex with more than 64 neighbours, 64 count as its
+/// neighbours, spread evenly over their order by index. A ring that would bring the vertices to more than 256 is
+/// thinned to 64 in the same way, in the order in which they are reached. So the cost is O(V), whatever the degrees,
+/// with a factor that grows with the rings.
 ///
 /// @throws Bad_argument  rings out of range
 std::vector<double> mean_curvatures(const Numbered_surface& surface, const Curvature_options& options = {});
