@@ -23,7 +23,7 @@ struct Region_growing_options {
 /// number. Vertices take the label with the largest area around them, see `vertex_labels`.
 ///
 /// A face without area is a region of its own at first, and then goes to its neighbours. Nothing is random. O(F r) for
-/// regions that are r rings across.
+/// regions that are r rings across: O(F^1.5) for a flat square, and O(F^2) for a long flat strip.
 struct Region_growing {
   static constexpr std::string_view name = "region_growing";  ///< for `make_strategy`, tables and messages
   static constexpr bool is_concurrent = true;                 ///< see Partition_strategy
