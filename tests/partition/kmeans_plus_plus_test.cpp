@@ -141,8 +141,9 @@ TEST(Kmeans_plus_plus, bad_options_are_refused) {
 TEST(Kmeans_plus_plus, re_seeds_a_cell_that_becomes_empty) {
   // Found by search: with the start that seed 2 draws from these eight positions, the second iteration leaves a cell
   // empty.
-  const auto mesh = mesh_of(
-      {{7, 17, 0}, {12, 19, 0}, {4, 20, 0}, {2, 3, 0}, {14, 8, 0}, {8, 5, 0}, {11, 5, 0}, {19, 18, 0}}, {{0, 1, 2}});
+  const auto mesh =
+      mesh_of({{7, 17, 0}, {12, 19, 0}, {4, 20, 0}, {2, 3, 0}, {14, 8, 0}, {8, 5, 0}, {11, 5, 0}, {19, 18, 0}},
+              {{0, 1, 2}, {3, 4, 5}, {2, 6, 7}});
   for (std::uint64_t seed = 0; seed < 20; ++seed)
     EXPECT_EQ(different(labelling_of(mesh, 4, {.seed = seed, .features = {.normal_weight = 0}}).labels), 4U) << seed;
 }

@@ -37,7 +37,7 @@ std::vector<std::pair<Surface_mesh, std::size_t>> awkward_meshes() {
   scale(huge, 1e150);
   scale(tiny, 1e-150);
   return {{single_triangle(), 3}, {tetrahedron(), 4}, {flat, 42}, {line, 25}, {point, 1}, {huge, 38}, {tiny, 38},
-          {scattered_mesh(), 68}};
+          {scattered_mesh(), 64}};
 }
 
 }  // namespace lodestone

@@ -31,7 +31,7 @@ std::vector<std::size_t> sizes_of(const std::vector<Region_index>& labels);
 /// A mesh in four components of different sizes, with isolated vertices and every vertex of one component twice.
 Surface_mesh scattered_mesh();
 
-/// Legal meshes, with the number of distinct positions of their vertices.
+/// Legal meshes, with the number of distinct positions of their vertices that have edges.
 std::vector<std::pair<Surface_mesh, std::size_t>> awkward_meshes();
 
 /// Labels are below V, without gaps, at most as many as requested, and give a partition without empty regions.
