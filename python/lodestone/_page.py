@@ -64,7 +64,7 @@ def _check_has_detector(frame):
 
 def _show(self):
     """A page of this frame, which a notebook shows. It must be the last that its detector found, and the
-    objects must not have moved since."""
+    objects must not have moved since. Numbers written into their arrays since then are not noticed."""
     _check_has_detector(self)
     made = Page(self.detector)
     made.add(self)

@@ -75,7 +75,7 @@ struct Given_mesh {
 /// @throws Bad_argument  it has not
 Given_mesh given_mesh(const py::object& mesh, const py::object& faces, const std::string& name);
 
-/// What `make` returns. A Bad_mesh that it throws is told with the name of the mesh before it; an empty name is not.
+/// What `make` returns. Puts the name of the mesh before the message of a Bad_mesh, unless it is empty.
 template <class Make>
 auto naming_mesh(const std::string& name, const Make& make) {
   try {

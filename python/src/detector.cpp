@@ -162,6 +162,7 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
   }
   return change([&](auto& detector) {
     const Object_id id = object->add_to(detector, options);
+    ++poses_;
     objects_.push_back(std::move(object));
     return id;
   });
@@ -237,14 +238,22 @@ Python_frame Python_detector::detect(Object_id a, Object_id b) {
 
 template <class Detect>
 Python_frame Python_detector::found(const Detect& detect) {
-  Python_frame found{.with_points = settings_.options.contact_points, .with_normals = settings_.options.contact_normals};
+  const auto& options = settings_.options;
+  Python_frame result{.with_points = options.contact_points, .with_normals = options.contact_normals};
   ask([&](auto& detector) {
     auto frame = std::make_shared<Frame>(detect(detector));
     last_frame_ = frame->number;
-    found.frame = std::move(frame);
-    found.poses = poses_;
+    result.frame = std::move(frame);
+    result.poses = poses();
   });
-  return found;
+  return result;
+}
+
+std::uint64_t Python_detector::poses() const {
+  std::uint64_t sum = poses_;
+  for (const auto& object : objects_)
+    if (object && object->skin() != nullptr) sum += object->skin()->pose_number();
+  return sum;
 }
 
 void Python_detector::check_is_shown(const Python_frame& frame) {
@@ -254,7 +263,8 @@ void Python_detector::check_is_shown(const Python_frame& frame) {
     if (number != last_frame_)
       throw Bad_argument(before + "frame " + std::to_string(last_frame_) +
                          ": add each frame before the next is asked for");
-    if (frame.poses != poses_) throw Bad_argument(before + "objects were moved, removed or rebuilt: add each frame before that");
+    if (frame.poses != poses())
+      throw Bad_argument(before + "objects were moved, added, removed or rebuilt: add each frame before that");
   });
 }
 

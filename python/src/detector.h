@@ -122,7 +122,7 @@ class Python_detector {
     std::vector<double> positions;
   };
   std::vector<Shown_object> shown();
-  /// @throws Bad_argument  another frame was found since, or objects were moved, removed or rebuilt
+  /// @throws Bad_argument  another frame was found since, or objects were moved, added, removed or rebuilt
   void check_is_shown(const Python_frame& frame);
 
   /// Promises something about the motion of an object, which keeps the promise.
@@ -156,13 +156,15 @@ class Python_detector {
   void change_object(Object_id object, const Change& change);
   template <class Detect>
   Python_frame found(const Detect& detect);
+  /// Grows with every change of an object, and with every pose of a skin. Writing into arrays does not count.
+  std::uint64_t poses() const;
 
   Detector_settings settings_;
   Deadlock_mutex mutex_;  ///< a visitor that calls the detector gets an error, not a deadlock
   bool reading_ = false;  ///< a query reads; who gets here then is its visitor
   std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed
   std::uint64_t last_frame_ = 0;  ///< number of the frame that was found last
-  std::uint64_t poses_ = 0;       ///< how often objects were moved, removed or rebuilt; writing into arrays does not count
+  std::uint64_t poses_ = 0;       ///< how often objects were moved, added, removed or rebuilt, but for what `poses` adds
   Detector<Any_strategy> detector_;
 };
 

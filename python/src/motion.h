@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -42,6 +43,11 @@ class Python_skin {
   const Skinned_points& points() const { return points_; }
   /// All positions. Without the GIL.
   std::vector<double> pose() const;
+  /// Grows with every change of the pose. Without the GIL.
+  std::uint64_t pose_number() const {
+    const std::lock_guard lock(mutex_);
+    return points_.pose_number();
+  }
   /// Changes the pose. Without the GIL.
   /// @throws Bad_argument  a visitor calls, whose query reads the pose
   template <class Change>

@@ -62,7 +62,9 @@ class Joining {
   std::size_t run(std::size_t wanted);
   /// Joins the smallest of what `run` has left, which are whole components, to the `most` largest that are kept. Each
   /// goes to the one whose mean position is nearest.
-  void join_components(std::size_t most, const Positions& positions, const std::vector<Region_index>& labels);
+  /// @return how many joined
+  std::size_t join_components(std::size_t most, const Vertex_graph& graph, const Positions& positions,
+                              const std::vector<Region_index>& labels);
   /// Per region: the region of which it is a part in the end.
   std::vector<Region_index> targets() const;
 
@@ -114,24 +116,33 @@ std::size_t Joining::run(std::size_t wanted) {
   return joined;
 }
 
-void Joining::join_components(std::size_t most, const Positions& positions, const std::vector<Region_index>& labels) {
+/// Scaled by what the vertices with edges need; of the others the positions mean nothing.
+Positions scaled_where_edges_are(const Vertex_graph& graph, Positions positions) {
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
+    if (out_degree(v, graph) == 0) positions.row(v).setZero();
+  return scaled_positions(positions);
+}
+
+std::size_t Joining::join_components(std::size_t most, const Vertex_graph& graph, const Positions& positions,
+                                     const std::vector<Region_index>& labels) {
   const auto parts = targets();
   std::vector<Region_index> by_size;
   for (Region_index region = 0; region < parts.size(); ++region)
     if (parts[region] == region) by_size.push_back(region);
-  if (by_size.size() <= most) return;
+  if (by_size.size() <= most) return 0;
   std::ranges::stable_sort(by_size, std::ranges::greater(), [this](Region_index region) { return sizes_[region]; });
 
   Feature_vectors means = Feature_vectors::Zero(static_cast<Eigen::Index>(parts.size()), 3);
-  const Positions scaled = scaled_positions(positions);
-  for (std::size_t v = 0; v < labels.size(); ++v)
-    means.row(parts[labels[v]]) += scaled.row(static_cast<Eigen::Index>(v));
+  const Positions scaled = scaled_where_edges_are(graph, positions);
+  for (std::uint32_t v = 0; v < labels.size(); ++v)
+    if (out_degree(v, graph) > 0) means.row(parts[labels[v]]) += scaled.row(v);
   for (const auto region : by_size) means.row(region) /= static_cast<double>(sizes_[region]);
   const std::span kept = std::span(by_size).first(most), others = std::span(by_size).subspan(most);
   const Feature_vectors codes = means(kept, Eigen::all), vectors = means(others, Eigen::all);
   Assignment nearest;
   Bounded_assignment(vectors).assign(codes, nearest);
   for (std::size_t i = 0; i < others.size(); ++i) joined_[others[i]] = kept[nearest.labels[i]];
+  return others.size();
 }
 
 std::vector<Region_index> Joining::targets() const {
@@ -331,7 +342,7 @@ Region_adjustment adjust_region_count(const Vertex_graph& graph, const Positions
   if (result.regions > wanted) {
     Joining joining(graph, labels, result.regions);
     result.joined = joining.run(wanted);
-    joining.join_components(most_regions(wanted), positions, labels);
+    result.joined += joining.join_components(most_regions(wanted), graph, positions, labels);
     const auto targets = joining.targets();
     for (auto& label : labels) label = targets[label];
     result.regions = close_up(graph, labels);

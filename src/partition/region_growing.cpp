@@ -61,7 +61,7 @@ std::vector<Region_index> flat_areas(const Numbered_surface& surface, const Regi
 
 Labelling Region_growing::label(const Numbered_surface& surface, std::size_t regions) const {
   return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
-    Labelling result{.labels = vertex_labels(used, flat_areas(used, options)), .wanted = wanted};
+    Labelling result{.labels = vertex_labels(used, flat_areas(used, options))};
     adjust_region_count(used.graph, used.positions, result.labels, wanted);
     return result;
   });

@@ -257,7 +257,7 @@ std::vector<Region_index> sdf_segments(const Numbered_surface& surface, const Sd
 
 Labelling Sdf::label(const Numbered_surface& surface, std::size_t regions) const {
   return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
-    Labelling result{.labels = vertex_labels(used, sdf_segments(used, options)), .wanted = wanted};
+    Labelling result{.labels = vertex_labels(used, sdf_segments(used, options))};
     adjust_region_count(used.graph, used.positions, result.labels, wanted);
     return result;
   });

@@ -126,7 +126,7 @@ std::vector<Region_index> approximated(const Numbered_surface& surface, std::siz
 Labelling Vsa::label(const Numbered_surface& surface, std::size_t regions) const {
   check(options);
   return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
-    Labelling result{.labels = {}, .wanted = wanted};
+    Labelling result;
     result.labels = vertex_labels(used, approximated(used, wanted, options, result.iterations));
     adjust_region_count(used.graph, used.positions, result.labels, wanted);
     return result;

@@ -46,8 +46,8 @@ struct Detect_command {
 };
 
 struct Partition_command {
-  std::filesystem::path mesh;
-  Mesh_file_options limits = {};  ///< of the mesh
+  std::filesystem::path mesh;     ///< or `SCENE.json#OBJECT`, or `shape:SHAPE`
+  Scene_options reading = {};     ///< limits of the input; where a scene may name files
   Strategy_choice strategy = {};
   std::size_t regions = 12;
   Partition_options options = {};

@@ -238,7 +238,7 @@ void add_partition(CLI::App& program, Partition_command& command, std::string& f
   app.add_option("--regions", command.regions, "Number of regions")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->capture_default_str();
-  add_max_faces(app, command.limits);
+  add_reading(app, command.reading);
   add_strategy_options(app, command.strategy, "Seed, for random strategies");
   add_threads(app, command.strategy.settings.lbg.threads, "Maximum number of threads, for lbg; 0: all of the machine");
   app.add_flag("--keep-islands", command.options.keep_islands, "Do not repair regions that consist of several islands");
@@ -371,6 +371,7 @@ int run_commands(int argc, char** argv) {
     if (finds_all(detect.options.mode) && detect.chooses_strategy && detect.options.particles == 0)
       detect.options.particles = detect.options.least_particles;
   }
+  if (program.got_subcommand("partition")) refuse_allow_outside(*program.get_subcommand("partition"), {partition.mesh});
   if (program.got_subcommand("info")) refuse_allow_outside(*program.get_subcommand("info"), {info.file});
   if (program.got_subcommand("convert")) refuse_allow_outside(*program.get_subcommand("convert"), {convert.input});
   if (program.got_subcommand("partition"))

@@ -75,10 +75,12 @@ int status_at_end_of(pid_t process) {
   return status;
 }
 
-/// Runs a program, found on the PATH, and waits for it.
+/// Runs a program, found on the PATH, and waits for it. It finds its standard input empty.
+/// @param handles_signals  it ends in order when it gets one, and at once when it gets two. So it is kept from those of
+///                         the terminal and gets the one that is passed on. If this program is killed, it runs on
 /// @throws Error        it cannot be started
 /// @throws Interrupted  the user has asked to stop; it has then ended, too
-Ended_program run_to_end(std::vector<std::string> words) {
+Ended_program run_to_end(std::vector<std::string> words, bool handles_signals = false) {
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -87,11 +89,11 @@ Ended_program run_to_end(std::vector<std::string> words) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  // A group of its own: the terminal's Ctrl-C would reach it beside the signal that is passed on, and a second one ends
-  // it at once.
+  // Who is not in the terminal's foreground group is stopped where it reads from it.
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  if (handles_signals) ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t process = 0;
   const int cause = ::posix_spawnp(&process, pointers[0], &actions, &attributes, pointers.data(), environ);
   ::posix_spawnattr_destroy(&attributes);
@@ -180,7 +182,7 @@ int run_pilot(const Submit_command& command, std::size_t shards) {
   words.insert(words.end(), {"--out", command.out.string(), "--quiet", "--shard", shard});
   fmt::print("pilot: shard {}\n", shard);
   std::fflush(stdout);
-  const int status = run_to_end(words).status;
+  const int status = run_to_end(words, true).status;
   constexpr std::array told{exit_code::success,    exit_code::bad_usage,         exit_code::bad_input,
                             exit_code::bad_output, exit_code::contradicts_truth, exit_code::interrupted};
   if (!WIFEXITED(status) || std::ranges::find(told, WEXITSTATUS(status)) == told.end()) throw_failure(words[0], status);
@@ -245,7 +247,9 @@ void submit(const std::filesystem::path& array, const std::filesystem::path& mer
   try {
     merging = submitted({"sbatch", "--parsable", "--dependency=afterany:" + job, merge.string()});
   } catch (...) {
-    fmt::print("job {}: {}, without its merge\n", job, counted(shards, "shard"));  // it runs all the same
+    // The shards run all the same, and what has failed is perhaps only the answer.
+    fmt::print("job {}: {}, perhaps without its merge; then: sbatch --dependency=afterany:{} {}\n", job,
+               counted(shards, "shard"), job, printable(shell_word(merge.string())));
     throw;
   }
   fmt::print("job {}: {}; job {}: merge\nwatch: squeue --jobs {},{}; lodestone status {}\n", job,

@@ -208,8 +208,8 @@ TEST(Certified, a_broken_bound_is_an_error_on_request) {
   EXPECT_TRUE(detector.detect().collides());
 }
 
-/// A ball that jumps into another. What its promises say of small parts has no point in common, nor, if it jumps farther
-/// than it is wide, what they say of the whole. Otherwise the other ball is near what they say of the whole.
+/// A ball that jumps into another. What its promises say of small parts has no point in common, nor, if it jumps
+/// farther than it is wide, what they say of the whole. Otherwise the other ball is near what they say of the whole.
 struct Contradiction {
   Surface_mesh a = icosphere(12), b = icosphere(12);
   double at = 0;
@@ -262,20 +262,23 @@ TEST(Certified, promises_that_contradict_each_other_are_an_error_on_request) {
   EXPECT_TRUE(detector.detect().collides());
 }
 
-TEST(Certified, a_promise_may_be_corrected_in_the_same_pose) {
-  Surface_mesh a = long_body(12, 1), b = potato(8, 3);
-  Liar points{limb(a)};  // in poses that are numbered
-  Lipschitz_promise promise(1.0000001, 1e-9);
-  points.end = 100;
+TEST(Certified, promises_may_be_corrected_in_the_same_pose) {
+  Surface_mesh a = long_body(12, 1), b = long_body(12, 2);
+  Liar a_points{limb(a)}, b_points{limb(b)};  // in poses that are numbered
+  a_points.end = b_points.end = 100;
+  Lipschitz_promise of_a(1.0000001, 1e-9), of_b(1.0000001, 1e-9);
   Detector detector({.mode = Mode::certified, .exact = {.throw_if_broken = true}});
-  detector.add(a, point_map(a, points));
-  detector.add(std::as_const(b));
-  detector.promise(0, promise);
+  detector.add(a, point_map(a, a_points));
+  detector.add(b, point_map(b, b_points));
+  detector.promise(0, of_a);
+  detector.promise(1, of_b);
   detector.detect();
-  points.points.set_joints(std::vector<Eigen::Affine3d>(2, Eigen::Affine3d(Eigen::Scaling(1.3))));
+  for (Liar* points : {&a_points, &b_points})
+    points->points.set_joints(std::vector<Eigen::Affine3d>(2, Eigen::Affine3d(Eigen::Scaling(1.3))));
   EXPECT_THROW(detector.detect(), Broken_bound);
   EXPECT_THROW(detector.detect(), Broken_bound);
-  promise.set_constant(1.3000001, 1e-9);
+  of_a.set_constant(1.3000001, 1e-9);
+  of_b.set_constant(1.3000001, 1e-9);
   EXPECT_TRUE(detector.detect().collides());
   EXPECT_TRUE(detector.first_hit(0, {.origin = {0, 0, 9}, .direction = {0, 0, -1}}).has_value());
 }

@@ -235,7 +235,8 @@ TEST(Region_count, a_label_of_very_many_pieces_is_divided_into_them) {
 }
 
 TEST(Region_count, the_largest_of_very_many_components_keep_regions_and_the_others_join_the_nearest) {
-  // In a row: 100 strips of three squares, with three loose triangles between each and the next.
+  // In a row: 100 strips of three squares, with three loose triangles between each and the next. Far away, a vertex
+  // without faces.
   std::vector<Corners> faces;
   std::vector<Eigen::RowVector3d> points;
   Labels labels;
@@ -252,6 +253,8 @@ TEST(Region_count, the_largest_of_very_many_components_keep_regions_and_the_othe
     add(grid(4, 2), 100.0 * strip);
     for (const double offset : {-20, -10, 10}) add(single_triangle(), 100.0 * strip + offset);
   }
+  points.emplace_back(1e200, 0, 0);
+  labels.push_back(static_cast<Region_index>(labels.size()));
   Positions positions(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t v = 0; v < points.size(); ++v) positions.row(static_cast<Eigen::Index>(v)) = points[v];
   const auto graph = vertex_graph(static_cast<std::uint32_t>(points.size()), faces);
@@ -260,8 +263,10 @@ TEST(Region_count, the_largest_of_very_many_components_keep_regions_and_the_othe
   const std::size_t wanted = 50;  // at most twice as many, or 64 more
   EXPECT_EQ(adjust_region_count(graph, positions, labels, wanted).regions, 114U);
   labels = before;
-  EXPECT_EQ(adjust_region_count(graph, positions, labels, 36).regions, 100U);
-  for (std::size_t v = 0; v < labels.size(); ++v)
+  const Region_adjustment adjusted = adjust_region_count(graph, positions, labels, 36);
+  EXPECT_EQ(adjusted.regions, 100U);
+  EXPECT_EQ(adjusted.joined, 1600U) << "of 1700 vertices with edges";
+  for (std::size_t v = 0; v + 1 < labels.size(); ++v)
     EXPECT_EQ(labels[v], labels[v / 17 * 17]) << "each triangle is beside the strip that its group of 17 begins with";
   EXPECT_EQ(std::set<Region_index>(labels.begin(), labels.end()).size(), 100U);
 }

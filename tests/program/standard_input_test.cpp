@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,14 +26,21 @@ namespace {
 class Standard_input_of_the_program : public testing::Test {
  protected:
   Standard_input_of_the_program() {
+    if (const char* given = std::getenv("TMPDIR")) before = given;
     create_directory(place);
     ::setenv("TMPDIR", place.c_str(), 1);
   }
-  ~Standard_input_of_the_program() override { ::unsetenv("TMPDIR"); }
+  ~Standard_input_of_the_program() override {
+    if (before)
+      ::setenv("TMPDIR", before->c_str(), 1);
+    else
+      ::unsetenv("TMPDIR");
+  }
 
   const std::vector<std::string> info{"info", "-", "--format", "obj"};
   Temporary_folder folder;
   const std::filesystem::path place = folder.path() / "temporary files";
+  std::optional<std::string> before;  ///< what TMPDIR was; none: it was not set
 };
 
 /// Replaces the standard input of the test by a file.

@@ -113,7 +113,9 @@ TEST_F(Submit, gives_both_scripts_to_sbatch_and_submits_only_what_is_missing) {
   std::filesystem::permissions(sbatch, std::filesystem::perms::owner_all);
   const auto alone = submit({});
   EXPECT_EQ(alone.exit_code, 3);
-  EXPECT_NE(alone.out.find("job 18: 1 shard, without its merge"), std::string::npos) << alone.out;
+  EXPECT_NE(alone.out.find("job 18: 1 shard, perhaps without its merge; then: sbatch --dependency=afterany:18 "),
+            std::string::npos)
+      << alone.out;
   folder.write("sbatch", "#!/bin/sh\nexit 1\n");
   std::filesystem::permissions(sbatch, std::filesystem::perms::owner_all);
   const auto failed = submit({});

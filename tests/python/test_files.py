@@ -214,6 +214,16 @@ def test_a_page_refuses_a_frame_that_is_not_of_where_objects_are(scenes):
     kept[2].detector.set_frame(0, 7)
     with pytest.raises(lodestone.BadArgument, match="frame 3 was found before objects were moved"):
         kept[2].show()
+    skin = lodestone.Skin(ball.vertices, np.zeros((len(ball.vertices), 1), int), np.ones((len(ball.vertices), 1)))
+    moves = [
+        lambda: detector.add(skin, ball.faces),
+        lambda: skin.set_joints([np.eye(4)]),
+    ]
+    for move in moves:
+        frame = detector.detect()
+        move()
+        with pytest.raises(lodestone.BadArgument, match="before objects were moved, added, removed or rebuilt"):
+            frame.show()
 
 
 def test_a_page_refuses_what_changed_after_the_frame():

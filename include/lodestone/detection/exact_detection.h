@@ -149,6 +149,7 @@ class Exact_detection final : public Detection {
       if (objects_.on_demand(object)) {
         if (Ray_tree::refit_pays(parts, objects_[object].corners().size())) pose_all(ids);
         if (!objects_.bounded(object).all_posed()) return unbroken(ids, question(objects_.bounded(object)));
+        throw_if_broken(ids);
       }
     const Node_boxes boxes(objects_.surface(object).view());
     return question(boxes.layout());
@@ -442,11 +443,13 @@ void Exact_detection<Volume>::until_settled(std::span<const Object_id> ids, Answ
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::throw_if_broken(std::span<const Object_id> ids) const {
   if (!options_.exact.throw_if_broken) return;
+  std::optional<Object_id> broken;
   for (const auto id : ids) {
     if (!objects_.on_demand(id) || objects_.bounded(id).violations() == 0) continue;
-    objects_.bounded(id).forget_pose();  // by the next question the promise may have been corrected
-    throw Broken_bound(objects_[id].title + " has vertices that are not where its bounds say");
+    objects_.bounded(id).forget_pose();  // by the next question its promise may have been corrected
+    if (!broken) broken = id;
   }
+  if (broken) throw Broken_bound(objects_[*broken].title + " has vertices that are not where its bounds say");
 }
 
 /// Adds what this frame has done to objects with bounds.

@@ -295,12 +295,14 @@ std::unique_ptr<Node_bound> Exact_object<Volume>::bound_of_points(const Bounded_
 template <Bounding_volume Volume>
 std::vector<std::unique_ptr<Node_bound>> Exact_object<Volume>::promised_bounds(const Bounded_object& object) {
   std::vector<std::unique_ptr<Node_bound>> bounds;
-  for (std::size_t i = 0; i < promises_.size(); ++i) try {
-      bounds.push_back(promises_[i](object));
+  for (auto promise = promises_.begin(); promise != promises_.end(); ++promise) {
+    try {
+      bounds.push_back((*promise)(object));
     } catch (const Bad_argument& misfit) {
-      promises_.erase(promises_.begin() + static_cast<std::ptrdiff_t>(i));
+      promises_.erase(promise);
       throw Bad_argument("a promise about " + title + " is dropped: " + misfit.what());
     }
+  }
   return bounds;
 }
 

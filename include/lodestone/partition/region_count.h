@@ -12,7 +12,7 @@ namespace lodestone {
 /// What `adjust_region_count` has done.
 struct Region_adjustment {
   std::size_t regions = 0;  ///< afterwards, numbered from 0 without gaps
-  std::size_t joined = 0;   ///< regions that joined a neighbour
+  std::size_t joined = 0;   ///< regions that joined another
   std::size_t split = 0;    ///< times that a region was cut in two
 };
 
