@@ -116,7 +116,7 @@ std::size_t Joining::run(std::size_t wanted) {
   return joined;
 }
 
-/// Scaled by what the vertices with edges need; of the others the positions mean nothing.
+/// Scaled by what the vertices with edges need. The others, whose positions mean nothing, are at 0: no sum grows.
 Positions scaled_where_edges_are(const Vertex_graph& graph, Positions positions) {
   for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
     if (out_degree(v, graph) == 0) positions.row(v).setZero();
@@ -135,7 +135,7 @@ std::size_t Joining::join_components(std::size_t most, const Vertex_graph& graph
   Feature_vectors means = Feature_vectors::Zero(static_cast<Eigen::Index>(parts.size()), 3);
   const Positions scaled = scaled_where_edges_are(graph, positions);
   for (std::uint32_t v = 0; v < labels.size(); ++v)
-    if (out_degree(v, graph) > 0) means.row(parts[labels[v]]) += scaled.row(v);
+    means.row(parts[labels[v]]) += scaled.row(v);
   for (const auto region : by_size) means.row(region) /= static_cast<double>(sizes_[region]);
   const std::span kept = std::span(by_size).first(most), others = std::span(by_size).subspan(most);
   const Feature_vectors codes = means(kept, Eigen::all), vectors = means(others, Eigen::all);
