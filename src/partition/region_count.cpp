@@ -134,8 +134,7 @@ std::size_t Joining::join_components(std::size_t most, const Vertex_graph& graph
 
   Feature_vectors means = Feature_vectors::Zero(static_cast<Eigen::Index>(parts.size()), 3);
   const Positions scaled = scaled_where_edges_are(graph, positions);
-  for (std::uint32_t v = 0; v < labels.size(); ++v)
-    means.row(parts[labels[v]]) += scaled.row(v);
+  for (std::uint32_t v = 0; v < labels.size(); ++v) means.row(parts[labels[v]]) += scaled.row(v);
   for (const auto region : by_size) means.row(region) /= static_cast<double>(sizes_[region]);
   const std::span kept = std::span(by_size).first(most), others = std::span(by_size).subspan(most);
   const Feature_vectors codes = means(kept, Eigen::all), vectors = means(others, Eigen::all);
