@@ -54,6 +54,14 @@ std::vector<Vertices> members(const Vertex_graph& graph, const std::vector<Regio
   return result;
 }
 
+/// `scaled_positions`. Vertices without edges, whose positions mean nothing, are moved to the origin first: there they
+/// change neither the scale nor a sum.
+Positions scaled_where_edges_are(const Vertex_graph& graph, Positions positions) {
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
+    if (out_degree(v, graph) == 0) positions.row(v).setZero();
+  return scaled_positions(positions);
+}
+
 /// Joins the smallest regions to neighbours, one after the other.
 class Joining {
  public:
@@ -114,13 +122,6 @@ std::size_t Joining::run(std::size_t wanted) {
     ++joined;
   }
   return joined;
-}
-
-/// Scaled by what the vertices with edges need. The others, whose positions mean nothing, are at 0: no sum grows.
-Positions scaled_where_edges_are(const Vertex_graph& graph, Positions positions) {
-  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
-    if (out_degree(v, graph) == 0) positions.row(v).setZero();
-  return scaled_positions(positions);
 }
 
 std::size_t Joining::join_components(std::size_t most, const Vertex_graph& graph, const Positions& positions,

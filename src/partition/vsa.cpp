@@ -99,26 +99,28 @@ std::size_t approximate(Approximation& approximation, std::size_t proxies, doubl
   return iterations + 1;
 }
 
-/// The proxy of each face; `no_region` for faces that `oriented_mesh` leaves out.
-/// @param iterations  set to the number of relaxations
-std::vector<Region_index> approximated(const Numbered_surface& surface, std::size_t regions, const Vsa_options& options,
-                                       std::size_t& iterations) {
+struct Approximated_faces {
+  std::vector<Region_index> labels;  ///< the proxy of each face; `no_region` for faces that `oriented_mesh` leaves out
+  std::size_t relaxations = 0;
+};
+
+Approximated_faces approximated(const Numbered_surface& surface, std::size_t regions, const Vsa_options& options) {
   const Oriented_mesh oriented = oriented_mesh(surface);
-  std::vector<Region_index> face_labels(surface.faces.size(), no_region);
+  Approximated_faces result{.labels = std::vector<Region_index>(surface.faces.size(), no_region)};
   const std::size_t faces = oriented.mesh.number_of_faces();
-  if (faces == 0) return face_labels;
+  if (faces == 0) return result;
   const Normal_metric metric(oriented, face_geometry(surface));
   with_refusals_as_bad_mesh(Vsa::name, [&] {
     Approximation approximation(oriented.mesh, oriented.mesh.points(), metric);
-    iterations =
+    result.relaxations =
         approximate(approximation, std::clamp<std::size_t>(regions, 1, faces / 4 + 1), metric.rounding(), options);
     std::vector<std::size_t> proxies(faces);
     approximation.output(CGAL::parameters::face_proxy_map(
         boost::make_iterator_property_map(proxies.begin(), get(boost::face_index, oriented.mesh))));
     for (std::size_t f = 0; f < faces; ++f)
-      face_labels[oriented.face_indices[f]] = static_cast<Region_index>(proxies[f]);
+      result.labels[oriented.face_indices[f]] = static_cast<Region_index>(proxies[f]);
   });
-  return face_labels;
+  return result;
 }
 
 }  // namespace
@@ -126,8 +128,8 @@ std::vector<Region_index> approximated(const Numbered_surface& surface, std::siz
 Labelling Vsa::label(const Numbered_surface& surface, std::size_t regions) const {
   check(options);
   return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
-    Labelling result;
-    result.labels = vertex_labels(used, approximated(used, wanted, options, result.iterations));
+    const Approximated_faces faces = approximated(used, wanted, options);
+    Labelling result{.labels = vertex_labels(used, faces.labels), .iterations = faces.relaxations};
     adjust_region_count(used.graph, used.positions, result.labels, wanted);
     return result;
   });

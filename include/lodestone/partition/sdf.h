@@ -34,8 +34,8 @@ struct Sdf_options {
 /// no area; if that is undefined, it has the smallest diameter of all. If no ray hits anything, or the thickness is the
 /// same everywhere (a sheet, a sphere), each component is one segment, and `adjust_region_count` makes all cuts.
 ///
-/// Nothing is random. O(F log F) for the rays, with a large factor: 200 000 faces take about two minutes. Many
-/// long faces around one vertex are dearer: n of them take O(n^2), which is slow from thousands.
+/// Nothing is random. O(F log F) for the rays, with a large factor: 200 000 faces take about two minutes. A fan
+/// of n long faces around one vertex takes O(n^2), which is slow from some thousands on.
 struct Sdf {
   static constexpr std::string_view name = "sdf";  ///< for `make_strategy`, tables and messages
 
