@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "lodestone/bounds/displacement_bound.h"
 #include "lodestone/bounds/stretch_bound.h"
@@ -71,15 +72,17 @@ class Promised_object {
 
 using Promised_objects = std::vector<std::unique_ptr<Promised_object>>;
 
-enum class Promise_kind { none, displacement, stretch, lipschitz };
+enum class Promise_kind { none, none_computed, displacement, stretch, lipschitz };
 
 /// One row of the table, and the detectors behind it: one for each of the two questions.
 class Promise_runner {
  public:
   Promise_runner(Promise_kind kind, const Promised_objects& objects, const Scene& scene)
       : any_({.mode = mode_of(kind), .contacts = Contact_query::yes_no}), all_({.mode = mode_of(kind)}) {
-    constexpr const char* names[] = {"none: exact", "displacement", "stretch", "Lipschitz"};
+    constexpr const char* names[] = {"none: exact", "none: all posed and exact", "displacement", "stretch",
+                                     "Lipschitz"};
     row.promise = names[static_cast<std::size_t>(kind)];
+    row.is_computed = is_computed(kind);
     for (auto* detector : {&any_, &all_}) {
       for (const auto& object : objects) add(*detector, kind, *object);
       for (const auto& [a, b] : scene.ignored) detector->ignore(a, b);
@@ -108,11 +111,16 @@ class Promise_runner {
   Promise_row row;
 
  private:
-  static Mode mode_of(Promise_kind kind) { return kind == Promise_kind::none ? Mode::exact : Mode::certified; }
+  static bool is_computed(Promise_kind kind) {
+    return kind == Promise_kind::none_computed || kind == Promise_kind::lipschitz;
+  }
+  static Mode mode_of(Promise_kind kind) {
+    return kind == Promise_kind::none || kind == Promise_kind::none_computed ? Mode::exact : Mode::certified;
+  }
   static void add(Detector<>& detector, Promise_kind kind, const Promised_object& object) {
-    const bool is_computed = kind == Promise_kind::lipschitz && object.computed;
-    const Object_id id = is_computed ? detector.add(object.mesh(), point_map(object.mesh(), *object.computed))
-                                     : detector.add(object.mesh());
+    const Object_id id = is_computed(kind) && object.computed
+                             ? detector.add(object.mesh(), point_map(object.mesh(), *object.computed))
+                             : detector.add(object.mesh());
     if (kind == Promise_kind::displacement) detector.promise(id, object.displacement);
     if (kind == Promise_kind::stretch) detector.promise(id, object.stretch);
   }
@@ -133,7 +141,8 @@ Promise_figures race_promises(Scene& scene, const std::function<void(double shar
   }
   Promise_runner exact(Promise_kind::none, objects, scene);
   std::vector<std::unique_ptr<Promise_runner>> runners;
-  for (const auto kind : {Promise_kind::displacement, Promise_kind::stretch, Promise_kind::lipschitz})
+  for (const auto kind :
+       {Promise_kind::none_computed, Promise_kind::displacement, Promise_kind::stretch, Promise_kind::lipschitz})
     runners.push_back(std::make_unique<Promise_runner>(kind, objects, scene));
   for (std::size_t frame = 0; frame < scene.frames; ++frame) {
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -147,8 +156,13 @@ Promise_figures race_promises(Scene& scene, const std::function<void(double shar
     progress(static_cast<double>(frame + 1) / static_cast<double>(scene.frames));
   }
   figures.exact = exact.row;
-  for (const auto& runner : runners) figures.rows.push_back(runner->row);
+  figures.posed_and_exact = runners.front()->row;
+  for (const auto& runner : std::span(runners).subspan(1)) figures.rows.push_back(runner->row);
   return figures;
+}
+
+const Promise_row& exact_beside(const Promise_row& row, const Promise_figures& figures) {
+  return row.is_computed ? figures.posed_and_exact : figures.exact;
 }
 
 }  // namespace lodestone

@@ -12,8 +12,12 @@ namespace lodestone {
 
 namespace {
 
-/// With more than one in so many vertices posed, the rest is posed at once: in order it takes less time per vertex.
-constexpr std::size_t many_posed = 7;
+/// What takes as long as to pose so many vertices in order.
+struct Effort {
+  std::size_t vertex;  ///< to pose one with its leaf; what else is done to the leaf included
+  std::size_t box;     ///< to find one from a bound
+};
+constexpr Effort in_memory_effort{.vertex = 10, .box = 80}, computed_effort{.vertex = 7, .box = 28};
 
 bool contains(const Aabb& outer, const Aabb& inner) {
   bool result = true;
@@ -41,7 +45,6 @@ Bounded_surface::Bounded_surface(Tree_surface& tree, std::unique_ptr<const Posit
       bounds_(std::move(bounds)),
       workers_(&workers),
       title_(std::move(title)),
-      coordinates_(3 * std::size_t{positions_->vertex_count()}),
       boxes_(tree.volumes_to_fit()),
       boxed_in_(layout().node_count(), 0),
       posed_in_(layout().leaf_count(), 0) {
@@ -60,12 +63,20 @@ void Bounded_surface::start_frame() {
   bounded_.clear();
   violations_settled_ = 0;
   violations_ = nodes_bounded_ = leaves_posed_ = vertices_posed_ = 0;
-  tree_->follow(coordinates_);
+  follow_positions();
+}
+
+/// Positions in memory are read where they are.
+void Bounded_surface::follow_positions() {
+  const Coordinates there = positions_->in_memory();
+  in_memory_ = !there.empty();
+  if (!in_memory_) posed_.resize(3 * std::size_t{positions_->vertex_count()});
+  tree_->follow(in_memory_ ? there : Coordinates(posed_));
 }
 
 /// Decides by the last frame whether leaves are posed one by one in this one.
 void Bounded_surface::plan_frame() {
-  constexpr std::size_t longest_pause = 16;
+  constexpr std::size_t longest_pause = 32;
   if (pause_left_ > 0) {
     pause_left_ = much_was_near_ ? pause_left_ - 1 : 0;
     if (!much_was_near_) pause_ = 0;
@@ -77,6 +88,7 @@ void Bounded_surface::plan_frame() {
 
 void Bounded_surface::bound(std::uint32_t node) {
   if (bounds_.empty()) return pose_all();
+  if (takes_long()) return give_up();
   Aabb box = bounds_.front()->box(node);
   for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node));
   if (is_empty(box))  // though vertices must be in it
@@ -88,18 +100,27 @@ void Bounded_surface::bound(std::uint32_t node) {
   ++nodes_bounded_;
 }
 
+/// Whether so much has been done as it takes to pose all, or in a pause an eighth of that.
+bool Bounded_surface::takes_long() const {
+  const auto [vertex, box] = in_memory_ ? in_memory_effort : computed_effort;
+  const std::size_t effort = vertex * vertices_posed_ + box * bounds_.size() * nodes_bounded_;
+  return effort > layout().vertex_begin().back() / (pause_left_ > 0 ? 8 : 1);
+}
+
+void Bounded_surface::give_up() {
+  much_was_near_ = true;
+  pose_all();
+}
+
 void Bounded_surface::read(std::uint32_t leaf) {
-  if (pause_left_ > 0 || vertices_posed_ > layout().all_vertices().size() / many_posed) {
-    much_was_near_ = true;
-    return pose_all();
-  }
+  if (pause_left_ > 0 || takes_long()) return give_up();
   const std::uint32_t node = layout().leaf_node(leaf);
   const Aabb promised = box(node), promised_whole = box(0);
   if (all_posed_) return;  // there were no bounds
   const auto vertices = layout().vertices(leaf);
-  positions_->pose(vertices, coordinates_);
+  if (!in_memory_) positions_->pose(vertices, posed_);
   check_finite(leaf);
-  boxes_[node].enclose(layout().leaf_faces(leaf, coordinates_));
+  boxes_[node].enclose(layout().leaf_faces(leaf, tree_->coordinates()));
   if (!contains(promised, boxes_[node]) || !contains(promised_whole, boxes_[node])) ++violations_;
   note_read(leaf);
   posed_in_[leaf] = frame_;
@@ -109,7 +130,7 @@ void Bounded_surface::read(std::uint32_t leaf) {
 
 void Bounded_surface::pose_all() {
   if (all_posed_) return;
-  const Coordinates coordinates = positions_->all(coordinates_);
+  const Coordinates coordinates = in_memory_ ? tree_->coordinates() : positions_->all(posed_);
   std::vector<Aabb> promised;
   promised.reserve(bounded_.size());
   for (const std::uint32_t node : bounded_) promised.push_back(boxes_[node]);
@@ -133,8 +154,8 @@ void Bounded_surface::take_refitted() {
 }
 
 void Bounded_surface::note_refitted() {
-  for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf)
-    if (posed_in_[leaf] != frame_) note_read(leaf);
+  for (const auto& bound : bounds_)
+    if (!note_all(*bound)) ++violations_;
   std::ranges::fill(boxed_in_, frame_);
   std::ranges::fill(posed_in_, frame_);
   all_posed_ = true;
@@ -149,7 +170,21 @@ void Bounded_surface::settle() {
 
 void Bounded_surface::note_read(std::uint32_t leaf) {
   for (const auto& bound : bounds_)
-    if (!bound->note_read(leaf, boxes_[layout().leaf_node(leaf)], tree_->coordinates())) ++violations_;
+    if (!note_read(*bound, leaf)) ++violations_;
+}
+
+bool Bounded_surface::note_read(Node_bound& bound, std::uint32_t leaf) const {
+  return bound.note_read(leaf, boxes_[layout().leaf_node(leaf)], tree_->coordinates());
+}
+
+/// Leaf by leaf only those that have not been shown.
+bool Bounded_surface::note_all(Node_bound& bound) const {
+  if (bound.notes_all() && !compares_all_) return bound.note_all(boxes_, tree_->coordinates());
+  bool kept = true;
+  if (bound.watches())
+    for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf)
+      if (posed_in_[leaf] != frame_) kept &= note_read(bound, leaf);
+  return kept;
 }
 
 void Bounded_surface::check_finite(std::uint32_t leaf) const {

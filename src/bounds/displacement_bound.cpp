@@ -92,6 +92,19 @@ bool Displacement_bound::note_read(std::uint32_t leaf, const Aabb& fitted, Coord
   return true;
 }
 
+bool Displacement_bound::note_all(std::span<const Aabb> fitted, Coordinates coordinates) {
+  for (auto node = static_cast<std::uint32_t>(node_count()); node-- > 0;) {
+    last_[node].total = total(node);
+    if (!promise_->frame_)
+      last_[node].box = fitted[node];
+    else if (layout_->is_leaf(node))
+      last_[node].box = in_frame(layout_->node(node).leaf, fitted[node], coordinates);
+    else
+      last_[node].box = around_children(node);
+  }
+  return true;
+}
+
 Displacement_promise::Displacement_promise(std::size_t regions) : totals_(regions, 0.0) {
   if (regions == 0) throw Bad_argument("displacements are promised for at least one region");
 }

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "lodestone/bounds/motion_bound.h"
@@ -12,8 +13,15 @@
 /// Boxes that grow, rounded outwards.
 namespace lodestone {
 
-inline double next_below(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
-inline double next_above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
+/// The next greater double, as std::nextafter gives it, which is not inlined.
+inline double next_above(double x) {
+  if (!(x < std::numeric_limits<double>::infinity())) return x;
+  if (x == 0) return std::numeric_limits<double>::denorm_min();
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  return std::bit_cast<double>(x > 0 ? bits + 1 : bits - 1);
+}
+/// The next smaller double.
+inline double next_below(double x) { return -next_above(-x); }
 
 /// A box that contains every point within `distance` of a box, also points whose coordinates are no doubles. Unchanged
 /// if the distance is 0; axes that overflow, or that are not finite, are open.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/bounds/stretch_bound.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bounds/grown_box.h"
@@ -14,20 +15,12 @@ namespace {
 
 constexpr double slack = 1e-9;
 
-/// The three edges of a face.
-struct Face_edges {
-  Eigen::Vector3d ab, bc, ca;
-
-  Face_edges(Coordinates coordinates, const Corners& face) {
-    const auto at = [&](std::uint32_t v) {
-      return Eigen::Map<const Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{v});
-    };
-    const Eigen::Vector3d a = at(face[0]), b = at(face[1]), c = at(face[2]);
-    ab = b - a;
-    bc = c - b;
-    ca = a - c;
-  }
-};
+Eigen::Vector3d edge_between(Coordinates coordinates, std::uint32_t from, std::uint32_t to) {
+  const auto at = [&](std::uint32_t v) {
+    return Eigen::Map<const Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{v});
+  };
+  return at(to) - at(from);
+}
 
 }  // namespace
 
@@ -35,6 +28,7 @@ Stretch_bound::Stretch_bound(const Stretch_promise& promise, const Bounded_objec
     : promise_(&promise), layout_(&object.layout), positions_(&object.positions) {
   check_object(object);
   rest_.assign(object.rest.begin(), object.rest.end());
+  list_edges();
   const auto nodes = static_cast<std::uint32_t>(layout_->node_count());
   const double longer = 1 + (2 * slack + 0x1p-51 * static_cast<double>(positions_->vertex_count()));
   begin_.resize(nodes);
@@ -67,27 +61,46 @@ Aabb Stretch_bound::box(std::uint32_t node) const {
   return box;
 }
 
+/// Lists the edges of each leaf, and how long they are at rest.
+void Stretch_bound::list_edges() {
+  edge_begin_.push_back(0);
+  for (std::size_t leaf = 0; leaf < layout_->leaf_count(); ++leaf) {
+    for (const auto& [a, b, c] : layout_->corners(leaf))
+      for (const auto& [from, to] : {Leaf_edge{a, b}, Leaf_edge{b, c}, Leaf_edge{c, a}})
+        edges_.push_back({std::min(from, to), std::max(from, to)});
+    const auto first = edges_.begin() + edge_begin_.back();
+    std::sort(first, edges_.end());
+    edges_.erase(std::unique(first, edges_.end()), edges_.end());
+    edge_begin_.push_back(static_cast<std::uint32_t>(edges_.size()));
+    const auto vertices = layout_->vertices(leaf);
+    for (std::size_t i = squared_.size(); i < edges_.size(); ++i)
+      squared_.push_back(edge_between(rest_, vertices[edges_[i].from], vertices[edges_[i].to]).squaredNorm());
+  }
+}
+
 bool Stretch_bound::note_read(std::uint32_t leaf, const Aabb& /*fitted*/, Coordinates coordinates) const {
+  // What squares that underflow or overflow do not tell, and the error allowed.
+  constexpr double smallest_square = 1e-290, largest_square = 1e300, smallest = 1e-150;
   const double most = (1 + slack) * promise_->stretch(), error = 2 * (1 + slack) * promise_->error();
-  // Not known of squares that underflow or overflow.
-  const auto shorter = [&](const Eigen::Vector3d& now, const Eigen::Vector3d& then) {
-    constexpr double smallest = 1e-290, largest = 1e300;
-    const double longest = most * most * then.squaredNorm();
-    return (now.squaredNorm() <= longest) & (longest > smallest) & (longest < largest);
-  };
-  // What that leaves, and the error allowed.
-  const auto kept = [&](const Eigen::Vector3d& now, const Eigen::Vector3d& then) {
-    constexpr double smallest = 1e-150;
-    return shorter(now, then) || now.stableNorm() <= most * (then.stableNorm() + smallest) + error;
-  };
   const auto vertices = layout_->vertices(leaf);
-  for (const auto& [a, b, c] : layout_->corners(leaf)) {
-    const Corners face{vertices[a], vertices[b], vertices[c]};
-    const Face_edges now(coordinates, face), then(rest_, face);
-    if (shorter(now.ab, then.ab) & shorter(now.bc, then.bc) & shorter(now.ca, then.ca)) continue;
-    if (!kept(now.ab, then.ab) || !kept(now.bc, then.bc) || !kept(now.ca, then.ca)) return false;
+  for (std::uint32_t i = edge_begin_[leaf]; i < edge_begin_[leaf + 1]; ++i) {
+    const std::uint32_t from = vertices[edges_[i].from], to = vertices[edges_[i].to];
+    const Eigen::Vector3d now = edge_between(coordinates, from, to);
+    const double longest = most * most * squared_[i];
+    if ((now.squaredNorm() <= longest) & (longest > smallest_square) & (longest < largest_square)) continue;
+    const double then = edge_between(rest_, from, to).stableNorm();
+    if (!(now.stableNorm() <= most * (then + smallest) + error)) return false;
   }
   return true;
+}
+
+bool Stretch_bound::note_all(std::span<const Aabb> fitted, Coordinates coordinates) {
+  constexpr std::size_t one_in = 64;
+  const std::size_t leaves = layout_->leaf_count(), step = std::min(one_in, leaves);
+  bool kept = true;
+  for (std::size_t leaf = turn_++ % step; leaf < leaves; leaf += step)
+    kept &= note_read(static_cast<std::uint32_t>(leaf), fitted[layout_->leaf_node(leaf)], coordinates);
+  return kept;
 }
 
 void Stretch_promise::set_stretch(double stretch, double error) {

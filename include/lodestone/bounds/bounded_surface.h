@@ -24,9 +24,11 @@ namespace lodestone {
 /// and where all vertices are posed with all boxes in use. If one lies outside, or if bounds have no point in common,
 /// `is_broken()` says so, and whoever relied on boxes must `settle` the surface and ask again.
 ///
-/// Where much is near, posing leaf by leaf takes longer than posing all. So all vertices are posed once a seventh of
-/// them has been, and in the next frames as soon as one leaf is needed: for 1 frame, then after another such try for 2,
-/// 4 and at most 16. A frame in which less was needed ends that.
+/// Where much is near, boxes from bounds and leaves that are posed one by one take longer than to pose all. So all
+/// vertices are posed once as much has been done as that takes, by number: once a seventh of the vertices has been
+/// posed, a tenth if they lie in memory, or fewer and boxes. In the next frames all are posed as soon as one leaf is
+/// needed, or an eighth of that has been done: for 1 frame, then after another such try for 2, 4 and at most 32. A
+/// frame in which less was needed ends that.
 ///
 /// Boxes and positions are written to the tree's surface. Not for several threads at once.
 class Bounded_surface {
@@ -54,6 +56,9 @@ class Bounded_surface {
   Bounded_surface(Tree_surface& tree, std::unique_ptr<const Position_source> positions,
                   std::vector<std::unique_ptr<Node_bound>> bounds, Workers& workers = Workers::alone(),
                   std::string title = {});
+
+  /// Shows watching bounds all leaves, also where all vertices are posed: by default such bounds may compare less.
+  void compare_all(bool all) { compares_all_ = all; }
 
   /// Forgets what was of an earlier pose, unless it is known to be that of now. O(1).
   void start_frame();
@@ -118,11 +123,16 @@ class Bounded_surface {
     (list.push_back(std::make_unique<Node_bound_of<Bounds&>>(bounds)), ...);
     return list;
   }
+  void follow_positions();
   void plan_frame();
+  bool takes_long() const;
+  void give_up();
   void bound(std::uint32_t node);
   void read(std::uint32_t leaf);
   void note_refitted();
   void note_read(std::uint32_t leaf);
+  bool note_read(Node_bound& bound, std::uint32_t leaf) const;
+  bool note_all(Node_bound& bound) const;
   void check_finite(std::uint32_t leaf) const;
 
   Tree_surface* tree_;
@@ -130,13 +140,15 @@ class Bounded_surface {
   std::vector<std::unique_ptr<Node_bound>> bounds_;
   Workers* workers_;
   std::string title_;
-  Unset_vector<double> coordinates_;     ///< 3 V: only those of posed leaves mean something
+  Unset_vector<double> posed_;           ///< 3 V: only those of posed leaves mean something; empty: not needed yet
+  bool in_memory_ = false;               ///< positions are where the tree reads them
+  bool compares_all_ = false;
   std::span<Aabb> boxes_;                ///< per node, of the tree
   std::vector<std::uint64_t> boxed_in_;  ///< per node: the frame of its box
   std::vector<std::uint64_t> posed_in_;  ///< per leaf: the frame in which it was posed
   std::uint64_t frame_ = 0, pose_ = 0;
   bool all_posed_ = false;
-  bool much_was_near_ = false;              ///< all vertices were posed because many were asked for
+  bool much_was_near_ = false;              ///< all vertices were posed because much was asked for
   std::size_t pause_ = 0, pause_left_ = 0;  ///< frames in which leaves are not posed one by one: planned, still to come
   std::vector<std::uint32_t> bounded_;      ///< nodes whose boxes come from bounds, in this frame
   std::size_t violations_ = 0, violations_settled_ = 0, nodes_bounded_ = 0, leaves_posed_ = 0, vertices_posed_ = 0;

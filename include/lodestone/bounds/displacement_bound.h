@@ -17,7 +17,7 @@ namespace lodestone {
 class Displacement_promise;
 
 /// Boxes from a Displacement_promise: the last box of a node, grown by what has been promised since. Reads no
-/// positions. A model of Watching_bound.
+/// positions. A model of All_watching_bound.
 ///
 /// A leaf that has been read has the box fitted to it. The boxes above it are then those around their children's grown
 /// ones, up to where nothing changes. So boxes are tight where surfaces are read, and at first everywhere.
@@ -50,6 +50,9 @@ class Displacement_bound {
   /// O(log N) for N nodes.
   /// @return true: whether a leaf lies in its box is seen without this
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates);
+  /// Takes the boxes of all nodes. O(V) unless the frame is the identity, and O(N).
+  /// @return true, as `note_read`
+  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates);
 
  private:
   /// What is known of a node.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "lodestone/tree/tree_layout.h"
 #include "lodestone/volumes/aabb.h"
@@ -31,6 +32,17 @@ template <class B>
 concept Watching_bound =
     Motion_bound<B> && requires(B& bound, std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
       { bound.note_read(leaf, fitted, coordinates) } -> std::same_as<bool>;
+    };
+
+/// A bound that need not be shown leaf by leaf what is read as a whole.
+///
+/// `bound.note_all(fitted, coordinates)` is called in place of `note_read` for the leaves when all vertices have been
+/// read, with the boxes fitted to all nodes. It may compare less with the promise: answers rely on nothing then but on
+/// boxes, and those are compared with the fitted ones.
+template <class B>
+concept All_watching_bound =
+    Watching_bound<B> && requires(B& bound, std::span<const Aabb> fitted, Coordinates coordinates) {
+      { bound.note_all(fitted, coordinates) } -> std::same_as<bool>;
     };
 
 /// Opens the axis of a box that has overflowed: it says nothing then. O(1).

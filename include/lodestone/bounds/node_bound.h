@@ -25,6 +25,10 @@ class Node_bound {
   virtual Aabb box(std::uint32_t node) const = 0;
   /// See Watching_bound.
   virtual bool note_read(std::uint32_t /*leaf*/, const Aabb& /*fitted*/, Coordinates /*coordinates*/) { return true; }
+  /// See All_watching_bound; only if `notes_all`.
+  virtual bool note_all(std::span<const Aabb> /*fitted*/, Coordinates /*coordinates*/) { return true; }
+  /// Whether `note_all` takes the place of `note_read`.
+  virtual bool notes_all() const { return false; }
   /// Whether `note_read` does anything.
   virtual bool watches() const { return false; }
 };
@@ -47,6 +51,18 @@ class Node_bound_of final : public Node_bound {
     else
       return true;
   }
+  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates) override {
+    if constexpr (All_watching_bound<std::remove_reference_t<B>>)
+      return bound_.note_all(fitted, coordinates);
+    else
+      return true;
+  }
+  bool notes_all() const override {
+    if constexpr (requires { bound_.notes_all(); })
+      return bound_.notes_all();
+    else
+      return All_watching_bound<std::remove_reference_t<B>>;
+  }
   bool watches() const override {
     if constexpr (requires { bound_.watches(); })
       return bound_.watches();
@@ -58,7 +74,7 @@ class Node_bound_of final : public Node_bound {
   B bound_;
 };
 
-/// A bound whose type is known only when the program runs. A model of Watching_bound.
+/// A bound whose type is known only when the program runs. A model of All_watching_bound.
 class Any_bound {
  public:
   /// @param bound  not null
@@ -76,6 +92,10 @@ class Any_bound {
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
     return bound_->note_read(leaf, fitted, coordinates);
   }
+  /// See All_watching_bound; only if `notes_all`.
+  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates) { return bound_->note_all(fitted, coordinates); }
+  /// Whether `note_all` takes the place of `note_read`.
+  bool notes_all() const { return bound_->notes_all(); }
   /// Whether the bound watches.
   bool watches() const { return bound_->watches(); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,7 +22,8 @@ struct Landmark {
   double radius = 0;         ///< rho: the longest of the shortest paths from here to the vertices that it answers for
 };
 
-/// Boxes from a Stretch_promise. Reads the positions of one to three landmarks per node. A model of Watching_bound.
+/// Boxes from a Stretch_promise. Reads the positions of one to three landmarks per node. A model of
+/// All_watching_bound.
 ///
 /// Each vertex of a node answers to the landmark p that is nearest along edges at rest. It lies within
 /// sigma rho + 2 e of p, since each edge of a shortest path is at most sigma times as long as at rest. Paths may leave
@@ -52,6 +54,10 @@ class Stretch_bound {
   /// Compares the edges of a leaf that has been read with what was promised.
   /// @return false: an edge of the leaf is longer than was promised, by more than 10^-9 of its length. O(faces).
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) const;
+  /// Compares one leaf in 64, others in each call: to compare all edges takes several times as long as to read all
+  /// vertices.
+  /// @return as `note_read`
+  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates);
 
   /// The landmarks of a node.
   std::span<const Landmark> landmarks(std::uint32_t node) const {
@@ -59,12 +65,23 @@ class Stretch_bound {
   }
 
  private:
+  /// Between two vertices of a leaf, by index in its list.
+  struct Leaf_edge {
+    std::uint16_t from, to;
+    auto operator<=>(const Leaf_edge&) const = default;
+  };
+  void list_edges();
+
   const Stretch_promise* promise_;
   const Tree_layout* layout_;
   const Position_source* positions_;
   std::vector<double> rest_;                ///< 3 V
   std::vector<Landmark> landmarks_;         ///< of the nodes that have their own
   std::vector<std::uint32_t> begin_, end_;  ///< per node: where its landmarks stand; maybe those of its parent
+  std::vector<std::uint32_t> edge_begin_;   ///< per leaf and past the last: where its edges start
+  std::vector<Leaf_edge> edges_;            ///< of each leaf, each once
+  std::vector<double> squared_;             ///< per edge: its squared length at rest
+  std::size_t turn_ = 0;                    ///< calls of `note_all`
 };
 
 /// A promise: no edge is ever longer than sigma times its length at rest. A model of Motion_promise.

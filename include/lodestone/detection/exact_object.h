@@ -142,7 +142,8 @@ class Exact_object {
   }
   /// Makes the bounds of a surface that has just been refitted. The first time, promises take its positions as those at
   /// rest.
-  void make_bounds(Workers& workers);
+  /// @param compare_all  see Bounded_surface
+  void make_bounds(bool compare_all, Workers& workers);
 
   /// Writes what was built. Only if something was.
   void save(State_writer& state) const;
@@ -197,6 +198,10 @@ class Exact_object {
     void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override;
     void pose_all(std::span<double> coordinates) const override {
       std::ranges::copy(object_->read(), coordinates.begin());
+    }
+    Coordinates in_memory() const override {
+      const bool are_there = !object_->placement_ && (object_->given_ || object_->mesh().in_memory());
+      return are_there ? object_->read() : Coordinates();
     }
     Coordinates all(std::span<double> /*memory*/) const override { return object_->read(); }
 
@@ -307,7 +312,7 @@ std::vector<std::unique_ptr<Node_bound>> Exact_object<Volume>::promised_bounds(c
 }
 
 template <Bounding_volume Volume>
-void Exact_object<Volume>::make_bounds(Workers& workers) {
+void Exact_object<Volume>::make_bounds(bool compare_all, Workers& workers) {
   if constexpr (std::same_as<Volume, Aabb>) {
     if (!promises_.empty() && rest_.empty()) rest_.assign(surface.coordinates().begin(), surface.coordinates().end());
     const Coordinates now = surface.coordinates();
@@ -321,6 +326,7 @@ void Exact_object<Volume>::make_bounds(Workers& workers) {
     if (auto own = bound_of_points(object)) bounds.push_back(std::move(own));
     for (auto& bound : promised_bounds(object)) bounds.push_back(std::move(bound));
     bounded_ = std::make_unique<Bounded_surface>(surface, std::move(positions), std::move(bounds), workers, title);
+    bounded_->compare_all(compare_all);
     surface.follow(now);
     bounded_->take_refitted();
   }

@@ -154,7 +154,7 @@ template <Bounding_volume Volume>
 void Exact_objects<Volume>::bound_refitted(std::span<const Object_id> ids) {
   for (const auto id : ids) {
     if (objects_[id]->bounded() == nullptr)
-      timed(work_.seconds.build, [&] { objects_[id]->make_bounds(workers_); });
+      timed(work_.seconds.build, [&] { objects_[id]->make_bounds(options_.exact.throw_if_broken, workers_); });
     else
       timed(work_.seconds.refit, [&] { bounded(id).take_refitted(); });
   }

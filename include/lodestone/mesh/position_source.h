@@ -28,6 +28,8 @@ class Position_source {
   /// All of them.
   /// @param coordinates  3 V, written
   virtual void pose_all(std::span<double> coordinates) const = 0;
+  /// All of them, if they lie in memory; empty: they must be computed. O(1).
+  virtual Coordinates in_memory() const { return {}; }
   /// All of them, where they lie in memory already.
   /// @param memory  3 V: written if they do not
   /// @return where they are: in that memory, or in that of a mesh

@@ -46,7 +46,9 @@ class Bounded_search {
   void begin(Bounded_surface& a, Bounded_surface& b, double tolerance);
   template <class Visitor>
   End walk(bool until_all_posed, Visitor&& visitor);
-  void deeper_first();
+  void open(Node_pair pair);
+  bool are_near(Node_pair pair) { return near(a_->box(pair.a), b_->box(pair.b), tolerance_); }
+  double depth(Node_pair pair);
   template <class Visitor>
   End test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor);
   void begin_filter();
