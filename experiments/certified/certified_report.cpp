@@ -141,22 +141,22 @@ std::string summary(std::span<const Character_figures> figures) {
 
 std::string table(std::span<const Promise_figures> figures) {
   Text_table table({"scene", "triangles", "promise", "exact reads so many times as much: yes/no", "all pairs",
-                    "exact takes so many times as long: yes/no", "all pairs", "yes/no (ms)", "all pairs (ms)",
+                    "exact takes so many times as long: yes/no", "all pairs", "yes/no (ms)", "all pairs, mean (ms)",
                     "wrong answers", "wrong sets", "broken"});
   for (const auto& f : figures) {
     const auto add = [&](const Promise_row& row) {
       const Promise_row& exact = exact_beside(row, f);
       table.add({f.scene, std::to_string(f.triangles), row.promise, times_less(exact.any_read, row.any_read),
                  times_less(exact.all_read, row.all_read), times_less(exact.any_seconds, row.any_seconds),
-                 times_less(exact.all_seconds, row.all_seconds), milliseconds(median(row.any_seconds)),
-                 milliseconds(median(row.all_seconds)), std::to_string(row.wrong_answers),
-                 std::to_string(row.wrong_sets), std::to_string(row.violations)});
+                 fmt::format("{:.2f}", mean(exact.all_seconds) / mean(row.all_seconds)),
+                 milliseconds(median(row.any_seconds)), milliseconds(mean(row.all_seconds)),
+                 std::to_string(row.wrong_answers), std::to_string(row.wrong_sets), std::to_string(row.violations)});
     };
     add(f.exact);
     add(f.posed_and_exact);
     for (const auto& row : f.rows) add(row);
   }
-  return "## Scenes with promises\n\nMedian frames.\n\n" + table.text();
+  return "## Scenes with promises\n\nMedian frames; for the time of all pairs the mean.\n\n" + table.text();
 }
 
 nlohmann::ordered_json to_json(const Character_figures& figures) {
@@ -201,7 +201,7 @@ nlohmann::ordered_json to_json(const Promise_figures& figures) {
             {"yes_no_read_median", median(row.any_read)},
             {"all_pairs_read_median", median(row.all_read)},
             {"yes_no_median_ms", 1e3 * median(row.any_seconds)},
-            {"all_pairs_median_ms", 1e3 * median(row.all_seconds)},
+            {"all_pairs_mean_ms", 1e3 * mean(row.all_seconds)},
             {"yes_no_read", row.any_read},
             {"all_pairs_read", row.all_read},
             {"wrong_answers", row.wrong_answers},

@@ -17,7 +17,7 @@ struct Effort {
   std::size_t vertex;  ///< to pose one with its leaf; what else is done to the leaf included
   std::size_t box;     ///< to find one from a bound
 };
-constexpr Effort in_memory_effort{.vertex = 10, .box = 80}, computed_effort{.vertex = 7, .box = 28};
+constexpr Effort in_memory_effort{.vertex = 7, .box = 56}, computed_effort{.vertex = 7, .box = 28};
 
 bool contains(const Aabb& outer, const Aabb& inner) {
   bool result = true;
@@ -88,7 +88,7 @@ void Bounded_surface::plan_frame() {
 
 void Bounded_surface::bound(std::uint32_t node) {
   if (bounds_.empty()) return pose_all();
-  if (takes_long()) return give_up();
+  if (takes_long() || (is_paused() && node != 0)) return give_up();
   Aabb box = bounds_.front()->box(node);
   for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node));
   if (is_empty(box))  // though vertices must be in it
@@ -100,11 +100,10 @@ void Bounded_surface::bound(std::uint32_t node) {
   ++nodes_bounded_;
 }
 
-/// Whether so much has been done as it takes to pose all, or in a pause an eighth of that.
+/// Whether so much has been done as it takes to pose all.
 bool Bounded_surface::takes_long() const {
   const auto [vertex, box] = in_memory_ ? in_memory_effort : computed_effort;
-  const std::size_t effort = vertex * vertices_posed_ + box * bounds_.size() * nodes_bounded_;
-  return effort > layout().vertex_begin().back() / (pause_left_ > 0 ? 8 : 1);
+  return vertex * vertices_posed_ + box * bounds_.size() * nodes_bounded_ > layout().vertex_begin().back();
 }
 
 void Bounded_surface::give_up() {
@@ -113,7 +112,7 @@ void Bounded_surface::give_up() {
 }
 
 void Bounded_surface::read(std::uint32_t leaf) {
-  if (pause_left_ > 0 || takes_long()) return give_up();
+  if (takes_long() || is_paused()) return give_up();
   const std::uint32_t node = layout().leaf_node(leaf);
   const Aabb promised = box(node), promised_whole = box(0);
   if (all_posed_) return;  // there were no bounds

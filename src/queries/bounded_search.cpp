@@ -91,6 +91,7 @@ Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor
   if (are_near(root_pair)) waiting_.push_back(root_pair);
   const Tree_layout &layout_a = a_->layout(), &layout_b = b_->layout();
   while (!waiting_.empty()) {
+    if (is_broken()) return End::broken;
     if (until_all_posed && all_posed()) return End::all_posed;
     const Node_pair pair = waiting_.back();
     waiting_.pop_back();
@@ -100,7 +101,6 @@ Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor
     }
     const End end = test_leaves(layout_a.node(pair.a).leaf, layout_b.node(pair.b).leaf, visitor);
     if (end == End::stopped) return end;  // even if a bound is broken: the contacts are there
-    if (is_broken()) return End::broken;
   }
   return is_broken() ? End::broken : End::complete;
 }

@@ -233,13 +233,13 @@ TEST(Displacement_bound, that_is_broken_is_noticed_and_right_again_after_the_sur
 
 TEST(Displacement_bound, contacts_are_those_of_exhaustive_checking) {
   std::mt19937_64 random(6);
-  Given_object a(potato(12, 1)), b(potato(12, 2));
+  Given_object a(potato(18, 1), 32), b(potato(18, 2), 32);
   Displacement_promise promise_a, promise_b;
   Displacement_bound bound_a = promise_a.bound(a.bounded()), bound_b = promise_b.bound(b.bounded());
   const auto surface_a = a.surface(bound_a), surface_b = b.surface(bound_b);
   Bounded_search search;
   std::size_t meetings = 0, posed = 0;
-  for (int frame = 0; frame < 60; ++frame) {
+  for (int frame = 0; frame < 120; ++frame) {
     const Eigen::Isometry3d pose = Eigen::Translation3d(2.5 + std::cos(0.3 * frame), 0, 0) *
                                    Eigen::Isometry3d(Eigen::AngleAxisd(frame, Eigen::Vector3d::UnitY()));
     const double swell = 1 + 0.05 * std::sin(0.5 * frame);

@@ -258,12 +258,12 @@ TEST(Stretch_bound, that_is_not_seen_to_be_broken_holds_every_vertex) {
 
 TEST(Stretch_bound, contacts_are_those_of_exhaustive_checking) {
   std::mt19937_64 random(3);
-  Given_object a(potato(6, 1)), b(potato(6, 2));
+  Given_object a(potato(12, 1), 32), b(potato(12, 2), 32);
   const Stretch_promise promise(1, 1e-14);
   Stretch_bound bound_a = promise.bound(a.bounded()), bound_b = promise.bound(b.bounded());
   Bounded_search search;
   std::size_t meetings = 0, partly = 0;
-  for (int frame = 0; frame < 60; ++frame) {
+  for (int frame = 0; frame < 200; ++frame) {
     const auto surface_a = a.surface(bound_a), surface_b = b.surface(bound_b);  // with no memory of earlier frames
     a.pose(Folding(random, 1));
     b.pose(Folding(random, 2.5));

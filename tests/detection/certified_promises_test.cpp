@@ -20,7 +20,7 @@ double largest_move(const Surface_mesh& now, const Surface_mesh& before) {
 
 /// Two bodies that crumple and drift towards each other, in meshes.
 struct Drifting {
-  Surface_mesh a = long_body(20, 1), b = long_body(18, 2), a_before = a, b_before = b;
+  Surface_mesh a = long_body(56, 1), b = long_body(50, 2), a_before = a, b_before = b;
 
   Drifting() { place_b(gap_at_first); }
   /// Where b's leftmost vertex is that far beyond a's rightmost.
@@ -42,7 +42,7 @@ struct Drifting {
 TEST(Certified, meshes_with_a_displacement_have_the_answers_of_mode_exact) {
   Drifting bodies;
   Displacement_promise of_a, of_b;
-  Detector certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  Detector certified(Detector_options{.mode = Mode::certified}), exact(Detector_options{});
   for (Detector<>* detector : {&certified, &exact}) {
     detector->add(std::as_const(bodies.a));
     detector->add(std::as_const(bodies.b));

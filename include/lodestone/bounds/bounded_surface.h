@@ -26,9 +26,8 @@ namespace lodestone {
 ///
 /// Where much is near, boxes from bounds and leaves that are posed one by one take longer than to pose all. So all
 /// vertices are posed once as much has been done as that takes, by number: once a seventh of the vertices has been
-/// posed, a tenth if they lie in memory, or fewer and boxes. In the next frames all are posed as soon as one leaf is
-/// needed, or an eighth of that has been done: for 1 frame, then after another such try for 2, 4 and at most 32. A
-/// frame in which less was needed ends that.
+/// posed, or fewer and boxes. In the next frames all are posed as soon as more than the box of the whole is needed: for
+/// 1 frame, then after another such try for 2, 4 and at most 32. A frame in which no more was needed ends that.
 ///
 /// Boxes and positions are written to the tree's surface. Not for several threads at once.
 class Bounded_surface {
@@ -125,6 +124,7 @@ class Bounded_surface {
   }
   void follow_positions();
   void plan_frame();
+  bool is_paused() const { return pause_left_ > 0; }
   bool takes_long() const;
   void give_up();
   void bound(std::uint32_t node);
