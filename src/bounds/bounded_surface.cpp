@@ -187,6 +187,13 @@ bool Bounded_surface::note_all(Node_bound& bound) const {
 }
 
 void Bounded_surface::check_finite(std::uint32_t leaf) const {
+  const double* const coordinates = tree_->coordinates().data();
+  double zero = 0;  // no number as soon as one is not finite
+  for (const auto vertex : layout().vertices(leaf)) {
+    const double* const p = coordinates + 3 * std::size_t{vertex};
+    zero += (0 * p[0] + 0 * p[1]) + 0 * p[2];
+  }
+  if (zero == 0) return;
   for (const auto vertex : layout().vertices(leaf))
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!std::isfinite(tree_->coordinates()[3 * std::size_t{vertex} + axis]))

@@ -25,8 +25,8 @@ void bound_whole(Bounded_surface& surface) {
 
 Contact_summary Bounded_search::run(Bounded_surface& a, Bounded_surface& b, const Contact_request& request,
                                     std::vector<Face_pair>& found) {
-  begin(a, b, request.tolerance);
   const std::size_t limit = contact_limit(request);
+  begin(a, b, request.tolerance, limit < std::numeric_limits<std::size_t>::max());
   End end;
   do {
     settle_broken();
@@ -47,7 +47,7 @@ Contact_summary Bounded_search::run(Bounded_surface& a, Bounded_surface& b, cons
 
 Visit Bounded_search::visit(Bounded_surface& a, Bounded_surface& b, double tolerance,
                             const std::function<Visit(Face_pair)>& visitor) {
-  begin(a, b, tolerance);
+  begin(a, b, tolerance, true);
   std::vector<Face_pair> shown;  // each once; those of earlier walks sorted
   std::size_t of_earlier_walks = 0;
   const auto show = [&](Face_pair contact) {
@@ -66,10 +66,11 @@ Visit Bounded_search::visit(Bounded_surface& a, Bounded_surface& b, double toler
   return end == End::stopped ? Visit::stop : Visit::go_on;
 }
 
-void Bounded_search::begin(Bounded_surface& a, Bounded_surface& b, double tolerance) {
+void Bounded_search::begin(Bounded_surface& a, Bounded_surface& b, double tolerance, bool is_ordered) {
   if (!(tolerance >= 0) || !std::isfinite(tolerance)) throw Bad_argument("the tolerance must be finite and >= 0");
   a_ = &a, b_ = &b;
   tolerance_ = tolerance;
+  is_ordered_ = is_ordered;
   leaf_tests_ = exact_tests_ = 0;
   a.start_frame();
   b.start_frame();
@@ -105,17 +106,19 @@ Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor
   return is_broken() ? End::broken : End::complete;
 }
 
-/// Of the two pairs below a pair, visits that first which lies deeper: if one contact is enough, it is likelier to be
-/// there.
+/// Keeps of the two pairs below a pair those that are near. If not all contacts are wanted, visits that first which
+/// lies deeper: there one is likelier.
 void Bounded_search::open(Node_pair pair) {
   open_pair(a_->layout(), b_->layout(), pair, a_->box(pair.a).extent() >= b_->box(pair.b).extent(), waiting_);
-  const Node_pair first = waiting_.back(), second = *(waiting_.end() - 2);
-  waiting_.resize(waiting_.size() - 2);
+  const Node_pair first = waiting_.back(), second = waiting_[waiting_.size() - 2];
   const bool first_is_near = are_near(first), second_is_near = are_near(second);
-  const bool second_first = first_is_near && second_is_near && depth(second) > depth(first);
-  if (first_is_near && second_first) waiting_.push_back(first);
-  if (second_is_near) waiting_.push_back(second);
-  if (first_is_near && !second_first) waiting_.push_back(first);
+  if (!first_is_near) waiting_.pop_back();
+  if (!second_is_near) {
+    waiting_.pop_back();
+    if (first_is_near) waiting_.back() = first;
+  }
+  if (is_ordered_ && first_is_near && second_is_near && depth(second) > depth(first))
+    std::swap(waiting_.back(), waiting_[waiting_.size() - 2]);
 }
 
 /// How deep the boxes of two nodes lie in each other, along the axis on which they do least.

@@ -43,11 +43,14 @@ class Bounded_search {
  private:
   enum class End { complete, stopped, broken, all_posed };
 
-  void begin(Bounded_surface& a, Bounded_surface& b, double tolerance);
+  void begin(Bounded_surface& a, Bounded_surface& b, double tolerance, bool is_ordered);
   template <class Visitor>
   End walk(bool until_all_posed, Visitor&& visitor);
   void open(Node_pair pair);
-  bool are_near(Node_pair pair) { return near(a_->box(pair.a), b_->box(pair.b), tolerance_); }
+  bool are_near(Node_pair pair) {
+    const Aabb &of_a = a_->box(pair.a), &of_b = b_->box(pair.b);
+    return tolerance_ == 0 ? overlap(of_a, of_b) : near(of_a, of_b, tolerance_);
+  }
   double depth(Node_pair pair);
   template <class Visitor>
   End test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor);
@@ -60,6 +63,7 @@ class Bounded_search {
   Bounded_surface* a_ = nullptr;
   Bounded_surface* b_ = nullptr;
   double tolerance_ = 0;
+  bool is_ordered_ = false;  ///< pairs that lie deeper are visited first
   std::vector<Node_pair> waiting_;
   Face_filter filter_;
   Coordinates filter_of_a_ = {}, filter_of_b_ = {};  ///< which positions the filter has been told of; empty: none
