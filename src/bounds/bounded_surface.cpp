@@ -17,7 +17,7 @@ struct Effort {
   std::size_t vertex;  ///< to pose one with its leaf; what else is done to the leaf included
   std::size_t box;     ///< to find one from a bound
 };
-constexpr Effort in_memory_effort{.vertex = 7, .box = 56}, computed_effort{.vertex = 7, .box = 28};
+constexpr Effort in_memory_effort{.vertex = 7, .box = 56}, computed_effort{.vertex = 7, .box = 8};
 
 bool contains(const Aabb& outer, const Aabb& inner) {
   bool result = true;
@@ -30,6 +30,13 @@ bool is_empty(const Aabb& box) {
   bool result = false;
   for (int axis = 0; axis < 3; ++axis) result |= box.low[axis] > box.high[axis];
   return result;
+}
+
+std::vector<std::uint32_t> parents_of(const Tree_layout& layout) {
+  std::vector<std::uint32_t> parents(layout.node_count(), 0);
+  for (std::uint32_t node = 0; node < parents.size(); ++node)
+    if (!layout.is_leaf(node)) parents[node + 1] = parents[layout.node(node).second_child] = node;
+  return parents;
 }
 
 void check_nodes(const Node_bound& bound, const Tree_layout& layout) {
@@ -47,7 +54,9 @@ Bounded_surface::Bounded_surface(Tree_surface& tree, std::unique_ptr<const Posit
       title_(std::move(title)),
       boxes_(tree.volumes_to_fit()),
       boxed_in_(layout().node_count(), 0),
-      posed_in_(layout().leaf_count(), 0) {
+      posed_in_(layout().leaf_count(), 0),
+      fitted_in_(layout().node_count(), 0),
+      parents_(parents_of(layout())) {
   check_layout(layout(), positions_->vertex_count());
   for (const auto& bound : bounds_) check_nodes(*bound, layout());
   start_frame();
@@ -125,6 +134,22 @@ void Bounded_surface::read(std::uint32_t leaf) {
   posed_in_[leaf] = frame_;
   vertices_posed_ += vertices.size();
   ++leaves_posed_;
+  fit_parents_of(node);
+}
+
+/// As far up as all leaves have been posed: boxes from bounds are larger.
+void Bounded_surface::fit_parents_of(std::uint32_t node) {
+  fitted_in_[node] = frame_;
+  while (node != 0) {
+    node = parents_[node];
+    const std::uint32_t first = node + 1, second = layout().node(node).second_child;
+    if (fitted_in_[first] != frame_ || fitted_in_[second] != frame_) return;
+    Aabb fitted;
+    fitted.enclose(boxes_[first], boxes_[second]);
+    if (boxed_in_[node] == frame_ && !contains(boxes_[node], fitted)) ++violations_;
+    boxes_[node] = fitted;
+    boxed_in_[node] = fitted_in_[node] = frame_;
+  }
 }
 
 void Bounded_surface::pose_all() {

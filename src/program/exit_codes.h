@@ -15,7 +15,7 @@ inline constexpr int reader_left = 141;
 
 inline constexpr const char* help = R"(Exit codes:
   0    done; with detect --exit-code: nothing collides
-  1    detect --exit-code: something collides, or is near with --within
+  1    detect --exit-code: something collides, is near with --within or --self-within, or meets with --impacts
   2    the command line is wrong
   3    a mesh, motion, scene or shard cannot be used
   4    a result cannot be written

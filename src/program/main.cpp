@@ -72,7 +72,7 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
       ->type_name("RULE")
       ->default_str("principal_axis");
   app.add_option("--epsilon", options.split, "e of the split (1 + e)C, (1 - e)C")->capture_default_str();
-  app.add_option("--tolerance", options.tolerance, "LBG: relative drop of the distortion at which iterations stop")
+  app.add_option("--lbg-tolerance", options.tolerance, "LBG: relative drop of the distortion at which iterations stop")
       ->capture_default_str();
   app.add_option("--lbg-sample", options.sample,
                  "LBG: maximum number of vertices to train on, but at least 128 per region; 0: all")
@@ -365,7 +365,7 @@ int run_commands(int argc, char** argv) {
     // Shards cannot know what earlier frames have done to the trees.
     detect.independent_frames |= finds_all(detect.options.mode) && (detect.shard || detect.merge_shards);
     if (detect.options.mode == Mode::particles) refuse_options_beside_meetings(app, detect.options.meetings);
-    refuse_options_of_other_strategies(app, detect.partition.name, !finds_all(detect.options.mode));
+    refuse_options_of_other_strategies(app, detect.partition.name, false);  // threads share frames too
     detect.chooses_strategy = chooses_strategy(app);
     // Whoever chooses a strategy wants to see regions.
     if (finds_all(detect.options.mode) && detect.chooses_strategy && detect.options.particles == 0)

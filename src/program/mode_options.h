@@ -66,7 +66,7 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
       {"--normal-weight", {Mode::exact, Mode::certified, Mode::particles}},
       {"--split", {Mode::exact, Mode::certified, Mode::particles}},
       {"--epsilon", {Mode::exact, Mode::certified, Mode::particles}},
-      {"--tolerance", {Mode::exact, Mode::certified, Mode::particles}},
+      {"--lbg-tolerance", {Mode::exact, Mode::certified, Mode::particles}},
       {"--lbg-sample", {Mode::exact, Mode::certified, Mode::particles}},
   };
   for (const auto& option : options) {

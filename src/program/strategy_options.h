@@ -18,7 +18,7 @@ namespace lodestone {
 
 /// Whether the user chose a strategy or one of its settings.
 inline bool chooses_strategy(const CLI::App& command) {
-  const auto names = {"--strategy", "--seed", "--normal-weight", "--split", "--epsilon", "--tolerance", "--lbg-sample"};
+  const auto names = {"--strategy", "--seed", "--normal-weight", "--split", "--epsilon", "--lbg-tolerance", "--lbg-sample"};
   return std::ranges::any_of(names, [&](const char* name) { return command.count(name) > 0; });
 }
 
@@ -36,7 +36,7 @@ inline void refuse_options_of_other_strategies(const CLI::App& command, std::str
       {"--split", lbg},
       {"--epsilon", lbg},
       {"--lbg-sample", lbg},
-      {"--tolerance", {Lbg::name, Lbg_position::name, Lbg_curvature::name, Kmeans_plus_plus::name}},
+      {"--lbg-tolerance", {Lbg::name, Lbg_position::name, Lbg_curvature::name, Kmeans_plus_plus::name}},
   };
   if (threads) options.push_back({"--threads", lbg});
   for (const auto& option : options) {

@@ -88,16 +88,17 @@ void Bounded_search::settle_broken() {
 template <class Visitor>
 Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor) {
   filter_of_a_ = {};
-  waiting_.clear();
-  if (are_near(root_pair)) waiting_.push_back(root_pair);
+  waiting_.assign(1, root_pair);
   const Tree_layout &layout_a = a_->layout(), &layout_b = b_->layout();
   while (!waiting_.empty()) {
     if (is_broken()) return End::broken;
     if (until_all_posed && all_posed()) return End::all_posed;
     const Node_pair pair = waiting_.back();
     waiting_.pop_back();
+    if (!are_near(pair)) continue;  // some leaf may have been posed since, so boxes may be smaller
     if (!layout_a.is_leaf(pair.a) || !layout_b.is_leaf(pair.b)) {
-      open(pair);
+      open_pair(layout_a, layout_b, pair, a_->box(pair.a).extent() >= b_->box(pair.b).extent(), waiting_);
+      if (is_ordered_) deeper_first();
       continue;
     }
     const End end = test_leaves(layout_a.node(pair.a).leaf, layout_b.node(pair.b).leaf, visitor);
@@ -106,28 +107,18 @@ Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor
   return is_broken() ? End::broken : End::complete;
 }
 
-/// Keeps of the two pairs below a pair those that are near. If not all contacts are wanted, visits that first which
-/// lies deeper: there one is likelier.
-void Bounded_search::open(Node_pair pair) {
-  open_pair(a_->layout(), b_->layout(), pair, a_->box(pair.a).extent() >= b_->box(pair.b).extent(), waiting_);
-  const Node_pair first = waiting_.back(), second = waiting_[waiting_.size() - 2];
-  const bool first_is_near = are_near(first), second_is_near = are_near(second);
-  if (!first_is_near) waiting_.pop_back();
-  if (!second_is_near) {
-    waiting_.pop_back();
-    if (first_is_near) waiting_.back() = first;
-  }
-  if (is_ordered_ && first_is_near && second_is_near && depth(second) > depth(first))
-    std::swap(waiting_.back(), waiting_[waiting_.size() - 2]);
-}
-
-/// How deep the boxes of two nodes lie in each other, along the axis on which they do least.
-double Bounded_search::depth(Node_pair pair) {
-  const Aabb &of_a = a_->box(pair.a), &of_b = b_->box(pair.b);
-  double least = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis)
-    least = std::min(least, std::min(of_a.high[axis], of_b.high[axis]) - std::max(of_a.low[axis], of_b.low[axis]));
-  return least;
+/// Of the two pairs that were pushed last, visits that first whose boxes lie deeper in each other, along the axis on
+/// which they do least: if not all contacts are wanted, one is likelier to be there.
+void Bounded_search::deeper_first() {
+  const auto depth = [&](Node_pair pair) {
+    const Aabb &of_a = a_->box(pair.a), &of_b = b_->box(pair.b);
+    double least = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis)
+      least = std::min(least, std::min(of_a.high[axis], of_b.high[axis]) - std::max(of_a.low[axis], of_b.low[axis]));
+    return least;
+  };
+  Node_pair *const first = &waiting_.back(), *const second = first - 1;
+  if (depth(*second) > depth(*first)) std::swap(*first, *second);
 }
 
 /// @return stopped, or complete

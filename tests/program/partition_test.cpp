@@ -178,7 +178,7 @@ TEST_F(Partition_program, refuses_options_out_of_range) {
     SCOPED_TRACE(weight);
     expect_error(divide({"--normal-weight", weight}), 2, "weight");
   }
-  for (const auto* option : {"--epsilon", "--tolerance"})
+  for (const auto* option : {"--epsilon", "--lbg-tolerance"})
     for (const auto* value : {"0", "-1", "nan", "small"}) {
       SCOPED_TRACE(std::string(option) + " " + value);
       expect_error(divide({option, value}), 2, value == std::string("small") ? option : "> 0");

@@ -18,7 +18,8 @@
 namespace lodestone {
 
 /// A surface whose nodes are bounded without being read, and whose leaves are posed when somebody needs their faces.
-/// Nothing is done before it is asked for, and nothing twice in a pose.
+/// Nothing is done before it is asked for, and nothing twice in a pose. A node below which all leaves have been posed
+/// has the box fitted to them.
 ///
 /// A bound is a promise. The vertices of a leaf that is posed are compared with the boxes of the leaf and of the whole,
 /// and where all vertices are posed with all boxes in use. If one lies outside, or if bounds have no point in common,
@@ -129,6 +130,7 @@ class Bounded_surface {
   void give_up();
   void bound(std::uint32_t node);
   void read(std::uint32_t leaf);
+  void fit_parents_of(std::uint32_t node);
   void note_refitted();
   void note_read(std::uint32_t leaf);
   bool note_read(Node_bound& bound, std::uint32_t leaf) const;
@@ -140,12 +142,14 @@ class Bounded_surface {
   std::vector<std::unique_ptr<Node_bound>> bounds_;
   Workers* workers_;
   std::string title_;
-  Unset_vector<double> posed_;           ///< 3 V: only those of posed leaves mean something; empty: not needed yet
-  bool in_memory_ = false;               ///< positions are where the tree reads them
+  Unset_vector<double> posed_;  ///< 3 V: only those of posed leaves mean something; empty: not needed yet
+  bool in_memory_ = false;      ///< positions are where the tree reads them
   bool compares_all_ = false;
-  std::span<Aabb> boxes_;                ///< per node, of the tree
-  std::vector<std::uint64_t> boxed_in_;  ///< per node: the frame of its box
-  std::vector<std::uint64_t> posed_in_;  ///< per leaf: the frame in which it was posed
+  std::span<Aabb> boxes_;                 ///< per node, of the tree
+  std::vector<std::uint64_t> boxed_in_;   ///< per node: the frame of its box
+  std::vector<std::uint64_t> posed_in_;   ///< per leaf: the frame in which it was posed
+  std::vector<std::uint64_t> fitted_in_;  ///< per node: the frame in which all below was posed leaf by leaf
+  std::vector<std::uint32_t> parents_;    ///< per node; the root's is itself
   std::uint64_t frame_ = 0, pose_ = 0;
   bool all_posed_ = false;
   bool much_was_near_ = false;              ///< all vertices were posed because much was asked for

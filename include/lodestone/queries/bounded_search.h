@@ -46,12 +46,11 @@ class Bounded_search {
   void begin(Bounded_surface& a, Bounded_surface& b, double tolerance, bool is_ordered);
   template <class Visitor>
   End walk(bool until_all_posed, Visitor&& visitor);
-  void open(Node_pair pair);
+  void deeper_first();
   bool are_near(Node_pair pair) {
     const Aabb &of_a = a_->box(pair.a), &of_b = b_->box(pair.b);
     return tolerance_ == 0 ? overlap(of_a, of_b) : near(of_a, of_b, tolerance_);
   }
-  double depth(Node_pair pair);
   template <class Visitor>
   End test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor);
   void begin_filter();
