@@ -12,12 +12,10 @@ namespace lodestone {
 
 namespace {
 
-/// What takes as long as to pose so many vertices in order.
-struct Effort {
-  std::size_t vertex;  ///< to pose one with its leaf; what else is done to the leaf included
-  std::size_t box;     ///< to find one from a bound
-};
-constexpr Effort in_memory_effort{.vertex = 7, .box = 56}, computed_effort{.vertex = 7, .box = 8};
+/// To pose one vertex with its leaf takes as long as to pose so many in order, with what else is done to the leaf.
+constexpr std::size_t effort_of_vertex = 7;
+/// Computed positions take so many times as long as those in memory, beside which boxes take less.
+constexpr std::size_t computed_share = 7;
 
 bool contains(const Aabb& outer, const Aabb& inner) {
   bool result = true;
@@ -58,7 +56,10 @@ Bounded_surface::Bounded_surface(Tree_surface& tree, std::unique_ptr<const Posit
       fitted_in_(layout().node_count(), 0),
       parents_(parents_of(layout())) {
   check_layout(layout(), positions_->vertex_count());
-  for (const auto& bound : bounds_) check_nodes(*bound, layout());
+  for (const auto& bound : bounds_) {
+    check_nodes(*bound, layout());
+    effort_of_boxes_ += bound->effort();
+  }
   start_frame();
 }
 
@@ -111,8 +112,8 @@ void Bounded_surface::bound(std::uint32_t node) {
 
 /// Whether so much has been done as it takes to pose all.
 bool Bounded_surface::takes_long() const {
-  const auto [vertex, box] = in_memory_ ? in_memory_effort : computed_effort;
-  return vertex * vertices_posed_ + box * bounds_.size() * nodes_bounded_ > layout().vertex_begin().back();
+  const std::size_t of_boxes = nodes_bounded_ * effort_of_boxes_ / (in_memory_ ? 1 : computed_share);
+  return effort_of_vertex * vertices_posed_ + of_boxes > layout().vertex_begin().back();
 }
 
 void Bounded_surface::give_up() {
@@ -124,7 +125,7 @@ void Bounded_surface::read(std::uint32_t leaf) {
   if (takes_long() || is_paused()) return give_up();
   const std::uint32_t node = layout().leaf_node(leaf);
   const Aabb promised = box(node), promised_whole = box(0);
-  if (all_posed_) return;  // there were no bounds
+  if (all_posed_) return;  // there were no bounds, or these two were too many
   const auto vertices = layout().vertices(leaf);
   if (!in_memory_) positions_->pose(vertices, posed_);
   check_finite(leaf);
@@ -203,7 +204,7 @@ bool Bounded_surface::note_read(Node_bound& bound, std::uint32_t leaf) const {
 
 /// Leaf by leaf only those that have not been shown.
 bool Bounded_surface::note_all(Node_bound& bound) const {
-  if (bound.notes_all() && !compares_all_) return bound.note_all(boxes_, tree_->coordinates());
+  if (bound.notes_all()) return bound.note_all(boxes_, tree_->coordinates(), compares_all_);
   bool kept = true;
   if (bound.watches())
     for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf)

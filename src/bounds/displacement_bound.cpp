@@ -92,13 +92,13 @@ bool Displacement_bound::note_read(std::uint32_t leaf, const Aabb& fitted, Coord
   return true;
 }
 
-bool Displacement_bound::note_all(std::span<const Aabb> fitted, Coordinates coordinates) {
+bool Displacement_bound::note_all(std::span<const Aabb> fitted, Coordinates /*coordinates*/, bool /*all*/) {
   for (auto node = static_cast<std::uint32_t>(node_count()); node-- > 0;) {
     last_[node].total = total(node);
     if (!promise_->frame_)
       last_[node].box = fitted[node];
     else if (layout_->is_leaf(node))
-      last_[node].box = in_frame(layout_->node(node).leaf, fitted[node], coordinates);
+      last_[node].box = promise_->frame_->to_frame(fitted[node]);
     else
       last_[node].box = around_children(node);
   }
@@ -177,8 +177,7 @@ Aabb Displacement_promise::Frame::to_frame(std::span<const std::uint32_t> vertic
     high = high.cwiseMax(q);
     farthest = std::max(farthest, from_origin.lpNorm<1>());
   }
-  const double margin =
-      (2 * defect + 64 * unit_roundoff) * farthest + 64 * unit_roundoff * translation.lpNorm<1>() + underflow;
+  const double margin = margin_to_frame(farthest);
   Aabb box{};
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     box.low[axis] = low[axis] - margin;
@@ -186,6 +185,25 @@ Aabb Displacement_promise::Frame::to_frame(std::span<const std::uint32_t> vertic
     open_if_not_finite(box, static_cast<std::size_t>(axis));
   }
   return box;
+}
+
+Aabb Displacement_promise::Frame::to_frame(const Aabb& box) const {
+  const Eigen::Vector3d low = Eigen::Map<const Eigen::Vector3d>(box.low) - translation;
+  const Eigen::Vector3d high = Eigen::Map<const Eigen::Vector3d>(box.high) - translation;
+  const double margin = margin_to_frame(low.cwiseAbs().cwiseMax(high.cwiseAbs()).sum());
+  Aabb turned{};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d one = rotation.col(axis).cwiseProduct(low), other = rotation.col(axis).cwiseProduct(high);
+    turned.low[axis] = one.cwiseMin(other).sum() - margin;
+    turned.high[axis] = one.cwiseMax(other).sum() + margin;
+    open_if_not_finite(turned, static_cast<std::size_t>(axis));
+  }
+  return turned;
+}
+
+/// How far ends are moved outwards for vertices that are at most so far from where the frame is.
+double Displacement_promise::Frame::margin_to_frame(double farthest) const {
+  return (2 * defect + 64 * unit_roundoff) * farthest + 64 * unit_roundoff * translation.lpNorm<1>() + underflow;
 }
 
 }  // namespace lodestone

@@ -94,9 +94,9 @@ bool Stretch_bound::note_read(std::uint32_t leaf, const Aabb& /*fitted*/, Coordi
   return true;
 }
 
-bool Stretch_bound::note_all(std::span<const Aabb> fitted, Coordinates coordinates) {
+bool Stretch_bound::note_all(std::span<const Aabb> fitted, Coordinates coordinates, bool all) {
   constexpr std::size_t one_in = 64;
-  const std::size_t leaves = layout_->leaf_count(), step = std::min(one_in, leaves);
+  const std::size_t leaves = layout_->leaf_count(), step = all ? 1 : std::min(one_in, leaves);
   bool kept = true;
   for (std::size_t leaf = turn_++ % step; leaf < leaves; leaf += step)
     kept &= note_read(static_cast<std::uint32_t>(leaf), fitted[layout_->leaf_node(leaf)], coordinates);

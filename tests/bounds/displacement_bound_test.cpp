@@ -13,12 +13,13 @@
 #include "lodestone/bounds/node_regions.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/queries/bounded_search.h"
+#include "lodestone/tree/region_tree.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
 namespace {
 
-static_assert(Watching_bound<Displacement_bound> && Motion_promise<Displacement_promise>);
+static_assert(All_watching_bound<Displacement_bound> && Motion_promise<Displacement_promise>);
 
 /// Coordinates that are multiples of 2^-20, so that adding such numbers is exact.
 Face_soup on_lattice(Face_soup soup, double offset = 0) {
@@ -259,6 +260,37 @@ TEST(Displacement_bound, contacts_are_those_of_exhaustive_checking) {
   }
   EXPECT_GT(meetings, 10U);
   EXPECT_GT(posed, 10U);
+}
+
+std::vector<Aabb> fitted_nodes(const Given_object& object) { return fitted_boxes(object.layout, object.now); }
+
+TEST(Displacement_bound, that_is_shown_all_boxes_has_them) {
+  Given_object object(potato(8), 10);
+  Displacement_promise promise;
+  Displacement_bound bound = promise.bound(object.bounded());
+  promise.move(0.7);
+  object.pose([](const Eigen::Vector3d& p) { return Eigen::Vector3d(p + Eigen::Vector3d(0.5, 0.1 * p.x(), 0)); });
+  EXPECT_TRUE(bound.note_all(fitted_nodes(object), object.now, false));
+  for (std::uint32_t node = 0; node < bound.node_count(); ++node) EXPECT_EQ(bound.box(node), object.fitted_node(node));
+}
+
+/// Far from the origin too, where the frame rounds most; and in frames to come.
+TEST(Displacement_bound, every_vertex_lies_in_its_boxes_after_all_were_shown_in_a_rigid_frame) {
+  std::mt19937_64 random(21);
+  for (int round = 0; round < 100; ++round) {
+    Given_object object(potato(2 + random() % 6), 2 + random() % 20);
+    Displacement_promise promise;
+    Displacement_bound bound = promise.bound(object.bounded());
+    for (int frame = 0; frame < 4; ++frame) {
+      const Eigen::Isometry3d pose = random_frame(random, std::pow(10, random_number(random, -2, 9)));
+      object.pose([&](const Eigen::Vector3d& p) { return Eigen::Vector3d(pose * p); });
+      promise.move(0, pose);
+      if (frame % 2 == 0) {
+        EXPECT_TRUE(bound.note_all(fitted_nodes(object), object.now, false));
+      }
+      EXPECT_EQ(nodes_outside(bound, object), 0U) << round;
+    }
+  }
 }
 
 TEST(Displacement_bound, that_overflows_is_open) {

@@ -12,6 +12,7 @@
 #include "bounds/given_object.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/queries/bounded_search.h"
+#include "lodestone/tree/region_tree.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
@@ -199,6 +200,25 @@ TEST(Stretch_bound, that_is_broken_is_noticed_where_an_edge_is_read) {
   surface->start_frame();
   surface->pose(leaf);
   EXPECT_EQ(surface->violations(), 0U);
+}
+
+TEST(Stretch_bound, that_is_broken_anywhere_is_noticed_in_64_frames_that_read_all_and_at_once_on_request) {
+  Given_object object(grid(60, 60), 40);
+  const Stretch_promise promise(1);
+  Stretch_bound bound = promise.bound(object.bounded());
+  ASSERT_GT(object.layout.leaf_count(), 128U);
+  const std::vector<Aabb> fitted = fitted_boxes(object.layout, object.now);
+  for (int frame = 0; frame < 64; ++frame) EXPECT_TRUE(bound.note_all(fitted, object.now, false));
+  EXPECT_TRUE(bound.note_all(fitted, object.now, true));
+  for (const std::uint32_t vertex : {130U, 1000U, 1234U, 2500U}) {
+    ASSERT_LT(vertex, object.vertex_count());
+    object.now = object.rest.coordinates;
+    object.put(vertex, object.at_rest(vertex) + Eigen::Vector3d(0.1, 0.1, 0));
+    EXPECT_FALSE(bound.note_all(fitted, object.now, true)) << vertex;
+    int noticed = 0;
+    for (int frame = 0; frame < 64; ++frame) noticed += bound.note_all(fitted, object.now, false) ? 0 : 1;
+    EXPECT_GE(noticed, 1) << vertex;
+  }
 }
 
 /// Shortens the face, and makes one edge after the other longer than it was.

@@ -20,7 +20,7 @@ double largest_move(const Surface_mesh& now, const Surface_mesh& before) {
 
 /// Two bodies that crumple and drift towards each other, in meshes.
 struct Drifting {
-  Surface_mesh a = long_body(56, 1), b = long_body(50, 2), a_before = a, b_before = b;
+  Surface_mesh a = long_body(72, 1), b = long_body(64, 2), a_before = a, b_before = b;
 
   Drifting() { place_b(gap_at_first); }
   /// Where b's leftmost vertex is that far beyond a's rightmost.

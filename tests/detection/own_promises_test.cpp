@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Computed points that promise something about themselves, in mode certified; and promises at their limits.
+#include <functional>
 #include <limits>
 #include <type_traits>
 
@@ -186,6 +187,35 @@ TEST(Own_displacement, knows_nothing_of_given_positions) {
   points.promise.move(0.0101);
   EXPECT_TRUE(detector.detect().collides());
   EXPECT_EQ(detector.detect().statistics.violations, 0U);
+}
+
+/// A bound begins with positions at rest and what has been promised since it was made. Here it is made long after that,
+/// while it cannot see the points.
+TEST(Own_displacement, that_is_made_while_positions_are_given_knows_where_the_points_are) {
+  const Surface_mesh a = icosphere(12);
+  Surface_mesh b = icosphere(12);
+  shift(b, 9);
+  const Lipschitz_promise nothing(std::numeric_limits<double>::infinity());
+  using Make_anew = std::function<void(Detector<>&)>;
+  for (const Make_anew& make_anew : {Make_anew([&](Detector<>& detector) { detector.promise(0, nothing); }),
+                                     Make_anew([](Detector<>& detector) { detector.load(0, detector.save(0)); })}) {
+    Promised_points<Displacement_promise> points(a);
+    Detector detector({.mode = Mode::certified});
+    detector.add(a, point_map(a, points));
+    detector.add(std::as_const(b));
+    detector.detect();
+    points.shift(8, 0);
+    points.promise.move(8.008);
+    EXPECT_TRUE(detector.detect().collides());
+    Positions far = Eigen::Map<const Positions>(points.now.data(), points.vertex_count(), 3);
+    far.col(1).array() += 100;
+    detector.update(0, far);
+    make_anew(detector);
+    EXPECT_FALSE(detector.detect().collides());
+    detector.update(0);
+    EXPECT_TRUE(detector.detect().collides());
+    EXPECT_EQ(detector.detect().statistics.violations, 0U);
+  }
 }
 
 }  // namespace

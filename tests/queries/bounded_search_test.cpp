@@ -189,6 +189,50 @@ TEST(Bounded_surface, compares_what_it_poses_with_the_boxes_that_were_in_use) {
   EXPECT_EQ(by_node.violations(), 0U);
 }
 
+TEST(Bounded_surface, fits_a_node_when_all_leaves_below_it_have_been_posed) {
+  Arm a(long_potato(30, 1), false);
+  a.pose(0.4, {0, 0, 0});
+  Bounded_surface surface(a.tree, a.points, a.bound);
+  Tree_surface fitted_tree = a.tree;
+  Bounded_surface fitted(fitted_tree, a.points, a.bound);
+  fitted.pose_all();
+  std::uint32_t node = 0;  // with a few leaves below it
+  while (a.layout.node(node).end_leaf - a.layout.node(node).leaf > 6) ++node;
+  const auto [second, first_leaf, end_leaf] = a.layout.node(node);
+  ASSERT_GT(end_leaf - first_leaf, 2U);
+  EXPECT_NE(surface.box(node), fitted.box(node));
+  for (std::uint32_t leaf = first_leaf; leaf < end_leaf; ++leaf) surface.pose(leaf);
+  ASSERT_FALSE(surface.all_posed());
+  for (const auto n : {node, node + 1, second}) EXPECT_EQ(surface.box(n), fitted.box(n));
+  EXPECT_NE(surface.box(0), fitted.box(0));
+  EXPECT_EQ(surface.violations(), 0U);
+}
+
+/// A box of a node alone is wrong, those of its leaves and of the whole are not.
+TEST(Bounded_surface, notices_a_wrong_box_of_a_node_when_all_leaves_below_it_have_been_posed) {
+  Arm a(long_potato(30, 1), false);
+  a.pose(0.4, {0, 0, 0});
+  std::uint32_t node = 0;
+  while (a.layout.node(node).end_leaf - a.layout.node(node).leaf > 6) ++node;
+  struct One_lie {
+    const Skin_bound& truth;
+    std::uint32_t wrong;
+    std::size_t node_count() const { return truth.node_count(); }
+    Aabb box(std::uint32_t n) const {
+      return n == wrong ? Aabb{.low = {900, 900, 900, 0}, .high = {901, 901, 901, 0}} : truth.box(n);
+    }
+  };
+  const One_lie lie{a.bound, node};
+  Bounded_surface surface(a.tree, a.points, lie);
+  surface.box(node);
+  for (auto leaf = a.layout.node(node).leaf; leaf < a.layout.node(node).end_leaf; ++leaf) {
+    EXPECT_EQ(surface.violations(), 0U);
+    surface.pose(leaf);
+  }
+  ASSERT_FALSE(surface.all_posed());
+  EXPECT_EQ(surface.violations(), 1U);
+}
+
 TEST(Bounded_search, settles_a_surface_that_is_broken_already) {
   Arm a(long_potato(10, 1), false), b(long_potato(10, 2), false);
   a.pose(0.4, {0, 0, 0});

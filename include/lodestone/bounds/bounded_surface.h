@@ -57,7 +57,7 @@ class Bounded_surface {
                   std::vector<std::unique_ptr<Node_bound>> bounds, Workers& workers = Workers::alone(),
                   std::string title = {});
 
-  /// Shows watching bounds all leaves, also where all vertices are posed: by default such bounds may compare less.
+  /// Has watching bounds compare all with what was promised, also where all vertices are posed: see All_watching_bound.
   void compare_all(bool all) { compares_all_ = all; }
 
   /// Forgets what was of an earlier pose, unless it is known to be that of now. O(1).
@@ -89,7 +89,7 @@ class Bounded_surface {
     return boxes_[layout().leaf_node(leaf)];
   }
   /// Poses all vertices and fits all boxes. O(V).
-  /// @throws Bad_mesh  a coordinate is not finite
+  /// @throws Bad_mesh  a coordinate that a face uses is not finite
   void pose_all();
   /// The same after a broken bound: all boxes are fitted, so nothing is broken any more.
   void settle();
@@ -145,6 +145,7 @@ class Bounded_surface {
   Unset_vector<double> posed_;  ///< 3 V: only those of posed leaves mean something; empty: not needed yet
   bool in_memory_ = false;      ///< positions are where the tree reads them
   bool compares_all_ = false;
+  std::size_t effort_of_boxes_ = 0;  ///< of one node: see Node_bound
   std::span<Aabb> boxes_;                 ///< per node, of the tree
   std::vector<std::uint64_t> boxed_in_;   ///< per node: the frame of its box
   std::vector<std::uint64_t> posed_in_;   ///< per leaf: the frame in which it was posed

@@ -33,7 +33,8 @@ class Displacement_promise;
 /// - To the frame: with s = p - t, the exact R^T s differs from q by (R^T R - I) q, and by R^T times the rounding of p,
 ///   which is at most 16 u (1.8 |q| + |t|). Rounding s and R^T s adds 5 u |s|. With d >= |R^T R - I|, which is at most
 ///   10^-5, and |q| <= 1.01 (|s| + 17 u |t|), all this is at most (1.01 d + 36 u) |s| + 18 u |t|. The ends are moved
-///   outwards by (2 d + 64 u) |s| + 64 u |t|, with sums of magnitudes for |s| and |t|, and by 2^-1070.
+///   outwards by (2 d + 64 u) |s| + 64 u |t|, with sums of magnitudes for |s| and |t|, and by 2^-1070. So are those of
+///   a box that is turned, with the greatest magnitudes in the box: an end is a sum of three products like R^T s.
 class Displacement_bound {
  public:
   /// O(V).
@@ -50,9 +51,9 @@ class Displacement_bound {
   /// O(log N) for N nodes.
   /// @return true: whether a leaf lies in its box is seen without this
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates);
-  /// Takes the boxes of all nodes. O(V) unless the frame is the identity, and O(N).
+  /// Takes the boxes of all nodes. O(N). In a frame a leaf has the box around its fitted one, turned.
   /// @return true, as `note_read`
-  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates);
+  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates, bool all);
 
  private:
   /// What is known of a node.
@@ -126,6 +127,9 @@ class Displacement_promise {
     Aabb to_world(const Aabb& box) const;
     /// The box of a leaf's vertices.
     Aabb to_frame(std::span<const std::uint32_t> vertices, Coordinates coordinates) const;
+    /// A box of all that is in a box, which is finite.
+    Aabb to_frame(const Aabb& box) const;
+    double margin_to_frame(double farthest) const;
   };
   static std::optional<Frame> checked(const Eigen::Isometry3d& frame);
   void check(std::span<const double> per_region) const;

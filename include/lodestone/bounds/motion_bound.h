@@ -36,13 +36,13 @@ concept Watching_bound =
 
 /// A bound that need not be shown leaf by leaf what is read as a whole.
 ///
-/// `bound.note_all(fitted, coordinates)` is called in place of `note_read` for the leaves when all vertices have been
-/// read, with the boxes fitted to all nodes. It may compare less with the promise: answers rely on nothing then but on
-/// boxes, and those are compared with the fitted ones.
+/// `bound.note_all(fitted, coordinates, all)` is called in place of `note_read` for the leaves when all vertices have
+/// been read, with the boxes fitted to all nodes. Unless `all` is set, it may compare less with the promise: answers
+/// rely on nothing then but on boxes, and those are compared with the fitted ones.
 template <class B>
 concept All_watching_bound =
-    Watching_bound<B> && requires(B& bound, std::span<const Aabb> fitted, Coordinates coordinates) {
-      { bound.note_all(fitted, coordinates) } -> std::same_as<bool>;
+    Watching_bound<B> && requires(B& bound, std::span<const Aabb> fitted, Coordinates coordinates, bool all) {
+      { bound.note_all(fitted, coordinates, all) } -> std::same_as<bool>;
     };
 
 /// Opens the axis of a box that has overflowed: it says nothing then. O(1).

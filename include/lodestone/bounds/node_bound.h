@@ -26,11 +26,14 @@ class Node_bound {
   /// See Watching_bound.
   virtual bool note_read(std::uint32_t /*leaf*/, const Aabb& /*fitted*/, Coordinates /*coordinates*/) { return true; }
   /// See All_watching_bound; only if `notes_all`.
-  virtual bool note_all(std::span<const Aabb> /*fitted*/, Coordinates /*coordinates*/) { return true; }
+  virtual bool note_all(std::span<const Aabb> /*fitted*/, Coordinates /*coordinates*/, bool /*all*/) { return true; }
   /// Whether `note_all` takes the place of `note_read`.
   virtual bool notes_all() const { return false; }
   /// Whether `note_read` does anything.
   virtual bool watches() const { return false; }
+  /// How many vertices can be read one after the other in the time that a box takes, about.
+  virtual std::size_t effort() const { return usual_effort; }
+  static constexpr std::size_t usual_effort = 56;  ///< of bounds that do not say
 };
 
 /// A bound as a Node_bound.
@@ -51,11 +54,17 @@ class Node_bound_of final : public Node_bound {
     else
       return true;
   }
-  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates) override {
+  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates, bool all) override {
     if constexpr (All_watching_bound<std::remove_reference_t<B>>)
-      return bound_.note_all(fitted, coordinates);
+      return bound_.note_all(fitted, coordinates, all);
     else
       return true;
+  }
+  std::size_t effort() const override {
+    if constexpr (requires { bound_.effort(); })
+      return bound_.effort();
+    else
+      return usual_effort;
   }
   bool notes_all() const override {
     if constexpr (requires { bound_.notes_all(); })
@@ -93,11 +102,15 @@ class Any_bound {
     return bound_->note_read(leaf, fitted, coordinates);
   }
   /// See All_watching_bound; only if `notes_all`.
-  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates) { return bound_->note_all(fitted, coordinates); }
+  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates, bool all) {
+    return bound_->note_all(fitted, coordinates, all);
+  }
   /// Whether `note_all` takes the place of `note_read`.
   bool notes_all() const { return bound_->notes_all(); }
   /// Whether the bound watches.
   bool watches() const { return bound_->watches(); }
+  /// How many vertices can be read one after the other in the time that a box takes, about.
+  std::size_t effort() const { return bound_->effort(); }
 
  private:
   std::unique_ptr<Node_bound> bound_;

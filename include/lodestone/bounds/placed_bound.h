@@ -50,9 +50,10 @@ class Placed_bound final : public Node_bound {
   /// Shows the bound where the vertices of a leaf are in the mesh. Moving them back would round. Given positions it
   /// must not see.
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) override;
-  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates) override {
-    return *given_ || bound_->note_all(fitted, coordinates);
+  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates, bool all) override {
+    return *given_ || bound_->note_all(fitted, coordinates, all);
   }
+  std::size_t effort() const override { return bound_->effort(); }
   /// Not where vertices lie elsewhere in the mesh.
   bool notes_all() const override { return *given_ || (!*placement_ && bound_->notes_all()); }
   bool watches() const override { return bound_->watches(); }

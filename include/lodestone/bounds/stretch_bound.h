@@ -54,10 +54,12 @@ class Stretch_bound {
   /// Compares the edges of a leaf that has been read with what was promised.
   /// @return false: an edge of the leaf is longer than was promised, by more than 10^-9 of its length. O(faces).
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) const;
-  /// Compares one leaf in 64, others in each call: to compare all edges takes several times as long as to read all
-  /// vertices.
+  /// Compares all edges, or those of one leaf in 64, of others in each call: to compare all takes several times as long
+  /// as to read all vertices.
   /// @return as `note_read`
-  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates);
+  bool note_all(std::span<const Aabb> fitted, Coordinates coordinates, bool all);
+  /// See Node_bound.
+  std::size_t effort() const { return 120; }
 
   /// The landmarks of a node.
   std::span<const Landmark> landmarks(std::uint32_t node) const {

@@ -229,6 +229,7 @@ class Exact_object {
   };
 
   std::unique_ptr<Node_bound> bound_of_points(const Bounded_object& object);
+  bool show_mesh(Node_bound& bound, const Tree_layout& layout);
   std::vector<std::unique_ptr<Node_bound>> promised_bounds(const Bounded_object& object);
   void replace(Faces anew);
   void start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces);
@@ -293,7 +294,22 @@ std::unique_ptr<Node_bound> Exact_object<Volume>::bound_of_points(const Bounded_
   const Bounded_object in_mesh{
       .layout = object.layout, .labels = object.labels, .rest = rest_of_points_, .positions = *mesh_positions_};
   auto bound = mesh().own_bound(in_mesh);
-  return bound ? std::make_unique<Placed_bound>(std::move(bound), placement_, given_, in_mesh) : nullptr;
+  if (!bound || (given_ && !show_mesh(*bound, object.layout))) return nullptr;
+  return std::make_unique<Placed_bound>(std::move(bound), placement_, given_, in_mesh);
+}
+
+/// Shows a bound of the points where they are in the mesh. As long as others are given, nobody else does.
+/// @return false: a coordinate is not finite, and the bound does not know where the vertices are
+template <Bounding_volume Volume>
+bool Exact_object<Volume>::show_mesh(Node_bound& bound, const Tree_layout& layout) {
+  const Coordinates in_mesh = mesh().read();
+  if (!layout.finite(in_mesh)) return false;
+  for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf) {
+    Aabb box;
+    box.enclose(layout.leaf_faces(leaf, in_mesh));
+    bound.note_read(leaf, box, in_mesh);
+  }
+  return true;
 }
 
 /// A promise that does not fit is forgotten: it would stand in the way of every query to come.
