@@ -12,9 +12,9 @@ namespace lodestone {
 
 namespace {
 
-/// To pose one vertex with its leaf takes as long as to pose so many in order, with what else is done to the leaf.
+/// To pose a vertex with its leaf takes as long as to pose so many in order.
 constexpr std::size_t effort_of_vertex = 7;
-/// Computed positions take so many times as long as those in memory, beside which boxes take less.
+/// To compute a position takes so many times as long as to read one, so boxes count so many times less.
 constexpr std::size_t computed_share = 7;
 
 bool contains(const Aabb& outer, const Aabb& inner) {
@@ -66,7 +66,7 @@ Bounded_surface::Bounded_surface(Tree_surface& tree, std::unique_ptr<const Posit
 void Bounded_surface::start_frame() {
   const std::uint64_t pose = positions_->pose_number();
   if (pose > 0 && pose_ == pose) return;
-  pose_ = pose;
+  pose_ = 0;  // if memory runs out, the next call does all of this again
   plan_frame();
   ++frame_;
   all_posed_ = much_was_near_ = false;
@@ -74,19 +74,21 @@ void Bounded_surface::start_frame() {
   violations_settled_ = 0;
   violations_ = nodes_bounded_ = leaves_posed_ = vertices_posed_ = 0;
   follow_positions();
+  pose_ = pose;
 }
 
 /// Positions in memory are read where they are.
 void Bounded_surface::follow_positions() {
   const Coordinates there = positions_->in_memory();
+  if (there.empty()) posed_.resize(3 * std::size_t{positions_->vertex_count()});
   in_memory_ = !there.empty();
-  if (!in_memory_) posed_.resize(3 * std::size_t{positions_->vertex_count()});
   tree_->follow(in_memory_ ? there : Coordinates(posed_));
 }
 
 /// Decides by the last frame whether leaves are posed one by one in this one.
 void Bounded_surface::plan_frame() {
   constexpr std::size_t longest_pause = 32;
+  if (all_posed_ && !much_was_near_) return;  // for another reason, which says nothing about how much is near
   if (pause_left_ > 0) {
     pause_left_ = much_was_near_ ? pause_left_ - 1 : 0;
     if (!much_was_near_) pause_ = 0;

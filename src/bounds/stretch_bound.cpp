@@ -7,7 +7,6 @@
 #include "bounds/grown_box.h"
 #include "bounds/landmark_search.h"
 #include "lodestone/mesh/errors.h"
-#include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
 

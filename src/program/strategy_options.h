@@ -18,7 +18,8 @@ namespace lodestone {
 
 /// Whether the user chose a strategy or one of its settings.
 inline bool chooses_strategy(const CLI::App& command) {
-  const auto names = {"--strategy", "--seed", "--normal-weight", "--split", "--epsilon", "--lbg-tolerance", "--lbg-sample"};
+  const auto names = {"--strategy", "--seed",          "--normal-weight", "--split",
+                      "--epsilon",  "--lbg-tolerance", "--lbg-sample"};
   return std::ranges::any_of(names, [&](const char* name) { return command.count(name) > 0; });
 }
 

@@ -237,13 +237,14 @@ TEST(Displacement_bound, contacts_are_those_of_exhaustive_checking) {
   Given_object a(potato(18, 1), 32), b(potato(18, 2), 32);
   Displacement_promise promise_a, promise_b;
   Displacement_bound bound_a = promise_a.bound(a.bounded()), bound_b = promise_b.bound(b.bounded());
-  const auto surface_a = a.surface(bound_a), surface_b = b.surface(bound_b);
+  const auto surface_a = a.surface(bound_a), surface_b = b.surface(bound_b, true);
   Bounded_search search;
   std::size_t meetings = 0, posed = 0;
   for (int frame = 0; frame < 120; ++frame) {
     const Eigen::Isometry3d pose = Eigen::Translation3d(2.5 + std::cos(0.3 * frame), 0, 0) *
                                    Eigen::Isometry3d(Eigen::AngleAxisd(frame, Eigen::Vector3d::UnitY()));
     const double swell = 1 + 0.05 * std::sin(0.5 * frame);
+    if (frame % 2 == 0) b.now = std::vector<double>(b.now);  // elsewhere in memory
     a.pose([&](const Eigen::Vector3d& p) { return Eigen::Vector3d(swell * p); });
     b.pose([&](const Eigen::Vector3d& p) { return pose * p; });
     promise_a.move(0.05);
@@ -290,6 +291,47 @@ TEST(Displacement_bound, every_vertex_lies_in_its_boxes_after_all_were_shown_in_
       }
       EXPECT_EQ(nodes_outside(bound, object), 0U) << round;
     }
+  }
+}
+
+/// A cube whose faces are turned onto faces, where a box that is turned has nothing to spare.
+Face_soup cube_away_from_origin() {
+  Surface_mesh mesh = cube(1);
+  deform(mesh, [](const Point& p) { return Point(p.x() + 10, p.y() + 10, p.z() + 10); });
+  return Face_soup(mesh);
+}
+
+TEST(Displacement_bound, that_was_shown_all_allows_for_a_frame_that_is_not_quite_rigid) {
+  Given_object object(cube_away_from_origin(), 128);
+  ASSERT_EQ(object.layout.leaf_count(), 1U);
+  Displacement_promise promise;
+  Displacement_bound bound = promise.bound(object.bounded());
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  frame.linear() *= 1 + 1e-7;
+  promise.move(0, frame);
+  object.pose([&](const Eigen::Vector3d& q) { return Eigen::Vector3d(frame * q); });
+  EXPECT_TRUE(bound.note_all(fitted_nodes(object), object.now, false));
+  promise.move(0, Eigen::Isometry3d::Identity());
+  object.now = object.rest.coordinates;  // q, which has not moved
+  EXPECT_EQ(nodes_outside(bound, object), 0U);
+}
+
+TEST(Displacement_bound, that_was_shown_all_allows_for_the_rounding_of_positions_far_away) {
+  std::mt19937_64 random(5);
+  for (int round = 0; round < 50; ++round) {
+    Given_object object(cube_away_from_origin(), 128);
+    Displacement_promise promise;
+    Displacement_bound bound = promise.bound(object.bounded());
+    Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+    frame.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+    frame.translation() = 1e9 * random_direction(random);
+    promise.move(0, frame);
+    object.pose([&](const Eigen::Vector3d& q) { return Eigen::Vector3d(frame * q); });
+    EXPECT_TRUE(bound.note_all(fitted_nodes(object), object.now, false));
+    promise.move(0, Eigen::Isometry3d::Identity());
+    object.now = object.rest.coordinates;
+    EXPECT_EQ(nodes_outside(bound, object), 0U);
   }
 }
 

@@ -33,6 +33,9 @@ class Given_positions final : public Position_source {
   }
   void pose_all(std::span<double> coordinates) const override { std::ranges::copy(*coordinates_, coordinates.begin()); }
   Coordinates all(std::span<double> /*memory*/) const override { return *coordinates_; }
+  Coordinates in_memory() const override { return reads_in_place ? Coordinates(*coordinates_) : Coordinates(); }
+
+  bool reads_in_place = false;
 
  private:
   const std::vector<double>* coordinates_;
@@ -80,10 +83,12 @@ struct Given_object {
     return box;
   }
   template <class Bound>
-  std::unique_ptr<Bounded_surface> surface(Bound& bound) {
+  std::unique_ptr<Bounded_surface> surface(Bound& bound, bool in_place = false) {
     std::vector<std::unique_ptr<Node_bound>> bounds;
     bounds.push_back(std::make_unique<Node_bound_of<Bound&>>(bound));
-    return std::make_unique<Bounded_surface>(tree, std::make_unique<Given_positions>(now), std::move(bounds));
+    auto source = std::make_unique<Given_positions>(now);
+    source->reads_in_place = in_place;
+    return std::make_unique<Bounded_surface>(tree, std::move(source), std::move(bounds));
   }
 
   static Eigen::Vector3d at(const std::vector<double>& coordinates, std::uint32_t vertex) {

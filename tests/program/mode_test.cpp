@@ -179,9 +179,12 @@ TEST_F(Program_mode, options_of_other_strategies_are_refused) {
   expect_success(detect({"--normal-weight", "1", "--strategy", "kmeans++"}));
 }
 
-TEST_F(Program_mode, threads_are_refused_where_the_strategy_alone_would_use_them_and_does_not) {
+TEST_F(Program_mode, threads_share_frames_whatever_the_strategy) {
   expect_success(detect({"--threads", "2", "--strategy", "grid", "--mode", "particles"}));
   expect_success(detect({"--threads", "2", "--strategy", "grid"}));
+}
+
+TEST_F(Program_mode, threads_are_refused_where_the_strategy_alone_would_use_them_and_does_not) {
   const auto square = (folder.path() / "square.off").string();
   expect_error(run_program({"partition", square, "--threads", "2", "--strategy", "grid"}), 2, "--threads");
   expect_success(run_program({"partition", square, "--threads", "2"}));

@@ -119,14 +119,13 @@ TEST(Bounded_surface, that_was_posed_as_a_whole_poses_leaf_by_leaf_again_when_li
     search.run(a.surface, b.surface, {}, found);
     EXPECT_EQ(found, exhaustive_face_pairs(a.mesh, b.mesh));
   };
-  int by_leaf = 0;
-  for (int frame = 0; frame < 40; ++frame) {
+  std::vector<int> tries;  // frames in which leaves were posed before it gave up
+  for (int frame = 0; frame < 110; ++frame) {
     play(0.01, frame);
     EXPECT_TRUE(a.surface.all_posed());
-    by_leaf += a.surface.nodes_bounded() > 20 ? 1 : 0;  // before it gave up
+    if (a.surface.nodes_bounded() > 20) tries.push_back(frame);
   }
-  EXPECT_GE(by_leaf, 3);
-  EXPECT_LE(by_leaf, 8);
+  EXPECT_EQ(tries, (std::vector{0, 2, 5, 10, 19, 36, 69, 102}));
   play(30, 100);  // nothing is near
   EXPECT_EQ(a.surface.vertices_posed(), 0U);
   for (double x = 6.5; x > 4; x -= 0.02) {
@@ -135,6 +134,41 @@ TEST(Bounded_surface, that_was_posed_as_a_whole_poses_leaf_by_leaf_again_when_li
   }
   EXPECT_GT(a.surface.leaves_posed(), 0U);
   EXPECT_FALSE(a.surface.all_posed());
+  tries.clear();
+  for (int frame = 0; frame < 5; ++frame) {
+    play(0.01, frame);
+    if (a.surface.nodes_bounded() > 20) tries.push_back(frame);
+  }
+  EXPECT_EQ(tries, (std::vector{0, 2}));  // pauses are short again
+}
+
+TEST(Bounded_surface, gives_up_when_boxes_alone_take_longer_than_to_pose_all) {
+  Arm a(long_potato(30, 1), false);
+  a.pose(0.4, {0, 0, 0});
+  Bounded_surface surface(a.tree, a.points, a.bound);
+  std::uint32_t node = 0;
+  while (!surface.all_posed() && node < a.layout.node_count()) surface.box(node++);
+  ASSERT_TRUE(surface.all_posed());
+  EXPECT_GT(surface.nodes_bounded(), 10U);
+  EXPECT_LT(surface.nodes_bounded(), a.layout.node_count());
+  EXPECT_EQ(surface.vertices_posed(), a.layout.vertex_begin().back());
+}
+
+TEST(Bounded_surface, goes_on_pausing_after_a_frame_in_which_something_else_posed_all) {
+  Arm a(long_potato(16, 1), false), b(long_potato(16, 1), false);
+  Bounded_search search;
+  std::vector<int> tries;
+  for (int frame = 0; frame < 12; ++frame) {
+    a.pose(0.3 + 0.001 * frame, {0, 0, 0});
+    b.pose(0.3, {0.01, 0.005, 0});
+    std::vector<Face_pair> found;
+    search.run(a.surface, b.surface, {}, found);
+    if (a.surface.nodes_bounded() > 20) tries.push_back(frame);
+    a.pose(0.3005 + 0.001 * frame, {0, 0, 0});
+    a.surface.start_frame();
+    a.surface.pose_all();
+  }
+  EXPECT_EQ(tries, (std::vector{0, 2, 5, 10}));
 }
 
 TEST(Bounded_search, poses_all_where_much_is_near) {

@@ -18,17 +18,19 @@
 namespace lodestone {
 
 /// A surface whose nodes are bounded without being read, and whose leaves are posed when somebody needs their faces.
-/// Nothing is done before it is asked for, and nothing twice in a pose. A node below which all leaves have been posed
-/// has the box fitted to them.
+/// Nothing is done before it is asked for, and nothing twice in a pose, but for leaves that were posed before all are. A
+/// node below which all leaves have been posed has the box fitted to them.
 ///
-/// A bound is a promise. The vertices of a leaf that is posed are compared with the boxes of the leaf and of the whole,
-/// and where all vertices are posed with all boxes in use. If one lies outside, or if bounds have no point in common,
-/// `is_broken()` says so, and whoever relied on boxes must `settle` the surface and ask again.
+/// A bound is a promise. The vertices of a leaf that is posed are compared with the boxes of the leaf and of the whole;
+/// a node below which all leaves have been posed, with its box if that was in use; and where all vertices are posed, all
+/// boxes in use. If a vertex lies outside, or if bounds have no point in common, `is_broken()` says so, and whoever
+/// relied on boxes must `settle` the surface and ask again.
 ///
-/// Where much is near, boxes from bounds and leaves that are posed one by one take longer than to pose all. So all
-/// vertices are posed once as much has been done as that takes, by number: once a seventh of the vertices has been
-/// posed, or fewer and boxes. In the next frames all are posed as soon as more than the box of the whole is needed: for
-/// 1 frame, then after another such try for 2, 4 and at most 32. A frame in which no more was needed ends that.
+/// Boxes, and leaves that are posed one by one, can take longer than to pose all. Both are counted, in vertices that
+/// could have been posed in order in that time. Once the count exceeds the vertices of all leaves, all are posed. The
+/// next frame then poses all as soon as it needs more than the box of the whole. After that leaves are tried again; each
+/// further try that fails is followed by 2, 4 and at most 32 such frames. A frame that needs only the box of the whole
+/// ends that.
 ///
 /// Boxes and positions are written to the tree's surface. Not for several threads at once.
 class Bounded_surface {
@@ -103,7 +105,8 @@ class Bounded_surface {
     if (is_posed(leaf)) return Leaf_state::posed;
     return boxed_in_[layout().leaf_node(leaf)] == frame_ ? Leaf_state::bounded : Leaf_state::far;
   }
-  /// What has been posed. Only leaves that were posed in this frame may be read.
+  /// What has been posed. Only leaves that were posed in this frame may be read. The coordinates can be those of the
+  /// mesh: valid until it changes, or other positions are given.
   /// @pre the root has a box in this frame, and it is finite
   Layout_view view() const { return {&layout(), tree_->coordinates(), boxes_[0], boxes_}; }
 
@@ -142,8 +145,8 @@ class Bounded_surface {
   std::vector<std::unique_ptr<Node_bound>> bounds_;
   Workers* workers_;
   std::string title_;
-  Unset_vector<double> posed_;  ///< 3 V: only those of posed leaves mean something; empty: not needed yet
-  bool in_memory_ = false;      ///< positions are where the tree reads them
+  Unset_vector<double> posed_;  ///< 3 V: only those of posed leaves mean something; empty as long as positions lie in memory
+  bool in_memory_ = false;      ///< the tree reads positions where they lie, `posed_` is not used
   bool compares_all_ = false;
   std::size_t effort_of_boxes_ = 0;  ///< of one node: see Node_bound
   std::span<Aabb> boxes_;                 ///< per node, of the tree

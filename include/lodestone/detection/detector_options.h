@@ -53,8 +53,8 @@ struct Exact_options {
   bool patches = false;         ///< also group the contacts of a pair into contact patches; not with yes_no
   std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it. In all
                                 ///< modes, for builds and for frames; LBG has its own option
-  bool throw_if_broken = false;   ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass; all
-                                  ///< that is read is compared with it
+  bool throw_if_broken = false;   ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass;
+                                  ///< all that is read is compared with what was promised
   double loosest = 2;             ///< rebuild an object's tree when its leaves are looser by this factor; > 1
   Region_tree_options tree = {};  ///< of an object's tree
 };

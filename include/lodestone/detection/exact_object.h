@@ -294,7 +294,11 @@ std::unique_ptr<Node_bound> Exact_object<Volume>::bound_of_points(const Bounded_
   const Bounded_object in_mesh{
       .layout = object.layout, .labels = object.labels, .rest = rest_of_points_, .positions = *mesh_positions_};
   auto bound = mesh().own_bound(in_mesh);
-  if (!bound || (given_ && !show_mesh(*bound, object.layout))) return nullptr;
+  if (!bound) return nullptr;
+  if (given_ && !show_mesh(*bound, object.layout)) {
+    rest_of_points_.clear();
+    return nullptr;
+  }
   return std::make_unique<Placed_bound>(std::move(bound), placement_, given_, in_mesh);
 }
 
@@ -302,6 +306,7 @@ std::unique_ptr<Node_bound> Exact_object<Volume>::bound_of_points(const Bounded_
 /// @return false: a coordinate is not finite, and the bound does not know where the vertices are
 template <Bounding_volume Volume>
 bool Exact_object<Volume>::show_mesh(Node_bound& bound, const Tree_layout& layout) {
+  if (!bound.watches()) return true;  // it knows by itself
   const Coordinates in_mesh = mesh().read();
   if (!layout.finite(in_mesh)) return false;
   for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf) {

@@ -29,6 +29,7 @@ class Position_source {
   /// @param coordinates  3 V, written
   virtual void pose_all(std::span<double> coordinates) const = 0;
   /// All of them, if they lie in memory; empty: they must be computed. O(1).
+  /// @return valid as long as the pose number stays; if that is 0, until the next look
   virtual Coordinates in_memory() const { return {}; }
   /// All of them, where they lie in memory already.
   /// @param memory  3 V: written if they do not

@@ -47,10 +47,7 @@ class Bounded_search {
   template <class Visitor>
   End walk(bool until_all_posed, Visitor&& visitor);
   void deeper_first();
-  bool are_near(Node_pair pair) {
-    const Aabb &of_a = a_->box(pair.a), &of_b = b_->box(pair.b);
-    return tolerance_ == 0 ? overlap(of_a, of_b) : near(of_a, of_b, tolerance_);
-  }
+  bool are_near(Node_pair pair) { return near(a_->box(pair.a), b_->box(pair.b), tolerance_); }
   template <class Visitor>
   End test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor);
   void begin_filter();

@@ -42,18 +42,6 @@ struct alignas(64) Aabb {
   }
 };
 
-/// Whether two boxes have a point in common: the sign of a difference of doubles is exact. Ends may be infinite where
-/// boxes are open. O(1).
-inline bool overlap(const Aabb& a, const Aabb& b) {
-  double gap = a.low[0] - b.high[0];
-  for (int axis = 0; axis < 3; ++axis) {
-    const double above = a.low[axis] - b.high[axis], below = b.low[axis] - a.high[axis];
-    gap = gap > above ? gap : above;
-    gap = gap > below ? gap : below;
-  }
-  return gap <= 0;
-}
-
 /// What the squared distance of boxes, as computed, exceeds only if they are farther apart than the margin.
 ///
 /// The gaps, their squares and the sums make six roundings of each square, and the square of the margin has one. 64 are
