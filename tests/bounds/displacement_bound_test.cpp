@@ -294,6 +294,19 @@ TEST(Displacement_bound, every_vertex_lies_in_its_boxes_after_all_were_shown_in_
   }
 }
 
+TEST(Bounded_surface, gives_up_when_boxes_alone_take_longer_than_to_read_all) {
+  Given_object object(potato(12), 12);
+  const Displacement_promise promise;
+  Displacement_bound bound = promise.bound(object.bounded());
+  const auto surface = object.surface(bound, true);
+  std::uint32_t node = 0;
+  while (!surface->all_posed() && node < object.layout.node_count()) surface->box(node++);
+  ASSERT_TRUE(surface->all_posed());
+  EXPECT_GT(surface->nodes_bounded(), 10U);
+  EXPECT_LT(surface->nodes_bounded(), object.layout.node_count() / 2);
+  EXPECT_EQ(surface->vertices_posed(), object.layout.vertex_begin().back());
+}
+
 /// A cube whose faces are turned onto faces, where a box that is turned has nothing to spare.
 Face_soup cube_away_from_origin() {
   Surface_mesh mesh = cube(1);

@@ -142,18 +142,6 @@ TEST(Bounded_surface, that_was_posed_as_a_whole_poses_leaf_by_leaf_again_when_li
   EXPECT_EQ(tries, (std::vector{0, 2}));  // pauses are short again
 }
 
-TEST(Bounded_surface, gives_up_when_boxes_alone_take_longer_than_to_pose_all) {
-  Arm a(long_potato(30, 1), false);
-  a.pose(0.4, {0, 0, 0});
-  Bounded_surface surface(a.tree, a.points, a.bound);
-  std::uint32_t node = 0;
-  while (!surface.all_posed() && node < a.layout.node_count()) surface.box(node++);
-  ASSERT_TRUE(surface.all_posed());
-  EXPECT_GT(surface.nodes_bounded(), 10U);
-  EXPECT_LT(surface.nodes_bounded(), a.layout.node_count());
-  EXPECT_EQ(surface.vertices_posed(), a.layout.vertex_begin().back());
-}
-
 TEST(Bounded_surface, goes_on_pausing_after_a_frame_in_which_something_else_posed_all) {
   Arm a(long_potato(16, 1), false), b(long_potato(16, 1), false);
   Bounded_search search;
