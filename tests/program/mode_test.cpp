@@ -185,7 +185,7 @@ TEST_F(Program_mode, threads_share_frames_whatever_the_strategy) {
 }
 
 TEST_F(Program_mode, threads_are_refused_where_the_strategy_alone_would_use_them_and_does_not) {
-  const auto square = (folder.path() / "square.off").string();
+  const auto square = folder.write("square.off", square_off).string();
   expect_error(run_program({"partition", square, "--threads", "2", "--strategy", "grid"}), 2, "--threads");
   expect_success(run_program({"partition", square, "--threads", "2"}));
 }
