@@ -30,13 +30,6 @@ bool is_empty(const Aabb& box) {
   return result;
 }
 
-std::vector<std::uint32_t> parents_of(const Tree_layout& layout) {
-  std::vector<std::uint32_t> parents(layout.node_count(), 0);
-  for (std::uint32_t node = 0; node < parents.size(); ++node)
-    if (!layout.is_leaf(node)) parents[node + 1] = parents[layout.node(node).second_child] = node;
-  return parents;
-}
-
 void check_nodes(const Node_bound& bound, const Tree_layout& layout) {
   if (bound.node_count() < layout.node_count()) throw Bad_argument("a bound was made for a tree of fewer nodes");
 }
@@ -54,7 +47,7 @@ Bounded_surface::Bounded_surface(Tree_surface& tree, std::unique_ptr<const Posit
       boxed_in_(layout().node_count(), 0),
       posed_in_(layout().leaf_count(), 0),
       fitted_in_(layout().node_count(), 0),
-      parents_(parents_of(layout())) {
+      parents_(layout().parents()) {
   check_layout(layout(), positions_->vertex_count());
   for (const auto& bound : bounds_) {
     check_nodes(*bound, layout());

@@ -35,7 +35,7 @@ Displacement_bound::Displacement_bound(const Displacement_promise& promise, cons
     : promise_(&promise),
       layout_(&object.layout),
       last_(object.layout.node_count()),
-      parents_(object.layout.node_count(), 0) {
+      parents_(object.layout.parents()) {
   check_object(object);
   const bool tells_apart = promise.region_count() > 1;
   if (tells_apart)
@@ -51,7 +51,6 @@ Displacement_bound::Displacement_bound(const Displacement_promise& promise, cons
       last_[node].box = in_frame(layout_->node(node).leaf, boxes[node], object.rest);
       continue;
     }
-    for (const auto child : {node + 1, layout_->node(node).second_child}) parents_[child] = node;
     last_[node].box = around_children(node);
   }
 }

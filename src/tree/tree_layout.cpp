@@ -71,6 +71,13 @@ void Tree_layout::find_parts() {
   }
 }
 
+std::vector<std::uint32_t> Tree_layout::parents() const {
+  std::vector<std::uint32_t> parents(node_count(), 0);
+  for (std::uint32_t node = 0; node < node_count(); ++node)
+    if (!is_leaf(node)) parents[node + 1] = parents[nodes_[node].second_child] = node;
+  return parents;
+}
+
 bool Tree_layout::finite(Coordinates coordinates) const {
   return std::ranges::all_of(vertices_, [&](std::uint32_t vertex) {
     const auto position = coordinates.subspan(3 * std::size_t{vertex}, 3);

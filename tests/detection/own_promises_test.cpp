@@ -36,6 +36,14 @@ struct Promised_points {
   }
 };
 
+/// Where nothing else is.
+template <class Promise>
+Positions far_from(const Promised_points<Promise>& points) {
+  Positions far = Eigen::Map<const Positions>(points.now.data(), points.vertex_count(), 3);
+  far.col(1).array() += 100;
+  return far;
+}
+
 template <class Promise>
 class Own_promise : public testing::Test {};
 using Promises = testing::Types<Displacement_promise, Lipschitz_promise, Stretch_promise>;
@@ -177,9 +185,7 @@ TEST(Own_displacement, knows_nothing_of_given_positions) {
   points.shift(3.5, 0);
   points.promise.move(3.501);
   EXPECT_TRUE(detector.detect().collides());
-  Positions far = Eigen::Map<const Positions>(points.now.data(), points.vertex_count(), 3);
-  far.col(1).array() += 100;
-  detector.update(0, far);
+  detector.update(0, far_from(points));
   EXPECT_FALSE(detector.detect().collides());
   detector.update(0);
   EXPECT_TRUE(detector.detect().collides());
@@ -207,9 +213,7 @@ TEST(Own_displacement, that_is_made_while_positions_are_given_knows_where_the_po
     points.shift(8, 0);
     points.promise.move(8.008);
     EXPECT_TRUE(detector.detect().collides());
-    Positions far = Eigen::Map<const Positions>(points.now.data(), points.vertex_count(), 3);
-    far.col(1).array() += 100;
-    detector.update(0, far);
+    detector.update(0, far_from(points));
     make_anew(detector);
     EXPECT_FALSE(detector.detect().collides());
     detector.update(0);

@@ -18,19 +18,22 @@
 namespace lodestone {
 
 /// A surface whose nodes are bounded without being read, and whose leaves are posed when somebody needs their faces.
-/// Nothing is done before it is asked for, and nothing twice in a pose, but for leaves that were posed before all are. A
-/// node below which all leaves have been posed has the box fitted to them.
+/// Nothing is done before it is asked for. Nothing is done twice in a pose, except that leaves which were posed one by
+/// one are posed again with all. A node below which all leaves have been posed has the box fitted to them.
 ///
-/// A bound is a promise. The vertices of a leaf that is posed are compared with the boxes of the leaf and of the whole;
-/// a node below which all leaves have been posed, with its box if that was in use; and where all vertices are posed, all
-/// boxes in use. If a vertex lies outside, or if bounds have no point in common, `is_broken()` says so, and whoever
-/// relied on boxes must `settle` the surface and ask again.
+/// A bound is a promise, and what is read is compared with it:
+/// - the vertices of a leaf that is posed, with the boxes of the leaf and of the whole;
+/// - the leaves below a node, once all of them have been posed, with the node's box if that was in use;
+/// - all vertices, where all are posed, with all boxes in use.
+///
+/// If a vertex lies outside, or if bounds have no point in common, `is_broken()` says so, and whoever relied on boxes
+/// must `settle` the surface and ask again.
 ///
 /// Boxes, and leaves that are posed one by one, can take longer than to pose all. Both are counted, in vertices that
 /// could have been posed in order in that time. Once the count exceeds the vertices of all leaves, all are posed. The
-/// next frame then poses all as soon as it needs more than the box of the whole. After that leaves are tried again; each
-/// further try that fails is followed by 2, 4 and at most 32 such frames. A frame that needs only the box of the whole
-/// ends that.
+/// next frame then poses all as soon as it needs more than the box of the whole. After that leaves are tried again;
+/// each further try that fails is followed by 2, 4 and at most 32 such frames. A frame that needs only the box of the
+/// whole ends that.
 ///
 /// Boxes and positions are written to the tree's surface. Not for several threads at once.
 class Bounded_surface {
@@ -145,10 +148,10 @@ class Bounded_surface {
   std::vector<std::unique_ptr<Node_bound>> bounds_;
   Workers* workers_;
   std::string title_;
-  Unset_vector<double> posed_;  ///< 3 V: only those of posed leaves mean something; empty as long as positions lie in memory
+  Unset_vector<double> posed_;  ///< 3 V: those of posed leaves mean something; empty as long as positions lie in memory
   bool in_memory_ = false;      ///< the tree reads positions where they lie, `posed_` is not used
   bool compares_all_ = false;
-  std::size_t effort_of_boxes_ = 0;  ///< of one node: see Node_bound
+  std::size_t effort_of_boxes_ = 0;       ///< of one node: see Node_bound
   std::span<Aabb> boxes_;                 ///< per node, of the tree
   std::vector<std::uint64_t> boxed_in_;   ///< per node: the frame of its box
   std::vector<std::uint64_t> posed_in_;   ///< per leaf: the frame in which it was posed

@@ -123,6 +123,9 @@ class Tree_layout {
   /// Per leaf: the index of its node.
   std::span<const std::uint32_t> leaf_nodes() const { return leaf_nodes_; }
 
+  /// Per node: the node above it; the root's is itself. O(N) for N nodes.
+  std::vector<std::uint32_t> parents() const;
+
   /// Whether all coordinates that faces use are finite. O(V).
   bool finite(Coordinates coordinates) const;
 
