@@ -310,7 +310,7 @@ TEST(Bounded_surface, gives_up_when_boxes_alone_take_longer_than_to_read_all) {
 /// A cube whose faces are turned onto faces, where a box that is turned has nothing to spare.
 Face_soup cube_away_from_origin() {
   Surface_mesh mesh = cube(1);
-  deform(mesh, [](const Point& p) { return Point(p.x() + 10, p.y() + 10, p.z() + 10); });
+  deform(mesh, [](const Point& p) { return Point(p.x() + 10.1, p.y() + 10.1, p.z() + 10.1); });
   return Face_soup(mesh);
 }
 
