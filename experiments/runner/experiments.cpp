@@ -8,6 +8,7 @@ namespace lodestone {
 // Each in the folder of its name.
 std::string run_teapot_sphere(const Experiment_context& context);
 std::string run_certified(const Experiment_context& context);
+std::string run_certified_soak(const Experiment_context& context);
 std::string run_scaling(const Experiment_context& context);
 std::string run_predecessor(const Experiment_context& context);
 std::string run_collision_distance(const Experiment_context& context);
@@ -47,6 +48,8 @@ std::span<const Experiment> experiments() {
       {"rebuild", "When does a tree of the mode exact become too loose, and does a rebuild pay?", run_rebuild},
       {"self_collision", "How fast is self-collision of a deforming mesh, beside CGAL?", run_self_collision},
       {"soak", "Does the exact mode ever differ from exhaustive checking?", run_soak},
+      {"certified_soak", "Does the certified mode ever differ from the exact mode, or a vertex leave its bound?",
+       run_certified_soak},
       {"threads", "How much faster are several threads than one?", run_threads},
       {"volumes", "What does refitting bounding volumes cost per frame, and which are tightest?", run_volumes},
 #ifdef LODESTONE_PEERS

@@ -43,10 +43,10 @@ void add_options(CLI::App& app, Experiment_command& command) {
       ->capture_default_str();
   app.add_option_function<std::string>(
          "--shard", [&command](const std::string& text) { command.shard = parse_shard(text); },
-         "Only the I-th of N parts, into --out; lodestone merge joins the parts (partitions, soak, every_frame)")
+         "Only the I-th of N parts, into --out; lodestone merge joins the parts (partitions, soak, certified_soak, every_frame)")
       ->type_name("I/N");
   app.add_flag("--merge-shards", command.merge_shards)->group("");  // lodestone merge gives it
-  app.add_option("--seeds", command.seeds, "Seeds 1 to N, each with its own meshes (soak)")
+  app.add_option("--seeds", command.seeds, "Seeds 1 to N, each with its own meshes (soak, certified_soak)")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->type_name("N")
       ->capture_default_str();
@@ -83,9 +83,9 @@ const std::vector<Special_option> special_options{
      {"peers", "every_frame", "modes", "many_bodies", "volumes", "defaults", "nested_codebook", "partitions",
       "first_answer", "certified", "threads"}},
     {"--jobs", {"partitions"}},
-    {"--shard", {"partitions", "soak", "every_frame"}},
-    {"--merge-shards", {"partitions", "soak", "every_frame"}},
-    {"--seeds", {"soak"}},
+    {"--shard", {"partitions", "soak", "certified_soak", "every_frame"}},
+    {"--merge-shards", {"partitions", "soak", "certified_soak", "every_frame"}},
+    {"--seeds", {"soak", "certified_soak"}},
     {"--strategy-file", {"partitions"}},
     {"--write-meshes", {"partitions", "certified"}}};
 

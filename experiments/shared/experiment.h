@@ -23,13 +23,13 @@ struct Experiment_context {
   /// always play all their scenes.
   std::vector<std::string> only = {};
 
-  // For long experiments (`partitions`, `soak`, `every_frame`).
+  // For long experiments (`partitions`, `soak`, `certified_soak`, `every_frame`).
   std::optional<Shard> shard = {};      ///< make only this part
   bool merge_shards = false;            ///< take all rows from the shards in `out`
   std::vector<std::string> words = {};  ///< of the command line, see words_of_work
 
   std::size_t jobs = 1;   ///< runs at a time (`partitions`)
-  std::size_t seeds = 1;  ///< seeds 1 to this (`soak`)
+  std::size_t seeds = 1;  ///< seeds 1 to this (`soak`, `certified_soak`)
 
   // For `partitions` alone.
   std::vector<std::filesystem::path> strategy_files = {};  ///< labels made by other tools: see read_given_labels

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "certified_soak/bound_check.h"
+
+#include <algorithm>
+
+#include "lodestone/mesh/mesh_numbering.h"
+
+namespace lodestone {
+
+namespace {
+
+std::vector<double> positions_of(const Random_body& body) {
+  std::vector<double> coordinates(3 * std::size_t{body.positions().vertex_count()});
+  body.positions().pose_all(coordinates);
+  return coordinates;
+}
+
+Aabb box_of(const std::vector<double>& coordinates, std::uint32_t vertex) {
+  Aabb box;
+  for (std::size_t axis = 0; axis < 3; ++axis) box.low[axis] = box.high[axis] = coordinates[3 * vertex + axis];
+  return box;
+}
+
+Aabb box_around(const Aabb& a, const Aabb& b) {
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(a.low[axis], b.low[axis]);
+    box.high[axis] = std::max(a.high[axis], b.high[axis]);
+  }
+  return box;
+}
+
+bool contains(const Aabb& box, const Aabb& other) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(box.low[axis] <= other.low[axis] && other.high[axis] <= box.high[axis])) return false;
+  return true;
+}
+
+}  // namespace
+
+Bound_check::Bound_check(const Random_body& body, std::size_t leaf_faces)
+    : body_(body),
+      corners_(Mesh_numbering<Surface_mesh>(body.mesh()).corners()),
+      rest_(positions_of(body)),
+      surface_(corners_, rest_, {.leaf_faces = leaf_faces}),
+      bound_(body.bound({surface_.tree(), {}, rest_, body.positions()})),
+      fitted_(surface_.tree().node_count()) {}
+
+/// Children before their parents. A box around points that are doubles is exact.
+void Bound_check::fit_boxes() {
+  const Tree_layout& layout = surface_.tree();
+  for (std::uint32_t node = static_cast<std::uint32_t>(fitted_.size()); node-- > 0;) {
+    if (const std::uint32_t second = layout.node(node).second_child; second != 0) {
+      fitted_[node] = box_around(fitted_[node + 1], fitted_[second]);
+      continue;
+    }
+    const auto vertices = layout.vertices(layout.node(node).leaf);
+    fitted_[node] = box_of(now_, vertices.front());
+    for (const std::uint32_t v : vertices) fitted_[node] = box_around(fitted_[node], box_of(now_, v));
+  }
+}
+
+Bound_check::Count Bound_check::check(Random& random) {
+  Count count;
+  if (!bound_) return count;
+  now_ = positions_of(body_);
+  fit_boxes();
+  for (std::uint32_t node = 0; node < fitted_.size(); ++node) {
+    ++count.boxes;
+    if (!contains(bound_->box(node), fitted_[node])) ++count.outside;
+  }
+  const Tree_layout& layout = surface_.tree();
+  if (random.one_in(4) && bound_->notes_all() && !bound_->note_all(fitted_, now_, true)) ++count.outside;
+  for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf)
+    if (random.one_in(4) && !bound_->note_read(leaf, fitted_[layout.leaf_node(leaf)], now_)) ++count.outside;
+  return count;
+}
+
+}  // namespace lodestone

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Compares mode certified with mode exact, and bounds with positions, on small bodies that move at random.
+#include "certified_soak/certified_soak.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "certified_soak/bound_check.h"
+#include "certified_soak/promised_bodies.h"
+#include "certified_soak/random_body.h"
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t frames_per_round = 24;
+
+/// Of any size up to 1/256: the pairs within a larger one would take most of the time.
+double random_length(Random& random) {
+  return std::ldexp(random.number(0.5, 1), -8 - static_cast<int>(random.below(22)));
+}
+
+Detector_options random_options(Random& random) {
+  Detector_options options;
+  options.contacts = random.one_in(3)   ? Contact_query::yes_no
+                     : random.one_in(3) ? Contact_query::first
+                                        : Contact_query::all;
+  const bool lists = options.contacts != Contact_query::yes_no;
+  options.contact_points = lists && random.one_in(5);
+  options.exact.patches = lists && random.one_in(8);
+  if (random.one_in(8)) options.particles = 1 + random.below(6);
+  if (random.one_in(8)) options.most_contacts = 1 + random.below(20);
+  options.exact.tolerance = random.one_in(3) ? random_length(random) : 0;
+  options.exact.self_collision = random.one_in(8);
+  options.exact.self_tolerance = options.exact.self_collision && random.one_in(3) ? random_length(random) : 0;
+  options.exact.containment = random.one_in(4);
+  options.exact.parting = random.one_in(16);
+  options.exact.threads = random.one_in(8) ? 3 : 1;
+  options.exact.throw_if_broken = random.one_in(4);
+  options.exact.tree.leaf_faces = 2 + random.below(100);
+  return options;
+}
+
+Detector_options in_mode(Mode mode, Detector_options options) {
+  options.mode = mode;
+  // All contacts are the truth about those of which a frame lists some.
+  if (mode == Mode::exact && options.contacts != Contact_query::all) options.contacts = Contact_query::all;
+  if (mode == Mode::exact) options.most_contacts = Detector_options().most_contacts;
+  return options;
+}
+
+/// Whether all contacts of one list are in another; both are sorted.
+bool includes(std::span<const Face_pair> all, std::span<const Face_pair> some) {
+  return std::ranges::includes(all, some);
+}
+
+Pair_result result_of(const Frame& frame, Object_id a, Object_id b) {
+  for (const auto& pair : frame.pairs)
+    if (pair.a == a && pair.b == b) return pair;
+  return {.a = a, .b = b};
+}
+
+/// What a detector with other lists of contacts must also say of a pair.
+bool same_pair(const Pair_result& found, const Pair_result& truth) {
+  const bool parted = found.parting.has_value() == truth.parting.has_value() &&
+                      (!found.parting || found.parting->translation == truth.parting->translation);
+  return found.collides == truth.collides && found.near == truth.near && found.containment == truth.containment &&
+         parted;
+}
+
+/// The two modes on the same bodies.
+class Two_detectors {
+ public:
+  explicit Two_detectors(const Detector_options& options)
+      : lists_all_(options.contacts == Contact_query::all && options.most_contacts > 1000),
+        most_(options.contacts == Contact_query::all ? options.most_contacts : 1),
+        lists_(options.contacts != Contact_query::yes_no),
+        tolerance_(options.exact.tolerance),
+        certified_(in_mode(Mode::certified, options)),
+        exact_(in_mode(Mode::exact, options)) {}
+
+  void add(const Random_body& body) {
+    body.add_to(exact_);
+    body.promise_to(certified_, body.add_to(certified_));
+    ++count_;
+  }
+  Detector<>& certified() { return certified_; }
+  /// Calls `act(detector)` for both.
+  void both(const auto& act) {
+    act(certified_);
+    act(exact_);
+  }
+
+  struct Frame_check {
+    bool collides = false, same = true;
+    std::size_t violations = 0;
+  };
+  Frame_check detect() {
+    const Frame& truth = exact_.detect();
+    const Frame& found = certified_.detect();
+    Frame_check check{.collides = truth.collides(), .violations = found.statistics.violations};
+    for (Object_id a = 0; a < count_; ++a)
+      for (Object_id b = a; b < count_; ++b) check.same &= same_answer(found, truth, a, b);
+    if (lists_all_)
+      check.same &= found.face_pairs == truth.face_pairs && found.contact_points == truth.contact_points &&
+                    found.patches.size() == truth.patches.size();
+    return check;
+  }
+
+  /// Asks both a question, and compares what they answer. Equal answers compare equal.
+  bool agree(const auto& ask) { return ask(certified_) == ask(exact_); }
+  double tolerance() const { return tolerance_; }
+
+ private:
+  bool same_answer(const Frame& found, const Frame& truth, Object_id a, Object_id b) const {
+    const Pair_result one = result_of(found, a, b), other = result_of(truth, a, b);
+    if (!same_pair(one, other)) return false;
+    const auto listed = found.contacts(one), all = truth.contacts(other);
+    if (!lists_) return listed.empty();
+    return listed.size() == std::min(all.size(), most_) && includes(all, listed);
+  }
+
+  bool lists_all_;
+  std::size_t most_;
+  bool lists_;
+  double tolerance_;
+  Detector<> certified_, exact_;
+  Object_id count_ = 0;
+};
+
+/// A scene that is played.
+class Round {
+ public:
+  Round(const Body_recipe& recipe, Random& random)
+      : random_(random),
+        origin_(random.one_in(4) ? Eigen::Vector3d(std::ldexp(1, static_cast<int>(random.below(24))), 0, 0)
+                                 : Eigen::Vector3d::Zero()),
+        options_(random_options(random)),
+        detectors_(options_) {
+    add_body(recipe.make(origin_, frequency(), random_));
+    for (std::size_t others = random_.one_in(3) ? 2 : 1; others > 0; --others) {
+      const auto recipes = body_recipes();
+      const std::size_t kind = random_.below(recipes.size() + 1);
+      ways_.push_back({random_.direction(), random_.number(1, 3)});
+      add_body(
+          (kind < recipes.size() ? recipes[kind].make : make_unbounded)(place(ways_.size()), frequency(), random_));
+    }
+  }
+
+  void play(Certified_soak_kind& kind) {
+    ++kind.rounds;
+    for (std::size_t frame = 0; frame < frames_per_round; ++frame) {
+      if (frame > 0) move();
+      const auto given = random_.one_in(16) ? std::optional(give_positions()) : std::nullopt;
+      const auto check = detectors_.detect();
+      ++kind.frames;
+      kind.colliding += check.collides ? 1 : 0;
+      kind.differences += check.same ? 0 : 1;
+      kind.violations += check.violations;
+      kind.partly_read += is_partly_read() ? 1 : 0;
+      ++kind.questions;
+      kind.differences += ask() ? 0 : 1;
+      if (given) detectors_.both([&](Detector<>& detector) { detector.update(*given); });
+      for (const auto& check_of_bound : checks_) {
+        const auto count = check_of_bound->check(random_);
+        kind.boxes += count.boxes;
+        kind.outside += count.outside;
+      }
+      follow(check.collides);
+      if (random_.one_in(30)) build_anew();
+    }
+  }
+
+ private:
+  /// From the first body to another.
+  struct Way {
+    Eigen::Vector3d direction;
+    double distance;
+    double step = 0.3;  ///< of the next frame
+    bool inwards = true;
+  };
+
+  /// Bounds of small bodies are soon given up, those of large ones mostly last.
+  std::size_t frequency() {
+    return random_.one_in(2)   ? 1 + random_.below(4)
+           : random_.one_in(3) ? 17 + random_.below(16)
+                               : 5 + random_.below(12);
+  }
+  Eigen::Vector3d place(std::size_t body) const {
+    if (body == 0) return origin_;
+    const Way& way = ways_[body - 1];
+    return origin_ + way.distance * way.direction;
+  }
+  void add_body(std::unique_ptr<Random_body> body) {
+    detectors_.add(*body);
+    checks_.push_back(std::make_unique<Bound_check>(*body, options_.exact.tree.leaf_faces));
+    bodies_.push_back(std::move(body));
+  }
+  void move() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (random_.one_in(8)) continue;
+      bodies_[i]->move(place(i), random_);
+      if (const auto placement = bodies_[i]->placement())
+        detectors_.both([&](Detector<>& detector) { detector.place(static_cast<Object_id>(i), *placement); });
+    }
+  }
+  /// Keeps the bodies where they just touch, or just do not: steps become shorter where they overshoot.
+  void follow(bool collide) {
+    for (Way& way : ways_) {
+      way.step = std::clamp(way.step * (way.inwards == collide ? 0.5 : 1.5), 0.01, 0.3);
+      way.inwards = !collide;
+      way.distance = std::max(0.0, way.distance + (collide ? 1 : -1) * way.step * random_.number(0, 1));
+    }
+  }
+  /// Gives a body the positions that it has, for one frame.
+  Object_id give_positions() {
+    const auto id = static_cast<Object_id>(random_.below(bodies_.size()));
+    const Position_source& source = bodies_[id]->positions();
+    Positions positions(source.vertex_count(), 3);
+    source.pose_all({positions.data(), static_cast<std::size_t>(positions.size())});
+    detectors_.both([&](Detector<>& detector) { detector.update(id, positions); });
+    return id;
+  }
+  void build_anew() {
+    const auto id = static_cast<Object_id>(random_.below(bodies_.size()));
+    if (!bodies_[id]->can_be_rebuilt()) return;
+    const bool load = random_.one_in(2);
+    detectors_.both([&](Detector<>& detector) {
+      if (load)
+        detector.load(id, detector.save(id));
+      else
+        detector.rebuild(id);
+    });
+  }
+  bool is_partly_read() {
+    const Bounded_surface* surface = detectors_.certified().bounded(0);
+    return surface != nullptr && surface->leaves_posed() < surface->layout().leaf_count();
+  }
+
+  /// Asks both detectors a random question about the first two bodies.
+  /// @return whether they agree
+  bool ask() {
+    const Eigen::Vector3d from = origin_ + random_.vector(3), to = random_.direction();
+    const double distance = random_.number(0, 1);
+    const Ray ray{.origin = from, .direction = to};
+    const Point point(from.x(), from.y(), from.z());
+    switch (random_.below(9)) {
+      case 0:
+        return closest_agree();
+      case 1:
+        return detectors_.agree([&](Detector<>& d) { return d.within(0, 1, distance); });
+      case 2:
+        return detectors_.agree([&](Detector<>& d) { return std::pair(d.contains(0, 1), d.contains(1, 0)); });
+      case 3:
+        return detectors_.agree([&](Detector<>& d) { return faces_of(d.first_hit(0, ray)); });
+      case 4:
+        return detectors_.agree([&](Detector<>& d) { return faces_of(d.all_hits(0, ray)); });
+      case 5:
+        return detectors_.agree([&](Detector<>& d) { return d.closest_point(0, point).face; });
+      case 6:
+        return detectors_.agree([&](Detector<>& d) { return d.point_side(0, point); });
+      case 7:
+        return detectors_.agree([&](Detector<>& d) { return faces_of(d.first_hits(0, rays_through(from))); });
+      default:
+        return detectors_.agree([&](Detector<>& d) { return visited(d); });
+    }
+  }
+
+  /// Both may choose among faces at nearly the same distance.
+  bool closest_agree() {
+    std::array<double, 2> distances{};
+    std::size_t i = 0;
+    detectors_.both([&](Detector<>& d) { distances[i++] = d.closest(0, 1).points.distance; });
+    return std::abs(distances[0] - distances[1]) <= 0x1p-29 * distances[0];
+  }
+  static std::vector<std::uint32_t> faces_of(const std::optional<Ray_hit>& hit) {
+    return hit ? std::vector{hit->face} : std::vector<std::uint32_t>();
+  }
+  static std::vector<std::uint32_t> faces_of(const std::vector<Ray_hit>& hits) {
+    std::vector<std::uint32_t> faces;
+    for (const auto& hit : hits) faces.push_back(hit.face);
+    return faces;
+  }
+  static std::vector<std::vector<std::uint32_t>> faces_of(const std::vector<std::optional<Ray_hit>>& hits) {
+    std::vector<std::vector<std::uint32_t>> faces;
+    for (const auto& hit : hits) faces.push_back(faces_of(hit));
+    return faces;
+  }
+  /// The same for both detectors, in all directions.
+  static std::vector<Ray> rays_through(const Eigen::Vector3d& point) {
+    std::vector<Ray> rays;
+    for (const double x : {-1.0, 0.3, 1.0})
+      for (const double y : {-0.7, 0.1, 1.0})
+        for (const double z : {-1.0, 0.2, 0.6})
+          rays.push_back({.origin = point - 5 * Eigen::Vector3d(x, y, z), .direction = {x, y, z}});
+    return rays;
+  }
+  static std::vector<Face_pair> visited(Detector<>& detector) {
+    std::vector<Face_pair> faces;
+    detector.visit(0, 1, [&](const Face_pair& contact) {
+      faces.push_back(contact);
+      return Visit::go_on;
+    });
+    std::ranges::sort(faces);
+    return faces;
+  }
+
+  Random& random_;
+  Eigen::Vector3d origin_;
+  Detector_options options_;
+  std::vector<Way> ways_;
+  std::vector<std::unique_ptr<Random_body>> bodies_;
+  std::vector<std::unique_ptr<Bound_check>> checks_;
+  Two_detectors detectors_;
+};
+
+}  // namespace
+
+std::size_t certified_soak_kinds() { return body_recipes().size(); }
+std::string_view certified_soak_name(std::size_t kind) { return body_recipes()[kind].name; }
+
+Certified_soak_kind certified_soak(std::uint64_t seed, std::size_t kind_index, std::size_t frames,
+                                   const std::function<void(std::size_t)>& progress) {
+  const Body_recipe& recipe = body_recipes()[kind_index];
+  Certified_soak_kind kind{.name = recipe.name};
+  Random random(seed * certified_soak_kinds() + kind_index);
+  while (kind.frames < frames) {
+    Round(recipe, random).play(kind);
+    if (progress) progress(std::min(kind.frames, frames));
+  }
+  return kind;
+}
+
+}  // namespace lodestone
