@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <concepts>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,26 +12,19 @@
 #include "lodestone/detection/broad_phase.h"
 #include "lodestone/detection/detection.h"
 #include "lodestone/detection/exact_objects.h"
+#include "lodestone/detection/exact_pairs.h"
 #include "lodestone/detection/frame_builder.h"
 #include "lodestone/detection/object_motion.h"
 #include "lodestone/detection/saved_object.h"
-#include "lodestone/mesh/stopwatch.h"
-#include "lodestone/queries/bounded_search.h"
 #include "lodestone/queries/closest_faces.h"
-#include "lodestone/queries/contact_search.h"
-#include "lodestone/queries/containment.h"
-#include "lodestone/queries/pair_contacts.h"
 #include "lodestone/queries/parting.h"
 #include "lodestone/queries/point_search.h"
 #include "lodestone/queries/ray_search.h"
 #include "lodestone/queries/ray_tree.h"
-#include "lodestone/queries/small_pairs.h"
-#include "lodestone/queries/surface_triangle.h"
-#include "lodestone/volumes/to_box.h"
 
 namespace lodestone {
 
-/// The modes `exact` and `certified` of a Detector: its objects, and what happens to them in a frame.
+/// The modes `exact` and `certified` of a Detector: frames, and questions about one or two objects.
 ///
 /// Every call that answers first reads all positions of the objects that it is about and refits their trees: it cannot
 /// answer for where they were before. In mode `certified` an object with bounds is read where it is near others. If a
@@ -50,12 +41,10 @@ class Exact_detection final : public Detection {
   explicit Exact_detection(const Detector_options& options)
       : options_(options),
         workers_(options.exact.threads),
-        search_(workers_),
-        small_pairs_(workers_),
-        bounded_search_(workers_),
         objects_(options, workers_),
-        frame_(options) {}
-  // The searches and the objects refer to the workers.
+        frame_(options),
+        pairs_(options, workers_, objects_, frame_) {}
+  // The pairs refer to the workers, the objects and the frame.
   Exact_detection(const Exact_detection&) = delete;
   Exact_detection& operator=(const Exact_detection&) = delete;
 
@@ -91,7 +80,7 @@ class Exact_detection final : public Detection {
     save_origin(origin(object), state);
     objects_.save(object, state);
     const Object_id ids[] = {object};
-    throw_if_broken(ids);
+    objects_.throw_if_broken(ids);
   }
   void load(Object_id object, State_reader& state) override {
     check_no_visitor();
@@ -116,12 +105,7 @@ class Exact_detection final : public Detection {
     const Object_id ids[] = {pair.a, pair.b};
     refresh(ids);
     const Visiting visiting(visited_);
-    if constexpr (is_bounded)
-      if (on_demand(pair))
-        return unbroken(ids, bounded_search_.visit(objects_.bounded(pair.a), objects_.bounded(pair.b),
-                                                   options_.exact.tolerance, std::ref(visitor)));
-    return visit_contacts(objects_.surface(pair.a).view(), objects_.surface(pair.b).view(), options_.exact.tolerance,
-                          std::forward<Visitor>(visitor));
+    return unbroken(ids, pairs_.visit(pair, std::forward<Visitor>(visitor)));
   }
   /// See `Detector::closest`.
   Closest_faces closest(Object_pair pair);
@@ -147,9 +131,9 @@ class Exact_detection final : public Detection {
     refresh(ids);
     if constexpr (is_bounded)
       if (objects_.on_demand(object)) {
-        if (Ray_tree::refit_pays(parts, objects_[object].corners().size())) pose_all(ids);
+        if (Ray_tree::refit_pays(parts, objects_[object].corners().size())) objects_.pose_all(ids);
         if (!objects_.bounded(object).all_posed()) return unbroken(ids, question(objects_.bounded(object)));
-        throw_if_broken(ids);
+        objects_.throw_if_broken(ids);
       }
     const Node_boxes boxes(objects_.surface(object).view());
     return question(boxes.layout());
@@ -160,7 +144,7 @@ class Exact_detection final : public Detection {
   {
     const Object_id ids[] = {object};
     refresh(ids);
-    pose_all(ids);
+    objects_.pose_all(ids);
     return objects_[object].ray_tree(workers_);
   }
   /// See `Detector::first_hits`.
@@ -224,56 +208,23 @@ class Exact_detection final : public Detection {
   }
   bool on_demand(Object_pair pair) const { return objects_.on_demand(pair.a) || objects_.on_demand(pair.b); }
   void start_frame(std::span<const Object_id> ids);
-  template <class Answer>
-  void until_settled(std::span<const Object_id> ids, Answer answer);
-  void throw_if_broken(std::span<const Object_id> ids) const;
-  /// Poses and refits all of these objects, for what must read everything.
-  void pose_all(std::span<const Object_id> ids) {
-    for (const auto id : ids) objects_.pose_all(id);
-    throw_if_broken(ids);
-  }
+  const Frame& finish_frame(std::span<const Object_id> ids);
   /// An answer about these objects, unless a broken bound is to be an error.
   template <class Answer>
   Answer unbroken(std::span<const Object_id> ids, Answer answer) const {
-    throw_if_broken(ids);
+    objects_.throw_if_broken(ids);
     return answer;
   }
-  Frame_statistics demand(std::span<const Object_id> ids) const;
-  const Frame& finish_frame(std::span<const Object_id> ids);
-  void find_candidates(const Collision_filter& filter);
-  Aabb whole_box(Object_id id);
-  void check_candidates();
-  void ask_about_small_pairs(std::size_t first);
-  void check(std::size_t candidate);
-  /// Below which the faces of a pair are contacts.
-  double tolerance(Object_pair pair) const {
-    return pair.a == pair.b ? options_.exact.self_tolerance : options_.exact.tolerance;
-  }
-  void find_contacts(std::size_t candidate, Pair_result& result);
-  Contact_request request(Object_pair pair) const {
-    return {.query = options_.contacts, .tolerance = tolerance(pair), .most = options_.most_contacts};
-  }
-  void find_way_out(Pair_result& result);
-  Contact_summary search(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
-  Contact_summary search_on_demand(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
-  Containment containment(const Pair_result& pair);
-  bool inside(Object_pair pair);
+  bool collide_or_are_nearer(Object_pair pair, double distance);
 
   Detector_options options_;
   Workers workers_;
-  Basic_contact_search<Volume> search_;
-  Small_pairs<Volume> small_pairs_;
-  Bounded_search bounded_search_;
   Exact_objects<Volume> objects_;
   Frame_builder frame_;
+  Exact_pairs<Volume> pairs_;
+  Broad_phase broad_phase_;  ///< of impacts
   Frame_statistics before_;  ///< `demand` when the frame began
   bool visited_ = false;     ///< a visitor is being shown face pairs
-
-  // Memory of the stages, kept from frame to frame.
-  std::vector<Box> boxes_;
-  std::vector<double> reach_;
-  Broad_phase broad_phase_;
-  std::vector<Object_pair> candidates_;
 };
 
 template <Bounding_volume Volume>
@@ -286,12 +237,7 @@ void Exact_detection<Volume>::update(Object_id id, const Eigen::Ref<const Positi
 template <Bounding_volume Volume>
 const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter) {
   start_frame(objects_.ids());
-  until_settled(objects_.ids(), [&] {
-    frame_.clear_pairs();
-    candidates_.clear();
-    timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
-    timed(frame_.seconds().confirmation, [&] { check_candidates(); });
-  });
+  objects_.until_settled(objects_.ids(), [&] { pairs_.find_all(filter); });
   return finish_frame(objects_.ids());
 }
 
@@ -300,12 +246,7 @@ const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter, Obj
   const Object_id both[] = {pair.a, pair.b};
   const auto ids = std::span(both).first(pair.a == pair.b ? 1 : 2);
   start_frame(ids);
-  until_settled(ids, [&] {
-    frame_.clear_pairs();
-    candidates_.clear();
-    if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
-    timed(frame_.seconds().confirmation, [&] { check_candidates(); });
-  });
+  objects_.until_settled(ids, [&] { pairs_.find(filter, pair); });
   return finish_frame(ids);
 }
 
@@ -314,7 +255,8 @@ Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
   if constexpr (is_bounded)
-    if (on_demand(pair)) return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
+    if (objects_.on_demand(pair.a) || objects_.on_demand(pair.b))
+      return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
   return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
 }
 
@@ -324,7 +266,7 @@ std::optional<Impact> Exact_detection<Volume>::first_impact(Object_pair pair, co
   Positions at_end_a = objects_[pair.a].checked(end_a), at_end_b = objects_[pair.b].checked(end_b);
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
-  pose_all(ids);
+  objects_.pose_all(ids);
   const Object_motion<Volume> a(objects_.surface(pair.a), std::move(at_end_a)),
       b(objects_.surface(pair.b), std::move(at_end_b));
   return lodestone::first_impact(a.view(), b.view());
@@ -336,7 +278,7 @@ std::optional<Impact> Exact_detection<Volume>::first_self_impact(Object_id objec
   Positions at_end = objects_[object].checked(end);
   const Object_id ids[] = {object};
   refresh(ids);
-  pose_all(ids);
+  objects_.pose_all(ids);
   const Object_motion<Volume> motion(objects_.surface(object), std::move(at_end));
   return lodestone::first_self_impact(motion.view());
 }
@@ -364,7 +306,7 @@ auto Exact_detection<Volume>::motions_to(std::span<const Positions> ends) -> Mot
   for (const auto id : ids)
     if (ends[id].rows() > 0) checked[id] = objects_[id].checked(ends[id]);
   refresh(ids);
-  pose_all(ids);
+  objects_.pose_all(ids);
   Motions motions(objects_.size());
   workers_.run(ids.size(), [&](std::size_t i, std::size_t) {
     const Object_id id = ids[i];
@@ -377,10 +319,8 @@ template <Bounding_volume Volume>
 bool Exact_detection<Volume>::within(Object_pair pair, double distance) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
-  std::vector<Face_pair> none;
   bool answer = false;
-  until_settled(ids,
-                [&] { answer = search(pair, {.query = Contact_query::yes_no, .tolerance = distance}, none).found; });
+  objects_.until_settled(ids, [&] { answer = collide_or_are_nearer(pair, distance); });
   return answer;
 }
 
@@ -388,7 +328,7 @@ template <Bounding_volume Volume>
 std::optional<Parting> Exact_detection<Volume>::parting(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
-  pose_all(ids);
+  objects_.pose_all(ids);
   return lodestone::parting(objects_.surface(pair.a), objects_.surface(pair.b), workers_);
 }
 
@@ -396,60 +336,23 @@ template <Bounding_volume Volume>
 bool Exact_detection<Volume>::contains(Object_id outer, Object_id inner) {
   const Object_id ids[] = {outer, inner};
   refresh(ids);
-  std::vector<Face_pair> none;
-  const auto meet = [&] { return search({outer, inner}, {.query = Contact_query::yes_no}, none).found; };
   bool answer = false;
-  until_settled(ids, [&] { answer = inside({inner, outer}) && !meet(); });
+  objects_.until_settled(
+      ids, [&] { answer = pairs_.inside({inner, outer}) && !collide_or_are_nearer({outer, inner}, 0); });
   return answer;
+}
+
+template <Bounding_volume Volume>
+bool Exact_detection<Volume>::collide_or_are_nearer(Object_pair pair, double distance) {
+  std::vector<Face_pair> none;
+  return pairs_.search(pair, {.query = Contact_query::yes_no, .tolerance = distance}, none).found;
 }
 
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::start_frame(std::span<const Object_id> ids) {
   refresh(ids);
   frame_.start(objects_.take_work());
-  before_ = demand(ids);
-}
-
-/// What has been done so far to objects with bounds, in their current poses.
-template <Bounding_volume Volume>
-Frame_statistics Exact_detection<Volume>::demand(std::span<const Object_id> ids) const {
-  Frame_statistics sum;
-  for (const auto id : ids) {
-    if (!objects_.on_demand(id)) continue;
-    const Bounded_surface& surface = objects_.bounded(id);
-    sum.vertices_read += surface.vertices_posed();
-    sum.nodes_bounded += surface.nodes_bounded();
-    sum.leaves_posed += surface.leaves_posed();
-    sum.violations += surface.violations();
-  }
-  return sum;
-}
-
-/// Repeats an answer as long as it has relied on a bound that turned out to be broken: by then the object is posed as
-/// a whole. Each repetition settles an object, so there are few.
-template <Bounding_volume Volume>
-template <class Answer>
-void Exact_detection<Volume>::until_settled(std::span<const Object_id> ids, Answer answer) {
-  std::size_t before;
-  do {
-    before = demand(ids).violations;
-    answer();
-    throw_if_broken(ids);
-    for (const auto id : ids)
-      if (objects_.on_demand(id) && objects_.bounded(id).is_broken()) objects_.bounded(id).settle();
-  } while (demand(ids).violations > before);
-}
-
-template <Bounding_volume Volume>
-void Exact_detection<Volume>::throw_if_broken(std::span<const Object_id> ids) const {
-  if (!options_.exact.throw_if_broken) return;
-  std::optional<Object_id> broken;
-  for (const auto id : ids) {
-    if (!objects_.on_demand(id) || objects_.bounded(id).violations() == 0) continue;
-    objects_.bounded(id).forget_pose();  // by the next question its promise may have been corrected
-    if (!broken) broken = id;
-  }
-  if (broken) throw Broken_bound(objects_[*broken].title + " has vertices that are not where its bounds say");
+  before_ = objects_.demand(ids);
 }
 
 /// Adds what this frame has done to objects with bounds.
@@ -457,131 +360,12 @@ template <Bounding_volume Volume>
 const Frame& Exact_detection<Volume>::finish_frame(std::span<const Object_id> ids) {
   Frame_statistics& statistics = frame_.statistics();
   statistics.seconds.refit += objects_.take_work().seconds.refit;
-  const Frame_statistics now = demand(ids);
+  const Frame_statistics now = objects_.demand(ids);
   statistics.vertices_read += now.vertices_read - before_.vertices_read;
   statistics.nodes_bounded += now.nodes_bounded - before_.nodes_bounded;
   statistics.leaves_posed += now.leaves_posed - before_.leaves_posed;
   statistics.violations += now.violations - before_.violations;
   return frame_.finish();
-}
-
-template <Bounding_volume Volume>
-void Exact_detection<Volume>::find_candidates(const Collision_filter& filter) {
-  const auto ids = objects_.ids();
-  boxes_.resize(objects_.size());
-  for (const auto id : ids) boxes_[id] = to_box(whole_box(id));
-  reach_.resize(objects_.size(), options_.exact.tolerance);
-  for (const auto pair : broad_phase_.find(ids, boxes_, reach_))
-    if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
-  if (!options_.exact.self_collision) return;
-  for (const auto id : ids)
-    if (filter.may_collide(id, id)) candidates_.push_back({id, id});
-  std::ranges::sort(candidates_);
-}
-
-/// Around an object: fitted, or from its bounds.
-template <Bounding_volume Volume>
-Aabb Exact_detection<Volume>::whole_box(Object_id id) {
-  if constexpr (is_bounded)
-    if (objects_.on_demand(id)) {
-      Bounded_surface& surface = objects_.bounded(id);
-      if (!std::isfinite(surface.box(0).extent())) surface.pose_all();
-      return surface.box(0);
-    }
-  return objects_.surface(id).tree().volume(0).bounds();
-}
-
-/// Begins alone: often that is all there is to do, and waking other threads would take longer.
-template <Bounding_volume Volume>
-void Exact_detection<Volume>::check_candidates() {
-  constexpr std::size_t tests_alone = 64;  // pairs of objects or of leaves; some 50 microseconds
-  small_pairs_.clear();
-  std::size_t candidate = 0;
-  for (; candidate < candidates_.size() && candidate + frame_.statistics().candidates < tests_alone; ++candidate)
-    check(candidate);
-  if (workers_.count() > 1) ask_about_small_pairs(candidate);
-  for (; candidate < candidates_.size(); ++candidate) check(candidate);
-}
-
-/// Searches them side by side, if there are enough. The answers are taken by `check`.
-template <Bounding_volume Volume>
-void Exact_detection<Volume>::ask_about_small_pairs(std::size_t first) {
-  for (std::size_t candidate = first; candidate < candidates_.size(); ++candidate) {
-    const Object_pair pair = candidates_[candidate];
-    if (on_demand(pair)) continue;
-    const Surface &a = objects_.surface(pair.a), &b = objects_.surface(pair.b);
-    if (small_pairs_.are_small(a, b)) small_pairs_.ask(candidate, a, b, request(pair));
-  }
-  small_pairs_.answer();
-}
-
-template <Bounding_volume Volume>
-void Exact_detection<Volume>::check(std::size_t candidate) {
-  const Object_pair pair = candidates_[candidate];
-  Pair_result result = frame_.start_pair(pair);
-  find_contacts(candidate, result);
-  if (pair.a != pair.b) find_way_out(result);
-  frame_.end_pair(
-      result, [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); },
-      workers_);
-  frame_.add_patches(objects_.surface(pair.a), objects_.surface(pair.b), tolerance(pair), workers_);
-}
-
-/// Whether one object lies inside the other, and how to part the two.
-template <Bounding_volume Volume>
-void Exact_detection<Volume>::find_way_out(Pair_result& result) {
-  if (options_.exact.containment || options_.exact.parting) result.containment = containment(result);
-  if (!options_.exact.parting || (!result.collides && result.containment == Containment::none)) return;
-  for (const auto id : {result.a, result.b}) objects_.pose_all(id);
-  result.parting = lodestone::parting(objects_.surface(result.a), objects_.surface(result.b), workers_);
-}
-
-template <Bounding_volume Volume>
-void Exact_detection<Volume>::find_contacts(std::size_t candidate, Pair_result& result) {
-  const Object_pair pair = candidates_[candidate];
-  const Pair_contacts* known = small_pairs_.take(candidate, frame_.face_pairs());
-  const auto search_now = [&](const Contact_request& asked, auto& found) { return search(pair, asked, found); };
-  const Pair_contacts contacts =
-      known != nullptr ? *known : pair_contacts(request(pair), search_now, frame_.face_pairs());
-  result.collides = contacts.collides;
-  result.near = contacts.near;
-  result.capped = contacts.capped;
-  result.candidates = contacts.leaf_tests;
-  frame_.statistics().candidates += contacts.leaf_tests;
-  frame_.statistics().exact_tests += contacts.exact_tests;
-}
-
-/// Searches within one object if both are the same.
-template <Bounding_volume Volume>
-Contact_summary Exact_detection<Volume>::search(Object_pair pair, const Contact_request& request,
-                                                std::vector<Face_pair>& found) {
-  const Surface& a = objects_.surface(pair.a);
-  const Surface& b = objects_.surface(pair.b);
-  if (pair.a == pair.b) objects_.pose_all(pair.a);
-  return pair.a == pair.b  ? search_.within(a, request, found)
-         : on_demand(pair) ? search_on_demand(pair, request, found)
-                           : search_.between(a, b, request, found);
-}
-
-template <Bounding_volume Volume>
-Contact_summary Exact_detection<Volume>::search_on_demand(Object_pair pair, const Contact_request& request,
-                                                          std::vector<Face_pair>& found) {
-  return bounded_search_.run(objects_.bounded(pair.a), objects_.bounded(pair.b), request, found);
-}
-
-template <Bounding_volume Volume>
-Containment Exact_detection<Volume>::containment(const Pair_result& pair) {
-  if (pair.collides) return Containment::none;
-  if (inside({pair.a, pair.b})) return Containment::a_in_b;
-  return inside({pair.b, pair.a}) ? Containment::b_in_a : Containment::none;
-}
-
-/// Whether a lies inside b, where their surfaces do not intersect.
-template <Bounding_volume Volume>
-bool Exact_detection<Volume>::inside(Object_pair pair) {
-  if constexpr (is_bounded)
-    if (on_demand(pair)) return encloses(objects_.bounded(pair.b), objects_.bounded(pair.a));
-  return encloses(objects_.surface(pair.b), objects_.surface(pair.a));
 }
 
 }  // namespace lodestone

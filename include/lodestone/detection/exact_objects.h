@@ -85,11 +85,28 @@ class Exact_objects {
   void pose_all(Object_id id) {
     if (on_demand(id)) timed(work_.seconds.refit, [&] { bounded(id).pose_all(); });
   }
+  /// The same for several.
+  /// @throws Broken_bound  as `throw_if_broken`
+  void pose_all(std::span<const Object_id> ids) {
+    for (const auto id : ids) pose_all(id);
+    throw_if_broken(ids);
+  }
+
+  /// Finds an answer about these objects, again as long as it has relied on a bound that turned out to be broken: by
+  /// then the object is posed as a whole. Each repetition settles an object, so there are few.
+  /// @param answer         called without arguments
+  /// @throws Broken_bound  as `throw_if_broken`
+  template <class Answer>
+  void until_settled(std::span<const Object_id> ids, Answer answer);
+  /// @throws Broken_bound  a bound of one of these objects is broken, and the options ask for an error
+  void throw_if_broken(std::span<const Object_id> ids) const;
 
   /// Brings everything that depends on positions to where the vertices of these objects are now.
   /// @throws Bad_mesh  a coordinate is not finite; a mesh has changed since it was numbered
   void refresh(std::span<const Object_id> ids);
 
+  /// What has been done so far to objects with bounds, in their current poses.
+  Frame_statistics demand(std::span<const Object_id> ids) const;
   /// What has been done since the last call of this: times, builds, repartitions. Of the refits, only the last counts.
   Frame_statistics take_work() { return std::exchange(work_, {}); }
 
@@ -158,6 +175,45 @@ void Exact_objects<Volume>::bound_refitted(std::span<const Object_id> ids) {
     else
       timed(work_.seconds.refit, [&] { bounded(id).take_refitted(); });
   }
+}
+
+template <Bounding_volume Volume>
+Frame_statistics Exact_objects<Volume>::demand(std::span<const Object_id> ids) const {
+  Frame_statistics sum;
+  for (const auto id : ids) {
+    if (!on_demand(id)) continue;
+    const Bounded_surface& surface = bounded(id);
+    sum.vertices_read += surface.vertices_posed();
+    sum.nodes_bounded += surface.nodes_bounded();
+    sum.leaves_posed += surface.leaves_posed();
+    sum.violations += surface.violations();
+  }
+  return sum;
+}
+
+template <Bounding_volume Volume>
+template <class Answer>
+void Exact_objects<Volume>::until_settled(std::span<const Object_id> ids, Answer answer) {
+  std::size_t before;
+  do {
+    before = demand(ids).violations;
+    answer();
+    throw_if_broken(ids);
+    for (const auto id : ids)
+      if (on_demand(id) && bounded(id).is_broken()) bounded(id).settle();
+  } while (demand(ids).violations > before);
+}
+
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::throw_if_broken(std::span<const Object_id> ids) const {
+  if (!options_.exact.throw_if_broken) return;
+  std::optional<Object_id> broken;
+  for (const auto id : ids) {
+    if (!on_demand(id) || bounded(id).violations() == 0) continue;
+    bounded(id).forget_pose();  // by the next question its promise may have been corrected
+    if (!broken) broken = id;
+  }
+  if (broken) throw Broken_bound(objects_[*broken]->title + " has vertices that are not where its bounds say");
 }
 
 template <Bounding_volume Volume>
