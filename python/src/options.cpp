@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options.h"
 
+#include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <map>
 #include <utility>
 
 #include "lodestone/mesh/errors.h"
+#include "lodestone/partition/strategies.h"
 
 namespace lodestone::python {
 
@@ -71,6 +73,25 @@ void add_lbg(Option_table& table, Lbg_options& lbg) {
   table["lbg_sample"] = to(lbg.sample);
 }
 
+/// Refuses what the strategy would ignore: a function ignores all of it.
+void refuse_settings_of_other_strategies(const Given_strategy& strategy, const py::kwargs& keywords) {
+  constexpr std::pair<const char*, Lbg_setting> settings[] = {{"normal_weight", Lbg_setting::normal_weight},
+                                                              {"lbg_split", Lbg_setting::split_rule},
+                                                              {"lbg_epsilon", Lbg_setting::split},
+                                                              {"lbg_tolerance", Lbg_setting::tolerance},
+                                                              {"lbg_sample", Lbg_setting::sample}};
+  const bool is_known =
+      strategy.function || std::ranges::find(strategies(), strategy.name, &Strategy_entry::name) != strategies().end();
+  if (!is_known) return;  // the strategy is refused when it is made
+  for (const auto& [name, setting] : settings) {
+    if (!keywords.contains(name) || (!strategy.function && reads(strategy.name, setting))) continue;
+    std::string readers;
+    for (const auto reader : strategies_that_read(setting)) readers += (readers.empty() ? "" : ", ") + std::string(reader);
+    throw Bad_argument(std::string("the option ") + name + " is for the strategies " + readers + ": the strategy " +
+                       strategy.name + " ignores it");
+  }
+}
+
 void set_all(const Option_table& table, const py::kwargs& keywords) {
   for (const auto& [key, value] : keywords) {
     const auto name = key.cast<std::string>();
@@ -130,6 +151,7 @@ Detector_settings detector_settings(const py::kwargs& keywords) {
   };
   add_lbg(table, settings.strategy_settings.lbg);
   set_all(table, keywords);
+  refuse_settings_of_other_strategies(settings.strategy, keywords);
   options.senin.seed = settings.strategy_settings.seed;
   settings.strategy_settings.lbg.threads = exact.threads;
   return settings;
@@ -142,6 +164,7 @@ Partition_settings partition_settings(const py::object& strategy, const py::kwar
                      {"threads", to(settings.strategy_settings.lbg.threads)}};
   add_lbg(table, settings.strategy_settings.lbg);
   set_all(table, keywords);
+  refuse_settings_of_other_strategies(settings.strategy, keywords);
   return settings;
 }
 

@@ -82,6 +82,25 @@ std::span<const Strategy_entry> strategies() {
   return all;
 }
 
+bool reads(std::string_view strategy, Lbg_setting setting) {
+  const bool is_lbg = strategy == Lbg::name || strategy == Lbg_position::name || strategy == Lbg_curvature::name;
+  switch (setting) {
+    case Lbg_setting::normal_weight:
+      return strategy == Kmeans_plus_plus::name || (is_lbg && strategy != Lbg_position::name);
+    case Lbg_setting::tolerance:
+      return strategy == Kmeans_plus_plus::name || is_lbg;
+    default:
+      return is_lbg;
+  }
+}
+
+std::vector<std::string_view> strategies_that_read(Lbg_setting setting) {
+  std::vector<std::string_view> names;
+  for (const auto& strategy : strategies())
+    if (reads(strategy.name, setting)) names.push_back(strategy.name);
+  return names;
+}
+
 Any_strategy make_strategy(std::string_view name, const Strategy_settings& settings) {
   const auto entry = std::ranges::find(strategies(), name, &Strategy_entry::name);
   if (entry == strategies().end()) throw Bad_argument("there is no partition strategy '" + std::string(name) + "'");

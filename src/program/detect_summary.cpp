@@ -266,11 +266,12 @@ Json objects_json(const Run_subject& subject) {
 
 Json summary_json(const Run_subject& subject, const Run_summary& summary) {
   const Mode mode = subject.command.options.mode;
+  const bool divides = makes_regions(subject.command.options, subject.scene);
   Json json{{"scene", subject.scene.name},
             {"frames", subject.scene.frames},
             {"mode", name_of(mode)},
             {"may_miss", misses_json(subject.command.options)},
-            {"strategy", subject.command.partition.name},
+            {"strategy", divides ? Json(subject.command.partition.name) : Json()},
             {"objects", objects_json(subject)},
             {"pairs", Json::array()}};
   for (const auto& [pair, results] : summary.pairs) json["pairs"].push_back(pair_summary_json(subject, pair, results));

@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
-#include "lodestone/partition/kmeans_plus_plus.h"
-#include "lodestone/partition/lbg_curvature.h"
-#include "lodestone/partition/lbg_position.h"
+#include "lodestone/partition/strategies.h"
 
 namespace lodestone {
 
@@ -29,22 +27,18 @@ inline bool chooses_strategy(const CLI::App& command) {
 inline void refuse_options_of_other_strategies(const CLI::App& command, std::string_view strategy, bool threads) {
   struct Strategy_option {
     const char* name;
-    std::vector<std::string_view> strategies;
+    Lbg_setting setting;
   };
-  const std::vector<std::string_view> lbg{Lbg::name, Lbg_position::name, Lbg_curvature::name};
-  std::vector<Strategy_option> options{
-      {"--normal-weight", {Lbg::name, Lbg_curvature::name, Kmeans_plus_plus::name}},
-      {"--split", lbg},
-      {"--epsilon", lbg},
-      {"--lbg-sample", lbg},
-      {"--lbg-tolerance", {Lbg::name, Lbg_position::name, Lbg_curvature::name, Kmeans_plus_plus::name}},
-  };
-  if (threads) options.push_back({"--threads", lbg});
+  std::vector<Strategy_option> options{{"--normal-weight", Lbg_setting::normal_weight},
+                                       {"--split", Lbg_setting::split_rule},
+                                       {"--epsilon", Lbg_setting::split},
+                                       {"--lbg-sample", Lbg_setting::sample},
+                                       {"--lbg-tolerance", Lbg_setting::tolerance}};
+  if (threads) options.push_back({"--threads", Lbg_setting::threads});
   for (const auto& option : options) {
-    if (command.count(option.name) == 0 || std::ranges::find(option.strategies, strategy) != option.strategies.end())
-      continue;
+    if (command.count(option.name) == 0 || reads(strategy, option.setting)) continue;
     throw Bad_argument(fmt::format("{} needs --strategy {}: the strategy {} ignores it", option.name,
-                                   fmt::join(option.strategies, " or "), strategy));
+                                   fmt::join(strategies_that_read(option.setting), " or "), strategy));
   }
 }
 

@@ -74,9 +74,11 @@ TEST_F(Program_mode, is_the_one_that_misses_nothing_unless_another_is_named) {
   EXPECT_EQ(frame()["pairs"].at(0)["collides"], true);
   EXPECT_EQ(summary()["mode"], "exact");
   EXPECT_EQ(summary()["may_miss"], nullptr);
+  EXPECT_EQ(summary()["strategy"], nullptr);  // nothing is divided
   EXPECT_EQ(result.out.find("may miss"), std::string::npos) << result.out;
   expect_success(detect({"--mode", "particles", "--meetings", "0", "--collision-distance", "0.001"}));
   EXPECT_EQ(frame()["pairs"].at(0)["collides"], false);
+  EXPECT_EQ(summary()["strategy"], "lbg");
 }
 
 TEST_F(Program_mode, that_may_miss_collisions_says_so_with_the_published_figures) {

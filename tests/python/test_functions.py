@@ -116,6 +116,33 @@ def test_a_strategy_can_be_a_function():
     assert lodestone.find_collisions(ball, ball.moved(0.5), mode="particles", strategy=strategy).collides
 
 
+@pytest.mark.parametrize("option", [{"normal_weight": 2}, {"lbg_split": "multiplicative"}, {"lbg_epsilon": 0.1},
+                                    {"lbg_tolerance": 0.1}, {"lbg_sample": 100}])
+def test_settings_that_a_strategy_ignores_are_refused(option):
+    name, = option
+    ball = sphere(4)
+    for strategy in ("grid", slices):
+        for call in (lambda: lodestone.partition(ball, strategy=strategy, regions=2, **option),
+                     lambda: lodestone.Detector(strategy=strategy, **option)):
+            with pytest.raises(lodestone.BadArgument, match=f"{name} is for .*lbg.* ignores it"):
+                call()
+    assert lodestone.partition(ball, regions=2, **option).regions == 2
+    with pytest.raises(lodestone.BadArgument, match="no partition strategy 'unknown'"):
+        lodestone.partition(ball, strategy="unknown", regions=2, **option)
+
+
+def test_each_strategy_takes_the_settings_that_it_reads():
+    ball = sphere(4)
+    for strategy in ("lbg", "lbg_curvature", "kmeans++"):
+        lodestone.partition(ball, strategy=strategy, regions=2, normal_weight=0.5)
+    with pytest.raises(lodestone.BadArgument):
+        lodestone.partition(ball, strategy="lbg_position", regions=2, normal_weight=0.5)
+    for strategy in ("lbg", "lbg_position", "lbg_curvature", "kmeans++"):
+        lodestone.partition(ball, strategy=strategy, regions=2, lbg_tolerance=0.01)
+    with pytest.raises(lodestone.BadArgument):
+        lodestone.partition(ball, strategy="kmeans++", regions=2, lbg_sample=0)
+
+
 @pytest.mark.parametrize("strategy, error, text", [
     (lambda vertices, faces, regions: 1 / 0, ZeroDivisionError, ""),
     (lambda vertices, faces, regions: np.zeros(3, int), lodestone.BadArgument, ""),

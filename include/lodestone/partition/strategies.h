@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "lodestone/partition/lbg.h"
 
@@ -17,6 +18,19 @@ struct Strategy_settings {
   std::uint64_t seed = 1;  ///< of strategies that draw at random
   Lbg_options lbg = {};    ///< of `lbg` and its kin; `lbg.features` also of the others that quantise feature vectors
 };
+
+/// What of `Strategy_settings::lbg` some strategies ignore.
+enum class Lbg_setting {
+  normal_weight,  ///< of the features
+  split_rule,     ///< how code vectors are split
+  split,          ///< how far
+  tolerance,      ///< when iterations stop
+  sample,         ///< how many vertices to train on
+  threads,        ///< at most
+};
+
+/// Whether the strategy of a name reads a setting. All accept a seed.
+bool reads(std::string_view strategy, Lbg_setting setting);
 
 /// A partition strategy chosen at run time.
 class Any_strategy {
@@ -61,6 +75,9 @@ struct Strategy_entry {
 
 /// All strategies, `lbg` first.
 std::span<const Strategy_entry> strategies();
+
+/// The names of those that read a setting.
+std::vector<std::string_view> strategies_that_read(Lbg_setting setting);
 
 /// The strategy of a name, with these settings.
 /// @throws Bad_argument  there is no strategy of that name
