@@ -3,6 +3,8 @@
 
 namespace lodestone {
 
+template class Exact_objects<Aabb>;
+template class Exact_pairs<Aabb>;
 template class Exact_detection<Aabb>;
 template std::unique_ptr<Detection> make_detection<Aabb>(const Detector_options&);
 template class Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Lbg>;

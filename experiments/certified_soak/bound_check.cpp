@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lodestone/bounds/placed_bound.h"
 #include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
@@ -15,7 +16,7 @@ std::vector<double> positions_of(const Random_body& body) {
   return coordinates;
 }
 
-Aabb box_of(const std::vector<double>& coordinates, std::uint32_t vertex) {
+Aabb box_of(Coordinates coordinates, std::uint32_t vertex) {
   Aabb box;
   for (std::size_t axis = 0; axis < 3; ++axis) box.low[axis] = box.high[axis] = coordinates[3 * vertex + axis];
   return box;
@@ -47,7 +48,7 @@ Bound_check::Bound_check(const Random_body& body, std::size_t leaf_faces)
       fitted_(surface_.tree().node_count()) {}
 
 /// Children before their parents. A box around points that are doubles is exact.
-void Bound_check::fit_boxes() {
+void Bound_check::fit_boxes(Coordinates coordinates) {
   const Tree_layout& layout = surface_.tree();
   for (std::uint32_t node = static_cast<std::uint32_t>(fitted_.size()); node-- > 0;) {
     if (const std::uint32_t second = layout.node(node).second_child; second != 0) {
@@ -55,8 +56,17 @@ void Bound_check::fit_boxes() {
       continue;
     }
     const auto vertices = layout.vertices(layout.node(node).leaf);
-    fitted_[node] = box_of(now_, vertices.front());
-    for (const std::uint32_t v : vertices) fitted_[node] = box_around(fitted_[node], box_of(now_, v));
+    fitted_[node] = box_of(coordinates, vertices.front());
+    for (const std::uint32_t v : vertices) fitted_[node] = box_around(fitted_[node], box_of(coordinates, v));
+  }
+}
+
+/// @param placed  where a box of the bound comes to lie
+template <class Placed>
+void Bound_check::compare(Count& count, const Placed& placed) const {
+  for (std::uint32_t node = 0; node < fitted_.size(); ++node) {
+    ++count.boxes;
+    if (!contains(placed(bound_->box(node)), fitted_[node])) ++count.outside;
   }
 }
 
@@ -64,15 +74,18 @@ Bound_check::Count Bound_check::check(Random& random) {
   Count count;
   if (!bound_) return count;
   now_ = positions_of(body_);
-  fit_boxes();
-  for (std::uint32_t node = 0; node < fitted_.size(); ++node) {
-    ++count.boxes;
-    if (!contains(bound_->box(node), fitted_[node])) ++count.outside;
+  if (const auto placement = body_.placement()) {
+    const Rigid_motion motion(*placement);
+    std::vector<double> placed;
+    fit_boxes(motion(now_, placed));
+    compare(count, [&](const Aabb& box) { return placed_box(motion.rotation(), motion.translation(), box); });
   }
+  fit_boxes(now_);
+  compare(count, [](const Aabb& box) { return box; });
   const Tree_layout& layout = surface_.tree();
-  if (random.one_in(4) && bound_->notes_all() && !bound_->note_all(fitted_, now_, true)) ++count.outside;
+  if (random.one_in(4) && bound_->notes_all() && !bound_->note_all(fitted_, now_, true)) ++count.refused;
   for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf)
-    if (random.one_in(4) && !bound_->note_read(leaf, fitted_[layout.leaf_node(leaf)], now_)) ++count.outside;
+    if (random.one_in(4) && !bound_->note_read(leaf, fitted_[layout.leaf_node(leaf)], now_)) ++count.refused;
   return count;
 }
 

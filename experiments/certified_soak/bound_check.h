@@ -13,7 +13,9 @@ namespace lodestone {
 class Bound_check {
  public:
   struct Count {
-    std::size_t boxes = 0, outside = 0;
+    std::size_t boxes = 0;    ///< compared
+    std::size_t outside = 0;  ///< of these: with a vertex outside
+    std::size_t refused = 0;  ///< times that the bound was shown what it had promised, and said no
   };
 
   /// @param body  in the pose that is taken for rest; must outlive this
@@ -21,11 +23,14 @@ class Bound_check {
   Bound_check(const Bound_check&) = delete;
   Bound_check& operator=(const Bound_check&) = delete;
 
-  /// Compares all boxes of the present pose. Then shows the bound some of the leaves, as if they had been read.
+  /// Compares all boxes of the present pose, and once more where the body is placed. Then shows the bound some of the
+  /// leaves, as if they had been read.
   Count check(Random& random);
 
  private:
-  void fit_boxes();
+  void fit_boxes(Coordinates coordinates);
+  template <class Placed>
+  void compare(Count& count, const Placed& placed) const;
 
   const Random_body& body_;
   std::vector<Corners> corners_;

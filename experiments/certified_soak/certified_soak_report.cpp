@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 #include "certified_soak/certified_soak.h"
 #include "lodestone/io/results/text_table.h"
 #include "shared/experiment.h"
@@ -31,7 +34,8 @@ constexpr Column columns[] = {
     {"differences", "differences", &Certified_soak_kind::differences},
     {"violations", "violations", &Certified_soak_kind::violations},
     {"boxes", "boxes", &Certified_soak_kind::boxes},
-    {"outside", "vertices outside", &Certified_soak_kind::outside},
+    {"outside", "with vertices outside", &Certified_soak_kind::outside},
+    {"refused", "refused", &Certified_soak_kind::refused},
 };
 
 nlohmann::ordered_json to_json(const Certified_soak_kind& kind) {
@@ -88,9 +92,9 @@ std::string run_certified_soak(const Experiment_context& context) {
   write_json(context.out, "certified_soak", json);
   json.push_back(to_json(all));
   return fmt::format(
-             "Random bodies of 20 to 20480 triangles, which tell where they can be, hover where they just touch. Both "
-             "modes play the same frames, with random options, and answer a further question in each. The boxes of "
-             "all nodes are compared with all vertices below. {}.\n\n",
+             "Random bodies of 20 to 20480 triangles, most of which tell where they can be, are kept where they just "
+             "touch. Both modes play the same frames, with random options, and answer a further question in each. The "
+             "boxes of all nodes are compared with all vertices below. {}.\n\n",
              context.seeds == 1 ? "Seed 1" : fmt::format("Seeds 1 to {}", context.seeds)) +
          table_of(json).text();
 }

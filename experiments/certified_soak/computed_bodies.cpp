@@ -8,7 +8,6 @@
 #include "certified_soak/rest_shape.h"
 #include "lodestone/bounds/own_bound.h"
 #include "lodestone/io/motion/deformed_points.h"
-#include "lodestone/io/shapes/shapes.h"
 #include "lodestone/mesh/skinned_points.h"
 
 namespace lodestone {
@@ -81,9 +80,15 @@ std::vector<double> random_weights(std::size_t count, Random& random) {
   return weights;
 }
 
-enum class Weighting { any, nearest, smooth, equal };
+/// Of a joint for a vertex, before they are normalised.
+enum class Weighting {
+  any,      ///< drawn
+  nearest,  ///< 1 near the joint, 0 elsewhere
+  smooth,   ///< less and less with the distance from the joint
+  equal,    ///< 1 for most vertices, wherever they are
+};
 
-/// Weights that are 0 or 1, or nearly; joints that are listed twice.
+/// Each vertex has a joint; some are listed twice.
 Joint_influences random_influences(const Surface_mesh& mesh, const Eigen::Vector3d& centre, std::size_t joints,
                                    Random& random) {
   const auto weighting = random.one_in(2) ? Weighting::smooth : static_cast<Weighting>(random.below(4));

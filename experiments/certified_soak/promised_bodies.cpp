@@ -11,7 +11,6 @@
 #include "lodestone/bounds/displacement_bound.h"
 #include "lodestone/bounds/lipschitz_bound.h"
 #include "lodestone/bounds/stretch_bound.h"
-#include "lodestone/io/shapes/shapes.h"
 
 namespace lodestone {
 
@@ -194,7 +193,10 @@ class Boxed_body final : public Moved_body {
 
  protected:
   void next_motion(const Eigen::Vector3d& place, Random& random) override {
-    for (double& factor : scale_) factor = random.number(0.3, 1.5) * (random.one_in(4) ? -1 : 1);
+    for (double& factor : scale_) {
+      const double size = random.number(0.3, 1.5);
+      factor = random.one_in(4) ? -size : size;
+    }
     shift_ = place - scale_.cwiseProduct(centre_);
   }
   Eigen::Vector3d moved(const Eigen::Vector3d& rest) const override { return scale_.cwiseProduct(rest) + shift_; }

@@ -3,7 +3,7 @@
 
 #include "certified_soak/random_body.h"
 
-/// Bodies whose vertices somebody moves, and promises something about that, as tight as can be: see Body_recipe.
+/// Bodies that are moved in memory, each with a promise: see Body_recipe.
 namespace lodestone {
 
 std::unique_ptr<Random_body> make_displaced(const Eigen::Vector3d& centre, std::size_t frequency, Random& random);

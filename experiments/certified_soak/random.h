@@ -9,7 +9,8 @@
 
 namespace lodestone {
 
-/// Numbers that are the same on every machine for the same seed.
+/// Random numbers that depend on nothing but the seed. Directions and turns also depend on the roots, sines and cosines
+/// of the C library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -23,7 +24,7 @@ class Random {
     const double x = number(-size, size), y = number(-size, size), z = number(-size, size);
     return {x, y, z};
   }
-  /// Almost never of a vector without direction.
+  /// A unit vector. The offset keeps a draw of (0, 0, 0) from being normalised.
   Eigen::Vector3d direction() { return (vector() + Eigen::Vector3d::Constant(1e-9)).normalized(); }
   Eigen::Matrix3d turn(double most) {
     const double angle = number(-most, most);

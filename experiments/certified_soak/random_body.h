@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "certified_soak/random.h"
 #include "lodestone/bounds/node_bound.h"
@@ -35,7 +36,7 @@ class Random_body {
   virtual const Position_source& positions() const = 0;
   /// Null if nothing is known of the motion.
   virtual std::unique_ptr<Node_bound> bound(const Bounded_object& object) const = 0;
-  /// Whether what is known holds whatever positions are taken to be those at rest.
+  /// Whether what is known still holds if a tree is built in the present pose, which then counts as rest.
   virtual bool can_be_rebuilt() const { return true; }
 
  protected:

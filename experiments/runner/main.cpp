@@ -43,7 +43,8 @@ void add_options(CLI::App& app, Experiment_command& command) {
       ->capture_default_str();
   app.add_option_function<std::string>(
          "--shard", [&command](const std::string& text) { command.shard = parse_shard(text); },
-         "Only the I-th of N parts, into --out; lodestone merge joins the parts (partitions, soak, certified_soak, every_frame)")
+         "Only the I-th of N parts, into --out; lodestone merge joins the parts (partitions, soak, certified_soak, "
+         "every_frame)")
       ->type_name("I/N");
   app.add_flag("--merge-shards", command.merge_shards)->group("");  // lodestone merge gives it
   app.add_option("--seeds", command.seeds, "Seeds 1 to N, each with its own meshes (soak, certified_soak)")

@@ -442,6 +442,8 @@ class Detector {
 };
 
 // The library holds what a detector of Surface_mesh needs: a file that uses one does not compile it again.
+extern template class Exact_objects<Aabb>;
+extern template class Exact_pairs<Aabb>;
 extern template class Exact_detection<Aabb>;
 extern template std::unique_ptr<Detection> make_detection<Aabb>(const Detector_options&);
 extern template class Typed_watched_mesh<Surface_mesh, Own_points<Surface_mesh>, Lbg>;

@@ -84,9 +84,10 @@ void refuse_settings_of_other_strategies(const Given_strategy& strategy, const p
       strategy.function || std::ranges::find(strategies(), strategy.name, &Strategy_entry::name) != strategies().end();
   if (!is_known) return;  // the strategy is refused when it is made
   for (const auto& [name, setting] : settings) {
-    if (!keywords.contains(name) || (!strategy.function && reads(strategy.name, setting))) continue;
+    if (!keywords.contains(name) || (!strategy.function && strategy_reads(strategy.name, setting))) continue;
     std::string readers;
-    for (const auto reader : strategies_that_read(setting)) readers += (readers.empty() ? "" : ", ") + std::string(reader);
+    for (const auto reader : strategies_that_read(setting))
+      readers += (readers.empty() ? "" : ", ") + std::string(reader);
     throw Bad_argument(std::string("the option ") + name + " is for the strategies " + readers + ": the strategy " +
                        strategy.name + " ignores it");
   }

@@ -28,6 +28,11 @@ namespace {
 
 constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
+constexpr Lbg_setting settings_of_lbg[] = {Lbg_setting::normal_weight, Lbg_setting::split_rule, Lbg_setting::split,
+                                           Lbg_setting::tolerance,     Lbg_setting::sample,     Lbg_setting::threads};
+constexpr auto settings_without_normals = std::span(settings_of_lbg).subspan(1);
+constexpr Lbg_setting settings_of_kmeans[] = {Lbg_setting::normal_weight, Lbg_setting::tolerance};
+
 template <class Strategy>
 Any_strategy from_lbg_options(const Strategy_settings& settings) {
   return Any_strategy(Strategy{.options = settings.lbg});
@@ -59,11 +64,14 @@ Any_strategy kmeans_plus_plus(const Strategy_settings& settings) {
 
 std::span<const Strategy_entry> strategies() {
   static constexpr auto all = std::to_array<Strategy_entry>({
-      {Lbg::name, "cells of position and normal, by splitting and Lloyd iterations", from_lbg_options<Lbg>, any_number},
-      {Lbg_position::name, "the same of positions alone", from_lbg_options<Lbg_position>, any_number},
-      {Lbg_curvature::name, "the same of position, normal and mean curvature", lbg_curvature, any_number},
+      {Lbg::name, "cells of position and normal, by splitting and Lloyd iterations", from_lbg_options<Lbg>, any_number,
+       settings_of_lbg},
+      {Lbg_position::name, "the same of positions alone", from_lbg_options<Lbg_position>, any_number,
+       settings_without_normals},
+      {Lbg_curvature::name, "the same of position, normal and mean curvature", lbg_curvature, any_number,
+       settings_of_lbg},
       {Kmeans_plus_plus::name, "cells of position and normal, by Lloyd iterations from a random start far apart",
-       kmeans_plus_plus, any_number},
+       kmeans_plus_plus, any_number, settings_of_kmeans},
       {Farthest_point::name, "vertices nearest along the edges to seeds far apart", from_seed<Farthest_point>,
        any_number},
       {Random_voronoi::name, "vertices nearest along the edges to random seeds", from_seed<Random_voronoi>, any_number},
@@ -82,22 +90,15 @@ std::span<const Strategy_entry> strategies() {
   return all;
 }
 
-bool reads(std::string_view strategy, Lbg_setting setting) {
-  const bool is_lbg = strategy == Lbg::name || strategy == Lbg_position::name || strategy == Lbg_curvature::name;
-  switch (setting) {
-    case Lbg_setting::normal_weight:
-      return strategy == Kmeans_plus_plus::name || (is_lbg && strategy != Lbg_position::name);
-    case Lbg_setting::tolerance:
-      return strategy == Kmeans_plus_plus::name || is_lbg;
-    default:
-      return is_lbg;
-  }
+bool strategy_reads(std::string_view strategy, Lbg_setting setting) {
+  const auto entry = std::ranges::find(strategies(), strategy, &Strategy_entry::name);
+  return entry != strategies().end() && std::ranges::find(entry->reads, setting) != entry->reads.end();
 }
 
 std::vector<std::string_view> strategies_that_read(Lbg_setting setting) {
   std::vector<std::string_view> names;
   for (const auto& strategy : strategies())
-    if (reads(strategy.name, setting)) names.push_back(strategy.name);
+    if (strategy_reads(strategy.name, setting)) names.push_back(strategy.name);
   return names;
 }
 

@@ -36,7 +36,7 @@ inline void refuse_options_of_other_strategies(const CLI::App& command, std::str
                                        {"--lbg-tolerance", Lbg_setting::tolerance}};
   if (threads) options.push_back({"--threads", Lbg_setting::threads});
   for (const auto& option : options) {
-    if (command.count(option.name) == 0 || reads(strategy, option.setting)) continue;
+    if (command.count(option.name) == 0 || strategy_reads(strategy, option.setting)) continue;
     throw Bad_argument(fmt::format("{} needs --strategy {}: the strategy {} ignores it", option.name,
                                    fmt::join(strategies_that_read(option.setting), " or "), strategy));
   }

@@ -53,6 +53,27 @@ TEST_P(Strategy_contract, a_closed_surface_gets_about_the_requested_number_of_re
   }
 }
 
+/// Programs refuse settings that the registry does not list.
+TEST_P(Strategy_contract, a_setting_that_changes_the_regions_is_one_that_the_registry_lists) {
+  const auto mesh = as_float(potato(14));
+  const auto divided = [&](const auto& change) {
+    Strategy_settings settings;
+    change(settings.lbg);
+    return divide(mesh, 12, GetParam().make(settings));
+  };
+  const auto usual = divided([](Lbg_options&) {});
+  const auto expect_listed = [&](Lbg_setting setting, bool shows, const auto& change) {
+    const bool differs = divided(change) != usual, listed = strategy_reads(GetParam().name, setting);
+    if (differs) EXPECT_TRUE(listed) << static_cast<int>(setting);
+    if (listed && shows) EXPECT_TRUE(differs) << static_cast<int>(setting);
+  };
+  expect_listed(Lbg_setting::normal_weight, true, [](Lbg_options& lbg) { lbg.features.normal_weight = 5; });
+  expect_listed(Lbg_setting::split_rule, true, [](Lbg_options& lbg) { lbg.split_rule = Split::multiplicative; });
+  expect_listed(Lbg_setting::split, false, [](Lbg_options& lbg) { lbg.split = 0.3; });
+  expect_listed(Lbg_setting::tolerance, true, [](Lbg_options& lbg) { lbg.tolerance = 0.9; });
+  expect_listed(Lbg_setting::sample, false, [](Lbg_options& lbg) { lbg.sample = 128; });
+}
+
 TEST_P(Strategy_contract, an_open_surface_is_divided) {
   const auto divided = divided_alike(as_float(grid(17, 12)), 10);
   EXPECT_GE(divided.regions, 7U);

@@ -17,6 +17,7 @@
 #include "lodestone/detection/object_motion.h"
 #include "lodestone/detection/saved_object.h"
 #include "lodestone/queries/closest_faces.h"
+#include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/parting.h"
 #include "lodestone/queries/point_search.h"
 #include "lodestone/queries/ray_search.h"
@@ -24,7 +25,7 @@
 
 namespace lodestone {
 
-/// The modes `exact` and `certified` of a Detector: frames, and questions about one or two objects.
+/// The modes `exact` and `certified` of a Detector: frames, and questions about some objects.
 ///
 /// Every call that answers first reads all positions of the objects that it is about and refits their trees: it cannot
 /// answer for where they were before. In mode `certified` an object with bounds is read where it is near others. If a
@@ -223,7 +224,7 @@ class Exact_detection final : public Detection {
   Frame_builder frame_;
   Exact_pairs<Volume> pairs_;
   Broad_phase broad_phase_;  ///< of impacts
-  Frame_statistics before_;  ///< `demand` when the frame began
+  Frame_statistics before_;  ///< `work_on_demand` when the frame began
   bool visited_ = false;     ///< a visitor is being shown face pairs
 };
 
@@ -337,8 +338,9 @@ bool Exact_detection<Volume>::contains(Object_id outer, Object_id inner) {
   const Object_id ids[] = {outer, inner};
   refresh(ids);
   bool answer = false;
-  objects_.until_settled(
-      ids, [&] { answer = pairs_.inside({inner, outer}) && !collide_or_are_nearer({outer, inner}, 0); });
+  objects_.until_settled(ids, [&] {
+    answer = pairs_.inside({inner, outer}) && !collide_or_are_nearer({outer, inner}, 0);
+  });
   return answer;
 }
 
@@ -352,7 +354,7 @@ template <Bounding_volume Volume>
 void Exact_detection<Volume>::start_frame(std::span<const Object_id> ids) {
   refresh(ids);
   frame_.start(objects_.take_work());
-  before_ = objects_.demand(ids);
+  before_ = objects_.work_on_demand(ids);
 }
 
 /// Adds what this frame has done to objects with bounds.
@@ -360,7 +362,7 @@ template <Bounding_volume Volume>
 const Frame& Exact_detection<Volume>::finish_frame(std::span<const Object_id> ids) {
   Frame_statistics& statistics = frame_.statistics();
   statistics.seconds.refit += objects_.take_work().seconds.refit;
-  const Frame_statistics now = objects_.demand(ids);
+  const Frame_statistics now = objects_.work_on_demand(ids);
   statistics.vertices_read += now.vertices_read - before_.vertices_read;
   statistics.nodes_bounded += now.nodes_bounded - before_.nodes_bounded;
   statistics.leaves_posed += now.leaves_posed - before_.leaves_posed;

@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "lodestone/detection/exact_object.h"
 #include "lodestone/detection/frame.h"
+#include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/mesh/side_by_side.h"
 #include "lodestone/mesh/stopwatch.h"
@@ -85,28 +87,31 @@ class Exact_objects {
   void pose_all(Object_id id) {
     if (on_demand(id)) timed(work_.seconds.refit, [&] { bounded(id).pose_all(); });
   }
-  /// The same for several.
-  /// @throws Broken_bound  as `throw_if_broken`
+  /// Poses and refits all of several objects, for a question that must read everything.
+  /// @throws Bad_mesh      a coordinate is not finite
+  /// @throws Broken_bound  as `throw_if_broken`; the call for one object does not
   void pose_all(std::span<const Object_id> ids) {
     for (const auto id : ids) pose_all(id);
     throw_if_broken(ids);
   }
 
-  /// Finds an answer about these objects, again as long as it has relied on a bound that turned out to be broken: by
-  /// then the object is posed as a whole. Each repetition settles an object, so there are few.
+  /// Calls `answer`, which finds an answer about these objects. If it relied on a broken bound, the object is posed as a
+  /// whole, and `answer` is called again. Each repetition settles an object, so there are few.
   /// @param answer         called without arguments
   /// @throws Broken_bound  as `throw_if_broken`
   template <class Answer>
   void until_settled(std::span<const Object_id> ids, Answer answer);
-  /// @throws Broken_bound  a bound of one of these objects is broken, and the options ask for an error
+  /// Throws if a bound of one of these objects is broken, and the options ask for an error. Such objects forget their
+  /// pose: the next question asks their bounds anew.
+  /// @throws Broken_bound  names the first of them
   void throw_if_broken(std::span<const Object_id> ids) const;
 
   /// Brings everything that depends on positions to where the vertices of these objects are now.
   /// @throws Bad_mesh  a coordinate is not finite; a mesh has changed since it was numbered
   void refresh(std::span<const Object_id> ids);
 
-  /// What has been done so far to objects with bounds, in their current poses.
-  Frame_statistics demand(std::span<const Object_id> ids) const;
+  /// What has been bounded and posed so far of these objects, in their current poses.
+  Frame_statistics work_on_demand(std::span<const Object_id> ids) const;
   /// What has been done since the last call of this: times, builds, repartitions. Of the refits, only the last counts.
   Frame_statistics take_work() { return std::exchange(work_, {}); }
 
@@ -178,7 +183,7 @@ void Exact_objects<Volume>::bound_refitted(std::span<const Object_id> ids) {
 }
 
 template <Bounding_volume Volume>
-Frame_statistics Exact_objects<Volume>::demand(std::span<const Object_id> ids) const {
+Frame_statistics Exact_objects<Volume>::work_on_demand(std::span<const Object_id> ids) const {
   Frame_statistics sum;
   for (const auto id : ids) {
     if (!on_demand(id)) continue;
@@ -196,12 +201,12 @@ template <class Answer>
 void Exact_objects<Volume>::until_settled(std::span<const Object_id> ids, Answer answer) {
   std::size_t before;
   do {
-    before = demand(ids).violations;
+    before = work_on_demand(ids).violations;
     answer();
     throw_if_broken(ids);
     for (const auto id : ids)
       if (on_demand(id) && bounded(id).is_broken()) bounded(id).settle();
-  } while (demand(ids).violations > before);
+  } while (work_on_demand(ids).violations > before);
 }
 
 template <Bounding_volume Volume>

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <concepts>
 #include <functional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,7 +41,7 @@ class Exact_pairs {
         small_pairs_(workers),
         bounded_search_(workers) {}
 
-  /// Adds the pairs of all objects to the frame, in place of those that it has.
+  /// Replaces the pairs of the frame by those of all objects.
   void find_all(const Collision_filter& filter) {
     begin();
     timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });

@@ -19,18 +19,15 @@ struct Strategy_settings {
   Lbg_options lbg = {};    ///< of `lbg` and its kin; `lbg.features` also of the others that quantise feature vectors
 };
 
-/// What of `Strategy_settings::lbg` some strategies ignore.
+/// A setting in `Strategy_settings::lbg` that some strategies ignore.
 enum class Lbg_setting {
-  normal_weight,  ///< of the features
-  split_rule,     ///< how code vectors are split
-  split,          ///< how far
-  tolerance,      ///< when iterations stop
-  sample,         ///< how many vertices to train on
-  threads,        ///< at most
+  normal_weight,  ///< `Feature_options::normal_weight`
+  split_rule,     ///< `Lbg_options::split_rule`
+  split,          ///< `Lbg_options::split`
+  tolerance,      ///< `Lbg_options::tolerance`
+  sample,         ///< `Lbg_options::sample`
+  threads,        ///< `Lbg_options::threads`
 };
-
-/// Whether the strategy of a name reads a setting. All accept a seed.
-bool reads(std::string_view strategy, Lbg_setting setting);
 
 /// A partition strategy chosen at run time.
 class Any_strategy {
@@ -71,11 +68,14 @@ struct Strategy_entry {
   std::string_view summary;                                 ///< what a region is, in a few words
   Any_strategy (*make)(const Strategy_settings& settings);  ///< makes the strategy
   std::size_t most_vertices;                                ///< with more vertices the strategy throws Bad_argument
+  std::span<const Lbg_setting> reads = {};                  ///< settings of LBG; all strategies accept a seed
 };
 
 /// All strategies, `lbg` first.
 std::span<const Strategy_entry> strategies();
 
+/// Whether the strategy of a name reads a setting; false if there is none of that name.
+bool strategy_reads(std::string_view strategy, Lbg_setting setting);
 /// The names of those that read a setting.
 std::vector<std::string_view> strategies_that_read(Lbg_setting setting);
 
