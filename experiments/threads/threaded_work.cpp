@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "lodestone/detector.h"
 #include "lodestone/mesh/computed_points.h"
+#include "lodestone/mesh/workers.h"
 #include "shared/lap_timer.h"
 #include "shared/random_rays.h"
 
@@ -43,6 +46,30 @@ double seconds_of(const Function& function) {
   const Lap_timer timer;
   function();
   return timer.seconds();
+}
+
+/// Steps of a generator of random numbers, each of which needs the last.
+std::uint64_t steps(std::uint64_t state, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) state = state * 6364136223846793005U + 1442695040888963407U;
+  return state;
+}
+
+/// Tasks of some ten microseconds.
+Threaded_work arithmetic(std::string name, std::size_t tasks) {
+  return {.name = std::move(name),
+          .rounds = rounds_of_frames,
+          .pose = [](std::size_t) {},
+          .make = [tasks](std::size_t threads) -> std::function<double()> {
+            auto workers = std::make_shared<Workers>(threads);
+            auto results = std::make_shared<std::vector<std::uint64_t>>(tasks);
+            return [workers, results] {
+              return seconds_of([&] {
+                workers->run(results->size(), [&](std::size_t task, std::size_t) {
+                  (*results)[task] = steps((*results)[task] + task, 5000);
+                });
+              });
+            };
+          }};
 }
 
 /// The first answer of a new detector.
@@ -131,6 +158,10 @@ Threaded_work crowd_frame(Scene& crowd, const std::string& name, const Detector_
 }
 
 }  // namespace
+
+std::vector<Threaded_work> works_without_memory() {
+  return {arithmetic("arithmetic alone, long", 1024), arithmetic("arithmetic alone, short", 32)};
+}
 
 std::vector<Threaded_work> works_on(Moving_pair& pair) {
   using enum Moving_pair::Place;

@@ -22,6 +22,8 @@ struct Threaded_work {
   std::function<std::function<double()>(std::size_t threads)> make;
 };
 
+/// What the machine allows: tasks that read and write nothing in common, long and short.
+std::vector<Threaded_work> works_without_memory();
 /// What can be asked about a pair of spheres: builds, queries and the stages of every mode.
 std::vector<Threaded_work> works_on(Moving_pair& pair);
 /// Mode `certified` on two characters.
