@@ -5,23 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "certified_soak/bound_check.h"
 #include "certified_soak/promised_bodies.h"
 #include "certified_soak/random_body.h"
+#include "certified_soak/two_detectors.h"
 
 namespace lodestone {
 
 namespace {
 
 constexpr std::size_t frames_per_round = 24;
-constexpr std::size_t all_of_them = std::numeric_limits<std::size_t>::max();
 
 /// Of any size up to 1/256: the pairs within a larger one would take most of the time.
 double random_tolerance(Random& random) {
@@ -49,100 +47,6 @@ Detector_options random_options(Random& random) {
   options.exact.tree.leaf_faces = 2 + random.below(100);
   return options;
 }
-
-Detector_options in_mode(Mode mode, Detector_options options) {
-  options.mode = mode;
-  // Mode exact lists all contacts: those that mode certified lists must be among them.
-  if (mode == Mode::exact) {
-    options.contacts = Contact_query::all;
-    options.most_contacts = all_of_them;
-  }
-  return options;
-}
-
-Pair_result result_of(const Frame& frame, Object_id a, Object_id b) {
-  for (const auto& pair : frame.pairs)
-    if (pair.a == a && pair.b == b) return pair;
-  return {.a = a, .b = b};
-}
-
-/// What both modes must agree on, whichever contacts they list.
-bool same_pair(const Pair_result& found, const Pair_result& truth) {
-  const bool parted = found.parting.has_value() == truth.parting.has_value() &&
-                      (!found.parting || found.parting->translation == truth.parting->translation);
-  return found.collides == truth.collides && found.near == truth.near && found.containment == truth.containment &&
-         parted;
-}
-
-/// The two modes on the same bodies.
-class Two_detectors {
- public:
-  explicit Two_detectors(const Detector_options& options)
-      : query_(options.contacts),
-        most_(query_ == Contact_query::yes_no  ? 0
-              : query_ == Contact_query::first ? 1
-                                               : options.most_contacts),
-        certified_(in_mode(Mode::certified, options)),
-        exact_(in_mode(Mode::exact, options)) {}
-
-  void add(const Random_body& body) {
-    body.add_to(exact_);
-    body.promise_to(certified_, body.add_to(certified_));
-    ++count_;
-  }
-  Detector<>& certified() { return certified_; }
-  /// Calls `act(detector)` for both.
-  void both(const auto& act) {
-    act(certified_);
-    act(exact_);
-  }
-
-  struct Frame_check {
-    std::vector<bool> meets_first;  ///< per body: whether it collides with the first
-    bool collides = false;          ///< two of them do
-    bool same = true;               ///< both modes give the same answers
-  };
-  Frame_check detect() {
-    const Frame& truth = exact_.detect();
-    const Frame& found = certified_.detect();
-    Frame_check check{.meets_first = std::vector<bool>(count_)};
-    for (Object_id a = 0; a < count_; ++a)
-      for (Object_id b = a; b < count_; ++b) {
-        check.same &= same_answer(found, truth, a, b);
-        const bool collide = a != b && result_of(truth, a, b).collides;
-        check.collides |= collide;
-        if (a == 0) check.meets_first[b] = collide;
-      }
-    if (query_ == Contact_query::all && most_ == all_of_them)
-      check.same &= found.face_pairs == truth.face_pairs && found.contact_points == truth.contact_points &&
-                    found.patches.size() == truth.patches.size();
-    return check;
-  }
-
-  /// Asks both a question, and compares what they answer.
-  bool agree(const auto& ask) { return ask(certified_) == ask(exact_); }
-  /// Broken bounds that the last frame and the questions since have come upon.
-  std::size_t violations() const {
-    std::size_t sum = 0;
-    for (Object_id id = 0; id < count_; ++id)
-      if (const Bounded_surface* surface = certified_.bounded(id)) sum += surface->violations();
-    return sum;
-  }
-
- private:
-  bool same_answer(const Frame& found, const Frame& truth, Object_id a, Object_id b) const {
-    const Pair_result one = result_of(found, a, b), other = result_of(truth, a, b);
-    if (!same_pair(one, other)) return false;
-    const auto listed = found.contacts(one), all = truth.contacts(other);
-    if (query_ == Contact_query::all && one.capped != (all.size() > most_)) return false;
-    return listed.size() == std::min(all.size(), most_) && std::ranges::includes(all, listed);
-  }
-
-  Contact_query query_;
-  std::size_t most_;  ///< contacts of a pair that are listed
-  Detector<> certified_, exact_;
-  Object_id count_ = 0;
-};
 
 /// A scene that is played.
 class Round {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "certified_soak/random_body.h"
+#include "lodestone/detector.h"
+
+namespace lodestone {
+
+/// The modes `certified` and `exact` on the same bodies.
+class Two_detectors {
+ public:
+  /// @param options  of both, but that mode `exact` lists all contacts: those that mode `certified` lists must be among
+  ///                 them
+  explicit Two_detectors(const Detector_options& options);
+
+  void add(const Random_body& body);
+  Detector<>& certified() { return certified_; }
+  /// Calls `act(detector)` for both.
+  void both(const auto& act) {
+    act(certified_);
+    act(exact_);
+  }
+
+  struct Frame_check {
+    std::vector<bool> meets_first;  ///< per body: whether it collides with the first
+    bool collides = false;          ///< two of them do
+    bool same = true;               ///< both modes give the same answers
+  };
+  /// Plays a frame in both.
+  Frame_check detect();
+  /// Asks both a question, and compares what they answer.
+  bool agree(const auto& ask) { return ask(certified_) == ask(exact_); }
+  /// Broken bounds that the last frame and the questions since have come upon.
+  std::size_t violations() const;
+
+ private:
+  bool same_answer(const Frame& found, const Frame& truth, Object_id a, Object_id b) const;
+
+  Contact_query query_;
+  std::size_t most_;  ///< contacts of a pair that are listed
+  Detector<> certified_, exact_;
+  Object_id count_ = 0;
+};
+
+}  // namespace lodestone
