@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "certified_soak/bound_check.h"
 
-#include <algorithm>
-
 #include "lodestone/bounds/placed_bound.h"
 #include "lodestone/mesh/mesh_numbering.h"
 
@@ -14,21 +12,6 @@ std::vector<double> positions_of(const Random_body& body) {
   std::vector<double> coordinates(3 * std::size_t{body.positions().vertex_count()});
   body.positions().pose_all(coordinates);
   return coordinates;
-}
-
-Aabb box_of(Coordinates coordinates, std::uint32_t vertex) {
-  Aabb box;
-  for (std::size_t axis = 0; axis < 3; ++axis) box.low[axis] = box.high[axis] = coordinates[3 * vertex + axis];
-  return box;
-}
-
-Aabb box_around(const Aabb& a, const Aabb& b) {
-  Aabb box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::min(a.low[axis], b.low[axis]);
-    box.high[axis] = std::max(a.high[axis], b.high[axis]);
-  }
-  return box;
 }
 
 bool contains(const Aabb& box, const Aabb& other) {
@@ -44,22 +27,7 @@ Bound_check::Bound_check(const Random_body& body, std::size_t leaf_faces)
       corners_(Mesh_numbering<Surface_mesh>(body.mesh()).corners()),
       rest_(positions_of(body)),
       surface_(corners_, rest_, {.leaf_faces = leaf_faces}),
-      bound_(body.bound({surface_.tree(), {}, rest_, body.positions()})),
-      fitted_(surface_.tree().node_count()) {}
-
-/// Children before their parents. A box around points that are doubles is exact.
-void Bound_check::fit_boxes(Coordinates coordinates) {
-  const Tree_layout& layout = surface_.tree();
-  for (std::uint32_t node = static_cast<std::uint32_t>(fitted_.size()); node-- > 0;) {
-    if (const std::uint32_t second = layout.node(node).second_child; second != 0) {
-      fitted_[node] = box_around(fitted_[node + 1], fitted_[second]);
-      continue;
-    }
-    const auto vertices = layout.vertices(layout.node(node).leaf);
-    fitted_[node] = box_of(coordinates, vertices.front());
-    for (const std::uint32_t v : vertices) fitted_[node] = box_around(fitted_[node], box_of(coordinates, v));
-  }
-}
+      bound_(body.bound({surface_.tree(), {}, rest_, body.positions()})) {}
 
 /// @param placed  where a box of the bound comes to lie
 template <class Placed>
@@ -77,10 +45,10 @@ Bound_check::Count Bound_check::check(Random& random) {
   if (const auto placement = body_.placement()) {
     const Rigid_motion motion(*placement);
     std::vector<double> placed;
-    fit_boxes(motion(now_, placed));
+    fitted_ = fitted_boxes(surface_.tree(), motion(now_, placed));
     compare(count, [&](const Aabb& box) { return placed_box(motion.rotation(), motion.translation(), box); });
   }
-  fit_boxes(now_);
+  fitted_ = fitted_boxes(surface_.tree(), now_);
   compare(count, [](const Aabb& box) { return box; });
   const Tree_layout& layout = surface_.tree();
   if (random.one_in(4) && bound_->notes_all() && !bound_->note_all(fitted_, now_, true)) ++count.refused;

@@ -28,7 +28,6 @@ class Bound_check {
   Count check(Random& random);
 
  private:
-  void fit_boxes(Coordinates coordinates);
   template <class Placed>
   void compare(Count& count, const Placed& placed) const;
 
@@ -37,7 +36,7 @@ class Bound_check {
   std::vector<double> rest_, now_;  ///< 3 V
   Tree_surface surface_;
   std::unique_ptr<Node_bound> bound_;
-  std::vector<Aabb> fitted_;  ///< per node
+  std::vector<Aabb> fitted_;  ///< per node: around its vertices, exactly
 };
 
 }  // namespace lodestone
