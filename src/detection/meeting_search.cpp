@@ -83,6 +83,7 @@ void Meeting_search::open(Met_pair& pair, Workers& workers) {
   begin_openings(pair, false);
   pair.first_opened = opened_.size();
   if (wants_all() && openings_.is_limited()) follow_known_curves(pair, workers);
+  pair.followed_count = opened_.size() - pair.first_opened;
   openings_.open(opened_, workers);
   pair.opened_count = opened_.size() - pair.first_opened;
   pair.out_of_budget = openings_.out_of_budget();
@@ -121,7 +122,7 @@ void Meeting_search::follow_known_curves(const Met_pair& pair, Workers& workers)
   const auto known = curves_.recall(pair.ids);
   contacts_.insert(contacts_.end(), known.begin(), known.end());
   if (contacts_.empty()) return;
-  openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(), {}, contacts_, opened_, workers);
+  openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(), {.contacts = contacts_}, opened_, workers);
 }
 
 /// Particles of both surfaces at a contact.
@@ -196,7 +197,8 @@ void Meeting_search::follow_curves(const Met_pair& pair, std::vector<Face_pair>&
   for (const auto& seed : seeds(pair)) contacts_.push_back(seed.contact);
   const auto compared = std::span(compared_).subspan(pair.first_compared, pair.compared_count);
   begin_openings(pair, true);
-  openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(), compared, contacts_, found, workers);
+  openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(),
+                   {.contacts = contacts_, .compared = compared, .followed = pair.followed_count}, found, workers);
   count_openings();
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "lodestone/queries/face_pair_order.h"
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/triangles/triangle_intersection.h"
 #include "queries/leaf_distance.h"
@@ -157,24 +158,26 @@ void Opening_search::open_for_all(std::vector<Face_pair>& found, Workers& worker
   test_listed(found, workers);
 }
 
-void Opening_search::follow(Leaf_neighbours& a, Leaf_neighbours& b, std::span<const Leaf_pair> compared,
-                            std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers) {
-  compared_.assign(compared.begin(), compared.end());
-  std::size_t followed = found.size();
-  for (const Face_pair contact : contacts) {
+void Opening_search::follow(Leaf_neighbours& a, Leaf_neighbours& b, const Curve_starts& starts,
+                            std::vector<Face_pair>& found, Workers& workers) {
+  compared_.assign(starts.compared.begin(), starts.compared.end());
+  const std::size_t first = found.size();
+  for (std::size_t i = 0; i < starts.contacts.size(); ++i) {
+    const Face_pair contact = starts.contacts[i];
     const Leaf_pair leaves{a.leaf_of(contact.a), b.leaf_of(contact.b)};
-    if (was_opened(leaves) || std::ranges::binary_search(compared_, leaves))
-      found.push_back(contact);
-    else
+    if (!was_opened(leaves) && !std::ranges::binary_search(compared_, leaves)) {
       beside_.push_back(leaves);
+      continue;
+    }
+    found.push_back(contact);
+    if (i >= starts.followed) follow_contact(a, b, contact);
   }
-  const auto first = found.begin() + static_cast<std::ptrdiff_t>(followed);
-  std::sort(first, found.end());
-  found.erase(std::unique(first, found.end()), found.end());
-  do {
-    for (; followed < found.size(); ++followed) follow_contact(a, b, found[followed]);
+  sort_face_pairs(std::span(found).subspan(first));
+  found.erase(std::unique(found.begin() + static_cast<std::ptrdiff_t>(first), found.end()), found.end());
+  for (std::size_t followed = found.size(); !beside_.empty();) {
     compare_beside(found, workers);
-  } while (followed < found.size());
+    for (; followed < found.size(); ++followed) follow_contact(a, b, found[followed]);
+  }
 }
 
 /// Lists the leaf pairs beside a contact.

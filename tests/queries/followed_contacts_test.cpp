@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <tuple>
 
 #include "lodestone/mesh/errors.h"
@@ -50,7 +51,7 @@ std::vector<Face_pair> followed_from(Opening_search& search, Followed_object& a,
   a.start_frame(), b.start_frame();
   search.begin(a.tree(), b.tree(), {.all = true});
   std::vector<Face_pair> found{{999, 999}};
-  search.follow(a.neighbours(), b.neighbours(), {}, contacts, found);
+  search.follow(a.neighbours(), b.neighbours(), {.contacts = contacts}, found);
   EXPECT_EQ(found.front(), (Face_pair{999, 999})) << "what was found before must stay";
   found.erase(found.begin());
   std::ranges::sort(found);
@@ -172,7 +173,7 @@ TEST(Followed_contacts, complete_what_a_search_has_left) {
     const std::size_t tests = search.leaf_tests();
     EXPECT_EQ(compared.size(), tests);
     search.begin(a.tree(), b.tree(), {.all = true});
-    search.follow(a.neighbours(), b.neighbours(), compared, opened, found);
+    search.follow(a.neighbours(), b.neighbours(), {.contacts = opened, .compared = compared}, found);
     std::ranges::sort(found);
     EXPECT_EQ(found, truth);
     completed += opened.size() < truth.size() ? 1 : 0;
@@ -205,7 +206,7 @@ class Followed_contacts_of_two_curves : public testing::Test {
     a_.start_frame(), b_.start_frame();
     search_.begin(a_.tree(), b_.tree(), {.all = true, .budget = budget}, root_start);
     Searched searched;
-    search_.follow(a_.neighbours(), b_.neighbours(), {}, contacts, searched.found);
+    search_.follow(a_.neighbours(), b_.neighbours(), {.contacts = contacts}, searched.found);
     searched.followed = read();
     search_.open(searched.found);
     searched.read = read();
@@ -251,6 +252,34 @@ TEST_F(Followed_contacts_of_two_curves, leave_half_of_the_budget_to_openings) {
   EXPECT_LE(searched.read, search_.spent()) << "pairs of nodes count too";
 }
 
+TEST_F(Followed_contacts_of_two_curves, are_not_followed_again_where_they_have_been) {
+  a_.start_frame(), b_.start_frame();
+  search_.begin(a_.tree(), b_.tree(), {.all = true});
+  std::vector<Face_pair> curve;
+  search_.follow(a_.neighbours(), b_.neighbours(), {.contacts = known_}, curve);
+  ASSERT_LT(curve.size(), truth_.size()) << "one of two curves";
+  const std::vector<Leaf_pair> compared(search_.compared().begin(), search_.compared().end());
+  const auto of_other_curve = std::ranges::find_if(
+      truth_, [&](Face_pair contact) { return std::ranges::find(curve, contact) == curve.end(); });
+  std::vector<Face_pair> contacts = curve;
+  contacts.push_back(*of_other_curve);
+  const auto follow_on = [&](std::span<const Leaf_pair> known, std::size_t followed) {
+    search_.begin(a_.tree(), b_.tree(), {.all = true});
+    std::vector<Face_pair> found;
+    search_.follow(a_.neighbours(), b_.neighbours(), {contacts, known, followed}, found);
+    std::ranges::sort(found);
+    return found;
+  };
+  EXPECT_EQ(follow_on(compared, curve.size()), truth_) << "the other curve is followed";
+  EXPECT_EQ(follow_on(compared, 0), truth_);
+  // Who says so of all that is known, and has compared the leaves of one contact only, finds no more than that.
+  contacts = known_;
+  const Leaf_pair at{a_.neighbours().leaf_of(known_[0].a), b_.neighbours().leaf_of(known_[0].b)};
+  EXPECT_EQ(follow_on({&at, 1}, 1), known_);
+  EXPECT_EQ(search_.leaf_tests(), 0U);
+  EXPECT_GT(follow_on({&at, 1}, 0).size(), 1U);
+}
+
 TEST(Followed_contacts, of_starts_that_were_opened_as_a_whole_are_compared_only_beyond_them) {
   Followed_object a(icosphere(20)), b(moved(icosphere(20), 0.9, 0.2, 0.1));
   const auto truth = true_contacts(a, b);
@@ -273,7 +302,7 @@ TEST(Followed_contacts, of_starts_that_were_opened_as_a_whole_are_compared_only_
     ASSERT_FALSE(opened.empty());
     ASSERT_LE(opened.size(), truth.size());
     search.begin(a.tree(), b.tree(), {.all = true, .most_whole = 100'000, .opened = true}, starts);
-    search.follow(a.neighbours(), b.neighbours(), {}, opened, found);
+    search.follow(a.neighbours(), b.neighbours(), {.contacts = opened}, found);
     std::ranges::sort(found);
     EXPECT_EQ(found, truth) << count;
     const std::size_t beyond = search.leaf_tests();
@@ -317,7 +346,7 @@ TEST(Followed_contacts, are_the_same_in_the_same_order_for_any_number_of_workers
     a.start_frame(), b.start_frame();
     search.begin(a.tree(), b.tree(), {.all = true});
     std::vector<Face_pair> found;
-    search.follow(a.neighbours(), b.neighbours(), {}, some, found, workers);
+    search.follow(a.neighbours(), b.neighbours(), {.contacts = some}, found, workers);
     EXPECT_GT(search.leaf_tests(), 100U) << "enough for all workers";
     if (alone.empty()) alone = found;
     EXPECT_EQ(found, alone);
@@ -337,7 +366,7 @@ TEST(Followed_contacts, a_coordinate_that_is_not_finite_is_refused) {
   a.start_frame(), b.start_frame();
   search.begin(a.tree(), b.tree(), {.all = true});
   std::vector<Face_pair> found;
-  EXPECT_THROW(search.follow(a.neighbours(), b.neighbours(), {}, {&truth.front(), 1}, found), Bad_mesh);
+  EXPECT_THROW(search.follow(a.neighbours(), b.neighbours(), {.contacts = {&truth.front(), 1}}, found), Bad_mesh);
 }
 
 }  // namespace

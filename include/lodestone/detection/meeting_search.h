@@ -33,7 +33,8 @@ struct Met_pair {
   std::size_t seed_count = 0;    ///< how many they are
   std::size_t first_opened = 0;  ///< place of the contacts that curves and openings gave to `look`, in the list of all
                                  ///< pairs
-  std::size_t opened_count = 0;  ///< how many they are
+  std::size_t opened_count = 0;    ///< how many they are
+  std::size_t followed_count = 0;  ///< of these, the contacts of curves, which come first
   std::size_t first_compared = 0;  ///< place of the leaf pairs that were compared, in the list of all pairs
   std::size_t compared_count = 0;  ///< how many they are
   bool out_of_budget = false;      ///< the regions could not all be opened

@@ -31,6 +31,15 @@ struct Opening_request {
                                ///< the same starts in this frame
 };
 
+/// From where `Opening_search::follow` starts.
+struct Curve_starts {
+  std::span<const Face_pair> contacts;  ///< all contacts of `compared`, and of starts that were `opened` and may be read
+                                        ///< as a whole; and any others, whose leaves are compared
+  std::span<const Leaf_pair> compared = {};  ///< sorted: these are not compared again
+  std::size_t followed = 0;  ///< so many contacts, the first, were found by a call of `follow` in this frame, and what
+                             ///< it compared is among `compared`
+};
+
 /// Searches two surfaces for contacts below pairs of nodes, in one of two ways. If the leaves below these nodes have no
 /// more vertices than `most_whole`, they are read as a whole, and the boxes of nodes tell which leaves may meet.
 /// Otherwise pairs of nodes are opened from coarse to fine, in the order of how near their anchors are, relative to
@@ -61,14 +70,12 @@ class Opening_search {
   /// `open`. Compares the leaves of each contact, and the leaves beside it where it lies at their border. Given what an
   /// earlier search has compared and found, it finds what that left: where the budget ended it, or a surface is
   /// stretched beyond its radii. The workers share the tests.
-  /// @param a, b      neighbours of the leaves of the two trees
-  /// @param compared  sorted leaf pairs that are not compared again; not `compared()` itself
-  /// @param contacts  all contacts of those, and of starts that were `opened` and may be read as a whole; and any
-  ///                  others, whose leaves are compared; not `found` itself
-  /// @param found     all contacts of the curves, and of the leaves on them, are appended, each once
+  /// @param a, b    neighbours of the leaves of the two trees
+  /// @param starts  neither `compared()` nor `found` itself
+  /// @param found   all contacts of the curves, and of the leaves on them, are appended, each once
   /// @throws Bad_mesh  a coordinate that is read is not finite
-  void follow(Leaf_neighbours& a, Leaf_neighbours& b, std::span<const Leaf_pair> compared,
-              std::span<const Face_pair> contacts, std::vector<Face_pair>& found, Workers& workers = Workers::alone());
+  void follow(Leaf_neighbours& a, Leaf_neighbours& b, const Curve_starts& starts, std::vector<Face_pair>& found,
+              Workers& workers = Workers::alone());
 
   /// Whether the budget may end the search: nodes are opened, and the two surfaces have more vertices.
   bool is_limited() const { return !whole_ && in_order_; }
