@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/find_collisions.h"
 
+#include <utility>
+
 namespace lodestone {
 
-Collisions collisions_of(const Frame& frame) {
+Collisions collisions_of(Frame frame) {
   return {.collide = frame.collides(),
           .near = frame.near(),
-          .faces = frame.face_pairs,
-          .points = frame.contact_points,
-          .normals = frame.contact_normals,
+          .faces = std::move(frame.face_pairs),
+          .points = std::move(frame.contact_points),
+          .normals = std::move(frame.contact_normals),
           .capped = frame.capped(),
           .containment = frame.pairs.empty() ? Containment::none : frame.pairs.front().containment,
           .parting = frame.pairs.empty() ? std::nullopt : frame.pairs.front().parting,
-          .patches = frame.patches,
+          .patches = std::move(frame.patches),
           .unfinished = frame.unfinished(),
           .statistics = frame.statistics};
 }

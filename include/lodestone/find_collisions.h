@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lodestone/detection/frame_at_once.h"
@@ -26,7 +27,7 @@ struct Collisions {
 };
 
 /// What a frame says about its only pair.
-Collisions collisions_of(const Frame& frame);
+Collisions collisions_of(Frame frame);
 
 /// Finds collisions between two meshes, which may be of different types, with one call.
 ///
@@ -43,7 +44,7 @@ Collisions collisions_of(const Frame& frame);
 /// @throws Bad_argument  an option out of range, or one mesh given twice
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
 Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {}) {
-  if (const auto frame = frame_at_once(a, b, options)) return collisions_of(*frame);
+  if (auto frame = frame_at_once(a, b, options)) return collisions_of(std::move(*frame));
   Detector detector(options);
   const Object_id first = detector.add(a), second = detector.add(b);
   return collisions_of(finds_all(options.mode) ? detector.detect(first, second) : detector.detect());

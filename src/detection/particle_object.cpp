@@ -135,8 +135,10 @@ void Particle_object::look() {
 
 Positions Particle_object::read_positions() {
   look();
-  Positions positions(mesh_->vertex_count(), 3);
-  for (std::uint32_t v = 0; v < mesh_->vertex_count(); ++v) positions.row(v) = read_(v);
+  const auto vertices = static_cast<Eigen::Index>(mesh_->vertex_count());
+  Positions positions = Eigen::Map<const Positions>(mesh_->read().data(), vertices, 3);
+  if (placement_)
+    for (Eigen::Index v = 0; v < vertices; ++v) positions.row(v) = (*placement_)(positions.row(v));
   // Distances are compared by their squares, which must neither overflow nor vanish. The comparison also refuses NaN.
   if (positions.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= 1e150) return positions;
   for (std::uint32_t v = 0; v < mesh_->vertex_count(); ++v)

@@ -10,6 +10,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "mesh/crew.h"
@@ -70,7 +71,8 @@ Workers::Workers(std::size_t threads)
         std::make_unique<Threads>(Threads{tbb::task_arena(static_cast<int>(count_)), std::vector<char>(count_ + 1)});
 }
 Workers::~Workers() = default;
-Workers::Workers(Workers&&) noexcept = default;
+Workers::Workers(Workers&& other) noexcept
+    : count_(std::exchange(other.count_, 1)), threads_(std::move(other.threads_)) {}
 
 Workers& Workers::alone() {
   static Workers workers(1);

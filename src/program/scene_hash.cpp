@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +33,11 @@ std::uint64_t hash_of_faces(const Surface_mesh& mesh) {
   return hash_of_list(std::span<const std::uint32_t>(corners));
 }
 
+void add_side(const std::optional<Kernel::Vector_3>& side, std::vector<std::uint64_t>& hashes) {
+  if (!side) return;
+  for (const double along : {side->x(), side->y(), side->z()}) hashes.push_back(std::bit_cast<std::uint64_t>(along));
+}
+
 }  // namespace
 
 std::string hash_of(Scene& scene) {
@@ -38,11 +45,14 @@ std::string hash_of(Scene& scene) {
   for (auto& object : scene.objects) {
     hashes.push_back(hash_of_list(std::span<const char>(object.name)));
     hashes.push_back(hash_of_faces(object.mesh));
+    hashes.insert(hashes.end(), {object.collision.groups, object.collision.meets, object.particles});
+    add_side(object.scattered_side, hashes);
     for (const std::size_t frame : {scene.frames - 1, std::size_t{0}}) {
       pose(object, frame);
       hashes.push_back(hash_of_positions(object.mesh));
     }
   }
+  for (const auto& [a, b] : scene.ignored) hashes.insert(hashes.end(), {a, b});
   return fmt::format("{:016x}", hash_of_list(std::span<const std::uint64_t>(hashes)));
 }
 

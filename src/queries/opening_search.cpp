@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -33,6 +32,8 @@ constexpr std::size_t pairs_per_vertex = 4;
 /// around the floor of a room, holds all that is in the room. Beside a leaf that is only some times as large its ball
 /// decides: that is slack for what has been stretched, which a larger reach makes larger.
 constexpr double wide = 16;
+
+std::uint64_t packed(Leaf_pair leaves) { return std::uint64_t{leaves.a} << 32U | leaves.b; }
 
 }  // namespace
 
@@ -75,6 +76,7 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
   out_of_budget_ = false;
   leaf_tests_ = exact_tests_ = 0;
   compared_.clear();
+  known_.clear();
   beside_.clear();
   opened_.clear();
 }
@@ -152,20 +154,19 @@ bool Opening_search::find_one(std::vector<Face_pair>& found) {
 void Opening_search::open_for_all(std::vector<Face_pair>& found, Workers& workers) {
   listed_.clear();
   for (Leaf_pair leaves; next(leaves);)
-    if (!std::ranges::binary_search(compared_, leaves)) listed_.push_back(leaves);
+    if (note_compared(leaves)) listed_.push_back(leaves);
   std::ranges::sort(listed_);
-  note_compared(listed_);
   test_listed(found, workers);
 }
 
 void Opening_search::follow(Leaf_neighbours& a, Leaf_neighbours& b, const Curve_starts& starts,
                             std::vector<Face_pair>& found, Workers& workers) {
-  compared_.assign(starts.compared.begin(), starts.compared.end());
+  for (const Leaf_pair leaves : starts.compared) note_compared(leaves);
   const std::size_t first = found.size();
   for (std::size_t i = 0; i < starts.contacts.size(); ++i) {
     const Face_pair contact = starts.contacts[i];
     const Leaf_pair leaves{a.leaf_of(contact.a), b.leaf_of(contact.b)};
-    if (!was_opened(leaves) && !std::ranges::binary_search(compared_, leaves)) {
+    if (!was_opened(leaves) && !known_.contains(packed(leaves))) {
       beside_.push_back(leaves);
       continue;
     }
@@ -192,12 +193,8 @@ void Opening_search::follow_contact(Leaf_neighbours& a, Leaf_neighbours& b, Face
 
 /// Compares the leaf pairs that were listed, unless they have been compared.
 void Opening_search::compare_beside(std::vector<Face_pair>& found, Workers& workers) {
+  std::erase_if(beside_, [this](Leaf_pair leaves) { return !note_compared(leaves); });
   std::ranges::sort(beside_);
-  beside_.erase(std::unique(beside_.begin(), beside_.end()), beside_.end());
-  merged_.clear();
-  std::ranges::set_difference(beside_, compared_, std::back_inserter(merged_));
-  beside_.swap(merged_);
-  note_compared(beside_);
   listed_.clear();
   for (const Leaf_pair leaves : beside_)
     if (near(a_->pose(leaves.a), b_->pose(leaves.b), 0)) listed_.push_back(leaves);
@@ -205,11 +202,11 @@ void Opening_search::compare_beside(std::vector<Face_pair>& found, Workers& work
   test_listed(found, workers);
 }
 
-/// @param leaves  sorted, and not compared so far
-void Opening_search::note_compared(const std::vector<Leaf_pair>& leaves) {
-  merged_.clear();
-  std::merge(compared_.begin(), compared_.end(), leaves.begin(), leaves.end(), std::back_inserter(merged_));
-  compared_.swap(merged_);
+/// @return whether these leaves have not been compared so far
+bool Opening_search::note_compared(Leaf_pair leaves) {
+  if (!known_.insert(packed(leaves)).second) return false;
+  compared_.push_back(leaves);
+  return true;
 }
 
 std::size_t Opening_search::spent() const {

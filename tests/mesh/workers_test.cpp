@@ -210,9 +210,12 @@ TEST(Workers, can_be_moved) {
     const std::size_t count = first.count();
     Workers second(std::move(first));
     EXPECT_EQ(second.count(), count);
-    std::atomic<int> done = 0;
-    second.run(50, [&](std::size_t, std::size_t) { ++done; });
-    EXPECT_EQ(done, 50);
+    EXPECT_EQ(first.count(), 1U) << "the other works alone";  // NOLINT(bugprone-use-after-move)
+    for (Workers* workers : {&first, &second}) {
+      std::atomic<int> done = 0;
+      workers->run(50, [&](std::size_t, std::size_t) { ++done; });
+      EXPECT_EQ(done, 50);
+    }
   }
 }
 

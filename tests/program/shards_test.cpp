@@ -61,6 +61,16 @@ struct Shards : ::testing::Test {
   }
 };
 
+TEST_F(Shards, of_a_scene_in_which_other_objects_meet_are_not_mixed) {
+  make("a", 1, 2);
+  std::string other(three_spheres);
+  other.insert(other.rfind('}'), R"(, "ignore": [["still", "moving"]])");
+  folder.write("scene.json", other);
+  expect_error(run_program(detect("a", {"--shard", "2/2"})), 2, "these are shards of other work: inputs is ");
+  folder.write("scene.json", three_spheres);
+  make("a", 2, 2);
+}
+
 TEST_F(Shards, merged_are_the_bytes_of_one_run_whatever_is_asked_for) {
   const std::vector<Words> asked{
       {},

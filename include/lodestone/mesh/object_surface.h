@@ -32,6 +32,8 @@ class Object_surface {
   /// Takes the current positions as those at rest. O(V).
   void keep_rest() { rest_.assign(coordinates_.begin(), coordinates_.end()); }
 
+  // The first call of each of the following keeps what it has found: it must not be in two threads at once.
+
   /// The faces around each vertex. O(V + F) the first time.
   const Vertex_fans& fans() const;
   /// Whether each edge has an even number of faces, so that the surface has an inside. O(F log F) the first time.

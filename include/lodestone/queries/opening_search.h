@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "lodestone/filter/face_filter.h"
@@ -33,9 +34,9 @@ struct Opening_request {
 
 /// From where `Opening_search::follow` starts.
 struct Curve_starts {
-  std::span<const Face_pair> contacts;  ///< all contacts of `compared`, and of starts that were `opened` and may be read
-                                        ///< as a whole; and any others, whose leaves are compared
-  std::span<const Leaf_pair> compared = {};  ///< sorted: these are not compared again
+  std::span<const Face_pair> contacts;  ///< all contacts of `compared`, and of starts that were `opened` and may be
+                                        ///< read as a whole; and any others, whose leaves are compared
+  std::span<const Leaf_pair> compared = {};  ///< these are not compared again
   std::size_t followed = 0;  ///< so many contacts, the first, were found by a call of `follow` in this frame, and what
                              ///< it compared is among `compared`
 };
@@ -84,7 +85,7 @@ class Opening_search {
   /// Whether the last `open` ended because its budget was used up.
   bool out_of_budget() const { return out_of_budget_; }
   /// Leaf pairs that need not be compared again: those given to `follow`, those that it has looked at, and those that
-  /// `open` for all contacts has tested since; sorted.
+  /// `open` for all contacts has tested since; each once.
   std::span<const Leaf_pair> compared() const { return compared_; }
   /// Leaf pairs tested since `begin`.
   std::size_t leaf_tests() const { return leaf_tests_; }
@@ -134,7 +135,7 @@ class Opening_search {
   void open_for_all(std::vector<Face_pair>& found, Workers& workers);
   void follow_contact(Leaf_neighbours& a, Leaf_neighbours& b, Face_pair contact);
   void compare_beside(std::vector<Face_pair>& found, Workers& workers);
-  void note_compared(const std::vector<Leaf_pair>& leaves);
+  bool note_compared(Leaf_pair leaves);
   void begin_filters(std::size_t count);
   void test(Leaf_pair leaves, Face_filter& filter, Tested& tested) const;
   void test_listed(std::vector<Face_pair>& found, Workers& workers);
@@ -147,15 +148,15 @@ class Opening_search {
   bool whole_ = false;     ///< they are read as a whole
   bool in_order_ = false;
   Waiting waiting_;
-  std::size_t considered_ = 0;       ///< pairs of nodes whose anchors were compared
-  std::size_t read_before_ = 0;      ///< vertices of both trees, before `begin`
-  std::size_t limit_ = 0;            ///< of what is spent
-  std::vector<Leaf_pair> listed_;    ///< to be tested
-  std::vector<Tested> tested_;       ///< per task, then memory of earlier searches
-  std::vector<Leaf_pair> compared_;  ///< sorted
-  std::vector<Leaf_pair> opened_;    ///< for one contact: tested by openings; sorted before regions are read as a whole
-  std::vector<Leaf_pair> beside_;    ///< to be compared, unless they have been
-  std::vector<Leaf_pair> merged_;    ///< memory, for lists that are joined
+  std::size_t considered_ = 0;               ///< pairs of nodes whose anchors were compared
+  std::size_t read_before_ = 0;              ///< vertices of both trees, before `begin`
+  std::size_t limit_ = 0;                    ///< of what is spent
+  std::vector<Leaf_pair> listed_;            ///< to be tested
+  std::vector<Tested> tested_;               ///< per task, then memory of earlier searches
+  std::vector<Leaf_pair> compared_;          ///< see `compared`
+  std::unordered_set<std::uint64_t> known_;  ///< the same, both numbers in one
+  std::vector<Leaf_pair> opened_;  ///< for one contact: tested by openings; sorted before regions are read as a whole
+  std::vector<Leaf_pair> beside_;  ///< to be compared, unless they have been
   std::vector<Face_filter> filters_;    ///< per worker
   Aabb bounds_a_ = {}, bounds_b_ = {};  ///< what the filters have been told
   std::size_t begun_ = 0;               ///< filters that have been told

@@ -11,6 +11,7 @@ namespace lodestone {
 /// Whether `name`, relative to `folder`, is inside the folder after symbolic links are resolved.
 inline bool is_inside(const std::filesystem::path& folder, const std::string& name, std::error_code& error) {
   const auto inside = std::filesystem::weakly_canonical(folder, error);
+  if (error) return false;
   const auto path = std::filesystem::weakly_canonical(inside / name, error);
   const auto [end, rest] = std::ranges::mismatch(inside, path);
   return !error && !std::filesystem::path(name).is_absolute() && end == inside.end() && rest != path.end();

@@ -87,7 +87,6 @@ std::vector<fs::path> find_numbered_files(const fs::path& pattern) {
 
   Numbered files;
   for (; entries != fs::directory_iterator(); entries.increment(error)) {
-    if (error) throw Bad_motion(fmt::format("{}: the folder cannot be read: {}", folder.string(), error.message()));
     const auto number = digits_of(entries->path().filename().string(), parts);
     if (!number) continue;
     const auto file = pattern.parent_path() / entries->path().filename();
@@ -97,6 +96,8 @@ std::vector<fs::path> find_numbered_files(const fs::path& pattern) {
       throw Bad_motion(fmt::format("{}: has the same number as {}", second.string(), first.filename().string()));
     }
   }
+  // An error ends the iteration, too.
+  if (error) throw Bad_motion(fmt::format("{}: the folder cannot be read: {}", folder.string(), error.message()));
   if (files.empty()) throw Bad_motion(fmt::format("{}: there is no such file", pattern.string()));
   check_no_gap(files, parts);
 

@@ -141,8 +141,11 @@ Gltf_document read_gltf_document(const fs::path& file) {
 std::vector<Bytes> read_gltf_buffers(Gltf_document& document, const fs::path& folder) {
   const Json_value root(document.json, document.name);
   std::vector<Bytes> buffers;
+  std::uintmax_t together = 0;  // a file can name another as often as it likes
   for (const auto& buffer : root.list("buffers", most_buffers)) {
     const auto length = buffer.at("byteLength").count(1, std::size_t{1} << 40U);
+    together += length;
+    if (together > longest_mesh_file) buffer.fail("the buffers up to this one are longer than 16 GiB together");
     if (const auto uri = buffer.find("uri")) {
       buffers.push_back(from_uri(*uri, length, folder, document));
       continue;
