@@ -37,11 +37,13 @@ Polygon_triangles fan(std::size_t corners) {
 }
 
 /// The scalar product of the triangles' normals is greatest where both are large and face the same way; it is negative
-/// for a diagonal outside a concave quad.
+/// for a diagonal outside a concave quad. In a parallelogram both diagonals are equally good. Then it must not depend
+/// on rounding which of them is taken, or the same quads in two formats would be two surfaces.
 Polygon_triangles cut_quad(const std::array<Point, 4>& p) {
   const auto normal = [&](int a, int b, int c) { return CGAL::cross_product(p[b] - p[a], p[c] - p[a]); };
-  const bool along_1_3 = normal(1, 2, 3) * normal(3, 0, 1) > normal(0, 1, 2) * normal(2, 3, 0);
-  if (along_1_3) return {{0, 1, 3}, {1, 2, 3}};
+  constexpr double rounding = 1e-3;  // of coordinates with seven digits, of a quad that is far from the origin
+  const double along_1_3 = normal(1, 2, 3) * normal(3, 0, 1), along_0_2 = normal(0, 1, 2) * normal(2, 3, 0);
+  if (along_1_3 - along_0_2 > rounding * (std::abs(along_1_3) + std::abs(along_0_2))) return {{0, 1, 3}, {1, 2, 3}};
   return {{0, 1, 2}, {0, 2, 3}};
 }
 

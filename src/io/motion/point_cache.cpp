@@ -87,8 +87,9 @@ Cache open_pc2(const fs::path& file) {
 
 // ---- MDD ----
 
-/// Frames per second from the first and last time; the times between them are ignored.
-double mdd_rate(std::ifstream& in, const fs::path& file, std::size_t frames) {
+/// Sets start and frames per second from the first and last time; the times between them are ignored.
+void read_mdd_times(std::ifstream& in, const fs::path& file, Point_cache& header) {
+  const std::size_t frames = header.frames;
   std::array<char, sizeof(float)> raw{};
   std::array<double, 2> ends{};
   for (const std::size_t end : {0U, 1U}) {
@@ -97,7 +98,9 @@ double mdd_rate(std::ifstream& in, const fs::path& file, std::size_t frames) {
     ends[end] = load<float>(raw.data(), std::endian::big);
   }
   const double rate = static_cast<double>(frames - 1) / (ends[1] - ends[0]);
-  return std::isfinite(rate) && rate > 0 ? rate : 0;
+  if (!std::isfinite(rate) || !(rate > 0)) return;
+  header.frames_per_second = rate;
+  header.start = ends[0];
 }
 
 /// The format has no signature: only the length tells an MDD cache from another file.
@@ -126,7 +129,7 @@ Cache open_mdd(const fs::path& file) {
     fail(file, "{} frames are announced, but the file ends within their times", cache.header.frames);
   check_length(cache);
   check_mdd_length(cache);
-  cache.header.frames_per_second = mdd_rate(in, file, cache.header.frames);
+  read_mdd_times(in, file, cache.header);
   return cache;
 }
 
@@ -155,7 +158,7 @@ Motion motion_of(const Cache& cache, std::size_t vertices, std::size_t counted_a
     fail(cache.file, "byte {}: the cache has {} vertices, expected {}", counted_at, header.vertices, vertices);
   check_length(cache);
   const auto pose = [cache](std::size_t frame, std::span<Point> positions) {
-    const auto& [format, points, frames, rate] = cache.header;
+    const std::size_t points = cache.header.vertices, frames = cache.header.frames;
     if (frame >= frames) fail(cache.file, "frame {} (counted from 0) is requested, the cache has {}", frame, frames);
     if (positions.size() != points)
       fail(cache.file, "positions of {} vertices are requested, the cache has {}", positions.size(), points);
@@ -166,7 +169,7 @@ Motion motion_of(const Cache& cache, std::size_t vertices, std::size_t counted_a
         fail(cache.file, "frame {}, vertex {} (counted from 0): a coordinate is not finite", frame, vertex);
     }
   };
-  return {.frames = header.frames, .pose = pose};
+  return {.frames = header.frames, .pose = pose, .frames_per_second = header.frames_per_second, .start = header.start};
 }
 
 }  // namespace

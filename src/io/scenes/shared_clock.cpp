@@ -1,21 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scenes/shared_clock.h"
 
-#include <set>
+#include <algorithm>
+#include <vector>
 
 namespace lodestone {
 
+namespace {
+
+/// Rates and times that files hold as 32-bit numbers differ a little from those that were meant.
+constexpr double rounding = 1e-4;
+
+/// Whether the numbers differ by less than `tolerance`.
+bool are_alike(const std::vector<double>& numbers, double tolerance) {
+  if (numbers.empty()) return true;
+  const auto [least, greatest] = std::ranges::minmax(numbers);
+  return greatest - least < tolerance;
+}
+
+}  // namespace
+
 void share_clock(std::span<Scene_object> objects) {
   constexpr double usual_rate = 30;
-  std::set<double> rates, given, starts;
+  std::vector<double> rates, given, starts;
   for (const auto& object : objects) {
     if (object.motion.frames_per_second == 0) continue;
-    rates.insert(object.motion.frames_per_second);
-    starts.insert(object.motion.start);
-    if (!object.motion.resampled) given.insert(object.motion.frames_per_second);
+    rates.push_back(object.motion.frames_per_second);
+    starts.push_back(object.motion.start);
+    if (!object.motion.resampled) given.push_back(object.motion.frames_per_second);
   }
-  if (rates.size() < 2 && starts.size() < 2) return;
-  const double common = given.size() == 1 ? *given.begin() : rates.size() == 1 ? *rates.begin() : usual_rate;
+  if (rates.empty()) return;
+  const double fastest = std::ranges::max(rates);
+  const auto are_one_rate = [&](const std::vector<double>& some) { return are_alike(some, rounding * fastest); };
+  if (are_one_rate(rates) && are_alike(starts, rounding / fastest)) return;
+  const bool one_is_given = !given.empty() && are_one_rate(given);
+  const double common = one_is_given ? given.front() : are_one_rate(rates) ? rates.front() : usual_rate;
   for (auto& object : objects)
     if (object.motion.resampled) object.motion = object.motion.resampled(common);
 }

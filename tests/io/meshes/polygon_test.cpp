@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -92,6 +93,20 @@ TEST_F(Polygons, a_concave_quad_is_cut_inside_its_outline_wherever_the_notch_is)
     Outline turned;
     for (std::size_t i = 0; i < 4; ++i) turned.push_back(arrow[(start + i) % 4]);
     expect_tiled(turned, 2);
+  }
+}
+
+TEST_F(Polygons, a_parallelogram_is_cut_alike_however_its_corners_are_rounded) {
+  for (int step = 0; step < 40; ++step) {
+    const double angle = 0.1 * step, c = std::cos(angle), s = std::sin(angle);
+    Outline turned;
+    for (const auto& p : Outline{{0, 0, 0}, {1, 0.2, 0}, {1.3, 1.1, 0}, {0.3, 0.9, 0}})
+      turned.emplace_back(100 + c * p.x() - s * p.y(), s * p.x() + c * p.y(), 0);
+    const auto file = read(turned);
+    for (const auto face : file.mesh.faces()) {
+      const auto corners = file.mesh.vertices_around_face(file.mesh.halfedge(face));
+      EXPECT_EQ(std::ranges::count(corners.begin(), corners.end(), Surface_mesh::Vertex_index(0)), 1) << angle;
+    }
   }
 }
 

@@ -115,6 +115,26 @@ TEST_F(Given_objects, gltf_files_of_one_rate_that_start_at_different_times_run_f
   }
 }
 
+TEST_F(Given_objects, gltf_follows_the_rate_of_an_mdd_cache) {
+  write_mover(path("fast.glb"), 60);
+  write_mover(path("slow.glb"), 24);
+  write_mover(path("slow.mdd"), 24);
+  folder.write("slow.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const std::filesystem::path cache = path("slow.off").string() + "+" + path("slow.mdd").string();
+  Scene scene = scene_of(std::vector{path("fast.glb"), cache});
+  EXPECT_EQ(scene.frames, 25U);
+  for (std::size_t frame = 0; frame < scene.frames; ++frame)
+    for (auto& object : scene.objects)
+      EXPECT_NEAR(first_vertex(object, frame).x(), 10 * static_cast<double>(frame) / 24, 1e-4);
+
+  // The times in the cache are rounded. Frames of the same rate stay those of the file.
+  Scene alone = scene_of(std::vector{path("slow.glb")}), beside = scene_of(std::vector{path("slow.glb"), cache});
+  ASSERT_EQ(beside.frames, alone.frames);
+  EXPECT_TRUE(beside.objects[0].motion.resampled || alone.objects[0].motion.resampled);
+  for (std::size_t frame = 0; frame < alone.frames; ++frame)
+    EXPECT_EQ(first_vertex(beside.objects[0], frame), first_vertex(alone.objects[0], frame));
+}
+
 TEST_F(Given_objects, gltf_follows_the_rate_that_a_scene_gives_another) {
   write_mover(path("fast.glb"), 60);
   write_mover(path("slow.glb"), 24);

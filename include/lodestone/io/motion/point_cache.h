@@ -19,6 +19,7 @@ struct Point_cache {
   std::size_t vertices = 0;                 ///< positions per frame
   std::size_t frames = 0;                   ///< how many the file has
   double frames_per_second = 0;             ///< from the times of an MDD cache; 0: unknown
+  double start = 0;                         ///< time of its first frame in seconds, if they are known
 };
 
 /// Reads the header of a point cache, in the format of its extension (`.pc2`, `.mdd`), and checks it against the file's
