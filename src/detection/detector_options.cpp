@@ -65,10 +65,9 @@ void check(const Detector_options& options) {
   require(finds_all(options.mode) || has_defaults_of_exact(exact),
           "a distance other than 0, self-collision, containment, parting and contact patches need the mode exact or "
           "certified");
-  require(
-      !finds_all(options.mode) || has_defaults_of_particles(options),
-      "the collision distance, its measure, the choice of candidates, open seams and the growth limit need the mode "
-      "particles");
+  require(!finds_all(options.mode) || has_defaults_of_particles(options),
+          "the collision distance, its measure, the choice of candidates and open seams need the mode particles or "
+          "senin; the growth limit needs the mode particles");
 }
 
 std::string title_of(std::uint32_t object, const Object_options& options) {

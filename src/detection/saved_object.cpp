@@ -97,10 +97,10 @@ std::optional<Numbered_partition> load_regions(State_reader& state, std::size_t 
   if (loaded.regions == 0) return std::nullopt;
   loaded.labels = state.list<Region_index>();
   loaded.particles = state.list<std::uint32_t>();
-  State_reader::require(loaded.labels.size() == vertex_count, "it has not one region for each vertex");
+  State_reader::require(loaded.labels.size() == vertex_count, "it does not have one region for each vertex");
   State_reader::require(std::ranges::all_of(loaded.labels, [&](auto label) { return label < loaded.regions; }),
                         "a vertex is in a region that does not exist");
-  State_reader::require(loaded.particles.size() == loaded.regions, "it has not one particle in each region");
+  State_reader::require(loaded.particles.size() == loaded.regions, "it does not have one particle in each region");
   for (Region_index region = 0; region < loaded.regions; ++region)
     State_reader::require(loaded.particles[region] < vertex_count && loaded.labels[loaded.particles[region]] == region,
                           "a particle is not in its region");

@@ -103,7 +103,7 @@ Particle_object::Saved::Saved(State_reader& state, std::span<const Corners> corn
 
 void Particle_object::Saved::load_homes(State_reader& state, std::size_t vertex_count) {
   const auto count = state.value<std::uint64_t>();
-  State_reader::require(count == 0 || count == particles.at.size(), "it has not one home for each particle");
+  State_reader::require(count == 0 || count == particles.at.size(), "it does not have one home for each particle");
   homes.resize(count);
   for (Home& home : homes) {
     home.vertex = state.value<std::uint32_t>();
@@ -114,10 +114,11 @@ void Particle_object::Saved::load_homes(State_reader& state, std::size_t vertex_
 }
 
 void Particle_object::Saved::check(std::span<const Corners> corners, std::size_t vertex_count) const {
-  State_reader::require(joined.empty() || joined.size() == vertex_count, "it has not one place for each vertex");
+  State_reader::require(joined.empty() || joined.size() == vertex_count,
+                        "its seams do not have one entry for each vertex");
   State_reader::require(std::ranges::all_of(joined, [&](auto v) { return v < vertex_count; }),
                         "a vertex is joined to one that does not exist");
-  State_reader::require(labels.size() == vertex_count, "it has not one region for each vertex");
+  State_reader::require(labels.size() == vertex_count, "it does not have one region for each vertex");
   State_reader::require(particles.hop_limit <= vertex_count && rings <= vertex_count, "it reaches too many hops");
   check_places(corners);
   // Scattered particles are all in one region.

@@ -220,10 +220,11 @@ TEST(Saved_particles, that_do_not_fit_are_refused) {
   };
   const std::string start = "the saved object is broken: ";
   EXPECT_EQ(refusal([](auto&) {}), "no error");
-  EXPECT_EQ(refusal([&](auto& p) { join(p, vertices - 1); }), start + "it has not one place for each vertex");
+  EXPECT_EQ(refusal([&](auto& p) { join(p, vertices - 1); }),
+            start + "its seams do not have one entry for each vertex");
   EXPECT_EQ(refusal([&](auto& p) { join(p, vertices), p.joined[3] = vertices; }),
             start + "a vertex is joined to one that does not exist");
-  EXPECT_EQ(refusal([&](auto& p) { p.labels.push_back(0); }), start + "it has not one region for each vertex");
+  EXPECT_EQ(refusal([&](auto& p) { p.labels.push_back(0); }), start + "it does not have one region for each vertex");
   EXPECT_EQ(refusal([&](auto& p) { p.at.clear(), p.homes.clear(); }), start + "it has no particle");
   EXPECT_EQ(refusal([&](auto& p) { p.rings = vertices + 1; }), start + "it reaches too many hops");
   EXPECT_EQ(refusal([&](auto& p) { p.hop_limit = vertices + 1; }), start + "it reaches too many hops");

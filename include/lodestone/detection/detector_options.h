@@ -38,7 +38,7 @@ constexpr std::string_view name_of(Mode mode) {
 /// Whether a mode finds what checking every face against every other would.
 constexpr bool finds_all(Mode mode) { return mode == Mode::exact || mode == Mode::certified; }
 
-/// What only the modes `exact` and `certified` are asked.
+/// What the modes `exact` and `certified` are asked; `threads` holds for all modes, `tree` also for meetings.
 struct Exact_options {
   double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect.
                                 ///< Between two objects. A frame tells apart what is near and what collides, which can
@@ -51,12 +51,12 @@ struct Exact_options {
   bool parting = false;         ///< also give a translation that parts two objects which collide, or of which one lies
                                 ///< inside the other; tells containment too
   bool patches = false;         ///< also group the contacts of a pair into contact patches; not with yes_no
-  std::size_t threads = 1;      ///< at most so many; 0: as many as the machine has. Results do not depend on it. In all
-                                ///< modes, for builds and for frames; LBG has its own option
+  std::size_t threads = 1;      ///< all modes: at most so many; 0: as many as the machine has. Results do not depend on
+                                ///< it. For builds and for frames; LBG has its own option
   bool throw_if_broken = false;   ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass;
                                   ///< all that is read is compared with what was promised
   double loosest = 2;             ///< rebuild an object's tree when its leaves are looser by this factor; > 1
-  Region_tree_options tree = {};  ///< of an object's tree
+  Region_tree_options tree = {};  ///< of an object's tree; also of the one that meetings search
 };
 
 /// Options of a Detector, and of one call.
@@ -98,7 +98,7 @@ struct Detector_options {
   /// Mode `particles`: repartition when a region exceeds so many times A*; > 0; infinity: never. Published: 1.
   double growth = 1.25;
   Senin_options senin = {};  ///< of mode `senin`
-  Exact_options exact = {};  ///< of the modes `exact` and `certified`; threads also of others
+  Exact_options exact = {};  ///< of the modes `exact` and `certified`; `threads` of all, `tree` also of meetings
 };
 
 /// What one object has of its own.

@@ -49,7 +49,7 @@ struct Frame_statistics {
   std::size_t nodes_bounded = 0;      ///< mode certified: boxes that come from bounds, without reading
   std::size_t leaves_posed = 0;       ///< mode certified: leaves of objects with bounds that were read
   std::size_t violations = 0;         ///< mode certified: promises that what was read did not keep
-  std::size_t candidates = 0;         ///< candidate region pairs; in mode exact pairs of leaves
+  std::size_t candidates = 0;         ///< candidate region pairs; in modes exact and certified pairs of leaves tested
   std::size_t openings = 0;           ///< pairs of leaves that were compared below opened regions, and along curves
   std::size_t exact_tests = 0;        ///< face pairs given to the exact test
   std::size_t contacts = 0;           ///< face pairs found that intersect, or are nearer than the tolerance, each once
@@ -71,7 +71,8 @@ struct Pair_result {
   bool collides = false;          ///< two faces intersect
   bool near = false;              ///< two faces are nearer than the tolerance, or intersect; false without a tolerance.
                                   ///< Within one object faces that were near when it was built do not count
-  std::size_t candidates = 0;     ///< candidate region pairs
+  std::size_t candidates = 0;     ///< candidate region pairs; in modes exact and certified pairs of leaves that were
+                                  ///< tested
   std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
   std::size_t contacts = 0;       ///< number of its face pairs in `Frame::face_pairs`
   bool capped = false;            ///< there are more face pairs than `Detector_options::most_contacts`
@@ -94,8 +95,7 @@ struct Candidate_regions {
                         ///< vertices by which the regions were found to be near
 };
 
-/// Everything one frame brought. Pairs that the broad phase dropped are not listed: none of their particles, or not
-/// their boxes, are near.
+/// Everything one frame brought. Pairs rejected by the broad phase are omitted.
 struct Frame {
   std::uint64_t number = 0;           ///< 1 for the first
   std::vector<Pair_result> pairs;     ///< by (a, b)
