@@ -2,10 +2,10 @@
 #include "lodestone/bounds/bounded_surface.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -214,12 +214,7 @@ void Bounded_surface::check_finite(std::uint32_t leaf) const {
     const double* const p = coordinates + 3 * std::size_t{vertex};
     zero += (0 * p[0] + 0 * p[1]) + 0 * p[2];
   }
-  if (zero == 0) return;
-  for (const auto vertex : layout().vertices(leaf))
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!std::isfinite(tree_->coordinates()[3 * std::size_t{vertex} + axis]))
-        throw Bad_mesh("vertex " + std::to_string(vertex) + (title_.empty() ? "" : " of " + title_) +
-                       " has a coordinate that is not finite");
+  if (zero != 0) lodestone::check_finite(tree_->coordinates(), layout().vertices(leaf), title_);
 }
 
 }  // namespace lodestone

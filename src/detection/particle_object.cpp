@@ -7,17 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
-
-namespace {
-
-[[noreturn]] void fail_not_finite(std::uint32_t vertex) {
-  throw Bad_mesh("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
-}
-
-}  // namespace
 
 Particle_object::Particle_object(std::unique_ptr<Watched_mesh> mesh) : mesh_(std::move(mesh)) {}
 

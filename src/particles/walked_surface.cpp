@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/particles/walked_surface.h"
 
-#include <string>
-
-#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/check_finite.h"
 
 namespace lodestone {
 
@@ -12,8 +10,7 @@ Read_face read_face(const Walked_surface& surface, std::uint32_t face) {
   for (int corner = 0; corner < 3; ++corner) {
     const std::uint32_t vertex = surface.faces[face][corner];
     const Eigen::Vector3d position = surface.position(vertex);
-    if (!position.allFinite())
-      throw Bad_mesh("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
+    if (!position.allFinite()) fail_not_finite(vertex);
     read.triangle[corner] = Point(position.x(), position.y(), position.z());
     read.box.extend(position);
   }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <string>
 
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/queries/surface_on_demand.h"
@@ -108,7 +108,7 @@ Point_side find_side(Surface& surface, const Point& point) {
 
 Point position_of(const Bounded_surface& surface, std::uint32_t vertex) {
   const Eigen::Vector3d p = surface.positions()(vertex);
-  if (!p.allFinite()) throw Bad_mesh("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
+  if (!p.allFinite()) fail_not_finite(vertex);
   return {p.x(), p.y(), p.z()};
 }
 

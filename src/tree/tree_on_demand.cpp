@@ -3,21 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
-#include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/tree/region_tree.h"
 
 namespace lodestone {
-
-namespace {
-
-[[noreturn]] void fail_not_finite(std::uint32_t vertex) {
-  throw Bad_mesh("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
-}
-
-}  // namespace
 
 Tree_on_demand::Tree_on_demand(std::span<const Corners> corners, std::span<const Region_index> labels,
                                Coordinates coordinates, const Region_tree_options& options, Workers& workers) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/triangle_corners.h"
@@ -210,8 +211,7 @@ Positions read_positions(const Mesh_numbering<Mesh>& numbering, const Points& po
   Positions positions(numbering.vertex_count(), 3);
   for (std::uint32_t i = 0; i < numbering.vertex_count(); ++i) {
     positions.row(i) = coordinates(get(points, numbering.vertex(i)));
-    if (!positions.row(i).allFinite())
-      throw Bad_mesh("vertex " + std::to_string(i) + " has a coordinate that is not finite");
+    if (!positions.row(i).allFinite()) fail_not_finite(i);
   }
   return positions;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lodestone/mesh/box.h"
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/mesh/vertex_graph.h"
 
@@ -48,7 +49,9 @@ void pose_patch(Posed_patch& posed, const Reader& reader, std::uint64_t frame) {
     posed.box.extend(posed.positions[i]);
     zero += 0 * posed.positions[i];  // stays zero unless a coordinate is not finite
   }
-  if (!zero.isZero(0)) throw Bad_mesh("a vertex of a candidate region has a coordinate that is not finite");
+  if (!zero.isZero(0))
+    for (std::size_t i = 0; i < posed.positions.size(); ++i)
+      if (!posed.positions[i].allFinite()) fail_not_finite(posed.patch->vertices[i]);
   posed.frame = frame;
 }
 
