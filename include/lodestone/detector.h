@@ -62,7 +62,7 @@ class Detector {
   /// @throws Bad_mesh      no face, a face that is not a triangle; a Surface_mesh with removed elements: call its
   ///                       `collect_garbage` first
   /// @throws Bad_argument  the mesh has been added before; mode `exact`: `file_vertex` does not have one entry per
-  /// vertex
+  ///                       vertex
   template <class Mesh>
   requires(!std::is_const_v<Mesh> && Triangle_mesh<Mesh>)
   Object_id add(Mesh& mesh, const Object_options& options = {}) {
@@ -154,15 +154,17 @@ class Detector {
   /// Positions may be others than when it was saved. It has the regions, particles and leaves with which it was saved,
   /// whatever the options say; they count when it is built anew. O(V + F).
   /// @throws Bad_argument      no such object, a call of a visitor
-  /// @throws Bad_saved_object  the bytes are broken, or from another mode, mesh or format, or a tolerance within objects
-  ///                           needs positions at rest, with which they were not saved; the object stays as it was
+  /// @throws Bad_saved_object  the bytes are broken, or from another mode, mesh or format, or a tolerance within
+  ///                           objects needs positions at rest, with which they were not saved; the object stays as it
+  ///                           was
   void load(Object_id object, std::span<const std::byte> saved) {
     State_reader state(open_saved(saved));
     detection_->load(checked(object), state);
   }
 
   /// Removes an object. The others keep their ids, and no object is given this one again. Afterwards the detector
-  /// refers to its mesh no more; `v:region` and `v:particle` stay on it as they are. O(n log n) for its n ignored pairs.
+  /// refers to its mesh no more; `v:region` and `v:particle` stay on it as they are. O(n log n) for its n ignored
+  /// pairs.
   /// @throws Bad_argument  no such object, a call of a visitor
   void remove(Object_id object) {
     detection_->remove(checked(object));

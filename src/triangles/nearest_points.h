@@ -111,8 +111,8 @@ class Nearest_points_search {
       }
   }
 
-  /// `gap` leads from corner 0 of the face to the corner. The foot of the corner on the face is corner 0 plus s f + r
-  /// g.
+  /// `gap` leads from corner 0 of the face to the corner. The foot of the corner on the face is corner 0 plus
+  /// s f + r g.
   bool corner_to_face(const Vector& gap, const std::array<Vector, 3>& edges) {
     const Vector &f = edges[0], g = -edges[2];
     const Vector n = f.cross(g);

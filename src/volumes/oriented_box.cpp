@@ -21,9 +21,8 @@ namespace {
 // axes as its rows, u = 2^-53, and H the sum of a box's half-widths.
 //
 // 1. The singular values of A are within 5e-15 of 1, so a point v of a box about the origin has |v| <= H (1 + 5e-15).
-// 2. Let d be a vector of length at most 1 + 3e-15, and lambda_i its dot products with the axes, each with an error of
-// at
-//    most 5 u. Then |d - sum lambda_i axes[i]| < 1e-14, since A^T A differs from 1 by at most 9e-15.
+// 2. Let d be a vector of length at most 1 + 3e-15, and lambda_i its dot products with the axes, each with an error
+//    of at most 5 u. Then |d - sum lambda_i axes[i]| < 1e-14, since A^T A differs from 1 by at most 9e-15.
 // 3. So d . v is at most sum |lambda_i| half[i] + 1.1e-14 H.
 
 using Vector = Eigen::Vector3d;
@@ -54,8 +53,7 @@ Oriented_box everything() { return {{0, 0, 0}, {infinity, infinity, infinity}, {
 ///
 /// @param reach  at least the size of the limits; 0 only if they are 0 and exact
 /// @param error  at least 10 u more than the error of the limits, as a share of the reach. The 10 u cover the offset
-/// from
-///               the origin to the centre (u of its size), its dot products with the axes (4 u), and the last
+///               from the origin to the centre (u of its size), its dot products with the axes (4 u), and the last
 ///               difference and sum (u of the reach and the offset each). The loss to subnormal numbers is less than
 ///               the smallest normal double.
 Oriented_box box_about_middle(const Vector& origin, const Box_limits& limits, double reach, double error) {
@@ -160,8 +158,7 @@ Aabb Oriented_box::bounds() const {
 /// - The cross product of a_i and b_j has length at most 1 + 1e-14. By 2., it differs from that of a_i and
 ///   sum_k r_kj a_k by at most 1.1e-14.
 /// - A cross product of two axes differs from the third, or its opposite, by at most 2e-14, since the cofactor matrix
-/// of
-///   A is det A times the inverse of its transpose.
+///   of A is det A times the inverse of its transpose.
 /// - So the computed reach of a along the cross product has an error of less than 6e-14 H, and so does that of b. The
 ///   distance of the centres is a determinant of three vectors, two of them expressed in a's axes; its error is less
 ///   than 5e-14 of its size.

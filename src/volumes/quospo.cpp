@@ -72,8 +72,7 @@ struct Interval {
 /// - Limits along e_j are at most 2 N X; the sum of |kappa_j| is at most 2 L N, that of |d_k| at most 2 L. So a sum of
 ///   middles or half-widths is at most 4 L X.
 /// - A middle or half-width has an error of u of 2 N X. A product, two sums and the product with the rounded 1 / N^2
-/// add
-///   less than 5 u in all. So each of the two sums has an error of 24 u L X.
+///   add less than 5 u in all. So each of the two sums has an error of 24 u L X.
 /// - Their sum and the last difference add 17 u L X.
 ///
 /// The slack is 128 u L X, plus the smallest normal double for the loss to subnormal numbers. Where L X might overflow

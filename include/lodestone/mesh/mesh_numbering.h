@@ -86,7 +86,7 @@ class Mesh_numbering {
   /// Cost O(V + F).
   /// @param workers    share the faces, where descriptors are indices
   /// @throws Bad_mesh  no face, a face that is not a triangle, more than 2^32 - 2 vertices or faces, or removed
-  /// elements that the mesh still counts
+  ///                   elements that the mesh still counts
   explicit Mesh_numbering(const Mesh& mesh, Workers& workers = Workers::alone());
 
   /// Number of vertices, V.

@@ -26,9 +26,9 @@ class Attractors {
   /// Number of points per call of `forces`.
   static constexpr int lanes = 8;
 
-  /// Force on each of eight points, \cite saenghaengtham2006, eq. (10) to (12): the sum over the attractors (12) of 1 /
-  /// r^2 if the distance r is below the reach (11), and of 0 otherwise (10). An attractor at r = 0 gives infinity. O(8
-  /// n).
+  /// Force on each of eight points, \cite saenghaengtham2006, eq. (10) to (12): the sum over the attractors (12) of
+  /// 1 / r^2 if the distance r is below the reach (11), and of 0 otherwise (10). An attractor at r = 0 gives infinity.
+  /// O(8 n).
   ///
   /// Each point has a sum of its own, over the attractors in the order in which they were added. So the result for a
   /// point depends neither on the other points nor on the vector width of the machine.

@@ -34,8 +34,7 @@ struct Expansion {
 ///
 /// - Wobble, whose angles are up to |k| D + |a| + 5: |h| (|k| D + |a| + 8) + m + D.
 /// - Bend and twist, whose angles are up to |K| D: m + D (1 + |K| D). Bend has 16 o D (1 + |K| D) besides, since its
-/// two
-///   directions are unit vectors at right angles only up to o.
+///   two directions are unit vectors at right angles only up to o.
 /// - Inflate: m + D (1 + factor). Travel: m + D + |way|. Spin: m + D.
 ///
 /// The set grows by the error, and lengths are 10^-9 longer, which covers the rounding of all this; L by 10^-12.

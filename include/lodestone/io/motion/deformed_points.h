@@ -45,9 +45,9 @@ class Deformed_points {
   ///
   /// The constants of deformations that follow each other multiply. For a wobble the constant is
   /// 1 + pi |amplitude waves|. A bend has it from the part of the shape that lies farthest towards the outside of the
-  /// arc, a twist from the part farthest from the axis. For `Inflate` it is the current factor, for `Travel` and `Spin`
-  /// 1. After a wobble or a bend, only a ball and a box around the shape are known, so constants may be larger than
-  /// needed.
+  /// arc, a twist from the part farthest from the axis. For `Inflate` it is the current factor; for `Travel` and
+  /// `Spin` it is 1. After a wobble or a bend, only a ball and a box around the shape are known, so constants may be
+  /// larger than needed.
   double lipschitz_constant() const;
   /// How far a position of this pose can be from the exact one, through rounding; in units of the coordinates. With
   /// `lipschitz_constant` what a Lipschitz_promise needs. O(deformations).

@@ -25,7 +25,7 @@ struct Animation_output_options {
 /// - a point cache: `.pc2`, `.mdd`
 /// - glTF: `.gltf` (with a `.bin` beside it), `.glb`
 /// - mesh files: `.obj`, `.off`, `.ply`, `.stl` (binary); a pattern of numbered files, counted from 0, or the name of a
-/// single frame
+///   single frame
 ///
 /// Frames are processed one at a time. The output appears whole or not at all.
 ///
