@@ -12,7 +12,7 @@ namespace lodestone {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t no_piece = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t of_no_part = std::numeric_limits<std::uint32_t>::max();
 
 /// How many vertices a search may reach for each vertex of the node, and besides. With twice as many, a closely folded
 /// cloth takes twice as long and has hardly smaller boxes.
@@ -42,14 +42,14 @@ Landmark_search::Landmark_search(const Tree_layout& layout, Coordinates rest)
   reached_for_.assign(vertices, 0);
   distance_.resize(vertices);
   joined_.resize(vertices);
-  piece_of_.resize(vertices);
+  part_of_.resize(vertices);
 }
 
 std::span<const Landmark> Landmark_search::find(std::uint32_t node) {
   node_ = node;
   list_vertices(node);
   join_faces(node);
-  measure_pieces();
+  measure_parts();
   choose_centres();
   const bool is_root = node == 0;
   if (measure_radii(is_root ? rest_.size() : reached_per_vertex * vertices_.size() + reached_besides))
@@ -69,7 +69,7 @@ void Landmark_search::list_vertices(std::uint32_t node) {
     }
 }
 
-/// Makes a union-find forest with a tree for each piece.
+/// Makes a union-find forest with a tree for each part.
 void Landmark_search::join_faces(std::uint32_t node) {
   for (const auto vertex : vertices_) joined_[vertex] = vertex;
   for (auto leaf = layout_.node(node).leaf; leaf < layout_.node(node).end_leaf; ++leaf) {
@@ -87,33 +87,33 @@ std::uint32_t Landmark_search::root_of(std::uint32_t vertex) {
   return vertex;
 }
 
-void Landmark_search::measure_pieces() {
-  pieces_.clear();
-  for (const auto vertex : vertices_) piece_of_[vertex] = no_piece;
+void Landmark_search::measure_parts() {
+  parts_.clear();
+  for (const auto vertex : vertices_) part_of_[vertex] = of_no_part;
   for (const auto vertex : vertices_) {
-    auto& piece = piece_of_[root_of(vertex)];
-    if (piece == no_piece) {
-      piece = static_cast<std::uint32_t>(pieces_.size());
-      pieces_.emplace_back();
+    auto& part = part_of_[root_of(vertex)];
+    if (part == of_no_part) {
+      part = static_cast<std::uint32_t>(parts_.size());
+      parts_.emplace_back();
     }
-    ++pieces_[piece].size;
-    pieces_[piece].box.extend(rest(vertex));
+    ++parts_[part].size;
+    parts_[part].box.extend(rest(vertex));
   }
 }
 
-/// The vertex nearest to the centre of its box, for each of the largest pieces.
+/// The vertex nearest to the centre of its box, for each of the largest parts.
 void Landmark_search::choose_centres() {
   for (const auto vertex : vertices_) {
-    Piece& piece = pieces_[piece_of_[root_of(vertex)]];
-    const double squared = (rest(vertex) - piece.box.center()).squaredNorm();
-    if (squared < piece.squared_distance) piece.squared_distance = squared, piece.centre.vertex = vertex;
-    if (piece.squared_distance == infinity) piece.centre.vertex = vertex;  // overflow
+    Part& part = parts_[part_of_[root_of(vertex)]];
+    const double squared = (rest(vertex) - part.box.center()).squaredNorm();
+    if (squared < part.squared_distance) part.squared_distance = squared, part.centre.vertex = vertex;
+    if (part.squared_distance == infinity) part.centre.vertex = vertex;  // overflow
   }
-  const auto count = std::min(most_landmarks, pieces_.size());
-  std::ranges::partial_sort(pieces_, pieces_.begin() + static_cast<std::ptrdiff_t>(count), std::greater(),
-                            [](const Piece& piece) { return std::pair(piece.size, piece.centre.vertex); });
+  const auto count = std::min(most_landmarks, parts_.size());
+  std::ranges::partial_sort(parts_, parts_.begin() + static_cast<std::ptrdiff_t>(count), std::greater(),
+                            [](const Part& part) { return std::pair(part.size, part.centre.vertex); });
   landmarks_.clear();
-  for (std::size_t i = 0; i < count; ++i) landmarks_.push_back(pieces_[i].centre);
+  for (std::size_t i = 0; i < count; ++i) landmarks_.push_back(parts_[i].centre);
 }
 
 /// Dijkstra's algorithm from all landmarks at once, until all vertices of the node are reached.

@@ -28,8 +28,8 @@ class Landmark_search {
   std::span<const Landmark> find(std::uint32_t node);
 
  private:
-  /// Vertices of the node that faces of the node connect.
-  struct Piece {
+  /// A connected part of the node: vertices that faces of the node connect.
+  struct Part {
     std::uint32_t size = 0;
     Eigen::AlignedBox3d box;
     Landmark centre;                                                    ///< the vertex nearest to the centre of the box
@@ -44,7 +44,7 @@ class Landmark_search {
 
   void list_vertices(std::uint32_t node);
   void join_faces(std::uint32_t node);
-  void measure_pieces();
+  void measure_parts();
   void choose_centres();
   bool measure_radii(std::size_t budget);
   void relax_edges_of(const Reached& from);
@@ -63,8 +63,8 @@ class Landmark_search {
   std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> listed_for_;  ///< V: the node, plus 1, for which a vertex was last listed
   std::vector<std::uint32_t> joined_;      ///< V: a union-find forest
-  std::vector<std::uint32_t> piece_of_;    ///< V: the piece of the root of a tree
-  std::vector<Piece> pieces_;
+  std::vector<std::uint32_t> part_of_;     ///< V: the part of the root of a tree
+  std::vector<Part> parts_;
   std::vector<Landmark> landmarks_;
   std::uint32_t node_ = 0;
 

@@ -27,7 +27,7 @@ struct Dismissal {
   ~Dismissal() { crew.dismiss(); }
 };
 
-/// The floating-point environment of somebody else, for a while.
+/// The floating-point environment of another thread, for a while.
 class Borrowed_environment {
  public:
   explicit Borrowed_environment(const std::fenv_t& environment) {

@@ -33,8 +33,8 @@ class Crew {
   /// @param arena    of as many threads as there may be workers
   /// @param workers  so many at most
   /// @param task     throws nothing
-  /// @return false if the crew serves somebody else, maybe a task of whom is asking, or if there is nobody to share the
-  ///         tasks: nothing has been done
+  /// @return false if the crew serves another caller, maybe a task of which is asking, or if there is no member to
+  ///         share the tasks: nothing has been done
   bool run(tbb::task_arena& arena, std::size_t workers, std::size_t tasks, const Task& task);
 
  private:

@@ -13,17 +13,17 @@ namespace lodestone {
 namespace {
 
 /// @param used  bytes, not bits: a store need not wait for the last one
-std::vector<std::uint32_t> places_of_zeros(std::span<const std::uint8_t> used) {
-  std::vector<std::uint32_t> places;
+std::vector<std::uint32_t> indices_of_zeros(std::span<const std::uint8_t> used) {
+  std::vector<std::uint32_t> indices;
   std::size_t v = 0;
   const auto next_zero = [&]() -> const void* {
     return v < used.size() ? std::memchr(used.data() + v, 0, used.size() - v) : nullptr;
   };
   while (const void* zero = next_zero()) {
     v = static_cast<std::size_t>(static_cast<const std::uint8_t*>(zero) - used.data());
-    places.push_back(static_cast<std::uint32_t>(v++));
+    indices.push_back(static_cast<std::uint32_t>(v++));
   }
-  return places;
+  return indices;
 }
 
 }  // namespace
@@ -58,13 +58,13 @@ std::vector<std::uint32_t> unused_vertices(std::span<const Corners> faces, std::
   std::vector<std::uint8_t> used(vertex_count, 0);
   for (const auto& corners : faces)
     for (const auto v : corners) used[v] = 1;
-  return places_of_zeros(used);
+  return indices_of_zeros(used);
 }
 
 std::vector<std::uint32_t> unused_vertices(std::span<const std::uint32_t> listed, std::uint32_t vertex_count) {
   std::vector<std::uint8_t> used(vertex_count, 0);
   for (const auto v : listed) used[v] = 1;
-  return places_of_zeros(used);
+  return indices_of_zeros(used);
 }
 
 }  // namespace lodestone

@@ -16,10 +16,10 @@ bool Object_surface::closed() const {
   return *closed_;
 }
 
-std::span<const std::uint32_t> Object_surface::piece_vertices() const {
-  if (!piece_vertices_.empty()) return piece_vertices_;
-  piece_vertices_ = component_vertices(static_cast<std::uint32_t>(vertex_count()), corners_);
-  return piece_vertices_;
+std::span<const std::uint32_t> Object_surface::component_vertices() const {
+  if (!component_vertices_.empty()) return component_vertices_;
+  component_vertices_ = lodestone::component_vertices(static_cast<std::uint32_t>(vertex_count()), corners_);
+  return component_vertices_;
 }
 
 }  // namespace lodestone

@@ -72,7 +72,7 @@ Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& 
   result.regions = 1 + *std::ranges::max_element(result.labels);
   auto& repair = result.statistics.repair;
   if (options.keep_islands)
-    repair = {.regions = result.regions, .pieces_before = count_pieces(graph, result.labels)};
+    repair = {.regions = result.regions, .parts_before = count_parts(graph, result.labels)};
   else
     repair = repair_islands(graph, result.labels, result.regions, wanted_of(labelling, result.regions));
   result.regions = repair.regions;

@@ -152,38 +152,38 @@ std::vector<Region_index> Joining::targets() const {
   return result;
 }
 
-/// A region that is cut: its connected pieces. The largest is the last; of equally large ones, the one with the lowest
-/// vertex.
-class Pieces_of_region {
+/// A region that is cut: its islands, of which a connected region is the only one. The largest is the last; of equally
+/// large ones, the one with the lowest vertex.
+class Islands_of_region {
  public:
-  explicit Pieces_of_region(std::vector<Vertices> pieces);
+  explicit Islands_of_region(std::vector<Vertices> islands);
 
   std::size_t size() const { return size_; }
-  const std::vector<Vertices>& pieces() const { return pieces_; }
-  /// Whether the largest piece holds the lowest vertex of the region.
-  bool largest_is_lowest() const { return lowest_.back() == pieces_.back().front(); }
-  /// Takes the largest piece out.
+  const std::vector<Vertices>& islands() const { return islands_; }
+  /// Whether the largest island holds the lowest vertex of the region.
+  bool largest_is_lowest() const { return lowest_.back() == islands_.back().front(); }
+  /// Takes the largest island out.
   Vertices take_largest();
 
  private:
-  std::vector<Vertices> pieces_;       ///< each in ascending order
-  std::vector<std::uint32_t> lowest_;  ///< per piece: the lowest vertex of this and all smaller pieces
+  std::vector<Vertices> islands_;      ///< each in ascending order
+  std::vector<std::uint32_t> lowest_;  ///< per island: the lowest vertex of this and all smaller islands
   std::size_t size_ = 0;
 };
 
-Pieces_of_region::Pieces_of_region(std::vector<Vertices> pieces) : pieces_(std::move(pieces)) {
-  std::ranges::sort(pieces_, [](const Vertices& a, const Vertices& b) {
+Islands_of_region::Islands_of_region(std::vector<Vertices> islands) : islands_(std::move(islands)) {
+  std::ranges::sort(islands_, [](const Vertices& a, const Vertices& b) {
     return std::pair(a.size(), b.front()) < std::pair(b.size(), a.front());
   });
-  for (const auto& piece : pieces_) {
-    size_ += piece.size();
-    lowest_.push_back(lowest_.empty() ? piece.front() : std::min(lowest_.back(), piece.front()));
+  for (const auto& island : islands_) {
+    size_ += island.size();
+    lowest_.push_back(lowest_.empty() ? island.front() : std::min(lowest_.back(), island.front()));
   }
 }
 
-Vertices Pieces_of_region::take_largest() {
-  Vertices largest = std::move(pieces_.back());
-  pieces_.pop_back();
+Vertices Islands_of_region::take_largest() {
+  Vertices largest = std::move(islands_.back());
+  islands_.pop_back();
   lowest_.pop_back();
   size_ -= largest.size();
   return largest;
@@ -198,8 +198,8 @@ class Splitting {
   std::size_t run(std::size_t wanted);
 
  private:
-  std::vector<Vertices> pieces(const Vertices& vertices);
-  Pieces_of_region cut_off(Pieces_of_region& region);
+  std::vector<Vertices> islands(const Vertices& vertices);
+  Islands_of_region cut_off(Islands_of_region& region);
   std::pair<Vertices, Vertices> halves(const Vertices& region);
   Vertices grown_half(const Vertices& region);
   Eigen::Vector3d longest_axis(const Vertices& region) const;
@@ -209,31 +209,31 @@ class Splitting {
   std::vector<Region_index>& labels_;
   std::vector<std::uint32_t> marks_;  ///< per vertex: the search that has yet to reach it
   std::uint32_t searches_ = 0;
-  std::vector<Pieces_of_region> regions_;
+  std::vector<Islands_of_region> regions_;
 };
 
 Splitting::Splitting(const Vertex_graph& graph, const Positions& positions, std::vector<Region_index>& labels,
                      std::size_t regions)
     : graph_(graph), positions_(scaled_positions(positions)), labels_(labels), marks_(labels.size(), 0) {
-  for (const auto& region : members(graph, labels, regions)) regions_.emplace_back(pieces(region));
+  for (const auto& region : members(graph, labels, regions)) regions_.emplace_back(islands(region));
 }
 
-/// Connected pieces of a set of vertices, in the order of their lowest vertex, each in ascending order.
-std::vector<Vertices> Splitting::pieces(const Vertices& vertices) {
+/// Islands of a set of vertices, in the order of their lowest vertex, each in ascending order.
+std::vector<Vertices> Splitting::islands(const Vertices& vertices) {
   const std::uint32_t open = ++searches_;
   for (const auto v : vertices) marks_[v] = open;
   std::vector<Vertices> result;
   for (const auto start : vertices) {
     if (marks_[start] != open) continue;
-    Vertices& piece = result.emplace_back(1, start);
+    Vertices& island = result.emplace_back(1, start);
     marks_[start] = 0;
-    for (std::size_t i = 0; i < piece.size(); ++i)
-      for (const auto w : neighbours(graph_, piece[i]))
+    for (std::size_t i = 0; i < island.size(); ++i)
+      for (const auto w : neighbours(graph_, island[i]))
         if (marks_[w] == open) {
           marks_[w] = 0;
-          piece.push_back(w);
+          island.push_back(w);
         }
-    std::ranges::sort(piece);
+    std::ranges::sort(island);
   }
   return result;
 }
@@ -290,7 +290,7 @@ Vertices without(const Vertices& all, const Vertices& some) {
 
 /// Two sides of a connected region of two or more vertices, both connected; the lowest vertex is in the first.
 std::pair<Vertices, Vertices> Splitting::halves(const Vertices& region) {
-  const auto parts = pieces(without(region, grown_half(region)));
+  const auto parts = islands(without(region, grown_half(region)));
   Vertices side = *std::ranges::max_element(parts, {}, &Vertices::size);
   Vertices rest = without(region, side);
   if (side.front() == region.front()) std::swap(side, rest);
@@ -298,16 +298,16 @@ std::pair<Vertices, Vertices> Splitting::halves(const Vertices& region) {
 }
 
 /// What leaves a region of two or more vertices. The lowest vertex always stays.
-Pieces_of_region Splitting::cut_off(Pieces_of_region& region) {
-  const bool stays = region.largest_is_lowest(), is_connected = region.pieces().size() == 1;
+Islands_of_region Splitting::cut_off(Islands_of_region& region) {
+  const bool stays = region.largest_is_lowest(), is_connected = region.islands().size() == 1;
   Vertices largest = region.take_largest();
   if (is_connected) {
     auto [staying, leaving] = halves(largest);
-    region = Pieces_of_region({std::move(staying)});
-    return Pieces_of_region({std::move(leaving)});
+    region = Islands_of_region({std::move(staying)});
+    return Islands_of_region({std::move(leaving)});
   }
-  if (!stays) return Pieces_of_region({std::move(largest)});
-  return std::exchange(region, Pieces_of_region({std::move(largest)}));
+  if (!stays) return Islands_of_region({std::move(largest)});
+  return std::exchange(region, Islands_of_region({std::move(largest)}));
 }
 
 std::size_t Splitting::run(std::size_t wanted) {
@@ -328,8 +328,8 @@ std::size_t Splitting::run(std::size_t wanted) {
     ++cuts;
   }
   for (Region_index region = 0; region < regions_.size(); ++region)
-    for (const auto& piece : regions_[region].pieces())
-      for (const auto v : piece) labels_[v] = region;
+    for (const auto& island : regions_[region].islands())
+      for (const auto v : island) labels_[v] = region;
   return cuts;
 }
 

@@ -165,9 +165,9 @@ class Dissection {
   Labelling result() const;
 
  private:
-  std::vector<Vertices> pieces(const Vertices& part);
+  std::vector<Vertices> islands(const Vertices& part);
   Vertices cut_off(const Vertices& part);
-  Vertices cut_off_pieces(std::vector<Vertices> pieces) const;
+  Vertices cut_off_islands(std::vector<Vertices> islands) const;
   Vertices cut_along_fiedler_vector(const Vertices& part);
 
   const Vertex_graph& graph_;
@@ -183,33 +183,33 @@ Dissection::Dissection(const Vertex_graph& graph, const Spectral_options& option
     if (out_degree(v, graph) > 0) parts_[0].push_back(v);
 }
 
-/// Connected pieces of a part, in the order of their lowest vertex, each in ascending order.
-std::vector<Vertices> Dissection::pieces(const Vertices& part) {
+/// Islands of a part, in the order of their lowest vertex, each in ascending order.
+std::vector<Vertices> Dissection::islands(const Vertices& part) {
   for (const auto v : part) local_[v] = 0;
   std::vector<Vertices> result;
   for (const auto start : part) {
     if (local_[start] == no_vertex) continue;
-    Vertices& piece = result.emplace_back(1, start);
+    Vertices& island = result.emplace_back(1, start);
     local_[start] = no_vertex;
-    for (std::size_t i = 0; i < piece.size(); ++i)
-      for (const auto w : neighbours(graph_, piece[i]))
+    for (std::size_t i = 0; i < island.size(); ++i)
+      for (const auto w : neighbours(graph_, island[i]))
         if (local_[w] != no_vertex) {
           local_[w] = no_vertex;
-          piece.push_back(w);
+          island.push_back(w);
         }
-    std::ranges::sort(piece);
+    std::ranges::sort(island);
   }
   return result;
 }
 
-/// Divides pieces into two sides of about equal size. Returns the side without the lowest vertex.
-Vertices Dissection::cut_off_pieces(std::vector<Vertices> pieces) const {
-  const std::uint32_t lowest = pieces.front().front();
-  std::ranges::stable_sort(pieces, std::greater<>(), &Vertices::size);
+/// Divides islands into two sides of about equal size. Returns the side without the lowest vertex.
+Vertices Dissection::cut_off_islands(std::vector<Vertices> islands) const {
+  const std::uint32_t lowest = islands.front().front();
+  std::ranges::stable_sort(islands, std::greater<>(), &Vertices::size);
   Vertices sides[2];
-  for (const auto& piece : pieces) {
+  for (const auto& island : islands) {
     Vertices& side = sides[sides[0].size() <= sides[1].size() ? 0 : 1];
-    side.insert(side.end(), piece.begin(), piece.end());
+    side.insert(side.end(), island.begin(), island.end());
   }
   for (auto& side : sides) std::ranges::sort(side);
   return sides[0].front() == lowest ? sides[1] : sides[0];
@@ -238,8 +238,8 @@ Vertices Dissection::cut_along_fiedler_vector(const Vertices& part) {
 
 /// The vertices that leave a part of two or more vertices.
 Vertices Dissection::cut_off(const Vertices& part) {
-  auto all = pieces(part);
-  return all.size() > 1 ? cut_off_pieces(std::move(all)) : cut_along_fiedler_vector(part);
+  auto all = islands(part);
+  return all.size() > 1 ? cut_off_islands(std::move(all)) : cut_along_fiedler_vector(part);
 }
 
 void Dissection::run(std::size_t wanted) {

@@ -99,7 +99,7 @@ const Frame& Detect_run::detect() {
   return detector_->detect();
 }
 
-/// Moves all objects; only those meshes whose positions somebody reads.
+/// Moves all objects; only those meshes whose positions are read.
 void Detect_run::pose_all(std::size_t frame) {
   const bool shown = command_.truth || !command_.html.empty() || !command_.paraview.empty();
   for (std::size_t number = 0; number < scene_.objects.size(); ++number) {

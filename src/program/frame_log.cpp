@@ -37,14 +37,14 @@ Json parting_json(const std::optional<Parting>& parting) {
 
 using Faces_in_files = std::array<std::uint32_t, 2>;
 
-/// The faces of each contact as the files number them, and the place of that contact in the frame. Sorted here, since
+/// The faces of each contact as the files number them, and the index of that contact in the frame. Sorted here, since
 /// the triangles of a polygon need not follow each other in the mesh.
 std::vector<std::pair<Faces_in_files, std::size_t>> contacts_in_files(const Scene_object& a, const Scene_object& b,
                                                                       const Frame& frame, const Pair_result& pair) {
   std::vector<std::pair<Faces_in_files, std::size_t>> contacts;
-  std::size_t place = pair.first_contact;
+  std::size_t index = pair.first_contact;
   for (const auto& [face_a, face_b] : frame.contacts(pair))
-    contacts.push_back({{a.file_face[face_a], b.file_face[face_b]}, place++});
+    contacts.push_back({{a.file_face[face_a], b.file_face[face_b]}, index++});
   std::ranges::sort(contacts);
   return contacts;
 }
@@ -75,15 +75,15 @@ Json patches_json(std::span<const Contact_patch> patches, const Pair_result& pai
 void add_contacts(Json& json, std::span<const std::pair<Faces_in_files, std::size_t>> contacts, const Frame& frame,
                   const Pair_result& pair, const Detector_options& options) {
   auto& faces = json["faces"] = Json::array();
-  for (const auto& [in_files, place] : contacts) faces.push_back(in_files);
+  for (const auto& [in_files, index] : contacts) faces.push_back(in_files);
   if (options.contact_normals) {
     auto& normals = json["normals"] = Json::array();
-    for (const auto& [in_files, place] : contacts) normals.push_back(normal_json(frame.contact_normals[place]));
+    for (const auto& [in_files, index] : contacts) normals.push_back(normal_json(frame.contact_normals[index]));
   }
   if (options.exact.patches) json["patches"] = patches_json(frame.patches_of(pair), pair, contacts);
   if (options.contact_points) {
     auto& points = json["points"] = Json::array();
-    for (const auto& [in_files, place] : contacts) points.push_back(points_json(frame.contact_points[place]));
+    for (const auto& [in_files, index] : contacts) points.push_back(points_json(frame.contact_points[index]));
   }
 }
 

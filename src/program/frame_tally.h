@@ -31,7 +31,7 @@ struct Pair_impact_time {
 /// What the summary of a run needs to know of one frame.
 struct Frame_tally {
   std::size_t frame = 0;
-  std::vector<Pair_result> pairs = {};  ///< without their places in lists of the frame; only the length of a parting
+  std::vector<Pair_result> pairs = {};  ///< without their indices in lists of the frame; only the length of a parting
   Frame_statistics statistics = {};
   std::vector<Pair_score> scores = {};         ///< with --truth
   std::vector<Pair_distance> distances = {};   ///< with --closest

@@ -367,7 +367,7 @@ int run_commands(int argc, char** argv) {
     if (detect.options.mode == Mode::particles) refuse_options_beside_meetings(app, detect.options.meetings);
     refuse_options_of_other_strategies(app, detect.partition.name, false);  // threads share frames too
     detect.chooses_strategy = chooses_strategy(app);
-    // Whoever chooses a strategy wants to see regions.
+    // A user who chooses a strategy wants to see regions.
     if (finds_all(detect.options.mode) && detect.chooses_strategy && detect.options.particles == 0)
       detect.options.particles = detect.options.least_particles;
   }

@@ -128,7 +128,7 @@ bool encloses(const Layout_view& surface, const Point& point) {
 bool encloses(const Object_surface& outer, const Layout_view& outer_layout, const Object_surface& inner,
               const Layout_view& inner_layout) {
   if (!box_within(inner_layout.boxes.front(), outer_layout.boxes.front()) || !outer.closed()) return false;
-  return std::ranges::all_of(inner.piece_vertices(), [&](std::uint32_t vertex) {
+  return std::ranges::all_of(inner.component_vertices(), [&](std::uint32_t vertex) {
     const double* p = inner.coordinates().data() + 3 * std::size_t{vertex};
     return encloses(outer_layout, Point(p[0], p[1], p[2]));
   });
@@ -143,7 +143,7 @@ bool encloses(Bounded_surface& outer, Bounded_surface& inner) {
       [&] {
         // Boxes can be loose, so one within the other would prove nothing, and neither would the opposite.
         if (!near(outer.box(0), inner.box(0), 0) || !outer.tree().closed()) return false;
-        return std::ranges::all_of(inner.tree().piece_vertices(), inside);
+        return std::ranges::all_of(inner.tree().component_vertices(), inside);
       },
       outer, inner);
 }

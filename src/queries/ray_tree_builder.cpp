@@ -70,7 +70,7 @@ void Ray_tree_builder::build(Workers& workers) {
 }
 
 void Ray_tree_builder::refit(Workers& workers) {
-  tree_.is_fitted_ = false;  // whoever runs out of memory leaves a tree that asks its surface
+  tree_.is_fitted_ = false;  // a refit that runs out of memory leaves a tree that asks its surface
   if (!place()) return;
   const std::size_t blocks = tree_.blocks_.size();
   workers.run((blocks + blocks_per_task - 1) / blocks_per_task, [&](std::size_t task, std::size_t) {

@@ -23,14 +23,14 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
       if (face >= mesh_corners.size()) return fmt::format("leaf {}: there is no face {}", leaf, face);
       if (std::exchange(seen[face], 1) != 0) return fmt::format("face {} is in two leaves", face);
       for (std::size_t corner = 0; corner < 3; ++corner) {
-        const std::size_t place = corners(leaf)[i][corner];
-        if (place >= list.size() || list[place] != mesh_corners[face][corner])
+        const std::size_t index = corners(leaf)[i][corner];
+        if (index >= list.size() || list[index] != mesh_corners[face][corner])
           return fmt::format("leaf {}: face {} has other corners than in the mesh", leaf, face);
-        used[place] = 1;
+        used[index] = 1;
       }
     }
-    if (const auto place = std::ranges::find(used, 0); place != used.end())
-      return fmt::format("leaf {}: none of its faces has vertex {}", leaf, list[place - used.begin()]);
+    if (const auto unused = std::ranges::find(used, 0); unused != used.end())
+      return fmt::format("leaf {}: none of its faces has vertex {}", leaf, list[unused - used.begin()]);
     if (leaf_nodes_[leaf] >= nodes_.size() || !is_leaf(leaf_nodes_[leaf]))
       return fmt::format("leaf {}: its node is not a leaf", leaf);
   }

@@ -155,9 +155,9 @@ void Region_anchors::read(Tree_on_demand& tree, double reach) {
   box_ = box_.intersection(Box(middle_ - radius, middle_ + radius));
 }
 
-bool Region_anchors::may_touch(std::uint32_t place, const Box& box) const {
-  return box.squaredExteriorDistance(Eigen::Vector3d(x_[place], y_[place], z_[place])) <=
-         radius_[place] * radius_[place];
+bool Region_anchors::may_touch(std::uint32_t index, const Box& box) const {
+  return box.squaredExteriorDistance(Eigen::Vector3d(x_[index], y_[index], z_[index])) <=
+         radius_[index] * radius_[index];
 }
 
 void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs) {

@@ -164,7 +164,7 @@ std::pair<Tree_builder::Branch, Tree_builder::Branch> Tree_builder::halve(const 
   return {first, second};
 }
 
-/// @return the places of its children; their items are those of the branch
+/// @return its children, at their indices; their items are those of the branch
 std::pair<Tree_builder::Branch, Tree_builder::Branch> Tree_builder::add_inner_node(const Branch& branch,
                                                                                    std::uint32_t first_faces,
                                                                                    std::uint32_t first_leaves) {

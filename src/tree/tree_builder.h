@@ -12,7 +12,7 @@ namespace lodestone {
 
 /// Makes the nodes and leaves of a Tree_layout.
 ///
-/// How many leaves each branch has is known before it is split. So every node, leaf and face has its place in the lists
+/// How many leaves each branch has is known before it is split. So every node, leaf and face has its index in the lists
 /// of the tree from the start, and branches can be made in any order, by several threads.
 class Tree_builder {
  public:
@@ -33,7 +33,7 @@ class Tree_builder {
     std::uint32_t begin = 0, end = 0;  ///< its faces, as a range of `items_` or `spare_`
     bool in_spare = false;
     std::uint32_t leaves = 0;                    ///< how many; 1: the node is one
-    std::uint32_t node = 0, leaf = 0, face = 0;  ///< places in the tree's lists: of the node, its first leaf, its faces
+    std::uint32_t node = 0, leaf = 0, face = 0;  ///< indices in the tree's lists; of leaf and face, the first
   };
   void make_room(std::size_t faces);
   void read_items();
@@ -65,7 +65,7 @@ class Tree_builder {
   std::size_t leaf_faces_;
   Workers& workers_;
   Unset_vector<Split_item> items_, spare_;   ///< per face to be grouped; a branch lies in one of the two
-  Unset_vector<std::uint32_t> vertices_;     ///< of each leaf, from three times the place of its first item
+  Unset_vector<std::uint32_t> vertices_;     ///< of each leaf, from three times the index of its first item
   std::vector<std::uint32_t> item_begin_;    ///< per leaf that is made here: where its items start
   std::vector<std::uint32_t> region_begin_;  ///< per region and past the last: where its faces start in `items_`
 };

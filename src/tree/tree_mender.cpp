@@ -18,7 +18,7 @@ namespace {
 /// With more than this share of its faces changed, a tree is built anew.
 constexpr std::size_t most_changed = 8;
 
-/// A tree is also built anew if finding leaves for new pieces would take more comparisons than so many per face.
+/// A tree is also built anew if finding leaves for new components would take more comparisons than so many per face.
 constexpr std::size_t most_compared = 4;
 
 /// A tree is also built anew if it has more than so many levels, twice those of a balanced one and some. One that grows
@@ -115,9 +115,9 @@ void Tree_mender::find_left_faces() {
 }
 
 /// Gives each moved face to a leaf that has one of its vertices, or one of a moved face beside it, and so on. Most find
-/// one among the leaves that faces have left, so the others are looked through only for those that do not. A piece that
-/// is new goes to the leaf that is nearest to one of its vertices.
-/// @return false if there are many new pieces
+/// one among the leaves that faces have left, so the others are looked through only for those that do not. A component
+/// that is new goes to the leaf that is nearest to one of its vertices.
+/// @return false if there are many new components
 bool Tree_mender::place_faces() {
   Vertex_leaves leaf_of(coordinates_.size() / 3);
   for (const auto face : moved_)
@@ -149,8 +149,8 @@ bool Tree_mender::place(std::uint32_t face, Vertex_leaves& leaf_of, std::vector<
   return true;
 }
 
-/// Faces between new vertices: from the faces that have been placed outwards, then new pieces.
-/// @return false if there are many new pieces
+/// Faces between new vertices: from the faces that have been placed outwards, then new components.
+/// @return false if there are many new components
 bool Tree_mender::place_waiting_faces(Vertex_leaves& leaf_of, std::span<const std::uint32_t> waiting) {
   using Vertex_and_face = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<Vertex_and_face> faces_at;  // by their vertices
@@ -175,12 +175,12 @@ bool Tree_mender::place_waiting_faces(Vertex_leaves& leaf_of, std::span<const st
   };
   spread();
 
-  const auto new_piece = [&](std::uint32_t face) { return waits[face]; };
-  if (std::ranges::none_of(waiting, new_piece)) return true;
+  const auto in_new_component = [&](std::uint32_t face) { return waits[face]; };
+  if (std::ranges::none_of(waiting, in_new_component)) return true;
   const Leaf_places places(former_, face_count_, coordinates_);
   std::size_t compared = 0;
   for (const auto face : waiting) {
-    if (!new_piece(face)) continue;
+    if (!in_new_component(face)) continue;
     compared += places.size();
     if (places.size() == 0 || compared > most_compared * corners_.size()) return false;
     const std::uint32_t vertex = corners_[face][0];

@@ -29,13 +29,13 @@ Labels strip_labels(Labels columns) {
 
 TEST(Count_pieces, counts_connected_sets_of_one_label) {
   const auto graph = grid_graph(6, 2);
-  EXPECT_EQ(count_pieces(graph, strip_labels({0, 0, 0, 0, 0, 0})), 1U);
-  EXPECT_EQ(count_pieces(graph, strip_labels({0, 1, 0, 0, 1, 2})), 5U);
+  EXPECT_EQ(count_parts(graph, strip_labels({0, 0, 0, 0, 0, 0})), 1U);
+  EXPECT_EQ(count_parts(graph, strip_labels({0, 1, 0, 0, 1, 2})), 5U);
 }
 
 TEST(Count_pieces, skips_isolated_vertices) {
   const std::vector<Corners> faces{{1, 2, 4}};
-  EXPECT_EQ(count_pieces(vertex_graph(6, faces), {0, 0, 1, 2, 1, 1}), 2U);
+  EXPECT_EQ(count_parts(vertex_graph(6, faces), {0, 0, 1, 2, 1, 1}), 2U);
 }
 
 TEST(Repair_islands, connected_regions_are_unchanged) {
@@ -51,7 +51,7 @@ TEST(Repair_islands, connected_regions_are_unchanged) {
 TEST(Repair_islands, an_island_joins_the_region_around_it) {
   Labels labels = strip_labels({0, 0, 0, 1, 0, 1, 1});
   EXPECT_EQ(repair_islands(grid_graph(7, 2), labels, 2).islands_joined, 2U);
-  // Columns 5 and 6 are the larger piece of label 1; column 3 lies between pieces of label 0, column 4 beside it.
+  // Columns 5 and 6 are the larger part of label 1; column 3 lies between parts of label 0, column 4 beside it.
   EXPECT_EQ(labels, strip_labels({0, 0, 0, 0, 1, 1, 1}));
 }
 
@@ -102,7 +102,7 @@ TEST(Repair_islands, a_component_that_no_region_reaches_keeps_its_largest_piece_
   const auto repair = repair_islands(vertex_graph(22, faces), labels, 2);
   EXPECT_EQ(repair.regions, 3U);
   EXPECT_EQ(repair.regions_added, 1U);
-  // The second component has as many vertices of label 1 as the first: the earlier piece is the body.
+  // The second component has as many vertices of label 1 as the first: the earlier part is the body.
   for (std::size_t v = 12; v < 22; ++v) EXPECT_EQ(labels[v], 2U);
   EXPECT_EQ(Labels(labels.begin(), labels.begin() + 12), strip_labels({0, 0, 0, 1, 1, 1}));
 }
@@ -122,32 +122,32 @@ TEST(Repair_islands, leaves_every_region_of_random_labels_connected) {
     const auto before = pieces_of(mesh.graph, labels, regions);
     const auto repair = repair_islands(mesh.graph, labels, regions);
     const auto after = pieces_of(mesh.graph, labels, repair.regions);
-    std::size_t pieces_before = 0;
-    for (const auto& pieces : before) pieces_before += pieces.size();
+    std::size_t parts_before = 0;
+    for (const auto& parts : before) parts_before += parts.size();
     for (std::size_t region = 0; region < repair.regions; ++region) {
       ASSERT_EQ(after[region].size(), 1U);
       if (region >= regions) continue;
       EXPECT_GE(after[region][0], std::ranges::max(before[region]));
     }
-    EXPECT_EQ(repair.pieces_before, pieces_before);
-    EXPECT_EQ(pieces_before, repair.regions + repair.islands_joined);
+    EXPECT_EQ(repair.parts_before, parts_before);
+    EXPECT_EQ(parts_before, repair.regions + repair.islands_joined);
     EXPECT_EQ(repair.regions, regions + repair.regions_added);
   }
 }
 
 using Borders = std::vector<std::map<std::uint32_t, std::size_t>>;
 
-/// Per piece the number of edges to each other piece.
-Borders borders_of(const Vertex_graph& graph, const std::vector<std::uint32_t>& piece) {
-  Borders borders(piece.size());
-  for (std::uint32_t v = 0; v < piece.size(); ++v)
+/// Per part the number of edges to each other part.
+Borders borders_of(const Vertex_graph& graph, const std::vector<std::uint32_t>& part) {
+  Borders borders(part.size());
+  for (std::uint32_t v = 0; v < part.size(); ++v)
     for (const auto w : neighbours(graph, v))
-      if (piece[v] != piece[w]) ++borders[piece[v]][piece[w]];
+      if (part[v] != part[w]) ++borders[part[v]][part[w]];
   return borders;
 }
 
-/// The connected pieces of the labels, each named by its lowest vertex, in ascending order of vertices.
-std::vector<std::uint32_t> lowest_of_piece(const Vertex_graph& graph, const Labels& labels) {
+/// The connected parts of the labels, each named by its lowest vertex, in ascending order of vertices.
+std::vector<std::uint32_t> lowest_of_part(const Vertex_graph& graph, const Labels& labels) {
   std::vector<std::uint32_t> lowest(labels.size());
   std::iota(lowest.begin(), lowest.end(), 0);
   for (bool changed = true; changed;) {
@@ -162,12 +162,12 @@ std::vector<std::uint32_t> lowest_of_piece(const Vertex_graph& graph, const Labe
   return lowest;
 }
 
-/// Repairs islands by passes over all pieces, on a connected mesh: every island beside a settled piece joins it.
+/// Repairs islands by passes over all parts, on a connected mesh: every island beside a settled part joins it.
 void repair_by_passes(const Vertex_graph& graph, Labels& labels, std::size_t regions) {
-  const auto piece = lowest_of_piece(graph, labels);
-  const auto borders = borders_of(graph, piece);
+  const auto part = lowest_of_part(graph, labels);
+  const auto borders = borders_of(graph, part);
   std::map<std::uint32_t, std::size_t> sizes;
-  for (const auto p : piece) ++sizes[p];
+  for (const auto p : part) ++sizes[p];
   std::set<std::uint32_t> settled;
   for (Region_index region = 0; region < regions; ++region) {
     std::pair<std::size_t, std::uint32_t> largest{0, 0};
@@ -188,7 +188,7 @@ void repair_by_passes(const Vertex_graph& graph, Labels& labels, std::size_t reg
     }
     settled.insert(joined.begin(), joined.end());
   }
-  for (std::size_t v = 0; v < labels.size(); ++v) labels[v] = labels[piece[v]];
+  for (std::size_t v = 0; v < labels.size(); ++v) labels[v] = labels[part[v]];
 }
 
 TEST(Repair_islands, gives_the_labels_of_passes_over_all_islands) {
@@ -197,7 +197,7 @@ TEST(Repair_islands, gives_the_labels_of_passes_over_all_islands) {
     const Numbered_mesh mesh(surface);
     for (const std::size_t regions : {2, 3, 5, 12, 40})
       for (const std::size_t run : {1, 2, 9}) {
-        // Runs of one label make pieces of several sizes, and islands behind islands.
+        // Runs of one label make parts of several sizes, and islands behind islands.
         Labels labels(mesh.numbering.vertex_count());
         for (std::size_t v = 0; v < labels.size(); ++v)
           labels[v] = v % run == 0 ? static_cast<Region_index>(random() % regions) : labels[v - 1];
@@ -210,7 +210,7 @@ TEST(Repair_islands, gives_the_labels_of_passes_over_all_islands) {
 }
 
 TEST(Repair_islands, a_long_row_of_islands_joins_from_its_end) {
-  // Only the first two pieces are regions: each of 200 000 islands lies behind the one before.
+  // Only the first two parts are regions: each of 200 000 islands lies behind the one before.
   Labels columns{0, 0, 1, 1};
   for (Region_index i = 0; i < 200000; ++i) columns.push_back(i % 2);
   Labels labels = strip_labels(columns);
@@ -226,7 +226,7 @@ TEST(Repair_islands, isolated_vertices_keep_their_label) {
   const auto repair = repair_islands(vertex_graph(5, faces), labels, 2);
   EXPECT_EQ(labels, (Labels{1, 1, 1, 0, 0}));
   EXPECT_EQ(repair.regions, 2U);
-  EXPECT_EQ(repair.pieces_before, 1U);
+  EXPECT_EQ(repair.parts_before, 1U);
 }
 
 TEST(Repair_islands, the_largest_components_become_regions_where_not_all_may) {

@@ -110,7 +110,7 @@ TEST(Sample, keeps_large_partitions_connected_and_full) {
   const auto partition =
       partition_numbered(Numbered_surface{numbered.graph, numbered.positions, numbered.faces}, 32, Lbg{});
   EXPECT_EQ(partition.regions, 32U);
-  EXPECT_EQ(count_pieces(numbered.graph, partition.labels), 32U);
+  EXPECT_EQ(count_parts(numbered.graph, partition.labels), 32U);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ Numbered_partition given(std::vector<Region_index> labels, std::size_t regions) 
   for (Region_index region = 0; region < regions; ++region)
     partition.particles.push_back(
         static_cast<std::uint32_t>(std::ranges::find(partition.labels, region) - partition.labels.begin()));
-  partition.statistics.repair.pieces_before = regions;
+  partition.statistics.repair.parts_before = regions;
   return partition;
 }
 
@@ -76,7 +76,7 @@ TEST(Partition_measures, the_balance_reflects_a_larger_region_and_pieces_are_cou
   auto labels = halves();
   for (int v = 0; v < 24; ++v) labels[v] = v < 18 ? 0 : 1;
   auto partition = given(labels, 2);
-  partition.statistics.repair.pieces_before = 5;
+  partition.statistics.repair.parts_before = 5;
   const auto m = measured(grid(6, 4), partition);
   EXPECT_DOUBLE_EQ(m.size_balance, 1.5);
   EXPECT_DOUBLE_EQ(m.pieces_per_region, 2.5);

@@ -82,7 +82,7 @@ TEST(Partition, islands_are_kept_if_requested) {
   EXPECT_EQ(pieces[1].size(), 2U);
 
   const auto repaired = divide(mesh, 2, Stripes{});
-  EXPECT_EQ(repaired.partition.statistics.repair.pieces_before, 4U);
+  EXPECT_EQ(repaired.partition.statistics.repair.parts_before, 4U);
   EXPECT_EQ(repaired.partition.statistics.repair.islands_joined, 2U);
   expect_sound(mesh, repaired);
 }

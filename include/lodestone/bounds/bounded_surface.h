@@ -17,7 +17,7 @@
 
 namespace lodestone {
 
-/// A surface whose nodes are bounded without being read, and whose leaves are posed when somebody needs their faces.
+/// A surface whose nodes are bounded without being read, and whose leaves are posed when a query needs their faces.
 /// Nothing is done before it is asked for. Nothing is done twice in a pose, except that leaves which were posed one by
 /// one are posed again with all. A node below which all leaves have been posed has the box fitted to them.
 ///
@@ -26,8 +26,8 @@ namespace lodestone {
 /// - the leaves below a node, once all of them have been posed, with the node's box if that was in use;
 /// - all vertices, where all are posed, with all boxes in use.
 ///
-/// If a vertex lies outside, or if bounds have no point in common, `is_broken()` says so, and whoever relied on boxes
-/// must `settle` the surface and ask again.
+/// If a vertex lies outside, or if bounds have no point in common, `is_broken()` says so, and a query that relied on
+/// boxes must `settle` the surface and ask again.
 ///
 /// Boxes, and leaves that are posed one by one, can take longer than to pose all. Both are counted, in vertices that
 /// could have been posed in order in that time. Once the count exceeds the vertices of all leaves, all are posed. The
@@ -40,7 +40,7 @@ class Bounded_surface {
  public:
   /// How much is known about a leaf in the current pose.
   enum class Leaf_state {
-    far,      ///< nothing: nobody has asked
+    far,      ///< nothing: no query has asked
     bounded,  ///< a box around it
     posed,    ///< where its vertices are
   };

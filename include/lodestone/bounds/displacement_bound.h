@@ -75,7 +75,7 @@ class Displacement_bound {
 
 /// A promise: how far a vertex can have moved since the promise was last changed. A model of Motion_promise.
 ///
-/// The caller says so with `move`, before anybody asks about the new positions. Distances add up. What was said before
+/// The caller says so with `move`, before a query asks about the new positions. Distances add up. What was said before
 /// a bound was made does not count for it: its first boxes are those at rest.
 ///
 /// A rigid frame takes large motions out of the promise. With a frame, a vertex is at p = frame * q, and it is q that

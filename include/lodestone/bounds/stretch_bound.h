@@ -29,9 +29,9 @@ struct Landmark {
 /// sigma rho + 2 e of p, since each edge of a shortest path is at most sigma times as long as at rest. Paths may leave
 /// the node. The box of the node is that around the boxes of its landmarks.
 ///
-/// A node whose faces are in one piece has one landmark, the vertex nearest to the centre of its box: more of them give
-/// no smaller boxes than those of its children would. Where a thin body has both its sides in one node, a path from one
-/// to the other is long. So each piece of a node has a landmark of its own, the three largest if there are more.
+/// A node whose faces are connected has one landmark, the vertex nearest to the centre of its box: more of them give no
+/// smaller boxes than those of its children would. Where a thin body has both its sides in one node, a path from one to
+/// the other is long. So each connected part of a node has a landmark of its own, the three largest if there are more.
 /// If the search for the paths comes to many more vertices than the node has, or does not come to all of them, the node
 /// uses the landmarks of its parent. A vertex that no landmark of the root reaches makes the root's box open.
 ///

@@ -153,7 +153,7 @@ class Exact_object {
   void load(State_reader& state, bool with_rest);
 
  private:
-  /// Until `finish`: whoever runs out of memory in between leaves an object that is built anew.
+  /// Until `finish`: a build that runs out of memory in between leaves an object that is built anew.
   void forget_tree() {
     built = false;
     former_.reset();
@@ -183,7 +183,7 @@ class Exact_object {
     std::vector<std::uint32_t> changed;
   };
 
-  /// Where the vertices are, whoever says so.
+  /// Where the vertices are, as the mesh or the caller says.
   class Object_positions final : public Position_source {
    public:
     explicit Object_positions(Exact_object& object) : object_(&object) {}

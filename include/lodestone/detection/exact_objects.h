@@ -20,7 +20,7 @@ namespace lodestone {
 
 /// The objects of the modes `exact` and `certified`, whose trees follow their meshes: built once, refitted in every
 /// frame, rebuilt where they have become loose. In mode `certified` an object with bounds is not refitted: its nodes
-/// are bounded, and its leaves posed, when somebody looks at them.
+/// are bounded, and its leaves posed, when a query looks at them.
 template <Bounding_volume Volume>
 class Exact_objects {
  public:
@@ -95,8 +95,8 @@ class Exact_objects {
     throw_if_broken(ids);
   }
 
-  /// Calls `answer`, which finds an answer about these objects. If it relied on a broken bound, the object is posed as a
-  /// whole, and `answer` is called again. Each repetition settles an object, so there are few.
+  /// Calls `answer`, which finds an answer about these objects. If it relied on a broken bound, the object is posed as
+  /// a whole, and `answer` is called again. Each repetition settles an object, so there are few.
   /// @param answer         called without arguments
   /// @throws Broken_bound  as `throw_if_broken`
   template <class Answer>
@@ -153,7 +153,7 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   // Refitted first: a tree that is built now holds the current positions.
   timed(work_.seconds.refit, [&] { refit_built(whole_); });
   build_new(whole_);
-  // Not before all positions are known to be finite: those of an object that has been mended may be taken a frame later.
+  // Not before all positions are known to be finite: those of a mended object may be taken a frame later.
   if (options_.exact.self_tolerance > 0)
     timed(work_.seconds.build, [&] {
       for (const auto id : whole_) objects_[id]->keep_rest();

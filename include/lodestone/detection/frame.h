@@ -57,7 +57,7 @@ struct Frame_statistics {
   std::size_t repartitions = 0;  ///< objects repartitioned since the frame before; in mode exact loose trees rebuilt
 };
 
-/// Whether one object lies inside the other: their surfaces are apart, and every piece of it is enclosed.
+/// Whether one object lies inside the other: their surfaces are apart, and every component of it is enclosed.
 enum class Containment {
   none,    ///< neither inside the other
   a_in_b,  ///< the first inside the second
@@ -73,14 +73,14 @@ struct Pair_result {
                                   ///< Within one object faces that were near when it was built do not count
   std::size_t candidates = 0;     ///< candidate region pairs; in modes exact and certified pairs of leaves that were
                                   ///< tested
-  std::size_t first_contact = 0;  ///< place of the pair's face pairs in `Frame::face_pairs`
+  std::size_t first_contact = 0;  ///< index of the first of its face pairs in `Frame::face_pairs`
   std::size_t contacts = 0;       ///< number of its face pairs in `Frame::face_pairs`
   bool capped = false;            ///< there are more face pairs than `Detector_options::most_contacts`
   bool unfinished = false;        ///< mode particles, with meetings: the budget of openings ended the search before it
                                   ///< had found what was asked for, so contacts can be missing
   Containment containment = Containment::none;  ///< which object lies inside the other; none unless asked for
   std::optional<Parting> parting = {};          ///< `a` is moved; none unless asked for and needed
-  std::size_t first_patch = 0;                  ///< place of the pair's contact patches in `Frame::patches`
+  std::size_t first_patch = 0;                  ///< index of the first of its contact patches in `Frame::patches`
   std::size_t patches = 0;                      ///< number of its contact patches in `Frame::patches`
 };
 

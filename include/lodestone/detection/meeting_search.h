@@ -24,18 +24,20 @@ struct Meeting_counts {
 
 /// An object pair, and what the search knows of it in this frame.
 struct Met_pair {
-  Object_pair ids;               ///< the two objects
-  Particle_object* a = nullptr;  ///< the first
-  Particle_object* b = nullptr;  ///< the second
-  std::size_t first_near = 0;    ///< place of its regions in the list of all pairs: see `Meeting_search::near_regions`
-  std::size_t near_count = 0;    ///< how many they are
-  std::size_t first_seed = 0;    ///< place of its contacts in the list of all pairs: see `Meeting_search::seeds`
-  std::size_t seed_count = 0;    ///< how many they are
-  std::size_t first_opened = 0;  ///< place of the contacts that curves and openings gave to `look`, in the list of all
-                                 ///< pairs
+  Object_pair ids;                 ///< the two objects
+  Particle_object* a = nullptr;    ///< the first
+  Particle_object* b = nullptr;    ///< the second
+  std::size_t first_near = 0;      ///< index of the first of its regions in the list of all pairs: see
+                                   ///< `Meeting_search::near_regions`
+  std::size_t near_count = 0;      ///< how many they are
+  std::size_t first_seed = 0;      ///< index of the first of its contacts in the list of all pairs: see
+                                   ///< `Meeting_search::seeds`
+  std::size_t seed_count = 0;      ///< how many they are
+  std::size_t first_opened = 0;    ///< index of the first of the contacts that curves and openings gave to `look`, in
+                                   ///< the list of all pairs
   std::size_t opened_count = 0;    ///< how many they are
   std::size_t followed_count = 0;  ///< of these, the contacts of curves, which come first
-  std::size_t first_compared = 0;  ///< place of the leaf pairs that were compared, in the list of all pairs
+  std::size_t first_compared = 0;  ///< index of the first of its compared leaf pairs, in the list of all pairs
   std::size_t compared_count = 0;  ///< how many they are
   bool out_of_budget = false;      ///< the regions could not all be opened
 };

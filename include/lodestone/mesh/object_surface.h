@@ -39,7 +39,7 @@ class Object_surface {
   /// Whether each edge has an even number of faces, so that the surface has an inside. O(F log F) the first time.
   bool closed() const;
   /// One vertex of each connected component of the surface. O(V + F) the first time.
-  std::span<const std::uint32_t> piece_vertices() const;
+  std::span<const std::uint32_t> component_vertices() const;
 
  protected:
   /// Takes 3 V coordinates as those at rest; none: they are not kept.
@@ -52,7 +52,7 @@ class Object_surface {
   std::vector<double> rest_;
   mutable std::optional<Vertex_fans> fans_;
   mutable std::optional<bool> closed_;
-  mutable std::vector<std::uint32_t> piece_vertices_;
+  mutable std::vector<std::uint32_t> component_vertices_;
 };
 
 }  // namespace lodestone

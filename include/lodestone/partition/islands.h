@@ -11,21 +11,21 @@ namespace lodestone {
 /// What `repair_islands` has done.
 struct Island_repair {
   std::size_t regions = 0;         ///< number of regions afterwards
-  std::size_t pieces_before = 0;   ///< `count_pieces` of the labels as they were
-  std::size_t islands_joined = 0;  ///< pieces that joined another region
-  std::size_t regions_added = 0;   ///< pieces that became a new region, because no region reaches their component
-  std::size_t islands_left = 0;    ///< pieces beyond the limit of new regions; they keep their label
+  std::size_t parts_before = 0;    ///< `count_parts` of the labels as they were
+  std::size_t islands_joined = 0;  ///< parts that joined another region
+  std::size_t regions_added = 0;   ///< parts that became a new region, because no region reaches their component
+  std::size_t islands_left = 0;    ///< parts beyond the limit of new regions; they keep their label
 };
 
-/// Number of connected pieces of all labels together; isolated vertices do not count. Cost O(V + E).
-std::size_t count_pieces(const Vertex_graph& graph, const std::vector<Region_index>& labels);
+/// Number of connected parts of all labels together; isolated vertices do not count. Cost O(V + E).
+std::size_t count_parts(const Vertex_graph& graph, const std::vector<Region_index>& labels);
 
-/// Makes every region connected. The largest piece of a label keeps it; every other piece joins the region with which
+/// Makes every region connected. The largest part of a label keeps it; every other part joins the region with which
 /// it shares the longest border, counted in mesh edges. Ties go to the lowest region index.
 ///
-/// A connected component of the mesh may hold the largest piece of no label. No particle could walk there, so the
-/// largest piece in this component becomes a new region. New regions are made of the largest such pieces, until there
-/// are `most_regions(wanted)`; otherwise a mesh of loose triangles would get a particle per triangle. Pieces beyond
+/// A connected component of the mesh may hold the largest part of no label. No particle could walk there, so the
+/// largest part in this component becomes a new region. New regions are made of the largest such parts, until there
+/// are `most_regions(wanted)`; otherwise a mesh of loose triangles would get a particle per triangle. Parts beyond
 /// that limit keep their label. So their faces are still checked, with a region in which they are an island. Vertices
 /// without edges keep their label and count for no region.
 ///

@@ -72,14 +72,14 @@ constexpr bool is_concurrent(const Strategy& strategy) {
 
 /// Options of `partition()`, for any strategy.
 struct Partition_options {
-  bool keep_islands = false;  ///< leave regions in several pieces, as the strategy made them
+  bool keep_islands = false;  ///< leave the islands of regions as the strategy made them
 };
 
 /// What a strategy, and the repair after it, took.
 struct Partition_statistics {
   std::size_t iterations = 0;              ///< see Labelling
   std::uint64_t distance_evaluations = 0;  ///< see Labelling
-  Island_repair repair = {};               ///< of regions in several pieces
+  Island_repair repair = {};               ///< of regions with several islands
 };
 
 /// A mesh divided into regions, by index. Each region holds one particle.

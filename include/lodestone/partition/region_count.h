@@ -25,7 +25,7 @@ struct Region_adjustment {
 /// `most_regions(wanted)`: the largest, and of equally large ones those of lowest index. Each of the others gets the
 /// label of the remaining region whose mean position is nearest to its own.
 ///
-/// Too few: the region with the most vertices is cut in two, until there are enough. A region in several pieces gives
+/// Too few: the region with the most vertices is cut in two, until there are enough. A region of several islands gives
 /// up all but the largest. A connected region is cut at the median along the longest axis of its vertices, the main
 /// eigenvector of their covariance. One half grows from the vertex at one end until it has half the vertices; of the
 /// vertices next to it, it takes the first along the axis. Whatever this cuts off from the rest joins that half. So

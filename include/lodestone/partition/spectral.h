@@ -33,7 +33,7 @@ struct Spectral_options {
 /// The Fiedler vector is the eigenvector of the second smallest eigenvalue of the Laplacian of the part's mesh graph:
 /// Fiedler, "Algebraic connectivity of graphs", 1973; Pothen, Simon and Liou, "Partitioning sparse matrices with
 /// eigenvectors of graphs", 1990. It comes from inverse iteration on a block of vectors with a sparse Cholesky
-/// factorisation; for few vertices, from a dense solver. A part in several pieces is first divided into whole pieces:
+/// factorisation; for few vertices, from a dense solver. A part of several islands is first divided into whole islands:
 /// they go to the emptier side one after the other, the largest first. Only the graph counts, not the positions. The
 /// sign is chosen such that the lowest vertex of the part is on the side of the smaller values. Of vertices with equal
 /// values, those of lower index go to that side.

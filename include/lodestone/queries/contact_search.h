@@ -49,7 +49,7 @@ Contact_summary join_tasks(std::span<const Task_contacts> tasks, const Contact_r
 /// Finds the contacts of two objects, or of one with itself, and shares the work among workers. Keeps its memory from
 /// one search to the next.
 ///
-/// A search is a list of tasks: the start of the walk, the pieces of the rest of the walk, and in one object the checks
+/// A search is a list of tasks: the start of the walk, the parts of the rest of the walk, and in one object the checks
 /// of faces that share vertices. The answer is made of the tasks in this order, see `join_tasks`, so it does not depend
 /// on the number of workers.
 template <Bounding_volume Volume>
@@ -85,8 +85,8 @@ class Basic_contact_search {
   };
 
   static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
-  /// Pieces of the walk per worker. One thread cuts them.
-  static constexpr std::size_t pieces_per_worker = 32;
+  /// Parts of the walk per worker. One thread cuts them.
+  static constexpr std::size_t parts_per_worker = 32;
   /// Vertices of one task that checks neighbours.
   static constexpr std::size_t vertices_per_task = 4096;
 
@@ -99,7 +99,7 @@ class Basic_contact_search {
 
   Contact_summary search(std::size_t leaves, const Contact_request& request, std::vector<Face_pair>& found);
   void walk_alone(std::size_t limit, std::size_t budget);
-  void list_tasks(std::size_t pieces);
+  void list_tasks(std::size_t parts);
   void run_in_order(std::size_t limit);
   void run_side_by_side(std::size_t limit);
   void run_task(std::size_t task, std::size_t limit, Memory& memory);
@@ -109,7 +109,7 @@ class Basic_contact_search {
   Workers& workers_;
   std::vector<Memory> memory_;              ///< per worker
   const Surface* neighbours_of_ = nullptr;  ///< null: a search between two objects
-  std::vector<Node_pair> starts_;           ///< of the pieces of the walk
+  std::vector<Node_pair> starts_;           ///< of the parts of the walk
   std::vector<Task_contacts> tasks_;        ///< those of this search, then memory of earlier ones
   std::size_t task_count_ = 0;              ///< of this search
 };
@@ -125,7 +125,7 @@ Contact_summary Basic_contact_search<Volume>::search(std::size_t leaves, const C
   const bool shared = workers_.count() > 1 && (limit == 1 || limit == no_limit);
   walk_alone(limit, shared ? budget_alone(leaves, limit) : no_budget);
   if (tasks_.front().found.size() < limit) {
-    list_tasks(shared ? pieces_per_worker * workers_.count() : 0);
+    list_tasks(shared ? parts_per_worker * workers_.count() : 0);
     if (shared)
       run_side_by_side(limit);
     else
@@ -141,10 +141,10 @@ void Basic_contact_search<Volume>::walk_alone(std::size_t limit, std::size_t bud
   walk_on(memory_.front().walk, limit, budget, tasks_.front());
 }
 
-/// The tasks after task 0: what task 0 has left of the walk, in pieces, then the checks of neighbours.
+/// The tasks after task 0: what task 0 has left of the walk, in parts, then the checks of neighbours.
 template <Bounding_volume Volume>
-void Basic_contact_search<Volume>::list_tasks(std::size_t pieces) {
-  memory_.front().walk.split(pieces, starts_);
+void Basic_contact_search<Volume>::list_tasks(std::size_t parts) {
+  memory_.front().walk.split(parts, starts_);
   const std::size_t vertices = neighbours_of_ == nullptr ? 0 : neighbours_of_->vertex_count();
   task_count_ += starts_.size() + (vertices + vertices_per_task - 1) / vertices_per_task;
   tasks_.resize(std::max(tasks_.size(), task_count_));

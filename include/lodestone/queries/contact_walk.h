@@ -81,7 +81,7 @@ class Contact_walk {
   /// Face pairs given to exact predicates since `start`.
   std::size_t exact_tests() const { return exact_tests_; }
 
-  /// Cuts the rest of the walk into pieces and ends it: see `Tree_walk::split`.
+  /// Cuts the rest of the walk into parts and ends it: see `Tree_walk::split`.
   void split(std::size_t more, std::vector<Node_pair>& starts) { walk_.split(more, starts); }
 
  private:

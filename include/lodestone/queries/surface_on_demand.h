@@ -9,7 +9,7 @@
 
 namespace lodestone {
 
-/// What a query needs of a surface whose nodes are bounded, and whose leaves are posed, when somebody asks for them.
+/// What a query needs of a surface whose nodes are bounded, and whose leaves are posed, when it asks for them.
 /// Models: Bounded_surface, Fitted_surface.
 ///
 /// - `start_frame()` forgets what was of an earlier pose.

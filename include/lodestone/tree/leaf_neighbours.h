@@ -47,7 +47,7 @@ class Leaf_neighbours {
   /// Both in one place of the memory: a search asks for both.
   struct Face {
     std::uint32_t leaf = 0;
-    std::uint32_t first = 0;  ///< place in `beside_` of the number of leaves, which follow it
+    std::uint32_t first = 0;  ///< index in `beside_` of the number of leaves, which follow it
   };
 
   /// The edges at a vertex with many faces, by their other ends, ascending: a leaf that has faces there, for each of

@@ -10,10 +10,10 @@
 
 namespace lodestone {
 
-/// Two regions that may touch, by their places in two lists of Region_anchors.
+/// Two regions that may touch, by their indices in two lists of Region_anchors.
 struct Near_regions {
-  std::uint32_t a = 0;  ///< place in the list of the first object
-  std::uint32_t b = 0;  ///< place in the list of the second
+  std::uint32_t a = 0;  ///< index in the list of the first object
+  std::uint32_t b = 0;  ///< index in the list of the second
   double distance = 0;  ///< of the anchors, in units of the coordinates
   float order = 0;      ///< its square, relative to that of the sum of the radii
 };
@@ -46,10 +46,10 @@ class Region_anchors {
 
   /// Number of regions that are listed.
   std::size_t size() const { return nodes_.size(); }
-  /// The node of the region at a place of the list.
-  std::uint32_t node(std::uint32_t place) const { return nodes_[place]; }
-  /// The region at a place of the list.
-  Region_index region(std::uint32_t place) const { return regions_[place]; }
+  /// The node of the region at an index of the list.
+  std::uint32_t node(std::uint32_t index) const { return nodes_[index]; }
+  /// The region at an index of the list.
+  Region_index region(std::uint32_t index) const { return regions_[index]; }
   /// Encloses the surface, as far as the anchors tell.
   const Box& box() const { return box_; }
   /// Whether two surfaces may touch, as far as the spheres around their anchors' means tell.
@@ -68,7 +68,7 @@ class Region_anchors {
   static void note_farthest(Tree_on_demand& tree);
   void note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;
   std::vector<std::uint32_t> probes(const Tree_layout& layout, Coordinates rest) const;
-  bool may_touch(std::uint32_t place, const Box& box) const;
+  bool may_touch(std::uint32_t index, const Box& box) const;
 
   std::vector<std::uint32_t> nodes_;        ///< ascending: neighbours in the list are mostly neighbours in space
   std::vector<Region_index> regions_;       ///< parallel

@@ -99,7 +99,7 @@ class Basic_region_tree : public Tree_layout {
   const Volume& volume(std::uint32_t n) const { return volumes_[n]; }
   /// Volumes of all nodes, by index.
   std::span<const Volume> volumes() const { return volumes_; }
-  /// The same, for whoever fits single nodes.
+  /// The same, for callers that fit single nodes.
   std::span<Volume> volumes() { return volumes_; }
 
   /// Mean extent of the leaves' volumes, relative to the extent of the root's. It grows when leaves are pulled apart.

@@ -67,7 +67,7 @@ class Tree_layout {
   /// @param coordinates  3 V'
   /// @param options      this layout must have been made without labels; leaves that are too full for the options are
   ///                     split
-  /// @return none if a new layout is better: many faces have changed, or a piece of the surface is new; or if a
+  /// @return none if a new layout is better: many faces have changed, or many components are new; or if a
   ///         coordinate that is needed is not finite
   std::optional<Tree_layout> mended(std::span<const Corners> corners, std::span<const std::uint32_t> changed,
                                     Coordinates coordinates, const Region_tree_options& options,

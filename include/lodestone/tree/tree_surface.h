@@ -79,7 +79,7 @@ class Basic_tree_surface : public Object_surface {
   /// The tree with the current positions.
   Basic_tree_view<Volume> view() const { return {&tree_, coordinates_}; }
 
-  /// Volumes of all nodes, for whoever fits single nodes instead of refitting the tree.
+  /// Volumes of all nodes, for a Bounded_surface, which fits single nodes instead of refitting the tree.
   std::span<Volume> volumes_to_fit() { return tree_.volumes(); }
   /// Takes other coordinates without refitting the tree.
   /// @param coordinates  3 V; must stay where they are until the next refit

@@ -88,9 +88,9 @@ class Tree_walk {
   /// Whether the walk is one of a tree against itself.
   bool self_walk() const { return self_walk_; }
 
-  /// Cuts the rest of the walk into pieces, for others to walk from, and ends it. Walks that start from these node
+  /// Cuts the rest of the walk into parts, for others to walk from, and ends it. Walks that start from these node
   /// pairs, in their order, visit what was left, in the same order.
-  /// @param more    how many pieces more than node pairs are left: those may be leaf pairs, too small to be shared.
+  /// @param more    how many parts more than node pairs are left: those may be leaf pairs, too small to be shared.
   ///                There are fewer where so many cannot be had
   /// @param starts  replaced
   void split(std::size_t more, std::vector<Node_pair>& starts);

@@ -14,7 +14,7 @@ namespace {
 
 struct Skipped_statement {
   std::string_view keyword;
-  const char* holds;  ///< for a report of what is not read; empty: nothing that anybody would miss
+  const char* holds;  ///< for a report of what is not read; empty: nothing that a user would miss
 };
 
 /// Legal statements that do not affect the triangles. Free-form curves and surfaces are not among them, because
