@@ -223,15 +223,8 @@ bool Opening_search::next_by_boxes(Leaf_pair& leaves) {
       leaves = {a.node(pair.a).leaf, b.node(pair.b).leaf};
       return true;
     }
-    const bool open_a =
-        b.is_leaf(pair.b) || (!a.is_leaf(pair.a) && a_->box(pair.a).extent() >= b_->box(pair.b).extent());
-    if (open_a) {
-      push_if_near({pair.a + 1, pair.b});
-      push_if_near({a.node(pair.a).second_child, pair.b});
-    } else {
-      push_if_near({pair.a, pair.b + 1});
-      push_if_near({pair.a, b.node(pair.b).second_child});
-    }
+    const bool a_is_larger = a_->box(pair.a).extent() >= b_->box(pair.b).extent();
+    for (const Node_pair below : pairs_below(a, b, pair, a_is_larger)) push_if_near(below);
   }
   return false;
 }
@@ -293,15 +286,8 @@ std::optional<double> Opening_search::order_beside(Tree_on_demand& tree, std::ui
 
 /// Opens the node with the larger radius, since that separates most.
 void Opening_search::consider_children(Node_pair pair) {
-  const Tree_layout &a = a_->layout(), &b = b_->layout();
-  const bool open_a = b.is_leaf(pair.b) || (!a.is_leaf(pair.a) && a_->radius(pair.a) >= b_->radius(pair.b));
-  if (open_a) {
-    consider({pair.a + 1, pair.b});
-    consider({a.node(pair.a).second_child, pair.b});
-  } else {
-    consider({pair.a, pair.b + 1});
-    consider({pair.a, b.node(pair.b).second_child});
-  }
+  const bool a_is_larger = a_->radius(pair.a) >= b_->radius(pair.b);
+  for (const Node_pair below : pairs_below(a_->layout(), b_->layout(), pair, a_is_larger)) consider(below);
 }
 
 /// The box of a leaf that has been read can spare reading the other.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,18 +18,21 @@ struct Node_pair {
 /// The two roots.
 inline constexpr Node_pair root_pair{0, 0};
 
-/// Pushes what lies one level below a node pair, not both leaves: the two children of one node, each with the other
-/// node. The child to be visited first is pushed last.
+/// What lies one level below a node pair, not both leaves: the two children of one node, each with the other node. The
+/// pair to be visited first comes first.
+inline std::array<Node_pair, 2> pairs_below(const Tree_layout& a, const Tree_layout& b, Node_pair pair,
+                                            bool a_is_larger) {
+  const bool open_a = b.is_leaf(pair.b) || (!a.is_leaf(pair.a) && a_is_larger);
+  if (open_a) return {{{pair.a + 1, pair.b}, {a.node(pair.a).second_child, pair.b}}};
+  return {{{pair.a, pair.b + 1}, {pair.a, b.node(pair.b).second_child}}};
+}
+
+/// Pushes what lies one level below a node pair, not both leaves. The pair to be visited first is pushed last.
 inline void open_pair(const Tree_layout& a, const Tree_layout& b, Node_pair pair, bool a_is_larger,
                       std::vector<Node_pair>& stack) {
-  const bool open_a = b.is_leaf(pair.b) || (!a.is_leaf(pair.a) && a_is_larger);
-  if (open_a) {
-    stack.push_back({a.node(pair.a).second_child, pair.b});
-    stack.push_back({pair.a + 1, pair.b});
-  } else {
-    stack.push_back({pair.a, b.node(pair.b).second_child});
-    stack.push_back({pair.a, pair.b + 1});
-  }
+  const auto [first, second] = pairs_below(a, b, pair, a_is_larger);
+  stack.push_back(second);
+  stack.push_back(first);
 }
 
 /// Opens the node with the larger volume, since that separates most.
