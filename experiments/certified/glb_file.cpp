@@ -189,9 +189,7 @@ class Character_writer {
 }  // namespace
 
 void write_glb(const Made_character& character, const std::filesystem::path& path) {
-  Atomic_file file(path);
-  file.write(Character_writer(character).file());
-  file.commit();
+  write_whole(path, Character_writer(character).file());
 }
 
 }  // namespace lodestone

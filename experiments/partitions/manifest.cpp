@@ -83,9 +83,7 @@ void write_manifest(const std::filesystem::path& folder, const Json& manifest) {
       if (std::ranges::find(written["processors"], name) == written["processors"].end())
         written["processors"].push_back(name);
   }
-  Atomic_file file(folder / "manifest.json");
-  file.write(written.dump(2) + "\n");
-  file.commit();
+  write_whole(folder / "manifest.json", written.dump(2) + "\n");
 }
 
 }  // namespace lodestone

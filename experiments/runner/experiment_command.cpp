@@ -56,9 +56,7 @@ int run(const Experiment_command& command) {
     if (!command.quiet) fmt::print("{}", report);
     return exit_code::success;
   }
-  Atomic_file file(out / (command.name + ".md"));
-  file.write(report);
-  file.commit();
+  write_whole(out / (command.name + ".md"), report);
   if (!command.quiet)
     fmt::print("{}\n{}\n\n{}", experiment->question, std::string(experiment->question.size(), '='), report);
   if (page) {  // after the report, which must not be lost to a plot that cannot be drawn

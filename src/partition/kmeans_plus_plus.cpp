@@ -8,6 +8,7 @@
 #include <random>
 
 #include "lodestone/partition/nearest_code_vector.h"
+#include "partition/cells.h"
 #include "partition/fixed_components.h"
 #include "partition/used_surface.h"
 
@@ -78,13 +79,6 @@ bool fill_empty_cells(const Feature_vectors& vectors, Assignment& assignment) {
   return changed;
 }
 
-void move_to_means(const Assignment& assignment, Feature_vectors& codes) {
-  for (Eigen::Index c = 0; c < codes.rows(); ++c) {
-    const auto size = assignment.cell_sizes[static_cast<std::size_t>(c)];
-    if (size > 0) codes.row(c) = assignment.cell_sums.row(c) / static_cast<double>(size);
-  }
-}
-
 /// Lloyd iterations.
 /// @return the number of iterations
 std::size_t iterate(const Feature_vectors& vectors, Feature_vectors codes, const Kmeans_plus_plus_options& options,
@@ -101,7 +95,7 @@ std::size_t iterate(const Feature_vectors& vectors, Feature_vectors codes, const
     const bool drops_little =
         iteration > 1 && options.tolerance > 0 && before - distortion <= options.tolerance * before;
     if (settled || drops_little || iteration == options.max_iterations) return iteration;
-    move_to_means(assignment, codes);
+    move_codes_to_means(assignment, codes);
   }
 }
 

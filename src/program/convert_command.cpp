@@ -27,8 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double usual_rate = 30;
-
 Animation read_input(const Convert_command& command) {
   const auto the_only_object = [&](const Scene_object& object) {
     refuse_mesh_beside(command.input, command.mesh);

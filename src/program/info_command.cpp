@@ -14,6 +14,7 @@
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/queries/contact_search.h"
+#include "mesh/coordinates_of.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
 #include "program/frame_log.h"
@@ -57,8 +58,7 @@ struct Info {
 /// copies of a non-manifold vertex, faces that share the vertex would count as touching.
 void count_self_intersections(std::span<const Point> points, std::span<const Corners> faces, Object_report& report) {
   if (faces.empty()) return;
-  std::vector<double> coordinates;
-  for (const auto& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+  const std::vector<double> coordinates = coordinates_of(points);
   Tree_surface object(faces);
   object.build({}, coordinates, {});
   Workers workers(0);

@@ -84,9 +84,7 @@ nlohmann::ordered_json to_json(const Measurement& m) {
 }
 
 void write_json(const std::filesystem::path& folder, std::string_view name, const nlohmann::ordered_json& json) {
-  Atomic_file file(folder / (std::string(name) + ".json"));
-  file.write(json.dump(2) + "\n");
-  file.commit();
+  write_whole(folder / (std::string(name) + ".json"), json.dump(2) + "\n");
 }
 
 }  // namespace lodestone

@@ -150,11 +150,8 @@ void Paraview_log::write(Series& series, std::size_t frame, const Vtp_data& data
 }
 
 void Paraview_log::finish() {
-  for (const Series* series : {&meshes_, &particles_, &contacts_}) {
-    Atomic_file list(files_.add(std::string(series->name) + ".pvd"));
-    list.write(pvd_text(series->steps));
-    list.commit();
-  }
+  for (const Series* series : {&meshes_, &particles_, &contacts_})
+    write_whole(files_.add(std::string(series->name) + ".pvd"), pvd_text(series->steps));
 }
 
 }  // namespace lodestone

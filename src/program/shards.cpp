@@ -69,12 +69,6 @@ std::string hash_of_work(Json manifest) {
   return text_of(add_to(0, manifest.dump()));
 }
 
-void write_whole(const std::filesystem::path& target, const std::string& text) {
-  Atomic_file file(target);
-  file.write(text);
-  file.commit();
-}
-
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& cause) {
   throw Bad_shard(file.string() + ": " + cause);
 }

@@ -224,12 +224,6 @@ Slurm_job job_of(const Submit_command& command, std::size_t shards, const Shards
   return job;
 }
 
-void write_whole(const std::filesystem::path& target, const std::string& text) {
-  Atomic_file file(target);
-  file.write(text);
-  file.commit();
-}
-
 /// @return the number of the job
 std::string submitted(const std::vector<std::string>& words) {
   auto [answer, status] = run_to_end(words);

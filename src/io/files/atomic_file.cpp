@@ -78,4 +78,10 @@ void Atomic_file::fail(const char* action) const {
   throw Bad_output(target_.string() + ": " + action + ": " + std::strerror(errno));
 }
 
+void write_whole(const std::filesystem::path& target, std::string_view bytes) {
+  Atomic_file file(target);
+  file.write(bytes);
+  file.commit();
+}
+
 }  // namespace lodestone

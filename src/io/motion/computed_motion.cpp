@@ -8,6 +8,7 @@
 #include "lodestone/bounds/linear_bound.h"
 #include "lodestone/bounds/placed_bound.h"
 #include "lodestone/io/motion/deformed_points.h"
+#include "mesh/coordinates_of.h"
 
 namespace lodestone {
 namespace {
@@ -28,13 +29,6 @@ class Still final : public Computed_motion {
   void pose_all(std::span<double> coordinates) const override { points_.pose_all(coordinates); }
 
  private:
-  static std::vector<double> coordinates_of(const std::vector<Point>& points) {
-    std::vector<double> coordinates;
-    coordinates.reserve(3 * points.size());
-    for (const Point& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-    return coordinates;
-  }
-
   Morphed_points points_;
 };
 

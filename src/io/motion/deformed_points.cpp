@@ -10,6 +10,7 @@
 #include "io/motion/expansion.h"
 #include "lodestone/bounds/lipschitz_bound.h"
 #include "lodestone/mesh/errors.h"
+#include "mesh/coordinates_of.h"
 
 namespace lodestone {
 
@@ -62,9 +63,7 @@ struct Deformed_bound {
 
 Any_bound Deformed_points::bound(const Bounded_object& object) const {
   auto positions = std::make_unique<const Computed_source<Deformed_points>>(*this);
-  std::vector<double> rest;
-  rest.reserve(3 * state_->shape.rest().size());
-  for (const Point& p : state_->shape.rest()) rest.insert(rest.end(), {p.x(), p.y(), p.z()});
+  const std::vector<double> rest = coordinates_of(state_->shape.rest());
   auto bound = state_->promise.bound(
       {.layout = object.layout, .labels = object.labels, .rest = rest, .positions = *positions});
   return Any_bound(Deformed_bound{std::move(positions), std::move(bound)});

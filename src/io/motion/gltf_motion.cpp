@@ -21,7 +21,6 @@ namespace lodestone {
 namespace {
 
 constexpr std::size_t most_sampled_frames = 1'000'000;
-constexpr double usual_rate = 30;
 
 /// Keys farther apart are not frames: the curves between them make the motion.
 constexpr double fewest_keys_per_second = 5;

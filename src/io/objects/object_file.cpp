@@ -20,9 +20,7 @@ File_bytes open(const std::filesystem::path& file) {
 }  // namespace
 
 void write_object_file(std::span<const std::byte> saved, const std::filesystem::path& file) {
-  Atomic_file output(file);
-  output.write({reinterpret_cast<const char*>(saved.data()), saved.size()});
-  output.commit();
+  write_whole(file, {reinterpret_cast<const char*>(saved.data()), saved.size()});
 }
 
 void read_object_file(const std::filesystem::path& file, const std::function<void(std::span<const std::byte>)>& load) {

@@ -28,9 +28,7 @@ void write_coloured_ply(const std::filesystem::path& file, const Surface_mesh& m
     append(bytes, std::uint8_t{3});
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) append(bytes, static_cast<std::int32_t>(v));
   }
-  Atomic_file out(file);
-  out.write(bytes);
-  out.commit();
+  write_whole(file, bytes);
 }
 
 }  // namespace lodestone

@@ -8,6 +8,7 @@
 #include "io/files/byte_order.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/errors.h"
+#include "mesh/coordinates_of.h"
 
 namespace lodestone {
 namespace {
@@ -60,11 +61,8 @@ class Vtp_text {
 };
 
 void add_points(Vtp_text& text, const std::vector<Point>& points) {
-  std::vector<double> coordinates;
-  coordinates.reserve(3 * points.size());
-  for (const Point& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
   text.add_text("<Points>\n");
-  text.add_array("Points", coordinates, 3);
+  text.add_array("Points", coordinates_of(points), 3);
   text.add_text("</Points>\n");
 }
 

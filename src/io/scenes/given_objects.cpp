@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -13,6 +12,7 @@
 
 #include "io/files/json_reader.h"
 #include "io/files/small_text.h"
+#include "io/scenes/object_of.h"
 #include "io/scenes/scene_fields.h"
 #include "io/scenes/shared_clock.h"
 #include "lodestone/io/files/numbered_files.h"
@@ -63,11 +63,8 @@ Scene_object read_object(std::string name, const std::filesystem::path& input, c
   std::vector<Point> points(animation.vertices);
   animation.motion.pose(0, points);
   auto file = mesh_of(points, animation.faces, input.string());
-  Scene_object object;
+  Scene_object object = detail::object_of(std::move(file));
   object.name = std::move(name);
-  object.mesh = std::move(file.mesh);
-  object.file_vertex = std::move(file.file_vertex);
-  object.file_vertices = file.file_vertices;
   object.file_face = std::move(animation.file_face);
   object.motion = std::move(animation.motion);
   object.files = std::move(animation.files);
@@ -78,14 +75,8 @@ Scene_object shape_object(const std::string& shape) {
   const std::string given = printable(fmt::format("{}{}", shape_prefix, shape));
   const auto document =
       shape.starts_with('{') ? detail::parse_json_text(shape, given) : detail::Json{{shape, detail::Json::object()}};
-  Scene_object object;
+  Scene_object object = detail::object_of(detail::read_shape({document, given}));
   object.name = document.is_object() && document.size() == 1 ? document.begin().key() : shape;
-  object.mesh = detail::read_shape({document, given});
-  object.file_vertices = object.mesh.number_of_vertices();
-  object.file_vertex.resize(object.file_vertices);
-  std::iota(object.file_vertex.begin(), object.file_vertex.end(), 0U);
-  object.file_face.resize(object.mesh.number_of_faces());
-  std::iota(object.file_face.begin(), object.file_face.end(), 0U);
   object.motion = deform({object.mesh.points().begin(), object.mesh.points().end()}, {});
   return object;
 }

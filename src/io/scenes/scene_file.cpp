@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <span>
 #include <utility>
 
 #include "io/files/json_reader.h"
+#include "io/scenes/object_of.h"
 #include "io/scenes/scene_fields.h"
 #include "io/scenes/scene_folder.h"
 #include "io/scenes/scene_groups.h"
@@ -29,6 +29,7 @@ namespace {
 using detail::in_quotes;
 using detail::Json_value;
 using detail::most_scene_frames;
+using detail::object_of;
 using detail::Scene_folder;
 using Placement = std::optional<Kernel::Aff_transformation_3>;
 
@@ -37,26 +38,6 @@ constexpr std::size_t most_ignored = 100'000;
 constexpr std::size_t most_particles = 100'000;
 
 // ---- Meshes ----
-
-Scene_object object_of(Mesh_file&& file) {
-  Scene_object object;
-  object.mesh = std::move(file.mesh);
-  object.file_vertex = std::move(file.file_vertex);
-  object.file_vertices = file.file_vertices;
-  object.file_face = std::move(file.file_face);
-  return object;
-}
-
-Scene_object object_of(Surface_mesh&& shape) {
-  Scene_object object;
-  object.file_vertices = shape.number_of_vertices();
-  object.file_vertex.resize(object.file_vertices);
-  std::iota(object.file_vertex.begin(), object.file_vertex.end(), 0U);
-  object.file_face.resize(shape.number_of_faces());
-  std::iota(object.file_face.begin(), object.file_face.end(), 0U);
-  object.mesh = std::move(shape);
-  return object;
-}
 
 Scene_object read_rest(const Json_value& value, Scene_folder& folder) {
   if (value.exactly_one_of({"mesh", "shape"}) == "shape") return object_of(detail::read_shape(value.at("shape")));

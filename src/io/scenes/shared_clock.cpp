@@ -21,7 +21,6 @@ bool are_alike(const std::vector<double>& numbers, double tolerance) {
 }  // namespace
 
 void share_clock(std::span<Scene_object> objects) {
-  constexpr double usual_rate = 30;
   std::vector<double> rates, given, starts;
   for (const auto& object : objects) {
     if (object.motion.frames_per_second == 0) continue;

@@ -46,4 +46,8 @@ class Atomic_file {
   int descriptor_ = -1;
 };
 
+/// Writes a file that appears whole or not at all. Creates the folder if it is missing.
+/// @throws Bad_output  as of Atomic_file
+void write_whole(const std::filesystem::path& target, std::string_view bytes);
+
 }  // namespace lodestone

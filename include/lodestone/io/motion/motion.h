@@ -19,6 +19,9 @@ namespace lodestone {
 
 class Computed_motion;
 
+/// Frames per second of a motion whose file tells no rate, nor the caller.
+inline constexpr double usual_rate = 30;
+
 /// How the vertices of one object move: a function from the frame index to all positions.
 struct Motion {
   std::size_t frames = 0;  ///< number of frames; 0: unlimited

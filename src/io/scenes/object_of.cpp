@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/scenes/object_of.h"
+
+#include <numeric>
+#include <utility>
+
+namespace lodestone::detail {
+
+Scene_object object_of(Mesh_file&& file) {
+  Scene_object object;
+  object.mesh = std::move(file.mesh);
+  object.file_vertex = std::move(file.file_vertex);
+  object.file_vertices = file.file_vertices;
+  object.file_face = std::move(file.file_face);
+  return object;
+}
+
+Scene_object object_of(Surface_mesh&& shape) {
+  Scene_object object;
+  object.file_vertices = shape.number_of_vertices();
+  object.file_vertex.resize(object.file_vertices);
+  std::iota(object.file_vertex.begin(), object.file_vertex.end(), 0U);
+  object.file_face.resize(shape.number_of_faces());
+  std::iota(object.file_face.begin(), object.file_face.end(), 0U);
+  object.mesh = std::move(shape);
+  return object;
+}
+
+}  // namespace lodestone::detail
