@@ -14,12 +14,6 @@ std::vector<double> positions_of(const Random_body& body) {
   return coordinates;
 }
 
-bool contains(const Aabb& box, const Aabb& other) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(box.low[axis] <= other.low[axis] && other.high[axis] <= box.high[axis])) return false;
-  return true;
-}
-
 }  // namespace
 
 Bound_check::Bound_check(const Random_body& body, std::size_t leaf_faces)

@@ -17,13 +17,6 @@ constexpr std::size_t effort_of_vertex = 7;
 /// To compute a position takes so many times as long as to read one, so boxes count so many times less.
 constexpr std::size_t computed_share = 7;
 
-bool contains(const Aabb& outer, const Aabb& inner) {
-  bool result = true;
-  for (int axis = 0; axis < 3; ++axis)
-    result &= (outer.low[axis] <= inner.low[axis]) & (inner.high[axis] <= outer.high[axis]);
-  return result;
-}
-
 bool is_empty(const Aabb& box) {
   bool result = false;
   for (int axis = 0; axis < 3; ++axis) result |= box.low[axis] > box.high[axis];

@@ -16,9 +16,14 @@ std::uint8_t sides_beyond(const double* position, const Box& box) {
 }
 
 Unset_vector<std::uint8_t> sides_beyond(Coordinates coordinates, const Box& box) {
-  Unset_vector<std::uint8_t> sides(coordinates.size() / 3);
-  kernel::sides_beyond(coordinates.data(), sides.size(), box.min().data(), box.max().data(), sides.data());
+  Unset_vector<std::uint8_t> sides;
+  sides_beyond(coordinates, box, sides);
   return sides;
+}
+
+void sides_beyond(Coordinates coordinates, const Box& box, Unset_vector<std::uint8_t>& sides) {
+  sides.resize(coordinates.size() / 3);
+  kernel::sides_beyond(coordinates.data(), sides.size(), box.min().data(), box.max().data(), sides.data());
 }
 
 void select_faces(const Faces_in_box& faces, const Box& part, Faces_in_box& found) {

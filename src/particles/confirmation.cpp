@@ -3,23 +3,18 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 
+#include "lodestone/mesh/faces_in_box.h"
 #include "lodestone/triangles/triangle_intersection.h"
 
 namespace lodestone {
 
 namespace {
 
-/// One bit per side of the box beyond which the point lies. Points that share a bit are all on one side, apart from the
-/// box.
-std::uint8_t outcode(const Eigen::Vector3d& p, const Box& box) {
-  unsigned code = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    code |= static_cast<unsigned>(p[axis] < box.min()[axis]) << (2 * axis);
-    code |= static_cast<unsigned>(p[axis] > box.max()[axis]) << (2 * axis + 1);
-  }
-  return static_cast<std::uint8_t>(code);
+/// @param posed  has a vertex
+Coordinates coordinates_of(const Posed_patch& posed) {
+  static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
+  return {posed.positions.front().data(), 3 * posed.positions.size()};
 }
 
 Triangle triangle(const Posed_patch& posed, std::uint32_t index) {
@@ -45,7 +40,7 @@ bool overlap_across(int axis, const Box& a, const Box& b) {
 }  // namespace
 
 void Confirmation::reserve(std::size_t faces, std::size_t vertices) {
-  outcodes_.reserve(vertices);
+  sides_.reserve(vertices);
   faces_a_.reserve(faces);
   faces_b_.reserve(faces);
   turns_.reserve(2 * faces);
@@ -53,11 +48,10 @@ void Confirmation::reserve(std::size_t faces, std::size_t vertices) {
 
 void Confirmation::faces_within(const Posed_patch& posed, const Box& overlap, std::vector<Boxed_face>& faces) {
   faces.clear();
-  outcodes_.clear();
-  for (const auto& p : posed.positions) outcodes_.push_back(outcode(p, overlap));
+  sides_beyond(coordinates_of(posed), overlap, sides_);
   for (std::uint32_t index = 0; index < posed.patch->corners.size(); ++index) {
     const auto& [a, b, c] = posed.patch->corners[index];
-    if ((outcodes_[a] & outcodes_[b] & outcodes_[c]) != 0) continue;
+    if ((sides_[a] & sides_[b] & sides_[c]) != 0) continue;
     Box box(posed.positions[a]);
     box.extend(posed.positions[b]).extend(posed.positions[c]);
     faces.push_back({box, index});

@@ -57,11 +57,6 @@ Box box_of(const Triangle& triangle) {
   return box;
 }
 
-Eigen::Vector3d centre_of(const Aabb& box) {
-  const Eigen::Map<const Eigen::Vector3d> low(box.low), high(box.high);
-  return 0.5 * low + 0.5 * high;
-}
-
 /// The positions of a leaf's vertices.
 struct Leaf_positions {
   const Leaf_faces& leaf;

@@ -19,11 +19,6 @@ namespace lodestone {
 
 namespace {
 
-bool box_within(const Aabb& inner, const Aabb& outer) {
-  return std::equal(outer.low, outer.low + 3, inner.low, std::less_equal()) &&
-         std::equal(inner.high, inner.high + 3, outer.high, std::less_equal());
-}
-
 bool contains(const Triangle& t, const Point& point) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto [low, high] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
@@ -127,7 +122,7 @@ bool encloses(const Layout_view& surface, const Point& point) {
 
 bool encloses(const Object_surface& outer, const Layout_view& outer_layout, const Object_surface& inner,
               const Layout_view& inner_layout) {
-  if (!box_within(inner_layout.boxes.front(), outer_layout.boxes.front()) || !outer.closed()) return false;
+  if (!contains(outer_layout.boxes.front(), inner_layout.boxes.front()) || !outer.closed()) return false;
   return std::ranges::all_of(inner.component_vertices(), [&](std::uint32_t vertex) {
     const double* p = inner.coordinates().data() + 3 * std::size_t{vertex};
     return encloses(outer_layout, Point(p[0], p[1], p[2]));

@@ -8,20 +8,12 @@
 
 #include "lodestone/queries/face_pair_order.h"
 #include "lodestone/triangles/triangle_intersection.h"
+#include "lodestone/volumes/to_box.h"
 #include "queries/rounded_box_kernel.h"
 
 namespace lodestone {
 
 namespace {
-
-Aabb to_aabb(const Box& box) {
-  Aabb aabb{};
-  for (int axis = 0; axis < 3; ++axis) {
-    aabb.low[axis] = box.min()[axis];
-    aabb.high[axis] = box.max()[axis];
-  }
-  return aabb;
-}
 
 /// A power of two that brings the longest side of a box near 1, unless its coordinates would overflow.
 double scale_of(const Box& box) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lodestone/volumes/aabb.h"
+#include "lodestone/volumes/to_box.h"
 
 namespace lodestone {
 
@@ -15,11 +16,6 @@ namespace {
 
 Eigen::Vector3d at(Coordinates coordinates, std::uint32_t vertex) {
   return Eigen::Map<const Eigen::Vector3d>(coordinates.data() + 3 * std::size_t{vertex});
-}
-
-Eigen::Vector3d centre(const Aabb& box) {
-  // Halved first, since the sum may overflow.
-  return {box.low[0] / 2 + box.high[0] / 2, box.low[1] / 2 + box.high[1] / 2, box.low[2] / 2 + box.high[2] / 2};
 }
 
 /// Squared distance of a point from the box; never more than that of a vertex inside, since both round alike.
@@ -78,7 +74,7 @@ void Anchor_search::find(std::uint32_t n) {
   else
     boxes_[n].enclose(boxes_[first], boxes_[second]);
 
-  from_ = centre(boxes_[n]);
+  from_ = centre_of(boxes_[n]);
   nearest_ = infinity;
   bound_ = leaf ? infinity
                 : std::min(squared_distance_to(anchors_[first].vertex), squared_distance_to(anchors_[second].vertex));

@@ -37,6 +37,8 @@ bool bound_positions(Coordinates coordinates, Box& box);
 std::uint8_t sides_beyond(const double* position, const Box& box);
 /// The same for all positions. O(V).
 Unset_vector<std::uint8_t> sides_beyond(Coordinates coordinates, const Box& box);
+/// The same, in the memory of the caller.
+void sides_beyond(Coordinates coordinates, const Box& box, Unset_vector<std::uint8_t>& sides);
 
 /// Those faces whose boxes meet a smaller box. They refer to the same coordinates. O(V + faces).
 /// @param found  empty so far; valid as long as `faces`

@@ -7,6 +7,7 @@
 
 #include "lodestone/mesh/pairs.h"
 #include "lodestone/mesh/patch.h"
+#include "lodestone/mesh/unset_vector.h"
 #include "lodestone/mesh/workers.h"
 
 namespace lodestone {
@@ -68,7 +69,7 @@ class Confirmation {
                     std::size_t& exact_tests);
   bool sweep_in_parts(const Question& question, std::vector<Face_pair>& found, Workers& workers);
 
-  std::vector<std::uint8_t> outcodes_;
+  Unset_vector<std::uint8_t> sides_;  ///< per vertex of a patch: those of the overlap that it lies beyond
   std::vector<Boxed_face> faces_a_, faces_b_;
   std::vector<Turn> turns_;
   std::vector<Part> parts_;

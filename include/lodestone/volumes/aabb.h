@@ -42,6 +42,14 @@ struct alignas(64) Aabb {
   }
 };
 
+/// Whether no part of a box is outside another.
+inline bool contains(const Aabb& outer, const Aabb& inner) {
+  bool result = true;
+  for (int axis = 0; axis < 3; ++axis)
+    result &= (outer.low[axis] <= inner.low[axis]) & (inner.high[axis] <= outer.high[axis]);
+  return result;
+}
+
 /// What the squared distance of boxes, as computed, exceeds only if they are farther apart than the margin.
 ///
 /// The gaps, their squares and the sums make six roundings of each square, and the square of the margin has one. 64 are
