@@ -4,8 +4,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "triangles/contact_normal_kernel.cpp"
 #include <hwy/foreach_target.h>
-
 #include <hwy/highway.h>
+
+#include "simd/vector_types-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::kernel::HWY_NAMESPACE {
@@ -15,40 +16,32 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// One pair of triangles per lane.
 using Pair_lanes = hn::CappedTag<double, most_normals>;
 using Numbers = hn::Vec<Pair_lanes>;
-using Vectors = std::array<Numbers, 3>;
+using Vectors = Vector3<Pair_lanes>;
 using Triangles = std::array<Vectors, 3>;
 
 HWY_INLINE Numbers every(double x) { return hn::Set(Pair_lanes(), x); }
 
 HWY_INLINE Triangles load_triangles(const double (&corners)[3][3][most_normals], std::size_t lane) {
+  const Pair_lanes d;
   Triangles t;
-  for (std::size_t corner = 0; corner < 3; ++corner)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      t[corner][axis] = hn::LoadU(Pair_lanes(), corners[corner][axis] + lane);
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const auto& [x, y, z] = corners[corner];
+    t[corner] = {hn::LoadU(d, x + lane), hn::LoadU(d, y + lane), hn::LoadU(d, z + lane)};
+  }
   return t;
 }
 
-HWY_INLINE Vectors subtract(const Vectors& p, const Vectors& q) {
-  return {hn::Sub(p[0], q[0]), hn::Sub(p[1], q[1]), hn::Sub(p[2], q[2])};
-}
-
 HWY_INLINE Vectors divide(const Vectors& p, Numbers by) {
-  return {hn::Div(p[0], by), hn::Div(p[1], by), hn::Div(p[2], by)};
+  return {hn::Div(p.x, by), hn::Div(p.y, by), hn::Div(p.z, by)};
 }
 
-HWY_INLINE Numbers dot(const Vectors& p, const Vectors& q) {
-  return hn::Add(hn::Add(hn::Mul(p[0], q[0]), hn::Mul(p[1], q[1])), hn::Mul(p[2], q[2]));
-}
-
-HWY_INLINE Vectors cross_product(const Vectors& p, const Vectors& q) {
-  const auto component = [&](std::size_t i, std::size_t j) {
-    return hn::Sub(hn::Mul(p[i], q[j]), hn::Mul(p[j], q[i]));
-  };
-  return {component(1, 2), component(2, 0), component(0, 1)};
+HWY_INLINE Vectors select(hn::Mask<Pair_lanes> mask, const Vectors& yes, const Vectors& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
 
 HWY_INLINE Numbers largest_coordinate(const Vectors& v) {
-  return hn::Max(hn::Max(hn::Abs(v[0]), hn::Abs(v[1])), hn::Abs(v[2]));
+  const Vectors sizes = absolute(v);
+  return greatest(sizes.x, sizes.y, sizes.z);
 }
 
 struct Unit_normals {
@@ -57,8 +50,8 @@ struct Unit_normals {
 };
 
 HWY_INLINE Unit_normals unit_normals(const Triangles& t) {
-  const Vectors first = subtract(t[1], t[0]), second = subtract(t[2], t[1]);
-  const Vectors normal = cross_product(first, second);
+  const Vectors first = t[1] - t[0], second = t[2] - t[1];
+  const Vectors normal = cross(first, second);
   const Numbers squared = dot(normal, normal), bound = hn::Mul(dot(first, first), dot(second, second));
   // Each coordinate of the product has an error below 2^-51 |first||second|.
   constexpr double thin = 0x1p-20;
@@ -72,24 +65,25 @@ void contact_normals_kernel(const Faces_in_contact& faces, Normals_and_depths& r
     const Triangles a = load_triangles(faces.a, lane), b = load_triangles(faces.b, lane);
     const auto [normal_a, proven_a] = unit_normals(a);
     const auto [normal_b, proven_b] = unit_normals(b);
-    const Vectors outwards = subtract(normal_b, normal_a);
+    const Vectors outwards = normal_b - normal_a;
     const Numbers squared = dot(outwards, outwards);
     const auto differ = hn::Gt(squared, every(1e-16));
-    const Vectors direction = divide(outwards, hn::Sqrt(squared));
-    Vectors normal;
-    for (std::size_t axis = 0; axis < 3; ++axis) normal[axis] = hn::IfThenElse(differ, direction[axis], normal_b[axis]);
+    const Vectors normal = select(differ, divide(outwards, hn::Sqrt(squared)), normal_b);
 
     Numbers depth = hn::Zero(d), size = hn::Zero(d);
     for (const auto& corner_b : b)
       for (const auto& corner_a : a) {
-        const Vectors between = subtract(corner_b, corner_a);
+        const Vectors between = corner_b - corner_a;
         depth = hn::Max(depth, dot(normal, between));
         size = hn::Max(size, largest_coordinate(between));
       }
     // Products of four numbers of this size neither overflow nor lose digits that count.
     const auto moderate = hn::And(hn::Gt(size, every(0x1p-200)), hn::Lt(size, every(0x1p200)));
 
-    for (std::size_t axis = 0; axis < 3; ++axis) hn::StoreU(normal[axis], d, result.normal[axis] + lane);
+    auto& [x, y, z] = result.normal;
+    hn::StoreU(normal.x, d, x + lane);
+    hn::StoreU(normal.y, d, y + lane);
+    hn::StoreU(normal.z, d, z + lane);
     hn::StoreU(hn::Add(depth, hn::Zero(d)), d, result.depth + lane);  // never -0
     double one_if_proven[most_normals];
     hn::StoreU(hn::IfThenElseZero(hn::And(moderate, hn::And(proven_a, proven_b)), every(1)), d, one_if_proven);
