@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "io/files/small_text.h"
@@ -307,7 +308,99 @@ void refuse_allow_outside(const CLI::App& app, const std::vector<std::filesystem
     throw Bad_argument("--allow-outside is for scenes: no input is one");
 }
 
+/// Refuses options of `detect` that it would ignore.
+/// @throws Bad_argument  names the option
+void refuse_options(const CLI::App& app, const Detect_command& command) {
+  const auto& options = command.options;
+  refuse_allow_outside(app, command.inputs);
+  refuse_options_of_other_modes(app, options.mode);
+  if (app.count("--most-contacts") > 0 && options.contacts != Contact_query::all)
+    throw Bad_argument("--most-contacts needs --contacts all: otherwise one face pair is listed at most");
+  // yes_no is refused by the detector.
+  if (options.exact.patches && app.count("--contacts") > 0 && options.contacts == Contact_query::first)
+    throw Bad_argument("contact patches need --contacts all: otherwise one face pair is listed at most");
+  if (options.mode == Mode::particles) refuse_options_beside_meetings(app, options.meetings);
+  refuse_options_of_other_strategies(app, command.partition.name, false);  // threads share frames too
+}
+
+/// Sets what follows from the options of `detect` that are given.
+void set_defaults(const CLI::App& app, Detect_command& command) {
+  auto& options = command.options;
+  // Shards cannot know what earlier frames have done to the trees.
+  command.independent_frames |= finds_all(options.mode) && (command.shard || command.merge_shards);
+  command.chooses_strategy = chooses_strategy(app);
+  // A user who chooses a strategy wants to see regions.
+  if (finds_all(options.mode) && command.chooses_strategy && options.particles == 0)
+    options.particles = options.least_particles;
+  options.senin.seed = command.partition.settings.seed;
+  command.partition.settings.lbg.threads = options.exact.threads;
+  // Pages and patches show contacts, so they ask for all of them by default.
+  if ((!command.html.empty() || options.exact.patches) && app.count("--contacts") == 0)
+    options.contacts = Contact_query::all;
+}
+
+/// All commands. The command line fills in one of them.
+struct Commands {
+  Detect_command detect = {};
+  Partition_command partition = {};
+  Info_command info = {};
+  Convert_command convert = {};
+  Status_command status = {};
+  Submit_command submit = {};
+  Merge_command merge = {};
+  std::string format = {};  ///< of the mesh on the standard input
+};
+
+void add_commands(CLI::App& program, Commands& commands) {
+  program.name("lodestone");
+  program.set_version_flag("--version", "lodestone " + std::string(version()));
+  program.set_help_all_flag("--help-all", "Show the help of all commands");
+  program.require_subcommand(1);
+  program.footer(exit_code::help);
+  add_detect(program, commands.detect, commands.format);
+  add_partition(program, commands.partition, commands.format);
+  add_info(program, commands.info, commands.format);
+  add_convert(program, commands.convert, commands.format);
+  add_submit(program, commands.submit);
+  add_status(program, commands.status);
+  add_merge(program, commands.merge);
+  // Registered for the help only: the program of the experiments parses its arguments.
+  program.add_subcommand("experiment", "Run one of the experiments, see lodestone experiment --help")
+      ->prefix_command()
+      ->set_help_flag();
+}
+
+/// The inputs that may be the standard input.
+std::vector<std::filesystem::path*> inputs_of(Commands& commands) {
+  std::vector<std::filesystem::path*> inputs{&commands.partition.mesh, &commands.info.file, &commands.convert.input};
+  for (auto& input : commands.detect.inputs) inputs.push_back(&input);
+  return inputs;
+}
+
 int run_commands(int argc, char** argv);
+
+int run_detect(const CLI::App& app, Detect_command& command, const std::vector<std::string>& words) {
+  refuse_options(app, command);
+  set_defaults(app, command);
+  command.words = words_of_work(words);
+  return run(command);
+}
+
+int run_partition(const CLI::App& app, const Partition_command& command) {
+  refuse_allow_outside(app, {command.mesh});
+  refuse_options_of_other_strategies(app, command.strategy.name, true);
+  return run(command);
+}
+
+int run_info(const CLI::App& app, const Info_command& command) {
+  refuse_allow_outside(app, {command.file});
+  return run(command);
+}
+
+int run_convert(const CLI::App& app, const Convert_command& command) {
+  refuse_allow_outside(app, {command.input});
+  return run(command);
+}
 
 /// Runs the command that has made the shards once more, to merge them.
 int run_merge(const Merge_command& command) {
@@ -318,87 +411,27 @@ int run_merge(const Merge_command& command) {
   return run_commands(static_cast<int>(pointers.size()), pointers.data());
 }
 
+/// @param app  the command that the command line asks for
+int run_command(const CLI::App& app, Commands& commands, int argc, char** argv) {
+  const std::string& name = app.get_name();
+  if (name == "detect") return run_detect(app, commands.detect, {argv + 1, argv + argc});
+  if (name == "partition") return run_partition(app, commands.partition);
+  if (name == "info") return run_info(app, commands.info);
+  if (name == "convert") return run_convert(app, commands.convert);
+  if (name == "submit") return run(commands.submit);
+  if (name == "status") return run(commands.status);
+  if (name == "merge") return run_merge(commands.merge);
+  run_experiments({argv + 2, argv + argc});
+}
+
 int run_commands(int argc, char** argv) {
   CLI::App program("lodestone: collision detection for triangle meshes that deform");
-  program.name("lodestone");
-  program.set_version_flag("--version", "lodestone " + std::string(version()));
-  program.set_help_all_flag("--help-all", "Show the help of all commands");
-  program.require_subcommand(1);
-  program.footer(exit_code::help);
-
-  Detect_command detect;
-  Partition_command partition;
-  Info_command info;
-  Convert_command convert;
-  Status_command status;
-  Submit_command submit;
-  Merge_command merge;
-  std::string format;
-  add_detect(program, detect, format);
-  add_partition(program, partition, format);
-  add_info(program, info, format);
-  add_convert(program, convert, format);
-  add_submit(program, submit);
-  add_status(program, status);
-  add_merge(program, merge);
-  // Registered for the help only: the program of the experiments parses its arguments.
-  program.add_subcommand("experiment", "Run one of the experiments, see lodestone experiment --help")
-      ->prefix_command()
-      ->set_help_flag();
-
+  Commands commands;
+  add_commands(program, commands);
   if (const auto done = parse(program, argc, argv)) return *done;
-  int code = exit_code::success;
   std::optional<Standard_input> standard_input;
-  std::vector<std::filesystem::path*> inputs{&partition.mesh, &info.file, &convert.input};
-  for (auto& input : detect.inputs) inputs.push_back(&input);
-  replace_standard_input(inputs, format, standard_input);
-  if (program.got_subcommand("detect")) {
-    const auto& app = *program.get_subcommand("detect");
-    refuse_allow_outside(app, detect.inputs);
-    refuse_options_of_other_modes(app, detect.options.mode);
-    if (app.count("--most-contacts") > 0 && detect.options.contacts != Contact_query::all)
-      throw Bad_argument("--most-contacts needs --contacts all: otherwise one face pair is listed at most");
-    // yes_no is refused by the detector.
-    if (detect.options.exact.patches && app.count("--contacts") > 0 && detect.options.contacts == Contact_query::first)
-      throw Bad_argument("contact patches need --contacts all: otherwise one face pair is listed at most");
-    detect.words = words_of_work({argv + 1, argv + argc});
-    // Shards cannot know what earlier frames have done to the trees.
-    detect.independent_frames |= finds_all(detect.options.mode) && (detect.shard || detect.merge_shards);
-    if (detect.options.mode == Mode::particles) refuse_options_beside_meetings(app, detect.options.meetings);
-    refuse_options_of_other_strategies(app, detect.partition.name, false);  // threads share frames too
-    detect.chooses_strategy = chooses_strategy(app);
-    // A user who chooses a strategy wants to see regions.
-    if (finds_all(detect.options.mode) && detect.chooses_strategy && detect.options.particles == 0)
-      detect.options.particles = detect.options.least_particles;
-  }
-  if (program.got_subcommand("partition")) refuse_allow_outside(*program.get_subcommand("partition"), {partition.mesh});
-  if (program.got_subcommand("info")) refuse_allow_outside(*program.get_subcommand("info"), {info.file});
-  if (program.got_subcommand("convert")) refuse_allow_outside(*program.get_subcommand("convert"), {convert.input});
-  if (program.got_subcommand("partition"))
-    refuse_options_of_other_strategies(*program.get_subcommand("partition"), partition.strategy.name, true);
-  detect.options.senin.seed = detect.partition.settings.seed;
-  detect.partition.settings.lbg.threads = detect.options.exact.threads;
-  // Pages and patches show contacts, so they ask for all of them by default.
-  if ((!detect.html.empty() || detect.options.exact.patches) &&
-      program.get_subcommand("detect")->count("--contacts") == 0)
-    detect.options.contacts = Contact_query::all;
-  if (program.got_subcommand("detect"))
-    code = run(detect);
-  else if (program.got_subcommand("partition"))
-    code = run(partition);
-  else if (program.got_subcommand("info"))
-    code = run(info);
-  else if (program.got_subcommand("convert"))
-    code = run(convert);
-  else if (program.got_subcommand("submit"))
-    code = run(submit);
-  else if (program.got_subcommand("status"))
-    code = run(status);
-  else if (program.got_subcommand("merge"))
-    code = run_merge(merge);
-  else
-    run_experiments({argv + 2, argv + argc});
-  return code;
+  replace_standard_input(inputs_of(commands), commands.format, standard_input);
+  return run_command(*program.get_subcommands().front(), commands, argc, argv);
 }
 
 }  // namespace
