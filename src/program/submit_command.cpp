@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -153,13 +154,16 @@ struct Needs {
 };
 
 struct Shards_to_do {
+  std::size_t of = 0;  ///< so many shards in all
   std::vector<std::size_t> shards;
   Needs needs;
+
+  bool are_all() const { return shards.size() == of; }
 };
 
 Shards_to_do look_at(const Shard_folder& folder) {
-  Shards_to_do result;
-  for (std::size_t index = 1; index <= folder.shards(); ++index) {
+  Shards_to_do result{.of = folder.shards(), .shards = {}, .needs = {}};
+  for (std::size_t index = 1; index <= result.of; ++index) {
     const auto status = folder.status(index, Shard_check::all);
     if (status.state != Shard_state::done) {
       result.shards.push_back(index);
@@ -173,8 +177,31 @@ Shards_to_do look_at(const Shard_folder& folder) {
   return result;
 }
 
+/// @throws Bad_argument  the shards of the folder are of other work, or were made by another revision
+void check_same_work(const Shard_folder& folder, const Submit_command& command) {
+  const auto shards = command.out / "shards";
+  if (folder.command() != words_of_work(command.words))
+    throw Bad_argument(fmt::format("{}: these are shards of other work: lodestone {}", shards.string(),
+                                   shell_words(folder.command())));
+  if (folder.manifest()["revision"] != source_revision())
+    throw Bad_argument(fmt::format("{}: these shards were made by revision {}, which must make the others too",
+                                   shards.string(), folder.manifest()["revision"].dump()));
+}
+
+/// Those that the folder lacks; if it has no shards so far, as many as the command says.
+Shards_to_do shards_to_make(const Submit_command& command) {
+  if (exists(command.out / "shards" / "manifest.json")) {
+    const Shard_folder folder(command.out);
+    check_same_work(folder, command);
+    return look_at(folder);
+  }
+  Shards_to_do result{.of = command.shards, .shards = std::vector<std::size_t>(command.shards), .needs = {}};
+  std::iota(result.shards.begin(), result.shards.end(), 1);
+  return result;
+}
+
 /// Makes one shard, which counts.
-/// @return its exit code; if it is not success, it has said why
+/// @return its exit code; if it is not success, it has been said why
 int run_pilot(const Submit_command& command, std::size_t shards) {
   std::vector<std::string> words{this_program()};
   words.insert(words.end(), command.words.begin(), command.words.end());
@@ -186,20 +213,24 @@ int run_pilot(const Submit_command& command, std::size_t shards) {
   constexpr std::array told{exit_code::success,    exit_code::bad_usage,         exit_code::bad_input,
                             exit_code::bad_output, exit_code::contradicts_truth, exit_code::interrupted};
   if (!WIFEXITED(status) || std::ranges::find(told, WEXITSTATUS(status)) == told.end()) throw_failure(words[0], status);
-  return WEXITSTATUS(status);
+  const int code = WEXITSTATUS(status);
+  if (code != exit_code::success)
+    std::fputs(fmt::format("lodestone: the pilot failed, with exit code {}: nothing was submitted\n", code).c_str(),
+               stderr);
+  return code;
 }
 
 std::size_t rounded_up(double value, std::size_t least) {
   return std::max(least, static_cast<std::size_t>(std::ceil(value)));
 }
 
-Slurm_job job_of(const Submit_command& command, std::size_t shards, const Shards_to_do& to_do) {
+Slurm_job job_of(const Submit_command& command, const Shards_to_do& to_do) {
   Slurm_job job{.program = this_program(),
                 .folder = std::filesystem::current_path(),
                 .out = absolute(command.out),
                 .words = command.words,
-                .shards = shards,
-                .tasks = std::min(command.tasks, shards),
+                .shards = to_do.of,
+                .tasks = std::min(command.tasks, to_do.of),
                 .to_do = {},
                 .cores = std::max(number_of(command.words, "--threads"), number_of(command.words, "--jobs")),
                 .partition = command.partition,
@@ -210,7 +241,7 @@ Slurm_job job_of(const Submit_command& command, std::size_t shards, const Shards
 
   const auto& needs = to_do.needs;
   const auto jobs = static_cast<double>(number_of(command.words, "--jobs"));
-  const auto shards_per_task = static_cast<double>((shards + job.tasks - 1) / job.tasks);
+  const auto shards_per_task = static_cast<double>((job.shards + job.tasks - 1) / job.tasks);
   job.minutes = command.minutes > 0 ? command.minutes : rounded_up(command.time_factor * needs.seconds / 60, 1);
   job.minutes = rounded_up(static_cast<double>(job.minutes) * shards_per_task, 1);
   job.megabytes =
@@ -218,10 +249,22 @@ Slurm_job job_of(const Submit_command& command, std::size_t shards, const Shards
   // A merge of an experiment holds all rows and reports about them; that of detect copies frames: see docs/scale.md.
   const bool keeps_rows = command.words.front() == "experiment";
   const double least_bytes_per_second = keeps_rows ? 1e6 : 1e7, memory_per_byte = keeps_rows ? 12 : 0;
-  const double bytes = needs.bytes * static_cast<double>(shards);
+  const double bytes = needs.bytes * static_cast<double>(job.shards);
   job.merge_minutes = rounded_up(command.time_factor * bytes / least_bytes_per_second / 60, 10);
   job.merge_megabytes = job.megabytes + rounded_up(memory_per_byte * bytes / 1e6, 100);
   return job;
+}
+
+struct Scripts {
+  std::filesystem::path array, merge;
+};
+
+Scripts write_scripts(const Slurm_job& job) {
+  const auto folder = job.out / "slurm";
+  Scripts scripts{.array = folder / "array.sh", .merge = folder / "merge.sh"};
+  write_whole(scripts.array, array_script(job));
+  write_whole(scripts.merge, merge_script(job));
+  return scripts;
 }
 
 /// @return the number of the job
@@ -233,17 +276,16 @@ std::string submitted(const std::vector<std::string>& words) {
   return answer;
 }
 
-void submit(const std::filesystem::path& array, const std::filesystem::path& merge, const Submit_command& command,
-            std::size_t shards) {
+void submit(const Scripts& scripts, const Submit_command& command, std::size_t shards) {
   check_interrupt();
-  const auto job = submitted({"sbatch", "--parsable", array.string()});
+  const auto job = submitted({"sbatch", "--parsable", scripts.array.string()});
   std::string merging;
   try {
-    merging = submitted({"sbatch", "--parsable", "--dependency=afterany:" + job, merge.string()});
+    merging = submitted({"sbatch", "--parsable", "--dependency=afterany:" + job, scripts.merge.string()});
   } catch (...) {
     // The shards run all the same, and what has failed is perhaps only the answer.
     fmt::print("job {}: {}, perhaps without its merge; then: sbatch --dependency=afterany:{} {}\n", job,
-               counted(shards, "shard"), job, printable(shell_word(merge.string())));
+               counted(shards, "shard"), job, printable(shell_word(scripts.merge.string())));
     throw;
   }
   fmt::print("job {}: {}; job {}: merge\nwatch: squeue --jobs {},{}; lodestone status {}\n", job,
@@ -254,28 +296,10 @@ void submit(const std::filesystem::path& array, const std::filesystem::path& mer
 
 int run(const Submit_command& command) {
   check(command);
-  const auto manifest = command.out / "shards" / "manifest.json";
+  Shards_to_do to_do = shards_to_make(command);
   const bool measured = command.minutes > 0 && command.megabytes > 0;
-  std::size_t shards = command.shards;
-  Shards_to_do to_do;
-  for (std::size_t shard = 1; shard <= shards; ++shard) to_do.shards.push_back(shard);
-  if (exists(manifest)) {
-    const Shard_folder folder(command.out);
-    if (folder.command() != words_of_work(command.words))
-      throw Bad_argument(fmt::format("{}: these are shards of other work: lodestone {}",
-                                     manifest.parent_path().string(), shell_words(folder.command())));
-    if (folder.manifest()["revision"] != source_revision())
-      throw Bad_argument(fmt::format("{}: these shards were made by revision {}, which must make the others too",
-                                     manifest.parent_path().string(), folder.manifest()["revision"].dump()));
-    shards = folder.shards();
-    to_do = look_at(folder);
-  }
-  if (to_do.shards.size() == shards && !measured) {
-    if (const int code = run_pilot(command, shards); code != exit_code::success) {
-      std::fputs(fmt::format("lodestone: the pilot failed, with exit code {}: nothing was submitted\n", code).c_str(),
-                 stderr);
-      return code;
-    }
+  if (to_do.are_all() && !measured) {
+    if (const int code = run_pilot(command, to_do.of); code != exit_code::success) return code;
     to_do = look_at(Shard_folder(command.out));
   }
   if (to_do.shards.empty()) {
@@ -283,16 +307,15 @@ int run(const Submit_command& command) {
     return exit_code::success;
   }
   check_interrupt();
-  const auto job = job_of(command, shards, to_do);
-  const auto array = job.out / "slurm" / "array.sh", merge = job.out / "slurm" / "merge.sh";
-  write_whole(array, array_script(job));
-  write_whole(merge, merge_script(job));
+  const auto job = job_of(command, to_do);
+  const auto scripts = write_scripts(job);
   fmt::print("{}: {} and {} MB per task; scripts: {} and {}\n", counted(to_do.shards.size(), "shard"),
-             counted(job.minutes, "minute"), job.megabytes, printable(array.string()), printable(merge.string()));
+             counted(job.minutes, "minute"), job.megabytes, printable(scripts.array.string()),
+             printable(scripts.merge.string()));
   if (command.dry_run)
     fmt::print("nothing was submitted: sbatch array.sh, then sbatch --dependency=afterany:JOB merge.sh\n");
   else
-    submit(array, merge, command, to_do.shards.size());
+    submit(scripts, command, to_do.shards.size());
   return exit_code::success;
 }
 
