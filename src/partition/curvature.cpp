@@ -93,13 +93,13 @@ class Rings {
 };
 
 /// Vertices relative to the first of them, scaled such that the farthest is at distance 1.
-struct Patch {
+struct Local_patch {
   std::vector<Local_kernel::Point_3> points;  ///< empty if all vertices coincide
   double radius = 0;                          ///< distance of the farthest before scaling
 };
 
-Patch patch_of(const Positions& positions, const std::vector<std::uint32_t>& vertices) {
-  Patch patch;
+Local_patch local_patch_of(const Positions& positions, const std::vector<std::uint32_t>& vertices) {
+  Local_patch patch;
   const Eigen::RowVector3d centre = positions.row(vertices.front());
   for (const auto v : vertices) patch.radius = std::max(patch.radius, (positions.row(v) - centre).stableNorm());
   if (!(patch.radius > 0)) return patch;
@@ -111,7 +111,7 @@ Patch patch_of(const Positions& positions, const std::vector<std::uint32_t>& ver
 }
 
 /// Mean curvature at the first point of a patch, in units of 1 / radius; 0 if the points do not span a surface.
-double fitted_mean_curvature(const Patch& patch, const Eigen::RowVector3d& normal) {
+double fitted_mean_curvature(const Local_patch& patch, const Eigen::RowVector3d& normal) {
   Jet_fitting fitting;
   auto form = fitting(patch.points.begin(), patch.points.end(), fitted_degree, 2);
   // If the points lie on a line, rounding alone decides the second direction of the patch.
@@ -137,7 +137,7 @@ std::vector<double> mean_curvatures(const Numbered_surface& surface, const Curva
     if (normals.row(v).isZero(0)) continue;
     const auto& vertices = rings.around(v, options.rings);
     if (vertices.size() < coefficients) continue;
-    const Patch patch = patch_of(scaled, vertices);
+    const Local_patch patch = local_patch_of(scaled, vertices);
     if (patch.points.empty()) continue;
     curvatures[v] = std::ldexp(fitted_mean_curvature(patch, normals.row(v)) / patch.radius, -exponent);
   }

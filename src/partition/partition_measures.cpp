@@ -89,17 +89,17 @@ double size_balance(const Labels& labels, std::size_t regions) {
 }
 
 /// The corners of a face as points.
-struct Triangle {
+struct Face_points {
   std::array<Eigen::Vector3d, 3> at;
 
-  Triangle(const Positions& positions, const Corners& corners)
+  Face_points(const Positions& positions, const Corners& corners)
       : at{positions.row(corners[0]), positions.row(corners[1]), positions.row(corners[2])} {}
   /// Half the cross product of two sides: its direction is the normal, its length the area.
   Eigen::Vector3d area_vector() const { return 0.5 * (at[1] - at[0]).cross(at[2] - at[0]); }
 };
 
 /// Length of the border within one face.
-double border_in(const Triangle& face, const std::array<Region_index, 3>& labels) {
+double border_in(const Face_points& face, const std::array<Region_index, 3>& labels) {
   const Eigen::Vector3d centroid = (face.at[0] + face.at[1] + face.at[2]) / 3;
   const bool three = labels[0] != labels[1] && labels[1] != labels[2] && labels[2] != labels[0];
   double length = 0;
@@ -119,7 +119,7 @@ double border_in(const Triangle& face, const std::array<Region_index, 3>& labels
 double border_length(const Positions& positions, std::span<const Corners> faces, const Labels& labels) {
   double border = 0, area = 0;
   for (const auto& corners : faces) {
-    const Triangle face(positions, corners);
+    const Face_points face(positions, corners);
     area += face.area_vector().norm();
     border += border_in(face, {labels[corners[0]], labels[corners[1]], labels[corners[2]]});
   }
@@ -131,10 +131,10 @@ double normal_deviation(const Positions& positions, std::span<const Corners> fac
                         std::size_t regions) {
   std::vector<Eigen::Vector3d> mean(regions, Eigen::Vector3d::Zero());
   for (const auto& corners : faces)
-    for (const auto corner : corners) mean[labels[corner]] += Triangle(positions, corners).area_vector();
+    for (const auto corner : corners) mean[labels[corner]] += Face_points(positions, corners).area_vector();
   double sum = 0, area = 0;
   for (const auto& corners : faces) {
-    const Eigen::Vector3d vector = Triangle(positions, corners).area_vector();
+    const Eigen::Vector3d vector = Face_points(positions, corners).area_vector();
     for (const auto corner : corners) {
       const Eigen::Vector3d& normal = mean[labels[corner]];
       const double angle = std::atan2(vector.cross(normal).norm(), vector.dot(normal));

@@ -146,7 +146,7 @@ void Clearance_search::list_candidates(std::uint32_t leaf_a, std::uint32_t leaf_
   candidates_.clear();
   for (const kernel::Face_slots slots : std::span(in_line_).first(count))
     candidates_.push_back({spans_b_.high[2][slots.b] - spans_a_.low[2][slots.a] + seen_.slack[2], slots});
-  std::ranges::make_heap(candidates_, std::less(), &Face_candidate::bound);
+  std::ranges::make_heap(candidates_, std::less(), &Clearance_candidate::bound);
 }
 
 void Clearance_search::try_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b) {
@@ -154,7 +154,7 @@ void Clearance_search::try_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b) {
   const auto faces_a = a_.view->layout->faces(leaf_a), faces_b = b_.view->layout->faces(leaf_b);
   const auto go_on = [&] { return best_.length < limit_ && !candidates_.empty(); };
   for (; go_on() && candidates_.front().bound >= best_.length; candidates_.pop_back()) {
-    std::ranges::pop_heap(candidates_, std::less(), &Face_candidate::bound);
+    std::ranges::pop_heap(candidates_, std::less(), &Clearance_candidate::bound);
     const kernel::Face_slots slots = candidates_.back().slots;
     const std::uint8_t a = spans_a_.faces[slots.a], b = spans_b_.faces[slots.b];
     try_faces({faces_a[a], faces_b[b]}, triangle(a_, leaf_a, a), triangle(b_, leaf_b, b));

@@ -57,7 +57,7 @@ class Clearance_search {
     bool operator<(const Candidate& other) const { return bound < other.bound; }  // the largest is on top
   };
   /// Two faces of two leaves, and a bound on their clearance.
-  struct Face_candidate {
+  struct Clearance_candidate {
     double bound;
     kernel::Face_slots slots;
   };
@@ -103,7 +103,7 @@ class Clearance_search {
   std::vector<Node_pair> below_;
   kernel::Face_spans spans_a_, spans_b_;
   Unset_vector<kernel::Face_slots> in_line_;
-  std::vector<Face_candidate> candidates_;
+  std::vector<Clearance_candidate> candidates_;
 
   /// The face pairs with the largest clearance in earlier searches, the last of them first to be tried: along a
   /// direction nearby, one of them often reaches the limit at once.

@@ -153,11 +153,11 @@ class Impact_search {
     Node_pair pair;
     bool operator<(const Candidate& other) const { return bound > other.bound; }  // the earliest is on top
   };
-  struct Face_candidate {
+  struct Impact_candidate {
     double bound;
     Face_pair faces;
     std::uint32_t a, b;  ///< in the lists
-    auto operator<=>(const Face_candidate&) const = default;
+    auto operator<=>(const Impact_candidate&) const = default;
   };
 
   const Tree_layout& layout_a() const { return *a_.start.layout; }
@@ -192,7 +192,7 @@ class Impact_search {
     list_faces_that_come_to(box(b_, pair.b), a_, layout_a().node(pair.a).leaf, faces_a_);
     list_faces_that_come_to(box(a_, pair.a), b_, layout_b().node(pair.b).leaf, faces_b_);
     list_candidates(is_itself(pair));
-    for (const Face_candidate& candidate : candidates_) {
+    for (const Impact_candidate& candidate : candidates_) {
       if (candidate.bound > earliest_.latest()) return;
       const Moving_face *a = &faces_a_[candidate.a], *b = &faces_b_[candidate.b];
       if (a->face != candidate.faces.a) std::swap(a, b);
@@ -240,7 +240,7 @@ class Impact_search {
   std::priority_queue<Candidate> queue_;
   std::vector<Node_pair> below_;
   std::vector<Moving_face> faces_a_, faces_b_;
-  std::vector<Face_candidate> candidates_;
+  std::vector<Impact_candidate> candidates_;
 };
 
 Moving_triangle moving_face(const Moving_surface& surface, std::uint32_t face) {

@@ -66,7 +66,7 @@ Contact_normal contact_normal(const Triangle& a, const Triangle& b) {
 }
 
 void contact_normals(std::span<const Triangle_pair> pairs, std::span<Contact_normal> normals) {
-  kernel::Faces_in_contact faces;
+  kernel::Triangle_pairs faces;
   kernel::Normals_and_depths result;
   for (std::size_t first = 0; first < pairs.size(); first += faces.count) {
     faces.count = std::min(kernel::most_normals, pairs.size() - first);

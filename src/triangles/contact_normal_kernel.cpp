@@ -59,7 +59,7 @@ HWY_INLINE Unit_normals unit_normals(const Triangles& t) {
   return {divide(normal, hn::Sqrt(squared)), proven};
 }
 
-void contact_normals_kernel(const Faces_in_contact& faces, Normals_and_depths& result) {
+void contact_normals_kernel(const Triangle_pairs& faces, Normals_and_depths& result) {
   const Pair_lanes d;
   for (std::size_t lane = 0; lane < faces.count; lane += hn::Lanes(d)) {
     const Triangles a = load_triangles(faces.a, lane), b = load_triangles(faces.b, lane);
@@ -99,7 +99,7 @@ namespace lodestone::kernel {
 
 HWY_EXPORT(contact_normals_kernel);
 
-void contact_normals(const Faces_in_contact& faces, Normals_and_depths& result) {
+void contact_normals(const Triangle_pairs& faces, Normals_and_depths& result) {
   HWY_DYNAMIC_DISPATCH(contact_normals_kernel)(faces, result);
 }
 

@@ -10,7 +10,7 @@ namespace lodestone::kernel {
 inline constexpr std::size_t most_normals = 8;
 
 /// Pairs of triangles. The last index is that of the pair.
-struct Faces_in_contact {
+struct Triangle_pairs {
   std::size_t count = 0;  ///< of pairs; what follows them is ignored
   double a[3][3][most_normals] = {}, b[3][3][most_normals] = {};  ///< [corner][axis]
 };
@@ -21,6 +21,6 @@ struct Normals_and_depths {
   std::array<bool, most_normals> proven;  ///< false: a triangle is thin, tiny or huge, and the result means nothing
 };
 
-void contact_normals(const Faces_in_contact& faces, Normals_and_depths& result);
+void contact_normals(const Triangle_pairs& faces, Normals_and_depths& result);
 
 }  // namespace lodestone::kernel

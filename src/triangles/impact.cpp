@@ -34,9 +34,9 @@ struct Limit {
 };
 
 /// Gives the exact test the pairs of features that may meet, the earliest first.
-class Contact_search {
+class Feature_search {
  public:
-  Contact_search(const Moving_triangle& a, const Moving_triangle& b, double latest)
+  Feature_search(const Moving_triangle& a, const Moving_triangle& b, double latest)
       : a_(a), b_(b), filter_(a, b, latest) {}
 
   std::optional<Impact_time> run(const Limit& limit) {
@@ -104,7 +104,7 @@ std::optional<Impact_time> search(const Moving_triangle& a, const Moving_triangl
   const double overlap_from = overlap_time_lower_bound(box_around(a), box_around(b));
   if (!(overlap_from <= latest)) return std::nullopt;
   if (overlap_from == 0 && triangles_intersect(a.start, b.start)) return Impact_time();
-  const auto first = Contact_search(a, b, latest).run(limit);
+  const auto first = Feature_search(a, b, latest).run(limit);
   // Beyond these the filter may have dropped what is earlier than this.
   const bool counts = first && first->high() <= latest && (limit.time == nullptr || *first <= *limit.time);
   return counts ? first : std::nullopt;

@@ -58,7 +58,7 @@ class Syntax_check final : public nlohmann::json_sax<Json> {
   bool key(string_t& key) override {
     Level& level = levels_.back();
     if (!level.keys.insert(key).second)
-      throw Bad_scene(fmt::format("{}: {}: duplicate key {}", name_, place(), in_quotes(key)));
+      throw Bad_scene(fmt::format("{}: {}: duplicate key {}", name_, place(), as_json(key)));
     level.key = key;
     return true;
   }
@@ -103,7 +103,7 @@ class Syntax_check final : public nlohmann::json_sax<Json> {
     std::string result;
     for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
       const Level& level = levels_[i];
-      const std::string quoted_key = in_quotes(level.key);
+      const std::string quoted_key = as_json(level.key);
       result += "/" + (level.is_object ? quoted_key.substr(1, quoted_key.size() - 2) : std::to_string(level.element));
     }
     return result.empty() ? "/" : result;

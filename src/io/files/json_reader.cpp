@@ -9,7 +9,7 @@
 
 namespace lodestone::detail {
 
-std::string in_quotes(std::string_view text) {
+std::string as_json(std::string_view text) {
   constexpr std::size_t longest = 80;
   const bool cut = text.size() > longest;
   // Truncation can split a character: `replace` substitutes the remainder.
@@ -44,7 +44,7 @@ void Json_value::expect_keys(std::initializer_list<std::string_view> keys) const
   expect_object();
   for (const auto& entry : value_->items())
     if (std::ranges::find(keys, entry.key()) == keys.end())
-      fail(fmt::format("unknown key {} (expected one of {})", in_quotes(entry.key()), fmt::join(keys, ", ")));
+      fail(fmt::format("unknown key {} (expected one of {})", as_json(entry.key()), fmt::join(keys, ", ")));
 }
 
 std::string Json_value::exactly_one_of(std::initializer_list<std::string_view> keys) const {
@@ -64,7 +64,7 @@ bool Json_value::has(std::string_view key) const { return value_->contains(key);
 
 Json_value Json_value::at(std::string_view key) const {
   if (auto value = find(key)) return *value;
-  fail(fmt::format("missing key {}", in_quotes(key)));
+  fail(fmt::format("missing key {}", as_json(key)));
 }
 
 std::optional<Json_value> Json_value::find(std::string_view key) const {
@@ -104,7 +104,7 @@ std::string Json_value::text() const {
   auto text = value_->get<std::string>();
   if (text.empty()) fail("is empty");
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
-  if (std::ranges::any_of(text, is_control)) fail(fmt::format("{} has a control character", in_quotes(text)));
+  if (std::ranges::any_of(text, is_control)) fail(fmt::format("{} has a control character", as_json(text)));
   return text;
 }
 
@@ -121,7 +121,7 @@ bool Json_value::boolean() const {
 std::string Json_value::word(std::initializer_list<std::string_view> words) const {
   std::string result = text();
   if (std::ranges::find(words, result) == words.end())
-    fail(fmt::format("{} is not one of {}", in_quotes(result), fmt::join(words, ", ")));
+    fail(fmt::format("{} is not one of {}", as_json(result), fmt::join(words, ", ")));
   return result;
 }
 

@@ -28,7 +28,7 @@ Json parse_json(const std::filesystem::path& file);
 Json parse_json_text(std::string_view text, const std::string& name);
 
 /// `text` as a JSON string: in double quotes, always on one line, truncated to 80 characters.
-std::string in_quotes(std::string_view text);
+std::string as_json(std::string_view text);
 
 /// A value of a document, with its JSON pointer. The document must outlive it.
 class Json_value {

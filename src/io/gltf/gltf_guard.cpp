@@ -123,14 +123,14 @@ void Guard::check_asset() const {
   const auto asset = root_.at("asset");
   const auto version = asset.at("version").text();
   if (!version.starts_with("2."))
-    asset.at("version").fail(fmt::format("expected 2.0, found {}", detail::in_quotes(version)));
+    asset.at("version").fail(fmt::format("expected 2.0, found {}", detail::as_json(version)));
   // An extension that affects positions must be supported; one that affects only appearance may be ignored.
   for (const auto& extension : root_.list("extensionsRequired", most_elements)) {
     const auto name = extension.text();
     const bool harmless = name == "KHR_mesh_quantization" || name.starts_with("KHR_materials_") ||
                           name.starts_with("KHR_texture_") || name.starts_with("EXT_texture_") ||
                           name == "KHR_lights_punctual";
-    if (!harmless) extension.fail(fmt::format("the extension {} is not supported", detail::in_quotes(name)));
+    if (!harmless) extension.fail(fmt::format("the extension {} is not supported", detail::as_json(name)));
   }
 }
 
@@ -180,7 +180,7 @@ Json Guard::copy_accessor(const Json_value& value) {
   const auto* const element = std::ranges::find(elements, type, &Element::name);
   const bool readable = element != elements.end() && (type != "MAT4" || code == as_float);
   if (!readable && type != "MAT2" && type != "MAT3" && type != "MAT4")
-    value.at("type").fail(fmt::format("{} is not an accessor type", detail::in_quotes(type)));
+    value.at("type").fail(fmt::format("{} is not an accessor type", detail::as_json(type)));
   Accessor accessor{.type = type, .component = code, .count = value.at("count").count(1, most_bytes)};
   accessor.readable = readable;
   if (const auto normalized = value.find("normalized")) accessor.normalized = normalized->boolean();

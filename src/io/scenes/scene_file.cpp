@@ -26,7 +26,7 @@ namespace lodestone {
 
 namespace {
 
-using detail::in_quotes;
+using detail::as_json;
 using detail::Json_value;
 using detail::most_scene_frames;
 using detail::object_of;
@@ -146,7 +146,7 @@ std::vector<Scene_object> read_objects(const Json_value& value, Scene_folder& fo
     objects.push_back(read_object(element, folder));
     const std::string& name = objects.back().name;
     if (!names.insert(name).second)
-      element.at("name").fail(fmt::format("{} is taken by an object above", in_quotes(name)));
+      element.at("name").fail(fmt::format("{} is taken by an object above", as_json(name)));
   }
   detail::read_groups(value, objects);
   return objects;
@@ -158,7 +158,7 @@ std::vector<Object_pair> read_ignored(const Json_value& scene, const std::vector
   for (std::uint32_t o = 0; o < objects.size(); ++o) numbers.emplace(objects[o].name, o);
   const auto number = [&](const Json_value& name) {
     const auto found = numbers.find(name.text());
-    if (found == numbers.end()) name.fail(fmt::format("there is no object {}", in_quotes(name.text())));
+    if (found == numbers.end()) name.fail(fmt::format("there is no object {}", as_json(name.text())));
     return found->second;
   };
   std::vector<Object_pair> ignored;

@@ -26,9 +26,8 @@ std::string numbered(std::string pattern, std::size_t number) {
 fs::path Scene_folder::path_of(const std::string& name, const Json_value& value) {
   std::error_code error;
   const bool inside = is_inside(folder_, name, error);
-  if (error) value.fail(fmt::format("{} cannot be followed: {}", in_quotes(name), error.message()));
-  if (!inside && !options_.allow_outside)
-    value.fail(fmt::format("{} is not inside the scene's folder", in_quotes(name)));
+  if (error) value.fail(fmt::format("{} cannot be followed: {}", as_json(name), error.message()));
+  if (!inside && !options_.allow_outside) value.fail(fmt::format("{} is not inside the scene's folder", as_json(name)));
   found_.push_back(folder_ / name);
   return found_.back();
 }
@@ -41,7 +40,7 @@ std::vector<fs::path> Scene_folder::numbered_files(const Json_value& value) {
   const std::string name = pattern.text();
   const auto run = name.find('#');
   if (run == name.npos || name.find('#', name.find_first_not_of('#', run)) != name.npos)
-    pattern.fail(fmt::format("{} must have one run of # for the number", in_quotes(name)));
+    pattern.fail(fmt::format("{} must have one run of # for the number", as_json(name)));
   const std::size_t first = value.at("first").count(0, most_scene_frames);
   const std::size_t last = value.at("last").count(first, most_scene_frames);
 

@@ -23,13 +23,13 @@ class Group_bits {
       place.fail(
           fmt::format("group {} is one too many: a scene has at most {}, with \"default\", that of objects "
                       "without the key \"groups\"",
-                      in_quotes(name), most_groups));
+                      as_json(name), most_groups));
     return std::uint32_t{1} << group->second;
   }
   std::uint32_t of_met(const Json_value& name) const {
     const auto group = bits_.find(name.text());
     if (group == bits_.end())
-      name.fail(fmt::format("there is no group {}: no object has it in its \"groups\"", in_quotes(name.text())));
+      name.fail(fmt::format("there is no group {}: no object has it in its \"groups\"", as_json(name.text())));
     return std::uint32_t{1} << group->second;
   }
 

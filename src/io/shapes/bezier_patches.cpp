@@ -17,7 +17,7 @@ namespace lodestone {
 namespace {
 
 /// Control points, row by row, four to a row.
-using Patch = std::array<Point, 16>;
+using Bezier_patch = std::array<Point, 16>;
 using Weights = std::array<double, 4>;
 
 /// Reads the numbers of a text in order, and keeps the line number for error messages.
@@ -86,7 +86,7 @@ std::vector<Point> read_points(Number_reader& reader, std::size_t count) {
   return points;
 }
 
-std::vector<Patch> read_patches(std::string_view text, std::string_view name) {
+std::vector<Bezier_patch> read_patches(std::string_view text, std::string_view name) {
   Number_reader reader(text, name);
   const auto patches = reader.next<std::size_t>("the number of patches");
   const auto points = reader.next<std::size_t>("the number of points");
@@ -99,7 +99,7 @@ std::vector<Patch> read_patches(std::string_view text, std::string_view name) {
   const auto positions = read_points(reader, points);
   reader.expect_end();
 
-  std::vector<Patch> result(patches);
+  std::vector<Bezier_patch> result(patches);
   for (std::size_t i = 0; i < numbers.size(); ++i) result[i / 16][i % 16] = positions[numbers[i]];
   return result;
 }
@@ -122,7 +122,7 @@ double weighted(const Weights& w, double p0, double p1, double p2, double p3) {
 }
 
 /// On a border one set of weights is (1, 0, 0, 0) or its reverse, so only the border's points affect the result.
-Point point_of(const Patch& patch, const Weights& u, const Weights& v) {
+Point point_of(const Bezier_patch& patch, const Weights& u, const Weights& v) {
   const auto coordinate = [&](int axis) {
     const auto row = [&](std::size_t r) {
       const auto* p = &patch[4 * r];
@@ -137,7 +137,7 @@ void add_unless_collapsed(std::vector<detail::Triangle_numbers>& triangles, cons
   if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
 }
 
-void cut_patch(const Patch& patch, const Patch_grid& grid, detail::Welded_points& points,
+void cut_patch(const Bezier_patch& patch, const Patch_grid& grid, detail::Welded_points& points,
                std::vector<detail::Triangle_numbers>& triangles) {
   const std::size_t width = grid.v + 1;
   std::vector<std::size_t> number;
@@ -158,12 +158,12 @@ Surface_mesh bezier_patches(std::string_view text, std::string_view name, const 
   namespace PMP = CGAL::Polygon_mesh_processing;
   detail::check_count(name, "u", grid.u, 1);
   detail::check_count(name, "v", grid.v, 1);
-  const std::vector<Patch> patches = read_patches(text, name);
+  const std::vector<Bezier_patch> patches = read_patches(text, name);
   detail::check_faces(name, 2 * patches.size(), grid.u, grid.v);
 
   detail::Welded_points points;
   std::vector<detail::Triangle_numbers> triangles;
-  for (const Patch& patch : patches) cut_patch(patch, grid, points, triangles);
+  for (const Bezier_patch& patch : patches) cut_patch(patch, grid, points, triangles);
   if (triangles.empty()) throw Bad_mesh(fmt::format("{}: every patch is a point or a line", name));
 
   std::vector<Point> positions = points.points();
