@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <utility>
 
 #include "lodestone/mesh/coordinate_reader.h"
 #include "lodestone/queries/impact_search.h"

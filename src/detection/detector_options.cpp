@@ -13,19 +13,18 @@ void require(bool holds, const char* requirement) {
   if (!holds) throw Bad_argument(requirement);
 }
 
-/// Modes without particles must not ignore silently what only particles have.
-bool has_defaults_of_particles(const Detector_options& options) {
-  const Detector_options defaults;
-  return options.collision_distance == defaults.collision_distance &&
-         options.distance_measure == defaults.distance_measure && options.candidates == defaults.candidates &&
-         options.growth == defaults.growth && options.close_seams == defaults.close_seams;
-}
-
 /// Meetings decide without what the published method needs.
 bool has_defaults_of_candidates(const Detector_options& options) {
   const Detector_options defaults;
   return options.collision_distance == defaults.collision_distance &&
          options.distance_measure == defaults.distance_measure && options.candidates == defaults.candidates;
+}
+
+/// Modes without particles must not ignore silently what only particles have.
+bool has_defaults_of_particles(const Detector_options& options) {
+  const Detector_options defaults;
+  return has_defaults_of_candidates(options) && options.growth == defaults.growth &&
+         options.close_seams == defaults.close_seams;
 }
 
 bool has_defaults_of_meetings(const Detector_options& options) {

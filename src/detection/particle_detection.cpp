@@ -156,7 +156,7 @@ void Particle_detection::prepare(std::span<Object* const> objects, bool close_se
     faces.push_back(object->particle_object.corners().size());
   }
   for (Object* object : objects) object->prepared = false;  // until all is done: the next frame begins anew
-  const auto for_each = [&](const std::function<void(std::size_t)>& work) {
+  const auto for_each = [&](const auto& work) {
     workers_.run(objects.size(), [&](std::size_t i, std::size_t) { objects[i]->named([&] { work(i); }); });
   };
 

@@ -46,6 +46,22 @@ void play(Detect_run& scene_run, const Detect_command& command, const std::vecto
   }
 }
 
+/// A tally that is of this scene.
+/// @throws Json::exception  it is not
+Frame_tally checked(Frame_tally tally, const Scene& scene) {
+  const auto is_known = [&](Object_pair pair) { return std::max(pair.a, pair.b) < scene.objects.size(); };
+  const auto are_known = [&](const auto& list) {
+    return std::ranges::all_of(list, [&](const auto& entry) { return is_known(entry.pair); });
+  };
+  const bool pairs_are_known = std::ranges::all_of(tally.pairs, [&](const Pair_result& pair) {
+    return is_known({pair.a, pair.b});
+  });
+  if (tally.frame >= scene.frames || !pairs_are_known || !are_known(tally.scores) || !are_known(tally.distances) ||
+      !are_known(tally.impacts))
+    throw Json::out_of_range::create(401, "a frame or an object that the scene does not have", nullptr);
+  return tally;
+}
+
 }  // namespace
 
 void check_shard_options(const Detect_command& command) {
@@ -84,22 +100,6 @@ int run_shard(const Detect_command& command) {
     fmt::print("shard {} of {}: {} of {}, in {}\n", shard.index, shard.count, frames.size(),
                counted(scene_run.frames(), "frame"), printable(folder.file(shard.index).string()));
   return exit_code::success;
-}
-
-/// A tally that is of this scene.
-/// @throws Json::exception  it is not
-Frame_tally checked(Frame_tally tally, const Scene& scene) {
-  const auto is_known = [&](Object_pair pair) { return std::max(pair.a, pair.b) < scene.objects.size(); };
-  const auto are_known = [&](const auto& list) {
-    return std::ranges::all_of(list, [&](const auto& entry) { return is_known(entry.pair); });
-  };
-  const bool pairs_are_known = std::ranges::all_of(tally.pairs, [&](const Pair_result& pair) {
-    return is_known({pair.a, pair.b});
-  });
-  if (tally.frame >= scene.frames || !pairs_are_known || !are_known(tally.scores) || !are_known(tally.distances) ||
-      !are_known(tally.impacts))
-    throw Json::out_of_range::create(401, "a frame or an object that the scene does not have", nullptr);
-  return tally;
 }
 
 void merge_shards(Detect_run& scene_run, Atomic_file& frames, const Detect_command& command) {

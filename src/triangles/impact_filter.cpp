@@ -30,6 +30,14 @@ void cut(const std::array<Coefficient, size>& whole, const Number& part, std::ar
   }
 }
 
+/// The sign of a polynomial all the time, from its coefficients in Bernstein's form; 0 if it may change.
+/// @param error  a bound of that of each coefficient
+template <class Number>
+int lasting_sign(std::initializer_list<Number> coefficients, double error) {
+  if (std::ranges::all_of(coefficients, [error](const Number& c) { return c > error; })) return 1;
+  return std::ranges::all_of(coefficients, [error](const Number& c) { return c < -error; }) ? -1 : 0;
+}
+
 /// Whether products of three components cannot overflow, nor what double-double multiplies them by.
 template <class Differences>
 bool are_moderate(const Differences& differences) {
@@ -50,14 +58,6 @@ template <class Number>
 Impact_filter::Quadratic<Number> Impact_filter::area(const Moving_difference<Number>& p,
                                                      const Moving_difference<Number>& q) {
   return {p.start.cross(q.start), Number(0.5) * (p.start.cross(q.end) + p.end.cross(q.start)), p.end.cross(q.end)};
-}
-
-/// The sign of a polynomial all the time, from its coefficients in Bernstein's form; 0 if it may change.
-/// @param error  a bound of that of each coefficient
-template <class Number>
-int lasting_sign(std::initializer_list<Number> coefficients, double error) {
-  if (std::ranges::all_of(coefficients, [error](const Number& c) { return c > error; })) return 1;
-  return std::ranges::all_of(coefficients, [error](const Number& c) { return c < -error; }) ? -1 : 0;
 }
 
 /// Polynomials of a pair of features over an interval of time. Its four corners are o, p, q and r; u, v and w are the

@@ -363,13 +363,14 @@ void Exact_object<Volume>::replace(Faces anew) {
 template <Bounding_volume Volume>
 void Exact_object<Volume>::rebuild(const Changed_faces& changed, Workers& workers) {
   const std::size_t former_faces = corners().size();
-  std::vector<std::uint32_t> all(changed.faces.begin(), changed.faces.end());
+  // Copied first: if memory ran out later, the mesh would be numbered anew beside the former surface.
+  std::vector<std::uint32_t> listed(changed.faces.begin(), changed.faces.end());
   if (!faces_.joined.empty() || !mesh().renumber(changed.faces)) {
     Faces anew(mesh().renumbered(workers), {});
     check_faces(changed.faces, anew.corners().size());
     return replace(std::move(anew));
   }
-  start_anew(std::move(all), former_faces);
+  start_anew(std::move(listed), former_faces);
 }
 
 /// The surface of the faces as they are now has no tree yet; that of the former ones waits to be mended. If memory runs

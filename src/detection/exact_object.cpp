@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "lodestone/detection/exact_detection.h"
+#include "lodestone/detection/exact_object.h"
 
 namespace lodestone {
 
