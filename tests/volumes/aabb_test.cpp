@@ -33,6 +33,21 @@ TEST(Aabb, touching_boxes_are_near_along_every_axis) {
   }
 }
 
+TEST(Aabb, contains_boxes_within_its_sides_and_those_that_share_them) {
+  const Aabb outer = box(0, 1);
+  EXPECT_TRUE(contains(outer, outer));
+  EXPECT_TRUE(contains(outer, box(0.25, 0.5)));
+  for (int axis = 0; axis < 3; ++axis) {
+    Aabb lower = outer, higher = outer;
+    lower.low[axis] = -std::numeric_limits<double>::denorm_min();
+    higher.high[axis] = std::nextafter(1, 2);
+    for (const auto& inner : {lower, higher}) {
+      EXPECT_FALSE(contains(outer, inner));
+      EXPECT_TRUE(contains(inner, outer));
+    }
+  }
+}
+
 CGAL::Gmpq squared_distance(const Aabb& a, const Aabb& b) {
   CGAL::Gmpq squared = 0;
   for (int axis = 0; axis < 3; ++axis) {
