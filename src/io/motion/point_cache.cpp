@@ -61,7 +61,7 @@ std::size_t positive(std::int32_t number, std::size_t at, std::string_view thing
 /// Refuses a file that is shorter than its header announces.
 void check_length(const Cache& cache) {
   std::error_code ignored;
-  const auto& [format, vertices, frames, rate] = cache.header;
+  const std::size_t vertices = cache.header.vertices, frames = cache.header.frames;
   const auto bytes = file_size(cache.file, ignored) - cache.first_frame;
   const auto frame_bytes = vertices * point_bytes;
   if (frames > bytes / frame_bytes)
