@@ -156,6 +156,17 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
   return row;
 }
 
+/// How many pairs the run looks at; with --self also objects with themselves.
+std::size_t count_pairs(const Run_subject& subject) {
+  const Scene& scene = subject.scene;
+  const std::size_t first = subject.command.options.exact.self_collision ? 0 : 1;
+  std::size_t count = 0;
+  for (Object_id a = 0; a < scene.objects.size(); ++a)
+    for (auto b = static_cast<Object_id>(a + first); b < scene.objects.size(); ++b)
+      count += scene.ignores({a, b}) ? 0 : 1;
+  return count;
+}
+
 void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   const bool many = subject.scene.objects.size() > 4;
   Text_table table(table_header(subject.command));
@@ -167,9 +178,11 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
     if (many && is_empty(results)) continue;
     if (++rows <= row_limit) table.add(table_row(subject, pair, results));
   }
-  fmt::print("{}", table.text());
+  // Pairs that never came near each other are in no list.
+  const bool omits = many || summary.pairs.size() < count_pairs(subject);
+  if (rows > 0) fmt::print("{}", table.text());
   if (rows > row_limit) fmt::print("{} more pairs are omitted: --all-rows prints them.\n", rows - row_limit);
-  if (many) fmt::print("Pairs of which nothing was found are omitted.\n");
+  if (omits) fmt::print("Pairs of which nothing was found are omitted{}.\n", rows > 0 ? "" : ": all of them");
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
   if (unfinished > 0)
     fmt::print(

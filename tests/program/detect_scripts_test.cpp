@@ -95,6 +95,18 @@ TEST_F(Detect_scripts, the_table_has_twenty_rows_unless_all_are_asked_for) {
   EXPECT_EQ(full.find("--all-rows"), std::string::npos);
 }
 
+TEST_F(Detect_scripts, a_sentence_tells_that_the_table_leaves_out_pairs_that_never_came_near) {
+  const std::string sentence = "Pairs of which nothing was found are omitted";
+  const auto none = detect({here, there}).out;
+  EXPECT_EQ(none.find('|'), std::string::npos) << none;
+  EXPECT_NE(none.find(sentence + ": all of them.\n"), std::string::npos) << none;
+  const auto one_of_three = detect({here, again, there}).out;
+  EXPECT_NE(one_of_three.find("| here "), std::string::npos) << one_of_three;
+  EXPECT_NE(one_of_three.find(sentence + ".\n"), std::string::npos) << one_of_three;
+  const auto all = detect({here, again}).out;
+  EXPECT_EQ(all.find(sentence), std::string::npos) << all;
+}
+
 TEST_F(Detect_scripts, a_mesh_may_come_from_the_standard_input) {
   const Program_options from_here{.standard_input = here};
   const auto run = [&](std::vector<std::string> arguments) { return run_program(arguments, from_here); };
