@@ -16,6 +16,7 @@
 #include "program/frame_log.h"
 #include "program/notes.h"
 #include "program/progress.h"
+#include "program/unquoted_pattern.h"
 
 namespace lodestone {
 
@@ -54,10 +55,19 @@ void write_results(Detect_run& scene_run, std::optional<Atomic_file>& frames, co
   if (scene_run.paraview() != nullptr) scene_run.paraview()->commit();
 }
 
+void note_unquoted_pattern(const Detect_command& command) {
+  if (const auto found = find_unquoted_pattern(command.inputs))
+    note(
+        fmt::format("{} inputs differ only in a number; if they are frames of one object, put the pattern in quotes: "
+                    "'{}'",
+                    found->inputs, found->pattern.string()));
+}
+
 /// What the user reads on the terminal.
 void print_results(Detect_run& scene_run, const Detect_command& command) {
   if (command.json) return fmt::print("{}", json_text(scene_run.summary(), 2));
   if (command.quiet) return fmt::print("{}", scene_run.answer());
+  note_unquoted_pattern(command);
   for (const auto& object : scene_run.scene().objects) note_cut_faces(object.name, object.file_face);
   scene_run.note_seams();
   scene_run.print();

@@ -163,6 +163,21 @@ TEST_F(Detect_files, a_numbered_sequence_is_played) {
   EXPECT_EQ(collisions(), (std::vector<bool>{false, false, true, true}));
 }
 
+TEST_F(Detect_files, that_differ_only_in_a_number_may_be_a_pattern_without_quotes) {
+  const std::string rest =
+      " inputs differ only in a number; if they are frames of one object, put the pattern in quotes: '";
+  std::vector<std::string> inputs{write("2_a.off", tetrahedron_off(9))};
+  for (const std::string number : {"08", "09", "10"}) inputs.push_back(write("2_f" + number + ".off", square_off));
+  const auto result = detect(inputs);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "lodestone: 3" + rest + path("2_f*.off") + "'\n");
+  inputs.emplace_back("--quiet");
+  expect_success(detect(inputs));
+  // Two are too few, and one file that is given three times has one number.
+  expect_success(detect({inputs[0], inputs[1], inputs[2]}));
+  expect_success(detect({inputs[1], inputs[1], inputs[1]}));
+}
+
 TEST_F(Detect_files, a_point_cache_is_played_with_its_mesh) {
   const auto mesh = write("a.off", tetrahedron_off());
   auto bytes = std::string("POINTCACHE2\0", 12) + packed<std::int32_t>({1, 4}) + packed<float>({0, 1}) +
