@@ -127,6 +127,7 @@ int run(const Convert_command& command) {
   const auto animation = edited(original, command);
   auto options = output_options(animation, command);
   check_input_is_kept(command, animation, options.frames.size());
+  note_other_animations(name, original.motion.animations);
   {
     Progress_bar progress("convert", command.quiet);
     options.progress = [&](std::size_t done, std::size_t of) { progress(done, of); };

@@ -68,7 +68,10 @@ void print_results(Detect_run& scene_run, const Detect_command& command) {
   if (command.json) return fmt::print("{}", json_text(scene_run.summary(), 2));
   if (command.quiet) return fmt::print("{}", scene_run.answer());
   note_unquoted_pattern(command);
-  for (const auto& object : scene_run.scene().objects) note_cut_faces(object.name, object.file_face);
+  for (const auto& object : scene_run.scene().objects) {
+    note_other_animations(object.name, object.motion.animations);
+    note_cut_faces(object.name, object.file_face);
+  }
   scene_run.note_seams();
   scene_run.print();
   if (!command.out.empty()) fmt::print("results: {}\n", printable(command.out.string()));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/files/small_text.h"
+#include "io/motion/animation_names.h"
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/io/results/component_orientation.h"
@@ -41,6 +42,7 @@ struct Object_report {
   File_faces faces = {};                       ///< of the file
   std::optional<Surface_report> surface = {};  ///< missing for a point cache without its mesh
   std::vector<Component_orientation> components = {};
+  File_animations animations = {};  ///< no names: the format has none
   Box box = {};  ///< of the vertices that faces use; for a point cache without its mesh: of all vertices
   Box box_of_all_frames = {};
   std::size_t self_intersections = 0;
@@ -91,6 +93,7 @@ void find_boxes(const Animation& animation, Object_report& report) {
 
 Object_report report_of(const std::string& name, const Animation& animation) {
   Object_report report{.name = name, .frames = animation.motion.frames, .vertices = animation.vertices};
+  report.animations = animation.motion.animations;
   find_boxes(animation, report);
   if (animation.faces.empty()) return report;
   std::vector<Point> points(animation.vertices);
@@ -191,6 +194,8 @@ Json box_json(const Box& box) {
 Json to_json(const Object_report& report) {
   Json json{{"name", report.name}, {"vertices", report.vertices}};
   if (report.frames > 0) json["frames"] = report.frames;
+  if (const auto& [names, played, is_chosen] = report.animations; !names.empty())
+    json.update({{"animations", names}, {"played_animation", played}});
   const auto add_boxes = [&] {
     json["box"] = box_json(report.box);
     json["box_of_all_frames"] = box_json(report.box_of_all_frames);
@@ -230,6 +235,10 @@ void print(const Object_report& report, const std::string& kind, std::size_t fra
   Text_table table({printable(report.name), kind});
   const auto add = [&](const char* what, std::size_t count) { table.add({what, std::to_string(count)}); };
   if (report.frames > 0) add("frames", report.frames);
+  if (const auto& [names, played, is_chosen] = report.animations; !names.empty()) {
+    table.add({"animations", animation_list(names)});
+    table.add({"animation that is played", animation_name(names, played)});
+  }
   add("vertices", report.vertices);
   const auto finish = [&] {
     table.add({frames > 1 ? "box of the first frame" : "box", box_text(report.box)});

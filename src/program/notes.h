@@ -11,7 +11,9 @@
 #include <string>
 
 #include "io/files/small_text.h"
+#include "io/motion/animation_names.h"
 #include "lodestone/io/meshes/file_faces.h"
+#include "lodestone/io/motion/motion.h"
 
 /// What a user should know about an input that was accepted: one line each on the standard error output.
 namespace lodestone {
@@ -25,6 +27,14 @@ inline void note_cut_faces(const std::string& name, std::span<const std::uint32_
   if (faces.cut > 0)
     note(fmt::format("{}: {} of {} faces have more than three corners: cut into triangles, {} in all", name, faces.cut,
                      faces.count, file_face.size()));
+}
+
+/// Animations that are not played, since no scene chooses among those of the file.
+inline void note_other_animations(const std::string& name, const File_animations& animations) {
+  const auto& [names, played, is_chosen] = animations;
+  if (names.size() > 1 && !is_chosen)
+    note(fmt::format("{}: plays the animation {}, the first of {}: {}; `gltf.animation` of a scene chooses another",
+                     name, animation_name(names, played), names.size(), animation_list(names)));
 }
 
 /// Vertices that lie on others along seams.

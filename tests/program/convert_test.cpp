@@ -90,6 +90,16 @@ TEST_F(Convert, samples_gltf_at_any_rate) {
   EXPECT_EQ(read_point_cache_header(path("a.pc2")).frames, 21U);
 }
 
+TEST_F(Convert, says_which_animation_of_gltf_it_takes) {
+  folder.write("walk.glb", square_with_two_animations().glb());
+  const auto result = run_program({"convert", path("walk.glb"), path("a.glb")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err,
+            "lodestone: walk.glb: plays the animation 'idle', the first of 2: 'idle', 'walk'; `gltf.animation` of a "
+            "scene chooses another\n");
+  convert("walk.glb", "b.glb");
+}
+
 TEST_F(Convert, colours_regions) {
   convert("f*.off", "a.gltf", {"--regions", "2"});
   const auto json = read_json(path("a.gltf"));

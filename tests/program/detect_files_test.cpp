@@ -218,6 +218,21 @@ TEST_F(Detect_files, shapes_and_objects_of_scenes_are_inputs) {
 TEST_F(Detect_files, a_scene_of_one_object_is_refused_unless_its_own_faces_are_asked_about) {
   write("a.off", tetrahedron_off());
   const auto scene = write("scene.json", R"({"objects": [{"name": "a", "mesh": "a.off"}]})");
+TEST_F(Detect_files, of_gltf_with_several_animations_play_the_first_and_say_so_unless_a_scene_chooses) {
+  const std::string note =
+      ": plays the animation 'idle', the first of 2: 'idle', 'walk'; `gltf.animation` of a scene chooses another\n";
+  const auto file = write("walk.glb", square_with_two_animations().glb());
+  const auto result = detect({file, write("still.off", tetrahedron_off(9))});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "lodestone: walk" + note);
+  // Chosen, and then sampled at the rate of the other.
+  const auto scene = write("scene.json", R"({"objects": [
+    {"name": "chosen", "mesh": "walk.glb", "motion": {"gltf": {"file": "walk.glb", "animation": "idle"}}},
+    {"name": "first", "mesh": "walk.glb", "motion": {"gltf": {"file": "walk.glb", "frames_per_second": 10}}}]})");
+  EXPECT_EQ(detect({scene}).err, "lodestone: first" + note);
+  expect_success(detect({scene, "--quiet"}));
+}
+
   expect_error(run_program({"detect", scene}), 2,
                "scene.json: one object alone has nothing to collide with; add another to the scene, or --self");
   expect_success(run_program({"detect", scene, "--self"}));

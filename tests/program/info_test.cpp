@@ -144,6 +144,19 @@ TEST_F(Info, reads_a_sequence_a_gltf_file_and_a_scene) {
   EXPECT_EQ(scene["objects"][1]["closed"], true);
 }
 
+TEST_F(Info, lists_the_animations_of_a_gltf_file) {
+  const auto file = write("walk.glb", square_with_two_animations().glb());
+  const Json object = info({file})["objects"].at(0);
+  EXPECT_EQ(object["animations"], Json({"idle", "walk"}));
+  EXPECT_EQ(object["played_animation"], 0);
+  const auto text = run_program({"info", file}).out;
+  EXPECT_NE(text.find("| 'idle', 'walk' "), std::string::npos) << text;
+  EXPECT_FALSE(info({write("a.off", square_off)})["objects"].at(0).contains("animations"));
+  const auto scene = write("scene.json", R"({"objects": [{"name": "a", "mesh": "walk.glb",
+    "motion": {"gltf": {"file": "walk.glb", "animation": "walk"}}}]})");
+  EXPECT_EQ(info({scene})["objects"].at(0)["played_animation"], 1);
+}
+
 TEST_F(Info, reads_an_object_of_a_scene_and_a_built_in_shape) {
   write("a.off", square_off);
   const auto scene = write("scene.json", R"({"frames": 5, "objects": [

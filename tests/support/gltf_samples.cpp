@@ -26,6 +26,16 @@ Gltf_sample square_gltf() {
   return sample;
 }
 
+Gltf_sample square_with_two_animations() {
+  auto sample = square_gltf();
+  sample.animate(0, "translation", sample.add_numbers({0, 1}), sample.add_points({0, 0, 0, 0, 0, 1}));
+  auto walk = sample.json["animations"][0];
+  walk["samplers"][0]["output"] = sample.add_points({0, 0, 5, 0, 0, 6});
+  sample.json["animations"][0]["name"] = "idle";
+  sample.json["animations"].push_back(walk);
+  return sample;
+}
+
 Gltf_sample rich_gltf() {
   auto sample = square_gltf();
   auto& json = sample.json;

@@ -77,6 +77,9 @@ struct Gltf_sample {
 /// The square of mesh_samples.h at a node.
 Gltf_sample square_gltf();
 
+/// The square with two animations of a second, `idle` and `walk`.
+Gltf_sample square_with_two_animations();
+
 /// A file with every feature: a node with a child, a skin of two joints, two morph targets, one of them sparse, and
 /// curves of all kinds over two seconds.
 Gltf_sample rich_gltf();

@@ -13,6 +13,7 @@
 
 #include "io/files/file_bytes.h"
 #include "io/gltf/gltf_points.h"
+#include "io/motion/animation_names.h"
 #include "lodestone/bounds/skin_bound.h"
 #include "lodestone/io/motion/computed_motion.h"
 #include "lodestone/mesh/errors.h"
@@ -25,6 +26,12 @@ constexpr std::size_t most_sampled_frames = 1'000'000;
 /// Keys farther apart are not frames: the curves between them make the motion.
 constexpr double fewest_keys_per_second = 5;
 
+std::vector<std::string> names_in(const Gltf_scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& animation : scene.animations) names.push_back(animation.name);
+  return names;
+}
+
 std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, std::string>& wanted) {
   const auto count = scene.animations.size();
   if (const auto* number = std::get_if<std::size_t>(&wanted)) {
@@ -36,7 +43,8 @@ std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, s
   const auto& name = std::get<std::string>(wanted);
   for (std::size_t i = 0; i < count; ++i)
     if (scene.animations[i].name == name) return i;
-  throw Bad_motion(fmt::format("{}: there is no animation {}", scene.name, in_quotes(name)));
+  throw Bad_motion(fmt::format("{}: there is no animation {}, the file has {}", scene.name, in_quotes(name),
+                               count > 0 ? animation_list(names_in(scene)) : "none"));
 }
 
 /// Whether nothing moves, since no curve has a second key.
@@ -167,7 +175,8 @@ Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_opti
           .frames_per_second = sampling->rate,
           .start = sampling->keys.empty() ? 0 : sampling->keys.front(),
           .resampled = std::move(resampled),
-          .computed = computed};
+          .computed = computed,
+          .animations = {.names = names_in(*scene), .played = sampling->animation}};
 }
 
 Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices, const Gltf_motion_options& options) {

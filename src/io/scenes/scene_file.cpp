@@ -88,7 +88,8 @@ Motion read_gltf(const Json_value& value, std::size_t vertices, Scene_folder& fo
   Gltf_motion_options options{.limits = folder.limits()};
   if (value.is_string()) return read_gltf_motion(folder.file(value), vertices, options);
   value.expect_keys({"file", "animation", "frames_per_second"});
-  if (const auto animation = value.find("animation")) {
+  const auto animation = value.find("animation");
+  if (animation) {
     if (animation->is_string())
       options.animation = animation->text();
     else
@@ -98,7 +99,9 @@ Motion read_gltf(const Json_value& value, std::size_t vertices, Scene_folder& fo
     options.frames_per_second = rate->number();
     if (!(*options.frames_per_second > 0)) rate->fail("expected a number > 0");
   }
-  return read_gltf_motion(folder.file(value.at("file")), vertices, options);
+  Motion motion = read_gltf_motion(folder.file(value.at("file")), vertices, options);
+  motion.animations.is_chosen = animation.has_value();
+  return motion;
 }
 
 /// Deformations start from the mesh after its placement; positions from files are transformed as they are read.

@@ -12,6 +12,7 @@
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/mesh/errors.h"
 #include "support/gltf_samples.h"
+#include "support/message_of.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
 
@@ -334,6 +335,22 @@ TEST_F(Gltf, animations_are_chosen_by_index_or_name) {
   EXPECT_THROW(read_gltf_motion(file, 5), Bad_motion);
   EXPECT_THROW(read_gltf_motion(write(square_gltf()), 4), Bad_motion);
   EXPECT_THROW(read_gltf_motion(file, 4).pose(31, positions), Bad_motion);
+}
+
+TEST_F(Gltf, an_unknown_animation_is_refused_with_the_names_that_there_are) {
+  auto sample = square_with_two_animations();
+  sample.json["animations"][1].erase("name");
+  const auto error = message_of<Bad_motion>([&] { read_animation(write(sample), {.animation = "fly"}); });
+  EXPECT_NE(error.find("there is no animation 'fly', the file has 'idle', 1"), std::string::npos) << error;
+}
+
+TEST_F(Gltf, a_motion_names_the_animations_of_its_file) {
+  const auto file = write(square_with_two_animations());
+  for (const std::size_t number : {0, 1}) {
+    const auto animations = read_animation(file, {.animation = number}).motion.animations;
+    EXPECT_EQ(animations.names, (std::vector<std::string>{"idle", "walk"}));
+    EXPECT_EQ(animations.played, number);
+  }
 }
 
 // Scenes

@@ -22,6 +22,13 @@ class Computed_motion;
 /// Frames per second of a motion whose file tells no rate, nor the caller.
 inline constexpr double usual_rate = 30;
 
+/// The animations of a file, of which a motion plays one.
+struct File_animations {
+  std::vector<std::string> names = {};  ///< of all, in the order of the file; equal or empty names are possible
+  std::size_t played = 0;               ///< the index of the one that is played
+  bool is_chosen = false;               ///< a scene says which one; else it is the first, or the caller's choice
+};
+
 /// How the vertices of one object move: a function from the frame index to all positions.
 struct Motion {
   std::size_t frames = 0;  ///< number of frames; 0: unlimited
@@ -37,6 +44,7 @@ struct Motion {
   /// The same motion of some vertices, as one whose frames need not be posed as a whole; empty: `pose` must be used.
   /// @param vertices  their indices, in the order of the file or shape
   std::function<std::unique_ptr<Computed_motion>(std::span<const std::uint32_t> vertices)> computed = {};
+  File_animations animations = {};  ///< of a glTF file; no names in other formats
 };
 
 /// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). `pose` reads each frame on demand, and several
