@@ -16,6 +16,7 @@
 #include "lodestone/io/scenes/given_objects.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
+#include "program/float_rounding.h"
 #include "program/frame_choice.h"
 #include "program/mesh_beside.h"
 #include "program/notes.h"
@@ -109,11 +110,28 @@ Animation_output_options output_options(const Animation& animation, const Conver
   return options;
 }
 
-void report(const Convert_command& command, const Animation& original, const Animation& animation, std::size_t frames) {
+/// Looks at the first frame that is written. The others mostly are as far from the origin, and reading each of them
+/// again could take long.
+void note_rounding(const Convert_command& command, const Animation& animation, std::size_t first_frame) {
+  if (!stores_floats(command.output)) return;
+  std::vector<Point> points(animation.vertices);
+  animation.motion.pose(first_frame, points);
+  const auto rounding = float_rounding(points, animation.faces);
+  if (rounding.is_coarse())
+    note(fmt::format(
+        "{}: coordinates are rounded to floats: by up to {:.2g}, which is {:.2g} % of the mesh's size; move "
+        "it to the origin first",
+        command.output.filename().string(), rounding.largest, 100 * rounding.largest / rounding.diagonal));
+}
+
+void report(const Convert_command& command, const Animation& original, const Animation& animation,
+            const std::vector<std::size_t>& frames) {
   const auto name = command.input.filename().string();
+  note_other_animations(name, original.motion.animations);
   note_cut_faces(name, original.file_face);
   note_not_kept(name, original.not_read);
-  fmt::print("{}: {} of {} vertices\n", printable(command.output.string()), counted(frames, "frame"),
+  note_rounding(command, animation, frames.front());
+  fmt::print("{}: {} of {} vertices\n", printable(command.output.string()), counted(frames.size(), "frame"),
              animation.vertices);
 }
 
@@ -127,13 +145,12 @@ int run(const Convert_command& command) {
   const auto animation = edited(original, command);
   auto options = output_options(animation, command);
   check_input_is_kept(command, animation, options.frames.size());
-  note_other_animations(name, original.motion.animations);
   {
     Progress_bar progress("convert", command.quiet);
     options.progress = [&](std::size_t done, std::size_t of) { progress(done, of); };
     write_animation(command.output, animation, options);
   }
-  if (!command.quiet) report(command, original, animation, options.frames.size());
+  if (!command.quiet) report(command, original, animation, options.frames);
   return exit_code::success;
 }
 

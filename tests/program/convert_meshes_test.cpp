@@ -54,6 +54,21 @@ TEST_F(Convert_meshes, polygons_are_written_as_triangles_and_said_so) {
   EXPECT_EQ(read_bytes(path("b.obj")), read_bytes(path("a.obj")));
 }
 
+TEST_F(Convert_meshes, rounding_to_floats_is_said_where_it_is_coarse_for_the_size_of_the_mesh) {
+  // Floats near 2^25 are four apart: corners move by up to 1, and the triangle's box has a diagonal of 25.
+  const auto far = write("far.off", "OFF\n4 1 0\n33554432 0 0\n33554447 0 0\n33554432 20 0\n0 0 0\n3 0 1 2\n");
+  const std::string note =
+      ": coordinates are rounded to floats: by up to 1, which is 4 % of the mesh's size; move it to the origin first\n";
+  for (const std::string name : {"a.stl", "a.glb", "a.gltf", "a.pc2", "a.mdd"})
+    EXPECT_NE(run_program({"convert", far, path(name)}).err.find("lodestone: " + name + note), std::string::npos)
+        << name;
+  for (const auto* exact : {"a.off", "a.obj", "a.ply"}) expect_success(run_program({"convert", far, path(exact)}));
+  expect_success(run_program({"convert", far, path("b.stl"), "--quiet"}));
+  // Six digits remain.
+  const auto near = write("near.off", "OFF\n3 1 0\n0.1 0 0\n10.1 0 0\n0.1 10.1 0\n3 0 1 2\n");
+  expect_success(run_program({"convert", near, path("b.stl")}));
+}
+
 TEST_F(Convert_meshes, what_is_not_kept_is_listed) {
   const auto rich = write("rich.obj", "mtllib a.mtl\no one\n" + square_obj + "vt 0 0\nvn 0 0 1\ng two\nusemtl red\n");
   EXPECT_EQ(run_program({"convert", rich, path("a.stl")}).err,

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "lodestone/mesh/mesh_numbering.h"
+
+namespace lodestone {
+
+/// What is lost where coordinates are written as floats.
+struct Float_rounding {
+  double largest = 0;   ///< by how much a coordinate changes at most, in units of the coordinates
+  double diagonal = 0;  ///< of the bounding box
+
+  /// Whether shapes suffer: floats of a mesh near the origin lose less.
+  bool is_coarse() const { return largest > 1e-6 * diagonal && diagonal > 0; }
+};
+
+/// Of the vertices that faces use; of all vertices if there are no faces.
+Float_rounding float_rounding(std::span<const Point> points, std::span<const Corners> faces);
+
+/// Whether `write_animation` writes floats to a file of this extension.
+bool stores_floats(const std::filesystem::path& output);
+
+}  // namespace lodestone
