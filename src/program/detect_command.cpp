@@ -63,10 +63,29 @@ void note_unquoted_pattern(const Detect_command& command) {
                     found->inputs, found->pattern.string()));
 }
 
+/// Motions of different lengths: a scene ends with the shortest, unless it says to end earlier; files that are given
+/// without a scene are played to the end of the longest.
+void note_lengths(const Scene& scene, bool is_from_file) {
+  const std::size_t least = is_from_file ? 1 : 2;  // a motion that does not end has none, a mesh that stands still one
+  const Scene_object *shortest = nullptr, *longest = nullptr;
+  for (const auto& object : scene.objects) {
+    if (object.motion.frames < least) continue;
+    if (shortest == nullptr || object.motion.frames < shortest->motion.frames) shortest = &object;
+    if (longest == nullptr || object.motion.frames > longest->motion.frames) longest = &object;
+  }
+  if (shortest == nullptr || shortest->motion.frames == longest->motion.frames) return;
+  if (is_from_file && scene.frames < shortest->motion.frames) return;
+  note(fmt::format(
+      "the shortest motion, of {}, has {}, the longest, of {}, has {}: {}", shortest->name,
+      counted(shortest->motion.frames, "frame"), longest->name, counted(longest->motion.frames, "frame"),
+      is_from_file ? "the scene ends with the shortest" : "an object whose motion has ended keeps its last pose"));
+}
+
 /// What the user reads on the terminal.
 void print_results(Detect_run& scene_run, const Detect_command& command) {
   if (command.json) return fmt::print("{}", json_text(scene_run.summary(), 2));
   if (command.quiet) return fmt::print("{}", scene_run.answer());
+  note_lengths(scene_run.scene(), command.inputs.size() == 1 && command.inputs.front().extension() == ".json");
   note_unquoted_pattern(command);
   for (const auto& object : scene_run.scene().objects) {
     note_other_animations(object.name, object.motion.animations);

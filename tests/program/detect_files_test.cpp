@@ -178,6 +178,27 @@ TEST_F(Detect_files, that_differ_only_in_a_number_may_be_a_pattern_without_quote
   expect_success(detect({inputs[1], inputs[1], inputs[1]}));
 }
 
+TEST_F(Detect_files, that_move_for_different_times_are_said_to_once) {
+  for (const std::string number : {"0", "1", "2"}) {
+    write("long_" + number + ".off", tetrahedron_off());
+    if (number != "2") write("short_" + number + ".off", tetrahedron_off());
+  }
+  const std::string start =
+      "lodestone: the shortest motion, of short, has 2 frames, the longest, of long, has 3 frames: ";
+  const auto files = detect({path("long_#.off"), path("short_#.off"), path("long_0.off")});
+  EXPECT_EQ(files.exit_code, 0);
+  EXPECT_EQ(files.err, start + "an object whose motion has ended keeps its last pose\n");
+  EXPECT_EQ(frames().size(), 3U);
+  const std::string objects = R"("objects": [
+    {"name": "long", "mesh": "long_0.off", "motion": {"sequence": "long_#.off"}}, {"name": "still", "mesh": "long_0.off"},
+    {"name": "short", "mesh": "long_0.off", "motion": {"sequence": "short_#.off"}}]})";
+  EXPECT_EQ(detect({write("scene.json", "{" + objects)}).err, start + "the scene ends with the shortest\n");
+  EXPECT_EQ(frames().size(), 2U);
+  expect_success(detect({write("scene.json", R"({"frames": 1, )" + objects)}));
+  expect_success(detect({path("long_#.off"), path("short_#.off"), "--quiet"}));
+  expect_success(detect({path("long_#.off"), path("long_0.off")}));
+}
+
 TEST_F(Detect_files, a_point_cache_is_played_with_its_mesh) {
   const auto mesh = write("a.off", tetrahedron_off());
   auto bytes = std::string("POINTCACHE2\0", 12) + packed<std::int32_t>({1, 4}) + packed<float>({0, 1}) +
@@ -195,6 +216,21 @@ TEST_F(Detect_files, an_animation_of_gltf_is_played_as_long_as_info_says) {
   const Json info = Json::parse(run_program({"info", file, "--json"}).out);
   EXPECT_EQ(info["frames"], 61);
   EXPECT_EQ(frames().size(), 61U);
+}
+
+TEST_F(Detect_files, of_gltf_with_several_animations_play_the_first_and_say_so_unless_a_scene_chooses) {
+  const std::string note =
+      ": plays the animation 'idle', the first of 2: 'idle', 'walk'; `gltf.animation` of a scene chooses another\n";
+  const auto file = write("walk.glb", square_with_two_animations().glb());
+  const auto result = detect({file, write("still.off", tetrahedron_off(9))});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "lodestone: walk" + note);
+  // Chosen, and then sampled at the rate of the other.
+  const auto scene = write("scene.json", R"({"objects": [
+    {"name": "chosen", "mesh": "walk.glb", "motion": {"gltf": {"file": "walk.glb", "animation": "idle"}}},
+    {"name": "first", "mesh": "walk.glb", "motion": {"gltf": {"file": "walk.glb", "frames_per_second": 10}}}]})");
+  EXPECT_EQ(detect({scene}).err, "lodestone: first" + note);
+  expect_success(detect({scene, "--quiet"}));
 }
 
 TEST_F(Detect_files, shapes_and_objects_of_scenes_are_inputs) {
@@ -218,21 +254,6 @@ TEST_F(Detect_files, shapes_and_objects_of_scenes_are_inputs) {
 TEST_F(Detect_files, a_scene_of_one_object_is_refused_unless_its_own_faces_are_asked_about) {
   write("a.off", tetrahedron_off());
   const auto scene = write("scene.json", R"({"objects": [{"name": "a", "mesh": "a.off"}]})");
-TEST_F(Detect_files, of_gltf_with_several_animations_play_the_first_and_say_so_unless_a_scene_chooses) {
-  const std::string note =
-      ": plays the animation 'idle', the first of 2: 'idle', 'walk'; `gltf.animation` of a scene chooses another\n";
-  const auto file = write("walk.glb", square_with_two_animations().glb());
-  const auto result = detect({file, write("still.off", tetrahedron_off(9))});
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "lodestone: walk" + note);
-  // Chosen, and then sampled at the rate of the other.
-  const auto scene = write("scene.json", R"({"objects": [
-    {"name": "chosen", "mesh": "walk.glb", "motion": {"gltf": {"file": "walk.glb", "animation": "idle"}}},
-    {"name": "first", "mesh": "walk.glb", "motion": {"gltf": {"file": "walk.glb", "frames_per_second": 10}}}]})");
-  EXPECT_EQ(detect({scene}).err, "lodestone: first" + note);
-  expect_success(detect({scene, "--quiet"}));
-}
-
   expect_error(run_program({"detect", scene}), 2,
                "scene.json: one object alone has nothing to collide with; add another to the scene, or --self");
   expect_success(run_program({"detect", scene, "--self"}));
