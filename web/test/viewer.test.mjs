@@ -146,6 +146,14 @@ describe('the viewer', () => {
     }
   });
 
+  test('of a pair that was not found, only a mode that may miss collisions says that it may not be apart', async () => {
+    for (const [kind, words] of [['small', 'apart or not found'], ['exact', 'apart']]) {
+      const page = await open_kind(kind);
+      await page.evaluate((n) => window.lodestone.goto(n), container(kind).log.findIndex(({ positive }) => !positive));
+      assert.equal(await page.textContent('#pairs .state'), words);
+    }
+  });
+
   test('every layer and every object can be hidden and changed, by click and by hook', async () => {
     const { log } = container('small');
     const page = await open_kind('small');

@@ -47,7 +47,8 @@ class Rows {
 /** @param {import('./container.mjs').Page} page @returns {(frame: number) => void} shows those of a frame */
 export function make_numbers(page) {
   const statistics = new Rows(by_id('statistics'), figure_row);
-  const pairs = new Rows(by_id('pairs'), pair_row);
+  const misses_nothing = ['exact', 'certified'].includes(page.header.mode);
+  const pairs = new Rows(by_id('pairs'), (name) => pair_row(name, misses_nothing ? 'apart' : 'apart or not found'));
   // Building, which is in the first frame alone, would make all other bars short.
   const every_frame = ({ microseconds: { build, ...others } }) => Object.values(others);
   const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(every_frame));
@@ -81,12 +82,13 @@ function figure_row(key) {
   return { nodes: [element('div', {}, element('dt', { textContent: names[key] ?? words_of(key) }), value)], set };
 }
 
-function pair_row(name) {
+/** @param {string} name @param {string} otherwise what to say of a pair of which the frame found nothing */
+function pair_row(name, otherwise) {
   const state = element('span', { className: 'state' });
   const set = (pair) => {
     const missed = pair.truth && !pair.collides;
     const faces = pair.faces ? `, ${pair.faces.length}${pair.capped ? ' or more' : ''} face ${pair.faces.length === 1 ? 'pair' : 'pairs'}` : '';
-    set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.near ? `near${faces}` : pair.inside ? `${pair.inside} inside` : 'apart or not found');
+    set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.near ? `near${faces}` : pair.inside ? `${pair.inside} inside` : otherwise);
     state.className = `state ${pair.collides ? 'confirmed' : missed ? 'missed' : ''}`;
   };
   return { nodes: [element('li', {}, element('span', { className: 'name', textContent: name }), state)], set };

@@ -37,10 +37,15 @@ Pattern parse(const fs::path& pattern) {
           .width = name[first] == '*' ? 0 : last + 1 - first};
 }
 
+/// Whether the name has something at the place of the number.
+bool surrounds_something(const std::string& name, const Pattern& pattern) {
+  return name.size() > pattern.before.size() + pattern.after.size() && name.starts_with(pattern.before) &&
+         name.ends_with(pattern.after);
+}
+
 /// The digits of the number in a file name; nothing if the name does not match the pattern.
 std::optional<std::string> digits_of(const std::string& name, const Pattern& pattern) {
-  if (name.size() <= pattern.before.size() + pattern.after.size()) return std::nullopt;
-  if (!name.starts_with(pattern.before) || !name.ends_with(pattern.after)) return std::nullopt;
+  if (!surrounds_something(name, pattern)) return std::nullopt;
   auto number = name.substr(pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
   if (number.find_first_not_of(all_digits) != number.npos) return std::nullopt;
   const bool padded = number.size() == pattern.width || (number.size() > pattern.width && number.front() != '0');
@@ -63,10 +68,19 @@ void check_no_gap(const Numbered& files, const Pattern& pattern) {
     if (next->first == file->first + 1) continue;
     const auto width = digits_of(file->second.filename().string(), pattern)->size();
     const auto missing = fmt::format("{}{:0{}}{}", pattern.before, file->first + 1, width, pattern.after);
-    throw Bad_motion(fmt::format("{}: there is no such file, but {} and {} exist",
-                                 (file->second.parent_path() / missing).string(), file->second.filename().string(),
-                                 next->second.filename().string()));
+    throw Bad_motion(
+        fmt::format("{}: there is no such file, but {} and {} exist; where numbers are left out on "
+                    "purpose, list the files in a scene, as its `motion.sequence`",
+                    (file->second.parent_path() / missing).string(), file->second.filename().string(),
+                    next->second.filename().string()));
   }
+}
+
+/// Why a file whose name is that of the pattern but for the number does not count.
+std::string reason_against(const std::string& name, const Pattern& pattern) {
+  return fmt::format("; {} stands for a whole number{}, which {} does not have there",
+                     pattern.width == 0 ? "*" : std::string(pattern.width, '#'),
+                     pattern.width == 0 ? "" : fmt::format(" of {} digits, with zeros in front", pattern.width), name);
 }
 
 }  // namespace
@@ -86,8 +100,12 @@ std::vector<fs::path> find_numbered_files(const fs::path& pattern) {
   if (error) throw Bad_motion(fmt::format("{}: the folder cannot be read: {}", folder.string(), error.message()));
 
   Numbered files;
+  std::string without_number;  // the first name that would match if any text were a number
   for (; entries != fs::directory_iterator(); entries.increment(error)) {
-    const auto number = digits_of(entries->path().filename().string(), parts);
+    const auto name = entries->path().filename().string();
+    const auto number = digits_of(name, parts);
+    if (!number && surrounds_something(name, parts) && (without_number.empty() || name < without_number))
+      without_number = name;
     if (!number) continue;
     const auto file = pattern.parent_path() / entries->path().filename();
     const auto [same, is_new] = files.emplace(value_of(*number, file), file);
@@ -98,7 +116,9 @@ std::vector<fs::path> find_numbered_files(const fs::path& pattern) {
   }
   // An error ends the iteration, too.
   if (error) throw Bad_motion(fmt::format("{}: the folder cannot be read: {}", folder.string(), error.message()));
-  if (files.empty()) throw Bad_motion(fmt::format("{}: there is no such file", pattern.string()));
+  if (files.empty())
+    throw Bad_motion(fmt::format("{}: there is no such file{}", pattern.string(),
+                                 without_number.empty() ? "" : reason_against(without_number, parts)));
   check_no_gap(files, parts);
 
   std::vector<fs::path> result;

@@ -58,9 +58,9 @@ const Mesh_format& format_of(const std::filesystem::path& file) {
   if (format == formats.end() && !exists(file, ignored))
     throw Bad_mesh(fmt::format("{}: there is no such file", file.string()));
   if (format == formats.end())
-    throw Bad_mesh(
-        fmt::format("{}: expected a file .off, .obj, .ply, .stl, .gltf, .glb, .md2 or .md3, found extension {}",
-                    file.string(), in_quotes(extension)));
+    throw Bad_mesh(fmt::format("{}: {}expected a file .off, .obj, .ply, .stl, .gltf, .glb, .md2 or .md3{}",
+                               file.string(), is_directory(file, ignored) ? "this is a directory; " : "",
+                               is_directory(file, ignored) ? "" : ", found extension " + in_quotes(extension)));
   return *format;
 }
 

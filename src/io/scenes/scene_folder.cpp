@@ -27,7 +27,9 @@ fs::path Scene_folder::path_of(const std::string& name, const Json_value& value)
   std::error_code error;
   const bool inside = is_inside(folder_, name, error);
   if (error) value.fail(fmt::format("{} cannot be followed: {}", as_json(name), error.message()));
-  if (!inside && !options_.allow_outside) value.fail(fmt::format("{} is not inside the scene's folder", as_json(name)));
+  if (!inside && !options_.allow_outside)
+    value.fail(
+        fmt::format("{} is not inside the scene's folder; the option `allow_outside` allows that", as_json(name)));
   found_.push_back(folder_ / name);
   return found_.back();
 }

@@ -66,8 +66,17 @@ TEST_F(Numbered_files, missing_files_are_named) {
   expect_error("f*.off", (folder.path() / "f3.off").string() + ": there is no such file, but f2.off and f4.off exist");
   make({"g0099.off", "g0102.off"});
   expect_error("g*.off", "g0100.off: there is no such file");
+  expect_error("g*.off", "list the files in a scene, as its `motion.sequence`");
   expect_error("h*.off", "h*.off: there is no such file");
   expect_error("none/h*.off", "none: the folder cannot be read");
+}
+
+TEST_F(Numbered_files, names_without_a_number_are_explained_if_there_are_no_others) {
+  make({"f_b.off", "f_a.off"});
+  expect_error("f_*.off", "f_*.off: there is no such file; * stands for a whole number, which f_a.off does not have");
+  make({"g7.off"});
+  expect_error("g##.off",
+               "; ## stands for a whole number of 2 digits, with zeros in front, which g7.off does not have");
 }
 
 TEST_F(Numbered_files, two_files_with_one_number_and_a_number_too_large_are_refused) {

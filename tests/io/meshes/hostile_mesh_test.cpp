@@ -60,6 +60,7 @@ TEST_F(Hostile_mesh, a_folder_is_refused) {
   const auto inner = folder.path() / "folder.off";
   create_directory(inner);
   expect_error(inner, ": this is a directory");
+  expect_error(folder.path(), ": this is a directory; expected a file .off, .obj");
 }
 
 TEST_F(Hostile_mesh, an_empty_file_is_refused) {
