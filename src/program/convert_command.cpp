@@ -10,6 +10,7 @@
 
 #include "io/files/small_text.h"
 #include "io/gltf/gltf_scene.h"
+#include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/animation_edits.h"
 #include "lodestone/io/results/animation_output.h"
@@ -21,6 +22,7 @@
 #include "program/mesh_beside.h"
 #include "program/notes.h"
 #include "program/progress.h"
+#include "program/slurm_scripts.h"
 
 namespace lodestone {
 
@@ -69,13 +71,17 @@ std::vector<Region_index> regions_of(const Animation& animation, std::size_t fra
   return regions;
 }
 
+bool is_point_cache(const fs::path& file) {
+  const auto extension = lower_case(file.extension().string());
+  return extension == ".pc2" || extension == ".mdd";
+}
+
 /// What needs faces: an option, or the format of the output; empty if nothing does.
 std::string use_of_faces(const Convert_command& command) {
   if (command.regions > 0) return "--regions";
   if (command.weld) return "--weld";
   if (command.subdivisions > 0) return "--subdivide";
-  const auto extension = lower_case(command.output.extension().string());
-  return extension == ".pc2" || extension == ".mdd" ? "" : extension;
+  return is_point_cache(command.output) ? "" : lower_case(command.output.extension().string());
 }
 
 void check_colours(const Convert_command& command) {
@@ -121,7 +127,34 @@ void note_rounding(const Convert_command& command, const Animation& animation, s
     note(fmt::format(
         "{}: coordinates are rounded to floats: by up to {:.2g}, which is {:.2g} % of the mesh's size; move "
         "it to the origin first",
-        command.output.filename().string(), rounding.largest, 100 * rounding.largest / rounding.diagonal));
+        command.output.string(), rounding.largest, 100 * rounding.largest / rounding.diagonal));
+}
+
+/// A point cache of the input has its faces in another file, which the user has. Edited faces are in none.
+void note_faces_not_kept(const Convert_command& command, const Animation& animation) {
+  const bool are_edited = command.weld || command.subdivisions > 0;
+  const bool are_elsewhere = !are_edited && (animation.kind == "pc2" || animation.kind == "mdd");
+  if (!is_point_cache(command.output) || animation.faces.empty() || are_elsewhere) return;
+  std::vector<std::string> words{"convert", command.input.string(),
+                                 fs::path(command.output).replace_extension(".off").string(), "--frames", "0"};
+  if (!command.mesh.empty()) words.insert(words.end(), {"--mesh", command.mesh.string()});
+  if (command.weld) words.insert(words.end(), {"--weld", fmt::format("{}", *command.weld)});
+  if (command.subdivisions > 0) words.insert(words.end(), {"--subdivide", std::to_string(command.subdivisions)});
+  note(fmt::format("{}: faces are not kept: a point cache has none; `{}` writes them", command.output.string(),
+                   shell_words(words)));
+}
+
+/// Files of an earlier, longer run would be read with those of this one.
+void note_other_files(const Convert_command& command, std::size_t frames) {
+  if (!is_pattern(command.output) || is_point_cache(command.output) || is_gltf(command.output)) return;
+  std::set<std::string> written;
+  for (const auto& file : files_of(command.output, frames)) written.insert(file.filename().string());
+  const auto found = names_that_match(command.output);
+  const auto others = std::ranges::count_if(found, [&](const auto& name) { return !written.contains(name); });
+  if (others > 0)
+    note(fmt::format("{}: {}", command.output.string(),
+                     others == 1 ? "1 other file matches; it was there before"
+                                 : fmt::format("{} other files match; they were there before", others)));
 }
 
 void report(const Convert_command& command, const Animation& original, const Animation& animation,
@@ -130,7 +163,9 @@ void report(const Convert_command& command, const Animation& original, const Ani
   note_other_animations(name, original.motion.animations);
   note_cut_faces(name, original.file_face);
   note_not_kept(name, original.not_read);
+  note_faces_not_kept(command, animation);
   note_rounding(command, animation, frames.front());
+  note_other_files(command, frames.size());
   fmt::print("{}: {} of {} vertices\n", printable(command.output.string()), counted(frames.size(), "frame"),
              animation.vertices);
 }

@@ -60,7 +60,7 @@ TEST_F(Convert_meshes, rounding_to_floats_is_said_where_it_is_coarse_for_the_siz
   const std::string note =
       ": coordinates are rounded to floats: by up to 1, which is 4 % of the mesh's size; move it to the origin first\n";
   for (const std::string name : {"a.stl", "a.glb", "a.gltf", "a.pc2", "a.mdd"})
-    EXPECT_NE(run_program({"convert", far, path(name)}).err.find("lodestone: " + name + note), std::string::npos)
+    EXPECT_NE(run_program({"convert", far, path(name)}).err.find("lodestone: " + path(name) + note), std::string::npos)
         << name;
   for (const auto* exact : {"a.off", "a.obj", "a.ply"}) expect_success(run_program({"convert", far, path(exact)}));
   expect_success(run_program({"convert", far, path("b.stl"), "--quiet"}));

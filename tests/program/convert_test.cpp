@@ -100,6 +100,36 @@ TEST_F(Convert, says_which_animation_of_gltf_it_takes) {
   convert("walk.glb", "b.glb");
 }
 
+TEST_F(Convert, says_how_to_get_the_faces_that_a_point_cache_does_not_keep) {
+  folder.write("walk 2.glb", square_gltf().glb());
+  for (const std::string name : {"a.pc2", "a.mdd"}) {
+    const auto result = run_program({"convert", path("walk 2.glb"), path(name)});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "lodestone: " + path(name) + ": faces are not kept: a point cache has none; `convert '" +
+                              path("walk 2.glb") + "' " + path("a.off") + " --frames 0` writes them\n");
+  }
+  convert("walk 2.glb", "a.off", {"--frames", "0"});
+  EXPECT_EQ(read_animation(path("a.off")).faces, read_animation(path("walk 2.glb")).faces);
+  const auto mesh = path("a.off");
+  expect_success(run_program({"convert", path("a.pc2"), path("b.mdd")}));
+  expect_success(run_program({"convert", path("a.pc2"), path("b.mdd"), "--mesh", mesh}));
+  const auto edited = run_program({"convert", path("a.pc2"), path("b.mdd"), "--mesh", mesh, "--subdivide", "2"});
+  EXPECT_NE(edited.err.find("b.off --frames 0 --mesh " + mesh + " --subdivide 2` writes them"), std::string::npos)
+      << edited.err;
+}
+
+TEST_F(Convert, counts_the_files_of_an_earlier_run_that_match_the_pattern) {
+  const auto out = path("h/q_#.obj");
+  expect_success(run_program({"convert", path("f*.off"), out}));
+  const auto shorter = run_program({"convert", path("f*.off"), out, "--frames", "0:1"});
+  EXPECT_EQ(shorter.exit_code, 0);
+  EXPECT_EQ(shorter.err, "lodestone: " + out + ": 10 other files match; they were there before\n");
+  const auto longer = run_program({"convert", path("f*.off"), out, "--frames", "0:10"});
+  EXPECT_EQ(longer.err, "lodestone: " + out + ": 1 other file matches; it was there before\n");
+  expect_success(run_program({"convert", path("f*.off"), out}));
+  expect_success(run_program({"convert", path("f*.off"), out, "--frames", "0", "--quiet"}));
+}
+
 TEST_F(Convert, colours_regions) {
   convert("f*.off", "a.gltf", {"--regions", "2"});
   const auto json = read_json(path("a.gltf"));

@@ -42,8 +42,8 @@ class Faults : public testing::Test {
     std::vector<Arguments> all{{"detect", input, "--out", path("out")},
                                {"detect", input, "--out", path("out"), "--shard", "1/2"},
                                {"detect", input, "--paraview", path("paraview")},
-                               {"convert", object, path("a.pc2")},
-                               {"convert", object, path("a.mdd")},
+                               {"convert", object, path("a.pc2"), "--quiet"},
+                               {"convert", object, path("a.mdd"), "--quiet"},
                                {"convert", object, path("a.glb"), "--frames", last_of_glb, "--subdivide", "2"},
                                {"convert", object, path("meshes/a_####.ply")}};
     if (LODESTONE_HAS_VIEWER) all.push_back({"detect", input, "--html", path("a.html"), "--html-frames", "10"});

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "lodestone/mesh/errors.h"
 
@@ -76,6 +77,10 @@ void check_no_gap(const Numbered& files, const Pattern& pattern) {
   }
 }
 
+fs::path folder_of(const fs::path& pattern) {
+  return pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
+}
+
 /// Why a file whose name is that of the pattern but for the number does not count.
 std::string reason_against(const std::string& name, const Pattern& pattern) {
   return fmt::format("; {} stands for a whole number{}, which {} does not have there",
@@ -92,9 +97,20 @@ fs::path numbered_file(const fs::path& pattern, std::size_t number) {
   return pattern.parent_path() / fmt::format("{}{:0{}}{}", before, number, width, after);
 }
 
+std::vector<std::string> names_that_match(const fs::path& pattern) {
+  const auto parts = parse(pattern);
+  std::error_code error;
+  std::vector<std::string> names;
+  for (fs::directory_iterator entries(folder_of(pattern), error); !error && entries != fs::directory_iterator();
+       entries.increment(error))
+    if (auto name = entries->path().filename().string(); digits_of(name, parts)) names.push_back(std::move(name));
+  std::ranges::sort(names);
+  return names;
+}
+
 std::vector<fs::path> find_numbered_files(const fs::path& pattern) {
   const auto parts = parse(pattern);
-  const auto folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
+  const auto folder = folder_of(pattern);
   std::error_code error;
   fs::directory_iterator entries(folder, error);
   if (error) throw Bad_motion(fmt::format("{}: the folder cannot be read: {}", folder.string(), error.message()));

@@ -97,6 +97,14 @@ TEST_F(Numbered_files, need_exactly_one_mark_in_the_name) {
   EXPECT_FALSE(is_pattern("a*/f.off"));
 }
 
+TEST_F(Numbered_files, names_that_match_are_all_that_have_a_number) {
+  make({"f1.off", "f01.off", "f7.off", "f.off", "fa.off", "f1.obj"});
+  EXPECT_EQ(names_that_match(folder.path() / "f*.off"), (Names{"f01.off", "f1.off", "f7.off"}));
+  EXPECT_EQ(names_that_match(folder.path() / "f##.off"), Names{"f01.off"});
+  EXPECT_EQ(names_that_match(folder.path() / "none/f*.off"), Names{});
+  EXPECT_THROW(names_that_match(folder.path() / "f.off"), Bad_argument);
+}
+
 TEST_F(Numbered_files, get_their_names_for_writing_from_the_pattern) {
   EXPECT_EQ(numbered_file("a/f####.off", 7), "a/f0007.off");
   EXPECT_EQ(numbered_file("a/f####.off", 123456), "a/f123456.off");

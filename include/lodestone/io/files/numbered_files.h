@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 /// One file per frame, numbered in the name.
@@ -24,5 +25,10 @@ std::filesystem::path numbered_file(const std::filesystem::path& pattern, std::s
 /// @throws Bad_motion    no such folder, no matching file, two files with the same number, a number missing between the
 ///                       first and the last
 std::vector<std::filesystem::path> find_numbered_files(const std::filesystem::path& pattern);
+
+/// The names of all files of a pattern, without their folder, sorted. Numbers may be missing, and several names may
+/// have the same number. None if the folder cannot be read.
+/// @throws Bad_argument  not a pattern
+std::vector<std::string> names_that_match(const std::filesystem::path& pattern);
 
 }  // namespace lodestone
