@@ -190,7 +190,8 @@ TEST_F(Detect_files, that_move_for_different_times_are_said_to_once) {
   EXPECT_EQ(files.err, start + "an object whose motion has ended keeps its last pose\n");
   EXPECT_EQ(frames().size(), 3U);
   const std::string objects = R"("objects": [
-    {"name": "long", "mesh": "long_0.off", "motion": {"sequence": "long_#.off"}}, {"name": "still", "mesh": "long_0.off"},
+    {"name": "long", "mesh": "long_0.off", "motion": {"sequence": "long_#.off"}},
+    {"name": "still", "mesh": "long_0.off"},
     {"name": "short", "mesh": "long_0.off", "motion": {"sequence": "short_#.off"}}]})";
   EXPECT_EQ(detect({write("scene.json", "{" + objects)}).err, start + "the scene ends with the shortest\n");
   EXPECT_EQ(frames().size(), 2U);

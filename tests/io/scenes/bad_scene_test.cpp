@@ -263,20 +263,17 @@ TEST(Bad_scene_file, patterns_that_name_no_sequence_are_refused) {
 // ---- Files ----
 
 TEST(Bad_scene_file, paths_that_leave_the_folder_are_refused) {
+  const std::string outside = R"(" is not inside the scene's folder; the option `allow_outside` allows that)";
   for (const std::string bad : {"../a.off", "x/../../a.off", "/etc/passwd", "..", "."})
     EXPECT_EQ(error_of(with_object(R"("mesh": ")" + bad + R"(")")),
-              R"(scene.json: /objects/0/mesh: ")" + bad +
-                  R"(" is not inside the scene's folder; the option `allow_outside` allows that)");
-  EXPECT_EQ(
-      error_of(with_object(R"("mesh": "a.off", "motion": {"pc2": "../a.pc2"})")),
-      R"(scene.json: /objects/0/motion/pc2: "../a.pc2" is not inside the scene's folder; the option `allow_outside` allows that)");
-  EXPECT_EQ(
-      error_of(with_object(R"("mesh": "a.off", "motion": {"sequence": ["a.off", "../b.off"]})")),
-      R"(scene.json: /objects/0/motion/sequence/1: "../b.off" is not inside the scene's folder; the option `allow_outside` allows that)");
-  EXPECT_EQ(
-      error_of(
-          with_object(R"("mesh": "a.off", "motion": {"sequence": {"pattern": "../#.off", "first": 1, "last": 1}})")),
-      R"(scene.json: /objects/0/motion/sequence/pattern: "../1.off" is not inside the scene's folder; the option `allow_outside` allows that)");
+              R"(scene.json: /objects/0/mesh: ")" + bad + outside);
+  EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "motion": {"pc2": "../a.pc2"})")),
+            R"(scene.json: /objects/0/motion/pc2: "../a.pc2)" + outside);
+  EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "motion": {"sequence": ["a.off", "../b.off"]})")),
+            R"(scene.json: /objects/0/motion/sequence/1: "../b.off)" + outside);
+  EXPECT_EQ(error_of(with_object(
+                R"("mesh": "a.off", "motion": {"sequence": {"pattern": "../#.off", "first": 1, "last": 1}})")),
+            R"(scene.json: /objects/0/motion/sequence/pattern: "../1.off)" + outside);
 }
 
 TEST(Bad_scene_file, an_absolute_path_is_refused_even_to_a_file_inside_the_folder) {
