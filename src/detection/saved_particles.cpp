@@ -129,8 +129,8 @@ void Particle_object::Saved::check(std::span<const Corners> corners, std::size_t
     State_reader::require(labels[particles.at[region]] == region, "a particle is not in its region");
 }
 
-/// Particles and the edges by which directions are found are where the surface has faces, with seams closed. There is
-/// no particle only where all faces are points.
+/// Particles and the edges by which directions are found are where the surface has faces, with seams closed. Only where
+/// all faces are points they may be anywhere, and there may be no particle.
 void Particle_object::Saved::check_places(std::span<const Corners> corners) const {
   const auto place_of = [&](std::uint32_t vertex) { return joined.empty() ? vertex : joined[vertex]; };
   std::vector<bool> has_faces(labels.size(), false);
@@ -140,7 +140,9 @@ void Particle_object::Saved::check_places(std::span<const Corners> corners) cons
     has_edge = has_edge || place_of(a) != place_of(b) || place_of(b) != place_of(c);
   }
   State_reader::require(!particles.at.empty() || !has_edge, "it has no particle");
-  const auto on_surface = [&](std::uint32_t vertex) { return vertex < has_faces.size() && has_faces[vertex]; };
+  const auto on_surface = [&](std::uint32_t vertex) {
+    return vertex < has_faces.size() && (has_faces[vertex] || !has_edge);
+  };
   State_reader::require(std::ranges::all_of(particles.at, on_surface), "a particle is not on the surface");
   State_reader::require(
       std::ranges::all_of(homes, [&](const Home& home) { return on_surface(home.vertex) && on_surface(home.compass); }),

@@ -68,8 +68,9 @@ std::optional<Closed_seams> close_seams(std::span<const Corners> faces, const st
 std::optional<Closed_seams> seams_of(std::span<const Corners> faces, std::span<const std::uint32_t> joined) {
   for (std::uint32_t v = 0; v < joined.size(); ++v)
     if (joined[v] > v || joined[joined[v]] != joined[v]) return std::nullopt;
+  const auto join_corners = [&](std::uint32_t v, std::uint32_t w) { return v != w && joined[v] == joined[w]; };
   for (const auto& [a, b, c] : faces)
-    if (joined[a] == joined[b] || joined[b] == joined[c] || joined[c] == joined[a]) return std::nullopt;
+    if (join_corners(a, b) || join_corners(b, c) || join_corners(c, a)) return std::nullopt;
   return join(faces, joined);
 }
 

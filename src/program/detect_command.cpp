@@ -55,6 +55,13 @@ void write_results(Detect_run& scene_run, std::optional<Atomic_file>& frames, co
   if (scene_run.paraview() != nullptr) scene_run.paraview()->commit();
 }
 
+void note_single_object(const Scene& scene, const Detect_command& command) {
+  if (scene.objects.size() == 1 && !command.options.exact.self_collision)
+    note(fmt::format("{}: one object alone has nothing to collide with; add another to the scene, or --self for "
+                     "collisions with itself",
+                     command.inputs.front().string()));
+}
+
 void note_unquoted_pattern(const Detect_command& command) {
   if (const auto found = find_unquoted_pattern(command.inputs))
     note(
@@ -86,6 +93,7 @@ void print_results(Detect_run& scene_run, const Detect_command& command) {
   if (command.json) return fmt::print("{}", json_text(scene_run.summary(), 2));
   if (command.quiet) return fmt::print("{}", scene_run.answer());
   note_lengths(scene_run.scene(), command.inputs.size() == 1 && command.inputs.front().extension() == ".json");
+  note_single_object(scene_run.scene(), command);
   note_unquoted_pattern(command);
   for (const auto& object : scene_run.scene().objects) {
     note_other_animations(object.name, object.motion.animations);

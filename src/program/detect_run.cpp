@@ -17,19 +17,11 @@ bool is_scene(const std::filesystem::path& input) { return input.extension() == 
 
 Scene load(const Detect_command& command) {
   const auto& inputs = command.inputs;
-  const bool looks_within = command.options.exact.self_collision;
-  if (inputs.size() == 1 && is_scene(inputs[0])) {
-    Scene scene = read_scene(inputs[0], command.reading);
-    if (scene.objects.size() == 1 && !looks_within)
-      throw Bad_argument(inputs[0].string() +
-                         ": one object alone has nothing to collide with; add another to the scene, or --self for "
-                         "collisions with itself");
-    return scene;
-  }
+  if (inputs.size() == 1 && is_scene(inputs[0])) return read_scene(inputs[0], command.reading);
   for (const auto& input : inputs)
     if (is_scene(input)) throw Bad_argument(input.string() + ": a scene must be the only input");
   Scene scene = scene_of(inputs, command.reading);
-  if (inputs.size() == 1 && !looks_within)
+  if (inputs.size() == 1 && !command.options.exact.self_collision)
     throw Bad_argument(inputs[0].string() +
                        ": one mesh alone has nothing to collide with; give a scene or two meshes, or --self for "
                        "collisions with itself");

@@ -43,7 +43,9 @@ class Direction {
       const auto& p = points[i];
       const Eigen::Vector3d away = Eigen::Vector3d(p[0], p[1], p[2]) - origin_;
       const double error = roundings * along_.cwiseAbs().dot(away.cwiseAbs()) + lost;
-      most = std::max(most, sense * along_.dot(away) + error);
+      const double reach = sense * along_.dot(away) + error;
+      if (std::isnan(reach)) return std::numeric_limits<double>::infinity();  // products overflow: nothing is proved
+      most = std::max(most, reach);
     }
     return most;
   }

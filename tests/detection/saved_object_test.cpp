@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <random>
 #include <string>
 
 #include "detection/detector_scenes.h"
 #include "lodestone/volumes/all.h"
 #include "support/exact_truth.h"
+#include "support/face_soup.h"
 
 namespace lodestone {
 namespace {
@@ -243,6 +245,40 @@ TEST(Saved_objects, may_have_only_faces_that_are_points) {
     }
     expect_same_frame(first.detect(), second.detect());
   }
+}
+
+/// A few faces of a few vertices on a small lattice: some name a vertex twice, and some vertices have no face.
+Face_soup careless_soup(std::mt19937_64& random) {
+  const std::size_t vertices = 3 + random() % 4, faces = 1 + random() % 4, size = 1 + random() % 3;
+  Face_soup soup;
+  soup.coordinates.resize(3 * vertices);
+  for (double& x : soup.coordinates) x = static_cast<double>(random() % size);
+  soup.faces.resize(faces);
+  for (auto& face : soup.faces)
+    for (auto& corner : face) corner = static_cast<std::uint32_t>(random() % vertices);
+  return soup;
+}
+
+TEST(Saved_objects, may_name_a_vertex_twice_and_have_vertices_without_a_face) {
+  std::mt19937_64 random(1);
+  std::size_t saved_objects = 0;
+  for (std::size_t count = 0; count < 400; ++count) {
+    const Face_soup soup = careless_soup(random);
+    const Indexed_mesh mesh(soup.coordinates, soup.faces);
+    const Detector_options options{.mode = Mode::particles, .particles = 1 + count % 4, .meetings = count % 3};
+    Detector<> first(options), second(options);
+    first.add(mesh), second.add(mesh);
+    Bytes saved;
+    try {
+      saved = first.save(0);
+    } catch (const Bad_mesh&) {
+      continue;  // all vertices at one place, or edges that are too short
+    }
+    second.load(0, saved);
+    EXPECT_EQ(second.save(0), saved);
+    ++saved_objects;
+  }
+  EXPECT_GT(saved_objects, 200U);
 }
 
 TEST(Saved_objects, can_change_afterwards) {

@@ -133,7 +133,9 @@ void Detector_play::ignore(Byte_source& bytes) {
 
 void Detector_play::save_and_load(Byte_source& bytes) {
   const auto object = one_of(bytes);
-  accepts([&] { detector_.load(object, detector_.save(object)); });
+  std::vector<std::byte> saved;
+  if (!accepts([&] { saved = detector_.save(object); })) return;
+  require(accepts([&] { detector_.load(object, saved); }), "an object that was saved is refused");
 }
 
 /// An object whose motion is promised is not placed: the promise is about where its vertices are.

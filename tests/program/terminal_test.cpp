@@ -101,8 +101,7 @@ TEST_F(Terminal, shows_an_error_without_the_bar) {
   folder.write("f1.off", tetrahedron_off());
   folder.write("f2.off", "broken");
   const auto file = folder.write("broken.json", R"({"objects": [{"name": "a", "mesh": "a.off",
-    "motion": {"sequence": {"pattern": "f#.off", "first": 0, "last": 2}}},
-    {"name": "b", "mesh": "a.off"}]})");
+    "motion": {"sequence": {"pattern": "f#.off", "first": 0, "last": 2}}}]})");
   const auto session = run_on_terminal({"detect", "--mode", "particles", file.string()});
   EXPECT_EQ(session.exit_code, 3);
   EXPECT_NE(session.bytes.find("detect ["), std::string::npos);

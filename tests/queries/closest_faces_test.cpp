@@ -106,6 +106,20 @@ TEST(Closest_faces, of_shapes_far_apart_or_far_from_the_origin_are_found) {
   }
 }
 
+TEST(Closest_faces, that_share_a_corner_are_found_where_products_of_their_coordinates_overflow) {
+  const Point shared(0, -3, -4);
+  for (const double scale : {1.0, 1e153, 1e155, 1e200, 4e307}) {
+    const auto triangle = [&](const Point& p, const Point& q) {
+      Face_soup soup;
+      for (const Point& corner : {shared, p, q})
+        for (int axis = 0; axis < 3; ++axis) soup.coordinates.push_back(scale / 4 * corner[axis]);
+      soup.faces = {{0, 1, 2}};
+      return soup;
+    };
+    EXPECT_EQ(expect_closest(triangle({1, 4, 1}, {2, 2, -3}), triangle({-3, 0, 3}, {2, 1, 2})), 0) << scale;
+  }
+}
+
 TEST(Closest_faces, scale_with_powers_of_two) {
   std::mt19937_64 random(3);
   for (const auto& object : few_faces()) {
