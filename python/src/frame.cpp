@@ -197,7 +197,7 @@ void add_frames(py::module_& module) {
                              "Number of the frame, 1 for the first.")
       .def_readonly("detector", &Python_frame::detector, "The detector that found it; None: a function did.")
       .def_property_readonly("collides", [](const Python_frame& self) { return self.frame->collides(); },
-                             "Whether any two faces intersect.")
+                             "Whether any two faces intersect; `bool(frame)` is the same.")
       .def_property_readonly("near", [](const Python_frame& self) { return self.frame->near(); },
                              "Whether any two faces are nearer than the tolerance; False without one.")
       .def_property_readonly("capped", [](const Python_frame& self) { return self.frame->capped(); },
@@ -236,6 +236,7 @@ void add_frames(py::module_& module) {
                              "region, distance).")
       .def_property_readonly("statistics", [](const Python_frame& self) { return statistics_of(self.frame->statistics); },
                              "What the frame took: a dict of counts, and of the seconds of each stage.")
+      .def("__bool__", [](const Python_frame& self) { return self.frame->collides(); }, "`collides`.")
       .def("__repr__", text_of_frame);
 
   py::class_<Python_pair>(module, "Pair", "What was found about two objects a < b, or about one and itself, a = b.")
@@ -243,7 +244,7 @@ void add_frames(py::module_& module) {
       .def_property_readonly("b", [](const Python_pair& self) { return self.result.b; }, "Id of the second object.")
       .def_property_readonly("frame", [](const Python_pair& self) { return self.frame; }, "The frame it is of.")
       .def_property_readonly("collides", [](const Python_pair& self) { return self.result.collides; },
-                             "Whether two faces intersect.")
+                             "Whether two faces intersect; `bool(pair)` is the same.")
       .def_property_readonly("near", [](const Python_pair& self) { return self.result.near; },
                              "Whether two faces are nearer than the tolerance, or intersect; False without one.")
       .def_property_readonly("capped", [](const Python_pair& self) { return self.result.capped; },
@@ -276,6 +277,7 @@ void add_frames(py::module_& module) {
                              "As `Frame.depths`, of this pair.")
       .def_property_readonly("statistics", [](const Python_pair& self) { return self.frame.attr("statistics"); },
                              "As `Frame.statistics`: of the whole frame.")
+      .def("__bool__", [](const Python_pair& self) { return self.result.collides; }, "`collides`.")
       .def("__repr__", text_of_pair);
 }
 

@@ -169,13 +169,14 @@ Positions positions_of(const py::object& positions, const std::string& name) {
 
 void add_one_call(py::module_& module) {
   module.def("find_collisions", find_collisions, py::arg("a"), py::arg("b"),
-             "Finds the collisions of two meshes with one call: a Pair.\n\n"
+             "Finds the collisions of two meshes with one call: a Pair, which is true if they collide.\n\n"
              "a, b: an object with `vertices` and `faces`, or a tuple (vertices, faces). Options as of Detector; only\n"
              "what is between the two counts, so `self_collision` changes nothing.");
   module.def("self_collisions", self_collisions, py::arg("mesh"), py::arg("faces") = py::none(),
              py::arg("file_vertex") = py::none(),
-             "Finds the faces of one mesh that intersect each other: a Pair, with a = b. Faces that share a vertex count\n"
-             "where they intersect beyond it. Options as of Detector, mode 'exact'; those about two objects change nothing.\n\n"
+             "Finds the faces of one mesh that intersect each other: a Pair, with a = b, which is true if there are some.\n"
+             "Faces that share a vertex count where they intersect beyond it. Options as of Detector, mode 'exact'; those\n"
+             "about two objects change nothing.\n\n"
              "file_vertex: (V,) int; vertices with the same number are one, as at the seams of a mesh that stores them twice.");
   module.def(
       "closest",

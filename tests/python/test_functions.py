@@ -82,6 +82,21 @@ def test_self_collisions_are_those_beyond_shared_vertices():
     assert not lodestone.self_collisions(twice, file_vertex=[0, 1, 2, 0, 1, 5]).collides
 
 
+def test_frames_and_pairs_are_true_if_they_collide():
+    crossing = Mesh([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [1, -3, 0]], [[0, 1, 2], [3, 4, 5]])
+    assert bool(lodestone.self_collisions(crossing)) is True and bool(lodestone.self_collisions(cube())) is False
+    for shift, collides in [(0.5, True), (1.5, False), (9, False)]:  # with the tolerance, the second pair is near
+        pair = lodestone.find_collisions(cube(), cube().moved(shift), tolerance=1)
+        assert bool(pair) is pair.collides is collides
+        assert pair.near is (shift < 2)
+        detector = lodestone.Detector(tolerance=1)
+        detector.add(cube()), detector.add(cube().moved(shift))
+        frame = detector.detect()
+        assert bool(frame) is frame.collides is collides
+        assert all(bool(pair) is pair.collides for pair in frame.pairs)
+        assert not detector.self_collisions(0)
+
+
 def test_closest_within_contains():
     assert lodestone.closest(cube(), cube().moved(3))["distance"] == 2
     assert lodestone.within(cube(), cube().moved(3), 2.5) and not lodestone.within(cube(), cube().moved(3), 2)
