@@ -6,6 +6,7 @@
 
 #include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
+#include "lodestone/mesh/errors.h"
 #include "program/exit_codes.h"
 #include "program/installed_files.h"
 #include "program/page_file.h"
@@ -33,14 +34,16 @@ int run(const Experiment_command& command) {
   const auto own_scenes = installed_files() / "scenes";
   const auto scenes = command.scenes.empty() ? own_scenes : command.scenes;
   const std::filesystem::path out = command.out.empty() ? std::filesystem::path("out") / command.name : command.out;
+  std::error_code unreadable;
+  if (!command.scenes.empty() && !is_directory(scenes, unreadable))
+    throw Bad_scene(fmt::format("{}: there is no such folder of scenes", command.scenes.string()));
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, out);
   std::string report;
-  std::error_code no_such_folder;  // the experiment reports that
   {
     Progress_bar bar(command.name, command.quiet);
     report = experiment->run({.scenes = scenes,
-                              .scenes_given = !equivalent(scenes, own_scenes, no_such_folder),
+                              .scenes_given = !equivalent(scenes, own_scenes, unreadable),
                               .out = out,
                               .progress = std::ref(bar),
                               .only = command.only,

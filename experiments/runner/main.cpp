@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
@@ -17,6 +18,24 @@ namespace lodestone {
 
 namespace {
 
+/// What `--only` names depends on the experiment.
+constexpr const char* only_help =
+    "Scenes to play in place of all, by name (every_frame, modes, defaults, nested_codebook, volumes, peers); scenes, "
+    "characters and numbers of triangles (certified); scenes and numbers of triangles (first_answer); numbers of "
+    "triangles (threads); numbers of bodies (many_bodies); meshes and strategies (partitions)";
+
+bool reads(const Experiment& experiment, std::string_view option) {
+  return std::ranges::find(experiment.options, option) != experiment.options.end();
+}
+
+/// The experiments that read an option, as a list for a reader.
+std::string readers_of(std::string_view option) {
+  std::vector<std::string_view> names;
+  for (const auto& experiment : experiments())
+    if (reads(experiment, option)) names.push_back(experiment.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 void add_options(CLI::App& app, Experiment_command& command) {
   std::vector<std::string> names;
   std::string list = "Experiments:";
@@ -25,35 +44,34 @@ void add_options(CLI::App& app, Experiment_command& command) {
     list += fmt::format("\n  {:<20} {}", experiment.name, experiment.question);
   }
   app.add_option("NAME", command.name, "Which one")->required()->check(one_word_of(names));
-  app.add_option(
-         "--scenes", command.scenes,
-         "Folder of the scene files; modes plays all scenes of another folder than its own, and subfolders with "
-         "meshes NAME.off and their point caches NAME.pc2; certified plays the glTF files of another folder too")
+  app.add_option("--scenes", command.scenes,
+                 fmt::format("Folder of the scene files ({}); every_frame and modes play all scenes of another folder "
+                             "than that of the program, and subfolders with meshes NAME.off and their point caches "
+                             "NAME.pc2; certified plays the glTF files of another folder too",
+                             readers_of("--scenes")))
       ->type_name("DIR")
-      ->default_str("those of the program");
-  app.add_option(
-         "--only", command.only,
-         "Scenes to play in place of all, by name (peers, every_frame, modes, volumes, defaults, nested_codebook); "
-         "numbers of bodies (many_bodies); meshes and strategies (partitions); scenes and numbers of triangles "
-         "(first_answer); scenes, characters and numbers of triangles (certified)")
-      ->delimiter(',')
-      ->type_name("NAME");
-  app.add_option("--jobs", command.jobs, "Runs at a time (partitions); their times suffer")
+      ->default_str("those of the program")
+      ->check(not_empty());
+  app.add_option("--only", command.only, only_help)->delimiter(',')->type_name("NAME");
+  app.add_option("--jobs", command.jobs, fmt::format("Runs at a time ({}); their times suffer", readers_of("--jobs")))
       ->check(CLI::Range(std::size_t{1}, std::size_t{1024}))
       ->capture_default_str();
   app.add_option_function<std::string>(
          "--shard", [&command](const std::string& text) { command.shard = parse_shard(text); },
-         "Only the I-th of N parts, into --out; lodestone merge joins the parts (partitions, soak, certified_soak, "
-         "every_frame)")
+         fmt::format("Only the I-th of N parts, into --out; lodestone merge joins the parts ({})",
+                     readers_of("--shard")))
       ->type_name("I/N");
   app.add_flag("--merge-shards", command.merge_shards)->group("");  // lodestone merge gives it
-  app.add_option("--seeds", command.seeds, "Seeds 1 to N, each with its own meshes (soak, certified_soak)")
+  app.add_option("--seeds", command.seeds,
+                 fmt::format("Seeds 1 to N, each with its own meshes ({})", readers_of("--seeds")))
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->type_name("N")
       ->capture_default_str();
-  app.add_option("--strategy-file", command.strategy_files,
-                 "Labels made by another tool, such as 'labels/NAME/*.labels': they take part as strategy NAME "
-                 "(partitions)")
+  app.add_option(
+         "--strategy-file", command.strategy_files,
+         fmt::format(
+             "Labels made by another tool, such as 'labels/NAME/*.labels': they take part as strategy NAME ({})",
+             readers_of("--strategy-file")))
       ->type_name("PATTERN")
       ->check(not_empty());
   app.add_option("--write-meshes", command.write_meshes,
@@ -73,29 +91,14 @@ void add_options(CLI::App& app, Experiment_command& command) {
   app.footer(list + "\n\n" + exit_code::help);
 }
 
-/// Options that only some experiments read, and which these are.
-struct Special_option {
-  const char* name;
-  std::vector<std::string> experiments;
-};
-
-const std::vector<Special_option> special_options{
-    {"--only",
-     {"peers", "every_frame", "modes", "many_bodies", "volumes", "defaults", "nested_codebook", "partitions",
-      "first_answer", "certified", "threads"}},
-    {"--jobs", {"partitions"}},
-    {"--shard", {"partitions", "soak", "certified_soak", "every_frame"}},
-    {"--merge-shards", {"partitions", "soak", "certified_soak", "every_frame"}},
-    {"--seeds", {"soak", "certified_soak"}},
-    {"--strategy-file", {"partitions"}},
-    {"--write-meshes", {"partitions", "certified"}}};
-
 /// @throws Bad_argument  an option that the experiment would ignore
-void refuse_options_of_other_experiments(const CLI::App& app, const std::string& experiment) {
-  for (const auto& [name, takers] : special_options)
-    if (app.count(name) > 0 && std::ranges::find(takers, experiment) == takers.end())
-      throw Bad_argument(
-          fmt::format("the experiment {} ignores {}, which is for {}", experiment, name, fmt::join(takers, ", ")));
+void refuse_options_of_other_experiments(const CLI::App& app, const std::string& name) {
+  const auto experiment = std::ranges::find(experiments(), name, &Experiment::name);
+  for (const auto& other : experiments())
+    for (const auto option : other.options)
+      if (app.count(std::string(option)) > 0 && !reads(*experiment, option))
+        throw Bad_argument(
+            fmt::format("the experiment {} ignores {}, which is for {}", name, option, readers_of(option)));
 }
 
 int run_experiment(int argc, char** argv) {

@@ -17,10 +17,8 @@ struct Experiment_context {
   bool scenes_given = false;                                       ///< it is not the project's own folder
   std::filesystem::path out;                                       ///< folder that receives all figures as JSON
   std::function<void(std::size_t done, std::size_t of)> progress;  ///< called often; may throw to stop
-  /// Names of the scenes to play, or of meshes and strategies, or numbers of bodies; empty: those of the published
-  /// figures; scenes and numbers of triangles of `first_answer` and `certified`. Only these, `peers`, `every_frame`,
-  /// `modes`, `many_bodies`, `volumes`, `defaults`, `nested_codebook` and `partitions` read it. The other experiments
-  /// always play all their scenes.
+  /// Names of the scenes to play, or of meshes and strategies, or numbers of bodies or triangles, as each experiment
+  /// that reads it says; empty: those of the published figures. The other experiments always play all their scenes.
   std::vector<std::string> only = {};
 
   // For long experiments (`partitions`, `soak`, `certified_soak`, `every_frame`).
@@ -44,6 +42,8 @@ struct Experiment {
   std::string_view question;
   /// Measures, writes `<name>.json` into `out`, and returns a report in Markdown.
   std::string (*run)(const Experiment_context&);
+  /// Which of the options that not every experiment reads it does read, such as `--scenes`. Others are refused.
+  std::vector<std::string_view> options = {};
 };
 
 }  // namespace lodestone

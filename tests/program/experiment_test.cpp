@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -203,6 +205,45 @@ TEST(Experiments, have_a_name_and_a_question_each) {
     EXPECT_TRUE(names.insert(experiment.name).second);
     EXPECT_TRUE(experiment.question.ends_with('?'));
   }
+}
+
+TEST(Experiments, without_scenes_refuse_a_folder_of_scenes_and_name_those_that_read_one) {
+  const Temporary_folder folder;
+  for (const auto& experiment : experiments()) {
+    if (std::ranges::find(experiment.options, "--scenes") != experiment.options.end()) continue;
+    SCOPED_TRACE(experiment.name);
+    const auto result = run_program({"experiment", std::string(experiment.name), "--scenes", folder.path().string(),
+                                     "--out", (folder.path() / "out").string()});
+    expect_error(result, 2, "ignores --scenes, which is for teapot_sphere, scaling, ");
+    EXPECT_EQ(content_of(folder.path()), std::set<std::string>{});
+  }
+}
+
+TEST(Experiments, that_read_scenes_refuse_a_folder_that_does_not_exist) {
+  const Temporary_folder folder;
+  for (const auto& experiment : experiments()) {
+    if (std::ranges::find(experiment.options, "--scenes") == experiment.options.end()) continue;
+    SCOPED_TRACE(experiment.name);
+    const auto none = (folder.path() / "none").string();
+    const auto result = run_program(
+        {"experiment", std::string(experiment.name), "--scenes", none, "--out", (folder.path() / "out").string()});
+    expect_error(result, 3, none + ": there is no such folder of scenes");
+    EXPECT_EQ(content_of(folder.path()), std::set<std::string>{});
+  }
+}
+
+TEST(Experiments, are_named_in_the_help_of_each_option_that_they_read) {
+  const auto help = run_program({"experiment", "--help"});
+  expect_success(help);
+  for (const auto& experiment : experiments())
+    for (const auto option : experiment.options) {
+      if (option == "--merge-shards") continue;  // not in the help: lodestone merge gives it
+      const auto begin = help.out.find("\n  " + std::string(option) + ' ');
+      ASSERT_NE(begin, std::string::npos) << option;
+      const auto end = help.out.find("\n  -", begin + 1);
+      EXPECT_NE(help.out.substr(begin, end - begin).find(experiment.name), std::string::npos)
+          << option << ' ' << experiment.name;
+    }
 }
 
 TEST(Experiment_command, states_how_to_build_the_experiments_if_they_are_missing) {
