@@ -161,7 +161,8 @@ struct Plan {
 
 /// The scenes that the caller asked for; all of a folder that is not the project's own.
 std::vector<std::filesystem::path> sources_of(const Experiment_context& context) {
-  if (context.scenes_given && context.only.empty()) return scene_sources(context.scenes);
+  if (!context.only.empty()) return named_sources(context.scenes, context.only);
+  if (context.scenes_given) return scene_sources(context.scenes);
   std::vector<std::filesystem::path> sources;
   for (const auto& name : scene_names(context)) sources.push_back(context.scenes / (name + ".json"));
   return sources;

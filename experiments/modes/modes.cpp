@@ -10,10 +10,10 @@
 
 #include "lodestone/mesh/errors.h"
 #include "modes/mode_report.h"
-#include "shared/scene_sources.h"
 #include "shared/experiment.h"
 #include "shared/measured_run.h"
 #include "shared/scene_detector.h"
+#include "shared/scene_sources.h"
 
 namespace lodestone {
 
@@ -40,25 +40,6 @@ std::vector<Setting> mode_settings() {
                           {.mode = Mode::particles, .particles = particles, .meetings = most_meetings}});
   settings.push_back({"exact", {.mode = Mode::exact}});
   return settings;
-}
-
-/// @throws Bad_scene  a name that nothing in the folder has
-std::vector<std::filesystem::path> named_sources(const std::filesystem::path& folder,
-                                                 const std::vector<std::string>& wanted) {
-  const auto all = scene_sources(folder);
-  std::vector<std::filesystem::path> sources;
-  for (const auto& name : wanted) {
-    const auto found = std::ranges::find(all, name, name_of_source);
-    if (found == all.end()) {
-      std::vector<std::string> names;
-      names.reserve(all.size());
-      for (const auto& source : all) names.push_back(name_of_source(source));
-      throw Bad_scene(
-          fmt::format("{}: there is no scene {}; the scenes are {}", folder.string(), name, fmt::join(names, ", ")));
-    }
-    sources.push_back(*found);
-  }
-  return sources;
 }
 
 std::vector<std::filesystem::path> chosen_sources(const Experiment_context& context) {

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "io/files/small_text.h"
 #include "lodestone/mesh/errors.h"
 #include "shared/measured_run.h"
 
@@ -38,10 +39,12 @@ std::vector<std::string> scene_names(const Experiment_context& context) {
   std::vector<std::string> names = context.only;
   if (names.empty()) names.assign(default_scenes.begin(), default_scenes.end());
   for (const auto& name : names)
-    if (!exists(context.scenes / (name + ".json")))
-      throw Bad_scene(fmt::format("{}: there is no such scene; the scenes are {}",
-                                  (context.scenes / (name + ".json")).string(),
-                                  fmt::join(names_of_scenes(context.scenes), ", ")));
+    if (const auto file = context.scenes / (name + ".json"); !exists(file)) {
+      const auto there = names_of_scenes(context.scenes);
+      throw Bad_scene(fmt::format(
+          "{}: there is no such scene; {}", printable(file.string()),
+          there.empty() ? "the folder has no scene files" : fmt::format("the scenes are {}", fmt::join(there, ", "))));
+    }
   return names;
 }
 

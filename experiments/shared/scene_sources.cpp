@@ -2,8 +2,10 @@
 #include "shared/scene_sources.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include "io/files/small_text.h"
@@ -70,6 +72,19 @@ std::vector<fs::path> scene_sources(const fs::path& folder) {
         "caches NAME.pc2",
         folder.string()));
   std::ranges::stable_sort(sources, {}, name_of_source);
+  return sources;
+}
+
+std::vector<fs::path> named_sources(const fs::path& folder, std::span<const std::string> names) {
+  const auto all = scene_sources(folder);
+  std::vector<fs::path> sources;
+  for (const auto& name : names) {
+    const auto found = std::ranges::find(all, name, name_of_source);
+    if (found == all.end())
+      throw Bad_scene(fmt::format("{}: there is no scene {}; the scenes are {}", folder.string(), printable(name),
+                                  fmt::join(all | std::views::transform(name_of_source), ", ")));
+    sources.push_back(*found);
+  }
   return sources;
 }
 

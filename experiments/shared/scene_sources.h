@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ namespace lodestone {
 ///    folders are not searched.
 /// @throws Bad_scene  there is no such folder, or nothing in it to play
 std::vector<std::filesystem::path> scene_sources(const std::filesystem::path& folder);
+
+/// Those of the `scene_sources` of a folder that have these names, in the order of the names.
+/// @throws Bad_scene  as scene_sources; a name that nothing in the folder has
+std::vector<std::filesystem::path> named_sources(const std::filesystem::path& folder,
+                                                 std::span<const std::string> names);
 
 /// What results call a source before it is read: the file's name without its extension, or the name of the folder.
 std::string name_of_source(const std::filesystem::path& source);

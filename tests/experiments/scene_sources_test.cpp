@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
+#include "support/message_of.h"
 #include "support/moving_mesh_files.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
@@ -40,6 +41,16 @@ TEST_F(Scene_sources, are_scene_files_and_folders_of_point_caches_in_the_order_o
   folder.write("readme.txt", "");
   write_moving_tetrahedron(subfolder("b") / "left", 2);
   EXPECT_EQ(names(), (std::vector<std::string>{"a", "b", "c"}));
+}
+
+TEST_F(Scene_sources, are_found_by_name_be_they_files_or_folders) {
+  folder.write("a.json", "{}");
+  folder.write("c.json", "{}");
+  write_moving_tetrahedron(subfolder("b") / "left", 2);
+  EXPECT_EQ(named_sources(folder.path(), std::vector<std::string>{"c", "b"}),
+            (std::vector{folder.path() / "c.json", folder.path() / "b"}));
+  EXPECT_EQ(message_of<Bad_scene>([&] { named_sources(folder.path(), std::vector<std::string>{"d"}); }),
+            folder.path().string() + ": there is no scene d; the scenes are a, b, c");
 }
 
 TEST_F(Scene_sources, a_subfolder_with_a_scene_file_is_not_searched) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "program/run_program.h"
+#include "support/moving_mesh_files.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
@@ -51,11 +52,37 @@ TEST(Every_frame_experiment, gives_the_same_files_in_shards) {
     EXPECT_EQ(read_bytes(folder.path() / "parts" / file), read_bytes(folder.path() / "whole" / file));
 }
 
+TEST(Every_frame_experiment, plays_real_motion_with_and_without_only) {
+  const Temporary_folder folder;
+  for (const std::string name : {"far", "walk"}) {
+    create_directory(folder.path() / name);
+    write_moving_tetrahedron(folder.path() / name / "moving", 4, 3, name == "walk" ? -0.9 : 0);
+    write_moving_tetrahedron(folder.path() / name / "still", 4);
+  }
+  const auto scenes_of = [&](const std::vector<std::string>& more) {
+    const auto out = folder.path() / "out";
+    std::vector<std::string> words{"experiment",           "every_frame", "--scenes",
+                                   folder.path().string(), "--out",       out.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    expect_success(run_program(words));
+    std::vector<std::string> scenes;
+    for (const auto& row : read_json(out / "every_frame.json")) {
+      scenes.push_back(row["scene"]);
+      // The moving tetrahedron is at 3, 2.1, 1.2 and 0.3: it meets the other in the last of four frames.
+      EXPECT_EQ(row["intersecting"], scenes.back() == "walk" ? 1 : 0);
+    }
+    return scenes;
+  };
+  EXPECT_EQ(scenes_of({}), (std::vector<std::string>{"far", "walk"}));
+  EXPECT_EQ(scenes_of({"--only", "walk"}), std::vector<std::string>{"walk"});
+}
+
 TEST(Every_frame_experiment, refuses_a_scene_that_does_not_exist) {
   const Temporary_folder folder;
+  folder.write("there.json", "{}");
   expect_error(run_program({"experiment", "every_frame", "--scenes", folder.path().string(), "--only", "none", "--out",
                             (folder.path() / "out").string()}),
-               3, "none.json");
+               3, "there is no scene none; the scenes are there");
 }
 
 }  // namespace

@@ -64,7 +64,11 @@ TEST_F(Particle_experiments, refuse_a_scene_that_does_not_exist) {
   for (const char* experiment : {"defaults", "nested_codebook"})
     expect_error(run_program({"experiment", experiment, "--scenes", folder.path().string(), "--only", "none", "--out",
                               out.string()}),
-                 3, "none.json");
+                 3, "none.json: there is no such scene; the scenes are tiny");
+  const Temporary_folder empty;
+  expect_error(run_program({"experiment", "defaults", "--scenes", empty.path().string(), "--only", "none", "--out",
+                            out.string()}),
+               3, "none.json: there is no such scene; the folder has no scene files");
 }
 
 }  // namespace
