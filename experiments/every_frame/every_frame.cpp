@@ -147,7 +147,7 @@ constexpr std::array<std::pair<const char*, std::size_t Checked::*>, 6> counts{
      {"wrong_sets", &Checked::wrong_sets},
      {"invented", &Checked::invented}}};
 
-/// A scene file, or a folder of point caches, and its place in the list of all frames.
+/// A scene file, or a folder of real motion, and its place in the list of all frames.
 struct Scene_frames {
   std::filesystem::path source;
   std::size_t first = 0, count = 0;
@@ -230,11 +230,14 @@ std::string run_every_frame(const Experiment_context& context) {
     json.push_back(std::move(figures));
   }
   write_json(context.out, "every_frame", json);
+  std::string unplayed;
+  if (context.scenes_given && context.only.empty()) unplayed = note_of_unplayed_subfolders(context.scenes);
+  if (!unplayed.empty()) unplayed = "\n" + unplayed + "\n";
   return "Every frame puts three questions to the modes exact and certified: all face pairs with one thread, all face "
          "pairs with two threads, and yes or no. Certified is promised how far vertices move at most. What particles "
          "report, with meetings and without, and senin, may be too little, but must be true: else it is invented. The "
          "truth is exhaustive checking of all object pairs whose bounding boxes overlap.\n\n" +
-         table.text();
+         table.text() + unplayed;
 }
 
 }  // namespace lodestone

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -115,7 +114,8 @@ std::vector<Mode_figures> play(Scene scene, std::span<const Setting> settings,
   return rows;
 }
 
-std::string report(std::span<const Mode_figures> rows, std::span<const std::string> skipped) {
+std::string report(std::span<const Mode_figures> rows, std::span<const std::string> skipped,
+                   const std::string& unplayed) {
   std::string text = fmt::format(
       "Each setting answers yes or no in every frame, on one core. `no meetings` is the published method. A scene "
       "whose "
@@ -132,6 +132,7 @@ std::string report(std::span<const Mode_figures> rows, std::span<const std::stri
   text += table_of_settings(rows);
   if (!skipped.empty())
     text += fmt::format("\nSkipped, because no two of their objects can meet: {}.\n", fmt::join(skipped, ", "));
+  if (!unplayed.empty()) text += fmt::format("\n{}\n", unplayed);
   return text;
 }
 
@@ -156,7 +157,8 @@ std::string run_modes(const Experiment_context& context) {
     }
   }
   write_json(context.out, "modes", json);
-  return report(rows, chosen.skipped);
+  return report(rows, chosen.skipped,
+                context.scenes_given && context.only.empty() ? note_of_unplayed_subfolders(context.scenes) : "");
 }
 
 }  // namespace lodestone

@@ -46,8 +46,8 @@ void add_options(CLI::App& app, Experiment_command& command) {
   app.add_option("NAME", command.name, "Which one")->required()->check(one_word_of(names));
   app.add_option("--scenes", command.scenes,
                  fmt::format("Folder of the scene files ({}); every_frame and modes play all scenes of another folder "
-                             "than that of the program, and subfolders with meshes NAME.off and their point caches "
-                             "NAME.pc2; certified plays the glTF files of another folder too",
+                             "than that of the program, and subfolders with meshes NAME.off, which move if they have "
+                             "a point cache NAME.pc2; certified plays the glTF files of another folder too",
                              readers_of("--scenes")))
       ->type_name("DIR")
       ->default_str("those of the program")

@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <ranges>
+#include <string_view>
 #include <utility>
 
 #include "io/files/small_text.h"
@@ -32,23 +34,43 @@ std::vector<fs::path> sorted_content(const fs::path& folder) {
 
 bool is_scene_file(const fs::path& path) { return path.extension() == ".json" && is_regular_file(path); }
 
-/// The meshes of a folder with their point caches, as inputs `MESH+CACHE`.
-std::vector<fs::path> moving_meshes(const fs::path& folder) {
-  std::vector<fs::path> inputs;
-  for (const auto& mesh : sorted_content(folder)) {
-    const auto cache = fs::path(mesh).replace_extension(".pc2");
-    if (mesh.extension() == ".off" && is_regular_file(cache)) inputs.push_back(mesh.string() + '+' + cache.string());
-  }
-  return inputs;
+fs::path cache_of(const fs::path& mesh) { return fs::path(mesh).replace_extension(".pc2"); }
+
+bool is_mesh(const fs::path& path) { return path.extension() == ".off" && is_regular_file(path); }
+
+bool moves(const fs::path& path) { return is_mesh(path) && is_regular_file(cache_of(path)); }
+
+/// Whether a file has the name of a mesh or of motion, in any format that the library reads.
+bool is_like_a_mesh(const fs::path& path) {
+  constexpr std::array<std::string_view, 10> extensions{".off",  ".obj", ".ply", ".stl", ".glb",
+                                                        ".gltf", ".md2", ".md3", ".pc2", ".mdd"};
+  return std::ranges::find(extensions, lower_case(path.extension().string())) != extensions.end();
 }
 
 bool holds_real_motion(const fs::path& folder) {
-  return is_directory(folder) && std::ranges::none_of(sorted_content(folder), is_scene_file) &&
-         !moving_meshes(folder).empty();
+  if (!is_directory(folder)) return false;
+  const auto content = sorted_content(folder);
+  return std::ranges::none_of(content, is_scene_file) && std::ranges::any_of(content, moves);
+}
+
+std::vector<std::string> unplayed_subfolders(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& path : sorted_content(folder))
+    if (is_directory(path) && !holds_real_motion(path) && std::ranges::any_of(sorted_content(path), is_like_a_mesh))
+      names.push_back(name_of_source(path));
+  return names;
+}
+
+/// The meshes of a folder as inputs: `MESH+CACHE`, or `MESH` if it does not move.
+std::vector<fs::path> inputs_of(const fs::path& folder) {
+  std::vector<fs::path> inputs;
+  for (const auto& path : sorted_content(folder))
+    if (is_mesh(path)) inputs.push_back(moves(path) ? fs::path(path.string() + '+' + cache_of(path).string()) : path);
+  return inputs;
 }
 
 Scene read_folder(const fs::path& folder) {
-  Scene scene = scene_of(moving_meshes(folder));
+  Scene scene = scene_of(inputs_of(folder));
   scene.name = name_of_source(folder);
   return scene;
 }
@@ -66,13 +88,24 @@ std::vector<fs::path> scene_sources(const fs::path& folder) {
   std::vector<fs::path> sources;
   for (const auto& path : sorted_content(folder))
     if (is_scene_file(path) || holds_real_motion(path)) sources.push_back(path);
-  if (sources.empty())
+  if (sources.empty()) {
+    const auto unplayed = note_of_unplayed_subfolders(folder);
     throw Bad_scene(fmt::format(
         "{}: nothing to play: expected scene files NAME.json, or subfolders with meshes NAME.off and their point "
-        "caches NAME.pc2",
-        folder.string()));
+        "caches NAME.pc2{}{}",
+        folder.string(), unplayed.empty() ? "" : ". ", unplayed));
+  }
   std::ranges::stable_sort(sources, {}, name_of_source);
   return sources;
+}
+
+std::string note_of_unplayed_subfolders(const fs::path& folder) {
+  const auto names = unplayed_subfolders(folder);
+  if (names.empty()) return {};
+  return fmt::format(
+      "Not played: the meshes in {}. A subfolder is played if it has a mesh NAME.off with its point cache NAME.pc2, "
+      "and no scene file.",
+      fmt::join(names, ", "));
 }
 
 std::vector<fs::path> named_sources(const fs::path& folder, std::span<const std::string> names) {

@@ -68,7 +68,7 @@ TEST_F(Scene_sources, a_subfolder_without_a_mesh_that_has_a_point_cache_of_its_n
   EXPECT_EQ(names(), std::vector<std::string>{"a"});
 }
 
-TEST_F(Scene_sources, a_folder_of_point_caches_is_a_scene_with_its_name_and_an_object_per_stem) {
+TEST_F(Scene_sources, a_folder_of_point_caches_is_a_scene_with_its_name_and_an_object_per_mesh) {
   const auto walk = subfolder("walk");
   write_moving_tetrahedron(walk / "right", 3);
   write_moving_tetrahedron(walk / "left", 2);
@@ -76,9 +76,41 @@ TEST_F(Scene_sources, a_folder_of_point_caches_is_a_scene_with_its_name_and_an_o
   const Scene scene = read_source(walk);
   EXPECT_EQ(scene.name, "walk");
   EXPECT_EQ(scene.frames, 3U);
+  ASSERT_EQ(scene.objects.size(), 3U);
+  EXPECT_EQ(scene.objects[0].name, "floor");
+  EXPECT_EQ(scene.objects[1].name, "left");
+  EXPECT_EQ(scene.objects[2].name, "right");
+}
+
+TEST_F(Scene_sources, meshes_without_a_point_cache_do_not_move) {
+  const auto walk = subfolder("walk");
+  write_moving_tetrahedron(walk / "moving", 3, 0, 1);
+  folder.write("walk/still.off", tetrahedron_off(7));
+  Scene scene = read_source(walk);
   ASSERT_EQ(scene.objects.size(), 2U);
-  EXPECT_EQ(scene.objects[0].name, "left");
-  EXPECT_EQ(scene.objects[1].name, "right");
+  for (std::size_t frame = 0; frame < scene.frames; ++frame)
+    for (auto& object : scene.objects) {
+      pose(object, frame);
+      const double x = object.name == "moving" ? static_cast<double>(frame) : 7;
+      EXPECT_EQ(CGAL::Polygon_mesh_processing::bbox(object.mesh), CGAL::Bbox_3(x, 0, 0, x + 1, 1, 1)) << object.name;
+    }
+}
+
+TEST_F(Scene_sources, subfolders_with_meshes_that_are_not_played_are_named) {
+  folder.write("a.json", "{}");
+  write_moving_tetrahedron(subfolder("played") / "left", 2);
+  EXPECT_EQ(note_of_unplayed_subfolders(folder.path()), "");
+  subfolder("figures"), subfolder("still"), subfolder("objs"), subfolder("beside");
+  folder.write("figures/figures.json", "{}");
+  folder.write("still/floor.off", tetrahedron_off());
+  folder.write("objs/walk.OBJ", "");
+  folder.write("beside/scene.json", "{}");
+  folder.write("beside/left.off", tetrahedron_off());
+  EXPECT_TRUE(
+      note_of_unplayed_subfolders(folder.path()).starts_with("Not played: the meshes in beside, objs, still. "));
+  remove(folder.path() / "a.json"), remove_all(folder.path() / "played");
+  const auto message = message_of<Bad_scene>([&] { scene_sources(folder.path()); });
+  EXPECT_NE(message.find("NAME.pc2. Not played: the meshes in beside, objs, still. "), std::string::npos) << message;
 }
 
 TEST_F(Scene_sources, a_scene_file_is_read_with_the_name_that_it_gives) {

@@ -73,7 +73,11 @@ TEST(Every_frame_experiment, plays_real_motion_with_and_without_only) {
     }
     return scenes;
   };
+  create_directory(folder.path() / "objs");
+  folder.write("objs/a.obj", "");
   EXPECT_EQ(scenes_of({}), (std::vector<std::string>{"far", "walk"}));
+  EXPECT_NE(read_bytes(folder.path() / "out/every_frame.md").find("\nNot played: the meshes in objs. "),
+            std::string::npos);
   EXPECT_EQ(scenes_of({"--only", "walk"}), std::vector<std::string>{"walk"});
 }
 

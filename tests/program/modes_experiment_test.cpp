@@ -73,6 +73,19 @@ TEST_F(Modes_experiment, plays_the_components_of_an_only_object_against_each_oth
   EXPECT_NE(report.find("one object per component"), std::string::npos) << report;
 }
 
+TEST_F(Modes_experiment, plays_a_mesh_without_a_point_cache_and_names_the_subfolders_that_it_does_not_play) {
+  create_directory(folder.path() / "walk");
+  create_directory(folder.path() / "objs");
+  write_moving_tetrahedron(folder.path() / "walk" / "moving", 4, 3, -0.9);
+  folder.write("walk/floor.off", tetrahedron_off());
+  folder.write("objs/a.obj", "");
+  expect_success(run());
+  // The moving tetrahedron is at 3, 2.1, 1.2 and 0.3: it meets the other in the last of four frames; three plays.
+  for (const auto& row : read_json(out / "modes.json")) EXPECT_EQ(row["positive"], 3) << row;
+  const auto report = read_bytes(out / "modes.md");
+  EXPECT_NE(report.find("\nNot played: the meshes in objs. "), std::string::npos) << report;
+}
+
 TEST_F(Modes_experiment, skips_scenes_without_two_objects_that_can_meet_and_names_them) {
   write_spheres("a");
   write_single("lonely");
