@@ -14,6 +14,7 @@ from typing import (
     Tuple,
     TypedDict,
     Union,
+    overload,
 )
 
 import numpy as np
@@ -171,7 +172,10 @@ class Animation:
     @property
     def files(self) -> List[str]: ...
     def pose(self, frame: int) -> Floats: ...
+    @overload
     def __getitem__(self, frame: int) -> Floats: ...
+    @overload
+    def __getitem__(self, frames: slice) -> List[Floats]: ...
     def __len__(self) -> int: ...
 
 class Scene:

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Plays scenes."""
 
-from ._lodestone import Detector, Scene, read_scene
+import operator
+
+from ._lodestone import BadArgument, Detector, Scene, read_scene
 
 
 def play(scene, *, frames=None, allow_outside=False, max_faces=50_000_000, **options):
     """Plays a scene: yields a Frame per frame of the scene.
 
-    scene: a path of a scene file, or a Scene. frames: which of its frames, such as range(10, 20); None: all.
+    scene: a path of a scene file, or a Scene. frames: which of its frames, such as range(10, 20), where -1 is the
+    last; None: all.
     allow_outside and max_faces are those of `read_scene`, other options those of Detector. `frame.detector` is the
     detector; its objects are those of the scene, in order.
     """
@@ -19,7 +22,10 @@ def play(scene, *, frames=None, allow_outside=False, max_faces=50_000_000, **opt
         detector.add(animation, groups=groups, meets=meets)
     for a, b in scene.ignored:
         detector.ignore(a, b)
-    for number in range(scene.frames) if frames is None else frames:
+    for given in range(scene.frames) if frames is None else frames:
+        number = operator.index(given)
+        if not -scene.frames <= number < scene.frames:
+            raise BadArgument(f"there is no frame {number}: there are {scene.frames}")
         for animation in range(len(scene.objects)):
             detector.set_frame(animation, number)
         yield detector.detect()

@@ -74,13 +74,12 @@ void Python_object::exchange(std::unique_ptr<Live_vertices>& vertices, std::vect
   std::swap(faces_, faces);  // what spans refer to does not move
 }
 
-void Python_object::set_frame(std::size_t frame) {
+void Python_object::set_frame(py::ssize_t number) {
   if (!animation_) throw Bad_argument("it has no animation");
-  if (frame >= animation_->frames)
-    throw Bad_argument("there is no frame " + std::to_string(frame) + ": there are " +
-                       std::to_string(animation_->frames));
-  if (computed_) return computed_->set_frame(frame);
-  std::ranges::copy(animation_->pose(frame), posed_.begin());
+  const auto frame = animation_->frame_of(number);
+  if (!frame) throw Bad_argument(animation_->no_frame(number));
+  if (computed_) return computed_->set_frame(*frame);
+  std::ranges::copy(animation_->pose(*frame), posed_.begin());
 }
 
 std::vector<double> Python_object::positions() const {
@@ -177,7 +176,7 @@ void Python_detector::set_vertices(Object_id object, const py::object& vertices)
   // With the GIL again: the former array goes.
 }
 
-void Python_detector::set_frame(Object_id object, std::size_t frame) {
+void Python_detector::set_frame(Object_id object, py::ssize_t frame) {
   change([&](auto& detector) {
     change_object(object, [&](auto& target) { target.set_frame(frame); });
     detector.update(object);

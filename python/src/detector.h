@@ -37,8 +37,9 @@ class Python_object {
   /// @throws Bad_mesh, Bad_argument  it stays as it was
   void exchange(std::unique_ptr<Live_vertices>& vertices);
   void exchange(std::unique_ptr<Live_vertices>& vertices, std::vector<Corners>& faces);
-  /// Poses an animation.
-  void set_frame(std::size_t frame);
+  /// Poses an animation. -1: its last frame.
+  /// @throws Bad_argument  there is no animation, or no such frame
+  void set_frame(py::ssize_t number);
   /// Places it elsewhere from now on.
   /// @throws Bad_argument  no rotation and translation
   void place(const Eigen::Isometry3d& placement) { placement_ = make_rigid_motion(placement); }
@@ -74,7 +75,7 @@ class Python_detector {
   Object_id add(const py::object& mesh, const py::object& faces, const std::string& name, std::size_t particles,
                 std::uint32_t groups, std::uint32_t meets, const py::object& file_vertex);
   void set_vertices(Object_id object, const py::object& vertices);
-  void set_frame(Object_id object, std::size_t frame);
+  void set_frame(Object_id object, py::ssize_t frame);
   void update(std::optional<Object_id> object);
   void place(Object_id object, const py::object& matrix);
   void rebuild(Object_id object, const py::object& vertices, const py::object& faces, const py::object& changed,

@@ -75,18 +75,36 @@ void set_weights(Python_skin& skin, const py::object& weights) {
 }
 
 py::array pose_array(const Python_animation& self, py::ssize_t given) {
-  const auto frame = given < 0 ? given + static_cast<py::ssize_t>(self.frames) : given;
-  if (frame < 0 || static_cast<std::size_t>(frame) >= self.frames)
-    throw py::index_error("there is no frame " + std::to_string(given) + ": there are " + std::to_string(self.frames));
+  const auto frame = self.frame_of(given);
+  if (!frame) throw py::index_error(self.no_frame(given));
   std::vector<double> posed;
   {
     const Without_gil without_gil;
-    posed = self.pose(static_cast<std::size_t>(frame));
+    posed = self.pose(*frame);
   }
   return positions_array(posed);
 }
 
+py::list pose_arrays(const Python_animation& self, const py::slice& frames) {
+  py::ssize_t start = 0, stop = 0, step = 0, count = 0;
+  if (!frames.compute(static_cast<py::ssize_t>(self.frames), &start, &stop, &step, &count))
+    throw py::error_already_set();
+  py::list poses;
+  for (py::ssize_t i = 0; i < count; ++i) poses.append(pose_array(self, start + i * step));
+  return poses;
+}
+
 }  // namespace
+
+std::optional<std::size_t> Python_animation::frame_of(py::ssize_t number) const {
+  const auto frame = number < 0 ? number + static_cast<py::ssize_t>(frames) : number;
+  if (frame < 0 || static_cast<std::size_t>(frame) >= frames) return std::nullopt;
+  return static_cast<std::size_t>(frame);
+}
+
+std::string Python_animation::no_frame(py::ssize_t number) const {
+  return "there is no frame " + std::to_string(number) + ": there are " + std::to_string(frames);
+}
 
 std::vector<double> Python_animation::pose(std::size_t frame) const {
   std::vector<Point> points(animation->vertices);
@@ -129,8 +147,9 @@ void add_motions(py::module_& module) {
         for (const auto& file : self.animation->files) files.append(file.string());
         return files;
       }, "The files that it is read from.")
-      .def("pose", pose_array, py::arg("frame"), "Positions of a frame: (V, 3) float64.")
+      .def("pose", pose_array, py::arg("frame"), "Positions of a frame: (V, 3) float64. -1: the last.")
       .def("__getitem__", pose_array, py::arg("frame"), "Positions of a frame; -1: the last.")
+      .def("__getitem__", pose_arrays, py::arg("frames"), "Positions of frames: a list.")
       .def("__len__", [](const Python_animation& self) { return self.frames; })
       .def("__repr__", [](const Python_animation& self) {
         return "<lodestone.Animation " + self.name + ": " + std::to_string(self.animation->vertices) + " vertices, " +

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct Python_animation {
   std::size_t frames = 1;  ///< of the scene, where the motion does not end by itself
   Collision_groups groups = {};
 
+  /// The frame that a number means: -1 is the last. Nothing if there is no such frame.
+  std::optional<std::size_t> frame_of(py::ssize_t number) const;
+  /// For an error: that there is none.
+  std::string no_frame(py::ssize_t number) const;
   /// Positions of a frame. Without the GIL.
   /// @throws Bad_argument, Bad_motion
   std::vector<double> pose(std::size_t frame) const;

@@ -91,6 +91,13 @@ def test_an_animation_goes_to_a_file_and_back(tmp_path, extension):
         detector.set_frame(moving, 5)
     with pytest.raises(IndexError, match="there is no frame -100: there are 5"):
         read[-100]
+    detector.set_frame(moving, -1)
+    assert np.array_equal(detector.vertices(moving), read[4])
+    with pytest.raises(lodestone.BadArgument, match=r"object 0 \(box.*\): there is no frame -6: there are 5"):
+        detector.set_frame(moving, -6)
+    assert np.array_equal(detector.vertices(moving), read[4])
+    for frames in (slice(0, 3), slice(None, None, -2), slice(7, 9)):
+        assert [vertices[0, 0] for vertices in read[frames]] == [0, 1, 2, 3, 4][frames]
 
 
 def test_frames_of_other_lengths_are_refused(tmp_path):
@@ -122,6 +129,18 @@ def test_a_scene_has_objects_that_are_animations(scenes):
     assert scene.objects[0].vertices.shape[1] == 3 and scene.objects[0].frames == 300
     frames = list(lodestone.play(scene, frames=range(100, 103)))
     assert len(frames) == 3 and frames[0].detector is frames[2].detector
+
+
+def test_frames_of_a_scene_are_counted_from_the_end_too(scenes):
+    def faces_of(*frames):
+        return [frame.faces.tolist() for frame in lodestone.play(scenes / "teapot_sphere_1.json", frames=frames)]
+
+    assert faces_of(-190, -1) == faces_of(110, 299) and faces_of(110) != faces_of(299)
+    for number in (300, -301):
+        with pytest.raises(lodestone.BadArgument, match=f"there is no frame {number}: there are 300"):
+            faces_of(number)
+    with pytest.raises(TypeError):
+        faces_of(1.5)
 
 
 def test_a_page_shows_frames(scenes, tmp_path):
