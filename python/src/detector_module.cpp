@@ -328,7 +328,8 @@ void add_detector(py::module_& module) {
       "  tolerance, self_tolerance     report faces nearer than this, in units of the coordinates: 0\n"
       "  most_contacts     contacts listed per pair of objects: all\n"
       "  threads           at most so many; 0: all of the machine: 1. Results do not depend on it\n"
-      "  particles         particles, or regions in mode 'exact'; 0: as the mode sees fit\n"
+      "  particles         particles, or regions in mode 'exact'; 0: as the mode sees fit; in mode 'exact' none, or 12 with\n"
+      "                    one of the next options\n"
       "  strategy, seed, normal_weight, lbg_...     how surfaces are divided: 'lbg'; the strategy can be a function, see\n"
       "                    `partition`\n"
       "and, of the mode 'particles': least_particles, meetings, opening_budget, opening_reach, collision_distance,\n"
@@ -347,7 +348,8 @@ void add_detector(py::module_& module) {
       .def("set_vertices", &Python_detector::set_vertices, py::arg("object"), py::arg("vertices"),
            "Takes another array (V, 3) for the positions of an object.")
       .def("set_frame", &Python_detector::set_frame, py::arg("object"), py::arg("frame"),
-           "Moves an object that has an animation to a frame.")
+           "Moves an object that has an animation to a frame; -1: the last, as in `animation[-1]`.\n"
+           "Raises BadArgument: there is no such frame.")
       .def("update", &Python_detector::update, py::arg("object") = py::none(),
            "Tells the mode 'particles' that the vertices of an object, or of all, have been moved in their arrays, so that "
            "it\nrepartitions what has grown. `set_vertices` does so by itself; other modes do not need it.")

@@ -226,7 +226,8 @@ void add_one_call(py::module_& module) {
              "strategy(vertices, faces, regions) that returns the region of each vertex, any integer from 0 to V - 1: (V,) "
              "int.\n\n"
              "mesh: vertices, an array (V, 3), with `faces` (F, 3); or an object that has both. Further options: seed,\n"
-             "keep_islands, threads, normal_weight, lbg_split, lbg_epsilon, lbg_tolerance, lbg_sample.");
+             "keep_islands, threads, normal_weight, lbg_split, lbg_epsilon, lbg_tolerance, lbg_sample. Those that the strategy\n"
+             "ignores are refused, except seed.");
   module.def(
       "strategies",
       [] {

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/partition/strategies.h"
@@ -73,24 +74,46 @@ void add_lbg(Option_table& table, Lbg_options& lbg) {
   table["lbg_sample"] = to(lbg.sample);
 }
 
+constexpr std::pair<const char*, Lbg_setting> lbg_settings[] = {{"normal_weight", Lbg_setting::normal_weight},
+                                                                {"lbg_split", Lbg_setting::split_rule},
+                                                                {"lbg_epsilon", Lbg_setting::split},
+                                                                {"lbg_tolerance", Lbg_setting::tolerance},
+                                                                {"lbg_sample", Lbg_setting::sample}};
+
+void refuse_if_ignored(const Given_strategy& strategy, const py::kwargs& keywords, const char* name,
+                       Lbg_setting setting) {
+  if (!keywords.contains(name) || (!strategy.function && strategy_reads(strategy.name, setting))) return;
+  std::string readers;
+  for (const auto reader : strategies_that_read(setting))
+    readers += (readers.empty() ? "" : ", ") + std::string(reader);
+  throw Bad_argument(std::string("the option ") + name + " is for the strategies " + readers + ": the strategy " +
+                     strategy.name + " ignores it");
+}
+
 /// Refuses what the strategy would ignore: a function ignores all of it.
-void refuse_settings_of_other_strategies(const Given_strategy& strategy, const py::kwargs& keywords) {
-  constexpr std::pair<const char*, Lbg_setting> settings[] = {{"normal_weight", Lbg_setting::normal_weight},
-                                                              {"lbg_split", Lbg_setting::split_rule},
-                                                              {"lbg_epsilon", Lbg_setting::split},
-                                                              {"lbg_tolerance", Lbg_setting::tolerance},
-                                                              {"lbg_sample", Lbg_setting::sample}};
+/// @param threads  whether `threads` concerns nothing but the strategy
+void refuse_settings_of_other_strategies(const Given_strategy& strategy, const py::kwargs& keywords, bool threads) {
   const bool is_known =
       strategy.function || std::ranges::find(strategies(), strategy.name, &Strategy_entry::name) != strategies().end();
   if (!is_known) return;  // the strategy is refused when it is made
-  for (const auto& [name, setting] : settings) {
-    if (!keywords.contains(name) || (!strategy.function && strategy_reads(strategy.name, setting))) continue;
-    std::string readers;
-    for (const auto reader : strategies_that_read(setting))
-      readers += (readers.empty() ? "" : ", ") + std::string(reader);
-    throw Bad_argument(std::string("the option ") + name + " is for the strategies " + readers + ": the strategy " +
-                       strategy.name + " ignores it");
-  }
+  for (const auto& [name, setting] : lbg_settings) refuse_if_ignored(strategy, keywords, name, setting);
+  if (threads) refuse_if_ignored(strategy, keywords, "threads", Lbg_setting::threads);
+}
+
+/// Mode `senin` divides nothing.
+void refuse_strategy_of_senin(const py::kwargs& keywords) {
+  std::vector<const char*> names{"strategy"};
+  for (const auto& [name, setting] : lbg_settings) names.push_back(name);
+  for (const char* name : names)
+    if (keywords.contains(name))
+      throw Bad_argument(std::string("the option ") + name +
+                         " is for the modes exact, certified, particles: the mode senin ignores it");
+}
+
+/// Whether the caller chose a strategy or one of its settings.
+bool chooses_strategy(const py::kwargs& keywords) {
+  return keywords.contains("strategy") || keywords.contains("seed") ||
+         std::ranges::any_of(lbg_settings, [&](const auto& setting) { return keywords.contains(setting.first); });
 }
 
 void set_all(const Option_table& table, const py::kwargs& keywords) {
@@ -152,7 +175,11 @@ Detector_settings detector_settings(const py::kwargs& keywords) {
   };
   add_lbg(table, settings.strategy_settings.lbg);
   set_all(table, keywords);
-  refuse_settings_of_other_strategies(settings.strategy, keywords);
+  if (options.mode == Mode::senin) refuse_strategy_of_senin(keywords);
+  refuse_settings_of_other_strategies(settings.strategy, keywords, false);  // threads share frames too
+  // A caller who chooses a strategy wants regions.
+  if (finds_all(options.mode) && chooses_strategy(keywords) && options.particles == 0)
+    options.particles = options.least_particles;
   options.senin.seed = settings.strategy_settings.seed;
   settings.strategy_settings.lbg.threads = exact.threads;
   return settings;
@@ -165,7 +192,7 @@ Partition_settings partition_settings(const py::object& strategy, const py::kwar
                      {"threads", to(settings.strategy_settings.lbg.threads)}};
   add_lbg(table, settings.strategy_settings.lbg);
   set_all(table, keywords);
-  refuse_settings_of_other_strategies(settings.strategy, keywords);
+  refuse_settings_of_other_strategies(settings.strategy, keywords, true);
   return settings;
 }
 

@@ -146,6 +146,40 @@ def test_settings_that_a_strategy_ignores_are_refused(option):
         lodestone.partition(ball, strategy="unknown", regions=2, **option)
 
 
+def test_threads_of_a_partition_are_refused_where_the_strategy_has_none():
+    ball = sphere(4)
+    for strategy in ("grid", slices):
+        for threads in (1, 2):
+            with pytest.raises(lodestone.BadArgument, match="threads is for .*lbg.* ignores it"):
+                lodestone.partition(ball, strategy=strategy, regions=2, threads=threads)
+        detector = lodestone.Detector(mode="particles", strategy=strategy, threads=2)  # which share frames
+        detector.add(ball), detector.add(ball)
+        assert detector.detect().collides
+
+
+@pytest.mark.parametrize("mode", ["exact", "certified"])
+@pytest.mark.parametrize("option", [{"strategy": "grid"}, {"strategy": slices}, {"seed": 3}, {"normal_weight": 2}])
+def test_a_strategy_or_a_setting_of_one_asks_for_regions(mode, option):
+    def regions(**options):
+        detector = lodestone.Detector(mode=mode, **options)
+        detector.add(sphere()), detector.add(sphere().moved(0.5))
+        detector.detect()
+        return len(set(detector.regions(0)))
+
+    assert regions() == 1
+    assert regions(**option) > 1
+    assert regions(particles=6, **option) != regions(**option)
+
+
+@pytest.mark.parametrize("option", [{"strategy": "grid"}, {"strategy": slices}, {"normal_weight": 2},
+                                    {"lbg_sample": 100}])
+def test_mode_senin_refuses_strategies_and_their_settings(option):
+    name, = option
+    with pytest.raises(lodestone.BadArgument, match=f"{name} is for the modes .* senin ignores it"):
+        lodestone.Detector(mode="senin", **option)
+    lodestone.Detector(mode="senin", seed=3)
+
+
 def test_each_strategy_takes_the_settings_that_it_reads():
     ball = sphere(4)
     for strategy in ("lbg", "lbg_curvature", "kmeans++"):
