@@ -121,19 +121,29 @@ Python_object& Python_detector::at(Object_id object) const {
   throw Bad_argument("there is no object " + std::to_string(object));
 }
 
+std::string Python_detector::title_of(Object_id object) const {
+  const auto& name = at(object).name();
+  const auto id = "object " + std::to_string(object);
+  return name.empty() ? id : id + " (" + name + ")";
+}
+
+std::string Python_detector::text() {
+  return look([&](auto&) {
+    const auto count = std::ranges::count_if(objects_, [](const auto& object) { return object != nullptr; });
+    return "<lodestone.Detector mode='" + std::string(name_of(settings_.options.mode)) + "', " + std::to_string(count) +
+           " objects>";
+  });
+}
+
 template <class Change>
 void Python_detector::change_object(Object_id object, const Change& change) {
   auto& changed = at(object);
-  const auto title = [&] {
-    const auto id = "object " + std::to_string(object);
-    return changed.name().empty() ? id : id + " (" + changed.name() + ")";
-  };
   try {
     change(changed);
   } catch (const Bad_argument& error) {
-    throw Bad_argument(title() + ": " + error.what());
+    throw Bad_argument(title_of(object) + ": " + error.what());
   } catch (const Bad_mesh& error) {
-    throw Bad_mesh(title() + ": " + error.what());
+    throw Bad_mesh(title_of(object) + ": " + error.what());
   }
   ++poses_;
 }
@@ -168,7 +178,8 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
 }
 
 void Python_detector::set_vertices(Object_id object, const py::object& vertices) {
-  auto given = std::make_unique<Live_vertices>(vertices);
+  const auto title = look([&](auto&) { return title_of(object); });
+  auto given = naming_mesh(title, [&] { return std::make_unique<Live_vertices>(vertices); });
   change([&](auto& detector) {
     change_object(object, [&](auto& target) { target.exchange(given); });
     detector.update(object);
@@ -207,8 +218,9 @@ void Python_detector::place(Object_id object, const py::object& matrix) {
 
 void Python_detector::rebuild(Object_id object, const py::object& vertices, const py::object& faces,
                               const py::object& changed, const py::object& file_vertex) {
-  auto given = std::make_unique<Live_vertices>(vertices);
-  auto corners = faces_of(faces);
+  const auto title = look([&](auto&) { return title_of(object); });
+  auto given = naming_mesh(title, [&] { return std::make_unique<Live_vertices>(vertices); });
+  auto corners = naming_mesh(title, [&] { return faces_of(faces); });
   std::vector<std::uint32_t> changed_faces, doubled;
   if (!changed.is_none()) changed_faces = indices_of(changed, "changed");
   if (!file_vertex.is_none()) doubled = indices_of(file_vertex, "file_vertex");

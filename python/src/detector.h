@@ -116,6 +116,7 @@ class Python_detector {
     return look([&](auto&) { return at(object).name(); });
   }
   py::array positions(Object_id object);
+  std::string text();
   /// Positions and faces of all objects, for a page.
   struct Shown_object {
     std::string name;
@@ -152,6 +153,9 @@ class Python_detector {
   /// @throws Bad_argument  a visitor called
   void check_no_visitor() const;
   Python_object& at(Object_id object) const;
+  /// An object for messages: its id and its name.
+  /// @throws Bad_argument  there is no such object
+  std::string title_of(Object_id object) const;
   /// Sets positions or faces of an object. Its errors name the object.
   template <class Change>
   void change_object(Object_id object, const Change& change);

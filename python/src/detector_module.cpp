@@ -456,6 +456,7 @@ void add_detector(py::module_& module) {
       .def("name", &Python_detector::name, py::arg("object"), "The name of an object.")
       .def("__len__", [](Python_detector& self) { return self.look([](auto& detector) { return detector.size(); }); },
            "Number of objects added, removed ones included.")
+      .def("__repr__", &Python_detector::text)
       .def("__contains__", [](Python_detector& self, Object_id object) {
         return self.look([&](auto& detector) { return detector.has(object); });
       }, py::arg("object"), "Whether there is an object with this id.");

@@ -125,6 +125,7 @@ class Python_page {
   }
 
   std::size_t frames() const { return page_.frames(); }
+  std::string text() const { return "<lodestone.Page " + page_.title() + ": " + std::to_string(frames()) + " frames>"; }
 
  private:
   /// @throws Bad_argument  the detector has other objects than when the page was begun
@@ -153,7 +154,8 @@ void add_pages(py::module_& module) {
            "Adds a frame: what was found, and where the vertices of all objects are now. Call it before you move them\n"
            "and before you ask for the next frame: it refuses an earlier one.")
       .def("save", &Python_page::save, py::arg("path"), "Writes the page: one .html file that needs nothing else.")
-      .def("__len__", &Python_page::frames, "Number of frames.");
+      .def("__len__", &Python_page::frames, "Number of frames.")
+      .def("__repr__", &Python_page::text);
 }
 
 }  // namespace lodestone::python

@@ -86,12 +86,34 @@ def test_set_vertices_takes_another_array():
     assert detector.detect().collides
     with pytest.raises(lodestone.BadMesh, match="there are 8 vertices, but got 3"):
         detector.set_vertices(a, np.zeros((3, 3)))
+    for call in (lambda object: detector.set_vertices(object, np.zeros((8, 2))),
+                 lambda object: detector.rebuild(object, np.zeros((8, 2)), cube().faces)):
+        with pytest.raises(lodestone.BadMesh, match=r"^object 0 \(box\): vertices must have the shape \(V, 3\)"):
+            call(a)
+        with pytest.raises(lodestone.BadMesh, match="^object 1: vertices must have the shape"):
+            call(1)
+        with pytest.raises(lodestone.BadArgument, match="there is no object 7"):
+            call(7)
+    with pytest.raises(lodestone.BadMesh, match=r"^object 0 \(box\): face 0 refers to vertex -1"):
+        detector.rebuild(a, cube().vertices, cube().faces - 1)
     with pytest.raises(lodestone.BadArgument, match=r"object 0 \(box\): it has no animation"):
         detector.set_frame(a, 1)
     with pytest.raises(lodestone.BadArgument, match="object 1: it has no animation"):
         detector.set_frame(1, 1)
     assert detector.detect().collides
     assert detector.name(a) == "box"
+
+
+def test_detectors_and_pages_say_what_they_hold():
+    detector = lodestone.Detector(mode="certified")
+    assert repr(detector) == "<lodestone.Detector mode='certified', 0 objects>"
+    detector.add(cube()), detector.add(cube()), detector.add(cube().moved(9))
+    detector.remove(1)
+    assert repr(detector) == "<lodestone.Detector mode='certified', 2 objects>"
+    page = lodestone.Page(detector, title="Tea")
+    assert repr(page) == "<lodestone.Page Tea: 0 frames>"
+    page.add(detector.detect())
+    assert repr(page) == "<lodestone.Page Tea: 1 frames>"
 
 
 def test_frames_outlast_the_next_frame_and_their_detector():
