@@ -174,9 +174,9 @@ void add_one_call(py::module_& module) {
              "what is between the two counts, so `self_collision` changes nothing.");
   module.def("self_collisions", self_collisions, py::arg("mesh"), py::arg("faces") = py::none(),
              py::arg("file_vertex") = py::none(),
-             "Finds the faces of one mesh that intersect each other: a Pair, with a = b, which is true if there are some.\n"
-             "Faces that share a vertex count where they intersect beyond it. Options as of Detector, mode 'exact'; those\n"
-             "about two objects change nothing.\n\n"
+             "Finds the faces of one mesh that intersect each other: a Pair, with a = b, which is true if there are\n"
+             "some. Faces that share a vertex count where they intersect beyond it. Options as of Detector, mode 'exact';\n"
+             "those about two objects change nothing.\n\n"
              "file_vertex: (V,) int; vertices with the same number are one, as at the seams of a mesh that stores them twice.");
   module.def(
       "closest",
@@ -226,8 +226,8 @@ void add_one_call(py::module_& module) {
              "strategy(vertices, faces, regions) that returns the region of each vertex, any integer from 0 to V - 1: (V,) "
              "int.\n\n"
              "mesh: vertices, an array (V, 3), with `faces` (F, 3); or an object that has both. Further options: seed,\n"
-             "keep_islands, threads, normal_weight, lbg_split, lbg_epsilon, lbg_tolerance, lbg_sample. Those that the strategy\n"
-             "ignores are refused, except seed.");
+             "keep_islands, threads, normal_weight, lbg_split, lbg_epsilon, lbg_tolerance, lbg_sample. Those that the\n"
+             "strategy ignores are refused, except seed.");
   module.def(
       "strategies",
       [] {
