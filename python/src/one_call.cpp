@@ -175,8 +175,8 @@ void add_one_call(py::module_& module) {
   module.def("self_collisions", self_collisions, py::arg("mesh"), py::arg("faces") = py::none(),
              py::arg("file_vertex") = py::none(),
              "Finds the faces of one mesh that intersect each other: a Pair, with a = b, which is true if there are\n"
-             "some. Faces that share a vertex count where they intersect beyond it. Options as of Detector, mode 'exact';\n"
-             "those about two objects change nothing.\n\n"
+             "some. Faces that share a vertex count where they intersect beyond it. Options as of Detector, mode\n"
+             "'exact'; those about two objects change nothing.\n\n"
              "file_vertex: (V,) int; vertices with the same number are one, as at the seams of a mesh that stores them twice.");
   module.def(
       "closest",
