@@ -33,8 +33,6 @@ constexpr std::size_t pairs_per_vertex = 4;
 /// decides: that is slack for what has been stretched, which a larger reach makes larger.
 constexpr double wide = 16;
 
-std::uint64_t packed(Leaf_pair leaves) { return std::uint64_t{leaves.a} << 32U | leaves.b; }
-
 }  // namespace
 
 void Opening_search::Waiting::clear() {
@@ -76,7 +74,6 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
   out_of_budget_ = false;
   leaf_tests_ = exact_tests_ = 0;
   compared_.clear();
-  known_.clear();
   beside_.clear();
   opened_.clear();
 }
@@ -154,19 +151,19 @@ bool Opening_search::find_one(std::vector<Face_pair>& found) {
 void Opening_search::open_for_all(std::vector<Face_pair>& found, Workers& workers) {
   listed_.clear();
   for (Leaf_pair leaves; next(leaves);)
-    if (note_compared(leaves)) listed_.push_back(leaves);
+    if (compared_.add(leaves)) listed_.push_back(leaves);
   std::ranges::sort(listed_);
   test_listed(found, workers);
 }
 
 void Opening_search::follow(Leaf_neighbours& a, Leaf_neighbours& b, const Curve_starts& starts,
                             std::vector<Face_pair>& found, Workers& workers) {
-  for (const Leaf_pair leaves : starts.compared) note_compared(leaves);
+  for (const Leaf_pair leaves : starts.compared) compared_.add(leaves);
   const std::size_t first = found.size();
   for (std::size_t i = 0; i < starts.contacts.size(); ++i) {
     const Face_pair contact = starts.contacts[i];
     const Leaf_pair leaves{a.leaf_of(contact.a), b.leaf_of(contact.b)};
-    if (!was_opened(leaves) && !known_.contains(packed(leaves))) {
+    if (!was_opened(leaves) && !compared_.contains(leaves)) {
       beside_.push_back(leaves);
       continue;
     }
@@ -193,20 +190,13 @@ void Opening_search::follow_contact(Leaf_neighbours& a, Leaf_neighbours& b, Face
 
 /// Compares the leaf pairs that were listed, unless they have been compared.
 void Opening_search::compare_beside(std::vector<Face_pair>& found, Workers& workers) {
-  std::erase_if(beside_, [this](Leaf_pair leaves) { return !note_compared(leaves); });
+  std::erase_if(beside_, [this](Leaf_pair leaves) { return !compared_.add(leaves); });
   std::ranges::sort(beside_);
   listed_.clear();
   for (const Leaf_pair leaves : beside_)
     if (near(a_->pose(leaves.a), b_->pose(leaves.b), 0)) listed_.push_back(leaves);
   beside_.clear();
   test_listed(found, workers);
-}
-
-/// @return whether these leaves have not been compared so far
-bool Opening_search::note_compared(Leaf_pair leaves) {
-  if (!known_.insert(packed(leaves)).second) return false;
-  compared_.push_back(leaves);
-  return true;
 }
 
 std::size_t Opening_search::spent() const {

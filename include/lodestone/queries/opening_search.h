@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_set>
 #include <vector>
 
 #include "lodestone/filter/face_filter.h"
 #include "lodestone/mesh/pairs.h"
 #include "lodestone/mesh/workers.h"
+#include "lodestone/queries/leaf_pair_list.h"
 #include "lodestone/queries/opening_starts.h"
 #include "lodestone/tree/leaf_neighbours.h"
 #include "lodestone/tree/node_pair.h"
@@ -86,7 +86,7 @@ class Opening_search {
   bool out_of_budget() const { return out_of_budget_; }
   /// Leaf pairs that need not be compared again: those given to `follow`, those that it has looked at, and those that
   /// `open` for all contacts has tested since; each once.
-  std::span<const Leaf_pair> compared() const { return compared_; }
+  std::span<const Leaf_pair> compared() const { return compared_.pairs(); }
   /// Leaf pairs tested since `begin`.
   std::size_t leaf_tests() const { return leaf_tests_; }
   /// Face pairs given to exact predicates since `begin`.
@@ -135,7 +135,6 @@ class Opening_search {
   void open_for_all(std::vector<Face_pair>& found, Workers& workers);
   void follow_contact(Leaf_neighbours& a, Leaf_neighbours& b, Face_pair contact);
   void compare_beside(std::vector<Face_pair>& found, Workers& workers);
-  bool note_compared(Leaf_pair leaves);
   void begin_filters(std::size_t count);
   void test(Leaf_pair leaves, Face_filter& filter, Tested& tested) const;
   void test_listed(std::vector<Face_pair>& found, Workers& workers);
@@ -148,13 +147,12 @@ class Opening_search {
   bool whole_ = false;     ///< they are read as a whole
   bool in_order_ = false;
   Waiting waiting_;
-  std::size_t considered_ = 0;               ///< pairs of nodes whose anchors were compared
-  std::size_t read_before_ = 0;              ///< vertices of both trees, before `begin`
-  std::size_t limit_ = 0;                    ///< of what is spent
-  std::vector<Leaf_pair> listed_;            ///< to be tested
-  std::vector<Tested> tested_;               ///< per task, then memory of earlier searches
-  std::vector<Leaf_pair> compared_;          ///< see `compared`
-  std::unordered_set<std::uint64_t> known_;  ///< the same, both numbers in one
+  std::size_t considered_ = 0;     ///< pairs of nodes whose anchors were compared
+  std::size_t read_before_ = 0;    ///< vertices of both trees, before `begin`
+  std::size_t limit_ = 0;          ///< of what is spent
+  std::vector<Leaf_pair> listed_;  ///< to be tested
+  std::vector<Tested> tested_;     ///< per task, then memory of earlier searches
+  Leaf_pair_list compared_;        ///< see `compared`
   std::vector<Leaf_pair> opened_;  ///< for one contact: tested by openings; sorted before regions are read as a whole
   std::vector<Leaf_pair> beside_;  ///< to be compared, unless they have been
   std::vector<Face_filter> filters_;    ///< per worker

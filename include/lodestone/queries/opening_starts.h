@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "lodestone/queries/leaf_pair_list.h"
 #include "lodestone/tree/node_pair.h"
 #include "lodestone/tree/tree_layout.h"
 
@@ -15,15 +16,6 @@ namespace lodestone {
 struct Opening_start {
   Node_pair nodes;  ///< of the first and of the second tree
   float order = 0;  ///< squared distance of their anchors, relative to the sum of their radii
-};
-
-/// A leaf of each of two trees.
-struct Leaf_pair {
-  std::uint32_t a;  ///< of the first
-  std::uint32_t b;  ///< of the second
-
-  /// By the first leaf, then by the second.
-  friend auto operator<=>(const Leaf_pair&, const Leaf_pair&) = default;
 };
 
 /// The pairs of nodes below which an Opening_search looks, and whether they may be read as a whole. Keeps its memory
