@@ -75,13 +75,15 @@ struct Given_mesh {
 /// @throws Bad_argument  it has not
 Given_mesh given_mesh(const py::object& mesh, const py::object& faces, const std::string& name);
 
-/// What `make` returns. Puts the name of the mesh before the message of a Bad_mesh, unless it is empty.
+/// What `make` returns. Puts the name of the mesh before the message of a Bad_mesh or Bad_argument, unless it is empty.
 template <class Make>
 auto naming_mesh(const std::string& name, const Make& make) {
   try {
     return make();
   } catch (const Bad_mesh& error) {
     throw Bad_mesh(name.empty() ? error.what() : name + ": " + error.what());
+  } catch (const Bad_argument& error) {
+    throw Bad_argument(name.empty() ? error.what() : name + ": " + error.what());
   }
 }
 

@@ -222,8 +222,8 @@ void Python_detector::rebuild(Object_id object, const py::object& vertices, cons
   auto given = naming_mesh(title, [&] { return std::make_unique<Live_vertices>(vertices); });
   auto corners = naming_mesh(title, [&] { return faces_of(faces); });
   std::vector<std::uint32_t> changed_faces, doubled;
-  if (!changed.is_none()) changed_faces = indices_of(changed, "changed");
-  if (!file_vertex.is_none()) doubled = indices_of(file_vertex, "file_vertex");
+  if (!changed.is_none()) changed_faces = naming_mesh(title, [&] { return indices_of(changed, "changed"); });
+  if (!file_vertex.is_none()) doubled = naming_mesh(title, [&] { return indices_of(file_vertex, "file_vertex"); });
   if (!changed.is_none() && !file_vertex.is_none()) throw Bad_argument("give changed or file_vertex, not both");
   change([&](auto& detector) {
     change_object(object, [&](auto& target) { target.exchange(given, corners); });

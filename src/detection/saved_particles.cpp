@@ -129,8 +129,8 @@ void Particle_object::Saved::check(std::span<const Corners> corners, std::size_t
     State_reader::require(labels[particles.at[region]] == region, "a particle is not in its region");
 }
 
-/// Particles and the edges by which directions are found are where the surface has faces, with seams closed. Only where
-/// all faces are points they may be anywhere, and there may be no particle.
+/// Particles and the edges by which directions are found are where the surface has faces, with seams closed. Where all
+/// faces are points, particles may be anywhere, and there may be none.
 void Particle_object::Saved::check_places(std::span<const Corners> corners) const {
   const auto place_of = [&](std::uint32_t vertex) { return joined.empty() ? vertex : joined[vertex]; };
   std::vector<bool> has_faces(labels.size(), false);

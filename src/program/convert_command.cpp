@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -22,7 +24,6 @@
 #include "program/mesh_beside.h"
 #include "program/notes.h"
 #include "program/progress.h"
-#include "program/slurm_scripts.h"
 
 namespace lodestone {
 
@@ -118,11 +119,14 @@ Animation_output_options output_options(const Animation& animation, const Conver
 
 /// Looks at the first frame that is written. The others mostly are as far from the origin, and reading each of them
 /// again could take long.
-void note_rounding(const Convert_command& command, const Animation& animation, std::size_t first_frame) {
-  if (!stores_floats(command.output)) return;
+Float_rounding rounding_of(const Convert_command& command, const Animation& animation, std::size_t first_frame) {
+  if (command.quiet || !stores_floats(command.output)) return {};
   std::vector<Point> points(animation.vertices);
   animation.motion.pose(first_frame, points);
-  const auto rounding = float_rounding(points, animation.faces);
+  return float_rounding(points, animation.faces);
+}
+
+void note_rounding(const Convert_command& command, const Float_rounding& rounding) {
   if (rounding.is_coarse())
     note(fmt::format(
         "{}: coordinates are rounded to floats: by up to {:.2g}, which is {:.2g} % of the mesh's size; move "
@@ -130,18 +134,14 @@ void note_rounding(const Convert_command& command, const Animation& animation, s
         command.output.string(), rounding.largest, 100 * rounding.largest / rounding.diagonal));
 }
 
-/// A point cache of the input has its faces in another file, which the user has. Edited faces are in none.
+/// The user of a mesh, a sequence of meshes or a point cache has a mesh file with the faces, unless they were edited.
 void note_faces_not_kept(const Convert_command& command, const Animation& animation) {
   const bool are_edited = command.weld || command.subdivisions > 0;
-  const bool are_elsewhere = !are_edited && (animation.kind == "pc2" || animation.kind == "mdd");
+  constexpr std::array<std::string_view, 4> beside_a_mesh{"mesh", "sequence", "pc2", "mdd"};
+  const bool are_elsewhere = !are_edited && std::ranges::find(beside_a_mesh, animation.kind) != beside_a_mesh.end();
   if (!is_point_cache(command.output) || animation.faces.empty() || are_elsewhere) return;
-  std::vector<std::string> words{"convert", command.input.string(),
-                                 fs::path(command.output).replace_extension(".off").string(), "--frames", "0"};
-  if (!command.mesh.empty()) words.insert(words.end(), {"--mesh", command.mesh.string()});
-  if (command.weld) words.insert(words.end(), {"--weld", fmt::format("{}", *command.weld)});
-  if (command.subdivisions > 0) words.insert(words.end(), {"--subdivide", std::to_string(command.subdivisions)});
-  note(fmt::format("{}: faces are not kept: a point cache has none; `{}` writes them", command.output.string(),
-                   shell_words(words)));
+  note(fmt::format("{}: faces are not kept: a point cache has none; convert to a mesh file, too, with --frames 0",
+                   command.output.string()));
 }
 
 /// Files of an earlier, longer run would be read with those of this one.
@@ -157,16 +157,16 @@ void note_other_files(const Convert_command& command, std::size_t frames) {
                                  : fmt::format("{} other files match; they were there before", others)));
 }
 
-void report(const Convert_command& command, const Animation& original, const Animation& animation,
-            const std::vector<std::size_t>& frames) {
+void report(const Convert_command& command, const Animation& original, const Animation& animation, std::size_t frames,
+            const Float_rounding& rounding) {
   const auto name = command.input.filename().string();
   note_other_animations(name, original.motion.animations);
   note_cut_faces(name, original.file_face);
   note_not_kept(name, original.not_read);
   note_faces_not_kept(command, animation);
-  note_rounding(command, animation, frames.front());
-  note_other_files(command, frames.size());
-  fmt::print("{}: {} of {} vertices\n", printable(command.output.string()), counted(frames.size(), "frame"),
+  note_rounding(command, rounding);
+  note_other_files(command, frames);
+  fmt::print("{}: {} of {} vertices\n", printable(command.output.string()), counted(frames, "frame"),
              animation.vertices);
 }
 
@@ -180,12 +180,13 @@ int run(const Convert_command& command) {
   const auto animation = edited(original, command);
   auto options = output_options(animation, command);
   check_input_is_kept(command, animation, options.frames.size());
+  const auto rounding = rounding_of(command, animation, options.frames.front());
   {
     Progress_bar progress("convert", command.quiet);
     options.progress = [&](std::size_t done, std::size_t of) { progress(done, of); };
     write_animation(command.output, animation, options);
   }
-  if (!command.quiet) report(command, original, animation, options.frames);
+  if (!command.quiet) report(command, original, animation, options.frames.size(), rounding);
   return exit_code::success;
 }
 

@@ -16,6 +16,7 @@
 #include "program/frame_log.h"
 #include "program/notes.h"
 #include "program/progress.h"
+#include "program/slurm_scripts.h"
 #include "program/unquoted_pattern.h"
 
 namespace lodestone {
@@ -57,17 +58,17 @@ void write_results(Detect_run& scene_run, std::optional<Atomic_file>& frames, co
 
 void note_single_object(const Scene& scene, const Detect_command& command) {
   if (scene.objects.size() == 1 && !command.options.exact.self_collision)
-    note(fmt::format("{}: one object alone has nothing to collide with; add another to the scene, or --self for "
-                     "collisions with itself",
-                     command.inputs.front().string()));
+    note(
+        fmt::format("{}: one object alone has nothing to collide with; add another to the scene, or --self for "
+                    "collisions with itself",
+                    command.inputs.front().string()));
 }
 
 void note_unquoted_pattern(const Detect_command& command) {
   if (const auto found = find_unquoted_pattern(command.inputs))
-    note(
-        fmt::format("{} inputs differ only in a number; if they are frames of one object, put the pattern in quotes: "
-                    "'{}'",
-                    found->inputs, found->pattern.string()));
+    note(fmt::format(
+        "{} inputs differ only in a number; if they are frames of one object, put the pattern in quotes: {}",
+        found->inputs, shell_word(found->pattern.string())));
 }
 
 /// Motions of different lengths: a scene ends with the shortest, unless it says to end earlier; files that are given

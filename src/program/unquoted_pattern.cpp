@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -26,6 +28,17 @@ bool has_one_frame(const std::filesystem::path& input) {
          std::filesystem::is_regular_file(input, ignored);
 }
 
+/// A pattern of numbered files may leave out no number.
+bool has_gap(const std::set<std::string>& numbers) {
+  std::set<std::uint64_t> values;
+  for (const auto& number : numbers) {
+    std::uint64_t value = 0;
+    if (std::from_chars(number.data(), number.data() + number.size(), value).ec != std::errc()) return true;
+    values.insert(value);
+  }
+  return values.size() < numbers.size() || *values.rbegin() - *values.begin() != values.size() - 1;
+}
+
 }  // namespace
 
 std::optional<Unquoted_pattern> find_unquoted_pattern(std::span<const std::filesystem::path> inputs) {
@@ -40,7 +53,7 @@ std::optional<Unquoted_pattern> find_unquoted_pattern(std::span<const std::files
     }
   }
   const auto most = std::ranges::max_element(numbers, {}, [](const auto& entry) { return entry.second.size(); });
-  if (most == numbers.end() || most->second.size() < fewest_frames) return std::nullopt;
+  if (most == numbers.end() || most->second.size() < fewest_frames || has_gap(most->second)) return std::nullopt;
   return Unquoted_pattern{.pattern = most->first, .inputs = most->second.size()};
 }
 

@@ -14,7 +14,8 @@ struct Unquoted_pattern {
   std::size_t inputs = 0;         ///< how many inputs match it
 };
 
-/// The pattern that most inputs match, if at least three do. Counts mesh files whose paths differ only in one number.
+/// The pattern that most inputs match, if at least three do, and their numbers follow each other. Counts mesh files
+/// whose paths differ only in one number.
 std::optional<Unquoted_pattern> find_unquoted_pattern(std::span<const std::filesystem::path> inputs);
 
 }  // namespace lodestone

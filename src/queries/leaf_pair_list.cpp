@@ -7,9 +7,9 @@
 namespace lodestone {
 
 void Leaf_pair_list::clear() {
+  for (const Leaf_pair pair : pairs_) first_[chain_of(pair)] = none;
   pairs_.clear();
   next_.clear();
-  std::ranges::fill(first_, none);
 }
 
 bool Leaf_pair_list::add(Leaf_pair pair) {

@@ -27,13 +27,13 @@ Labels strip_labels(Labels columns) {
   return labels;
 }
 
-TEST(Count_pieces, counts_connected_sets_of_one_label) {
+TEST(Count_parts, counts_connected_sets_of_one_label) {
   const auto graph = grid_graph(6, 2);
   EXPECT_EQ(count_parts(graph, strip_labels({0, 0, 0, 0, 0, 0})), 1U);
   EXPECT_EQ(count_parts(graph, strip_labels({0, 1, 0, 0, 1, 2})), 5U);
 }
 
-TEST(Count_pieces, skips_isolated_vertices) {
+TEST(Count_parts, skips_isolated_vertices) {
   const std::vector<Corners> faces{{1, 2, 4}};
   EXPECT_EQ(count_parts(vertex_graph(6, faces), {0, 0, 1, 2, 1, 1}), 2U);
 }
@@ -90,7 +90,7 @@ TEST(Repair_islands, an_island_behind_an_island_joins_too) {
   EXPECT_EQ(repair.regions, 3U);
 }
 
-TEST(Repair_islands, a_component_that_no_region_reaches_keeps_its_largest_piece_as_a_new_region) {
+TEST(Repair_islands, a_component_that_no_region_reaches_keeps_its_largest_part_as_a_new_region) {
   auto faces = grid_faces(6, 2);
   for (auto face : grid_faces(5, 2)) {
     for (auto& corner : face) corner += 12;

@@ -173,7 +173,8 @@ TEST_F(Detect_files, that_differ_only_in_a_number_may_be_a_pattern_without_quote
   EXPECT_EQ(result.err, "lodestone: 3" + rest + path("2_f*.off") + "'\n");
   inputs.emplace_back("--quiet");
   expect_success(detect(inputs));
-  // Two are too few, and one file that is given three times has one number.
+  // Two are too few, one file that is given three times has one number, and no pattern leaves out a number.
+  expect_success(detect({inputs[1], inputs[2], write("2_f12.off", square_off)}));
   expect_success(detect({inputs[0], inputs[1], inputs[2]}));
   expect_success(detect({inputs[1], inputs[1], inputs[1]}));
 }

@@ -96,6 +96,9 @@ def test_set_vertices_takes_another_array():
             call(7)
     with pytest.raises(lodestone.BadMesh, match=r"^object 0 \(box\): face 0 refers to vertex -1"):
         detector.rebuild(a, cube().vertices, cube().faces - 1)
+    for indices in ("changed", "file_vertex"):
+        with pytest.raises(lodestone.BadArgument, match=rf"^object 0 \(box\): {indices}"):
+            detector.rebuild(a, cube().vertices, cube().faces, **{indices: [0.5]})
     with pytest.raises(lodestone.BadArgument, match=r"object 0 \(box\): it has no animation"):
         detector.set_frame(a, 1)
     with pytest.raises(lodestone.BadArgument, match="object 1: it has no animation"):

@@ -276,7 +276,7 @@ TEST_F(Followed_contacts_of_two_curves, are_not_followed_again_where_they_have_b
   };
   EXPECT_EQ(follow_on(compared, curve.size()), truth_) << "the other curve is followed";
   EXPECT_EQ(follow_on(compared, 0), truth_);
-  // Who says so of all that is known, and has compared the leaves of one contact only, finds no more than that.
+  // The rest of its curve is not found where `followed` covers a contact beside which nothing was compared.
   contacts = known_;
   const Leaf_pair at{a_.neighbours().leaf_of(known_[0].a), b_.neighbours().leaf_of(known_[0].b)};
   EXPECT_EQ(follow_on({&at, 1}, 1), known_);

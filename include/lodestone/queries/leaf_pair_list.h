@@ -22,7 +22,7 @@ struct Leaf_pair {
 /// allocate for each pair, in every frame.
 class Leaf_pair_list {
  public:
-  /// Removes all pairs. O(most pairs that there have been).
+  /// Removes all pairs. O(pairs).
   void clear();
   /// Adds a pair, unless it is in the list. O(1) on average.
   /// @return whether it was added

@@ -34,11 +34,13 @@ struct Opening_request {
 
 /// From where `Opening_search::follow` starts.
 struct Curve_starts {
-  std::span<const Face_pair> contacts;  ///< all contacts of `compared`, and of starts that were `opened` and may be
-                                        ///< read as a whole; and any others, whose leaves are compared
-  std::span<const Leaf_pair> compared = {};  ///< these are not compared again
-  std::size_t followed = 0;  ///< so many contacts, the first, were found by a call of `follow` in this frame, and what
-                             ///< it compared is among `compared`
+  /// Must hold all contacts of the leaf pairs in `compared`, and all below starts that were `opened` and are read as a
+  /// whole. Of further contacts the leaves are compared.
+  std::span<const Face_pair> contacts;
+  /// Leaf pairs that are not compared again.
+  std::span<const Leaf_pair> compared = {};
+  /// The first so many contacts were found by `follow` in this frame, and all that it compared is in `compared`.
+  std::size_t followed = 0;
 };
 
 /// Searches two surfaces for contacts below pairs of nodes, in one of two ways. If the leaves below these nodes have no

@@ -51,7 +51,9 @@ Animation gltf(const fs::path& file, const Animation_options& options) {
   if (scene->animations.empty()) {
     result.motion = rest(soup.points);
   } else {
-    result.motion = motion_of(std::move(scene), {options.frames_per_second, options.animation, options.limits});
+    result.motion = motion_of(
+        std::move(scene),
+        {.frames_per_second = options.frames_per_second, .animation = options.animation, .limits = options.limits});
     result.frames_per_second = result.motion.frames_per_second;
   }
   set_surface(result, std::move(soup));

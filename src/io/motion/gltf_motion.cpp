@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/motion/gltf_motion.h"
+#include "io/motion/rounded_rate.h"
 
 #include <fmt/format.h>
 
@@ -68,17 +69,15 @@ std::vector<double> uniform_keys(const Gltf_animation& animation) {
   return times;
 }
 
-/// Keys per second with six digits: the others come from the rounding of key times to floats.
+/// Keys per second.
 double rate_of(const std::vector<double>& keys) {
-  const double rate = static_cast<double>(keys.size() - 1) / (keys.back() - keys.front());
-  const double unit = std::pow(10, 5 - std::floor(std::log10(rate)));
-  return std::round(rate * unit) / unit;
+  return rounded_rate(static_cast<double>(keys.size() - 1) / (keys.back() - keys.front()));
 }
 
-std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate) {
+std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate, double start) {
   if (is_still(animation)) return 1;
   // The tolerance allows for an end that was rounded down to a float.
-  const double frames = std::floor(animation.seconds * rate * (1 + 1e-6)) + 1;
+  const double frames = std::floor(std::max(animation.seconds - start, 0.0) * rate * (1 + 1e-6)) + 1;
   if (!(frames <= double{most_sampled_frames}))
     throw Bad_motion(fmt::format("{}: {} seconds at {} frames per second are more than {} frames", scene.name,
                                  animation.seconds, rate, most_sampled_frames));
@@ -90,11 +89,12 @@ struct Sampling {
   std::size_t animation = 0;
   std::size_t frames = 0;
   double rate = 0;
+  double start = 0;               ///< time of the first frame in seconds
   std::vector<double> keys = {};  ///< empty: frames follow each other at the rate
 
   /// Key times are floats. With the same rounding, a frame at a key gets the key's exact value.
   double time(std::size_t frame) const {
-    return keys.empty() ? static_cast<float>(static_cast<double>(frame) / rate) : keys[frame];
+    return keys.empty() ? static_cast<float>(start + static_cast<double>(frame) / rate) : keys[frame];
   }
 };
 
@@ -107,7 +107,9 @@ Sampling sampling_of(const Gltf_scene& scene, const Gltf_motion_options& options
   const auto& animation = scene.animations[sampling.animation];
   if (!asked) sampling.keys = uniform_keys(animation);
   sampling.rate = sampling.keys.empty() ? asked.value_or(usual_rate) : rate_of(sampling.keys);
-  sampling.frames = sampling.keys.empty() ? frames_of(scene, animation, sampling.rate) : sampling.keys.size();
+  sampling.start = sampling.keys.empty() ? (asked ? options.start : 0) : sampling.keys.front();
+  sampling.frames =
+      sampling.keys.empty() ? frames_of(scene, animation, sampling.rate, sampling.start) : sampling.keys.size();
   return sampling;
 }
 
@@ -147,10 +149,10 @@ class Gltf_computed final : public Computed_motion {
 
 Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_options& options) {
   const auto sampling = std::make_shared<const Sampling>(sampling_of(*scene, options));
-  std::function<Motion(double)> resampled;
+  std::function<Motion(double, double)> resampled;
   if (!options.frames_per_second)
-    resampled = [scene, number = sampling->animation](double other) {
-      return motion_of(scene, {.frames_per_second = other, .animation = number});
+    resampled = [scene, number = sampling->animation](double rate, double start) {
+      return motion_of(scene, {.frames_per_second = rate, .start = start, .animation = number});
     };
   // The points hold one pose, and several threads may ask for different frames.
   struct Shared_points {
@@ -173,7 +175,7 @@ Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_opti
   return {.frames = sampling->frames,
           .pose = pose,
           .frames_per_second = sampling->rate,
-          .start = sampling->keys.empty() ? 0 : sampling->keys.front(),
+          .start = sampling->start,
           .resampled = std::move(resampled),
           .computed = computed,
           .animations = {.names = names_in(*scene), .played = sampling->animation}};

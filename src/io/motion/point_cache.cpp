@@ -15,6 +15,7 @@
 #include "io/files/byte_order.h"
 #include "io/files/small_text.h"
 #include "io/motion/point_cache_layout.h"
+#include "io/motion/rounded_rate.h"
 #include "lodestone/io/motion/motion.h"
 #include "lodestone/mesh/errors.h"
 #include "mesh/is_finite.h"
@@ -99,7 +100,7 @@ void read_mdd_times(std::ifstream& in, const fs::path& file, Point_cache& header
   }
   const double rate = static_cast<double>(frames - 1) / (ends[1] - ends[0]);
   if (!std::isfinite(rate) || !(rate > 0)) return;
-  header.frames_per_second = rate;
+  header.frames_per_second = rounded_rate(rate);
   header.start = ends[0];
 }
 

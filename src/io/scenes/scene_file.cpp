@@ -77,8 +77,8 @@ Motion placed(Motion motion, const Placement& placement) {
       return placed(inner(vertices), *placement);
     };
   if (motion.resampled)
-    motion.resampled = [inner = std::move(motion.resampled), placement](double rate) {
-      return placed(inner(rate), placement);
+    motion.resampled = [inner = std::move(motion.resampled), placement](double rate, double start) {
+      return placed(inner(rate, start), placement);
     };
   return motion;
 }

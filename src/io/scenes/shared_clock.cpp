@@ -19,25 +19,31 @@ bool are_alike(const std::vector<double>& numbers, double tolerance) {
   return *greatest - *least < tolerance;
 }
 
+double least_of(const std::vector<double>& numbers) { return *std::min_element(numbers.begin(), numbers.end()); }
+
 }  // namespace
 
 void share_clock(std::span<Scene_object> objects) {
-  std::vector<double> rates, given, starts;
+  std::vector<double> rates, starts, given_rates, given_starts;
   for (const auto& object : objects) {
     if (object.motion.frames_per_second == 0) continue;
     rates.push_back(object.motion.frames_per_second);
     starts.push_back(object.motion.start);
-    if (!object.motion.resampled) given.push_back(object.motion.frames_per_second);
+    if (object.motion.resampled) continue;
+    given_rates.push_back(object.motion.frames_per_second);
+    given_starts.push_back(object.motion.start);
   }
   if (rates.empty()) return;
-  const double fastest = *std::max_element(rates.begin(), rates.end());
-  const auto are_one_rate = [&](const std::vector<double>& some) { return are_alike(some, rounding * fastest); };
-  if (are_one_rate(rates) && are_alike(starts, rounding / fastest)) return;
-  const bool one_is_given = !given.empty() && are_one_rate(given);
-  const double common = one_is_given ? given.front() : are_one_rate(rates) ? rates.front() : usual_rate;
+  const double slowest = least_of(rates);
+  const auto are_one_rate = [&](const std::vector<double>& some) { return are_alike(some, rounding * slowest); };
+  const auto are_one_start = [&](const std::vector<double>& some) { return are_alike(some, rounding / slowest); };
+  if (are_one_rate(rates) && are_one_start(starts)) return;
+  const bool one_is_given = !given_rates.empty() && are_one_rate(given_rates);
+  const double rate = one_is_given ? least_of(given_rates) : are_one_rate(rates) ? slowest : usual_rate;
+  const double start = !given_starts.empty() && are_one_start(given_starts) ? least_of(given_starts) : 0;
   for (auto& object : objects) {
     if (!object.motion.resampled) continue;
-    auto motion = object.motion.resampled(common);
+    auto motion = object.motion.resampled(rate, std::max(start, 0.0));
     motion.animations = std::move(object.motion.animations);  // they say whether a scene has chosen one
     object.motion = std::move(motion);
   }

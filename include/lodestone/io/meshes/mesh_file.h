@@ -17,8 +17,9 @@ namespace lodestone {
 /// A mesh of triangles as read from a file. Triangles are in the order of the file's faces.
 ///
 /// A face of more than three corners is cut into triangles, which `file_face` maps to it. A quad is cut along the
-/// diagonal that suits its shape, a larger face by a Delaunay triangulation inside its outline, so that faces may be
-/// concave and need not be planar. A face without area, or whose outline touches or crosses itself, is cut into a fan.
+/// diagonal that suits its shape, or that of its first corner where both suit it alike; a larger face by a Delaunay
+/// triangulation inside its outline, so that faces may be concave and need not be planar. A face without area, or whose
+/// outline touches or crosses itself, is cut into a fan.
 ///
 /// A half-edge mesh cannot represent everything a file can. The reader duplicates a vertex that is on a non-manifold
 /// edge, or that one face names twice. It drops vertices that no face uses. `file_vertex` maps mesh vertices to file

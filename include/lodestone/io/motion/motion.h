@@ -39,8 +39,9 @@ struct Motion {
 
   double frames_per_second = 0;  ///< 0: the frames have no times
   double start = 0;              ///< time of the first frame in seconds, if they have
-  /// The same motion at another rate, > 0, if its reader chose the rate; empty if the caller did, or there is none.
-  std::function<Motion(double frames_per_second)> resampled = {};
+  /// The same motion at another rate, > 0, from another time on, in seconds, if its reader chose the rate; empty if the
+  /// caller did, or there is none.
+  std::function<Motion(double frames_per_second, double start)> resampled = {};
   /// The same motion of some vertices, as one whose frames need not be posed as a whole; empty: `pose` must be used.
   /// @param vertices  their indices, in the order of the file or shape
   std::function<std::unique_ptr<Computed_motion>(std::span<const std::uint32_t> vertices)> computed = {};
@@ -78,15 +79,16 @@ struct Gltf_motion_options {
   /// Sampling rate, > 0. Not given: one frame per key, from the first on, if the keys of all curves follow each other
   /// at equal distances, up to rounding, and there are at least 5 per second; else 30.
   std::optional<double> frames_per_second = {};
+  double start = 0;  ///< time of the first frame in seconds, >= 0; of no meaning without `frames_per_second`
   /// Which animation of the file: its index or its name.
   std::variant<std::size_t, std::string> animation = std::size_t{0};
   Mesh_file_options limits = {};  ///< of the file's meshes
 };
 
 /// Motion from an animation of a glTF 2.0 file (.gltf, .glb): nodes, skins and morph targets. Frame t is sampled at
-/// t / frames_per_second seconds, or at key t; the last frame is the last at or before the animation's end. The file is
-/// kept in memory, and `pose` computes frames on demand. Vertices have the indices that `read_mesh` gives those of the
-/// file.
+/// start + t / frames_per_second seconds, or at key t; the last frame is the last at or before the animation's end. The
+/// file is kept in memory, and `pose` computes frames on demand. Vertices have the indices that `read_mesh` gives those
+/// of the file.
 /// @param vertices  number of vertices the file must have
 /// @throws Bad_motion    a broken file, a wrong number of vertices, no such animation, more than a million frames
 /// @throws Bad_argument  the frame rate is not positive and finite
