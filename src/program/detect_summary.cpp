@@ -183,6 +183,7 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   if (rows > 0) fmt::print("{}", table.text());
   if (rows > row_limit) fmt::print("{} more pairs are omitted: --all-rows prints them.\n", rows - row_limit);
   if (omits) fmt::print("Pairs of which nothing was found are omitted{}.\n", rows > 0 ? "" : ": all of them");
+  if (rows == 0 && !omits) fmt::print("There is no pair of objects.\n");
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
   if (unfinished > 0)
     fmt::print(

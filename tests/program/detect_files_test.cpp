@@ -260,6 +260,7 @@ TEST_F(Detect_files, a_scene_of_one_object_gets_a_note_unless_its_own_faces_are_
   const auto alone = run_program({"detect", scene}), within = run_program({"detect", scene, "--self"});
   EXPECT_EQ(alone.exit_code, 0);
   EXPECT_NE(alone.err.find(note), std::string::npos) << alone.err;
+  EXPECT_NE(alone.out.find("\n\nThere is no pair of objects.\n\n"), std::string::npos) << alone.out;
   expect_success(within);
   EXPECT_EQ(within.err.find(note), std::string::npos);
 }

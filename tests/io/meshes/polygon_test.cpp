@@ -104,8 +104,8 @@ TEST_F(Polygons, a_parallelogram_is_cut_alike_however_its_corners_are_rounded) {
       turned.emplace_back(100 + c * p.x() - s * p.y(), s * p.x() + c * p.y(), 0);
     const auto file = read(turned);
     for (const auto face : file.mesh.faces()) {
-      const auto corners = file.mesh.vertices_around_face(file.mesh.halfedge(face));
-      EXPECT_EQ(std::ranges::count(corners.begin(), corners.end(), Surface_mesh::Vertex_index(0)), 1) << angle;
+      const auto around = file.mesh.vertices_around_face(file.mesh.halfedge(face));
+      EXPECT_EQ(std::ranges::count(around.begin(), around.end(), Surface_mesh::Vertex_index(0)), 1) << angle;
     }
   }
 }
