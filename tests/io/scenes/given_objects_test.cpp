@@ -34,6 +34,7 @@ class Given_objects : public testing::Test {
     pose(object, frame);
     return object.mesh.point(Surface_mesh::Vertex_index(0));
   }
+  std::filesystem::path write_cached_mover(float start) const;
 
   Temporary_folder folder;
 };
@@ -117,12 +118,31 @@ TEST_F(Given_objects, gltf_files_of_one_rate_that_start_at_different_times_run_f
   }
 }
 
+/// Moves the times of the 25 frames of an MDD file, 32-bit numbers with the highest byte first.
+void start_later(const std::filesystem::path& file, float seconds) {
+  auto bytes = read_bytes(file);
+  for (std::size_t frame = 0; frame < 25; ++frame) {
+    char* const at = bytes.data() + 8 + 4 * frame;
+    float time = 0;
+    std::reverse_copy(at, at + 4, reinterpret_cast<char*>(&time));
+    time += seconds;
+    std::reverse_copy(reinterpret_cast<char*>(&time), reinterpret_cast<char*>(&time) + 4, at);
+  }
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+/// The mover at 24 frames per second as a mesh with an MDD cache that starts at this time.
+std::filesystem::path Given_objects::write_cached_mover(float start) const {
+  folder.write("slow.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  write_mover(path("slow.mdd"), 24);
+  start_later(path("slow.mdd"), start);
+  return path("slow.off").string() + "+" + path("slow.mdd").string();
+}
+
 TEST_F(Given_objects, gltf_follows_the_rate_of_an_mdd_cache) {
   write_mover(path("fast.glb"), 60);
   write_mover(path("slow.glb"), 24);
-  write_mover(path("slow.mdd"), 24);
-  folder.write("slow.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
-  const std::filesystem::path cache = path("slow.off").string() + "+" + path("slow.mdd").string();
+  const auto cache = write_cached_mover(0);
   Scene scene = scene_of(std::vector{path("fast.glb"), cache});
   EXPECT_EQ(scene.frames, 25U);
   for (std::size_t frame = 0; frame < scene.frames; ++frame)
@@ -137,25 +157,9 @@ TEST_F(Given_objects, gltf_follows_the_rate_of_an_mdd_cache) {
     EXPECT_EQ(first_vertex(beside.objects[0], frame), first_vertex(alone.objects[0], frame));
 }
 
-/// Moves the times of the 25 frames of an MDD file, 32-bit numbers with the highest byte first.
-void start_later(const std::filesystem::path& file, float seconds) {
-  auto bytes = read_bytes(file);
-  for (std::size_t frame = 0; frame < 25; ++frame) {
-    char* const at = bytes.data() + 8 + 4 * frame;
-    float time = 0;
-    std::reverse_copy(at, at + 4, reinterpret_cast<char*>(&time));
-    time += seconds;
-    std::reverse_copy(reinterpret_cast<char*>(&time), reinterpret_cast<char*>(&time) + 4, at);
-  }
-  std::ofstream(file, std::ios::binary) << bytes;
-}
-
 TEST_F(Given_objects, gltf_begins_when_an_mdd_cache_begins) {
   write_mover(path("fast.glb"), 60);
-  write_mover(path("late.mdd"), 24);
-  start_later(path("late.mdd"), 0.25);
-  folder.write("late.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
-  const std::filesystem::path cache = path("late.off").string() + "+" + path("late.mdd").string();
+  const auto cache = write_cached_mover(0.25);
   Scene scene = scene_of(std::vector{path("fast.glb"), cache});
   EXPECT_EQ(scene.objects[0].motion.frames, 19U) << "of three quarters of a second";
   EXPECT_EQ(scene.frames, 25U);
