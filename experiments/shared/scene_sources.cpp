@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "io/files/small_text.h"
+#include "lodestone/io/scenes/component_objects.h"
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/mesh/errors.h"
-#include "shared/component_objects.h"
 
 namespace lodestone {
 
@@ -76,10 +76,8 @@ Scene read_folder(const fs::path& folder) {
 }
 
 /// Makes an object of each component, where the only object may collide with itself.
-void separate_components(Scene& scene) {
-  if (scene.objects.size() != 1 || scene.ignores({0, 0})) return;
-  auto parts = component_objects(scene.objects[0]);
-  if (parts.size() > 1) scene.objects = std::move(parts);
+void separate_if_alone(Scene& scene) {
+  if (scene.objects.size() == 1 && !scene.ignores({0, 0})) separate_components(scene);
 }
 
 }  // namespace
@@ -127,7 +125,7 @@ std::string name_of_source(const fs::path& source) {
 
 Scene read_source(const fs::path& source) {
   Scene scene = is_directory(source) ? read_folder(source) : read_scene(source);
-  separate_components(scene);
+  separate_if_alone(scene);
   return scene;
 }
 

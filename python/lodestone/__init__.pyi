@@ -372,11 +372,18 @@ def write_mesh(path: Path, mesh: Union[Mesh, ArrayLike], faces: Optional[ArrayLi
 def write_animation(
     path: Path, frames: Iterable[ArrayLike], faces: Optional[ArrayLike] = None, *, frames_per_second: float = 30.0
 ) -> None: ...
-def read_scene(path: Path, *, allow_outside: bool = False, max_faces: int = 50000000) -> Scene: ...
+def read_scene(
+    path: Union[Path, Sequence[Path]],
+    *,
+    components: bool = False,
+    allow_outside: bool = False,
+    max_faces: int = 50000000,
+) -> Scene: ...
 def play(
-    scene: Union[Path, Scene],
+    scene: Union[Path, Sequence[Path], Scene],
     *,
     frames: Optional[Iterable[int]] = None,
+    components: bool = False,
     allow_outside: bool = False,
     max_faces: int = 50000000,
     **options: Any,

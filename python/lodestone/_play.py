@@ -6,16 +6,16 @@ import operator
 from ._lodestone import BadArgument, Detector, Scene, read_scene
 
 
-def play(scene, *, frames=None, allow_outside=False, max_faces=50_000_000, **options):
+def play(scene, *, frames=None, components=False, allow_outside=False, max_faces=50_000_000, **options):
     """Plays a scene: yields a Frame per frame of the scene.
 
-    scene: a path of a scene file, or a Scene. frames: which of its frames, such as range(10, 20), where -1 is the
-    last; None: all.
-    allow_outside and max_faces are those of `read_scene`, other options those of Detector. `frame.detector` is the
-    detector; its objects are those of the scene, in order.
+    scene: a Scene, or a path or paths as of `read_scene`. frames: which of its frames, such as range(10, 20), where -1
+    is the last; None: all.
+    components, allow_outside and max_faces are those of `read_scene`, and of no meaning for a Scene; other options are
+    those of Detector. `frame.detector` is the detector; its objects are those of the scene, in order.
     """
     if not isinstance(scene, Scene):
-        scene = read_scene(scene, allow_outside=allow_outside, max_faces=max_faces)
+        scene = read_scene(scene, components=components, allow_outside=allow_outside, max_faces=max_faces)
     detector = Detector(**options)
     for number, animation in enumerate(scene.objects):
         groups, meets = scene.groups(number)

@@ -23,6 +23,7 @@ struct Strategy_choice {
 struct Detect_command {
   /// One scene (.json), or meshes, animations, `SCENE.json#OBJECT` and `shape:SHAPE`.
   std::vector<std::filesystem::path> inputs;
+  bool components = false;  ///< the connected components of an object are objects of their own
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
   bool chooses_strategy = false;  ///< the user chose the partition, or a setting of it
@@ -46,8 +47,8 @@ struct Detect_command {
 };
 
 struct Partition_command {
-  std::filesystem::path mesh;     ///< or `SCENE.json#OBJECT`, or `shape:SHAPE`
-  Scene_options reading = {};     ///< limits of the input; where a scene may name files
+  std::filesystem::path mesh;  ///< or `SCENE.json#OBJECT`, or `shape:SHAPE`
+  Scene_options reading = {};  ///< limits of the input; where a scene may name files
   Strategy_choice strategy = {};
   std::size_t regions = 12;
   Partition_options options = {};
@@ -93,6 +94,15 @@ struct Submit_command {
   bool slurm = false;                      ///< the only kind of cluster so far
   bool dry_run = false;
 };
+
+/// Whether the input is a scene file.
+inline bool is_scene_file(const std::vector<std::filesystem::path>& inputs) {
+  return inputs.size() == 1 && inputs.front().extension() == ".json";
+}
+/// What a message about one object alone adds; empty if its components are objects already.
+inline const char* hint_at_components(const Detect_command& command) {
+  return command.components ? "" : ", or --components for those between its connected components";
+}
 
 /// Runs a command: prints its table to the standard output and returns the program's exit code.
 int run(const Detect_command& command);

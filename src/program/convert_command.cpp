@@ -160,9 +160,9 @@ void note_other_files(const Convert_command& command, std::size_t frames) {
 void report(const Convert_command& command, const Animation& original, const Animation& animation, std::size_t frames,
             const Float_rounding& rounding) {
   const auto name = command.input.filename().string();
-  note_other_animations(name, original.motion.animations);
-  note_cut_faces(name, original.file_face);
-  note_not_kept(name, original.not_read);
+  note(other_animations_note(name, original.motion.animations));
+  note(cut_faces_note(name, original.file_face));
+  note(not_kept_note(name, original.not_read));
   note_faces_not_kept(command, animation);
   note_rounding(command, rounding);
   note_other_files(command, frames);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -60,8 +61,8 @@ void note_single_object(const Scene& scene, const Detect_command& command) {
   if (scene.objects.size() == 1 && !command.options.exact.self_collision)
     note(
         fmt::format("{}: one object alone has nothing to collide with; add another to the scene, or --self for "
-                    "collisions with itself",
-                    command.inputs.front().string()));
+                    "collisions with itself{}",
+                    command.inputs.front().string(), hint_at_components(command)));
 }
 
 void note_unquoted_pattern(const Detect_command& command) {
@@ -89,18 +90,38 @@ void note_lengths(const Scene& scene, bool is_from_file) {
       is_from_file ? "the scene ends with the shortest" : "an object whose motion has ended keeps its last pose"));
 }
 
+/// Notes of one kind: those of the first objects, and how many objects there are more.
+/// @param text_of  empty: nothing is to be noted of that object
+void note_each(const Scene& scene, const std::function<std::string(Object_id)>& text_of) {
+  constexpr std::size_t most = 3;
+  std::size_t noted = 0;
+  for (Object_id id = 0; id < scene.objects.size(); ++id) {
+    const auto text = text_of(id);
+    noted += text.empty() ? 0 : 1;
+    if (noted <= most) note(text);
+  }
+  if (noted > most) note(fmt::format("the same holds for {}", counted(noted - most, "more object")));
+}
+
+void note_objects(const Detect_run& scene_run) {
+  const Scene& scene = scene_run.scene();
+  const auto& objects = scene.objects;
+  note_each(scene,
+            [&](Object_id id) { return other_animations_note(objects[id].name, objects[id].motion.animations); });
+  note_each(scene, [&](Object_id id) { return cut_faces_note(objects[id].name, objects[id].file_face); });
+  note_each(scene, [&](Object_id id) {
+    return joined_vertices_note(objects[id].name, scene_run.joined_vertices(id), objects[id].mesh.number_of_vertices());
+  });
+}
+
 /// What the user reads on the terminal.
 void print_results(Detect_run& scene_run, const Detect_command& command) {
   if (command.json) return fmt::print("{}", json_text(scene_run.summary(), 2));
   if (command.quiet) return fmt::print("{}", scene_run.answer());
-  note_lengths(scene_run.scene(), command.inputs.size() == 1 && command.inputs.front().extension() == ".json");
+  note_lengths(scene_run.scene(), is_scene_file(command.inputs));
   note_single_object(scene_run.scene(), command);
   note_unquoted_pattern(command);
-  for (const auto& object : scene_run.scene().objects) {
-    note_other_animations(object.name, object.motion.animations);
-    note_cut_faces(object.name, object.file_face);
-  }
-  scene_run.note_seams();
+  note_objects(scene_run);
   scene_run.print();
   if (!command.out.empty()) fmt::print("results: {}\n", printable(command.out.string()));
   if (scene_run.page() != nullptr) fmt::print("{}", scene_run.page()->summary());

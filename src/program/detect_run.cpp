@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program/detect_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
 #include "lodestone/detection/frame_at_once.h"
+#include "lodestone/io/scenes/component_objects.h"
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/queries/exhaustive.h"
-#include "program/notes.h"
 
 namespace lodestone {
 
 namespace {
 
-bool is_scene(const std::filesystem::path& input) { return input.extension() == ".json"; }
+/// @throws Bad_argument  one mesh alone, which is not to be compared with itself
+void check_not_alone(const Scene& scene, const Detect_command& command) {
+  if (scene.objects.size() > 1 || command.options.exact.self_collision) return;
+  throw Bad_argument(fmt::format(
+      "{}: one {} alone has nothing to collide with; give a scene or two meshes, or --self for collisions with "
+      "itself{}",
+      command.inputs[0].string(), command.components ? "connected component" : "mesh", hint_at_components(command)));
+}
 
 Scene load(const Detect_command& command) {
-  const auto& inputs = command.inputs;
-  if (inputs.size() == 1 && is_scene(inputs[0])) return read_scene(inputs[0], command.reading);
-  for (const auto& input : inputs)
-    if (is_scene(input)) throw Bad_argument(input.string() + ": a scene must be the only input");
-  Scene scene = scene_of(inputs, command.reading);
-  if (inputs.size() == 1 && !command.options.exact.self_collision)
-    throw Bad_argument(inputs[0].string() +
-                       ": one mesh alone has nothing to collide with; give a scene or two meshes, or --self for "
-                       "collisions with itself");
+  Scene scene = read_inputs(command.inputs, command.reading);
+  if (command.components) separate_components(scene);
+  if (!is_scene_file(command.inputs)) check_not_alone(scene, command);
   return scene;
 }
 
@@ -58,11 +61,8 @@ Detect_run::Detect_run(const Detect_command& command) : command_(command), scene
   if (!command.paraview.empty()) paraview_.emplace(command.paraview, scene_.frames);
 }
 
-void Detect_run::note_seams() const {
-  if (finds_all(command_.options.mode) || !detector_) return;
-  for (Object_id id = 0; id < scene_.objects.size(); ++id)
-    note_joined_vertices(scene_.objects[id].name, detector_->object(id).joined_vertices(),
-                         scene_.objects[id].mesh.number_of_vertices());
+std::size_t Detect_run::joined_vertices(Object_id id) const {
+  return finds_all(command_.options.mode) || !detector_ ? 0 : detector_->object(id).joined_vertices();
 }
 
 /// What need not be posed as a whole is posed by the detector, where it looks.

@@ -46,8 +46,8 @@ class Detect_run {
   std::string answer() const { return one_line_answer(subject(), summary_); }
   bool finds_any() const { return summary_.finds_any(); }
   const Scene& scene() const { return scene_; }
-  /// Tells at which objects particles walk across seams.
-  void note_seams() const;
+  /// The number of vertices of an object that lie on others along seams, which its particles walk across.
+  std::size_t joined_vertices(Object_id id) const;
   /// Null if no page was requested.
   Page_log* page() { return page_ ? &*page_ : nullptr; }
   Paraview_log* paraview() { return paraview_ ? &*paraview_ : nullptr; }

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "io/files/small_text.h"
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/results/text_table.h"
+#include "lodestone/version.h"
 #include "program/frame_log.h"
 #include "program/missed_frames.h"
+#include "program/source_revision.h"
 
 namespace lodestone {
 
@@ -24,7 +27,10 @@ constexpr std::size_t most_rows = 20;
 
 Json object_summary_json(const Run_subject& subject, Object_id id) {
   const auto& object = subject.scene.objects[id];
+  Json files = Json::array();
+  for (const auto& file : object.files) files.push_back(file.string());
   Json json{{"name", object.name},
+            {"files", std::move(files)},
             {"vertices", object.mesh.number_of_vertices()},
             {"faces", count_file_faces(object.file_face).count},
             {"triangles", object.mesh.number_of_faces()}};
@@ -281,7 +287,10 @@ Json objects_json(const Run_subject& subject) {
 Json summary_json(const Run_subject& subject, const Run_summary& summary) {
   const Mode mode = subject.command.options.mode;
   const bool divides = makes_regions(subject.command.options, subject.scene);
-  Json json{{"scene", subject.scene.name},
+  Json json{{"version", version()},
+            {"revision", source_revision()},
+            {"command", subject.command.words},
+            {"scene", subject.scene.name},
             {"frames", subject.scene.frames},
             {"mode", name_of(mode)},
             {"may_miss", misses_json(subject.command.options)},

@@ -136,9 +136,11 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
          "INPUT", command.inputs,
          "A scene (.json), or two or more meshes or animations (.off .obj .ply .stl .gltf .glb .md2 .md3, a "
          "pattern such as 'cloth_*.obj', MESH+CACHE with .pc2 or .mdd, SCENE.json#OBJECT, shape:teapot); one with "
-         "--self; - is the standard input")
+         "--self or --components; - is the standard input")
       ->required()
       ->type_name("FILE");
+  app.add_flag("--components", command.components,
+               "Each connected component of a mesh is an object of its own, NAME_1, NAME_2 and so on");
   app.add_option("--mode", options.mode,
                  "exact: every face, misses nothing; certified: the same, reads only what is near; particles: one per "
                  "region, may miss; senin: the predecessor")

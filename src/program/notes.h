@@ -18,36 +18,43 @@
 /// What a user should know about an input that was accepted: one line each on the standard error output.
 namespace lodestone {
 
-inline void note(const std::string& text) { fmt::print(stderr, "lodestone: {}\n", printable(text)); }
+/// @param text  empty: there is nothing to know
+inline void note(const std::string& text) {
+  if (!text.empty()) fmt::print(stderr, "lodestone: {}\n", printable(text));
+}
 
 /// Faces that were cut into triangles.
 /// @param name  of the file or object
-inline void note_cut_faces(const std::string& name, std::span<const std::uint32_t> file_face) {
+/// @return empty if there are none
+inline std::string cut_faces_note(const std::string& name, std::span<const std::uint32_t> file_face) {
   const auto faces = count_file_faces(file_face);
-  if (faces.cut > 0)
-    note(fmt::format("{}: {} of {} faces have more than three corners: cut into triangles, {} in all", name, faces.cut,
-                     faces.count, file_face.size()));
+  if (faces.cut == 0) return {};
+  return fmt::format("{}: {} of {} faces have more than three corners: cut into triangles, {} in all", name, faces.cut,
+                     faces.count, file_face.size());
 }
 
 /// Animations that are not played, since no scene chooses among those of the file.
-inline void note_other_animations(const std::string& name, const File_animations& animations) {
+/// @return empty if there are none
+inline std::string other_animations_note(const std::string& name, const File_animations& animations) {
   const auto& [names, played, is_chosen] = animations;
-  if (names.size() > 1 && !is_chosen)
-    note(fmt::format("{}: plays the animation {}, the first of {}: {}; `gltf.animation` of a scene chooses another",
-                     name, animation_name(names, played), names.size(), animation_list(names)));
+  if (names.size() <= 1 || is_chosen) return {};
+  return fmt::format("{}: plays the animation {}, the first of {}: {}; `gltf.animation` of a scene chooses another",
+                     name, animation_name(names, played), names.size(), animation_list(names));
 }
 
 /// Vertices that lie on others along seams.
-inline void note_joined_vertices(const std::string& name, std::size_t joined, std::size_t vertices) {
-  if (joined > 0)
-    note(fmt::format(
-        "{}: {} of {} vertices lie on others along seams: particles walk across (--open-seams: they do not)", name,
-        joined, vertices));
+/// @return empty if there are none
+inline std::string joined_vertices_note(const std::string& name, std::size_t joined, std::size_t vertices) {
+  if (joined == 0) return {};
+  return fmt::format(
+      "{}: {} of {} vertices lie on others along seams: particles walk across (--open-seams: they do not)", name,
+      joined, vertices);
 }
 
 /// Contents of a file that a conversion does not keep.
-inline void note_not_kept(const std::string& name, const std::set<std::string>& contents) {
-  if (!contents.empty()) note(fmt::format("{}: not kept: {}", name, fmt::join(contents, ", ")));
+/// @return empty if there are none
+inline std::string not_kept_note(const std::string& name, const std::set<std::string>& contents) {
+  return contents.empty() ? std::string() : fmt::format("{}: not kept: {}", name, fmt::join(contents, ", "));
 }
 
 }  // namespace lodestone

@@ -178,7 +178,7 @@ int run(const Partition_command& command) {
   if (!command.out.empty()) write_coloured_ply(command.out, file.mesh, divided.labels);
   if (json) json->commit();
   if (page) page->commit();
-  if (!command.quiet) note_cut_faces(command.mesh.filename().string(), file.file_face);
+  if (!command.quiet) note(cut_faces_note(command.mesh.filename().string(), file.file_face));
   if (!command.quiet) print_table(file, divided, command);
   if (!command.quiet && page) fmt::print("\n{}\n", page->summary());
   return exit_code::success;

@@ -9,9 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "lodestone/version.h"
 #include "program/run_program.h"
 #include "support/gltf_samples.h"
 #include "support/mesh_samples.h"
+#include "support/moving_mesh_files.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
 
@@ -251,6 +253,52 @@ TEST_F(Detect_files, shapes_and_objects_of_scenes_are_inputs) {
   expect_error(detect({scene + "#gone", path("a.off")}), 2, "still, comes");
   expect_error(detect({"shape:kettle", path("a.off")}), 3, "kettle");
   expect_error(detect({"shape:teapot"}), 2, "one mesh alone");
+}
+
+TEST_F(Detect_files, components_of_an_input_are_objects_on_demand) {
+  write_two_tetrahedra_in_one_mesh(path("pair"), 4);
+  const std::string input = path("pair.off") + '+' + path("pair.pc2");
+  expect_error(detect({input}), 2,
+               "pair.pc2: one mesh alone has nothing to collide with; give a scene or two meshes, "
+               "or --self for collisions with itself, or --components");
+  for (const std::string mode : {"exact", "certified", "particles"}) {
+    expect_success(detect({input, "--components"}, mode));
+    EXPECT_EQ(collisions(), (std::vector<bool>{false, false, true, true})) << mode;
+  }
+  const Json pair = read_json(out / "summary.json")["pairs"][0];
+  EXPECT_EQ(pair["a"], "pair_1");
+  EXPECT_EQ(pair["b"], "pair_2");
+  write("a.off", tetrahedron_off());
+  expect_error(detect({path("a.off"), "--components"}), 2, "a.off: one connected component alone has nothing to ");
+  const auto scene = write("scene.json", R"({"objects": [{"name": "both", "mesh": "pair.off"}]})");
+  const auto of_scene = detect({scene, "--components"});
+  expect_success(of_scene);
+  EXPECT_EQ(of_scene.err.find("alone"), std::string::npos) << of_scene.err;
+  EXPECT_EQ(read_json(out / "summary.json")["objects"].size(), 2U);
+}
+
+TEST_F(Detect_files, a_note_about_many_objects_names_three) {
+  std::string five_quads = "OFF\n20 5 0\n", faces;
+  for (int quad = 0; quad < 5; ++quad) {
+    five_quads += fmt::format("{0} 0 0\n{0} 1 0\n{1} 1 0\n{1} 0 0\n", 2 * quad, 2 * quad + 1);
+    faces += fmt::format("4 {} {} {} {}\n", 4 * quad, 4 * quad + 1, 4 * quad + 2, 4 * quad + 3);
+  }
+  const auto result = run_program({"detect", write("quads.off", five_quads + faces), "--components"});
+  EXPECT_EQ(result.exit_code, 0);
+  const std::string note = ": 1 of 1 faces have more than three corners: cut into triangles, 2 in all\n";
+  EXPECT_EQ(result.err, "lodestone: quads_1" + note + "lodestone: quads_2" + note + "lodestone: quads_3" + note +
+                            "lodestone: the same holds for 2 more objects\n");
+}
+
+TEST_F(Detect_files, the_summary_names_the_command_and_the_files_of_each_object) {
+  const auto a = write("a.off", tetrahedron_off());
+  expect_success(detect({a, "shape:teapot"}));
+  const Json summary = read_json(out / "summary.json");
+  EXPECT_EQ(summary["command"], Json({"detect", a, "shape:teapot", "--mode", "exact", "--contacts", "all"}));
+  EXPECT_EQ(summary["version"], version());
+  EXPECT_FALSE(summary["revision"].get<std::string>().empty());
+  EXPECT_EQ(summary["objects"][0]["files"], Json({a}));
+  EXPECT_EQ(summary["objects"][1]["files"], Json::array());
 }
 
 TEST_F(Detect_files, a_scene_of_one_object_gets_a_note_unless_its_own_faces_are_asked_about) {

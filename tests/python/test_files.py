@@ -131,6 +131,32 @@ def test_a_scene_has_objects_that_are_animations(scenes):
     assert len(frames) == 3 and frames[0].detector is frames[2].detector
 
 
+def test_components_of_one_mesh_are_objects_on_demand(tmp_path):
+    box = cube()
+    pattern = tmp_path / "break_##.obj"
+    faces = np.vstack([box.faces, box.faces + 8])
+    shifts = [3, 1.5, 0.5]
+    lodestone.write_animation(pattern, [np.vstack([box.vertices, box.vertices + [x, 0, 0]]) for x in shifts], faces)
+    assert [o.name for o in lodestone.read_scene(pattern).objects] == ["break"]
+    scene = lodestone.read_scene(pattern, components=True)
+    assert scene.frames == 3 and [o.name for o in scene.objects] == ["break_1", "break_2"]
+    assert np.array_equal(scene.objects[1][2], box.vertices + [0.5, 0, 0])
+    assert scene.objects[1].file_faces.tolist() == list(range(12, 24))
+    for mode in ("exact", "certified", "particles"):
+        assert [bool(f) for f in lodestone.play(pattern, components=True, mode=mode)] == [False, False, True]
+
+
+def test_a_scene_can_be_several_inputs(tmp_path, scenes):
+    lodestone.write_mesh(tmp_path / "box.obj", cube())
+    scene = lodestone.read_scene([tmp_path / "box.obj", "shape:teapot"])
+    assert [o.name for o in scene.objects] == ["box", "teapot"] and scene.frames == 1
+    assert [bool(frame) for frame in lodestone.play([str(tmp_path / "box.obj"), "shape:teapot"])] == [True]
+    with pytest.raises(lodestone.BadArgument, match="a scene must be the only input"):
+        lodestone.read_scene([tmp_path / "box.obj", scenes / "teapot_sphere_1.json"])
+    with pytest.raises(lodestone.BadArgument, match="at least one path"):
+        lodestone.read_scene([])
+
+
 def test_frames_of_a_scene_are_counted_from_the_end_too(scenes):
     def faces_of(*frames):
         return [frame.faces.tolist() for frame in lodestone.play(scenes / "teapot_sphere_1.json", frames=frames)]

@@ -124,6 +124,14 @@ Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_option
   return scene;
 }
 
+Scene read_inputs(std::span<const std::filesystem::path> inputs, const Scene_options& options) {
+  const auto is_scene = [](const std::filesystem::path& input) { return input.extension() == ".json"; };
+  const auto found = std::ranges::find_if(inputs, is_scene);
+  if (found == inputs.end()) return scene_of(inputs, options);
+  if (inputs.size() > 1) throw Bad_argument(found->string() + ": a scene must be the only input");
+  return read_scene(*found, options);
+}
+
 Animation animation_of(const Scene_object& object, std::size_t frames) {
   Animation animation{.kind = "object", .vertices = object.file_vertices, .faces = {}};
   for (const auto f : object.mesh.faces()) {

@@ -29,11 +29,11 @@ namespace {
 using detail::as_json;
 using detail::Json_value;
 using detail::most_scene_frames;
+using detail::most_scene_objects;
 using detail::object_of;
 using detail::Scene_folder;
 using Placement = std::optional<Kernel::Aff_transformation_3>;
 
-constexpr std::size_t most_objects = 10'000;
 constexpr std::size_t most_ignored = 100'000;
 constexpr std::size_t most_particles = 100'000;
 
@@ -93,7 +93,7 @@ Motion read_gltf(const Json_value& value, std::size_t vertices, Scene_folder& fo
     if (animation->is_string())
       options.animation = animation->text();
     else
-      options.animation = animation->count(0, most_objects);
+      options.animation = animation->count(0, most_scene_objects);
   }
   if (const auto rate = value.find("frames_per_second")) {
     options.frames_per_second = rate->number();
@@ -145,7 +145,7 @@ Scene_object read_object(const Json_value& value, Scene_folder& folder) {
 std::vector<Scene_object> read_objects(const Json_value& value, Scene_folder& folder) {
   std::vector<Scene_object> objects;
   std::set<std::string> names;
-  for (const Json_value& element : value.elements(most_objects)) {
+  for (const Json_value& element : value.elements(most_scene_objects)) {
     objects.push_back(read_object(element, folder));
     const std::string& name = objects.back().name;
     if (!names.insert(name).second)
@@ -187,7 +187,7 @@ std::size_t shortest_motion(const std::vector<Scene_object>& objects) {
 }
 
 bool any_moves(const Json_value& objects) {
-  return std::ranges::any_of(objects.elements(most_objects),
+  return std::ranges::any_of(objects.elements(most_scene_objects),
                              [](const Json_value& object) { return object.has("motion"); });
 }
 

@@ -13,6 +13,8 @@
 namespace lodestone::detail {
 
 inline constexpr std::size_t most_scene_frames = 1'000'000;
+/// The most objects of a scene.
+inline constexpr std::size_t most_scene_objects = 10'000;
 
 /// Finds the files that a scene names, relative to the scene's folder, and remembers them.
 class Scene_folder {

@@ -36,6 +36,11 @@ Scene_object object_of_scene(const std::filesystem::path& scene, const std::stri
 /// @param inputs  at least one
 Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_options& options = {});
 
+/// One scene file (.json), or else `scene_of` the inputs.
+/// @param inputs  at least one
+/// @throws Bad_argument  a scene file beside other inputs; else as read_scene and scene_of
+Scene read_inputs(std::span<const std::filesystem::path> inputs, const Scene_options& options = {});
+
 /// A built-in shape, by its name if it has defaults for all its fields, else as a scene describes it: `teapot`,
 /// `{"icosphere": {"frequency": 8}}`.
 /// @throws Bad_scene
