@@ -7,6 +7,7 @@
 
 #include "fuzz/read_input.h"
 #include "fuzz/scratch_folder.h"
+#include "lodestone/io/scenes/component_objects.h"
 #include "lodestone/io/scenes/scene_file.h"
 
 namespace {
@@ -47,6 +48,19 @@ void check_scene(Scene& scene) {
   }
 }
 
+std::size_t count_faces(const Scene& scene) {
+  std::size_t count = 0;
+  for (const auto& object : scene.objects) count += object.mesh.number_of_faces();
+  return count;
+}
+
+void check_components(Scene& scene) {
+  const std::size_t objects = scene.objects.size(), faces = count_faces(scene);
+  lodestone::separate_components(scene);
+  require(scene.objects.size() >= objects && count_faces(scene) == faces, "components without faces of the whole");
+  check_scene(scene);
+}
+
 bool nests_little(std::string_view text) {
   return std::ranges::count_if(text, [](char c) { return c == '[' || c == '{'; }) < 1000;
 }
@@ -61,5 +75,6 @@ LODESTONE_FUZZ_TARGET(scene) {
   accepts([&] {
     auto scene = lodestone::read_scene(file);
     check_scene(scene);
+    check_components(scene);
   });
 }
