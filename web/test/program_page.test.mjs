@@ -50,6 +50,22 @@ test('a run of 300 frames is a small page that shows the numbers of frames.jsonl
   assert.deepEqual(errors, []);
 });
 
+test('of many pairs of objects those that collide are listed first', { skip }, async (t) => {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'program-page-'));
+  const file = path.join(folder, 'run.html');
+  const scene = path.join(root, 'data/scenes/bodies_20.json');
+  execFileSync(program, ['detect', scene, '--html', file, '--out', folder, '--quiet']);
+  const lines = fs.readFileSync(path.join(folder, 'frames.jsonl'), 'utf8').trimEnd().split('\n').map((line) => JSON.parse(line));
+  const frame = lines.findIndex(({ pairs }) => pairs.length > 6 && pairs.some((pair, i) => pair.collides && i > 0 && !pairs[i - 1].collides));
+  assert.ok(frame >= 0);
+  const { page, errors } = await open(t, folder, file);
+  await page.evaluate((n) => window.lodestone.goto(n), frame);
+  const { pairs } = lines[frame];
+  const names = [true, false].flatMap((collides) => pairs.filter((pair) => pair.collides === collides)).map(({ a, b }) => `${a} – ${b}`);
+  assert.deepEqual(await page.locator('#pairs .name').allTextContents(), names);
+  assert.deepEqual(errors, []);
+});
+
 test('a partition is a page with one frame and no timeline to play', { skip }, async (t) => {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'program-page-'));
   const mesh = path.join(folder, 'mesh.off');

@@ -62,13 +62,21 @@ export function make_numbers(page) {
     if (line?.pairs) {
       const colliding = line.pairs.filter(({ collides }) => collides).length;
       statistics.show({ ...line.statistics, 'colliding pairs': colliding, ...(stage ? { 'nearest distance': stage.nearest } : {}) });
-      pairs.show(Object.fromEntries(line.pairs.map((pair) => [`${pair.a} – ${pair.b}`, pair])));
+      pairs.show(Object.fromEntries(found_first(line.pairs).map((pair) => [`${pair.a} – ${pair.b}`, pair])));
     }
     if (stage) {
       const sum = Object.values(stage.microseconds).reduce((a, b) => a + b, 0);
       stages.show({ ...Object.fromEntries(used.map((key) => [key, stage.microseconds[key] ?? 0])), sum });
     }
   };
+}
+
+/** Pairs of which something was found, or missed, before all others, where the list does not show all at once. */
+function found_first(pairs) {
+  const in_view = 6;
+  if (pairs.length <= in_view) return pairs;
+  const is_found = (pair) => Boolean(pair.collides || pair.truth || pair.near || pair.inside);
+  return [...pairs.filter(is_found), ...pairs.filter((pair) => !is_found(pair))];
 }
 
 /** The numbers of a line that has no pairs, that of a partition, its measures among them. */
