@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "io/files/small_text.h"
-#include "lodestone/io/scenes/component_objects.h"
 #include "lodestone/io/scenes/given_objects.h"
+#include "lodestone/io/scenes/separated_objects.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -77,7 +77,7 @@ Scene read_folder(const fs::path& folder) {
 
 /// Makes an object of each component, where the only object may collide with itself.
 void separate_if_alone(Scene& scene) {
-  if (scene.objects.size() == 1 && !scene.ignores({0, 0})) separate_components(scene);
+  if (scene.objects.size() == 1 && !scene.ignores({0, 0})) separate(scene, Separate::components);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ std::string name_of_source(const std::filesystem::path& source);
 /// Reads a scene file, or makes a scene of a folder of real motion. That scene has the name of the folder, and an
 /// object for each mesh `STEM.off` in the order of the stems; meshes without a point cache do not move. If the scene
 /// has a single object, which may collide with itself and has several connected components, these are the objects
-/// instead: see `separate_components`.
+/// instead: see `separate`.
 /// @throws Bad_scene, Bad_mesh, Bad_motion  as read_scene and scene_of
 Scene read_source(const std::filesystem::path& source);
 

@@ -376,6 +376,7 @@ def read_scene(
     path: Union[Path, Sequence[Path]],
     *,
     components: bool = False,
+    parts: bool = False,
     allow_outside: bool = False,
     max_faces: int = 50000000,
 ) -> Scene: ...
@@ -384,6 +385,7 @@ def play(
     *,
     frames: Optional[Iterable[int]] = None,
     components: bool = False,
+    parts: bool = False,
     allow_outside: bool = False,
     max_faces: int = 50000000,
     **options: Any,

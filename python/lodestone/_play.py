@@ -6,17 +6,23 @@ import operator
 from ._lodestone import BadArgument, Detector, Scene, read_scene
 
 
-def play(scene, *, frames=None, components=False, allow_outside=False, max_faces=50_000_000, **options):
+def play(scene, *, frames=None, components=False, parts=False, allow_outside=False, max_faces=50_000_000, **options):
     """Plays a scene: yields a Frame per frame of the scene.
 
     scene: a Scene, or a path or paths as of `read_scene`. frames: which of its frames, such as range(10, 20), where -1
     is the last; None: all.
-    components, allow_outside and max_faces are those of `read_scene`, and of no meaning for a Scene; other options are
+    components, parts, allow_outside and max_faces are those of `read_scene`, and of no meaning for a Scene; other options are
     those of Detector. `frame.detector` is the detector; its objects are those of the scene, in order.
     """
-    if not isinstance(scene, Scene):
-        scene = read_scene(scene, components=components, allow_outside=allow_outside, max_faces=max_faces)
-    detector = Detector(**options)
+    if isinstance(scene, Scene):
+        if components or parts:
+            raise BadArgument("components and parts are of no meaning for a Scene: give them to read_scene")
+    else:
+        scene = read_scene(scene, components=components, parts=parts, allow_outside=allow_outside, max_faces=max_faces)
+    try:
+        detector = Detector(**options)
+    except TypeError as error:
+        raise TypeError(f"{error}; play has frames, components, parts, allow_outside, max_faces too") from None
     for number, animation in enumerate(scene.objects):
         groups, meets = scene.groups(number)
         detector.add(animation, groups=groups, meets=meets)

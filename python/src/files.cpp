@@ -9,7 +9,7 @@
 #include "arrays.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/io/results/animation_output.h"
-#include "lodestone/io/scenes/component_objects.h"
+#include "lodestone/io/scenes/separated_objects.h"
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
@@ -50,14 +50,15 @@ struct Python_scene {
   std::vector<Object_pair> ignored = {};
 };
 
-Python_scene read_scene_file(const std::variant<Path, std::vector<Path>>& path, bool components, bool allow_outside,
-                             std::size_t max_faces) {
+Python_scene read_scene_file(const std::variant<Path, std::vector<Path>>& path, bool components, bool parts,
+                             bool allow_outside, std::size_t max_faces) {
   const Without_gil without_gil;
   const auto* const one = std::get_if<Path>(&path);
   const auto inputs = one != nullptr ? std::vector{*one} : std::get<std::vector<Path>>(path);
   if (inputs.empty()) throw Bad_argument("expected at least one path");
   Scene scene = read_inputs(inputs, {.allow_outside = allow_outside, .limits = {.max_faces = max_faces}});
-  if (components) separate_components(scene);
+  if (parts) separate(scene, Separate::parts);
+  if (components) separate(scene, Separate::components);
   Python_scene read{.name = scene.name, .description = scene.description, .frames = scene.frames};
   for (const auto& object : scene.objects)
     read.objects.push_back(std::make_shared<Python_animation>(
@@ -158,10 +159,11 @@ void add_files(py::module_& module) {
                std::to_string(self.frames) + " frames>";
       });
   module.def("read_scene", read_scene_file, py::arg("path"), py::kw_only(), py::arg("components") = false,
-             py::arg("allow_outside") = false, py::arg("max_faces") = max_faces,
+             py::arg("parts") = false, py::arg("allow_outside") = false, py::arg("max_faces") = max_faces,
              "Reads a scene.\npath: a scene file (.json), or meshes and animations: one path or a list, as the program's `detect` "
              "takes them,\nsuch as 'cloth_*.obj' or 'cloth.obj+cloth.pc2'. components: the connected components of each object "
-             "are objects\nof their own, named NAME_1, NAME_2 and so on. allow_outside: a scene may name files outside its folder.\n"
+             "are objects\nof their own, named NAME_1, NAME_2 and so on. parts: so are the objects of an OBJ file and the nodes of a glTF file, "
+             "with\nthe names that they have there. allow_outside: a scene may name files outside its folder.\n"
              "max_faces: of each file. Raises BadScene, BadMesh, BadMotion.");
 }
 

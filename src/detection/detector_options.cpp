@@ -55,7 +55,7 @@ void check(const Detector_options& options) {
   require(options.most_contacts > 0, "at least one contact must be allowed");
   require(options.contacts != Contact_query::yes_no ||
               (!options.contact_points && !options.contact_normals && !exact.patches),
-          "contact points, normals and patches need the contacts `first` or `all`");
+          "contact points and normals need the contacts `first` or `all`, patches need `all`");
   require(exact.tolerance >= 0 && std::isfinite(exact.tolerance), "the tolerance must be finite and >= 0");
   require(exact.self_tolerance >= 0 && std::isfinite(exact.self_tolerance),
           "the tolerance within one object must be finite and >= 0");

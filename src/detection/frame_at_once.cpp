@@ -36,20 +36,25 @@ bool can_answer_at_once(const Detector_options& options) {
          !exact.patches && !limited;
 }
 
-Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading) {
+std::optional<Frame> overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options,
+                                   double reading) {
   const Box &box_a = surfaces.box_a, &box_b = surfaces.box_b;
   const Faces_in_box &a = surfaces.a, &b = surfaces.b;
   Frame_builder builder(options);
   builder.start();
   builder.seconds().broad_phase = reading;
   if (!box_a.intersects(box_b)) return builder.finish();
+  bool has_given_up = false;
   timed(builder.seconds().confirmation, [&] {
     Pair_result result = builder.start_pair({0, 1});
-    const Contact_summary contacts = Overlap_search().run(a, box_a, b, box_b, options.contacts, builder.face_pairs());
-    result.collides = contacts.found;
-    count_tests(contacts, result, builder.statistics());
+    const auto contacts = Overlap_search().run(a, box_a, b, box_b, options.contacts, builder.face_pairs());
+    has_given_up = !contacts;
+    if (has_given_up) return;
+    result.collides = contacts->found;
+    count_tests(*contacts, result, builder.statistics());
     builder.end_pair(result, [&](Object_id id, std::uint32_t face) { return triangle_in(id == 0 ? a : b, face); });
   });
+  if (has_given_up) return std::nullopt;
   return builder.finish();
 }
 

@@ -121,7 +121,9 @@ inline std::optional<int> parse(CLI::App& program, int argc, char** argv) {
     if (asked_for_help) return program.exit(error);
     auto complaint = unknown_word(program, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
     if (complaint.empty()) complaint = error.what();
-    fmt::print(stderr, "lodestone: {} (see {} --help)\n", printable(complaint), program.get_name());
+    const auto* const command = argc > 1 ? find_command(program, argv[1]) : nullptr;
+    fmt::print(stderr, "lodestone: {} (see {}{} --help)\n", printable(complaint), program.get_name(),
+               command != nullptr ? " " + command->get_name() : "");
     return exit_code::bad_usage;
   }
 }

@@ -23,7 +23,8 @@ struct Strategy_choice {
 struct Detect_command {
   /// One scene (.json), or meshes, animations, `SCENE.json#OBJECT` and `shape:SHAPE`.
   std::vector<std::filesystem::path> inputs;
-  bool components = false;  ///< the connected components of an object are objects of their own
+  bool parts = false;       ///< the parts that a file names are objects of their own
+  bool components = false;  ///< so are connected components
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
   bool chooses_strategy = false;  ///< the user chose the partition, or a setting of it
@@ -101,7 +102,7 @@ inline bool is_scene_file(const std::vector<std::filesystem::path>& inputs) {
 }
 /// What a message about one object alone adds; empty if its components are objects already.
 inline const char* hint_at_components(const Detect_command& command) {
-  return command.components ? "" : ", or --components for those between its connected components";
+  return command.components ? "" : ", or --components or --parts for those between parts of it";
 }
 
 /// Runs a command: prints its table to the standard output and returns the program's exit code.

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "lodestone/detection/frame_at_once.h"
-#include "lodestone/io/scenes/component_objects.h"
 #include "lodestone/io/scenes/given_objects.h"
+#include "lodestone/io/scenes/separated_objects.h"
 #include "lodestone/queries/exhaustive.h"
 
 namespace lodestone {
@@ -26,7 +26,8 @@ void check_not_alone(const Scene& scene, const Detect_command& command) {
 
 Scene load(const Detect_command& command) {
   Scene scene = read_inputs(command.inputs, command.reading);
-  if (command.components) separate_components(scene);
+  if (command.parts) separate(scene, Separate::parts);
+  if (command.components) separate(scene, Separate::components);
   if (!is_scene_file(command.inputs)) check_not_alone(scene, command);
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "program/frame_log.h"
 #include "program/missed_frames.h"
 #include "program/source_revision.h"
+#include "program/standard_input.h"
 
 namespace lodestone {
 
@@ -25,10 +27,16 @@ using Json = nlohmann::ordered_json;
 /// More do not fit on a screen.
 constexpr std::size_t most_rows = 20;
 
+/// The standard input is kept in a file that is gone when a summary is read.
+std::string shown_file(const std::filesystem::path& file) {
+  const std::string text = file.lexically_normal().string();
+  return naming_standard_input(text) == text ? text : "-";
+}
+
 Json object_summary_json(const Run_subject& subject, Object_id id) {
   const auto& object = subject.scene.objects[id];
   Json files = Json::array();
-  for (const auto& file : object.files) files.push_back(file.string());
+  for (const auto& file : object.files) files.push_back(shown_file(file));
   Json json{{"name", object.name},
             {"files", std::move(files)},
             {"vertices", object.mesh.number_of_vertices()},
@@ -185,10 +193,12 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
     if (++rows <= row_limit) table.add(table_row(subject, pair, results));
   }
   // Pairs that never came near each other are in no list.
-  const bool omits = many || summary.pairs.size() < count_pairs(subject);
+  const bool omits = rows < summary.pairs.size() || summary.pairs.size() < count_pairs(subject);
   if (rows > 0) fmt::print("{}", table.text());
   if (rows > row_limit) fmt::print("{} more pairs are omitted: --all-rows prints them.\n", rows - row_limit);
-  if (omits) fmt::print("Pairs of which nothing was found are omitted{}.\n", rows > 0 ? "" : ": all of them");
+  if (omits)
+    fmt::print("Pairs {} are omitted{}.\n", many ? "of which nothing was found" : "that never came near each other",
+               rows > 0 ? "" : ": all of them");
   if (rows == 0 && !omits) fmt::print("There is no pair of objects.\n");
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
   if (unfinished > 0)

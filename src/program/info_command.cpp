@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "io/files/small_text.h"
@@ -42,6 +45,7 @@ struct Object_report {
   File_faces faces = {};                       ///< of the file
   std::optional<Surface_report> surface = {};  ///< missing for a point cache without its mesh
   std::vector<Component_orientation> components = {};
+  std::vector<std::string> parts = {};  ///< that the file names, each once
   File_animations animations = {};  ///< no names: the format has none
   Box box = {};  ///< of the vertices that faces use; for a point cache without its mesh: of all vertices
   Box box_of_all_frames = {};
@@ -91,6 +95,15 @@ void find_boxes(const Animation& animation, Object_report& report) {
   }
 }
 
+/// Those with faces, in the order of the file.
+std::vector<std::string> part_names(const File_parts& parts, std::size_t faces) {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const auto& [name, first_face] : parts)
+    if (!name.empty() && first_face < faces && seen.insert(name).second) names.push_back(name);
+  return names;
+}
+
 Object_report report_of(const std::string& name, const Animation& animation) {
   Object_report report{.name = name, .frames = animation.motion.frames, .vertices = animation.vertices};
   report.animations = animation.motion.animations;
@@ -101,6 +114,7 @@ Object_report report_of(const std::string& name, const Animation& animation) {
   check_interrupt();
   report.surface = inspect_surface(points, animation.faces);
   report.faces = count_file_faces(animation.file_face);
+  report.parts = part_names(animation.parts, report.faces.count);
   check_interrupt();
   report.components = component_orientations(points, animation.faces, animation.file_face);
   check_interrupt();
@@ -207,6 +221,7 @@ Json to_json(const Object_report& report) {
   const auto& surface = *report.surface;
   json["faces"] = report.faces.count;
   json["triangles"] = surface.faces;
+  if (!report.parts.empty()) json["parts"] = report.parts;
   json.update({{"components", surface.components},
                {"closed", surface.closed},
                {"border_edges", surface.border_edges},
@@ -228,6 +243,15 @@ std::string box_text(const Box& box) {
   if (box.isEmpty()) return "none";
   const auto corner = [](const Eigen::Vector3d& p) { return fmt::format("({} {} {})", p.x(), p.y(), p.z()); };
   return corner(box.min()) + " to " + corner(box.max());
+}
+
+/// The first few names, and how many there are more.
+std::string part_list(std::span<const std::string> names) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> listed;
+  for (const auto& name : names.first(std::min(names.size(), most))) listed.push_back(printable(name));
+  const auto more = names.size() > most ? fmt::format(", and {} more", names.size() - most) : "";
+  return fmt::format("{}{}", fmt::join(listed, ", "), more);
 }
 
 /// @param frames  that the boxes of all frames span
@@ -252,6 +276,7 @@ void print(const Object_report& report, const std::string& kind, std::size_t fra
     add("faces of more than three corners", report.faces.cut);
     add("triangles", surface.faces);
   }
+  if (!report.parts.empty()) table.add({"parts", part_list(report.parts)});
   add("components", surface.components);
   table.add({"surface", surface.closed ? "closed" : "open"});
   table.add({"orientation", orientation_text(report.components)});

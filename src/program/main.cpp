@@ -136,9 +136,11 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
          "INPUT", command.inputs,
          "A scene (.json), or two or more meshes or animations (.off .obj .ply .stl .gltf .glb .md2 .md3, a "
          "pattern such as 'cloth_*.obj', MESH+CACHE with .pc2 or .mdd, SCENE.json#OBJECT, shape:teapot); one with "
-         "--self or --components; - is the standard input")
+         "--self, --components or --parts; - is the standard input")
       ->required()
       ->type_name("FILE");
+  app.add_flag("--parts", command.parts,
+               "Each part that a file names is an object of its own: an object of an OBJ file, a node of a glTF file");
   app.add_flag("--components", command.components,
                "Each connected component of a mesh is an object of its own, NAME_1, NAME_2 and so on");
   app.add_option("--mode", options.mode,
@@ -336,9 +338,12 @@ void set_defaults(const CLI::App& app, Detect_command& command) {
     options.particles = options.least_particles;
   options.senin.seed = command.partition.settings.seed;
   command.partition.settings.lbg.threads = options.exact.threads;
-  // Pages and patches show contacts, so they ask for all of them by default.
-  if ((!command.html.empty() || options.exact.patches) && app.count("--contacts") == 0)
-    options.contacts = Contact_query::all;
+}
+
+/// Pages and patches show contacts, so they ask for all of them by default.
+void set_default_contacts(const CLI::App& app, Detect_command& command) {
+  if ((!command.html.empty() || command.options.exact.patches) && app.count("--contacts") == 0)
+    command.options.contacts = Contact_query::all;
 }
 
 /// All commands. The command line fills in one of them.
@@ -382,6 +387,7 @@ std::vector<std::filesystem::path*> inputs_of(Commands& commands) {
 int run_commands(int argc, char** argv);
 
 int run_detect(const CLI::App& app, Detect_command& command, const std::vector<std::string>& words) {
+  set_default_contacts(app, command);
   refuse_options(app, command);
   set_defaults(app, command);
   command.words = words_of_work(words);

@@ -147,8 +147,12 @@ void check_input_is_kept(const Partition_command& command, const std::vector<std
 /// A mesh, or an object of a scene in its first frame, or a shape.
 Mesh_file read_input(const Partition_command& command) {
   auto object = named_object(command.mesh, command.reading);
-  check_input_is_kept(command, object ? object->files : std::vector{command.mesh});
-  if (!object) return read_mesh(command.mesh, command.reading.limits);
+  if (!object) {
+    auto file = read_mesh(command.mesh, command.reading.limits);
+    check_input_is_kept(command, file.files);
+    return file;
+  }
+  check_input_is_kept(command, object->files);
   pose(*object, 0);
   return {.mesh = std::move(object->mesh),
           .file_vertex = std::move(object->file_vertex),

@@ -47,12 +47,14 @@ Face_group_filter& filter_of_thread() {
 
 }  // namespace
 
-Contact_summary Overlap_search::run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b, const Box& box_b,
-                                    Contact_query query, std::vector<Face_pair>& found) {
+std::optional<Contact_summary> Overlap_search::run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b,
+                                                   const Box& box_b, Contact_query query,
+                                                   std::vector<Face_pair>& found) {
   const std::size_t first = found.size();
   found_ = &found;
   one_is_enough_ = query != Contact_query::all;
   leaf_tests_ = exact_tests_ = 0;
+  has_given_up_ = false;
   if (a.faces.size() * b.faces.size() <= few_pairs) {
     test_all(a, b);
   } else {
@@ -63,6 +65,7 @@ Contact_summary Overlap_search::run(const Faces_in_box& a, const Box& box_a, con
     const bool in_slice = sliced && search_slice(a, b, overlap);
     if (!in_slice) search_all(a, b, overlap);
   }
+  if (has_given_up_) return std::nullopt;
   const Contact_summary summary{.found = found.size() > first, .leaf_tests = leaf_tests_, .exact_tests = exact_tests_};
   if (query == Contact_query::yes_no) found.resize(first);
   sort_face_pairs(std::span(found).subspan(first));
@@ -103,6 +106,7 @@ bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, co
   faces_[0] = &a, faces_[1] = &b;
   const bool few = std::max(a.faces.size(), b.faces.size()) <= few_faces;
   most_faces_ = one_is_enough_ && few ? small_group_faces : group_faces;
+  most_leaf_tests_ = leaf_tests_ + most_partners * (2 + (a.faces.size() + b.faces.size()) / most_faces_);
   const double scale = scale_of(overlap);
   Pair_of_parts whole{box_faces(0, overlap, scale), box_faces(1, overlap, scale)};
   return search(whole, {true, true});
@@ -210,6 +214,7 @@ Overlap_search::Part Overlap_search::take_median(int side, Part& whole, int axis
 /// Gives two short lists to the filter, and what it leaves to the exact test.
 /// @return whether the search is over
 bool Overlap_search::test(const Pair_of_parts& parts) {
+  if (gives_up()) return true;
   if (parts[0].count * parts[1].count <= few_pairs) return test_few(parts);
   for (int side = 0; side < 2; ++side) {
     groups_[side].clear();
@@ -221,6 +226,11 @@ bool Overlap_search::test(const Pair_of_parts& parts) {
   for (const Face_candidate& candidate : filter_->face_candidates(groups_[0], groups_[1]))
     if (test_pair(index(0, candidate.a), index(1, candidate.b), candidate.crossing)) return true;
   return false;
+}
+
+bool Overlap_search::gives_up() {
+  has_given_up_ = leaf_tests_ >= most_leaf_tests_;
+  return has_given_up_;
 }
 
 /// Gives the faces whose boxes meet to the exact test.

@@ -4,11 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string>
+#include <tuple>
+#include <vector>
 
+#include "lodestone/mesh/indexed_mesh.h"
 #include "support/exact_truth.h"
 
 namespace lodestone {
@@ -320,6 +325,33 @@ std::vector<Surface_mesh> folded_meshes() {
   meshes.push_back(sphere(7));
   append(meshes.back(), sphere(6, 0.9, {0.8, 0, 0}));
   return meshes;
+}
+
+/// All faces of a cone share a vertex, so their boxes overlap.
+TEST(Find_collisions, lets_a_detector_answer_where_boxes_part_little) {
+  constexpr std::uint32_t faces = 8000;
+  const auto cone = [](double x, double z) {
+    std::vector<double> coordinates{x, 0, z};
+    for (std::uint32_t face = 0; face < faces; ++face) {
+      const double angle = 2 * std::numbers::pi * face / faces;
+      coordinates.insert(coordinates.end(), {x + std::cos(angle), std::sin(angle), z + 0.5});
+    }
+    return coordinates;
+  };
+  std::vector<Corners> corners;
+  for (std::uint32_t face = 0; face < faces; ++face) corners.push_back({0, 1 + face, 1 + (face + 1) % faces});
+  const auto at_rest = cone(0, 0);
+  const Indexed_mesh a(at_rest, corners);
+  for (const auto& [x, z, meet] : {std::tuple(0.0, 0.1, false), std::tuple(0.3, 0.0, true)}) {
+    const auto moved = cone(x, z);
+    const Indexed_mesh b(moved, corners);
+    Detector detector;
+    detector.add(a), detector.add(b);
+    EXPECT_FALSE(frame_at_once(a, b, {}).has_value());
+    const auto collisions = find_collisions(a, b);
+    EXPECT_EQ(collisions.collide, meet);
+    EXPECT_EQ(collisions.faces, detector.detect(0, 1).face_pairs);
+  }
 }
 
 TEST(Find_self_collisions, answers_as_a_detector_does) {

@@ -7,8 +7,8 @@
 
 #include "fuzz/read_input.h"
 #include "fuzz/scratch_folder.h"
-#include "lodestone/io/scenes/component_objects.h"
 #include "lodestone/io/scenes/scene_file.h"
+#include "lodestone/io/scenes/separated_objects.h"
 
 namespace {
 
@@ -54,10 +54,10 @@ std::size_t count_faces(const Scene& scene) {
   return count;
 }
 
-void check_components(Scene& scene) {
+void check_separated(Scene& scene, lodestone::Separate what) {
   const std::size_t objects = scene.objects.size(), faces = count_faces(scene);
-  lodestone::separate_components(scene);
-  require(scene.objects.size() >= objects && count_faces(scene) == faces, "components without faces of the whole");
+  lodestone::separate(scene, what);
+  require(scene.objects.size() >= objects && count_faces(scene) == faces, "objects without faces of the whole");
   check_scene(scene);
 }
 
@@ -75,6 +75,7 @@ LODESTONE_FUZZ_TARGET(scene) {
   accepts([&] {
     auto scene = lodestone::read_scene(file);
     check_scene(scene);
-    check_components(scene);
+    check_separated(scene, lodestone::Separate::parts);
+    check_separated(scene, lodestone::Separate::components);
   });
 }

@@ -277,6 +277,22 @@ TEST_F(Detect_files, components_of_an_input_are_objects_on_demand) {
   EXPECT_EQ(read_json(out / "summary.json")["objects"].size(), 2U);
 }
 
+TEST_F(Detect_files, parts_of_an_input_are_objects_on_demand) {
+  const auto boxes = write("boxes.obj",
+                           "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 1 1 -1\nv 1 1 1\nv 0 1 1\nv 9 9 9\n"
+                           "o floor\nf 1 2 3\no wall\nf 4 5 6\nf 4 6 7\n");
+  expect_success(detect({boxes, "--parts"}));
+  EXPECT_EQ(collisions(), std::vector<bool>{true});
+  const Json pair = frames().front()["pairs"][0];
+  EXPECT_EQ(pair["a"], "floor");
+  EXPECT_EQ(pair["b"], "wall");
+  EXPECT_EQ(pair["faces"], Json({{0, 1}}));
+  expect_success(detect({boxes, "--parts", "--components"}));
+  const auto info = run_program({"info", boxes});
+  EXPECT_NE(info.out.find("floor, wall"), std::string::npos) << info.out;
+  expect_error(detect({write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "--parts"}), 2, "one mesh alone");
+}
+
 TEST_F(Detect_files, a_note_about_many_objects_names_three) {
   std::string five_quads = "OFF\n20 5 0\n", faces;
   for (int quad = 0; quad < 5; ++quad) {

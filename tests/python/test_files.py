@@ -144,6 +144,18 @@ def test_components_of_one_mesh_are_objects_on_demand(tmp_path):
     assert scene.objects[1].file_faces.tolist() == list(range(12, 24))
     for mode in ("exact", "certified", "particles"):
         assert [bool(f) for f in lodestone.play(pattern, components=True, mode=mode)] == [False, False, True]
+    with pytest.raises(lodestone.BadArgument, match="give them to read_scene"):
+        next(lodestone.play(scene, components=True))
+    with pytest.raises(TypeError, match="no option componets.*components, parts"):
+        next(lodestone.play(pattern, componets=True))
+
+
+def test_parts_that_a_file_names_are_objects_on_demand(tmp_path):
+    path = tmp_path / "parts.obj"
+    path.write_text("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 1 1 -1\nv 1 1 1\nv 0 1 1\no floor\nf 1 2 3\no wall\nf 4 5 6\n")
+    scene = lodestone.read_scene(path, parts=True)
+    assert [o.name for o in scene.objects] == ["floor", "wall"] and scene.objects[1].file_faces.tolist() == [1]
+    assert [bool(f) for f in lodestone.play(path, parts=True)] == [True]
 
 
 def test_a_scene_can_be_several_inputs(tmp_path, scenes):

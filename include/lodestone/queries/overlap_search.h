@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lodestone/filter/face_group_filter.h"
@@ -23,14 +24,16 @@ namespace lodestone {
 /// exact test. If there are at most 64 face pairs, nothing is halved.
 ///
 /// O(F) where surfaces cross along a curve, or one contact is enough; at most O(F log F) steps of some nanoseconds
-/// before the filters.
+/// before the filters. It gives up where boxes part little, as those of faces around one vertex: at most O(F) pairs of
+/// short lists go to the filters.
 class Overlap_search {
  public:
   /// Appends the face pairs that intersect to `found`, sorted; none for the query `yes_no`, one for `first`.
   /// @param a, b          faces by index in their meshes, of which those outside `overlap` may be missing
   /// @param box_a, box_b  around the two surfaces
-  Contact_summary run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b, const Box& box_b,
-                      Contact_query query, std::vector<Face_pair>& found);
+  /// @return none: it has given up, and what it appended is not all; a tree may part what boxes do not
+  std::optional<Contact_summary> run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b, const Box& box_b,
+                                     Contact_query query, std::vector<Face_pair>& found);
 
  private:
   /// Faces of one surface: so many from one place of its stack on, and the box around them.
@@ -72,6 +75,7 @@ class Overlap_search {
   Part take_median(int side, Part& whole, int axis);
   bool test(const Pair_of_parts& parts);
   bool test_few(const Pair_of_parts& parts);
+  bool gives_up();
   bool test_pair(std::uint32_t a, std::uint32_t b, Crossing likely);
 
   /// Lists no longer than this are not halved any further: to filter them takes about as long as to halve them.
@@ -81,6 +85,8 @@ class Overlap_search {
   static constexpr std::size_t few_pairs = 64;
   /// Where one contact is enough and surfaces have few faces, the filter is mostly not needed at all.
   static constexpr std::size_t small_group_faces = 8;
+  /// More pairs of short lists per short list are not filtered. Surfaces that cross, or lie on each other, have less.
+  static constexpr std::size_t most_partners = 32;
   /// Of surfaces with more faces than this, a slice is searched first if one contact is enough.
   static constexpr std::size_t few_faces = 512;
 
@@ -89,9 +95,9 @@ class Overlap_search {
   std::vector<Corners> groups_[2];
   Face_group_filter* filter_ = nullptr;
   std::vector<Face_pair>* found_ = nullptr;
-  bool one_is_enough_ = false;
+  bool one_is_enough_ = false, has_given_up_ = false;
   std::size_t most_faces_ = 0;  ///< of a list that is not halved
-  std::size_t leaf_tests_ = 0, exact_tests_ = 0;
+  std::size_t leaf_tests_ = 0, most_leaf_tests_ = 0, exact_tests_ = 0;
 };
 
 }  // namespace lodestone

@@ -23,7 +23,7 @@ constexpr std::array<Skipped_statement, 21> skipped_statements = {{
     {"vt", "texture coordinates"},
     {"vn", "normals"},
     {"vp", ""},
-    {"g", "groups"},
+    {"g", "groups"},  // both begin a part
     {"o", "groups"},
     {"s", ""},
     {"mg", ""},
@@ -80,6 +80,13 @@ void copy_face(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& farthest
   ++mesh.faces;
 }
 
+/// The unread rest of the line, with single spaces.
+std::string rest_of_line(Text_scanner& text) {
+  std::string rest;
+  for (auto word = text.next_word(); !word.empty(); word = text.next_word()) (rest += rest.empty() ? "" : " ") += word;
+  return rest;
+}
+
 void skip_statement(const Text_scanner& text, std::string_view keyword, Guarded_mesh& mesh) {
   const auto statement = std::ranges::find(skipped_statements, keyword, &Skipped_statement::keyword);
   if (statement == skipped_statements.end())
@@ -87,7 +94,8 @@ void skip_statement(const Text_scanner& text, std::string_view keyword, Guarded_
   if (*statement->holds != '\0') mesh.not_read.insert(statement->holds);
 }
 
-void copy_statement(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& farthest) {
+/// @param groups  the parts that `g` begins; those that `o` begins are the mesh's
+void copy_statement(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& farthest, File_parts& groups) {
   const auto keyword = text.next_word();
   if (keyword == "v") {
     mesh.plain += "v ";
@@ -97,6 +105,8 @@ void copy_statement(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& far
     copy_face(text, mesh, farthest);
   } else if (!keyword.empty()) {
     skip_statement(text, keyword, mesh);
+    if (keyword == "o" || keyword == "g")
+      begin_part(rest_of_line(text), static_cast<std::uint32_t>(mesh.faces), keyword == "o" ? mesh.parts : groups);
   }
 }
 
@@ -106,13 +116,15 @@ Guarded_mesh guard_obj(const File_bytes& file, std::size_t max_faces) {
   Text_scanner text(file, '#', '\\');
   Guarded_mesh mesh;
   Farthest_corner farthest{0, text};
+  File_parts groups;
   while (text.next_line()) {
-    copy_statement(text, mesh, farthest);
+    copy_statement(text, mesh, farthest, groups);
     if (mesh.faces > max_faces) text.fail(too_many_faces(mesh.faces, max_faces));
   }
   if (farthest.vertex > mesh.vertices)
     farthest.place.fail(fmt::format("face refers to vertex {} of {}", farthest.vertex, mesh.vertices));
   if (mesh.faces == 0) text.fail("the file holds no face");
+  if (mesh.parts.empty()) mesh.parts = std::move(groups);
   return mesh;
 }
 

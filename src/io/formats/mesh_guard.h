@@ -10,6 +10,7 @@
 
 #include "io/files/file_bytes.h"
 #include "io/files/text_scanner.h"
+#include "lodestone/io/formats/file_part.h"
 
 /// One guard per format: it checks the whole file before CGAL's reader sees any of it.
 ///
@@ -41,6 +42,7 @@ struct Guarded_mesh {
   std::size_t faces = 0;
   Checksum coordinates;            ///< of the vertices in order; STL: of every corner of every face
   Checksum corners;                ///< per face, the vertex indices of its corners and their number; nothing for STL
+  File_parts parts;                ///< that the file names
   std::set<std::string> not_read;  ///< what else the file holds, such as `texture coordinates`
 };
 

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "lodestone/io/formats/file_part.h"
 #include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
@@ -15,7 +17,9 @@ namespace lodestone {
 struct Polygon_soup {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> faces;  ///< of three corners or more
+  File_parts parts = {};                        ///< that the file names
   std::set<std::string> not_read = {};          ///< what else the file holds, such as `texture coordinates`
+  std::vector<std::filesystem::path> files = {};  ///< that it is read from
 };
 
 /// The same surface in triangles. Those of one face of the file are consecutive.
@@ -23,7 +27,9 @@ struct Mesh_soup {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> faces;
   std::vector<std::uint32_t> file_face;  ///< per triangle: its face in the file; never decreases
+  File_parts parts = {};
   std::set<std::string> not_read = {};
+  std::vector<std::filesystem::path> files = {};
 };
 
 /// The faces of a soup in compact form.

@@ -235,6 +235,10 @@ const Accessor& Guard::expect(const Json_value& place, std::string_view type, bo
   return accessor;
 }
 
+void copy_name(const Json_value& from, Json& plain) {
+  if (const auto name = from.find("name"); name && name->is_string()) plain["name"] = name->any_text();
+}
+
 // ---- Meshes ----
 
 Json Guard::copy_mesh(const Json_value& mesh) {
@@ -258,6 +262,7 @@ Json Guard::copy_mesh(const Json_value& mesh) {
   }
   mesh_targets_.push_back(targets);
   mesh_has_joints_.push_back(joints);
+  copy_name(mesh, plain);
   return plain;
 }
 
@@ -327,6 +332,7 @@ Json Guard::copy_node(const Json_value& node) {
     plain["children"].push_back(children_.back().back());
   }
   copy_place(node, plain);
+  copy_name(node, plain);
   const auto mesh = node.find("mesh");
   if (mesh) plain["mesh"] = index(*mesh, "meshes", mesh_targets_.size());
   if (const auto skin = node.find("skin")) {
@@ -398,7 +404,7 @@ void Guard::copy_scenes() {
 
 Json Guard::copy_animation(const Json_value& animation) const {
   Json plain{{"samplers", Json::array()}, {"channels", Json::array()}};
-  if (const auto name = animation.find("name"); name && name->is_string()) plain["name"] = name->any_text();
+  copy_name(animation, plain);
   for (const auto& sampler : animation.at("samplers").elements(most_elements))
     plain["samplers"].push_back(copy_sampler(sampler));
   for (const auto& channel : animation.at("channels").elements(most_elements)) {

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "io/files/small_text.h"
+#include "io/files/unique_names.h"
 #include "io/formats/mesh_guard.h"
 #include "io/gltf/gltf_guard.h"
 #include "io/gltf/gltf_numbers.h"
@@ -285,9 +286,18 @@ void check_joints(const Gltf_part& part, const Gltf_scene& scene) {
         fmt::format("{}: /nodes/{}: a vertex follows joint {} of {}", scene.name, part.node, *largest, joints));
 }
 
+/// @param node  shows a mesh
+std::string part_name(const tinygltf::Model& model, std::size_t node) {
+  const auto& shown = model.nodes[node];
+  if (!shown.name.empty()) return printable(shown.name);
+  const auto& mesh = model.meshes[static_cast<std::size_t>(shown.mesh)];
+  return mesh.name.empty() ? fmt::format("node_{}", node) : printable(mesh.name);
+}
+
 void read_parts(const tinygltf::Model& model, const Mesh_file_options& options, Gltf_scene& scene) {
   std::vector<std::shared_ptr<const Gltf_shape>> shapes(model.meshes.size());
   std::size_t faces = 0;
+  Unique_names names;
   for (const auto node : shown_nodes(model, scene)) {
     if (model.nodes[node].mesh < 0) continue;
     const auto mesh = static_cast<std::size_t>(model.nodes[node].mesh);
@@ -295,6 +305,7 @@ void read_parts(const tinygltf::Model& model, const Mesh_file_options& options, 
     if (!shape) shape = std::make_shared<Gltf_shape>(Shape_reader(model, mesh, scene.name).read());
     const auto skin = model.nodes[node].skin;
     Gltf_part part{shape, node, skin < 0 ? no_index : static_cast<std::size_t>(skin), scene.vertices};
+    part.name = names.take(part_name(model, node));
     if (part.skin != no_index) check_joints(part, scene);
     scene.vertices += shape->vertices();
     faces += shape->faces.size();
@@ -375,15 +386,18 @@ bool is_gltf(const std::filesystem::path& file) {
 Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene) {
   Polygon_soup soup;
   soup.not_read = scene->not_read;
+  soup.files = scene->files;
   soup.points.resize(scene->vertices);
   try {
     pose_all(Gltf_points(scene, all_vertices(*scene)), scene->name, soup.points);
   } catch (const Bad_motion& error) {
     throw Bad_mesh(error.what());
   }
-  for (const auto& part : scene->parts)
+  for (const auto& part : scene->parts) {
+    begin_part(part.name, static_cast<std::uint32_t>(soup.faces.size()), soup.parts);
     for (const auto& [a, b, c] : part.shape->faces)
       soup.faces.push_back({part.first_vertex + a, part.first_vertex + b, part.first_vertex + c});
+  }
   return soup;
 }
 

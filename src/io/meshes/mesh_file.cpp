@@ -74,7 +74,9 @@ Mesh_file mesh_of(const Mesh_soup& soup, const std::string& name) {
   Mesh_file result{.mesh = {},
                    .file_vertex = std::move(tracked.file_vertex),
                    .file_vertices = soup.points.size(),
-                   .file_face = soup.file_face};
+                   .file_face = soup.file_face,
+                   .parts = soup.parts,
+                   .files = soup.files};
   PMP::polygon_soup_to_polygon_mesh(tracked.points, tracked.faces, result.mesh);
   if (num_faces(result.mesh) != soup.faces.size() || num_vertices(result.mesh) != result.file_vertex.size())
     throw Bad_mesh(fmt::format("{}: only {} of {} faces fit into a half-edge mesh", name, num_faces(result.mesh),

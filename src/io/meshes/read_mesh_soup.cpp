@@ -113,7 +113,11 @@ Polygon_soup soup_of(const Game_model& model) {
 
 Polygon_soup read_polygon_soup(const std::filesystem::path& file, const Mesh_file_options& options) {
   if (is_gltf(file)) return soup_of(read_gltf_scene(file, options));
-  if (is_game_model(file)) return soup_of(*read_game_model(file, options));
+  if (is_game_model(file)) {
+    auto model = soup_of(*read_game_model(file, options));
+    model.files = {file};
+    return model;
+  }
   const auto& format = format_of(file);
   auto guarded = format.guard(File_bytes(file), options.max_faces);
   if (guarded.vertices > most_vertices || guarded.faces > most_triangles)
@@ -125,7 +129,9 @@ Polygon_soup read_polygon_soup(const std::filesystem::path& file, const Mesh_fil
   if (!format.read(plain, soup) || !is_complete(soup, guarded))
     throw Bad_mesh(fmt::format("{}: CGAL's reader did not deliver the {} vertices and {} faces of the file",
                                file.string(), guarded.vertices, guarded.faces));
+  soup.parts = std::move(guarded.parts);
   soup.not_read = std::move(guarded.not_read);
+  soup.files = {file};
   return soup;
 }
 

@@ -129,8 +129,12 @@ Polygon_triangles triangulate(const Polygon& polygon, const std::vector<Point>& 
 }  // namespace
 
 Mesh_soup triangulated(Polygon_soup soup) {
-  Mesh_soup result{
-      .points = std::move(soup.points), .faces = {}, .file_face = {}, .not_read = std::move(soup.not_read)};
+  Mesh_soup result{.points = std::move(soup.points),
+                   .faces = {},
+                   .file_face = {},
+                   .parts = std::move(soup.parts),
+                   .not_read = std::move(soup.not_read),
+                   .files = std::move(soup.files)};
   result.faces.reserve(soup.faces.size());
   result.file_face.reserve(soup.faces.size());
   for (std::uint32_t face = 0; face < soup.faces.size(); ++face) {

@@ -26,6 +26,7 @@ void set_surface(Animation& animation, Mesh_soup soup) {
   animation.vertices = soup.points.size();
   animation.faces = corners_of(soup);
   animation.file_face = std::move(soup.file_face);
+  animation.parts = std::move(soup.parts);
   animation.not_read = std::move(soup.not_read);
 }
 

@@ -190,7 +190,10 @@ Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices,
   }
   if (scene->vertices != vertices)
     throw Bad_motion(fmt::format("{}: the file has {} vertices, expected {}", scene->name, scene->vertices, vertices));
-  return motion_of(std::move(scene), options);
+  auto files = scene->files;
+  Motion motion = motion_of(std::move(scene), options);
+  motion.files = std::move(files);
+  return motion;
 }
 
 }  // namespace lodestone

@@ -5,13 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "io/files/json_reader.h"
 #include "io/files/small_text.h"
+#include "io/files/unique_names.h"
 #include "io/scenes/object_of.h"
 #include "io/scenes/scene_fields.h"
 #include "io/scenes/shared_clock.h"
@@ -66,6 +66,7 @@ Scene_object read_object(std::string name, const std::filesystem::path& input, c
   Scene_object object = detail::object_of(std::move(file));
   object.name = std::move(name);
   object.file_face = std::move(animation.file_face);
+  object.parts = std::move(animation.parts);
   object.motion = std::move(animation.motion);
   object.files = std::move(animation.files);
   return object;
@@ -111,11 +112,10 @@ std::optional<Scene_object> named_object(const std::filesystem::path& input, con
 Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_options& options) {
   Scene scene;
   scene.name = "meshes";
-  std::set<std::string> taken;
+  Unique_names names;
   for (const auto& input : inputs) {
     auto& object = scene.objects.emplace_back(any_object(input, options));
-    const std::string wanted = object.name;
-    for (std::size_t use = 2; !taken.insert(object.name).second; ++use) object.name = fmt::format("{}_{}", wanted, use);
+    object.name = names.take(object.name);
   }
   share_clock(scene.objects);
   for (const auto& object : scene.objects) scene.frames = std::max(scene.frames, object.motion.frames);
@@ -141,6 +141,7 @@ Animation animation_of(const Scene_object& object, std::size_t frames) {
       corners[corner++] = object.file_vertex[v];
   }
   animation.file_face = object.file_face;
+  animation.parts = object.parts;
   animation.motion = object.motion;
   if (animation.motion.frames == 0) animation.motion.frames = frames;
   animation.files = object.files;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <span>
@@ -123,6 +125,15 @@ Motion read_motion(const Json_value& value, const Scene_object& object, const Pl
 
 // ---- Objects and scene ----
 
+std::vector<std::filesystem::path> each_once(std::initializer_list<std::vector<std::filesystem::path>> lists) {
+  std::vector<std::filesystem::path> files;
+  std::set<std::filesystem::path> seen;
+  for (const auto& list : lists)
+    for (const auto& file : list)
+      if (seen.insert(file).second) files.push_back(file);
+  return files;
+}
+
 Scene_object read_object(const Json_value& value, Scene_folder& folder) {
   value.expect_keys({"name", "mesh", "shape", "place", "motion", "particles", "scattered_side", "groups", "meets"});
   const std::string name = value.at("name").text();
@@ -138,7 +149,7 @@ Scene_object read_object(const Json_value& value, Scene_folder& folder) {
   }
   const auto motion = value.find("motion");
   object.motion = motion ? read_motion(*motion, object, placement, folder) : deform(rest_positions(object), {});
-  object.files = folder.take_found();
+  object.files = each_once({folder.take_found(), std::move(object.files), object.motion.files});
   return object;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lodestone/io/formats/file_part.h"
 #include "lodestone/io/formats/mesh_file_options.h"
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/mesh_numbering.h"
@@ -31,6 +32,8 @@ struct Mesh_file {
   std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its index in the file
   std::size_t file_vertices = 0;           ///< number of vertices in the file
   std::vector<std::uint32_t> file_face;    ///< per mesh face: its face in the file; never decreases
+  File_parts parts = {};                   ///< that the file names
+  std::vector<std::filesystem::path> files = {};  ///< that it is read from: a glTF file can name others
 };
 
 /// Reads a mesh, in the format of the file's extension: OFF, OBJ, PLY (ascii, binary), STL (ascii, binary),

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "lodestone/io/formats/file_part.h"
 #include "lodestone/io/motion/motion.h"
 #include "lodestone/mesh/mesh_numbering.h"
 
@@ -21,6 +22,7 @@ struct Animation {
   std::size_t vertices = 0;                       ///< number of vertices in the file
   std::vector<Corners> faces = {};                ///< file vertices; empty for a point cache without its mesh
   std::vector<std::uint32_t> file_face = {};      ///< per triangle: its face in the file, as in Mesh_file
+  File_parts parts = {};                          ///< that the file with the faces names
   Motion motion = {};                             ///< at least one frame
   double frames_per_second = 0;                   ///< 0: the file does not specify it
   std::set<std::string> not_read = {};            ///< what else the mesh file holds, such as `texture coordinates`

@@ -45,7 +45,8 @@ struct Motion {
   /// The same motion of some vertices, as one whose frames need not be posed as a whole; empty: `pose` must be used.
   /// @param vertices  their indices, in the order of the file or shape
   std::function<std::unique_ptr<Computed_motion>(std::span<const std::uint32_t> vertices)> computed = {};
-  File_animations animations = {};  ///< of a glTF file; no names in other formats
+  File_animations animations = {};                ///< of a glTF file; no names in other formats
+  std::vector<std::filesystem::path> files = {};  ///< of a glTF file: those that it is read from
 };
 
 /// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). `pose` reads each frame on demand, and several

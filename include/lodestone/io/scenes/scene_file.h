@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lodestone/detection/collision_groups.h"
+#include "lodestone/io/formats/file_part.h"
 #include "lodestone/io/motion/motion.h"
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/pairs.h"
@@ -23,6 +24,7 @@ struct Scene_object {
   std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its index in the positions of `motion`
   std::size_t file_vertices = 0;           ///< number of those positions
   std::vector<std::uint32_t> file_face;    ///< per mesh face: its face in the file, as in Mesh_file
+  File_parts parts = {};                   ///< that the mesh's file names
   Motion motion;                           ///< also set for an object that never moves
   std::size_t particles = 0;               ///< 0: automatic
   Collision_groups collision = {};         ///< a bit per name of a group
