@@ -128,7 +128,9 @@ TEST(Computed_surface, of_a_mesh_without_indices_follows_vertices_that_are_added
     points = still();
     detector.rebuild(0);
     EXPECT_TRUE(detector.detect().collides());
-    if (mode != Mode::particles) EXPECT_EQ(detector.closest_point(0, Point(2.5, 0, 0)).distance, 0);
+    if (mode != Mode::particles) {
+      EXPECT_EQ(detector.closest_point(0, Point(2.5, 0, 0)).distance, 0);
+    }
   }
 }
 

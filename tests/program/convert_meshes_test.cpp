@@ -140,6 +140,11 @@ TEST_F(Convert_meshes, the_input_is_never_overwritten) {
   write("h.gltf", sample.gltf("g.bin"));
   remove(folder.path() / "g.gltf");
   expect_error(run_program({"convert", path("h.gltf"), path("g.gltf")}), 2, "g.bin: is a file of the input");
+  const auto still = write("still.json", R"({"objects": [{"name": "a", "mesh": "h.gltf"}]})");
+  expect_error(run_program({"convert", still + "#a", path("g.gltf")}), 2, "g.bin: is a file of the input");
+  for (const auto& input : {path("h.gltf"), still + "#a"})
+    expect_error(run_program({"partition", input, "--regions", "2", "--json", path("g.bin")}), 2, "never overwritten");
+  EXPECT_EQ(read_bytes(path("g.bin")), sample.bytes);
   EXPECT_EQ(read_bytes(square), square_off);
 }
 

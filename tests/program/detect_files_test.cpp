@@ -280,16 +280,17 @@ TEST_F(Detect_files, components_of_an_input_are_objects_on_demand) {
 TEST_F(Detect_files, parts_of_an_input_are_objects_on_demand) {
   const auto boxes = write("boxes.obj",
                            "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 1 1 -1\nv 1 1 1\nv 0 1 1\nv 9 9 9\n"
-                           "o floor\nf 1 2 3\no wall\nf 4 5 6\nf 4 6 7\n");
+                           "o empty\no floor\nf 1 2 3\no wall\nf 4 5 6\nf 4 6 7\n");
   expect_success(detect({boxes, "--parts"}));
   EXPECT_EQ(collisions(), std::vector<bool>{true});
   const Json pair = frames().front()["pairs"][0];
   EXPECT_EQ(pair["a"], "floor");
   EXPECT_EQ(pair["b"], "wall");
-  EXPECT_EQ(pair["faces"], Json({{0, 1}}));
+  EXPECT_EQ(pair["faces"], Json({{0, 1}, {0, 2}}));
   expect_success(detect({boxes, "--parts", "--components"}));
   const auto info = run_program({"info", boxes});
   EXPECT_NE(info.out.find("floor, wall"), std::string::npos) << info.out;
+  EXPECT_EQ(info.out.find("empty"), std::string::npos) << info.out;
   expect_error(detect({write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "--parts"}), 2, "one mesh alone");
 }
 

@@ -13,6 +13,7 @@
 #include "lodestone/io/scenes/given_objects.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/mesh/errors.h"
+#include "support/gltf_samples.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
 
@@ -44,6 +45,24 @@ TEST(Read_scene, a_minimal_scene_has_one_frame_and_the_file_s_name) {
   EXPECT_FALSE(object.scattered_side);
   pose(object, 17);
   EXPECT_EQ(corner(object, 1), Point(1, 0, 0));
+}
+
+TEST(Read_scene, objects_list_each_file_that_they_are_read_from_once) {
+  const Temporary_folder folder;
+  const auto sample = test::square_with_two_animations();
+  folder.write("a.gltf", sample.gltf("a.bin"));
+  folder.write("b.gltf", sample.gltf("b.bin"));
+  folder.write("a.bin", sample.bytes), folder.write("b.bin", sample.bytes);
+  const auto files_of = [&](const std::string& object) {
+    std::vector<std::string> names;
+    for (const auto& file : read(folder, with_object(object)).objects[0].files)
+      names.push_back(file.filename().string());
+    return names;
+  };
+  EXPECT_EQ(files_of(R"("mesh": "a.gltf", "motion": {"gltf": "a.gltf"})"),
+            (std::vector<std::string>{"a.gltf", "a.bin"}));
+  EXPECT_EQ(files_of(R"("mesh": "a.gltf", "motion": {"gltf": "b.gltf"})"),
+            (std::vector<std::string>{"a.gltf", "b.gltf", "a.bin", "b.bin"}));
 }
 
 TEST(Read_scene, reads_every_setting) {
