@@ -54,9 +54,9 @@ TEST(Read_scene, objects_list_each_file_that_they_are_read_from_once) {
   folder.write("b.gltf", sample.gltf("b.bin"));
   folder.write("a.bin", sample.bytes), folder.write("b.bin", sample.bytes);
   const auto files_of = [&](const std::string& object) {
+    const Scene scene = read(folder, with_object(object));
     std::vector<std::string> names;
-    for (const auto& file : read(folder, with_object(object)).objects[0].files)
-      names.push_back(file.filename().string());
+    for (const auto& file : scene.objects[0].files) names.push_back(file.filename().string());
     return names;
   };
   EXPECT_EQ(files_of(R"("mesh": "a.gltf", "motion": {"gltf": "a.gltf"})"),
