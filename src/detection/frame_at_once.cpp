@@ -25,6 +25,27 @@ void count_tests(const Contact_summary& contacts, Pair_result& result, Frame_sta
   statistics.exact_tests = contacts.exact_tests;
 }
 
+/// The contacts of faces that may meet, by trees of them.
+Contact_summary contacts_by_trees(const Faces_in_box& a, const Faces_in_box& b, const Detector_options& options,
+                                  std::vector<Face_pair>& found) {
+  Workers workers(options.exact.threads);
+  Tree_surface tree_a(a.corners), tree_b(b.corners);
+  tree_a.build({}, a.coordinates, options.exact.tree, workers);
+  tree_b.build({}, b.coordinates, options.exact.tree, workers);
+  const Contact_summary contacts = Contact_search(workers).between(tree_a, tree_b, {.query = options.contacts}, found);
+  // Faces of a box are in the order of the mesh, so that pairs stay sorted.
+  for (Face_pair& pair : found) pair = {a.faces[pair.a], b.faces[pair.b]};
+  return contacts;
+}
+
+Contact_summary contacts_of(const Overlapping_surfaces& surfaces, const Detector_options& options,
+                            std::vector<Face_pair>& found) {
+  const auto& [box_a, box_b, a, b] = surfaces;
+  if (const auto contacts = Overlap_search().run(a, box_a, b, box_b, options.contacts, found)) return *contacts;
+  found.clear();
+  return contacts_by_trees(a, b, options, found);
+}
+
 }  // namespace
 
 bool can_answer_at_once(const Detector_options& options) {
@@ -36,25 +57,20 @@ bool can_answer_at_once(const Detector_options& options) {
          !exact.patches && !limited;
 }
 
-std::optional<Frame> overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options,
-                                   double reading) {
+Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading) {
   const Box &box_a = surfaces.box_a, &box_b = surfaces.box_b;
   const Faces_in_box &a = surfaces.a, &b = surfaces.b;
   Frame_builder builder(options);
   builder.start();
   builder.seconds().broad_phase = reading;
   if (!box_a.intersects(box_b)) return builder.finish();
-  bool has_given_up = false;
   timed(builder.seconds().confirmation, [&] {
     Pair_result result = builder.start_pair({0, 1});
-    const auto contacts = Overlap_search().run(a, box_a, b, box_b, options.contacts, builder.face_pairs());
-    has_given_up = !contacts;
-    if (has_given_up) return;
-    result.collides = contacts->found;
-    count_tests(*contacts, result, builder.statistics());
+    const Contact_summary contacts = contacts_of(surfaces, options, builder.face_pairs());
+    result.collides = contacts.found;
+    count_tests(contacts, result, builder.statistics());
     builder.end_pair(result, [&](Object_id id, std::uint32_t face) { return triangle_in(id == 0 ? a : b, face); });
   });
-  if (has_given_up) return std::nullopt;
   return builder.finish();
 }
 

@@ -30,8 +30,7 @@ struct Overlapping_surfaces {
 };
 /// The frame of two surfaces, the objects 0 and 1.
 /// @param reading  seconds that it took to read them
-/// @return none: Overlap_search has given up
-std::optional<Frame> overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options,
+Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options,
                                    double reading);
 /// The frame of one surface, the object 0, and itself.
 /// @param corners  without doubled vertices
@@ -42,10 +41,10 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
 /// `confirmation`.
 ///
 /// O(V) for two meshes whose boxes are apart and which have no border. Else O(V + F), and what an Overlap_search takes
-/// for the faces where the boxes overlap.
+/// for the faces where the boxes overlap; if it gives up, what trees of these faces take, which are thrown away.
 ///
-/// @return none: the detector has to answer. So it is if `can_answer_at_once` is false, where Overlap_search has given
-///         up, and for meshes that a detector refuses, with the reason
+/// @return none: the detector has to answer. So it is if `can_answer_at_once` is false, and for meshes that a detector
+///         refuses, with the reason
 /// @throws Bad_argument  an option out of range
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
 std::optional<Frame> frame_at_once(const Mesh_a& a, const Mesh_b& b, const Detector_options& options) {
@@ -62,8 +61,8 @@ std::optional<Frame> frame_at_once(const Mesh_a& a, const Mesh_b& b, const Detec
     usable = reader_a.read_faces(overlap, surfaces.a) && reader_b.read_faces(overlap, surfaces.b);
   });
   if (!usable) return std::nullopt;
-  auto frame = overlap_frame(surfaces, options, reading);
-  if (frame) frame->statistics.vertices_read = num_vertices(a) + num_vertices(b);
+  Frame frame = overlap_frame(surfaces, options, reading);
+  frame.statistics.vertices_read = num_vertices(a) + num_vertices(b);
   return frame;
 }
 

@@ -86,7 +86,7 @@ class Overlap_search {
   /// Where one contact is enough and surfaces have few faces, the filter is mostly not needed at all.
   static constexpr std::size_t small_group_faces = 8;
   /// More pairs of short lists per short list are not filtered. Surfaces that cross, or lie on each other, have less.
-  static constexpr std::size_t most_partners = 32;
+  static constexpr std::size_t most_partners = 16;
   /// Of surfaces with more faces than this, a slice is searched first if one contact is enough.
   static constexpr std::size_t few_faces = 512;
 
