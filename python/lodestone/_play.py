@@ -11,8 +11,8 @@ def play(scene, *, frames=None, components=False, parts=False, allow_outside=Fal
 
     scene: a Scene, or a path or paths as of `read_scene`. frames: which of its frames, such as range(10, 20), where -1
     is the last; None: all.
-    components, parts, allow_outside and max_faces are those of `read_scene`, and of no meaning for a Scene; other options are
-    those of Detector. `frame.detector` is the detector; its objects are those of the scene, in order.
+    components, parts, allow_outside and max_faces are those of `read_scene`, and of no meaning for a Scene. Other
+    options are those of Detector. `frame.detector` is the detector; its objects are those of the scene, in order.
     """
     if isinstance(scene, Scene):
         if components or parts:

@@ -100,9 +100,11 @@ struct Submit_command {
 inline bool is_scene_file(const std::vector<std::filesystem::path>& inputs) {
   return inputs.size() == 1 && inputs.front().extension() == ".json";
 }
-/// What a message about one object alone adds; empty if its components are objects already.
+/// What a message about one object alone adds: options that would divide it, unless it has been divided.
 inline const char* hint_at_components(const Detect_command& command) {
-  return command.components ? "" : ", or --components or --parts for those between parts of it";
+  if (command.components) return "";
+  return command.parts ? ", or --components for those between its connected components"
+                       : ", or --components or --parts for those between parts of it";
 }
 
 /// Runs a command: prints its table to the standard output and returns the program's exit code.

@@ -291,7 +291,8 @@ TEST_F(Detect_files, parts_of_an_input_are_objects_on_demand) {
   const auto info = run_program({"info", boxes});
   EXPECT_NE(info.out.find("floor, wall"), std::string::npos) << info.out;
   EXPECT_EQ(info.out.find("empty"), std::string::npos) << info.out;
-  expect_error(detect({write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "--parts"}), 2, "one mesh alone");
+  expect_error(detect({write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "--parts"}), 2,
+               "itself, or --components for those between its connected components");
 }
 
 TEST_F(Detect_files, a_note_about_many_objects_names_three) {

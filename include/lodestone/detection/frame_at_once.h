@@ -30,8 +30,7 @@ struct Overlapping_surfaces {
 };
 /// The frame of two surfaces, the objects 0 and 1.
 /// @param reading  seconds that it took to read them
-Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options,
-                                   double reading);
+Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading);
 /// The frame of one surface, the object 0, and itself.
 /// @param corners  without doubled vertices
 Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, const Detector_options& options);

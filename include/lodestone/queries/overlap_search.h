@@ -31,7 +31,7 @@ class Overlap_search {
   /// Appends the face pairs that intersect to `found`, sorted; none for the query `yes_no`, one for `first`.
   /// @param a, b          faces by index in their meshes, of which those outside `overlap` may be missing
   /// @param box_a, box_b  around the two surfaces
-  /// @return none: it has given up, and what it appended is not all; a tree may part what boxes do not
+  /// @return none: it has given up, and what it appended is not all
   std::optional<Contact_summary> run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b, const Box& box_b,
                                      Contact_query query, std::vector<Face_pair>& found);
 
@@ -85,7 +85,7 @@ class Overlap_search {
   static constexpr std::size_t few_pairs = 64;
   /// Where one contact is enough and surfaces have few faces, the filter is mostly not needed at all.
   static constexpr std::size_t small_group_faces = 8;
-  /// More pairs of short lists per short list are not filtered. Surfaces that cross, or lie on each other, have less.
+  /// More pairs of short lists per short list are not filtered.
   static constexpr std::size_t most_partners = 16;
   /// Of surfaces with more faces than this, a slice is searched first if one contact is enough.
   static constexpr std::size_t few_faces = 512;

@@ -16,9 +16,9 @@ namespace lodestone {
 /// Points and faces in the order of the file: vertex and face indices are those of the file, from 0.
 struct Polygon_soup {
   std::vector<Point> points;
-  std::vector<std::vector<std::size_t>> faces;  ///< of three corners or more
-  File_parts parts = {};                        ///< that the file names
-  std::set<std::string> not_read = {};          ///< what else the file holds, such as `texture coordinates`
+  std::vector<std::vector<std::size_t>> faces;    ///< of three corners or more
+  File_parts parts = {};                          ///< that the file names
+  std::set<std::string> not_read = {};            ///< what else the file holds, such as `texture coordinates`
   std::vector<std::filesystem::path> files = {};  ///< that it is read from
 };
 

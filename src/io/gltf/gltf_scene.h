@@ -63,7 +63,7 @@ struct Gltf_part {
   std::size_t node = 0;
   std::size_t skin = no_index;
   std::size_t first_vertex = 0;
-  std::string name = {};  ///< of the node, else of the mesh; may be empty
+  std::string name = {};  ///< of the node, else of the mesh, else `node_N`; those of two parts differ
 };
 
 enum class Gltf_path { translation, rotation, scale, weights };

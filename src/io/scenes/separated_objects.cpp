@@ -190,18 +190,19 @@ std::vector<Object_pair> pairs_of_parts(std::span<const Object_pair> pairs, std:
 }
 
 /// Names that differ: first of the objects that stay, then of the others.
-void give_names(std::span<std::vector<Scene_object>> separated, Separate what) {
+/// @param wholes  the names of the objects that were separated
+void give_names(std::span<std::vector<Scene_object>> separated, std::span<const std::string> wholes, Separate what) {
   Unique_names names;
   for (auto& objects : separated)
     if (objects.size() == 1) objects[0].name = names.take(objects[0].name);
-  for (auto& objects : separated) {
+  for (std::size_t whole = 0; whole < separated.size(); ++whole) {
+    auto& objects = separated[whole];
     if (objects.size() == 1) continue;
     if (what == Separate::parts) {
       for (auto& object : objects) object.name = names.take(object.name);
       continue;
     }
-    const std::string& first = objects[0].name;
-    const auto name = names.take_numbered(first.substr(0, first.rfind('_')), objects.size());
+    const auto name = names.take_numbered(wholes[whole], objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) objects[i].name = Unique_names::numbered(name, i + 1);
   }
 }
@@ -219,10 +220,12 @@ std::vector<Scene_object> separated_objects(const Scene_object& object, Separate
 
 void separate(Scene& scene, Separate what) {
   std::vector<std::vector<Scene_object>> separated;
+  std::vector<std::string> wholes;
   std::vector<std::size_t> parts;
   std::size_t count = 0;
   for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
     auto& objects = separated.emplace_back();
+    wholes.push_back(scene.objects[o].name);
     if (!scene.ignores({o, o})) objects = separated_objects(scene.objects[o], what);
     if (objects.size() <= 1) {
       objects.clear();
@@ -231,7 +234,7 @@ void separate(Scene& scene, Separate what) {
     parts.push_back(objects.size());
     check_count(count += objects.size(), most_scene_objects, "objects", scene.name);
   }
-  give_names(separated, what);
+  give_names(separated, wholes, what);
   scene.ignored = pairs_of_parts(scene.ignored, parts);
   scene.objects.clear();
   for (auto& objects : separated) std::ranges::move(objects, std::back_inserter(scene.objects));

@@ -11,7 +11,7 @@ namespace lodestone {
 /// Faces that a file keeps together under a name: an object of an OBJ file (`o`, or `g` if there is no `o`), or a node
 /// of a glTF file that shows a mesh.
 struct File_part {
-  std::string name;              ///< may be empty, and stand for several parts: these are one
+  std::string name;              ///< faces of several parts with one name belong together; may be empty
   std::uint32_t first_face = 0;  ///< in the file; the part ends where the next begins
 };
 

@@ -28,11 +28,11 @@ namespace lodestone {
 ///
 /// An STL file lists corners instead of vertices: equal corners are one vertex, indexed in order of first appearance.
 struct Mesh_file {
-  Surface_mesh mesh;                       ///< vertices and faces without removed elements
-  std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its index in the file
-  std::size_t file_vertices = 0;           ///< number of vertices in the file
-  std::vector<std::uint32_t> file_face;    ///< per mesh face: its face in the file; never decreases
-  File_parts parts = {};                   ///< that the file names
+  Surface_mesh mesh;                              ///< vertices and faces without removed elements
+  std::vector<std::uint32_t> file_vertex;         ///< per mesh vertex: its index in the file
+  std::size_t file_vertices = 0;                  ///< number of vertices in the file
+  std::vector<std::uint32_t> file_face;           ///< per mesh face: its face in the file; never decreases
+  File_parts parts = {};                          ///< that the file names
   std::vector<std::filesystem::path> files = {};  ///< that it is read from: a glTF file can name others
 };
 
