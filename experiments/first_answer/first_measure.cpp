@@ -16,7 +16,6 @@ namespace lodestone {
 
 namespace {
 
-constexpr std::size_t most_rounds = 60;
 /// Per contestant, scene and question; beyond, it starts no further round.
 constexpr double enough_seconds = 1;
 /// Frames after the first answer, per round.
@@ -65,7 +64,7 @@ class Asker {
   Asker(const Once_contestant& contestant, Contact_query query, Once_scene& scene)
       : contestant_(contestant), query_(query), scene_(scene) {}
 
-  bool done() const { return rounds_ == most_rounds || spent_ > enough_seconds; }
+  bool done() const { return spent_ > enough_seconds; }
   const Once_times& times() const { return times_; }
 
   /// @return whether the answer is right
@@ -122,7 +121,8 @@ class Asker {
 
 /// Asks one question to all contestants that report the answer.
 void ask_all(Once_scene& scene, Contact_query query, std::span<const Face_pair> truth,
-             std::optional<Once_times> Once_figures::*times, std::vector<Once_figures>& figures) {
+             std::optional<Once_times> Once_figures::*times, std::size_t most_rounds,
+             std::vector<Once_figures>& figures) {
   std::vector<Asker> askers;
   for (const auto& f : figures) askers.emplace_back(*f.contestant, query, scene);
   for (std::size_t round = 0; round < most_rounds; ++round)
@@ -149,7 +149,7 @@ std::optional<std::size_t> pays_from(const Once_times& session, const Once_times
 }
 
 std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<const Once_contestant> contestants,
-                                                const std::vector<bool>& left_out) {
+                                                const std::vector<bool>& left_out, std::size_t most_rounds) {
   const auto truth = truth_of(scene);
   std::vector<Once_figures> figures;
   for (std::size_t i = 0; i < contestants.size(); ++i) {
@@ -161,8 +161,8 @@ std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<con
       f.gave_up = true;
     }
   }
-  ask_all(scene, Contact_query::yes_no, truth, &Once_figures::any, figures);
-  ask_all(scene, Contact_query::all, truth, &Once_figures::all, figures);
+  ask_all(scene, Contact_query::yes_no, truth, &Once_figures::any, most_rounds, figures);
+  ask_all(scene, Contact_query::all, truth, &Once_figures::all, most_rounds, figures);
   return figures;
 }
 

@@ -34,8 +34,9 @@ std::optional<std::size_t> pays_from(const Once_times& session, const Once_times
 
 /// Asks all contestants, which take turns, round by round. Times of making the scene and of comparing answers do not
 /// count.
-/// @param left_out  per contestant: whether to leave it out
+/// @param left_out     per contestant: whether to leave it out
+/// @param most_rounds  fewer for a contestant that has used a second for a question
 std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<const Once_contestant> contestants,
-                                                const std::vector<bool>& left_out);
+                                                const std::vector<bool>& left_out, std::size_t most_rounds = 60);
 
 }  // namespace lodestone

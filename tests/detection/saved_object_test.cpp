@@ -49,7 +49,7 @@ struct Twins {
   }
 };
 
-void approach(Owned_meshes& meshes) { shift(meshes[1], -0.05); }
+void come_nearer(Owned_meshes& meshes) { shift(meshes[1], -0.05); }
 void swell(Owned_meshes& meshes) {
   deform(meshes[0], [](const Point& p) { return Point(1.08 * p.x(), 1.02 * p.y(), p.z()); });
 }
@@ -64,7 +64,7 @@ class Saved_object : public testing::TestWithParam<Saved_case> {};
 
 TEST_P(Saved_object, gives_the_same_frames) {
   Twins twins(GetParam().options, two_spheres(2.2));
-  EXPECT_GT(twins.expect_same_frames(12, approach), 0U);
+  EXPECT_GT(twins.expect_same_frames(12, come_nearer), 0U);
   for (const auto v : twins.meshes[0].vertices())
     for (const char* name : {"v:region", "v:particle"}) {
       const auto map = [&](const Surface_mesh& mesh) {
@@ -82,7 +82,7 @@ TEST_P(Saved_object, gives_the_same_frames_when_surfaces_grow) {
 TEST_P(Saved_object, of_triangles_that_share_no_vertices_gives_the_same_frames) {
   const Owned_meshes spheres = two_spheres(2.2, 6);
   Twins twins(GetParam().options, {flat_shaded(spheres[0]), flat_shaded(spheres[1])});
-  EXPECT_GT(twins.expect_same_frames(12, approach), 0U);
+  EXPECT_GT(twins.expect_same_frames(12, come_nearer), 0U);
 }
 
 TEST_P(Saved_object, is_saved_as_the_same_bytes_again) {

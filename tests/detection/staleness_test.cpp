@@ -12,7 +12,7 @@
 namespace lodestone {
 namespace {
 
-const Detector_options exact{.mode = Mode::exact};
+const Detector_options exact_mode{.mode = Mode::exact};
 
 /// The message of the Bad_mesh that `action` throws; empty if it throws nothing.
 template <class Action>
@@ -28,7 +28,7 @@ std::string refusal(Action action) {
 TEST(Staleness, vertices_that_move_without_an_update_are_seen_by_detect) {
   auto a = potato(8), b = potato(8, 2);
   shift(b, 4);
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   std::size_t colliding = 0;
   for (int frame = 0; frame < 12; ++frame) {
@@ -42,7 +42,7 @@ TEST(Staleness, vertices_that_move_without_an_update_are_seen_by_detect) {
 
 TEST(Staleness, vertices_that_move_without_an_update_are_seen_by_a_visitor) {
   auto a = potato(8), b = potato(8, 2);
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   EXPECT_THROW(detector.visit(0, 0, [](Face_pair) { return Visit::go_on; }), Bad_argument);
   for (int frame = 0; frame < 5; ++frame) {
@@ -61,7 +61,7 @@ TEST(Staleness, vertices_that_move_without_an_update_are_seen_by_a_visitor) {
 
 TEST(Staleness, vertices_that_move_without_an_update_are_seen_by_every_query_of_a_pair) {
   auto a = potato(5), b = sphere(4, 0.3);
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   EXPECT_TRUE(detector.contains(0, 1));
   for (const double x : {0.0, 0.9, 1.5, 3.0, 0.2}) {
@@ -89,7 +89,7 @@ TEST(Staleness, vertices_that_move_without_an_update_are_seen_by_every_query_of_
 
 TEST(Staleness, a_query_of_a_pair_leaves_the_other_objects_to_the_next_frame) {
   auto a = sphere(5), b = sphere(5, 1, {5, 0, 0}), c = sphere(5, 1, {-5, 0, 0});
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b, &c});
   EXPECT_FALSE(detector.detect().collides());
   shift(b, -3.5);
@@ -105,7 +105,7 @@ TEST(Staleness, given_positions_are_copied) {
   const auto truth = exhaustive_face_pairs(a, there);
   ASSERT_FALSE(truth.empty());
   ASSERT_NE(truth, exhaustive_face_pairs(a, b));
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   auto given = std::make_unique<Positions>(positions_of(there));
   detector.update(1, *given);
@@ -118,7 +118,7 @@ TEST(Staleness, given_positions_are_copied) {
 
 TEST(Staleness, given_positions_win_over_the_mesh_until_the_next_update) {
   auto a = potato(6), b = potato(6, 2);
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   const auto near = [&] {
     auto moved = b;
@@ -148,7 +148,7 @@ TEST(Staleness, positions_may_be_given_before_the_first_frame) {
   const auto a = potato(6), b = potato(6, 2);
   auto there = b;
   shift(there, 1.3, 0.2);
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   detector.update(1, positions_of(there));
   expect_contacts(detector.detect(), 0, 1, exhaustive_face_pairs(a, there));
@@ -169,7 +169,7 @@ TEST(Staleness, positions_may_lie_anywhere_in_memory) {
   Positions every_second = Positions::Constant(2 * rows.rows(), 3, not_a_number);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) every_second.row(2 * i) = rows.row(i);
   using Strided = Eigen::Map<const Positions, 0, Eigen::OuterStride<>>;
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   const auto check = [&] {
     expect_contacts(detector.detect(), 0, 1, truth);
@@ -188,7 +188,7 @@ TEST(Staleness, wrong_positions_are_refused_and_the_object_stays_as_it_was) {
   auto a = potato(6), b = potato(6, 2);
   auto there = b;
   shift(there, 1.3, 0.2);
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   const Positions rows = positions_of(there);
   for (const bool given : {false, true}) {
@@ -217,7 +217,7 @@ TEST(Staleness, a_coordinate_that_is_not_finite_is_named_and_the_next_frame_is_r
       auto a = potato(6), b = potato(6, 2), c = potato(6, 3);
       shift(b, 2);
       shift(c, -2);
-      Exact_detector detector(exact);
+      Exact_detector detector(exact_mode);
       add_all(detector, {&a, &b, &c});
       if (!first_frame) {
         EXPECT_EQ(expect_exhaustive(detector.detect(), {&a, &b, &c}), 2U);
@@ -244,7 +244,7 @@ TEST(Staleness, a_visitor_cannot_change_what_it_is_shown) {
   auto a = potato(6), b = potato(6, 2);
   const auto c = potato(6, 3);
   shift(b, 1.3);
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   const auto moved = positions_of(a);
   const std::vector<std::function<void()>> calls{[&] { detector.update(0, moved); }, [&] { detector.update(0); },
@@ -271,7 +271,7 @@ TEST(Staleness, a_vertex_without_a_face_is_refused_in_every_frame_in_which_it_is
   auto a = potato(6);
   const auto b = potato(6, 2);
   const auto v = a.add_vertex(Point(0, 0, 0));
-  Exact_detector detector(exact);
+  Exact_detector detector(exact_mode);
   add_all(detector, {&a, &b});
   for (int frame = 0; frame < 3; ++frame) {
     a.point(v) = Point(0, not_a_number, 0);

@@ -70,7 +70,7 @@ TEST(First_answer, measures_every_question_that_a_contestant_answers) {
   const auto before = positions_of_second(scene);
   std::vector<bool> left_out(all.size(), false);
   left_out.back() = true;
-  const auto figures = measure_first_answers(scene, all, left_out);
+  const auto figures = measure_first_answers(scene, all, left_out, 2);
   ASSERT_EQ(figures.size(), all.size());
   for (const auto& f : figures) {
     SCOPED_TRACE(f.contestant->name());

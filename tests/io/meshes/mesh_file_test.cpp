@@ -21,11 +21,11 @@
 namespace lodestone::test {
 namespace {
 
-using Corners = std::multiset<std::size_t>;
+using Face_of_points = std::multiset<std::size_t>;
 
 /// Per face of the mesh, in order: its corners as file vertices.
-std::vector<Corners> file_corners(const Mesh_file& read) {
-  std::vector<Corners> result;
+std::vector<Face_of_points> file_corners(const Mesh_file& read) {
+  std::vector<Face_of_points> result;
   for (const auto face : faces(read.mesh)) {
     result.emplace_back();
     for (const auto v : vertices_around_face(halfedge(face, read.mesh), read.mesh))
@@ -36,7 +36,7 @@ std::vector<Corners> file_corners(const Mesh_file& read) {
 
 void expect_square(const Mesh_file& read) {
   EXPECT_EQ(read.file_vertices, 4U);
-  EXPECT_EQ(file_corners(read), (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(file_corners(read), (std::vector<Face_of_points>{{0, 1, 2}, {0, 2, 3}}));
   const std::vector<Point> corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   for (const auto v : vertices(read.mesh)) EXPECT_EQ(read.mesh.point(v), corners.at(read.file_vertex.at(v)));
 }
@@ -67,7 +67,7 @@ class Mesh_reading : public testing::Test {
     for (const auto& [a, b, c] : triangles)
       text += "3 " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
     auto result = read("faces.off", text);
-    std::vector<Corners> expected;
+    std::vector<Face_of_points> expected;
     expected.reserve(triangles.size());
     for (const auto& [a, b, c] : triangles)
       expected.push_back({static_cast<std::size_t>(a), static_cast<std::size_t>(b), static_cast<std::size_t>(c)});

@@ -10,11 +10,11 @@
 namespace lodestone::test {
 namespace {
 
-const std::vector<Point> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const std::vector<Point> tetrahedron_corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const std::vector<Corners> tetrahedron_faces{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 TEST(Surface_report, of_a_tetrahedron_is_closed_and_clean) {
-  const auto report = inspect_surface(corners, tetrahedron_faces);
+  const auto report = inspect_surface(tetrahedron_corners, tetrahedron_faces);
   EXPECT_EQ(report.vertices, 4U);
   EXPECT_EQ(report.faces, 4U);
   EXPECT_EQ(report.components, 1U);
@@ -26,7 +26,7 @@ TEST(Surface_report, of_a_tetrahedron_is_closed_and_clean) {
 }
 
 TEST(Surface_report, of_an_open_surface_counts_its_border_edges) {
-  const auto report = inspect_surface(corners, std::span(tetrahedron_faces).first(3));
+  const auto report = inspect_surface(tetrahedron_corners, std::span(tetrahedron_faces).first(3));
   EXPECT_FALSE(report.closed);
   EXPECT_EQ(report.border_edges, 3U);
 }
@@ -45,7 +45,7 @@ TEST(Surface_report, counts_edges_with_more_than_two_faces) {
 }
 
 TEST(Surface_report, counts_components_that_touch_without_sharing_a_vertex) {
-  auto points = corners;
+  auto points = tetrahedron_corners;
   points.insert(points.end(), {{-0.0, 0, 0}, {-1, 0, 0}, {0, -1, 0}});
   auto faces = tetrahedron_faces;
   faces.push_back({4, 5, 6});
@@ -63,7 +63,7 @@ TEST(Surface_report, counts_zero_area_faces) {
 
 TEST(Surface_report, ignores_unused_vertices_in_the_box) {
   EXPECT_FALSE(inspect_surface({}, {}).closed);
-  auto points = corners;
+  auto points = tetrahedron_corners;
   points.emplace_back(99, 99, 99);
   const auto report = inspect_surface(points, tetrahedron_faces);
   EXPECT_EQ(report.unused_vertices, 1U);

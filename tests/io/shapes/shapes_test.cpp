@@ -65,7 +65,7 @@ std::size_t number_of_borders(const Surface_mesh& mesh) {
   return cycles.size();
 }
 
-std::string message_of(std::string_view patches) {
+std::string refusal_of(std::string_view patches) {
   try {
     bezier_patches(patches, "test.bpt", {1, 1});
   } catch (const Bad_mesh& error) {
@@ -159,49 +159,49 @@ TEST(Bezier_patches, with_opposite_orientations_are_made_consistent) {
 TEST(Bezier_patches, name_the_line_of_a_broken_number) {
   std::string text = flat_patch;
   text.replace(text.find("2 2 0"), 5, "2 x 0");
-  EXPECT_EQ(message_of(text), "test.bpt:13: expected a coordinate");
+  EXPECT_EQ(refusal_of(text), "test.bpt:13: expected a coordinate");
 }
 
 TEST(Bezier_patches, refuse_a_point_index_out_of_range) {
   std::string text = flat_patch;
   text.replace(text.find(" 15\n"), 3, " 16");
-  EXPECT_EQ(message_of(text), "test.bpt:2: patch refers to point 16 of 16");
+  EXPECT_EQ(refusal_of(text), "test.bpt:2: patch refers to point 16 of 16");
 }
 
 TEST(Bezier_patches, refuse_negative_point_indices) {
   std::string text = flat_patch;
   text.replace(text.find(" 15\n"), 3, " -1");
-  EXPECT_EQ(message_of(text), "test.bpt:2: expected a point number");
+  EXPECT_EQ(refusal_of(text), "test.bpt:2: expected a point number");
 }
 
 TEST(Bezier_patches, refuse_truncated_text) {
-  EXPECT_EQ(message_of(flat_patch.substr(0, flat_patch.size() - 4)), "test.bpt:18: expected a coordinate");
-  EXPECT_EQ(message_of(""), "test.bpt:1: expected the number of patches");
+  EXPECT_EQ(refusal_of(flat_patch.substr(0, flat_patch.size() - 4)), "test.bpt:18: expected a coordinate");
+  EXPECT_EQ(refusal_of(""), "test.bpt:1: expected the number of patches");
 }
 
 TEST(Bezier_patches, refuse_text_after_the_last_point) {
-  EXPECT_EQ(message_of(flat_patch + "7\n"), "test.bpt:19: expected the end after the last point");
+  EXPECT_EQ(refusal_of(flat_patch + "7\n"), "test.bpt:19: expected the end after the last point");
 }
 
 TEST(Bezier_patches, refuse_counts_too_large_for_the_text) {
-  EXPECT_EQ(message_of("4000000000 1\n0 1 2\n0 1 2\n"),
+  EXPECT_EQ(refusal_of("4000000000 1\n0 1 2\n0 1 2\n"),
             "test.bpt:1: announces 4000000000 patches and 1 points, more than the text can hold");
-  EXPECT_EQ(message_of("1 4000000000\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n"),
+  EXPECT_EQ(refusal_of("1 4000000000\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n"),
             "test.bpt:1: announces 1 patches and 4000000000 points, more than the text can hold");
-  EXPECT_EQ(message_of("99999999999999999999999 16\n"), "test.bpt:1: expected the number of patches");
+  EXPECT_EQ(refusal_of("99999999999999999999999 16\n"), "test.bpt:1: expected the number of patches");
 }
 
 TEST(Bezier_patches, refuse_non_finite_and_enormous_coordinates) {
   for (const std::string bad : {"inf", "nan", "1e200"}) {
     std::string text = flat_patch;
     text.replace(text.find("3 3 0"), 1, bad);
-    EXPECT_EQ(message_of(text),
+    EXPECT_EQ(refusal_of(text),
               "test.bpt:18: coordinate " + (bad == "1e200" ? "1e+200" : bad) + " is not between -1e100 and 1e100");
   }
 }
 
 TEST(Bezier_patches, refuse_text_whose_patches_all_have_no_area) {
-  EXPECT_EQ(message_of("1 1\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n1 2 3\n"), "test.bpt: every patch is a point or a line");
+  EXPECT_EQ(refusal_of("1 1\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n1 2 3\n"), "test.bpt: every patch is a point or a line");
 }
 
 // ---- Spheres ----
