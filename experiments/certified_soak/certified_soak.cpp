@@ -80,7 +80,8 @@ class Round {
   void play_frames(Certified_soak_kind& kind) {
     for (std::size_t frame = 0; frame < frames_per_round; ++frame) {
       if (frame > 0) move();
-      const auto given = random_.one_in(16) ? std::optional(give_positions()) : std::nullopt;
+      const bool gives = random_.one_in(16);
+      const Object_id given = gives ? give_positions() : 0;
       const auto check = detectors_.detect();
       ++kind.frames;
       kind.colliding += check.collides ? 1 : 0;
@@ -90,7 +91,7 @@ class Round {
       ++kind.questions;
       kind.differences += ask() ? 0 : 1;
       kind.violations += std::max(of_frame, detectors_.violations());  // a question may count from 0
-      if (given) detectors_.both([&](Detector<>& detector) { detector.update(*given); });
+      if (gives) detectors_.both([&](Detector<>& detector) { detector.update(given); });
       for (const auto& check_of_bound : checks_) {
         const auto count = check_of_bound->check(random_);
         kind.boxes += count.boxes;
@@ -177,7 +178,7 @@ class Round {
     const double distance = random_.number(0, 1);
     const Ray ray{.origin = from, .direction = to};
     const Point point(from.x(), from.y(), from.z());
-    switch (random_.below(9)) {
+    switch (random_.below(10)) {
       case 0:
         return closest_agree();
       case 1:
@@ -194,6 +195,8 @@ class Round {
         return detectors_.agree([&](Detector<>& d) { return d.point_side(0, point); });
       case 7:
         return detectors_.agree([&](Detector<>& d) { return faces_of(d.first_hits(0, rays_through(from))); });
+      case 8:
+        return detectors_.agree([&](Detector<>& d) { return faces_of(d.first_hits(rays_through(from))); });
       default:
         return detectors_.agree([&](Detector<>& d) { return visited(d); });
     }
@@ -218,6 +221,12 @@ class Round {
     std::vector<std::vector<std::uint32_t>> faces;
     for (const auto& hit : hits) faces.push_back(faces_of(hit));
     return faces;
+  }
+  static std::vector<Face_pair> faces_of(const std::vector<std::optional<Object_hit>>& hits) {
+    std::vector<Face_pair> objects_and_faces;
+    for (const auto& hit : hits)
+      if (hit) objects_and_faces.push_back({hit->object, hit->hit.face});
+    return objects_and_faces;
   }
   /// The same for both detectors, in all directions.
   static std::vector<Ray> rays_through(const Eigen::Vector3d& point) {

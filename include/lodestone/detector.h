@@ -299,6 +299,31 @@ class Detector {
   std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {
     return ask<Exact>(object).first_hits(object, rays);
   }
+  /// The first face of any object that a ray meets, with its object, in mode `exact` or `certified`. Exact: of several
+  /// faces at the same t, that of the lowest object, and of this the lowest. Groups and ignored pairs do not count.
+  /// Reads the positions of all objects: many rays at once are faster.
+  /// @throws Bad_argument  another mode, a ray that is not as `Ray` says
+  /// @throws Bad_mesh      as `detect`
+  std::optional<Object_hit> first_hit(const Ray& ray) { return first_hits({&ray, 1}).front(); }
+  /// The same among some objects, whose positions alone are read.
+  /// @param objects        in any order
+  /// @throws Bad_argument, Bad_mesh  as the other call; no such object
+  std::optional<Object_hit> first_hit(std::span<const Object_id> objects, const Ray& ray) {
+    return first_hits(objects, {&ray, 1}).front();
+  }
+  /// The same for many rays. An object is asked about the rays that reach its box, as in the call for one object:
+  /// O(rays * objects), some nanoseconds for each, beside that.
+  /// @return one per ray, in their order
+  /// @throws Bad_argument, Bad_mesh  as `first_hit`
+  std::vector<std::optional<Object_hit>> first_hits(std::span<const Ray> rays) {
+    auto& exact = ask<Exact>();
+    return exact.first_hits(exact.ids(), rays);
+  }
+  /// The same among some objects.
+  /// @throws Bad_argument, Bad_mesh  as `first_hit`
+  std::vector<std::optional<Object_hit>> first_hits(std::span<const Object_id> objects, std::span<const Ray> rays) {
+    return ask<Exact>().first_hits(sorted(objects), rays);
+  }
   /// An object where it is now, prepared for rays that are asked about one by one: see Ray_tree. It reads positions in
   /// place. So it is of use until the next query of the object, or until the object is moved, given positions or a
   /// promise, placed, rebuilt, loaded or removed. The detector keeps it, and refits it when it is asked for again. In
@@ -419,6 +444,13 @@ class Detector {
     if (has(object)) return object;
     if (object < meshes_.size()) throw Bad_argument("object " + std::to_string(object) + " has been removed");
     throw Bad_argument("there is no object " + std::to_string(object));
+  }
+  std::vector<Object_id> sorted(std::span<const Object_id> objects) const {
+    std::vector<Object_id> ids;
+    for (const auto object : objects) ids.push_back(checked(object));
+    std::ranges::sort(ids);
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
   }
   /// The mode, for a question about objects that only `Model` answers.
   /// @throws Bad_argument  no such object, another mode

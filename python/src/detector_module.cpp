@@ -2,6 +2,10 @@
 #include <pybind11/stl.h>
 
 #include <limits>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
 
 #include "detector.h"
 #include "lodestone/bounds/box_promise.h"
@@ -26,7 +30,7 @@ py::object detect(const py::object& self, std::optional<Object_id> a, std::optio
   return py::cast(std::move(frame));
 }
 
-py::object self_collisions(const py::object& self, Object_id object) {
+py::object self_collisions_of(const py::object& self, Object_id object) {
   auto& detector = self.cast<Python_detector&>();
   Python_frame frame = detector.detect(object, object);
   frame.detector = self;
@@ -81,14 +85,6 @@ py::dict hit_of(const Ray_hit& hit) {
   return fields;
 }
 
-py::object first_hit(Python_detector& self, Object_id object, const py::object& origin, const py::object& direction,
-                     double length) {
-  const Ray ray = ray_of(origin, direction, length);
-  const auto hit = self.ask([&](auto& detector) { return detector.first_hit(object, ray); });
-  if (!hit) return py::none();
-  return hit_of(*hit);
-}
-
 py::list all_hits(Python_detector& self, Object_id object, const py::object& origin, const py::object& direction,
                   double length) {
   const Ray ray = ray_of(origin, direction, length);
@@ -98,21 +94,47 @@ py::list all_hits(Python_detector& self, Object_id object, const py::object& ori
   return list;
 }
 
-py::dict first_hits(Python_detector& self, Object_id object, const py::object& origins, const py::object& directions,
-                    double length) {
-  const auto rays = rays_of(origins, directions, length);
-  const auto hits = self.ask([&](auto& detector) { return detector.first_hits(object, rays); });
+/// One object, or several; none: all.
+using Objects_on_ray = std::variant<Object_id, std::optional<std::vector<Object_id>>>;
+
+std::vector<std::optional<Object_hit>> hits_among(Python_detector& self, const Objects_on_ray& objects,
+                                                  std::span<const Ray> rays) {
+  if (const auto* object = std::get_if<Object_id>(&objects)) {
+    std::vector<std::optional<Object_hit>> hits;
+    for (const auto& hit : self.ask([&](auto& detector) { return detector.first_hits(*object, rays); }))
+      hits.push_back(hit ? std::optional(Object_hit{*object, *hit}) : std::nullopt);
+    return hits;
+  }
+  const auto& some = std::get<1>(objects);
+  return self.ask([&](auto& detector) { return some ? detector.first_hits(*some, rays) : detector.first_hits(rays); });
+}
+
+py::object first_hit(Python_detector& self, const Objects_on_ray& objects, const py::object& origin,
+                     const py::object& direction, double length) {
+  const Ray ray = ray_of(origin, direction, length);
+  const auto hit = hits_among(self, objects, {&ray, 1}).front();
+  if (!hit) return py::none();
+  py::dict fields = hit_of(hit->hit);
+  fields["object"] = hit->object;
+  return fields;
+}
+
+py::dict first_hits(Python_detector& self, const Objects_on_ray& objects, const py::object& origins,
+                    const py::object& directions, double length) {
+  const auto hits = hits_among(self, objects, rays_of(origins, directions, length));
   const auto count = static_cast<py::ssize_t>(hits.size());
-  py::array_t<std::int64_t> faces(count);
+  py::array_t<std::int64_t> ids(count), faces(count);
   py::array_t<double> t(count), points({count, py::ssize_t{3}});
   for (py::ssize_t i = 0; i < count; ++i) {
     const auto& hit = hits[static_cast<std::size_t>(i)];
-    faces.mutable_at(i) = hit ? std::int64_t{hit->face} : -1;
-    t.mutable_at(i) = hit ? hit->t : std::numeric_limits<double>::infinity();
+    ids.mutable_at(i) = hit ? std::int64_t{hit->object} : -1;
+    faces.mutable_at(i) = hit ? std::int64_t{hit->hit.face} : -1;
+    t.mutable_at(i) = hit ? hit->hit.t : std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis)
-      points.mutable_at(i, axis) = hit ? hit->point[axis] : std::numeric_limits<double>::quiet_NaN();
+      points.mutable_at(i, axis) = hit ? hit->hit.point[axis] : std::numeric_limits<double>::quiet_NaN();
   }
   py::dict fields;
+  fields["objects"] = ids;
   fields["faces"] = faces;
   fields["t"] = t;
   fields["points"] = points;
@@ -363,7 +385,7 @@ void add_detector(py::module_& module) {
            "Finds the collisions between all objects where their vertices are now, or of objects a and b: a Frame.\n"
            "Pairs that groups or `ignore` leave out have no part in it, whichever are asked for.\n"
            "Raises BadMesh: a coordinate that is not finite.")
-      .def("self_collisions", self_collisions, py::arg("object"),
+      .def("self_collisions", self_collisions_of, py::arg("object"),
            "Faces of one object that intersect each other: a Pair, a = b. Modes 'exact' "
            "and 'certified'.\nRaises BadArgument: groups or `ignore` leave it out.")
       .def("closest",
@@ -414,14 +436,15 @@ void add_detector(py::module_& module) {
            "have been shown.")
       .def("first_hit", first_hit, py::arg("object"), py::arg("origin"), py::arg("direction"),
            py::arg("length") = infinity,
-           "The first face that a ray meets: a dict with face, t (in multiples of direction) and point; None if there is "
-           "none.")
+           "The first face that a ray meets: a dict with object, face, t (in multiples of direction) and point; None if there\n"
+           "is none. `object` is one object, a list of them, or None for all; groups and ignored pairs do not count. Exact:\n"
+           "of several faces at the same t, that of the lowest object, and of this the lowest.")
       .def("all_hits", all_hits, py::arg("object"), py::arg("origin"), py::arg("direction"), py::arg("length") = infinity,
-           "All faces that a ray meets, in order along it: a list of dicts as of `first_hit`.")
+           "All faces of an object that a ray meets, in order along it: a list of dicts with face, t and point.")
       .def("first_hits", first_hits, py::arg("object"), py::arg("origins"), py::arg("directions"),
            py::arg("length") = infinity,
-           "`first_hit` of many rays: a dict of arrays faces (n,), t (n,) and points (n, 3); a ray that meets nothing has "
-           "face -1.")
+           "`first_hit` of many rays: a dict of arrays objects (n,), faces (n,), t (n,) and points (n, 3); a ray that meets\n"
+           "nothing has object and face -1.")
       .def("closest_point", closest_point, py::arg("object"), py::arg("point"),
            "The face that is nearest to a point: a dict with face, point and distance.")
       .def("closest_points", closest_points, py::arg("object"), py::arg("points"),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lodestone/mesh/errors.h"
 
@@ -38,6 +39,11 @@ bool is_before(const Ray_frame& frame, Hit_on_ray& a, Hit_on_ray& b) {
   if (b.high < a.low) return false;
   const auto order = CGAL::compare(a.exact_depth_on(frame), b.exact_depth_on(frame));
   return order != CGAL::EQUAL ? order == CGAL::SMALLER : a.face < b.face;
+}
+
+bool meets_before(const Ray& ray, const Triangle& a, const Triangle& b) {
+  const Ray_frame frame(ray.origin, ray.direction, std::numeric_limits<double>::infinity());
+  return CGAL::compare(exact_depth(frame, a).value(), exact_depth(frame, b).value()) == CGAL::SMALLER;
 }
 
 std::optional<Ray_hit> First_hit::result() { return best_ ? std::optional(rounded(frame_, *best_)) : std::nullopt; }

@@ -5,94 +5,16 @@
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
-#include <cmath>
 
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/queries/surface_on_demand.h"
+#include "queries/box_entry.h"
 #include "queries/ray_hits.h"
 #include "queries/ray_leaf_kernel.h"
 
 namespace lodestone {
 
 namespace {
-
-constexpr double largest = std::numeric_limits<double>::max();
-
-/// Where a ray enters a box.
-struct Entry {
-  double depth;  ///< a lower bound on it
-  bool is_hit;   ///< false: the ray is proven to miss the box, and `depth` means nothing
-
-  /// Whether the ray may be in the box at a depth. Without branches, since which boxes are hit is unpredictable.
-  std::size_t is_hit_within(double most_depth) const {
-    return static_cast<std::size_t>(is_hit) & static_cast<std::size_t>(depth <= most_depth);
-  }
-};
-
-/// Tells where a ray enters boxes, by the slabs between their sides \cite kay1986.
-///
-/// A depth is a difference times the inverse of a slope, each rounded once, and so is their product: three roundings
-/// in all. Eight are allowed for.
-class Box_entry {
- public:
-  explicit Box_entry(const Ray_frame& frame) : frame_(frame) {
-    const double d_z = std::abs(frame.direction[frame.axes[2]]);
-    for (int axis = 0; axis < 3; ++axis) {
-      inverse_[axis] = d_z / frame.direction[axis];
-      near_side_[axis] = inverse_[axis] >= 0 ? axis : high + axis;
-      far_side_[axis] = inverse_[axis] >= 0 ? high + axis : axis;
-      is_steep_ |= !std::isfinite(inverse_[axis]);
-    }
-  }
-
-  [[gnu::always_inline]] Entry operator()(const Aabb& box) const {
-    if (is_steep_) return with_steep_axes(box);
-    const auto* const sides = reinterpret_cast<const double*>(&box);
-    double enter = 0, leave = largest;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double first = (sides[near_side_[axis]] - frame_.origin[axis]) * inverse_[axis];
-      const double last = (sides[far_side_[axis]] - frame_.origin[axis]) * inverse_[axis];
-      enter = first > enter ? first : enter;
-      leave = last < leave ? last : leave;
-    }
-    return bound(enter, leave);
-  }
-
- private:
-  static constexpr double roundings = 0x1p-49, underflow = 0x1p-1000;
-  static constexpr int high = 4;  ///< where the high sides of a box begin
-  static_assert(sizeof(Aabb) == 2 * high * sizeof(double));
-
-  static Entry bound(double enter, double leave) {
-    const double entered = enter < largest ? enter : largest;
-    return {entered * (1 - roundings), entered <= leave * (1 + roundings) + underflow};
-  }
-
-  [[gnu::noinline]] Entry with_steep_axes(const Aabb& box) const {
-    const auto* const sides = reinterpret_cast<const double*>(&box);
-    double enter = 0, leave = largest;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!std::isfinite(inverse_[axis])) {
-        if (is_beside(box, axis)) return {0, false};
-        continue;
-      }
-      enter = std::max(enter, (sides[near_side_[axis]] - frame_.origin[axis]) * inverse_[axis]);
-      leave = std::min(leave, (sides[far_side_[axis]] - frame_.origin[axis]) * inverse_[axis]);
-    }
-    return bound(enter, leave);
-  }
-
-  /// Whether a ray that is orthogonal to an axis misses a box.
-  bool is_beside(const Aabb& box, int axis) const {
-    return frame_.direction[axis] == 0 && (frame_.origin[axis] < box.low[axis] || frame_.origin[axis] > box.high[axis]);
-  }
-
-  const Ray_frame& frame_;
-  std::array<double, 3> inverse_;  ///< change of depth along each axis
-  std::array<int, 3> near_side_;   ///< by which the ray enters: indices of numbers of a box
-  std::array<int, 3> far_side_;    ///< by which it leaves
-  bool is_steep_ = false;          ///< some inverse is infinite
-};
 
 /// Shows a collector the faces that a ray meets, leaf by leaf, from front to back as far as boxes tell.
 template <Surface_on_demand Surface, class Collector>
@@ -111,9 +33,9 @@ class Ray_search {
   void run() {
     const Tree_layout& tree = surface_.layout();
     waiting_.resize(64, boost::container::default_init);
-    const Entry root = entry_(surface_.box(0));
+    const Ray_entry root = entry_(surface_.box(0));
     waiting_[0] = {0, root.depth};
-    count_ = root.is_hit_within(largest);
+    count_ = root.is_hit_within(Box_entry::largest);
     while (count_ > 0 && !surface_.is_broken()) {
       const Node_ahead next = waiting_[--count_];
       if (next.depth > collector_.most_depth()) continue;
@@ -136,9 +58,9 @@ class Ray_search {
   void open(std::uint32_t first, std::uint32_t second) {
     prefetch_below(first);
     prefetch_below(second);
-    const Entry entries[]{entry_(surface_.box(first)), entry_(surface_.box(second))};
+    const Ray_entry entries[]{entry_(surface_.box(first)), entry_(surface_.box(second))};
     if (count_ + 2 > waiting_.size()) waiting_.resize(2 * waiting_.size(), boost::container::default_init);
-    const double most = std::min(collector_.most_depth(), largest);
+    const double most = std::min(collector_.most_depth(), Box_entry::largest);
     const std::uint32_t nodes[]{first, second};
     const std::size_t nearer = entries[1].depth < entries[0].depth ? 1 : 0;
     for (const std::size_t child : {1 - nearer, nearer}) {

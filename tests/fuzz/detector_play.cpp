@@ -212,10 +212,29 @@ void Detector_play::query_one(Byte_source& bytes, Object_id object) {
     const auto of_tree = first_hit(detector_.ray_tree(object), ray);
     require(of_tree.has_value() == first.has_value(), "a Ray_tree has another answer");
     if (first) require(of_tree->face == first->face && of_tree->t == first->t, "a Ray_tree has another first hit");
+    query_all(ray);
   });
   const auto p = point();
   accepts([&] { detector_.closest_point(object, Point(p.x(), p.y(), p.z())); });
   accepts([&] { detector_.point_side(object, Point(p.x(), p.y(), p.z())); });
+}
+
+/// The first object that a ray meets: none of the others comes before it, nor one with a lower id with it.
+void Detector_play::query_all(const Ray& ray) {
+  const auto first = detector_.first_hit(ray);
+  for (Object_id object = 0; object < objects_.size(); ++object) {
+    const auto hit = detector_.has(object) ? detector_.first_hit(object, ray) : std::nullopt;
+    if (!hit) continue;
+    require(first.has_value(), "a ray that meets an object meets none");
+    const Triangle met = objects_[object].triangle(hit->face);
+    const Triangle first_met = objects_[first->object].triangle(first->hit.face);
+    if (object == first->object)
+      require(hit->face == first->hit.face, "among all objects, another face is first");
+    else if (object < first->object)
+      require(meets_before(ray, first_met, met), "an object with a lower id is met as soon");
+    else
+      require(!meets_before(ray, met, first_met), "another object is met before");
+  }
 }
 
 void Detector_play::detect() {

@@ -34,6 +34,7 @@ class Detector_play {
   void query(Byte_source& bytes);
   void query_two(Byte_source& bytes, Object_id a, Object_id b);
   void query_one(Byte_source& bytes, Object_id object);
+  void query_all(const Ray& ray);
   void detect();
 
   /// An object that there is; there must be one.

@@ -238,6 +238,26 @@ def test_rays_and_points():
         detector.first_hits(box, [0, 0, 0], [0, 0, 1])
 
 
+def test_rays_among_objects():
+    detector = lodestone.Detector()
+    near, middle, far = (detector.add(cube(1).moved(0, 0, z)) for z in (2, 5, 8))
+    ray = [0.5, 0.25, 0], [0, 0, 1]
+    hit = detector.first_hit(None, *ray)
+    assert hit["object"] == near and hit["t"] == 2 and hit["point"].tolist() == [0.5, 0.25, 2]
+    assert hit["face"] == detector.first_hit(near, *ray)["face"]
+    assert detector.first_hit(middle, *ray)["object"] == middle
+    assert detector.first_hit([far, middle, far], *ray)["object"] == middle
+    assert detector.first_hit((far,), *ray, length=7) is None and detector.first_hit([], *ray) is None
+    hits = detector.first_hits(None, [[0.5, 0.25, 0], [9, 9, 0], [0.5, 0.25, 7]], [0, 0, 1])
+    assert hits["objects"].tolist() == [near, -1, far] and hits["t"].tolist() == [2, np.inf, 1]
+    assert detector.first_hits(near, [ray[0]], ray[1])["objects"].tolist() == [near]
+    assert detector.first_hits([], [ray[0]], ray[1])["faces"].tolist() == [-1]
+    with pytest.raises(lodestone.BadArgument, match="there is no object 3"):
+        detector.first_hit([near, 3], *ray)
+    with pytest.raises(TypeError):
+        detector.first_hit("near", *ray)
+
+
 def test_first_impact_of_two_cubes_that_pass_through_each_other():
     detector = lodestone.Detector()
     left, right = cube(), cube().moved(4, 0.25, 0.125)

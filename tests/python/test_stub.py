@@ -14,7 +14,8 @@ stub = ast.parse((pathlib.Path(lodestone.__file__).parent / "__init__.pyi").read
 classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
 functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
 only_in_stub = {
-    "Has_mesh", "Closest", "Impact", "Object_impact", "Hit", "Hits", "Closest_point", "Closest_points", "Patch",
+    "Has_mesh", "Closest", "Impact", "Object_impact", "Hit", "Object_hit", "Hits", "Closest_point", "Closest_points",
+    "Patch",
 }
 
 

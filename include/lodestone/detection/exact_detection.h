@@ -14,6 +14,7 @@
 #include "lodestone/detection/exact_objects.h"
 #include "lodestone/detection/exact_pairs.h"
 #include "lodestone/detection/frame_builder.h"
+#include "lodestone/detection/object_hits.h"
 #include "lodestone/detection/object_motion.h"
 #include "lodestone/detection/saved_object.h"
 #include "lodestone/queries/closest_faces.h"
@@ -22,6 +23,7 @@
 #include "lodestone/queries/point_search.h"
 #include "lodestone/queries/ray_search.h"
 #include "lodestone/queries/ray_tree.h"
+#include "lodestone/queries/surface_triangle.h"
 
 namespace lodestone {
 
@@ -128,16 +130,8 @@ class Exact_detection final : public Detection {
   /// @param parts     how many rays or points it is about: for many the object is posed as a whole
   template <class Question>
   auto of_surface(Object_id object, const Question& question, std::size_t parts = 1) {
-    const Object_id ids[] = {object};
-    refresh(ids);
-    if constexpr (is_bounded)
-      if (objects_.on_demand(object)) {
-        if (Ray_tree::refit_pays(parts, objects_[object].corners().size())) objects_.pose_all(ids);
-        if (!objects_.bounded(object).all_posed()) return unbroken(ids, question(objects_.bounded(object)));
-        objects_.throw_if_broken(ids);
-      }
-    const Node_boxes boxes(objects_.surface(object).view());
-    return question(boxes.layout());
+    refresh({&object, 1});
+    return of_refreshed(object, question, parts);
   }
   /// See `Detector::ray_tree`.
   const Ray_tree& ray_tree(Object_id object)
@@ -150,14 +144,14 @@ class Exact_detection final : public Detection {
   }
   /// See `Detector::first_hits`.
   std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {
-    const auto question = [&](auto& surface) {
-      if constexpr (std::same_as<Volume, Aabb> && std::same_as<decltype(surface), const Layout_view&>)
-        if (objects_[object].pays_for(rays.size()))
-          return lodestone::first_hits(objects_[object].ray_tree(workers_), rays, workers_);
-      return lodestone::first_hits(surface, rays, workers_);
-    };
-    return of_surface(object, question, rays.size());
+    refresh({&object, 1});
+    return first_hits_of_refreshed(object, rays);
   }
+  /// See `Detector::first_hits`.
+  /// @param ids  ascending
+  std::vector<std::optional<Object_hit>> first_hits(std::span<const Object_id> ids, std::span<const Ray> rays);
+  /// The objects that have not been removed, ascending.
+  std::span<const Object_id> ids() const { return objects_.ids(); }
   /// Who share the work.
   Workers& workers() { return workers_; }
   /// See `Detector::parting`.
@@ -217,6 +211,10 @@ class Exact_detection final : public Detection {
     return answer;
   }
   bool collide_or_are_nearer(Object_pair pair, double distance);
+  /// See `of_surface`.
+  template <class Question>
+  auto of_refreshed(Object_id object, const Question& question, std::size_t parts);
+  std::vector<std::optional<Ray_hit>> first_hits_of_refreshed(Object_id object, std::span<const Ray> rays);
 
   Detector_options options_;
   Workers workers_;
@@ -313,6 +311,46 @@ auto Exact_detection<Volume>::motions_to(std::span<const Positions> ends) -> Mot
     motions[id] = std::make_unique<const Object_motion<Volume>>(objects_.surface(id), std::move(checked[id]));
   });
   return motions;
+}
+
+template <Bounding_volume Volume>
+template <class Question>
+auto Exact_detection<Volume>::of_refreshed(Object_id object, const Question& question, std::size_t parts) {
+  if constexpr (is_bounded)
+    if (objects_.on_demand(object)) {
+      const Object_id ids[] = {object};
+      if (Ray_tree::refit_pays(parts, objects_[object].corners().size())) objects_.pose_all(ids);
+      if (!objects_.bounded(object).all_posed()) return unbroken(ids, question(objects_.bounded(object)));
+      objects_.throw_if_broken(ids);
+    }
+  const Node_boxes boxes(objects_.surface(object).view());
+  return question(boxes.layout());
+}
+
+template <Bounding_volume Volume>
+std::vector<std::optional<Ray_hit>> Exact_detection<Volume>::first_hits_of_refreshed(Object_id object,
+                                                                                     std::span<const Ray> rays) {
+  const auto question = [&](auto& surface) {
+    if constexpr (std::same_as<Volume, Aabb> && std::same_as<decltype(surface), const Layout_view&>)
+      if (objects_[object].pays_for(rays.size()))
+        return lodestone::first_hits(objects_[object].ray_tree(workers_), rays, workers_);
+    return lodestone::first_hits(surface, rays, workers_);
+  };
+  return of_refreshed(object, question, rays.size());
+}
+
+template <Bounding_volume Volume>
+std::vector<std::optional<Object_hit>> Exact_detection<Volume>::first_hits(std::span<const Object_id> ids,
+                                                                           std::span<const Ray> rays) {
+  refresh(ids);
+  const auto triangle = [this](Object_id id, std::uint32_t face) {
+    return surface_triangle(objects_.surface(id), face);
+  };
+  First_of_objects first(rays, triangle);
+  for (const auto id : ids)
+    if (const auto asked = first.rays_to(objects_.box(id)); !asked.empty())
+      first.take(id, first_hits_of_refreshed(id, asked));
+  return first.take_result();
 }
 
 template <Bounding_volume Volume>

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <span>
@@ -80,6 +82,8 @@ class Exact_objects {
   const Surface& surface(Object_id id) const { return objects_[id]->surface; }
   /// In mode `certified`: the surface as one that is bounded.
   Bounded_surface& bounded(Object_id id) const { return *objects_[id]->bounded(); }
+  /// A box around an object: fitted, or from its bounds. Finite.
+  Aabb box(Object_id id);
   /// Whether an object is posed only where it is looked at.
   bool on_demand(Object_id id) const { return objects_[id]->on_demand(); }
   /// Poses and refits all of an object.
@@ -160,6 +164,17 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
     });
   rebuild_loose(whole_);
   if (options_.mode == Mode::certified) bound_refitted(whole_);
+}
+
+template <Bounding_volume Volume>
+Aabb Exact_objects<Volume>::box(Object_id id) {
+  if constexpr (std::same_as<Volume, Aabb>)
+    if (on_demand(id)) {
+      Bounded_surface& surface = bounded(id);
+      if (!std::isfinite(surface.box(0).extent())) surface.pose_all();
+      return surface.box(0);
+    }
+  return surface(id).tree().volume(0).bounds();
 }
 
 template <Bounding_volume Volume>

@@ -79,7 +79,6 @@ class Exact_pairs {
   }
   bool on_demand(Object_pair pair) const { return objects_.on_demand(pair.a) || objects_.on_demand(pair.b); }
   void find_candidates(const Collision_filter& filter);
-  Aabb whole_box(Object_id id);
   void check_candidates();
   void ask_about_small_pairs(std::size_t first);
   void check(std::size_t candidate);
@@ -113,7 +112,7 @@ template <Bounding_volume Volume>
 void Exact_pairs<Volume>::find_candidates(const Collision_filter& filter) {
   const auto ids = objects_.ids();
   boxes_.resize(objects_.size());
-  for (const auto id : ids) boxes_[id] = to_box(whole_box(id));
+  for (const auto id : ids) boxes_[id] = to_box(objects_.box(id));
   reach_.resize(objects_.size(), options_.exact.tolerance);
   for (const auto pair : broad_phase_.find(ids, boxes_, reach_))
     if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
@@ -121,18 +120,6 @@ void Exact_pairs<Volume>::find_candidates(const Collision_filter& filter) {
   for (const auto id : ids)
     if (filter.may_collide(id, id)) candidates_.push_back({id, id});
   std::ranges::sort(candidates_);
-}
-
-/// Around an object: fitted, or from its bounds.
-template <Bounding_volume Volume>
-Aabb Exact_pairs<Volume>::whole_box(Object_id id) {
-  if constexpr (is_bounded)
-    if (objects_.on_demand(id)) {
-      Bounded_surface& surface = objects_.bounded(id);
-      if (!std::isfinite(surface.box(0).extent())) surface.pose_all();
-      return surface.box(0);
-    }
-  return objects_.surface(id).tree().volume(0).bounds();
 }
 
 /// Begins alone: often that is all there is to do, and waking other threads would take longer.

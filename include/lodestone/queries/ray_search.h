@@ -9,6 +9,7 @@
 
 #include "lodestone/bounds/bounded_surface.h"
 #include "lodestone/queries/node_boxes.h"
+#include "lodestone/triangles/triangle_intersection.h"
 
 namespace lodestone {
 
@@ -54,13 +55,17 @@ std::vector<Ray_hit> all_hits(const Layout_view& surface, const Ray& ray);
 /// The same for a surface that is bounded: see `first_hit`.
 std::vector<Ray_hit> all_hits(Bounded_surface& surface, const Ray& ray);
 
-/// The same for trees of any volumes: `Node_boxes` are fitted where they are no boxes.
+/// Whether a ray meets one triangle before another. Exact: each is met at the point that `Ray_hit` tells.
+/// @param ray  meets both, if it is long enough
+bool meets_before(const Ray& ray, const Triangle& a, const Triangle& b);
+
+/// `first_hit` for trees of any volumes: `Node_boxes` are fitted where they are no boxes.
 template <Bounding_volume Volume>
 std::optional<Ray_hit> first_hit(const Basic_tree_view<Volume>& surface, const Ray& ray) {
   return first_hit(Node_boxes(surface).layout(), ray);
 }
 
-/// The same for trees of any volumes.
+/// `all_hits` for trees of any volumes.
 template <Bounding_volume Volume>
 std::vector<Ray_hit> all_hits(const Basic_tree_view<Volume>& surface, const Ray& ray) {
   return all_hits(Node_boxes(surface).layout(), ray);
