@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lodestone/detection/broad_phase.h"
+#include "program/measurement.h"
 
 namespace lodestone {
 
@@ -78,12 +79,6 @@ std::vector<Object_pair> pairs_by_cgal(const Crowd& crowd) {
   });
   std::ranges::sort(pairs);
   return pairs;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 /// One frame after another, in turns. `differences` counts the frames in which the two find other pairs.

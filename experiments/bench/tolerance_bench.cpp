@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lodestone/detector.h"
+#include "program/measurement.h"
 #include "shared/lap_timer.h"
 
 namespace lodestone {
