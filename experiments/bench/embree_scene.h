@@ -67,6 +67,7 @@ class Embree_scene {
     rtcSetGeometryBuildQuality(geometry_, RTC_BUILD_QUALITY_REFIT);
     rtcAttachGeometry(scene_, geometry_);
     rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);  // otherwise the quality of a geometry is ignored
     refit();
   }
   ~Embree_scene() {

@@ -311,8 +311,8 @@ class Detector {
   std::optional<Object_hit> first_hit(std::span<const Object_id> objects, const Ray& ray) {
     return first_hits(objects, {&ray, 1}).front();
   }
-  /// The same for many rays. An object is asked about the rays that reach its box, as in the call for one object:
-  /// O(rays * objects), some nanoseconds for each, beside that.
+  /// The same for many rays. An object is asked about the rays that reach its box, as in the call for one object: see
+  /// `first_hits_among`.
   /// @return one per ray, in their order
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<std::optional<Object_hit>> first_hits(std::span<const Ray> rays) {

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <cstddef>
+#include <tuple>
 
 #include "queries/box_entry.h"
 #include "queries/ray_hits.h"
@@ -18,24 +19,28 @@ constexpr double most_error = 0x1p-28;
 /// Whether this `t` has no larger error.
 bool is_precise(double t) { return t > 0x1p-1000 && t < 0x1p+1000; }
 
-}  // namespace
-
 /// A ray, as far as it can meet something first.
-class First_of_objects::Way {
+class Way {
  public:
   /// @throws Bad_argument  the ray is not as `Ray` says
   explicit Way(const Ray& ray) : Way(ray, checked_frame(ray)) {}
 
   const Ray& ray() const { return ray_; }
-  bool may_reach(const Aabb& box) const { return entry_(box).is_hit_within(most_depth_) != 0; }
+  Ray_entry entry(const Aabb& box) const { return entry_(box); }
+  double most_depth() const { return most_depth_; }
   void end_at(double t) {
     if (!is_precise(t)) return;
-    ray_.length = std::min(ray_.length, (1 + most_error) * t);
-    most_depth_ = checked_frame(ray_).most_limit;
+    const double most = (1 + most_error) * t;
+    ray_.length = std::min(ray_.length, most);
+    most_depth_ = std::min(most_depth_, (1 + most_error) * most * depth_per_t_);  // more than its roundings
   }
 
  private:
-  Way(const Ray& ray, const Ray_frame& frame) : ray_(ray), entry_(frame), most_depth_(frame.most_limit) {}
+  Way(const Ray& ray, const Ray_frame& frame)
+      : ray_(ray),
+        entry_(frame),
+        most_depth_(frame.most_limit),
+        depth_per_t_(std::abs(frame.direction[frame.axes[2]])) {}
 
   static Ray_frame checked_frame(const Ray& ray) {
     check(ray);
@@ -44,41 +49,111 @@ class First_of_objects::Way {
 
   Ray ray_;
   Box_entry entry_;
-  double most_depth_;
+  double most_depth_, depth_per_t_;
 };
 
-First_of_objects::First_of_objects(std::span<const Ray> rays, Triangle_of triangle_of)
-    : triangle_of_(std::move(triangle_of)), ways_(rays.begin(), rays.end()), found_(rays.size()) {}
-
-First_of_objects::~First_of_objects() = default;
-
-std::span<const Ray> First_of_objects::rays_to(const Aabb& box) {
-  asked_.clear();
-  asked_indices_.clear();
-  for (std::size_t i = 0; i < ways_.size(); ++i) {
-    if (!ways_[i].may_reach(box)) continue;
-    asked_.push_back(ways_[i].ray());
-    asked_indices_.push_back(i);
-  }
-  return asked_;
+Aabb box_around(std::span<const Boxed_object> objects) {
+  Aabb box = objects.front().box;
+  for (const Boxed_object& object : objects) box.enclose(box, object.box);
+  return box;
 }
 
-void First_of_objects::take(Object_id object, std::span<const std::optional<Ray_hit>> hits) {
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    const std::size_t ray = asked_indices_[i];
-    if (!hits[i] || !is_earlier(ray, object, *hits[i])) continue;
-    found_[ray] = {object, *hits[i]};
-    ways_[ray].end_at(hits[i]->t);
-  }
+/// Moves the objects below the median, along the longest side of their box, to the front.
+/// @return how many these are
+std::size_t halve(std::span<Boxed_object> objects) {
+  const Aabb box = box_around(objects);
+  int axis = 0;
+  for (int other = 1; other < 3; ++other)
+    if (box.high[other] - box.low[other] > box.high[axis] - box.low[axis]) axis = other;
+  const auto key = [axis](const Boxed_object& object) {
+    return std::tuple(object.box.low[axis] / 2 + object.box.high[axis] / 2, object.id);
+  };
+  const std::size_t half = objects.size() / 2;
+  std::ranges::nth_element(objects, objects.begin() + static_cast<std::ptrdiff_t>(half), {}, key);
+  return half;
 }
 
-/// Doubles tell most; exact numbers, which is earlier of two that are nearly the same.
-bool First_of_objects::is_earlier(std::size_t ray, Object_id object, const Ray_hit& hit) const {
-  if (!found_[ray]) return true;
-  const auto& [other, other_hit] = *found_[ray];
-  const double t = hit.t, other_t = other_hit.t;
-  if (is_precise(t) && is_precise(other_t) && std::abs(t - other_t) > most_error * other_t) return t < other_t;
-  return meets_before(ways_[ray].ray(), triangle_of_(object, hit.face), triangle_of_(other, other_hit.face));
+class Search_among_objects {
+ public:
+  Search_among_objects(std::span<const Ray> rays, const Ask_object& ask, const Face_of_object& triangle_of)
+      : ask_(ask), triangle_of_(triangle_of), ways_(rays.begin(), rays.end()), found_(rays.size()) {}
+
+  std::vector<std::optional<Object_hit>> run(std::span<Boxed_object> objects) {
+    if (objects.empty()) return std::move(found_);
+    std::vector<Ray_ahead> rays;
+    const Aabb box = box_around(objects);
+    for (std::uint32_t i = 0; i < ways_.size(); ++i) add_if_near(i, ways_[i].entry(box), rays);
+    visit(objects, rays);
+    return std::move(found_);
+  }
+
+ private:
+  /// A ray, and a lower bound on the depth at which it enters a box.
+  struct Ray_ahead {
+    std::uint32_t ray;
+    double depth;
+  };
+
+  void add_if_near(std::uint32_t ray, const Ray_entry& entry, std::vector<Ray_ahead>& rays) const {
+    if (entry.is_hit_within(ways_[ray].most_depth()) != 0) rays.push_back({ray, entry.depth});
+  }
+
+  /// @param rays  that reach the box around the objects, unless they have met something before
+  void visit(std::span<Boxed_object> objects, std::vector<Ray_ahead>& rays) {
+    std::erase_if(rays, [this](const Ray_ahead& ahead) { return ahead.depth > ways_[ahead.ray].most_depth(); });
+    if (rays.empty()) return;
+    if (objects.size() == 1) return ask(objects.front().id, rays);
+    const std::size_t half = halve(objects);
+    const std::span<Boxed_object> halves[]{objects.first(half), objects.subspan(half)};
+    const Aabb boxes[]{box_around(halves[0]), box_around(halves[1])};
+    std::vector<Ray_ahead> below[2];
+    std::ptrdiff_t second_sooner = 0;
+    for (const Ray_ahead& ahead : rays) {
+      const Ray_entry entries[]{ways_[ahead.ray].entry(boxes[0]), ways_[ahead.ray].entry(boxes[1])};
+      for (std::size_t i = 0; i < 2; ++i) add_if_near(ahead.ray, entries[i], below[i]);
+      second_sooner += entries[1].depth < entries[0].depth ? 1 : -1;
+    }
+    const std::size_t first = second_sooner > 0 ? 1 : 0;
+    for (const std::size_t i : {first, 1 - first}) visit(halves[i], below[i]);
+  }
+
+  void ask(Object_id object, std::span<const Ray_ahead> rays) {
+    asked_.clear();
+    for (const Ray_ahead& ahead : rays) asked_.push_back(ways_[ahead.ray].ray());
+    const auto hits = ask_(object, asked_);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const std::uint32_t ray = rays[i].ray;
+      if (!hits[i] || !is_earlier(ray, {object, *hits[i]})) continue;
+      found_[ray] = {object, *hits[i]};
+      ways_[ray].end_at(hits[i]->t);
+    }
+  }
+
+  /// Doubles tell most; exact numbers, which is earlier of two that are nearly the same.
+  bool is_earlier(std::uint32_t ray, const Object_hit& hit) const {
+    if (!found_[ray]) return true;
+    const Object_hit& other = *found_[ray];
+    const double t = hit.hit.t, other_t = other.hit.t;
+    if (is_precise(t) && is_precise(other_t) && std::abs(t - other_t) > most_error * other_t) return t < other_t;
+    const Triangle triangle = triangle_of_(hit.object, hit.hit.face),
+                   other_triangle = triangle_of_(other.object, other.hit.face);
+    const Ray& whole = ways_[ray].ray();
+    return hit.object < other.object ? !meets_before(whole, other_triangle, triangle)
+                                     : meets_before(whole, triangle, other_triangle);
+  }
+
+  const Ask_object& ask_;
+  const Face_of_object& triangle_of_;
+  std::vector<Way> ways_;
+  std::vector<std::optional<Object_hit>> found_;
+  std::vector<Ray> asked_;
+};
+
+}  // namespace
+
+std::vector<std::optional<Object_hit>> first_hits_among(std::span<const Ray> rays, std::vector<Boxed_object> objects,
+                                                        const Ask_object& ask, const Face_of_object& triangle_of) {
+  return Search_among_objects(rays, ask, triangle_of).run(objects);
 }
 
 }  // namespace lodestone

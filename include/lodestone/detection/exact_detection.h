@@ -148,7 +148,7 @@ class Exact_detection final : public Detection {
     return first_hits_of_refreshed(object, rays);
   }
   /// See `Detector::first_hits`.
-  /// @param ids  ascending
+  /// @param ids  each once
   std::vector<std::optional<Object_hit>> first_hits(std::span<const Object_id> ids, std::span<const Ray> rays);
   /// The objects that have not been removed, ascending.
   std::span<const Object_id> ids() const { return objects_.ids(); }
@@ -343,14 +343,12 @@ template <Bounding_volume Volume>
 std::vector<std::optional<Object_hit>> Exact_detection<Volume>::first_hits(std::span<const Object_id> ids,
                                                                            std::span<const Ray> rays) {
   refresh(ids);
-  const auto triangle = [this](Object_id id, std::uint32_t face) {
-    return surface_triangle(objects_.surface(id), face);
-  };
-  First_of_objects first(rays, triangle);
-  for (const auto id : ids)
-    if (const auto asked = first.rays_to(objects_.box(id)); !asked.empty())
-      first.take(id, first_hits_of_refreshed(id, asked));
-  return first.take_result();
+  std::vector<Boxed_object> objects;
+  for (const auto id : ids) objects.push_back({id, objects_.box(id)});
+  return first_hits_among(
+      rays, std::move(objects),
+      [this](Object_id id, std::span<const Ray> asked) { return first_hits_of_refreshed(id, asked); },
+      [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); });
 }
 
 template <Bounding_volume Volume>
