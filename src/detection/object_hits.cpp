@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
+#include <numeric>
+#include <utility>
 
 #include "queries/box_entry.h"
 #include "queries/ray_hits.h"
@@ -52,38 +53,20 @@ class Way {
   double most_depth_, depth_per_t_;
 };
 
-Aabb box_around(std::span<const Boxed_object> objects) {
-  Aabb box = objects.front().box;
-  for (const Boxed_object& object : objects) box.enclose(box, object.box);
-  return box;
-}
-
-/// Moves the objects below the median, along the longest side of their box, to the front.
-/// @return how many these are
-std::size_t halve(std::span<Boxed_object> objects) {
-  const Aabb box = box_around(objects);
-  int axis = 0;
-  for (int other = 1; other < 3; ++other)
-    if (box.high[other] - box.low[other] > box.high[axis] - box.low[axis]) axis = other;
-  const auto key = [axis](const Boxed_object& object) {
-    return std::tuple(object.box.low[axis] / 2 + object.box.high[axis] / 2, object.id);
-  };
-  const std::size_t half = objects.size() / 2;
-  std::ranges::nth_element(objects, objects.begin() + static_cast<std::ptrdiff_t>(half), {}, key);
-  return half;
-}
-
 class Search_among_objects {
  public:
-  Search_among_objects(std::span<const Ray> rays, const Ask_object& ask, const Face_of_object& triangle_of)
-      : ask_(ask), triangle_of_(triangle_of), ways_(rays.begin(), rays.end()), found_(rays.size()) {}
+  Search_among_objects(std::span<const Ray> rays, std::span<const Boxed_object> objects, const Ask_object& ask,
+                       const Face_of_object& triangle_of)
+      : objects_(objects), ask_(ask), triangle_of_(triangle_of), ways_(rays.begin(), rays.end()), found_(rays.size()) {}
 
-  std::vector<std::optional<Object_hit>> run(std::span<Boxed_object> objects) {
-    if (objects.empty()) return std::move(found_);
+  std::vector<std::optional<Object_hit>> run() {
+    if (objects_.empty()) return std::move(found_);
+    std::vector<std::uint32_t> all(objects_.size());
+    std::iota(all.begin(), all.end(), 0U);
     std::vector<Ray_ahead> rays;
-    const Aabb box = box_around(objects);
+    const Aabb box = box_around(all);
     for (std::uint32_t i = 0; i < ways_.size(); ++i) add_if_near(i, ways_[i].entry(box), rays);
-    visit(objects, rays);
+    visit(all, rays);
     return std::move(found_);
   }
 
@@ -94,17 +77,40 @@ class Search_among_objects {
     double depth;
   };
 
+  Aabb box_around(std::span<const std::uint32_t> objects) const {
+    Aabb box = objects_[objects.front()].box;
+    for (const auto object : objects) box.enclose(box, objects_[object].box);
+    return box;
+  }
+
+  /// Moves the objects below the median, along the longest side of their box, to the front.
+  /// @return how many these are
+  std::size_t halve(std::span<std::uint32_t> objects) const {
+    const Aabb box = box_around(objects);
+    int axis = 0;
+    for (int other = 1; other < 3; ++other)
+      if (box.high[other] - box.low[other] > box.high[axis] - box.low[axis]) axis = other;
+    const auto key = [&](std::uint32_t object) {
+      const Aabb& own = objects_[object].box;
+      return std::pair(own.low[axis] / 2 + own.high[axis] / 2, object);
+    };
+    const std::size_t half = objects.size() / 2;
+    std::ranges::nth_element(objects, objects.begin() + static_cast<std::ptrdiff_t>(half), {}, key);
+    return half;
+  }
+
   void add_if_near(std::uint32_t ray, const Ray_entry& entry, std::vector<Ray_ahead>& rays) const {
     if (entry.is_hit_within(ways_[ray].most_depth()) != 0) rays.push_back({ray, entry.depth});
   }
 
-  /// @param rays  that reach the box around the objects, unless they have met something before
-  void visit(std::span<Boxed_object> objects, std::vector<Ray_ahead>& rays) {
+  /// @param objects  by their places in the list of all; their order is lost
+  /// @param rays     that reach the box around them, unless they have met something before
+  void visit(std::span<std::uint32_t> objects, std::vector<Ray_ahead>& rays) {
     std::erase_if(rays, [this](const Ray_ahead& ahead) { return ahead.depth > ways_[ahead.ray].most_depth(); });
     if (rays.empty()) return;
-    if (objects.size() == 1) return ask(objects.front().id, rays);
+    if (objects.size() == 1) return ask(objects_[objects.front()].id, rays);
     const std::size_t half = halve(objects);
-    const std::span<Boxed_object> halves[]{objects.first(half), objects.subspan(half)};
+    const std::span<std::uint32_t> halves[]{objects.first(half), objects.subspan(half)};
     const Aabb boxes[]{box_around(halves[0]), box_around(halves[1])};
     std::vector<Ray_ahead> below[2];
     std::ptrdiff_t second_sooner = 0;
@@ -142,6 +148,7 @@ class Search_among_objects {
                                      : meets_before(whole, triangle, other_triangle);
   }
 
+  std::span<const Boxed_object> objects_;
   const Ask_object& ask_;
   const Face_of_object& triangle_of_;
   std::vector<Way> ways_;
@@ -151,9 +158,10 @@ class Search_among_objects {
 
 }  // namespace
 
-std::vector<std::optional<Object_hit>> first_hits_among(std::span<const Ray> rays, std::vector<Boxed_object> objects,
-                                                        const Ask_object& ask, const Face_of_object& triangle_of) {
-  return Search_among_objects(rays, ask, triangle_of).run(objects);
+std::vector<std::optional<Object_hit>> first_hits_among(std::span<const Ray> rays,
+                                                        std::span<const Boxed_object> objects, const Ask_object& ask,
+                                                        const Face_of_object& triangle_of) {
+  return Search_among_objects(rays, objects, ask, triangle_of).run();
 }
 
 }  // namespace lodestone

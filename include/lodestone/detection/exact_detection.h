@@ -346,7 +346,7 @@ std::vector<std::optional<Object_hit>> Exact_detection<Volume>::first_hits(std::
   std::vector<Boxed_object> objects;
   for (const auto id : ids) objects.push_back({id, objects_.box(id)});
   return first_hits_among(
-      rays, std::move(objects),
+      rays, objects,
       [this](Object_id id, std::span<const Ray> asked) { return first_hits_of_refreshed(id, asked); },
       [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); });
 }

@@ -42,7 +42,8 @@ using Face_of_object = std::function<Triangle(Object_id, std::uint32_t)>;
 /// @param objects  in any order
 /// @return one per ray, in their order
 /// @throws Bad_argument  a ray is not as `Ray` says
-std::vector<std::optional<Object_hit>> first_hits_among(std::span<const Ray> rays, std::vector<Boxed_object> objects,
-                                                        const Ask_object& ask, const Face_of_object& triangle_of);
+std::vector<std::optional<Object_hit>> first_hits_among(std::span<const Ray> rays,
+                                                        std::span<const Boxed_object> objects, const Ask_object& ask,
+                                                        const Face_of_object& triangle_of);
 
 }  // namespace lodestone
