@@ -33,7 +33,8 @@ class Way {
     if (!is_precise(t)) return;
     const double most = (1 + most_error) * t;
     ray_.length = std::min(ray_.length, most);
-    most_depth_ = std::min(most_depth_, (1 + most_error) * most * depth_per_t_);  // more than its roundings
+    // By more than what is rounded, or underflows.
+    most_depth_ = std::min(most_depth_, (1 + most_error) * most * depth_per_t_ + 0x1p-1000);
   }
 
  private:
