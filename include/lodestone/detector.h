@@ -445,6 +445,7 @@ class Detector {
     if (object < meshes_.size()) throw Bad_argument("object " + std::to_string(object) + " has been removed");
     throw Bad_argument("there is no object " + std::to_string(object));
   }
+  /// Ascending, each once.
   std::vector<Object_id> sorted(std::span<const Object_id> objects) const {
     std::vector<Object_id> ids;
     for (const auto object : objects) ids.push_back(checked(object));

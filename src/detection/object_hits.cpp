@@ -118,7 +118,7 @@ class Search_among_objects {
     for (const Ray_ahead& ahead : rays) {
       const Ray_entry entries[]{ways_[ahead.ray].entry(boxes[0]), ways_[ahead.ray].entry(boxes[1])};
       for (std::size_t i = 0; i < 2; ++i) add_if_near(ahead.ray, entries[i], below[i]);
-      second_sooner += entries[1].depth < entries[0].depth ? 1 : -1;
+      if (entries[0].is_hit && entries[1].is_hit) second_sooner += entries[1].depth < entries[0].depth ? 1 : -1;
     }
     const std::size_t first = second_sooner > 0 ? 1 : 0;
     for (const std::size_t i : {first, 1 - first}) visit(halves[i], below[i]);

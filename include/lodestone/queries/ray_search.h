@@ -55,7 +55,7 @@ std::vector<Ray_hit> all_hits(const Layout_view& surface, const Ray& ray);
 /// The same for a surface that is bounded: see `first_hit`.
 std::vector<Ray_hit> all_hits(Bounded_surface& surface, const Ray& ray);
 
-/// Whether a ray meets one triangle before another. Exact: each is met at the point that `Ray_hit` tells.
+/// Whether a ray meets one triangle before another: at which it has its first common point, as in `Ray_hit`. Exact.
 /// @param ray  meets both, if it is long enough
 bool meets_before(const Ray& ray, const Triangle& a, const Triangle& b);
 
