@@ -9,6 +9,7 @@ Collisions collisions_of(Frame frame) {
   return {.collide = frame.collides(),
           .near = frame.near(),
           .faces = std::move(frame.face_pairs),
+          .intersects = std::move(frame.contact_intersects),
           .points = std::move(frame.contact_points),
           .normals = std::move(frame.contact_normals),
           .capped = frame.capped(),

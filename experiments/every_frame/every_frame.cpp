@@ -159,18 +159,9 @@ struct Plan {
   Sharded_experiment work{.pieces = 0, .neighbours = true, .inputs = Row::object()};
 };
 
-/// The scenes that the caller asked for; all of a folder that is not the project's own.
-std::vector<std::filesystem::path> sources_of(const Experiment_context& context) {
-  if (!context.only.empty()) return named_sources(context.scenes, context.only);
-  if (context.scenes_given) return scene_sources(context.scenes);
-  std::vector<std::filesystem::path> sources;
-  for (const auto& name : scene_names(context)) sources.push_back(context.scenes / (name + ".json"));
-  return sources;
-}
-
 Plan plan_of(const Experiment_context& context) {
   Plan plan;
-  for (const auto& source : sources_of(context)) {
+  for (const auto& source : chosen_sources(context, scene_names(context))) {
     Scene scene = read_source(source);
     plan.scenes.push_back({.source = source, .first = plan.work.pieces, .count = scene.frames});
     plan.work.pieces += scene.frames;

@@ -18,7 +18,7 @@ namespace lodestone {
 
 namespace {
 
-constexpr const char* published_scenes[] = {
+const std::vector<std::string> published_scenes{
     "teapot_sphere_1", "torus_knots",      "cloth_sphere", "bodies_20",        "spheres_5k",   "spheres_50k",
     "torus_knots_20k", "cloth_sphere_80k", "bodies_20_5k", "torus_knots_200k", "spheres_500k", "spheres_2m"};
 
@@ -39,14 +39,6 @@ std::vector<Setting> mode_settings() {
                           {.mode = Mode::particles, .particles = particles, .meetings = most_meetings}});
   settings.push_back({"exact", {.mode = Mode::exact}});
   return settings;
-}
-
-std::vector<std::filesystem::path> chosen_sources(const Experiment_context& context) {
-  if (!context.only.empty()) return named_sources(context.scenes, context.only);
-  if (context.scenes_given) return scene_sources(context.scenes);
-  std::vector<std::filesystem::path> sources;
-  for (const auto* name : published_scenes) sources.push_back(context.scenes / fmt::format("{}.json", name));
-  return sources;
 }
 
 /// The sources, without those in which no two objects can meet.
@@ -139,7 +131,7 @@ std::string report(std::span<const Mode_figures> rows, std::span<const std::stri
 }  // namespace
 
 std::string run_modes(const Experiment_context& context) {
-  const auto chosen = playable(chosen_sources(context), context.scenes);
+  const auto chosen = playable(chosen_sources(context, published_scenes), context.scenes);
   const auto& sources = chosen.sources;
   const auto settings = mode_settings();
   constexpr std::size_t steps = 1000;  // per scene

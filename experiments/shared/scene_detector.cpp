@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shared/scene_detector.h"
 
-#include <utility>
+#include "lodestone/io/scenes/object_options.h"
 
 namespace lodestone {
 
@@ -10,10 +10,8 @@ Detector<Any_strategy> scene_detector(const Scene& scene, const Setting& setting
   asked.contacts = contacts;
   Detector<Any_strategy> detector(asked, setting.strategy);
   for (const auto& object : scene.objects) {
-    Object_options options{.particles = setting.options.particles > 0 ? 0 : object.particles,
-                           .groups = object.collision.groups,
-                           .meets = object.collision.meets};
-    if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
+    Object_options options = object_options(object);
+    if (setting.options.particles > 0) options.particles = 0;
     detector.add(object.mesh, options);
   }
   for (const auto& pair : scene.ignored) detector.ignore(pair.a, pair.b);

@@ -119,6 +119,14 @@ std::vector<fs::path> named_sources(const fs::path& folder, std::span<const std:
   return sources;
 }
 
+std::vector<fs::path> chosen_sources(const Experiment_context& context, std::span<const std::string> otherwise) {
+  if (!context.only.empty()) return named_sources(context.scenes, context.only);
+  if (context.scenes_given) return scene_sources(context.scenes);
+  std::vector<fs::path> sources;
+  for (const auto& name : otherwise) sources.push_back(context.scenes / (name + ".json"));
+  return sources;
+}
+
 std::string name_of_source(const fs::path& source) {
   return printable((is_directory(source) ? source.filename() : source.stem()).string());
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lodestone/io/scenes/scene_file.h"
+#include "shared/experiment.h"
 
 namespace lodestone {
 
@@ -26,6 +27,12 @@ std::string note_of_unplayed_subfolders(const std::filesystem::path& folder);
 /// @throws Bad_scene  as scene_sources; a name that nothing in the folder has
 std::vector<std::filesystem::path> named_sources(const std::filesystem::path& folder,
                                                  std::span<const std::string> names);
+
+/// The sources that the caller asked for: those named, or all of a folder that is not the project's own.
+/// @param otherwise  names of scenes of the project that are played if the caller asked for none
+/// @throws Bad_scene  as named_sources
+std::vector<std::filesystem::path> chosen_sources(const Experiment_context& context,
+                                                  std::span<const std::string> otherwise);
 
 /// What results call a source before it is read: the file's name without its extension, or the name of the folder.
 std::string name_of_source(const std::filesystem::path& source);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,6 +17,8 @@ struct Collisions {
   bool collide = false;          ///< the surfaces intersect
   bool near = false;             ///< faces are nearer than the tolerance, or intersect; false without one
   std::vector<Face_pair> faces;  ///< faces of a and b that intersect, or are nearer than the tolerance; sorted
+  std::vector<std::uint8_t> intersects = {};    ///< parallel to `faces`, without a tolerance empty: 1 where the faces
+                                                ///< intersect, 0 where they are near but apart
   std::vector<Intersection_points> points;      ///< parallel to `faces`: where they meet; empty unless asked for
   std::vector<Contact_normal> normals;          ///< parallel to `faces`; empty unless asked for
   bool capped = false;                          ///< there are more face pairs than `Detector_options::most_contacts`

@@ -33,6 +33,14 @@ py::object faces_of_frame(const Python_frame& self) {
   return array;
 }
 
+py::object intersects_of_frame(const Python_frame& self) {
+  py::array_t<bool> array(static_cast<py::ssize_t>(self.frame->face_pairs.size()));
+  auto* to = array.mutable_data();
+  for (std::size_t contact = 0; contact < self.frame->face_pairs.size(); ++contact)
+    *to++ = self.frame->intersects(contact);
+  return array;
+}
+
 /// The middle of where two faces meet.
 py::object points_of_frame(const Python_frame& self) {
   if (!self.with_points) return py::none();
@@ -210,7 +218,12 @@ void add_frames(py::module_& module) {
           "time.")
       .def_property_readonly(
           "faces", [](const py::object& self) { return kept(self, "_faces", faces_of_frame); },
-          "Contacts of all pairs, one pair after the other: (k, 2) int64, a face of a and one of b per row.")
+          "Contacts of all pairs, one pair after the other: (k, 2) int64, a face of a and one of b per row. With a\n"
+          "tolerance those that intersect and those that are only near: see `intersects`.")
+      .def_property_readonly(
+          "intersects", [](const py::object& self) { return kept(self, "_intersects", intersects_of_frame); },
+          "Whether the two faces of a contact intersect: (k,) bool. False where they are nearer than the tolerance, but\n"
+          "apart.")
       .def_property_readonly(
           "points", [](const py::object& self) { return kept(self, "_points", points_of_frame); },
           "The middle of where two faces meet: (k, 3) float64, in units of the coordinates.\nNone unless "
@@ -267,6 +280,8 @@ void add_frames(py::module_& module) {
                              "`faces`), point, normal,\ndepth and length.")
       .def_property_readonly("faces", [](const Python_pair& self) { return slice_of(self, "faces"); },
                              "Faces of a and b in contact: (k, 2) int64.")
+      .def_property_readonly("intersects", [](const Python_pair& self) { return slice_of(self, "intersects"); },
+                             "As `Frame.intersects`, of this pair.")
       .def_property_readonly("points", [](const Python_pair& self) { return slice_of(self, "points"); },
                              "As `Frame.points`, of this pair.")
       .def_property_readonly("segments", [](const Python_pair& self) { return slice_of(self, "segments"); },

@@ -5,11 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "detector.h"
+#include "io/results/frame_json.h"
+#include "io/results/page_frame.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/io/results/page.h"
 #include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
-#include "program/page_contacts.h"
 #include "program/viewer.h"
 
 /// The viewer's page of the frames of a detector.
@@ -29,54 +30,25 @@ Triangle triangle_of_face(const Shown_object& object, std::uint32_t face) {
                        [&](std::uint32_t corner) { return object.positions.data() + 3 * std::size_t{corner}; });
 }
 
-std::vector<Page_contact> contacts_of(const Frame& frame, const std::vector<Shown_object>& objects) {
-  std::vector<Page_contact> contacts;
-  for (const auto& pair : frame.pairs)
-    for (const auto& [a, b] : frame.contacts(pair))
-      add_page_contacts(contacts, {.a = pair.a, .face_a = a, .b = pair.b, .face_b = b},
-                        triangle_of_face(objects[pair.a], a), triangle_of_face(objects[pair.b], b));
-  return contacts;
-}
-
 /// As a line of frames.jsonl.
-std::string numbers_of_frame(const Frame& frame, const std::vector<Shown_object>& objects) {
+std::string numbers_of_frame(const Frame& frame, const std::vector<Shown_object>& objects,
+                             const Detector_options& options) {
   Json pairs = Json::array();
   for (const auto& pair : frame.pairs) {
-    Json faces = Json::array();
-    for (const auto& [a, b] : frame.contacts(pair)) faces.push_back({a, b});
-    pairs.push_back({{"a", title_of_object(objects[pair.a], pair.a)},
-                     {"b", title_of_object(objects[pair.b], pair.b)},
-                     {"collides", pair.collides},
-                     {"faces", std::move(faces)}});
+    pairs.push_back(verdict_json(title_of_object(objects[pair.a], pair.a), title_of_object(objects[pair.b], pair.b),
+                                 pair, options));
+    Json faces = Json::array(), intersects = Json::array();
+    for (std::size_t i = pair.first_contact; i < pair.first_contact + pair.contacts; ++i) {
+      faces.push_back({frame.face_pairs[i].a, frame.face_pairs[i].b});
+      intersects.push_back(frame.intersects(i));
+    }
+    pairs.back()["faces"] = std::move(faces);
+    if (tolerance_of(options, {pair.a, pair.b}) > 0) pairs.back()["intersects"] = std::move(intersects);
   }
-  const auto& s = frame.statistics;
   const Json line{{"frame", frame.number},
                   {"pairs", std::move(pairs)},
-                  {"statistics",
-                   {{"candidates", s.candidates},
-                    {"exact_tests", s.exact_tests},
-                    {"contacts", s.contacts},
-                    {"vertices_read", s.vertices_read}}}};
+                  {"statistics", statistics_json(frame.statistics, options.mode)}};
   return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-/// Times and outcome. `positive` needs a mode that finds all.
-std::string stages_of(const Frame& frame, bool with_tolerance) {
-  const auto& s = frame.statistics.seconds;
-  const auto microseconds = [](double seconds) { return std::round(1e8 * seconds) / 100; };
-  return Json{{"microseconds",
-               {{"build", microseconds(s.build)},
-                {"repartition", microseconds(s.repartition)},
-                {"refit", microseconds(s.refit)},
-                {"broad_phase", microseconds(s.broad_phase)},
-                {"relaxation", microseconds(s.relaxation)},
-                {"candidates", microseconds(s.candidates)},
-                {"confirmation", microseconds(s.confirmation)}}},
-              {"positive", frame.collides()},
-              {"found", frame.collides()},
-              {"near", with_tolerance ? Json(frame.near()) : Json()},
-              {"nearest", nullptr}}
-      .dump();
 }
 
 /// A page to which frames are added while a detector goes on.
@@ -106,9 +78,13 @@ class Python_page {
     check_objects(objects);
     detector_->check_is_shown(frame);  // after `shown`, since another thread may move objects
     const Without_gil without_gil;
-    Page_frame shown{.positions = {}, .numbers = numbers_of_frame(*frame.frame, objects)};
-    if (finds_all(options.mode)) shown.stages = stages_of(*frame.frame, options.exact.tolerance > 0);
-    if (options.contacts != Contact_query::yes_no) shown.contacts = contacts_of(*frame.frame, objects);
+    const Frame& found = *frame.frame;
+    Page_frame shown{.positions = {}, .numbers = numbers_of_frame(found, objects, options)};
+    if (finds_all(options.mode))
+      shown.stages = page_stages(found, {.positive = found.collides(), .with_tolerance = has_tolerance(options)});
+    if (options.contacts != Contact_query::yes_no)
+      shown.contacts = page_contacts(
+          found, [&](Object_id object, std::uint32_t face) { return triangle_of_face(objects[object], face); });
     for (const auto& object : objects)
       shown.positions.emplace_back(Eigen::Map<const Positions>(
           object.positions.data(), static_cast<Eigen::Index>(object.positions.size() / 3), 3));

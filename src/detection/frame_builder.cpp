@@ -27,6 +27,7 @@ void Frame_builder::start(const Frame_statistics& statistics) {
 void Frame_builder::clear_pairs() {
   frame_.pairs.clear();
   frame_.face_pairs.clear();
+  frame_.contact_intersects.clear();
   frame_.contact_points.clear();
   frame_.contact_normals.clear();
   frame_.patches.clear();
@@ -52,25 +53,27 @@ const Frame& Frame_builder::finish() {
 }
 
 void Frame_builder::make_room_for_geometry() {
+  if (contacts_may_be_apart_) frame_.contact_intersects.resize(frame_.face_pairs.size());
   if (points_) frame_.contact_points.resize(frame_.face_pairs.size());
   if (normals_) frame_.contact_normals.resize(frame_.face_pairs.size());
 }
 
 /// Contacts of intersecting faces together; those that are apart one by one.
 void Frame_builder::add_geometry(std::span<const Triangle_pair> faces, std::size_t first) {
-  while (!faces.empty()) {
-    std::size_t intersecting = faces.size();
-    if (contacts_may_be_apart_) {
-      const auto apart = [](const Triangle_pair& pair) { return !triangles_intersect(pair.a, pair.b); };
-      intersecting = static_cast<std::size_t>(std::ranges::find_if(faces, apart) - faces.begin());
-    }
-    add_intersections(faces.first(intersecting), first);
-    faces = faces.subspan(intersecting);
-    first += intersecting;
-    if (faces.empty()) return;
-    add_gap(closest_points(faces.front().a, faces.front().b), first++);
-    faces = faces.subspan(1);
+  if (contacts_may_be_apart_) tell_which_intersect(faces, first);
+  if (!points_ && !normals_) return;
+  for (std::size_t i = 0; i < faces.size();) {
+    std::size_t end = i;
+    while (end < faces.size() && frame_.intersects(first + end)) ++end;
+    add_intersections(faces.subspan(i, end - i), first + i);
+    if (end < faces.size()) add_gap(closest_points(faces[end].a, faces[end].b), first + end);
+    i = end + 1;
   }
+}
+
+void Frame_builder::tell_which_intersect(std::span<const Triangle_pair> faces, std::size_t first) {
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    frame_.contact_intersects[first + i] = triangles_intersect(faces[i].a, faces[i].b) ? 1 : 0;
 }
 
 void Frame_builder::add_intersections(std::span<const Triangle_pair> faces, std::size_t first) {

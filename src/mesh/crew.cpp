@@ -2,7 +2,6 @@
 #include "mesh/crew.h"
 
 #include <hwy/cache_control.h>
-#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -61,9 +60,8 @@ bool Crew::any_present() const {
   return std::ranges::any_of(present_, [](const std::atomic<bool>& present) { return present.load(); });
 }
 
-bool Crew::run(tbb::task_arena& arena, std::size_t workers, std::size_t tasks, const Task& task) {
-  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  workers = std::min({workers, tasks, allowed, most_members + 1});
+bool Crew::run(Arena& arena, std::size_t workers, std::size_t tasks, const Task& task) {
+  workers = std::min({workers, tasks, Arena::most_threads(), most_members + 1});
   if (workers < 2 || tasks > std::numeric_limits<std::uint32_t>::max()) return false;
   if (dismissed_ || ::getpid() != process_) return false;
   if (in_use_.exchange(true, std::memory_order_acquire)) return false;
@@ -83,11 +81,11 @@ bool Crew::run(tbb::task_arena& arena, std::size_t workers, std::size_t tasks, c
 }
 
 /// Wakes threads in place of members that have left. Where memory has run out, others do their work.
-void Crew::call_members(tbb::task_arena& arena, std::size_t workers) {
+void Crew::call_members(Arena& arena, std::size_t workers) {
   for (std::size_t member = 1; member < workers; ++member) {
     if (present_[member - 1].exchange(true)) continue;
     try {
-      arena.enqueue([this, member] { serve(member); });
+      arena.enqueue([](void* crew, std::size_t number) { static_cast<Crew*>(crew)->serve(number); }, this, member);
     } catch (...) {
       present_[member - 1] = false;
     }

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <sys/types.h>
-#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <cfenv>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+
+#include "mesh/arena.h"
 
 namespace lodestone {
 
@@ -35,7 +36,7 @@ class Crew {
   /// @param task     throws nothing
   /// @return false if the crew serves another caller, maybe a task of which is asking, or if there is no member to
   ///         share the tasks: nothing has been done
-  bool run(tbb::task_arena& arena, std::size_t workers, std::size_t tasks, const Task& task);
+  bool run(Arena& arena, std::size_t workers, std::size_t tasks, const Task& task);
 
  private:
   static constexpr std::size_t most_members = 255;
@@ -51,7 +52,7 @@ class Crew {
   };
 
   Crew();
-  void call_members(tbb::task_arena& arena, std::size_t workers);
+  void call_members(Arena& arena, std::size_t workers);
   bool any_present() const;
   void serve(std::size_t member);
   bool has_left(std::size_t member, std::uint64_t served);

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/mesh/workers.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <functional>
 #include <mutex>
 #include <utility>
-#include <vector>
 
+#include "mesh/arena.h"
 #include "mesh/crew.h"
-#include "mesh/thread_order.h"
 
 namespace lodestone {
 
@@ -57,18 +52,13 @@ void run_unless_failed(const std::function<void(std::size_t, std::size_t)>& task
 }  // namespace
 
 struct Workers::Threads {
-  tbb::task_arena arena;
-  std::vector<char> marks;  ///< an address per worker, and one for the end of all tasks: see `comes_before`
+  Arena arena;
 };
 
-Workers::Workers(std::size_t threads)
-    : count_(static_cast<std::size_t>(std::max(1, tbb::this_task_arena::max_concurrency()))) {
+Workers::Workers(std::size_t threads) : count_(std::max(std::size_t{1}, Arena::threads_here())) {
   // oneTBB prints a warning and ignores the excess when it is asked for more threads than it allows.
-  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  if (threads > 0) count_ = std::min(std::max(count_, allowed), threads);
-  if (count_ > 1)
-    threads_ =
-        std::make_unique<Threads>(Threads{tbb::task_arena(static_cast<int>(count_)), std::vector<char>(count_ + 1)});
+  if (threads > 0) count_ = std::min(std::max(count_, Arena::most_threads()), threads);
+  if (count_ > 1) threads_ = std::make_unique<Threads>(Threads{Arena(count_)});
 }
 Workers::~Workers() = default;
 Workers::Workers(Workers&& other) noexcept
@@ -85,21 +75,9 @@ void Workers::run(std::size_t tasks, const std::function<void(std::size_t, std::
     return;
   }
   First_failure failure(tasks);
-  const auto run_task = [&](std::size_t index, std::size_t worker) {
-    comes_after(&failure);
-    comes_after(threads_->marks.data() + worker);  // another thread can have been this worker before
-    run_unless_failed(task, index, worker, failure);
-    comes_before(threads_->marks.data() + worker);
-    comes_before(threads_->marks.data() + count_);
-  };
-  comes_before(&failure);
-  if (!Crew::of_process().run(threads_->arena, count_, tasks, std::cref(run_task))) {
-    const auto run_here = [&](std::size_t index) {
-      run_task(index, static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
-    };
-    threads_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, tasks, run_here, tbb::simple_partitioner()); });
-  }
-  comes_after(threads_->marks.data() + count_);
+  const auto run_task = [&](std::size_t index, std::size_t worker) { run_unless_failed(task, index, worker, failure); };
+  if (!Crew::of_process().run(threads_->arena, count_, tasks, std::cref(run_task)))
+    threads_->arena.run(tasks, std::cref(run_task));
   failure.rethrow();
 }
 

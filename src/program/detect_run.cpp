@@ -8,6 +8,7 @@
 
 #include "lodestone/detection/frame_at_once.h"
 #include "lodestone/io/scenes/given_objects.h"
+#include "lodestone/io/scenes/object_options.h"
 #include "lodestone/io/scenes/separated_objects.h"
 #include "lodestone/queries/exhaustive.h"
 
@@ -76,12 +77,8 @@ void Detect_run::make_detector() {
   detector_.emplace(detector_options(command_), make_strategy(command_.partition.name, command_.partition.settings));
   for (std::size_t number = 0; number < scene_.objects.size(); ++number) {
     auto& object = scene_.objects[number];
-    Object_options options{.particles = command_.options.particles > 0 ? 0 : object.particles,
-                           .groups = object.collision.groups,
-                           .meets = object.collision.meets};
-    if (const auto& side = object.scattered_side) options.scattered_side = coordinates(*side);
-    options.file_vertex = object.file_vertex;
-    options.name = object.name;
+    Object_options options = object_options(object);
+    if (command_.options.particles > 0) options.particles = 0;
     if (number < computed_.size() && computed_[number])
       detector_->add(object.mesh, point_map(object.mesh, *computed_[number]), options);
     else
@@ -196,11 +193,12 @@ void Detect_run::compare(const Frame& result, const std::vector<Pair_truth>& tru
     tally_.missed |= !real.faces.empty() && !seen;
     if (!listed) continue;
     tally_.contradicted |= found->collides && real.faces.empty();
-    const auto contacts = result.contacts(*found);
-    // With a tolerance the contacts include faces that are only near.
-    tally_.contradicted |= command_.options.exact.tolerance == 0 && !std::ranges::includes(real.faces, contacts);
+    std::vector<Face_pair> intersecting;
+    for (std::size_t i = found->first_contact; i < found->first_contact + found->contacts; ++i)
+      if (result.intersects(i)) intersecting.push_back(result.face_pairs[i]);
+    tally_.contradicted |= !std::ranges::includes(real.faces, intersecting);
     if (command_.options.contacts == Contact_query::all && !found->capped)
-      tally_.missed |= !std::ranges::includes(contacts, real.faces);
+      tally_.missed |= !std::ranges::includes(intersecting, real.faces);
   }
 }
 

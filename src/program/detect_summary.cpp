@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "io/files/small_text.h"
+#include "io/results/frame_json.h"
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/version.h"
-#include "program/frame_log.h"
 #include "program/missed_frames.h"
 #include "program/source_revision.h"
 #include "program/standard_input.h"

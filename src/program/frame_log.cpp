@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "io/results/frame_json.h"
+
 namespace lodestone {
 
 namespace {
@@ -76,6 +78,10 @@ void add_contacts(Json& json, std::span<const std::pair<Faces_in_files, std::siz
                   const Pair_result& pair, const Detector_options& options) {
   auto& faces = json["faces"] = Json::array();
   for (const auto& [in_files, index] : contacts) faces.push_back(in_files);
+  if (tolerance_of(options, {pair.a, pair.b}) > 0) {
+    auto& intersects = json["intersects"] = Json::array();
+    for (const auto& [in_files, index] : contacts) intersects.push_back(frame.intersects(index));
+  }
   if (options.contact_normals) {
     auto& normals = json["normals"] = Json::array();
     for (const auto& [in_files, index] : contacts) normals.push_back(normal_json(frame.contact_normals[index]));
@@ -90,8 +96,7 @@ void add_contacts(Json& json, std::span<const std::pair<Faces_in_files, std::siz
 Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, const Pair_result& pair,
                const Detector_options& options) {
   const auto &a = objects[pair.a], &b = objects[pair.b];
-  Json json{{"a", a.name}, {"b", b.name}, {"collides", pair.collides}};
-  if (tolerance_of(options, {pair.a, pair.b}) > 0) json["near"] = pair.near;
+  Json json = verdict_json(a.name, b.name, pair, options);
   if (options.exact.containment && pair.a != pair.b) json["inside"] = inside_json(objects, pair);
   if (options.exact.parting && pair.a != pair.b) json["parting"] = parting_json(pair.parting);
   if (pair.capped) json["capped"] = true;
@@ -124,35 +129,6 @@ Json impacts_json(const std::vector<Scene_object>& objects, std::span<const Obje
                     {"point", {impact.point.x(), impact.point.y(), impact.point.z()}}});
   }
   return json;
-}
-
-/// Only counts, since times differ from run to run.
-Json statistics_json(const Frame_statistics& statistics, Mode mode, bool independent) {
-  // Whether leaves are posed one by one depends on how much was near in the frames before.
-  if (mode == Mode::certified && independent)
-    return {{"contacts", statistics.contacts}, {"builds", statistics.builds}, {"rebuilds", statistics.repartitions}};
-  if (finds_all(mode)) {
-    Json json{{"leaf_tests", statistics.candidates}, {"exact_tests", statistics.exact_tests},
-              {"contacts", statistics.contacts},     {"builds", statistics.builds},
-              {"rebuilds", statistics.repartitions}, {"vertices_read", statistics.vertices_read}};
-    if (mode == Mode::certified) {
-      json["nodes_bounded"] = statistics.nodes_bounded;
-      json["leaves_posed"] = statistics.leaves_posed;
-      json["violations"] = statistics.violations;
-    }
-    return json;
-  }
-  return {{"iterations", statistics.iterations},
-          {"moves", statistics.moves},
-          {"relaxed", statistics.relaxed},
-          {"candidates", statistics.candidates},
-          {"meetings", statistics.meetings},
-          {"leaf_tests", statistics.openings},
-          {"exact_tests", statistics.exact_tests},
-          {"contacts", statistics.contacts},
-          {"builds", statistics.builds},
-          {"repartitions", statistics.repartitions},
-          {"vertices_read", statistics.vertices_read}};
 }
 
 }  // namespace

@@ -32,15 +32,6 @@ struct Pair_closest {
 /// @param indent  columns per level; negative: on one line
 std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
 
-/// Below which the faces of a pair are contacts.
-inline double tolerance_of(const Detector_options& options, Object_pair pair) {
-  return pair.a == pair.b ? options.exact.self_tolerance : options.exact.tolerance;
-}
-/// Whether any pair can be near without colliding.
-inline bool has_tolerance(const Detector_options& options) {
-  return options.exact.tolerance > 0 || options.exact.self_tolerance > 0;
-}
-
 /// What is known about one frame. What was not asked for is missing.
 struct Frame_findings {
   const Frame& frame;  ///< what the detector found

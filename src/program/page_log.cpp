@@ -5,19 +5,17 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "program/frame_log.h"
+#include "io/results/frame_json.h"
+#include "io/results/page_frame.h"
+#include "lodestone/io/scenes/object_options.h"
 #include "program/missed_frames.h"
-#include "program/page_contacts.h"
 #include "program/scene_positions.h"
 
 namespace lodestone {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The options of the run with mode exact, which misses nothing.
 Detector_options exact_question(const Detector_options& options) {
@@ -51,17 +49,6 @@ Triangle triangle_of(const Surface_mesh& mesh, const Corners& corners) {
   return {point(corners[0]), point(corners[1]), point(corners[2])};
 }
 
-Json microseconds(const Stage_times& seconds) {
-  const auto rounded = [](double s) { return std::round(1e8 * s) / 100; };
-  return {{"build", rounded(seconds.build)},
-          {"repartition", rounded(seconds.repartition)},
-          {"refit", rounded(seconds.refit)},
-          {"broad_phase", rounded(seconds.broad_phase)},
-          {"relaxation", rounded(seconds.relaxation)},
-          {"candidates", rounded(seconds.candidates)},
-          {"confirmation", rounded(seconds.confirmation)}};
-}
-
 }  // namespace
 
 Page_log::Page_log(const Detect_command& command, const Scene& scene, const Scene_detector& detector)
@@ -76,8 +63,7 @@ Page_log::Page_log(const Detect_command& command, const Scene& scene, const Scen
     const Mesh_numbering<Surface_mesh> numbering(object.mesh);
     const auto corners = numbering.corners();
     page_.add_object(object.name, numbering.vertex_count(), {corners.begin(), corners.end()});
-    exact_.add(object.mesh,
-               {.groups = object.collision.groups, .meets = object.collision.meets, .file_vertex = object.file_vertex});
+    exact_.add(object.mesh, object_options(object));
   }
   for (const auto& pair : scene.ignored) exact_.ignore(pair.a, pair.b);
 }
@@ -89,7 +75,10 @@ void Page_log::add(std::size_t frame, const Frame& result, const std::string& li
   Page_frame shown{.positions = {}, .particles = particles(), .numbers = line, .stages = stages(result, truth)};
   for (const auto& object : scene_.objects) shown.positions.push_back(positions_of(object.mesh));
   if (!finds_all(options.mode)) shown.candidates = result.candidates;
-  if (options.contacts != Contact_query::yes_no) shown.contacts = contacts(result);
+  if (options.contacts != Contact_query::yes_no)
+    shown.contacts = page_contacts(result, [this](Object_id object, std::uint32_t face) {
+      return triangle_of(scene_.objects[object].mesh, page_.corners(object)[face]);
+    });
   page_.add_frame(std::move(shown));
 }
 
@@ -124,25 +113,11 @@ std::vector<std::vector<std::uint32_t>> Page_log::particles() const {
   return at;
 }
 
-std::vector<Page_contact> Page_log::contacts(const Frame& result) const {
-  std::vector<Page_contact> contacts;
-  for (const auto& pair : result.pairs)
-    for (const auto& [a, b] : result.contacts(pair))
-      add_page_contacts(contacts, {.a = pair.a, .face_a = a, .b = pair.b, .face_b = b},
-                        triangle_of(scene_.objects[pair.a].mesh, page_.corners(pair.a)[a]),
-                        triangle_of(scene_.objects[pair.b].mesh, page_.corners(pair.b)[b]));
-  return contacts;
-}
-
 std::string Page_log::stages(const Frame& result, std::optional<bool> truth) {
   const bool positive = truth ? *truth : exact_.detect().collides();
   const auto distance = positive && !command_.options.exact.self_collision ? std::optional(0.0) : nearest();
-  Json json{{"microseconds", microseconds(result.statistics.seconds)},
-            {"positive", positive},
-            {"found", result.collides()},
-            {"near", has_tolerance(command_.options) ? Json(result.near()) : Json()},
-            {"nearest", distance ? Json(*distance) : Json()}};
-  return json.dump();
+  return page_stages(
+      result, {.positive = positive, .with_tolerance = has_tolerance(command_.options), .nearest = distance});
 }
 
 /// Distance of the two nearest objects. Skips pairs whose boxes are farther apart than the best distance so far.

@@ -37,7 +37,6 @@ class Page_log {
   std::vector<Region_index> leaf_states(Object_id o) const;
   void set_regions();
   std::vector<std::vector<std::uint32_t>> particles() const;
-  std::vector<Page_contact> contacts(const Frame& result) const;
   std::string stages(const Frame& result, std::optional<bool> truth);
   std::optional<double> nearest();
 

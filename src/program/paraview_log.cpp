@@ -7,9 +7,9 @@
 #include <array>
 #include <utility>
 
+#include "io/results/page_frame.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/region_maps.h"
-#include "program/page_contacts.h"
 
 namespace lodestone {
 
@@ -100,27 +100,29 @@ Vtp_data particles_of(const Scene& scene) {
 /// Contacts of one kind: points, segments or polygons.
 struct Contact_cells {
   std::vector<std::vector<std::uint32_t>> cells = {};
-  std::array<Numbers, 4> sources = {};  ///< object a, object b, face a, face b
+  std::array<Numbers, 5> sources = {};  ///< object a, object b, face a, face b, whether they intersect
 };
 
 Vtp_data contacts_of(const Scene& scene, const Frame& result) {
   Vtp_data data;
   std::array<Contact_cells, 3> kinds;
   for (const auto& pair : result.pairs)
-    for (const auto& [a, b] : result.contacts(pair)) {
-      const auto points =
-          meeting_points(triangle_of(scene.objects[pair.a].mesh, a), triangle_of(scene.objects[pair.b].mesh, b));
+    for (std::size_t contact = pair.first_contact; contact < pair.first_contact + pair.contacts; ++contact) {
+      const auto [a, b] = result.face_pairs[contact];
+      const auto points = meeting_points(result, pair, contact, [&scene](Object_id object, std::uint32_t face) {
+        return triangle_of(scene.objects[object].mesh, face);
+      });
       auto& kind = kinds[std::min<std::size_t>(points.size(), 3) - 1];
       auto& cell = kind.cells.emplace_back();
       for (const Point& point : points) {
         cell.push_back(static_cast<std::uint32_t>(data.points.size()));
         data.points.push_back(point);
       }
-      const std::array<std::uint32_t, 4> source{pair.a, pair.b, scene.objects[pair.a].file_face[a],
-                                                scene.objects[pair.b].file_face[b]};
+      const std::array<std::uint32_t, 5> source{pair.a, pair.b, scene.objects[pair.a].file_face[a],
+                                                scene.objects[pair.b].file_face[b], result.intersects(contact)};
       for (std::size_t i = 0; i < source.size(); ++i) kind.sources[i].push_back(source[i]);
     }
-  constexpr std::array names{"object_a", "object_b", "face_a", "face_b"};
+  constexpr std::array names{"object_a", "object_b", "face_a", "face_b", "intersects"};
   for (std::size_t i = 0; i < names.size(); ++i) {
     Numbers values;
     for (const auto& kind : kinds) values.insert(values.end(), kind.sources[i].begin(), kind.sources[i].end());

@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "io/meshes/read_mesh_soup.h"
+#include "io/results/page_frame.h"
 #include "lodestone/detection/frame_at_once.h"
 #include "lodestone/io/results/page.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/indexed_mesh.h"
-#include "program/page_contacts.h"
 
 namespace lodestone {
 
@@ -39,15 +39,6 @@ struct Read_mesh {
   std::vector<Corners> corners;
 };
 
-/// The ends of the segments in which faces meet, for the viewer.
-std::vector<Page_contact> contacts_of(const Frame& frame, const Read_mesh& a, const Read_mesh& b, Object_id id_b) {
-  std::vector<Page_contact> contacts;
-  for (const auto& [face_a, face_b] : frame.face_pairs)
-    add_page_contacts(contacts, {.a = 0, .face_a = face_a, .b = id_b, .face_b = face_b}, a.triangle(face_a),
-                      b.triangle(face_b));
-  return contacts;
-}
-
 /// The collisions of two meshes, or of one with itself.
 /// @return collides, contacts, milliseconds, and data: the container of docs/page_format.md
 val answer(const Read_mesh& a, const std::optional<Read_mesh>& other) {
@@ -67,7 +58,8 @@ val answer(const Read_mesh& a, const std::optional<Read_mesh>& other) {
   if (other) page.add_object(b.name, static_cast<std::uint32_t>(b.coordinates.size() / 3), b.corners);
   Page_frame shown{.positions = {a.positions()}};
   if (other) shown.positions.push_back(b.positions());
-  shown.contacts = contacts_of(*frame, a, b, other ? 1 : 0);
+  shown.contacts = page_contacts(
+      *frame, [&](Object_id object, std::uint32_t face) { return (object == 0 ? a : b).triangle(face); });
   page.add_frame(std::move(shown));
   const std::string data = page.data();
 

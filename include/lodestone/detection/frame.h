@@ -99,7 +99,12 @@ struct Candidate_regions {
 struct Frame {
   std::uint64_t number = 0;           ///< 1 for the first
   std::vector<Pair_result> pairs;     ///< by (a, b)
-  std::vector<Face_pair> face_pairs;  ///< contacts of all pairs one after the other, sorted within a pair
+  /// Contacts of all pairs one after the other, sorted within a pair. With a tolerance those that intersect and those
+  /// that are only near: see `intersects`.
+  std::vector<Face_pair> face_pairs;
+  /// Parallel to `face_pairs`, without a tolerance empty: 1 where the two faces intersect, 0 where they are nearer than
+  /// the tolerance but apart.
+  std::vector<std::uint8_t> contact_intersects = {};
   /// Parallel to `face_pairs`; empty unless asked for, or patches are. Faces that are near but apart: the nearest point
   /// of each.
   std::vector<Intersection_points> contact_points;
@@ -121,6 +126,9 @@ struct Frame {
   std::span<const Face_pair> contacts(const Pair_result& pair) const {
     return std::span(face_pairs).subspan(pair.first_contact, pair.contacts);
   }
+  /// Whether the two faces of a contact intersect; false: they are near but apart.
+  /// @param contact  index in `face_pairs`
+  bool intersects(std::size_t contact) const { return contact_intersects.empty() || contact_intersects[contact] != 0; }
   /// The contact patches of one of `pairs`.
   std::span<const Contact_patch> patches_of(const Pair_result& pair) const {
     return std::span(patches).subspan(pair.first_patch, pair.patches);

@@ -42,13 +42,14 @@ class Frame_builder {
   Pair_result start_pair(Object_pair pair) const {
     return {.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size(), .first_patch = frame_.patches.size()};
   }
-  /// Ends a pair: counts its contacts, and computes their points and normals if the options ask for them.
+  /// Ends a pair: counts its contacts, tells which intersect where they can be apart, and computes their points and
+  /// normals if the options ask for them.
   /// @param triangle_of  gives the triangle of an object's face: called with Object_id and face index, by any worker
   /// @param workers      that share the work
   template <class Triangle_of>
   void end_pair(Pair_result result, Triangle_of triangle_of, Workers& workers = Workers::alone()) {
     result.contacts = frame_.face_pairs.size() - result.first_contact;
-    if (points_ || normals_) {
+    if (points_ || normals_ || contacts_may_be_apart_) {
       make_room_for_geometry();
       const std::size_t batches = (result.contacts + most_faces - 1) / most_faces;
       Workers& sharing = batches < batches_worth_sharing ? Workers::alone() : workers;
@@ -91,6 +92,7 @@ class Frame_builder {
   }
   void make_room_for_geometry();
   void add_geometry(std::span<const Triangle_pair> faces, std::size_t first);
+  void tell_which_intersect(std::span<const Triangle_pair> faces, std::size_t first);
   void add_intersections(std::span<const Triangle_pair> faces, std::size_t first);
   void add_gap(const Closest_points& nearest, std::size_t contact);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "lodestone/mesh/pairs.h"
@@ -18,12 +19,19 @@ struct Pair_contacts {
   std::size_t exact_tests = 0;  ///< face pairs given to exact predicates
 };
 
-/// Searches for the contacts of a pair. What is near may collide or not: a second search tells.
+/// Puts contacts in the place of others: as many are listed as before, sorted.
+/// @param preferred  sorted, no more than are listed
+/// @param found      from `begin` on sorted
+void prefer(std::span<const Face_pair> preferred, std::vector<Face_pair>& found, std::size_t begin);
+
+/// Searches for the contacts of a pair. What is near may collide or not: a second search tells. Where not all contacts
+/// are listed, those that intersect come before those that are only near.
 /// @param search  called with a Contact_request and a list of contacts to append to; gives a Contact_summary
 /// @param found   the contacts are appended, sorted; none for the query `yes_no`
 template <class Search>
 Pair_contacts pair_contacts(const Contact_request& request, const Search& search, std::vector<Face_pair>& found) {
   const bool with_tolerance = request.tolerance > 0;
+  const std::size_t begin = found.size();
   const Contact_summary contacts = search(request, found);
   Pair_contacts result{.collides = contacts.found,
                        .near = with_tolerance && contacts.found,
@@ -31,8 +39,11 @@ Pair_contacts pair_contacts(const Contact_request& request, const Search& search
                        .leaf_tests = contacts.leaf_tests,
                        .exact_tests = contacts.exact_tests};
   if (!result.near) return result;
-  std::vector<Face_pair> none;
-  const Contact_summary collision = search({.query = Contact_query::yes_no}, none);
+  const bool lists_all = request.query == Contact_query::all && !contacts.capped;
+  std::vector<Face_pair> intersecting;
+  const Contact_summary collision =
+      search({.query = lists_all ? Contact_query::yes_no : request.query, .most = request.most}, intersecting);
+  prefer(intersecting, found, begin);
   result.collides = collision.found;
   result.leaf_tests += collision.leaf_tests;
   result.exact_tests += collision.exact_tests;

@@ -48,7 +48,7 @@ std::string text_of(const Candidate_regions& c) {
 
 std::string text_of(const Page_contact& c) {
   if (!c.ends) return fmt::format("[{},{},{},{}]", c.a, c.face_a, c.b, c.face_b);
-  return fmt::format("[{},{},{},{},{}]", c.a, c.face_a, c.b, c.face_b, fmt::join(*c.ends, ","));
+  return fmt::format("[{},{},{},{},{}{}]", c.a, c.face_a, c.b, c.face_b, fmt::join(*c.ends, ","), c.apart ? ",1" : "");
 }
 
 template <class Rows>

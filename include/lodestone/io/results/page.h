@@ -36,12 +36,14 @@ struct Page_head {
 };
 
 /// Two faces in contact, with the ends of their common segment. If they are coplanar: one side of their common polygon.
+/// If they are near but apart: the nearest point of each.
 struct Page_contact {
   Object_id a = 0;                                 ///< first object
   std::uint32_t face_a = 0;                        ///< its face
   Object_id b = 0;                                 ///< second object
   std::uint32_t face_b = 0;                        ///< its face
   std::optional<std::array<double, 6>> ends = {};  ///< x y z of each; equal ends: a point
+  bool apart = false;                              ///< near, but apart; only with `ends`
 };
 
 /// One frame. A part that is empty or missing in the first frame must be empty or missing in all.
