@@ -357,7 +357,12 @@ void add_detector(py::module_& module) {
       "and, of the mode 'particles': least_particles, meetings, opening_budget, opening_reach, collision_distance,\n"
       "distance_measure, candidates, list_candidates, close_seams, growth, keep_islands; of 'exact' and 'certified':\n"
       "loosest, throw_if_broken.")
-      .def(py::init([](const py::kwargs& options) { return std::make_shared<Python_detector>(detector_settings(options)); }))
+      .def(py::init([](const py::kwargs& keywords) {
+        const auto settings = detector_settings(keywords);
+        if (settings.options.exact.self_tolerance > 0 && !settings.options.exact.self_collision)
+          throw Bad_argument("the option self_tolerance needs self_collision=True");
+        return std::make_shared<Python_detector>(settings);
+      }))
       .def("add", &Python_detector::add, py::arg("mesh"), py::arg("faces") = py::none(), py::kw_only(),
            py::arg("name") = "", py::arg("particles") = 0, py::arg("groups") = 1, py::arg("meets") = 0xffffffffu,
            py::arg("file_vertex") = py::none(),

@@ -52,7 +52,7 @@ void check(const Detector_options& options) {
   require(options.mode != Mode::particles || options.meetings == 0 || has_defaults_of_candidates(options),
           "with meetings the collision distance, its measure and the choice of candidates have no effect: set meetings "
           "to 0");
-  require(options.most_contacts > 0, "at least one contact must be allowed");
+  require(options.most_contacts > 0, "most_contacts must be at least 1");
   require(options.contacts != Contact_query::yes_no ||
               (!options.contact_points && !options.contact_normals && !exact.patches),
           "contact points and normals need the contacts `first` or `all`, patches need `all`");

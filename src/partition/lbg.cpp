@@ -12,6 +12,13 @@
 
 namespace lodestone {
 
+void check(const Lbg_options& options) {
+  if (!(options.split > 0) || !std::isfinite(options.split))
+    throw Bad_argument("LBG: epsilon, the size of the split, must be finite and > 0");
+  if (!(options.tolerance > 0)) throw Bad_argument("LBG: tolerance must be > 0");
+  if (options.max_iterations == 0) throw Bad_argument("LBG: max_iterations must be at least 1");
+}
+
 namespace {
 
 void check(const Feature_vectors& vectors, std::size_t cells, const Lbg_options& options) {
@@ -20,9 +27,7 @@ void check(const Feature_vectors& vectors, std::size_t cells, const Lbg_options&
   if (!(vectors.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= 1e100))
     throw Bad_argument("a component of a vector to quantise is not finite, or beyond 1e100");
   if (cells == 0) throw Bad_argument("the number of regions must be at least 1");
-  if (!(options.split > 0) || !std::isfinite(options.split)) throw Bad_argument("LBG: split must be finite and > 0");
-  if (!(options.tolerance > 0)) throw Bad_argument("LBG: tolerance must be > 0");
-  if (options.max_iterations == 0) throw Bad_argument("LBG: max_iterations must be at least 1");
+  check(options);
 }
 
 Quantisation train(const Feature_vectors& vectors, std::size_t cells, const Lbg_options& options) {

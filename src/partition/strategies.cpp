@@ -35,6 +35,7 @@ constexpr Lbg_setting settings_of_kmeans[] = {Lbg_setting::normal_weight, Lbg_se
 
 template <class Strategy>
 Any_strategy from_lbg_options(const Strategy_settings& settings) {
+  check(settings.lbg);
   return Any_strategy(Strategy{.options = settings.lbg});
 }
 
@@ -49,6 +50,7 @@ Any_strategy from_nothing(const Strategy_settings&) {
 }
 
 Any_strategy lbg_curvature(const Strategy_settings& settings) {
+  check(settings.lbg);
   return Any_strategy(Lbg_curvature{.options = {.lbg = settings.lbg}});
 }
 

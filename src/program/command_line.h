@@ -104,6 +104,20 @@ inline std::string unknown_word(const CLI::App& program, std::span<char* const> 
   return fmt::format("there is no command {}{}", words[0], did_you_mean(words[0], commands));
 }
 
+/// The words of the command line, in which files after `--` cannot be taken for options: CLI11 refuses `--` after the
+/// first file.
+inline std::vector<std::string> unmistakable_words(int argc, char** argv) {
+  std::vector<std::string> words;
+  bool only_files = false;
+  for (const std::string_view word : std::span(argv, static_cast<std::size_t>(argc))) {
+    if (!only_files && word == "--")
+      only_files = true;
+    else
+      words.push_back((only_files && word.size() > 1 && word.front() == '-' ? "./" : "") + std::string(word));
+  }
+  return words;
+}
+
 /// Parses the command line. Prints help or version if asked for, else one line about what is wrong. The help does not
 /// list `--describe`, which prints JSON for the build: see command_description.h.
 /// @return the exit code, if there is nothing left to do
@@ -114,7 +128,10 @@ inline std::optional<int> parse(CLI::App& program, int argc, char** argv) {
   }
   read_decimals(program);
   try {
-    program.parse(argc, argv);
+    auto words = unmistakable_words(argc, argv);
+    std::vector<char*> pointers;
+    for (auto& word : words) pointers.push_back(word.data());
+    program.parse(static_cast<int>(pointers.size()), pointers.data());
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);

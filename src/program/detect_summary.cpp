@@ -133,6 +133,7 @@ std::size_t count_passings(const Run_summary& summary) {
 
 std::vector<std::string> table_header(const Detect_command& command) {
   std::vector<std::string> header{"object a", "object b", "frames", "colliding", "first", "last"};
+  if (command.options.contacts == Contact_query::all) header.emplace_back("face pairs");
   if (has_tolerance(command.options)) header.emplace_back("near");
   if (command.options.exact.containment) header.emplace_back("one inside");
   if (command.options.exact.parting) header.emplace_back("parting");
@@ -148,6 +149,7 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
   std::vector<std::string> row{scene.objects[pair.a].name,    scene.objects[pair.b].name,
                                std::to_string(scene.frames),  std::to_string(summary.colliding_frames),
                                text(summary.first_colliding), text(summary.last_colliding)};
+  if (subject.command.options.contacts == Contact_query::all) row.push_back(std::to_string(summary.face_pairs));
   if (has_tolerance(subject.command.options))
     row.push_back(tolerance_of(subject.command.options, pair) > 0 ? std::to_string(summary.near_frames) : "-");
   if (subject.command.options.exact.containment) row.push_back(std::to_string(summary.contained_frames));
@@ -196,9 +198,10 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   const bool omits = rows < summary.pairs.size() || summary.pairs.size() < count_pairs(subject);
   if (rows > 0) fmt::print("{}", table.text());
   if (rows > row_limit) fmt::print("{} more pairs are omitted: --all-rows prints them.\n", rows - row_limit);
-  if (omits)
-    fmt::print("Pairs {} are omitted{}.\n", many ? "of which nothing was found" : "that never came near each other",
-               rows > 0 ? "" : ": all of them");
+  if (rows > 0 && omits)
+    fmt::print("Pairs {} are omitted.\n", many ? "of which nothing was found" : "that never came near each other");
+  if (rows == 0 && omits)
+    fmt::print("{}\n", many ? "No collision was found." : "No collision: no two objects came near each other.");
   if (rows == 0 && !omits) fmt::print("There is no pair of objects.\n");
   if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {} times.\n", capped);
   if (unfinished > 0)

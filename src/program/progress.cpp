@@ -13,16 +13,21 @@ namespace lodestone {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
+/// Whether somebody sits at a terminal, who may wait for the end.
+volatile std::sig_atomic_t is_watched = 0;
 
-/// A second signal ends the program at once, since a frame can take long.
+/// A second signal ends the program at once, since a step can take long.
 void note_interrupt(int signal) {
   interrupted = 1;
   std::signal(signal, SIG_DFL);
+  constexpr char told[] = "\nlodestone: ends after this step; a second signal ends it at once\n";
+  if (is_watched != 0) [[maybe_unused]] const auto written = ::write(STDERR_FILENO, told, sizeof told - 1);
 }
 
 }  // namespace
 
 void handle_interrupts() {
+  is_watched = ::isatty(STDERR_FILENO);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     if (std::signal(signal, note_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);  // as under nohup
   // Ignored, so that a write past the file-size limit, or to a pipe that nobody reads, fails with an error.

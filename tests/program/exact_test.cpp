@@ -135,6 +135,25 @@ TEST_F(Exact, reports_faces_within_a_distance_with_their_nearest_points_and_dire
   EXPECT_EQ(pair["points"][0][0][2], 0.0);
   EXPECT_EQ(pair["points"][0][1][2], 0.5);
   EXPECT_EQ(pair["normals"].size(), 1U);
+  EXPECT_EQ(pair["intersects"], Json::array({false}));
+}
+
+TEST_F(Exact, tells_which_faces_within_a_distance_intersect) {
+  // The upright triangle cuts one of two; the other is near it.
+  write("floor.off", "OFF\n6 2 0\n0 0 0\n2 0 0\n0 2 0\n0 0 3\n2 0 3\n0 2 3\n3 3 4 5\n3 0 1 2\n");
+  write("wall.off", "OFF\n3 1 0\n0.5 0.5 -1\n0.5 0.5 2.75\n0.7 0.5 -1\n3 0 1 2\n");
+  const auto scene = write("two.json", R"({"objects": [{"name": "floor", "mesh": "floor.off"},
+                                                       {"name": "wall", "mesh": "wall.off"}]})");
+  expect_success(detect(scene, {"--within", "0.5", "--contacts", "all", "--truth"}));
+  const auto all = frames().at(0)["pairs"][0];
+  EXPECT_EQ(all["faces"], Json::array({{0, 0}, {1, 0}}));
+  EXPECT_EQ(all["intersects"], Json::array({false, true}));
+  expect_success(detect(scene, {"--within", "0.5", "--contacts", "first"}));
+  const auto first = frames().at(0)["pairs"][0];
+  EXPECT_EQ(first["faces"], Json::array({{1, 0}}));
+  EXPECT_EQ(first["intersects"], Json::array({true}));
+  expect_success(detect(scene, {"--contacts", "all"}));
+  EXPECT_FALSE(frames().at(0)["pairs"][0].contains("intersects"));
 }
 
 TEST_F(Exact, reports_faces_of_one_object_within_a_distance) {

@@ -26,6 +26,13 @@ void expect_contacts(const Frame& frame, Object_id a, Object_id b, const std::ve
   EXPECT_FALSE(result->capped) << where;
 }
 
+std::vector<Face_pair> intersecting_contacts(const Frame& frame, const Pair_result& pair) {
+  std::vector<Face_pair> intersecting;
+  for (std::size_t i = pair.first_contact; i < pair.first_contact + pair.contacts; ++i)
+    if (frame.intersects(i)) intersecting.push_back(frame.face_pairs[i]);
+  return intersecting;
+}
+
 std::size_t expect_near_contacts(const Frame& frame, Object_id a, Object_id b, const Surface_mesh& mesh_a,
                                  const Surface_mesh& mesh_b, double tolerance) {
   const std::string where = std::to_string(a) + " and " + std::to_string(b) + ", frame " + std::to_string(frame.number);
@@ -34,7 +41,9 @@ std::size_t expect_near_contacts(const Frame& frame, Object_id a, Object_id b, c
   const auto* result = result_of(frame, a, b);
   if (result == nullptr) return truth.size();
   EXPECT_EQ(result->near, !truth.empty()) << where;
-  EXPECT_EQ(result->collides, !exhaustive_face_pairs(mesh_a, mesh_b).empty()) << where;
+  const auto intersecting = exhaustive_face_pairs(mesh_a, mesh_b);
+  EXPECT_EQ(result->collides, !intersecting.empty()) << where;
+  EXPECT_EQ(intersecting_contacts(frame, *result), intersecting) << where;
   EXPECT_FALSE(result->capped) << where;
   return truth.size();
 }
@@ -102,6 +111,7 @@ void expect_same_normals(std::span<const Contact_normal> a, std::span<const Cont
 void expect_same_frame(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.number, b.number);
   EXPECT_EQ(a.face_pairs, b.face_pairs);
+  EXPECT_EQ(a.contact_intersects, b.contact_intersects);
   EXPECT_EQ(a.contact_points, b.contact_points);
   expect_same_normals(a.contact_normals, b.contact_normals);
   ASSERT_EQ(a.pairs.size(), b.pairs.size());

@@ -44,8 +44,11 @@ std::vector<Face_pair> contacts_of(const Frame& frame, Object_id a, Object_id b)
 /// A pair of the frame lists these faces, all and in order. A pair that is not listed has none.
 void expect_contacts(const Frame& frame, Object_id a, Object_id b, const std::vector<Face_pair>& truth);
 
+/// The contacts of a pair that intersect, in the order of the frame.
+std::vector<Face_pair> intersecting_contacts(const Frame& frame, const Pair_result& pair);
+
 /// The same with a tolerance: the faces that are nearer than it or intersect. The pair says whether there are any, and
-/// whether any intersect.
+/// whether any intersect; the contacts say which.
 /// @return how many there are
 std::size_t expect_near_contacts(const Frame& frame, Object_id a, Object_id b, const Surface_mesh& mesh_a,
                                  const Surface_mesh& mesh_b, double tolerance);

@@ -36,6 +36,9 @@ struct Lbg_options {
   std::size_t threads = 1;            ///< at most; 0: as many as the machine has. The result does not depend on it
 };
 
+/// @throws Bad_argument  an option out of its range
+void check(const Lbg_options& options);
+
 /// Lloyd iterations between two splits.
 struct Lloyd_run {
   std::size_t code_vectors = 0;    ///< how many there were
