@@ -210,7 +210,8 @@ void add_frames(py::module_& module) {
           "order of (a, b): a tuple of `Pair`, made anew each time.")
       .def_property_readonly(
           "faces", [](const py::object& self) { return kept(self, "_faces", faces_of_frame); },
-          "Contacts of all pairs, one pair after the other: (k, 2) int64, a face of a and one of b per row.")
+          "Contacts of all pairs, one pair after the other: (k, 2) int64, a face of a and one of b per row. With a\n"
+          "tolerance: face pairs that intersect, and face pairs that are only near.")
       .def_property_readonly(
           "points", [](const py::object& self) { return kept(self, "_points", points_of_frame); },
           "The middle of where two faces meet: (k, 3) float64, in units of the coordinates.\nNone unless "
@@ -266,7 +267,7 @@ void add_frames(py::module_& module) {
                              "Contact patches, with the option `patches`: a list of dicts with contacts (rows of "
                              "`faces`), point, normal,\ndepth and length.")
       .def_property_readonly("faces", [](const Python_pair& self) { return slice_of(self, "faces"); },
-                             "Faces of a and b in contact: (k, 2) int64.")
+                             "Faces of a and b in contact: (k, 2) int64. As `Frame.faces`, of this pair.")
       .def_property_readonly("points", [](const Python_pair& self) { return slice_of(self, "points"); },
                              "As `Frame.points`, of this pair.")
       .def_property_readonly("segments", [](const Python_pair& self) { return slice_of(self, "segments"); },
