@@ -205,8 +205,8 @@ class Lodestone_settings(bpy.types.PropertyGroup):
     )
     distance: bpy.props.FloatProperty(
         name="Distance",
-        description="Also faces that are nearer to each other than this; of one object, those that were not so near in "
-        "the first frame",
+        description="Also faces that are nearer to each other than this; of one object, only those that share no vertex "
+        "and were at least twice this distance apart in the first frame that is checked",
         default=0,
         min=0,
         unit="LENGTH",

@@ -342,7 +342,7 @@ void add_detector(py::module_& module) {
       "Arrays of float64 or float32 are read where they are, by every query: what is written into them counts. All other\n"
       "arrays and lists are copied when they are given. Every call works without Python's global lock. Threads that use\n"
       "one detector wait for each other.\n\n"
-      "Options are given by name; see `help(lodestone)` and the manual:\n"
+      "Options are given by name. In the sources of Lodestone, docs/python.md explains each of them:\n"
       "  mode              'exact' (default), 'certified', 'particles' or 'senin'\n"
       "  contacts          'all' (default), 'first' or 'yes_no'\n"
       "  contact_points, contact_normals, patches, containment, parting     what else to find: False\n"
@@ -351,12 +351,13 @@ void add_detector(py::module_& module) {
       "  most_contacts     contacts listed per pair of objects: all\n"
       "  threads           at most so many; 0: all of the machine: 1. Results do not depend on it\n"
       "  particles         particles, or regions in mode 'exact'; 0: as the mode sees fit; in mode 'exact' none, or\n"
-      "                    12 with one of the next options\n"
-      "  strategy, seed, normal_weight, lbg_...     how surfaces are divided: 'lbg'; the strategy can be a function, see\n"
-      "                    `partition`\n"
-      "and, of the mode 'particles': least_particles, meetings, opening_budget, opening_reach, collision_distance,\n"
-      "distance_measure, candidates, list_candidates, close_seams, growth, keep_islands; of 'exact' and 'certified':\n"
-      "loosest, throw_if_broken.")
+      "                    12 with a strategy or a setting of it\n"
+      "  strategy          how surfaces are divided: 'lbg'. It can be a function, see `partition`. Its settings are seed,\n"
+      "                    normal_weight, lbg_split, lbg_epsilon, lbg_tolerance and lbg_sample\n"
+      "  keep_islands      whether a region may consist of several islands: False\n"
+      "and, of the modes with particles: least_particles, meetings, opening_budget, opening_reach, collision_distance,\n"
+      "distance_measure, candidates, list_candidates, close_seams and growth; of the modes 'exact' and\n"
+      "'certified': loosest and throw_if_broken.")
       .def(py::init([](const py::kwargs& keywords) {
         const auto settings = detector_settings(keywords);
         if (settings.options.exact.self_tolerance > 0 && !settings.options.exact.self_collision)

@@ -214,8 +214,8 @@ void add_frames(py::module_& module) {
                              "Whether the budget of openings ended the search of a pair.")
       .def_property_readonly(
           "pairs", pairs_of_frame,  // not kept: a pair holds its frame, and neither would ever be freed
-          "The object pairs that the broad phase let pass, in the order of (a, b): a tuple of `Pair`, made anew each "
-          "time.")
+          "The object pairs that the broad phase, groups and `ignore` let pass, or the pair that was asked for, in the\n"
+          "order of (a, b): a tuple of `Pair`, made anew each time.")
       .def_property_readonly(
           "faces", [](const py::object& self) { return kept(self, "_faces", faces_of_frame); },
           "Contacts of all pairs, one pair after the other: (k, 2) int64, a face of a and one of b per row. With a\n"
@@ -279,7 +279,7 @@ void add_frames(py::module_& module) {
                              "Contact patches, with the option `patches`: a list of dicts with contacts (rows of "
                              "`faces`), point, normal,\ndepth and length.")
       .def_property_readonly("faces", [](const Python_pair& self) { return slice_of(self, "faces"); },
-                             "Faces of a and b in contact: (k, 2) int64.")
+                             "Faces of a and b in contact: (k, 2) int64. As `Frame.faces`, of this pair.")
       .def_property_readonly("intersects", [](const Python_pair& self) { return slice_of(self, "intersects"); },
                              "As `Frame.intersects`, of this pair.")
       .def_property_readonly("points", [](const Python_pair& self) { return slice_of(self, "points"); },

@@ -119,7 +119,7 @@ void Broad_phase::choose_strips(std::span<const Box> boxes, std::span<const doub
   }
 }
 
-/// Afterwards the number after a strip's tells where its boxes begin.
+/// Afterwards `ends_` has per strip where its boxes begin. `divide` moves that to where they end.
 /// @return false: they would be more than four for each box
 bool Broad_phase::count_in_strips(std::span<const Box> boxes, std::span<const double> reach) {
   ends_.assign(strips_ + 1, 0);
@@ -175,7 +175,7 @@ std::span<const Object_pair> Broad_phase::find(std::span<const std::uint32_t> id
       const Grown_box& a = in_strips_[i];
       for (std::size_t j = i + 1; j < end && in_strips_[j].along.begin <= a.along.end; ++j) {
         const Grown_box& b = in_strips_[j];
-        if (!(overlap(a.across, b.across) & overlap(a.third, b.third))) continue;
+        if ((int{overlap(a.across, b.across)} & int{overlap(a.third, b.third)}) == 0) continue;
         if (!within_reach(boxes[a.id], boxes[b.id], std::max(reach[a.id], reach[b.id]))) continue;
         if (meet_in(strip, a.across, b.across)) pairs_.push_back({std::min(a.id, b.id), std::max(a.id, b.id)});
       }

@@ -174,7 +174,8 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   app.add_flag("--impacts", command.impacts,
                "Mode exact: also report when object pairs meet first between a frame and the next, if every vertex "
                "moves on a straight line");
-  app.add_flag("--truth", command.truth, "Compare every frame with exhaustive exact checking");
+  app.add_flag("--truth", command.truth,
+               "Compare every frame with exhaustive exact checking, for pairs of two objects; not for self-collisions");
   app.add_option(
          "--meetings", options.meetings,
          "Mode particles: maximum number of particle pairs per object pair that walk towards each other; 0: the "

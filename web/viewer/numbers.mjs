@@ -49,7 +49,7 @@ export function make_numbers(page) {
   const statistics = new Rows(by_id('statistics'), figure_row);
   const misses_nothing = ['exact', 'certified'].includes(page.header.mode);
   const pairs = new Rows(by_id('pairs'), (name) => pair_row(name, misses_nothing ? 'apart' : 'apart or not found'));
-  // Building, which is in the first frame alone, would make all other bars short.
+  // Building, which few frames do, would make all other bars short.
   const every_frame = ({ microseconds: { build, ...others } }) => Object.values(others);
   const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(every_frame));
   const used = Object.keys(stage_names).filter((key) => page.stages?.some(({ microseconds }) => microseconds[key] > 0));

@@ -40,7 +40,8 @@ struct Stage_times {
 /// What a frame took, and what it did.
 struct Frame_statistics {
   Stage_times seconds = {};           ///< per stage
-  std::size_t object_candidates = 0;  ///< object pairs that passed the broad phase, those with themselves included
+  std::size_t object_candidates = 0;  ///< number of `Frame::pairs`: those that broad phase and collision filter let
+                                      ///< pass, or the one asked for; those of an object with itself included
   std::size_t iterations = 0;         ///< of the relaxation
   std::size_t moves = 0;              ///< steps of all particles together
   bool relaxed = true;                ///< false: the relaxation was stopped by R_max
