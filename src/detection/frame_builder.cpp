@@ -53,15 +53,12 @@ const Frame& Frame_builder::finish() {
 }
 
 void Frame_builder::make_room_for_geometry() {
-  if (contacts_may_be_apart_) frame_.contact_intersects.resize(frame_.face_pairs.size());
   if (points_) frame_.contact_points.resize(frame_.face_pairs.size());
   if (normals_) frame_.contact_normals.resize(frame_.face_pairs.size());
 }
 
 /// Contacts of intersecting faces together; those that are apart one by one.
 void Frame_builder::add_geometry(std::span<const Triangle_pair> faces, std::size_t first) {
-  if (contacts_may_be_apart_) tell_which_intersect(faces, first);
-  if (!points_ && !normals_) return;
   for (std::size_t i = 0; i < faces.size();) {
     std::size_t end = i;
     while (end < faces.size() && frame_.intersects(first + end)) ++end;
@@ -69,11 +66,6 @@ void Frame_builder::add_geometry(std::span<const Triangle_pair> faces, std::size
     if (end < faces.size()) add_gap(closest_points(faces[end].a, faces[end].b), first + end);
     i = end + 1;
   }
-}
-
-void Frame_builder::tell_which_intersect(std::span<const Triangle_pair> faces, std::size_t first) {
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    frame_.contact_intersects[first + i] = triangles_intersect(faces[i].a, faces[i].b) ? 1 : 0;
 }
 
 void Frame_builder::add_intersections(std::span<const Triangle_pair> faces, std::size_t first) {

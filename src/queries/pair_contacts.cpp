@@ -14,4 +14,14 @@ void prefer(std::span<const Face_pair> preferred, std::vector<Face_pair>& found,
   std::ranges::merge(preferred, others, found.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
+void tell_which_intersect(std::span<const Face_pair> intersecting, std::span<const Face_pair> found, std::size_t begin,
+                          std::vector<std::uint8_t>& intersects) {
+  intersects.resize(found.size());
+  auto next = intersecting.begin();
+  for (std::size_t i = begin; i < found.size(); ++i) {
+    while (next != intersecting.end() && *next < found[i]) ++next;
+    intersects[i] = next != intersecting.end() && *next == found[i] ? 1 : 0;
+  }
+}
+
 }  // namespace lodestone

@@ -170,10 +170,11 @@ void Exact_pairs<Volume>::find_way_out(Pair_result& result) {
 template <Bounding_volume Volume>
 void Exact_pairs<Volume>::find_contacts(std::size_t candidate, Pair_result& result) {
   const Object_pair pair = candidates_[candidate];
-  const Pair_contacts* known = small_pairs_.take(candidate, frame_.face_pairs());
+  const Pair_contacts* known = small_pairs_.take(candidate, frame_.face_pairs(), frame_.contact_intersects());
   const auto search_now = [&](const Contact_request& asked, auto& found) { return search(pair, asked, found); };
   const Pair_contacts contacts =
-      known != nullptr ? *known : pair_contacts(request(pair), search_now, frame_.face_pairs());
+      known != nullptr ? *known
+                       : pair_contacts(request(pair), search_now, frame_.face_pairs(), frame_.contact_intersects());
   result.collides = contacts.collides;
   result.near = contacts.near;
   result.capped = contacts.capped;

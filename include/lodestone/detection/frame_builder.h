@@ -33,6 +33,8 @@ class Frame_builder {
   std::uint64_t number() const { return frame_.number; }
   /// The contacts of all pairs so far. A stage appends those of its pair between `start_pair` and `end_pair`.
   std::vector<Face_pair>& face_pairs() { return frame_.face_pairs; }
+  /// Parallel to the contacts, where they can be apart. What a stage leaves out of its pair intersects.
+  std::vector<std::uint8_t>& contact_intersects() { return frame_.contact_intersects; }
   /// Candidate regions of all pairs so far, to be appended to.
   std::vector<Candidate_regions>& candidates() { return frame_.candidates; }
   /// `Frame::object_iterations`, to be written.
@@ -42,14 +44,14 @@ class Frame_builder {
   Pair_result start_pair(Object_pair pair) const {
     return {.a = pair.a, .b = pair.b, .first_contact = frame_.face_pairs.size(), .first_patch = frame_.patches.size()};
   }
-  /// Ends a pair: counts its contacts, tells which intersect where they can be apart, and computes their points and
-  /// normals if the options ask for them.
+  /// Ends a pair: counts its contacts, and computes their points and normals if the options ask for them.
   /// @param triangle_of  gives the triangle of an object's face: called with Object_id and face index, by any worker
   /// @param workers      that share the work
   template <class Triangle_of>
   void end_pair(Pair_result result, Triangle_of triangle_of, Workers& workers = Workers::alone()) {
     result.contacts = frame_.face_pairs.size() - result.first_contact;
-    if (points_ || normals_ || contacts_may_be_apart_) {
+    if (contacts_may_be_apart_) frame_.contact_intersects.resize(frame_.face_pairs.size(), 1);
+    if (points_ || normals_) {
       make_room_for_geometry();
       const std::size_t batches = (result.contacts + most_faces - 1) / most_faces;
       Workers& sharing = batches < batches_worth_sharing ? Workers::alone() : workers;
@@ -92,7 +94,6 @@ class Frame_builder {
   }
   void make_room_for_geometry();
   void add_geometry(std::span<const Triangle_pair> faces, std::size_t first);
-  void tell_which_intersect(std::span<const Triangle_pair> faces, std::size_t first);
   void add_intersections(std::span<const Triangle_pair> faces, std::size_t first);
   void add_gap(const Closest_points& nearest, std::size_t contact);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "lodestone/mesh/pairs.h"
@@ -38,11 +39,13 @@ class Small_pairs {
   /// Answers all questions, or forgets them if they are too few to be shared.
   void answer();
   /// What was found for a pair; null if it was not asked about. Called in ascending order.
-  /// @param found  the contacts are appended
-  const Pair_contacts* take(std::size_t pair, std::vector<Face_pair>& found) {
+  /// @param found       the contacts are appended
+  /// @param intersects  with a tolerance: see `pair_contacts`
+  const Pair_contacts* take(std::size_t pair, std::vector<Face_pair>& found, std::vector<std::uint8_t>& intersects) {
     if (next_ == question_count_ || questions_[next_].pair != pair) return nullptr;
     const Question& question = questions_[next_++];
     found.insert(found.end(), question.found.begin(), question.found.end());
+    intersects.insert(intersects.end(), question.intersects.begin(), question.intersects.end());
     return &question.contacts;
   }
 
@@ -55,6 +58,7 @@ class Small_pairs {
     // The answer.
     Pair_contacts contacts;
     std::vector<Face_pair> found;
+    std::vector<std::uint8_t> intersects;
   };
 
   /// With fewer questions than this per worker, the last to be answered can keep one of them busy for long.
@@ -77,8 +81,8 @@ void Small_pairs<Volume>::answer() {
       return question.a == question.b ? searches_[worker].within(*question.a, request, found)
                                       : searches_[worker].between(*question.a, *question.b, request, found);
     };
-    question.found.clear();
-    question.contacts = pair_contacts(question.request, search, question.found);
+    question.found.clear(), question.intersects.clear();
+    question.contacts = pair_contacts(question.request, search, question.found, question.intersects);
   });
 }
 
