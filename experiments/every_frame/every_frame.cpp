@@ -161,7 +161,9 @@ struct Plan {
 
 Plan plan_of(const Experiment_context& context) {
   Plan plan;
-  for (const auto& source : chosen_sources(context, scene_names(context))) {
+  std::vector<std::string> own;
+  if (!context.scenes_given) own = scene_names(context);  // which refuses a folder without them
+  for (const auto& source : chosen_sources(context, own)) {
     Scene scene = read_source(source);
     plan.scenes.push_back({.source = source, .first = plan.work.pieces, .count = scene.frames});
     plan.work.pieces += scene.frames;

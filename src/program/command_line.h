@@ -105,9 +105,10 @@ inline std::string unknown_word(const CLI::App& program, std::span<char* const> 
 }
 
 /// The words of the command line, in which files after `--` cannot be taken for options: CLI11 refuses `--` after the
-/// first file.
+/// first file. `submit` has a command there.
 inline std::vector<std::string> unmistakable_words(int argc, char** argv) {
   std::vector<std::string> words;
+  if (argc > 1 && std::string_view(argv[1]) == "submit") return {argv, argv + argc};
   bool only_files = false;
   for (const std::string_view word : std::span(argv, static_cast<std::size_t>(argc))) {
     if (!only_files && word == "--")

@@ -111,6 +111,21 @@ TEST_F(Detect_scripts, a_sentence_tells_that_the_table_leaves_out_pairs_that_nev
   EXPECT_EQ(all_of_five.find("omitted"), std::string::npos) << all_of_five;
 }
 
+TEST_F(Detect_scripts, after_two_dashes_there_are_only_files) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::copy_file(there, folder.path() / "-there.off");
+  std::filesystem::current_path(folder.path());
+  const auto first = run_program({"detect", "--quiet", "--", here, "-there.off"});
+  const auto later = run_program({"detect", here, "--quiet", "--", "-there.off"});
+  const auto no_option = run_program({"detect", here, "--", "--quiet"});
+  std::filesystem::current_path(before);
+  for (const auto& result : {first, later}) {
+    expect_success(result);
+    EXPECT_TRUE(result.out.starts_with("meshes: 0 colliding")) << result.out;
+  }
+  EXPECT_NE(no_option.err.find("--quiet: there is no such file"), std::string::npos) << no_option.err;
+}
+
 TEST_F(Detect_scripts, a_mesh_may_come_from_the_standard_input) {
   const Program_options from_here{.standard_input = here};
   const auto run = [&](std::vector<std::string> arguments) { return run_program(arguments, from_here); };

@@ -411,6 +411,7 @@ def test_a_vertex_that_is_no_number_is_an_error(mode):
     (dict(tolerance=-1), lodestone.BadArgument, "tolerance"),
     (dict(self_collision=2), TypeError, "self_collision must be True or False"),
     (dict(strategy="voronoy"), lodestone.BadArgument, "voronoy"),
+    (dict(self_tolerance=0.1), lodestone.BadArgument, "self_tolerance needs self_collision=True"),
     (dict(mode="particles", tolerance=1.0), lodestone.BadArgument, "exact"),
 ])
 def test_options_are_checked(arguments, error, text):

@@ -97,6 +97,37 @@ def test_frames_and_pairs_are_true_if_they_collide():
         assert not detector.self_collisions(0)
 
 
+def test_contacts_within_a_tolerance_tell_whether_they_intersect():
+    a, b = sphere(), sphere().moved(1.9)
+    intersecting = lodestone.find_collisions(a, b)
+    assert intersecting.intersects.dtype == bool and intersecting.intersects.all()
+    near = lodestone.find_collisions(a, b, tolerance=0.3, contact_normals=True)
+    assert np.array_equal(near.faces[near.intersects], intersecting.faces) and len(near.faces) > len(intersecting.faces)
+    assert np.array_equal(near.intersects, near.depths >= 0)
+    assert not near.intersects.flags.writeable and np.array_equal(near.frame.intersects, near.intersects)
+    for options in [{"contacts": "first"}, {"most_contacts": 1}]:
+        first = lodestone.find_collisions(a, b, tolerance=0.3, **options)
+        assert len(first.faces) == 1 and first.intersects.all()
+
+
+@pytest.mark.parametrize("options, text", [
+    ({"strategy": "voronoy"}, "voronoy"),
+    ({"lbg_epsilon": -1.0}, "epsilon"),
+    ({"throw_if_broken": True}, "throw_if_broken is for the mode certified"),
+])
+def test_options_are_checked_where_nothing_needs_them(options, text):
+    for ask in [lambda: lodestone.find_collisions(cube(), cube().moved(1), **options),
+                lambda: lodestone.self_collisions(cube(), **options), lambda: lodestone.Detector(**options)]:
+        with pytest.raises(lodestone.BadArgument, match=text):
+            ask()
+
+
+def test_masked_arrays_are_refused():
+    masked = np.ma.masked_array(cube().vertices, mask=cube().vertices > 0)
+    with pytest.raises(TypeError, match="masked"):
+        lodestone.self_collisions((masked, cube().faces))
+
+
 def test_closest_within_contains():
     assert lodestone.closest(cube(), cube().moved(3))["distance"] == 2
     assert lodestone.within(cube(), cube().moved(3), 2.5) and not lodestone.within(cube(), cube().moved(3), 2)
