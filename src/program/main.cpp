@@ -129,9 +129,7 @@ void add_threads(CLI::App& app, std::size_t& threads, const char* of) {
   app.add_option("--threads", threads, of)->check(CLI::Range(std::size_t{0}, std::size_t{1024}))->capture_default_str();
 }
 
-void add_detect(CLI::App& program, Detect_command& command, std::string& format) {
-  auto& app = *program.add_subcommand("detect", "Find collisions between meshes, or through all frames of a scene");
-  auto& options = command.options;
+void add_inputs(CLI::App& app, Detect_command& command) {
   app.add_option(
          "INPUT", command.inputs,
          "A scene (.json), or two or more meshes or animations (.off .obj .ply .stl .gltf .glb .md2 .md3, a "
@@ -143,6 +141,9 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
                "Each part that a file names is an object of its own: an object of an OBJ file, a node of a glTF file");
   app.add_flag("--components", command.components,
                "Each connected component of a mesh is an object of its own, NAME_1, NAME_2 and so on");
+}
+
+void add_mode(CLI::App& app, Detector_options& options) {
   app.add_option("--mode", options.mode,
                  "exact: every face, misses nothing; certified: the same, reads only what is near; particles: one per "
                  "region, may miss; senin: the predecessor")
@@ -157,6 +158,10 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
                  "and certified: regions at the top of its tree; 0: 12 with a strategy or a setting of it, else none")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
+}
+
+void add_contact_options(CLI::App& app, Detect_command& command) {
+  auto& options = command.options;
   app.add_option("--contacts", options.contacts, "What to report of a colliding pair: yes_no, first, all")
       ->transform(one_of<Contact_query>(
           {{"yes_no", Contact_query::yes_no}, {"first", Contact_query::first}, {"all", Contact_query::all}}))
@@ -176,6 +181,9 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
                "moves on a straight line");
   app.add_flag("--truth", command.truth,
                "Compare every frame with exhaustive exact checking, for pairs of two objects; not for self-collisions");
+}
+
+void add_particle_options(CLI::App& app, Detector_options& options) {
   app.add_option(
          "--meetings", options.meetings,
          "Mode particles: maximum number of particle pairs per object pair that walk towards each other; 0: the "
@@ -209,9 +217,9 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
       "--open-seams", [&options] { options.close_seams = false; },
       "Mode particles or senin: do not join the border vertices that lie on each other in the first frame; particles "
       "then stop at seams");
-  add_exact_options(app, options.exact);
-  add_threads(app, options.exact.threads, "Maximum number of threads; 0: all of the machine");
-  add_strategy_options(app, command.partition, "Seed, for random strategies and --mode senin");
+}
+
+void add_outputs(CLI::App& app, Detect_command& command) {
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")
       ->check(not_empty());
@@ -229,6 +237,18 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   auto* const json = app.add_flag("--json", command.json, "Print the summary as JSON in place of the table");
   app.add_flag("--quiet", command.quiet, "No progress bar, one line in place of the table")->excludes(json);
   app.add_flag("--exit-code", command.exit_code, "Exit with 1 if anything collides, is near or meets");
+}
+
+void add_detect(CLI::App& program, Detect_command& command, std::string& format) {
+  auto& app = *program.add_subcommand("detect", "Find collisions between meshes, or through all frames of a scene");
+  add_inputs(app, command);
+  add_mode(app, command.options);
+  add_contact_options(app, command);
+  add_particle_options(app, command.options);
+  add_exact_options(app, command.options.exact);
+  add_threads(app, command.options.exact.threads, "Maximum number of threads; 0: all of the machine");
+  add_strategy_options(app, command.partition, "Seed, for random strategies and --mode senin");
+  add_outputs(app, command);
   add_reading(app, command.reading);
   add_format(app, format);
   app.footer(strategy_list() + "\n\n" + exit_code::help);
