@@ -45,8 +45,11 @@ const own_plot = {
 
 export const particles_note = 'Mode particles may miss collisions: it missed some.';
 
+/** Of the pairs of a crowd, which all have the same names, every fifth collides where the knot and the sphere do. */
+export const crowd_pairs = 45;
+
 /**
- * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact'} kind
+ * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact' | 'crowd'} kind
  * @returns {{bytes: Buffer, lines: string[], log: object[]}} the container, its lines of frames.jsonl, and the
  * synthetic data
  */
@@ -63,6 +66,7 @@ export function make_container(kind) {
   const still = kind === 'partition';
   const shown = still ? objects.slice(0, 1) : objects;
   const exact = kind === 'exact';
+  const crowd = kind === 'crowd';
   const header = {
     ...empty,
     kind: still ? 'partition' : 'detect',
@@ -72,7 +76,7 @@ export function make_container(kind) {
     frames,
     objects: shown.map((object, i) => add_object(writer, object, i, exact)),
   };
-  const lines = log.map((entry, f) => JSON.stringify(line_of(entry, f, exact)));
+  const lines = log.map((entry, f) => JSON.stringify(crowd ? in_crowd(line_of(entry, f, exact)) : line_of(entry, f, exact)));
   if (!still) {
     header.numbers = writer.add('numbers', `${lines.join('\n')}\n`);
     header.stages = writer.add('stages', log.map(stage_of));
@@ -106,6 +110,11 @@ function line_of({ moves, iterations, candidates, contacts, positive, found }, f
     ? { leaf_tests: candidates.length, ...counts, rebuilds: 0 }
     : { iterations, moves, relaxed: iterations < 3, candidates: candidates.length, ...counts, repartitions: 0 };
   return { frame, pairs: [{ a: 'knot', b: 'sphere', collides: found, faces, truth: positive }], statistics };
+}
+
+function in_crowd({ pairs: [pair], ...line }) {
+  const apart = { a: 'body', b: 'body', collides: false, faces: [], truth: false };
+  return { ...line, pairs: Array.from({ length: crowd_pairs }, (_, i) => (i % 5 === 4 ? { ...pair, a: 'body', b: 'body' } : apart)) };
 }
 
 /** Times are synthetic, and the same in each run. */

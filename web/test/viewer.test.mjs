@@ -8,7 +8,7 @@ import { after, afterEach, before, describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { start_browser } from '../src/browser.mjs';
 import { viewer_template } from '../src/viewer_template.mjs';
-import { make_container, particles_note } from './make_page.mjs';
+import { crowd_pairs, make_container, particles_note } from './make_page.mjs';
 import { fill } from './write_container.mjs';
 
 const laptop = { viewport: { width: 1280, height: 800 } };
@@ -152,6 +152,15 @@ describe('the viewer', () => {
       await page.evaluate((n) => window.lodestone.goto(n), container(kind).log.findIndex(({ positive }) => !positive));
       assert.equal(await page.textContent('#pairs .state'), words);
     }
+  });
+
+  test('pairs of objects that have the same names are all listed, those found first', async () => {
+    const { log } = container('crowd');
+    const page = await open_kind('crowd');
+    await page.evaluate((n) => window.lodestone.goto(n), busy_frame(log));
+    assert.deepEqual(await page.locator('#pairs .name').allTextContents(), new Array(crowd_pairs).fill('body – body'));
+    const states = await page.locator('#pairs .state').allTextContents();
+    assert.deepEqual(states.map((state) => /^collide, \d+ face pairs$/.test(state)), states.map((_, i) => i < crowd_pairs / 5));
   });
 
   test('every layer and every object can be hidden and changed, by click and by hook', async () => {

@@ -48,7 +48,7 @@ class Rows {
 export function make_numbers(page) {
   const statistics = new Rows(by_id('statistics'), figure_row);
   const misses_nothing = ['exact', 'certified'].includes(page.header.mode);
-  const pairs = new Rows(by_id('pairs'), (name) => pair_row(name, misses_nothing ? 'apart' : 'apart or not found'));
+  const pairs = new Rows(by_id('pairs'), () => pair_row(misses_nothing ? 'apart' : 'apart or not found'));
   // Building, which is in the first frame alone, would make all other bars short.
   const every_frame = ({ microseconds: { build, ...others } }) => Object.values(others);
   const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(every_frame));
@@ -62,7 +62,7 @@ export function make_numbers(page) {
     if (line?.pairs) {
       const colliding = line.pairs.filter(({ collides }) => collides).length;
       statistics.show({ ...line.statistics, 'colliding pairs': colliding, ...(stage ? { 'nearest distance': stage.nearest } : {}) });
-      pairs.show(Object.fromEntries(found_first(line.pairs).map((pair) => [`${pair.a} – ${pair.b}`, pair])));
+      pairs.show({ ...found_first(line.pairs) });  // By their places, since objects can have the same name.
     }
     if (stage) {
       const sum = Object.values(stage.microseconds).reduce((a, b) => a + b, 0);
@@ -90,16 +90,18 @@ function figure_row(key) {
   return { nodes: [element('div', {}, element('dt', { textContent: names[key] ?? words_of(key) }), value)], set };
 }
 
-/** @param {string} name @param {string} otherwise what to say of a pair of which the frame found nothing */
-function pair_row(name, otherwise) {
+/** @param {string} otherwise  what to say of a pair of which the frame found nothing */
+function pair_row(otherwise) {
+  const name = element('span', { className: 'name' });
   const state = element('span', { className: 'state' });
   const set = (pair) => {
+    set_text(name, `${pair.a} – ${pair.b}`);
     const missed = pair.truth && !pair.collides;
     const faces = pair.faces ? `, ${pair.faces.length}${pair.capped ? ' or more' : ''} face ${pair.faces.length === 1 ? 'pair' : 'pairs'}` : '';
     set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.near ? `near${faces}` : pair.inside ? `${pair.inside} inside` : otherwise);
     state.className = `state ${pair.collides ? 'confirmed' : missed ? 'missed' : ''}`;
   };
-  return { nodes: [element('li', {}, element('span', { className: 'name', textContent: name }), state)], set };
+  return { nodes: [element('li', {}, name, state)], set };
 }
 
 /** A bar with a square-root scale, since stages differ by a factor of a thousand. */
