@@ -168,13 +168,14 @@ describe('the viewer', () => {
     const page = await open_kind('small');
     await goto_frame(page, busy_frame(log));
     const keys = await page.evaluate('Object.keys(lodestone.layers)');
-    assert.deepEqual(keys, ['surfaces', 'regions', 'wireframe', 'particles', 'trails', 'candidates', 'segments', 'faces']);
+    assert.deepEqual(keys, ['surfaces', 'regions', 'wireframe', 'particles', 'trails', 'candidates', 'segments', 'faces', 'near']);
     for (const key of keys) {
       // The inside is visible through the knot, and candidate pairs are shown only by their lines.
       if (key === 'candidates') {
         await changes_picture(page, () => page.check('#object-0-translucent'), 'translucent');
         await page.evaluate(() => (window.lodestone.layers.regions = window.lodestone.layers.particles = false));
       }
+      if (key === 'near') continue;  // This page has no such faces.
       const on = await page.isChecked(`#layer-${key}`);
       await changes_picture(page, () => page.setChecked(`#layer-${key}`, !on), key);
       assert.equal(await page.evaluate((name) => window.lodestone.layers[name], key), !on);
@@ -183,6 +184,37 @@ describe('the viewer', () => {
     }
     await changes_picture(page, () => page.uncheck('#object-1-visible'), 'visible');
     assert.ok(await page.isDisabled('#object-1-translucent'));
+  });
+
+  test('faces that are only near have a layer of their own, and frames without collision say so', async () => {
+    const { lines, log } = container('near');
+    const page = await open_kind('near');
+    const only_near = log.findIndex(({ positive, near }) => near && !positive);
+    await goto_frame(page, only_near);
+    assert.equal(await page.textContent('#outcome'), 'Near, no collision');
+    assert.equal(await page.textContent('#pairs .state'), `near, ${log[only_near].contacts.length} face pairs`);
+    assert.match(await page.getAttribute('#timeline', 'aria-valuetext'), /, near, no collision$/);
+    await changes_picture(page, () => page.uncheck('#layer-near'), 'near faces');
+    await page.check('#layer-near');
+    await keep_picture(page);
+    await page.uncheck('#layer-faces');
+    await page.uncheck('#layer-segments');
+    assert.equal(await changed_pixels(page), 0, 'nothing intersects in this frame');
+
+    const colliding = log.findIndex(({ positive, contacts }) => positive && contacts.some(({ length }) => length > 10));
+    const { intersects } = JSON.parse(lines[colliding]).pairs[0];
+    const crossing = intersects.filter(Boolean).length;
+    await goto_frame(page, colliding);
+    assert.equal(await page.textContent('#pairs .state'), `collide, ${crossing} face pairs, ${intersects.length - crossing} near`);
+    for (const layer of ['faces', 'segments', 'near']) {
+      const on = await page.isChecked(`#layer-${layer}`);
+      await changes_picture(page, () => page.setChecked(`#layer-${layer}`, !on), layer);
+    }
+    await page.click('.legend.near');
+    assert.equal(await frame_of(page), log.findIndex(({ positive, near }, f) => f > colliding && near && !positive));
+    assert.match(await page.textContent('.legend.near'), new RegExp(`^${log.filter(({ positive, near }) => near && !positive).length} only near`));
+    assert.ok((await page.locator('.detail rect.near').count()) > 0);
+    assert.equal(await (await open_kind('small')).locator('.legend.near').count(), 0);
   });
 
   test('each key does what the list says', async () => {
@@ -204,6 +236,7 @@ describe('the viewer', () => {
     await press('l');
     assert.equal(await page.getAttribute('#loop', 'aria-pressed'), 'false');
     for (const [i, key] of (await page.evaluate('Object.keys(lodestone.layers)')).entries()) {
+      if (key === 'near') continue;  // This page has no such faces.
       const on = await page.isChecked(`#layer-${key}`);
       await press(String(i + 1));
       assert.equal(await page.isChecked(`#layer-${key}`), !on, key);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The layers that can be shown and hidden, and which of them a page has.
+import { has_ends, is_apart } from './contacts.mjs';
 
 /**
  * @typedef {object} Layer
@@ -18,8 +19,9 @@ export const layers = [
   { key: 'particles', name: 'Particles', about: 'one per region', on: true, exists: has_particles },
   { key: 'trails', name: 'Trails', about: 'where they walked', on: true, exists: (page) => has_particles(page) && page.header.frames > 1 },
   { key: 'candidates', name: 'Candidate pairs', about: 'regions to check', on: true, exists: (page) => has_any(page.candidates) },
-  { key: 'segments', name: 'Contact segments', about: 'where they cross', on: true, exists: (page) => has_any(page.contacts, (c) => c.length >= 10) },
-  { key: 'faces', name: 'Intersecting faces', about: 'found exactly', on: true, exists: (page) => has_any(page.contacts) },
+  { key: 'segments', name: 'Contact segments', about: 'where they cross', on: true, exists: (page) => has_any(page.contacts, (c) => has_ends(c) && !is_apart(c)) },
+  { key: 'faces', name: 'Intersecting faces', about: 'found exactly', on: true, exists: (page) => has_any(page.contacts, (c) => !is_apart(c)) },
+  { key: 'near', name: 'Near faces', about: 'within the tolerance', on: true, exists: (page) => has_any(page.contacts, is_apart) },
 ];
 
 function has_regions(page) {

@@ -90,6 +90,17 @@ function figure_row(key) {
   return { nodes: [element('div', {}, element('dt', { textContent: names[key] ?? words_of(key) }), value)], set };
 }
 
+/** How many pairs of faces are contacts: those that intersect, and apart from them those that are only near. */
+function faces_text({ faces, intersects, collides, capped }) {
+  if (!faces) return '';
+  const or_more = capped ? ' or more' : '';
+  const pairs_of = (count) => `, ${count}${or_more} face ${count === 1 ? 'pair' : 'pairs'}`;
+  if (!collides || !intersects) return pairs_of(faces.length);
+  const crossing = intersects.filter(Boolean).length;
+  const apart = faces.length - crossing;
+  return `${pairs_of(crossing)}${apart > 0 ? `, ${apart}${or_more} near` : ''}`;
+}
+
 /** @param {string} otherwise  what to say of a pair of which the frame found nothing */
 function pair_row(otherwise) {
   const name = element('span', { className: 'name' });
@@ -97,9 +108,9 @@ function pair_row(otherwise) {
   const set = (pair) => {
     set_text(name, `${pair.a} – ${pair.b}`);
     const missed = pair.truth && !pair.collides;
-    const faces = pair.faces ? `, ${pair.faces.length}${pair.capped ? ' or more' : ''} face ${pair.faces.length === 1 ? 'pair' : 'pairs'}` : '';
+    const faces = faces_text(pair);
     set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.near ? `near${faces}` : pair.inside ? `${pair.inside} inside` : otherwise);
-    state.className = `state ${pair.collides ? 'confirmed' : missed ? 'missed' : ''}`;
+    state.className = `state ${pair.collides ? 'confirmed' : missed ? 'missed' : pair.near ? 'near' : ''}`;
   };
   return { nodes: [element('li', {}, name, state)], set };
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The outcome of each frame: whether surfaces met, and whether that was found.
+// The outcome of each frame: whether surfaces met, whether that was found, and else whether they were near.
 
-/** @typedef {'none' | 'confirmed' | 'missed'} Outcome */
+/** @typedef {'none' | 'near' | 'confirmed' | 'missed'} Outcome */
 
-export const outcome_words = { none: 'No collision', confirmed: 'Collision, confirmed', missed: 'Collision, missed' };
+export const outcome_words = { none: 'No collision', near: 'Near, no collision', confirmed: 'Collision, confirmed', missed: 'Collision, missed' };
 
 /** @param {import('./container.mjs').Stage_record} stage @returns {Outcome} */
-export function outcome_of({ positive, found }) {
+export function outcome_of({ positive, found, near }) {
   if (found) return 'confirmed';
-  return positive ? 'missed' : 'none';
+  if (positive) return 'missed';
+  return near ? 'near' : 'none';
 }
 
 /**
@@ -26,6 +27,9 @@ export function runs(frames, is) {
   }
   return found;
 }
+
+/** Whether the run had a tolerance, so that its frames say whether objects are near. */
+export const has_tolerance = ({ stages }) => Boolean(stages?.some(({ near }) => typeof near === 'boolean'));
 
 /** Frames of the page at which an object gets new regions. Labels that are states change all the time. */
 export function repartitions(page) {

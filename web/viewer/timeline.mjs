@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bar of all frames and, below it, the selected window, with a lane for each kind of mark.
 import { element, svg_element } from './dom.mjs';
-import { outcome_of, outcome_words, repartitions, runs } from './outcome.mjs';
+import { has_tolerance, outcome_of, outcome_words, repartitions, runs } from './outcome.mjs';
 
 const least_frames = 12;  // in the window
 const lane_height = 10;
@@ -22,7 +22,7 @@ export class Timeline {
     this.heads = [0, 1].map(() => element('div', { className: 'head' }));
     this.bracket = element('div', { className: 'bracket' });
     this.ticks = element('div', { className: 'ticks' });
-    const outcomes = lanes.filter(({ kind }) => kind === 'confirmed' || kind === 'missed');
+    const outcomes = lanes.filter(({ kind }) => ['confirmed', 'missed', 'near'].includes(kind));
     const overview = bars(player.frames, outcomes.map((lane) => ({ ...lane, top: 0 })), lane_height);
     const distance = lane_height + 2;
     this.detail = bars(player.frames, lanes.map((lane, i) => ({ ...lane, top: 2 + i * distance })), 2 + lanes.length * distance);
@@ -153,9 +153,10 @@ function lanes_of(page) {
     { kind: 'positive', runs: runs(header.frames, (frame) => stages?.[frame].positive) },
     { kind: 'confirmed', runs: runs(header.frames, is('confirmed')) },
     { kind: 'missed', runs: runs(header.frames, is('missed')) },
-    { kind: 'anew', runs: [...anew].map((frame) => [frame, 1]) },
   ];
-  return anew.size > 0 ? lanes : lanes.slice(0, 3);
+  if (has_tolerance(page)) lanes.push({ kind: 'near', runs: runs(header.frames, is('near')) });
+  if (anew.size > 0) lanes.push({ kind: 'anew', runs: [...anew].map((frame) => [frame, 1]) });
+  return lanes;
 }
 
 /** A picture as wide as the number of frames, stretched to its container. */

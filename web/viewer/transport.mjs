@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The playback buttons, and the legend of the timeline, whose entries go to the next such frame.
 import { by_id, element, icon } from './dom.mjs';
-import { outcome_of, outcome_words, repartitions } from './outcome.mjs';
+import { has_tolerance, outcome_of, outcome_words, repartitions } from './outcome.mjs';
 import { speeds } from './player.mjs';
 
 /**
@@ -65,6 +65,7 @@ function make_legend(page, player) {
     kinds.push(['confirmed', 'confirmed', (frame) => outcome_of(stages[frame]) === 'confirmed']);
     kinds.push(['missed', 'missed', (frame) => outcome_of(stages[frame]) === 'missed']);
   }
+  if (has_tolerance(page)) kinds.push(['near', 'only near', (frame) => outcome_of(stages[frame]) === 'near']);
   if (anew.size > 0) kinds.push(['anew', anew.size === 1 ? 'repartition' : 'repartitions', (frame) => anew.has(frame)]);
   for (const [kind, name, is] of kinds) {
     const count = Array.from({ length: player.frames }, (_, frame) => frame).filter(is).length;
