@@ -360,6 +360,8 @@ describe('the viewer', () => {
     assert.ok(!(await exact.isVisible('#note')));
     assert.deepEqual(await layers_of(exact), ['surfaces', 'wireframe', 'faces']);
     assert.ok(await exact.isVisible('#number-leaf_tests'));
+    await exact.evaluate('lodestone.plots_ready');
+    assert.deepEqual(await exact.locator('#frame-plots .plot').evaluateAll((plots) => plots.map(({ id }) => id)), ['plot-time', 'plot-distance']);
     const report = await open_kind('experiment');
     await report.evaluate('lodestone.plots_ready');
     assert.ok(!(await report.isVisible('#viewer')));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The figures of the frame: its line of frames.jsonl, and the time of each stage.
 import { by_id, element, number_text } from './dom.mjs';
+import { misses_nothing } from './outcome.mjs';
 import { set_text } from './panel.mjs';
 
 const names = {
@@ -47,8 +48,7 @@ class Rows {
 /** @param {import('./container.mjs').Page} page @returns {(frame: number) => void} shows those of a frame */
 export function make_numbers(page) {
   const statistics = new Rows(by_id('statistics'), figure_row);
-  const misses_nothing = ['exact', 'certified'].includes(page.header.mode);
-  const pairs = new Rows(by_id('pairs'), () => pair_row(misses_nothing ? 'apart' : 'apart or not found'));
+  const pairs = new Rows(by_id('pairs'), () => pair_row(misses_nothing(page) ? 'apart' : 'apart or not found'));
   // Building, which is in the first frame alone, would make all other bars short.
   const every_frame = ({ microseconds: { build, ...others } }) => Object.values(others);
   const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(every_frame));

@@ -28,6 +28,9 @@ export function runs(frames, is) {
   return found;
 }
 
+/** Whether the run finds every collision, so that only a mode that may miss some has a recall to show. */
+export const misses_nothing = ({ header }) => ['exact', 'certified'].includes(header.mode);
+
 /** Whether the run had a tolerance, so that its frames say whether objects are near. */
 export const has_tolerance = ({ stages }) => Boolean(stages?.some(({ near }) => typeof near === 'boolean'));
 
