@@ -260,6 +260,20 @@ describe('the viewer', () => {
     assert.equal(await page.getAttribute('#play', 'aria-label'), 'Play');
   });
 
+  test('the keys that are listed are those of the page', async () => {
+    const listed = async (kind) => {
+      const page = await open_kind(kind);
+      const hint = await page.locator('#layer-keys').textContent();
+      await page.keyboard.press('?');
+      const [keys, names] = await Promise.all(['dt', 'dd'].map((tag) => page.locator(`#keys ${tag}`).allTextContents()));
+      const row = names.findIndex((name) => name.startsWith('layers: '));
+      return { hint, keys: keys[row], names: names[row], plays: names.includes('play or pause') };
+    };
+    assert.deepEqual(await listed('exact'), { hint: '138', keys: '138', names: 'layers: surfaces, wireframe, intersecting faces', plays: true });
+    const partition = await listed('partition');
+    assert.deepEqual([partition.keys, partition.plays], ['1…4', false]);
+  });
+
   test('it plays to the end and stops there, or goes on in a loop; the camera turns by mouse', async () => {
     const page = await open_kind('small');
     assert.equal(await page.evaluate('lodestone.player.playing'), false);
