@@ -214,6 +214,7 @@ describe('the viewer', () => {
     assert.equal(await frame_of(page), log.findIndex(({ positive, near }, f) => f > colliding && near && !positive));
     assert.match(await page.textContent('.legend.near'), new RegExp(`^${log.filter(({ positive, near }) => near && !positive).length} only near`));
     assert.ok((await page.locator('.detail rect.near').count()) > 0);
+    assert.deepEqual(await page.locator('.lane-names.of-detail span').allTextContents(), ['colliding', 'confirmed', 'missed', 'only near']);
     assert.equal(await (await open_kind('small')).locator('.legend.near').count(), 0);
   });
 
