@@ -160,6 +160,15 @@ describe('the viewer', () => {
     await page.evaluate((n) => window.lodestone.goto(n), busy_frame(log));
     assert.deepEqual(await page.locator('#pairs .name').allTextContents(), new Array(crowd_pairs).fill('body – body'));
     const states = await page.locator('#pairs .state').allTextContents();
+    assert.equal(await page.textContent('#pair-count'), `${crowd_pairs} pairs of objects; scroll for more`);
+    const fades = (expected) => page.waitForFunction((is) => document.getElementById('pairs').matches('.more') === is, expected);
+    await fades(true);
+    await page.focus('#pairs');
+    await page.keyboard.press('PageDown');
+    await page.waitForFunction(() => document.getElementById('pairs').scrollTop > 0);
+    await page.evaluate(() => (document.getElementById('pairs').scrollTop = 1e6));
+    await fades(false);
+    assert.ok(!(await (await open_kind('small')).isVisible('#pair-count')));
     assert.deepEqual(states.map((state) => /^collide, \d+ face pairs$/.test(state)), states.map((_, i) => i < crowd_pairs / 5));
   });
 

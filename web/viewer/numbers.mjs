@@ -54,6 +54,7 @@ export function make_numbers(page) {
   const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(every_frame));
   const used = Object.keys(stage_names).filter((key) => page.stages?.some(({ microseconds }) => microseconds[key] > 0));
   const stages = new Rows(by_id('stage-times'), (key) => stage_row(key, most));
+  const show_count = make_pair_list();
   return (frame) => {
     const line = line_of(page, frame);
     const stage = page.stages?.[frame];
@@ -63,6 +64,7 @@ export function make_numbers(page) {
       const colliding = line.pairs.filter(({ collides }) => collides).length;
       statistics.show({ ...line.statistics, 'colliding pairs': colliding, ...(stage ? { 'nearest distance': stage.nearest } : {}) });
       pairs.show({ ...found_first(line.pairs) });  // By their places, since objects can have the same name.
+      show_count(line.pairs.length);
     }
     if (stage) {
       const sum = Object.values(stage.microseconds).reduce((a, b) => a + b, 0);
@@ -71,9 +73,24 @@ export function make_numbers(page) {
   };
 }
 
+const in_view = 6;  // pairs that the list shows at once
+
+/** Says how many pairs there are where the list scrolls, and fades its last rows while there are more below. */
+function make_pair_list() {
+  const [list, text] = [by_id('pairs'), by_id('pair-count')];
+  const fade = () => list.classList.toggle('more', list.scrollHeight - list.scrollTop - list.clientHeight > 2);
+  list.addEventListener('scroll', fade);
+  return (count) => {
+    const scrolls = count > in_view;
+    text.hidden = !scrolls;
+    set_text(text, scrolls ? `${number_text(count)} pairs of objects; scroll for more` : '');
+    list.tabIndex = scrolls ? 0 : -1;
+    fade();
+  };
+}
+
 /** Pairs of which something was found, or missed, before all others, where the list does not show all at once. */
 function found_first(pairs) {
-  const in_view = 6;
   if (pairs.length <= in_view) return pairs;
   const is_found = (pair) => Boolean(pair.collides || pair.truth || pair.near || pair.inside);
   return [...pairs.filter(is_found), ...pairs.filter((pair) => !is_found(pair))];
