@@ -72,6 +72,7 @@ try {
   await ask(['teapot.obj', 'ball.stl']);
   const viewer = page.frameLocator('#viewer');
   await viewer.locator('#title').filter({ hasText: 'teapot.obj and ball.stl' }).waitFor({ timeout: 30_000 });
+  assert.ok(!(await viewer.locator('#numbers').isVisible()), 'the page has no numbers');
   await page.waitForTimeout(1500);
   await page.screenshot({ path: in_folder('page.png') });
   await page.setViewportSize({ width: 390, height: 844 });

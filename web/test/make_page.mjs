@@ -83,6 +83,7 @@ export function make_container(kind) {
     objects: shown.map((object, i) => add_object(writer, object, i, exact)),
   };
   const lines = log.map((entry, f) => JSON.stringify(crowd ? in_crowd(line_of(entry, f, exact)) : line_of(entry, f, exact)));
+  if (still) header.numbers = writer.add('numbers', `${JSON.stringify(partition_line(shown[0]))}\n`);
   if (!still) {
     header.numbers = writer.add('numbers', `${lines.join('\n')}\n`);
     header.stages = writer.add('stages', log.map(stage_of));
@@ -124,6 +125,9 @@ function in_crowd({ pairs: [pair], ...line }) {
   const apart = { a: 'body', b: 'body', collides: false, faces: [], truth: false };
   return { ...line, pairs: Array.from({ length: crowd_pairs }, (_, i) => (i % 5 === 4 ? { ...pair, a: 'body', b: 'body' } : apart)) };
 }
+
+/** In the format of src/program/partition_command.cpp. */
+const partition_line = ({ regions, corners }) => ({ mesh: 'knot.off', strategy: 'lbg', triangles: corners.length / 3, regions, measures: { size_balance: 1.5 } });
 
 /** Times are synthetic, and the same in each run. */
 function stage_of({ candidates, iterations, positive, found, near = null, nearest }, frame) {

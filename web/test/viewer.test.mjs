@@ -376,12 +376,16 @@ describe('the viewer', () => {
 
   test('a partition stands still, mode exact has no regions, and an experiment is a report with plots', async () => {
     const still = await open_kind('partition');
-    assert.ok(!(await still.isVisible('#time')) && !(await still.isVisible('#numbers')) && (await still.isVisible('#canvas')));
+    assert.ok(!(await still.isVisible('#time')) && (await still.isVisible('#canvas')));
     const layers_of = (page) => page.locator('#layers input').evaluateAll((boxes) => boxes.map(({ id }) => id.replace('layer-', '')));
     assert.deepEqual(await layers_of(still), ['surfaces', 'regions', 'wireframe', 'particles']);
     assert.match(await still.textContent('#objects'), /32 regions/);
+    assert.equal(await still.textContent('#numbers-title'), 'This partition');
+    assert.equal(await still.textContent('#number-size_balance'), '1.5');
+    assert.ok(!(await still.isVisible('#pairs')));
     const exact = await open_kind('exact');
     assert.ok(!(await exact.isVisible('#note')));
+    assert.equal(await exact.textContent('#numbers-title'), 'This frame');
     assert.deepEqual(await layers_of(exact), ['surfaces', 'wireframe', 'faces']);
     assert.ok(await exact.isVisible('#number-leaf_tests'));
     await exact.evaluate('lodestone.plots_ready');
