@@ -52,6 +52,15 @@ export const near_tolerance = 0.12;
 /** Of the pairs of a crowd, which all have the same names, every fifth collides where the knot and the sphere do. */
 export const crowd_pairs = 45;
 
+/** Of the kinds whose results differ from those of the run. */
+const logs = {
+  near: (run) => with_near_contacts(run, near_tolerance),
+  crowd: ({ objects, log }) => log.map((entry) => ({ ...entry, candidates: all_region_pairs(objects, entry.nearest) })),
+};
+
+const all_region_pairs = ([first, second], distance) =>
+  Array.from({ length: first.regions * second.regions }, (_, i) => [0, Math.floor(i / second.regions), 1, i % second.regions, distance]);
+
 /**
  * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact' | 'near' | 'crowd'} kind
  * @returns {{bytes: Buffer, lines: string[], log: object[]}} the container, its lines of frames.jsonl, and the
@@ -68,7 +77,7 @@ export function make_container(kind) {
   const { shapes, frames } = sizes[kind] ?? sizes.small;
   const run = example_run(shapes, frames);
   const { objects } = run;
-  const log = kind === 'near' ? with_near_contacts(run, near_tolerance) : run.log;
+  const log = logs[kind]?.(run) ?? run.log;
   const still = kind === 'partition';
   const shown = still ? objects.slice(0, 1) : objects;
   const exact = kind === 'exact' || kind === 'near';

@@ -195,6 +195,17 @@ describe('the viewer', () => {
     assert.ok(await page.isDisabled('#object-1-translucent'));
   });
 
+  test('candidate pairs are hidden at first where a frame has very many of them', async () => {
+    for (const [kind, many] of [['small', false], ['crowd', true]]) {
+      assert.equal(container(kind).log.some(({ candidates }) => candidates.length > 60), many);
+      const page = await open_kind(kind);
+      assert.equal(await page.isChecked('#layer-candidates'), !many);
+      if (!many) continue;
+      await goto_frame(page, busy_frame(container(kind).log));
+      await changes_picture(page, () => page.check('#layer-candidates'), 'candidates');
+    }
+  });
+
   test('faces that are only near have a layer of their own, and frames without collision say so', async () => {
     const { lines, log } = container('near');
     const page = await open_kind('near');

@@ -36,6 +36,12 @@ function has_any(lists, fits = () => true) {
   return Boolean(lists?.some((list) => list.some(fits)));
 }
 
+/** Whether the lines of a frame's candidate pairs would cover the surfaces. */
+function has_many_candidates(page) {
+  const most_shown = 60;
+  return Boolean(page.candidates?.some((list) => list.length > most_shown));
+}
+
 /** The layer of regions shows states where the page has some. */
 function as_states(layer, states) {
   return states && layer.key === 'regions' ? { ...layer, name: 'What was read', about: '' } : layer;
@@ -46,7 +52,7 @@ export class Shown {
   /** @param {import('./container.mjs').Page} page */
   constructor(page) {
     this.available = layers.filter((layer) => layer.exists(page)).map((layer) => as_states(layer, page.header.states));
-    this.layers = Object.fromEntries(layers.map(({ key, on }) => [key, on]));
+    this.layers = Object.fromEntries(layers.map(({ key, on }) => [key, on && !(key === 'candidates' && has_many_candidates(page))]));
     this.objects = page.objects.map(() => ({ visible: true, translucent: false }));
     this.listeners = [];
   }
