@@ -12,6 +12,7 @@ const in_folder = (name) => path.join(folder, name);
 const make = (shape, name) => execFileSync(program, ['convert', `shape:${shape}`, in_folder(name), '--quiet']);
 make('teapot', 'teapot.obj');
 make('{"icosphere": {"frequency": 12}}', 'ball.stl');
+make('{"icosphere": {"frequency": 160}}', 'large.stl');
 fs.writeFileSync(in_folder('far.ply'), `ply
 format ascii 1.0
 element vertex 4
@@ -51,9 +52,10 @@ try {
   const problems = [];
   page.on('pageerror', (error) => problems.push(error.message));
   await page.goto(`file://${page_file}`);
-  const ask = async (names) => {
+  /** @param {...string[]} drops  files that are dropped together; later ones while the page checks those before */
+  const ask = async (...drops) => {
     if (await page.isVisible('#clear')) await page.click('#clear');
-    await page.setInputFiles('#files', names.map(in_folder));
+    for (const names of drops) await page.setInputFiles('#files', names.map(in_folder));
     await page.waitForFunction(() => !['', 'Checking …'].includes(document.getElementById('answer').textContent), null, { timeout: 60_000 });
     return page.textContent('#answer');
   };
@@ -64,10 +66,13 @@ try {
     if (expected > 0) assert.match(answer, new RegExp(`intersects?( itself)?: ${expected} face pairs?,`));
     else assert.match(answer, /(do|does) not intersect/);
   }
+  const both = pairs_by_program(['large.stl', 'teapot.obj']);
+  assert.match(await ask(['large.stl'], ['teapot.obj']), new RegExp(`^They intersect: ${both} face pairs,`));
   assert.equal(await ask(['teapot.obj', 'broken.off']), 'broken.off:6: face refers to vertex 7 of 3 (counted from 0)');
   await ask(['teapot.obj', 'ball.stl']);
   const viewer = page.frameLocator('#viewer');
   await viewer.locator('#title').filter({ hasText: 'teapot.obj and ball.stl' }).waitFor({ timeout: 30_000 });
+  assert.ok(!(await viewer.locator('#numbers').isVisible()), 'the page has no numbers');
   await page.waitForTimeout(1500);
   await page.screenshot({ path: in_folder('page.png') });
   await page.setViewportSize({ width: 390, height: 844 });

@@ -1,42 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs in the page: takes files, asks the library, and shows the answer in the viewer.
+import { Questions, serve } from './worker.mjs';
+
 const by_id = (id) => document.getElementById(id);
 const text_of = (id) => new TextDecoder().decode(Uint8Array.from(atob(by_id(id).textContent.trim()), (c) => c.charCodeAt(0)));
 
-/** What the worker runs, behind the library's own script. */
-function serve() {
-  // eslint-disable-next-line no-undef
-  const ready = lodestone_module();
-  self.onmessage = async ({ data: files }) => {
-    try {
-      const library = await ready;
-      const paths = files.map(({ name, bytes }, i) => {
-        library.FS.mkdirTree(`/${i}`);
-        library.FS.writeFile(`/${i}/${name}`, new Uint8Array(bytes));
-        return `/${i}/${name}`;
-      });
-      const answer = library.check(paths[0], paths[1] ?? '');
-      for (const path of paths) library.FS.unlink(path);
-      self.postMessage(answer);
-    } catch (error) {
-      self.postMessage({ error: `The check failed: ${error.message ?? error}` });
-    }
-  };
-}
-
-let worker = null;
-/** @returns {Promise<any>} what the library says of the files */
-function ask(files) {
-  worker ??= new Worker(URL.createObjectURL(new Blob([text_of('module'), `;(${serve})();`], { type: 'text/javascript' })));
-  return new Promise((resolve) => {
-    worker.onmessage = ({ data }) => resolve(data);
-    worker.onerror = (event) => {
-      worker = null;  // the library may be broken: the next question starts it anew
-      resolve({ error: `The check failed: ${event.message}` });
-    };
-    worker.postMessage(files);
-  });
-}
+const questions = new Questions(() =>
+  new Worker(URL.createObjectURL(new Blob([text_of('module'), `;(${serve})(self, lodestone_module());`], { type: 'text/javascript' }))));
 
 function base64(bytes) {
   let binary = '';
@@ -77,7 +47,7 @@ async function take(list) {
   const question = ++asked;
   const names = chosen.map(({ name }) => name);
   const contents = await Promise.all(chosen.map(async (file) => ({ name: file.name.replaceAll('/', '_'), bytes: await file.arrayBuffer() })));
-  const answer = await ask(contents);
+  const answer = await questions.ask(contents);
   if (question === asked) show(answer, names);
 }
 

@@ -3,6 +3,7 @@
 import fs from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { example_run } from './example_run.mjs';
+import { with_near_contacts } from './near_contacts.mjs';
 import { Container_writer, fill, on_grid, particles_section, positions_section, topology_section, varints } from './write_container.mjs';
 
 const sizes = {
@@ -45,8 +46,23 @@ const own_plot = {
 
 export const particles_note = 'Mode particles may miss collisions: it missed some.';
 
+/** Of the runs of kind `near`. */
+export const near_tolerance = 0.12;
+
+/** Of the pairs of a crowd, which all have the same names, every fifth collides where the knot and the sphere do. */
+export const crowd_pairs = 45;
+
+/** Of the kinds whose results differ from those of the run. */
+const logs = {
+  near: (run) => with_near_contacts(run, near_tolerance),
+  crowd: ({ objects, log }) => log.map((entry) => ({ ...entry, candidates: all_region_pairs(objects, entry.nearest) })),
+};
+
+const all_region_pairs = ([first, second], distance) =>
+  Array.from({ length: first.regions * second.regions }, (_, i) => [0, Math.floor(i / second.regions), 1, i % second.regions, distance]);
+
 /**
- * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact'} kind
+ * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact' | 'near' | 'crowd'} kind
  * @returns {{bytes: Buffer, lines: string[], log: object[]}} the container, its lines of frames.jsonl, and the
  * synthetic data
  */
@@ -59,10 +75,13 @@ export function make_container(kind) {
   };
   if (kind === 'experiment') return { bytes: writer.finish({ ...empty, kind, plots: [own_plot], report }), lines: [], log: [] };
   const { shapes, frames } = sizes[kind] ?? sizes.small;
-  const { objects, log } = example_run(shapes, frames);
+  const run = example_run(shapes, frames);
+  const { objects } = run;
+  const log = logs[kind]?.(run) ?? run.log;
   const still = kind === 'partition';
   const shown = still ? objects.slice(0, 1) : objects;
-  const exact = kind === 'exact';
+  const exact = kind === 'exact' || kind === 'near';
+  const crowd = kind === 'crowd';
   const header = {
     ...empty,
     kind: still ? 'partition' : 'detect',
@@ -72,12 +91,13 @@ export function make_container(kind) {
     frames,
     objects: shown.map((object, i) => add_object(writer, object, i, exact)),
   };
-  const lines = log.map((entry, f) => JSON.stringify(line_of(entry, f, exact)));
+  const lines = log.map((entry, f) => JSON.stringify(crowd ? in_crowd(line_of(entry, f, exact)) : line_of(entry, f, exact)));
+  if (still) header.numbers = writer.add('numbers', `${JSON.stringify(partition_line(shown[0]))}\n`);
   if (!still) {
     header.numbers = writer.add('numbers', `${lines.join('\n')}\n`);
     header.stages = writer.add('stages', log.map(stage_of));
     if (!exact) header.candidates = writer.add('candidates', log.map(({ candidates }) => candidates));
-    header.contacts = writer.add('contacts', log.map(({ contacts }) => contacts.map((contact) => (exact ? contact.slice(0, 4) : contact))));
+    header.contacts = writer.add('contacts', log.map(({ contacts }) => contacts.map((contact) => (kind === 'exact' ? contact.slice(0, 4) : contact))));
   }
   return { bytes: writer.finish(header), lines, log };
 }
@@ -99,24 +119,34 @@ function add_object(writer, object, i, exact) {
 }
 
 /** In the format of src/program/frame_log.cpp. */
-function line_of({ moves, iterations, candidates, contacts, positive, found }, frame, exact) {
-  const faces = contacts.map(([, face_a, , face_b]) => [face_a, face_b]).sort((p, q) => p[0] - q[0] || p[1] - q[1]);
+function line_of({ moves, iterations, candidates, contacts, positive, found, near }, frame, exact) {
+  const sorted = [...contacts].sort((p, q) => p[1] - q[1] || p[3] - q[3]);
+  const faces = sorted.map(([, face_a, , face_b]) => [face_a, face_b]);
   const counts = { exact_tests: 4 * candidates.length, contacts: contacts.length, builds: frame === 0 ? 2 : 0 };
   const statistics = exact
     ? { leaf_tests: candidates.length, ...counts, rebuilds: 0 }
     : { iterations, moves, relaxed: iterations < 3, candidates: candidates.length, ...counts, repartitions: 0 };
-  return { frame, pairs: [{ a: 'knot', b: 'sphere', collides: found, faces, truth: positive }], statistics };
+  const within = near === undefined ? {} : { near, intersects: sorted.map(({ length }) => length === 10) };
+  return { frame, pairs: [{ a: 'knot', b: 'sphere', collides: found, faces, ...within, truth: positive }], statistics };
 }
 
+function in_crowd({ pairs: [pair], ...line }) {
+  const apart = { a: 'body', b: 'body', collides: false, faces: [], truth: false };
+  return { ...line, pairs: Array.from({ length: crowd_pairs }, (_, i) => (i % 5 === 4 ? { ...pair, a: 'body', b: 'body' } : apart)) };
+}
+
+/** In the format of src/program/partition_command.cpp. */
+const partition_line = ({ regions, corners }) => ({ mesh: 'knot.off', strategy: 'lbg', triangles: corners.length / 3, regions, measures: { size_balance: 1.5 } });
+
 /** Times are synthetic, and the same in each run. */
-function stage_of({ candidates, iterations, positive, found, nearest }, frame) {
+function stage_of({ candidates, iterations, positive, found, near = null, nearest }, frame) {
   const noise = (i) => 0.8 + 0.4 * ((Math.imul(frame * 8 + i + 1, 2654435761) >>> 8) / 2 ** 24);
   const times = {
     build: frame === 0 ? 5000 : 0, repartition: frame % 60 === 30 ? 900 : 1, refit: 0, broad_phase: 0.2, relaxation: 4 + 3 * iterations, candidates: 0.8,
     confirmation: 2.2 * candidates.length,
   };
   const microseconds = Object.fromEntries(Object.entries(times).map(([name, time], i) => [name, Number((time * noise(i)).toFixed(3))]));
-  return { microseconds, positive, found, nearest };
+  return { microseconds, positive, found, near, nearest };
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

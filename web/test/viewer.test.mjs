@@ -8,7 +8,7 @@ import { after, afterEach, before, describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { start_browser } from '../src/browser.mjs';
 import { viewer_template } from '../src/viewer_template.mjs';
-import { make_container, particles_note } from './make_page.mjs';
+import { crowd_pairs, make_container, particles_note } from './make_page.mjs';
 import { fill } from './write_container.mjs';
 
 const laptop = { viewport: { width: 1280, height: 800 } };
@@ -154,18 +154,37 @@ describe('the viewer', () => {
     }
   });
 
+  test('pairs of objects that have the same names are all listed, those found first', async () => {
+    const { log } = container('crowd');
+    const page = await open_kind('crowd');
+    await page.evaluate((n) => window.lodestone.goto(n), busy_frame(log));
+    assert.deepEqual(await page.locator('#pairs .name').allTextContents(), new Array(crowd_pairs).fill('body – body'));
+    const states = await page.locator('#pairs .state').allTextContents();
+    assert.equal(await page.textContent('#pair-count'), `${crowd_pairs} pairs of objects; scroll for more`);
+    const fades = (expected) => page.waitForFunction((is) => document.getElementById('pairs').matches('.more') === is, expected);
+    await fades(true);
+    await page.focus('#pairs');
+    await page.keyboard.press('PageDown');
+    await page.waitForFunction(() => document.getElementById('pairs').scrollTop > 0);
+    await page.evaluate(() => (document.getElementById('pairs').scrollTop = 1e6));
+    await fades(false);
+    assert.ok(!(await (await open_kind('small')).isVisible('#pair-count')));
+    assert.deepEqual(states.map((state) => /^collide, \d+ face pairs$/.test(state)), states.map((_, i) => i < crowd_pairs / 5));
+  });
+
   test('every layer and every object can be hidden and changed, by click and by hook', async () => {
     const { log } = container('small');
     const page = await open_kind('small');
     await goto_frame(page, busy_frame(log));
     const keys = await page.evaluate('Object.keys(lodestone.layers)');
-    assert.deepEqual(keys, ['surfaces', 'regions', 'wireframe', 'particles', 'trails', 'candidates', 'segments', 'faces']);
+    assert.deepEqual(keys, ['surfaces', 'regions', 'wireframe', 'particles', 'trails', 'candidates', 'segments', 'faces', 'near']);
     for (const key of keys) {
       // The inside is visible through the knot, and candidate pairs are shown only by their lines.
       if (key === 'candidates') {
         await changes_picture(page, () => page.check('#object-0-translucent'), 'translucent');
         await page.evaluate(() => (window.lodestone.layers.regions = window.lodestone.layers.particles = false));
       }
+      if (key === 'near') continue;  // This page has no such faces.
       const on = await page.isChecked(`#layer-${key}`);
       await changes_picture(page, () => page.setChecked(`#layer-${key}`, !on), key);
       assert.equal(await page.evaluate((name) => window.lodestone.layers[name], key), !on);
@@ -174,6 +193,49 @@ describe('the viewer', () => {
     }
     await changes_picture(page, () => page.uncheck('#object-1-visible'), 'visible');
     assert.ok(await page.isDisabled('#object-1-translucent'));
+  });
+
+  test('candidate pairs are hidden at first where a frame has very many of them', async () => {
+    for (const [kind, many] of [['small', false], ['crowd', true]]) {
+      assert.equal(container(kind).log.some(({ candidates }) => candidates.length > 60), many);
+      const page = await open_kind(kind);
+      assert.equal(await page.isChecked('#layer-candidates'), !many);
+      if (!many) continue;
+      await goto_frame(page, busy_frame(container(kind).log));
+      await changes_picture(page, () => page.check('#layer-candidates'), 'candidates');
+    }
+  });
+
+  test('faces that are only near have a layer of their own, and frames without collision say so', async () => {
+    const { lines, log } = container('near');
+    const page = await open_kind('near');
+    const only_near = log.findIndex(({ positive, near }) => near && !positive);
+    await goto_frame(page, only_near);
+    assert.equal(await page.textContent('#outcome'), 'Near, no collision');
+    assert.equal(await page.textContent('#pairs .state'), `near, ${log[only_near].contacts.length} face pairs`);
+    assert.match(await page.getAttribute('#timeline', 'aria-valuetext'), /, near, no collision$/);
+    await changes_picture(page, () => page.uncheck('#layer-near'), 'near faces');
+    await page.check('#layer-near');
+    await keep_picture(page);
+    await page.uncheck('#layer-faces');
+    await page.uncheck('#layer-segments');
+    assert.equal(await changed_pixels(page), 0, 'nothing intersects in this frame');
+
+    const colliding = log.findIndex(({ positive, contacts }) => positive && contacts.some(({ length }) => length > 10));
+    const { intersects } = JSON.parse(lines[colliding]).pairs[0];
+    const crossing = intersects.filter(Boolean).length;
+    await goto_frame(page, colliding);
+    assert.equal(await page.textContent('#pairs .state'), `collide, ${crossing} face pairs, ${intersects.length - crossing} near`);
+    for (const layer of ['faces', 'segments', 'near']) {
+      const on = await page.isChecked(`#layer-${layer}`);
+      await changes_picture(page, () => page.setChecked(`#layer-${layer}`, !on), layer);
+    }
+    await page.click('.legend.near');
+    assert.equal(await frame_of(page), log.findIndex(({ positive, near }, f) => f > colliding && near && !positive));
+    assert.match(await page.textContent('.legend.near'), new RegExp(`^${log.filter(({ positive, near }) => near && !positive).length} only near`));
+    assert.ok((await page.locator('.detail rect.near').count()) > 0);
+    assert.deepEqual(await page.locator('.lane-names.of-detail span').allTextContents(), ['colliding', 'confirmed', 'missed', 'only near']);
+    assert.equal(await (await open_kind('small')).locator('.legend.near').count(), 0);
   });
 
   test('each key does what the list says', async () => {
@@ -195,6 +257,7 @@ describe('the viewer', () => {
     await press('l');
     assert.equal(await page.getAttribute('#loop', 'aria-pressed'), 'false');
     for (const [i, key] of (await page.evaluate('Object.keys(lodestone.layers)')).entries()) {
+      if (key === 'near') continue;  // This page has no such faces.
       const on = await page.isChecked(`#layer-${key}`);
       await press(String(i + 1));
       assert.equal(await page.isChecked(`#layer-${key}`), !on, key);
@@ -216,6 +279,20 @@ describe('the viewer', () => {
     assert.equal(await page.getAttribute('#play', 'aria-label'), 'Pause');
     await press('Space');
     assert.equal(await page.getAttribute('#play', 'aria-label'), 'Play');
+  });
+
+  test('the keys that are listed are those of the page', async () => {
+    const listed = async (kind) => {
+      const page = await open_kind(kind);
+      const hint = await page.locator('#layer-keys').textContent();
+      await page.keyboard.press('?');
+      const [keys, names] = await Promise.all(['dt', 'dd'].map((tag) => page.locator(`#keys ${tag}`).allTextContents()));
+      const row = names.findIndex((name) => name.startsWith('layers: '));
+      return { hint, keys: keys[row], names: names[row], plays: names.includes('play or pause') };
+    };
+    assert.deepEqual(await listed('exact'), { hint: '138', keys: '138', names: 'layers: surfaces, wireframe, intersecting faces', plays: true });
+    const partition = await listed('partition');
+    assert.deepEqual([partition.keys, partition.plays], ['1…4', false]);
   });
 
   test('it plays to the end and stops there, or goes on in a loop; the camera turns by mouse', async () => {
@@ -310,14 +387,20 @@ describe('the viewer', () => {
 
   test('a partition stands still, mode exact has no regions, and an experiment is a report with plots', async () => {
     const still = await open_kind('partition');
-    assert.ok(!(await still.isVisible('#time')) && !(await still.isVisible('#numbers')) && (await still.isVisible('#canvas')));
+    assert.ok(!(await still.isVisible('#time')) && (await still.isVisible('#canvas')));
     const layers_of = (page) => page.locator('#layers input').evaluateAll((boxes) => boxes.map(({ id }) => id.replace('layer-', '')));
     assert.deepEqual(await layers_of(still), ['surfaces', 'regions', 'wireframe', 'particles']);
     assert.match(await still.textContent('#objects'), /32 regions/);
+    assert.equal(await still.textContent('#numbers-title'), 'This partition');
+    assert.equal(await still.textContent('#number-size_balance'), '1.5');
+    assert.ok(!(await still.isVisible('#pairs')));
     const exact = await open_kind('exact');
     assert.ok(!(await exact.isVisible('#note')));
+    assert.equal(await exact.textContent('#numbers-title'), 'This frame');
     assert.deepEqual(await layers_of(exact), ['surfaces', 'wireframe', 'faces']);
     assert.ok(await exact.isVisible('#number-leaf_tests'));
+    await exact.evaluate('lodestone.plots_ready');
+    assert.deepEqual(await exact.locator('#frame-plots .plot').evaluateAll((plots) => plots.map(({ id }) => id)), ['plot-time', 'plot-distance']);
     const report = await open_kind('experiment');
     await report.evaluate('lodestone.plots_ready');
     assert.ok(!(await report.isVisible('#viewer')));

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { region_colour } from '../viewer/colours.mjs';
+import { faces_in } from '../viewer/contacts.mjs';
 import { Damaged, decode_labels, decode_particles, decode_positions, decode_topology, Varint_reader } from '../viewer/decode.mjs';
 import { fold, sharp, vertex_normals } from '../viewer/normals.mjs';
 import { outcome_of, runs } from '../viewer/outcome.mjs';
@@ -110,10 +111,19 @@ test('only vertices at sharp edges have no normal of their own', () => {
   for (const lowest of [fold(0, 0, -1), fold(-0, -0, -1), fold(1e-9, 1e-9, -1)]) assert.notEqual(lowest, sharp);
 });
 
-test('a frame is confirmed, missed, or without collision, and neighbours form runs', () => {
-  const outcomes = [[true, true], [true, false], [false, false]].map(([positive, found]) => outcome_of({ positive, found }));
-  assert.deepEqual(outcomes, ['confirmed', 'missed', 'none']);
+test('a frame is confirmed, missed, only near, or without collision, and neighbours form runs', () => {
+  const outcomes = [[true, true, true], [true, false, true], [false, false, true], [false, false, false], [false, false, null]]
+    .map(([positive, found, near]) => outcome_of({ positive, found, near }));
+  assert.deepEqual(outcomes, ['confirmed', 'missed', 'near', 'none', 'none']);
   assert.deepEqual(runs(6, (f) => [0, 1, 4].includes(f)), [[0, 2], [4, 1]]);
+});
+
+test('a face that intersects one face and is near another is drawn as intersecting', () => {
+  const ends = [0, 0, 0, 1, 0, 0];
+  const contacts = [[0, 5, 1, 7, ...ends, 1], [0, 5, 1, 8, ...ends], [0, 6, 1, 8, ...ends, 1], [1, 9, 2, 5], [2, 3, 2, 4, ...ends, 1]];
+  const faces = [0, 1, 2].map((object) => faces_in(contacts, object));
+  assert.deepEqual(faces.map(({ intersecting }) => [...intersecting]), [[5], [8, 9], [5]]);
+  assert.deepEqual(faces.map(({ near }) => [...near]), [[6], [7], [3, 4]]);
 });
 
 test('a particle walked along edges, and a repartition ends its way', () => {

@@ -30,11 +30,14 @@ export const object_colour = (object) => object_colours[object % object_colours.
 /** Marks on the surfaces, which can have any colour: a core in one colour, with a rim that separates it from the background. */
 export const marks = {
   particle: { core: [1, 1, 1], rim: [0.07, 0.08, 0.1] },
-  near: [1, 0.82, 0.1],  // a particle or region of a candidate pair
+  paired: [1, 0.82, 0.1],  // a particle or region of a candidate pair
   candidate: { core: [1, 0.82, 0.1], rim: [0.2, 0.14, 0] },
   segment: { core: [1, 1, 1], rim: [0.72, 0, 0.32] },
   trail: { core: [1, 1, 1], rim: [0.07, 0.08, 0.1] },
-  face: [0.86, 0.05, 0.4],
+  // Faces in blue and faces in crimson differ for colour-blind readers too.
+  face: { core: [0.86, 0.05, 0.4], rim: [0.25, 0, 0.12] },
+  near_face: { core: [0, 0.4, 0.9], rim: [0, 0.1, 0.3] },
+  gap: { core: [0.25, 0.6, 1], rim: [0, 0.16, 0.42] },
 };
 
 export const stage_background = { light: '#eceef1', dark: '#101316' };

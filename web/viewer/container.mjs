@@ -26,6 +26,7 @@ const preamble = 16;
  * @property {Record<string, number>} microseconds
  * @property {boolean} positive
  * @property {boolean} found
+ * @property {boolean | null} [near]  null without a tolerance
  * @property {number} nearest
  *
  * @typedef {object} Page

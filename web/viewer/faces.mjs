@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The faces of one object that intersect another: in one colour, with dark edges, faint where a surface hides them.
+// Some faces of one object: in one colour, with dark edges, faint where a surface hides them.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, GLSL3, Group, Mesh, RawShaderMaterial } from 'three';
-import { marks } from './colours.mjs';
 
 const vertex_shader = `
 precision highp float;
@@ -20,7 +19,7 @@ void main() {
 
 const fragment_shader = `
 precision highp float;
-uniform vec3 colour;
+uniform vec3 colour, rim;
 uniform float opacity;
 in vec3 v_corner, v_view;
 out vec4 pixel;
@@ -28,14 +27,18 @@ void main() {
   vec3 away = v_corner / max(fwidth(v_corner), vec3(1e-9));
   float inside = smoothstep(0.6, 1.6, min(away.x, min(away.y, away.z)));
   float light = 0.75 + 0.35 * abs(normalize(cross(dFdx(v_view), dFdy(v_view))).z);
-  pixel = vec4(mix(vec3(0.25, 0.0, 0.12), colour * light, inside), opacity);
+  pixel = vec4(mix(rim, colour * light, inside), opacity);
 }
 `;
 
 export class Faces {
-  /** @param {import('./places.mjs').Places} places  of the object */
-  constructor(places) {
+  /**
+   * @param {import('./places.mjs').Places} places  of the object
+   * @param {{core: number[], rim: number[]}} colours
+   */
+  constructor(places, { core, rim }) {
     this.places = places;
+    this.colours = { colour: { value: core }, rim: { value: rim } };
     this.geometry = geometry_of(64);
     this.group = new Group();
     this.group.add(this.#mesh(0.22, false, 20), this.#mesh(1, true, 5));
@@ -65,7 +68,7 @@ export class Faces {
       glslVersion: GLSL3,
       vertexShader: vertex_shader,
       fragmentShader: fragment_shader,
-      uniforms: { colour: { value: marks.face }, opacity: { value: opacity } },
+      uniforms: { ...this.colours, opacity: { value: opacity } },
       side: DoubleSide,
       forceSinglePass: true,
       transparent: opacity < 1,

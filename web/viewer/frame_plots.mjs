@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Specifications of the plots over frames that every run has.
+// Specifications of the plots over frames, made for every run.
 import { stage_names } from './numbers.mjs';
+import { misses_nothing } from './outcome.mjs';
 
 /**
  * @param {import('./container.mjs').Page} page
@@ -9,7 +10,8 @@ import { stage_names } from './numbers.mjs';
  */
 export function frame_plots(page, scene_frame) {
   if (!page.stages || page.header.frames < 2) return [];
-  return [time_plot, distance_plot, recall_plot].map((plot) => plot(page.stages, scene_frame)).filter(Boolean);
+  const plots = [time_plot, distance_plot, ...(misses_nothing(page) ? [] : [recall_plot])];
+  return plots.map((plot) => plot(page.stages, scene_frame)).filter(Boolean);
 }
 
 const x = {

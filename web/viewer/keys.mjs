@@ -2,14 +2,17 @@
 // Control by keyboard, and the list of keys.
 import { by_id, element } from './dom.mjs';
 import { layers } from './layers.mjs';
+import { runs } from './outcome.mjs';
 
 /**
  * @param {{player: import('./player.mjs').Player, shown: import('./layers.mjs').Shown, reset: () => void,
  *          turn: (angle: number, rise: number, nearer: number) => void}} parts
  */
 export function listen_to_keys({ player, shown, reset, turn }) {
-  const dialog = make_help();
   const moves = player.frames > 1;
+  const numbers = layer_numbers(shown);
+  const dialog = make_help(moves, numbers, shown.available);
+  by_id('layer-keys').append(...key_names(numbers));
   const in_time = (act) => (moves ? act : undefined);
   const acts = {
     ' ': in_time(() => player.toggle()),
@@ -51,14 +54,33 @@ function is_for_element({ key, target }) {
   return Boolean(target.closest?.('select, textarea, input:not([type=checkbox])')) && key !== '?';
 }
 
-function make_help() {
-  const keys = [
+/** The number keys of the layers that the page has; of three or more in a row the first and the last. */
+function layer_numbers(shown) {
+  const exists = (i) => shown.available.some(({ key }) => key === layers[i].key);
+  return runs(layers.length, exists).map(([first, count]) => {
+    const numbers = Array.from({ length: count }, (_, i) => String(first + i + 1));
+    return count < 3 ? numbers.join(' ') : `${numbers[0]} … ${numbers.at(-1)}`;
+  }).join(' ');
+}
+
+const key_names = (keys) => keys.split(' ').map((name) => (name === '…' ? '…' : element('kbd', { textContent: name })));
+
+/**
+ * @param {boolean} moves  whether the page has frames to move through
+ * @param {string} numbers  keys of the layers
+ * @param {import('./layers.mjs').Layer[]} available
+ */
+function make_help(moves, numbers, available) {
+  const in_time = [
     ['space', 'play or pause'],
     ['← →', 'one frame back or forward; with shift, ten'],
     ['Home End', 'first or last frame'],
     ['+ −', 'faster or slower'],
     ['l', 'loop or not'],
-    ['1 … 8', `layers: ${layers.map(({ name }) => name.toLowerCase()).join(', ')}`],
+  ];
+  const keys = [
+    ...(moves ? in_time : []),
+    [numbers, `layers: ${available.map(({ name }) => name.toLowerCase()).join(', ')}`],
     ['a d w s', 'turn the view'],
     ['q e', 'farther, nearer'],
     ['r', 'reset the view'],
@@ -66,9 +88,10 @@ function make_help() {
   ];
   const dialog = by_id('help');
   by_id('keys').append(...keys.flatMap(([key, what]) => [
-    element('dt', {}, ...key.split(' ').map((name) => (name === '…' ? '…' : element('kbd', { textContent: name })))),
+    element('dt', {}, ...key_names(key)),
     element('dd', { textContent: what }),
   ]));
+  by_id('timeline-help').hidden = !moves;
   by_id('help-close').addEventListener('click', () => dialog.close());
   dialog.addEventListener('click', (event) => event.target === dialog && dialog.close());
   return dialog;

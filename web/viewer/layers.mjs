@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The layers that can be shown and hidden, and which of them a page has.
+import { has_ends, is_apart } from './contacts.mjs';
 
 /**
  * @typedef {object} Layer
@@ -18,8 +19,9 @@ export const layers = [
   { key: 'particles', name: 'Particles', about: 'one per region', on: true, exists: has_particles },
   { key: 'trails', name: 'Trails', about: 'where they walked', on: true, exists: (page) => has_particles(page) && page.header.frames > 1 },
   { key: 'candidates', name: 'Candidate pairs', about: 'regions to check', on: true, exists: (page) => has_any(page.candidates) },
-  { key: 'segments', name: 'Contact segments', about: 'where they cross', on: true, exists: (page) => has_any(page.contacts, (c) => c.length >= 10) },
-  { key: 'faces', name: 'Intersecting faces', about: 'found exactly', on: true, exists: (page) => has_any(page.contacts) },
+  { key: 'segments', name: 'Contact segments', about: 'where they cross', on: true, exists: (page) => has_any(page.contacts, (c) => has_ends(c) && !is_apart(c)) },
+  { key: 'faces', name: 'Intersecting faces', about: 'found exactly', on: true, exists: (page) => has_any(page.contacts, (c) => !is_apart(c)) },
+  { key: 'near', name: 'Near faces', about: 'within the tolerance', on: true, exists: (page) => has_any(page.contacts, is_apart) },
 ];
 
 function has_regions(page) {
@@ -34,6 +36,12 @@ function has_any(lists, fits = () => true) {
   return Boolean(lists?.some((list) => list.some(fits)));
 }
 
+/** Whether the lines of a frame's candidate pairs would cover the surfaces. */
+function has_many_candidates(page) {
+  const most_shown = 60;
+  return Boolean(page.candidates?.some((list) => list.length > most_shown));
+}
+
 /** The layer of regions shows states where the page has some. */
 function as_states(layer, states) {
   return states && layer.key === 'regions' ? { ...layer, name: 'What was read', about: '' } : layer;
@@ -44,7 +52,7 @@ export class Shown {
   /** @param {import('./container.mjs').Page} page */
   constructor(page) {
     this.available = layers.filter((layer) => layer.exists(page)).map((layer) => as_states(layer, page.header.states));
-    this.layers = Object.fromEntries(layers.map(({ key, on }) => [key, on]));
+    this.layers = Object.fromEntries(layers.map(({ key, on }) => [key, on && !(key === 'candidates' && has_many_candidates(page))]));
     this.objects = page.objects.map(() => ({ visible: true, translucent: false }));
     this.listeners = [];
   }

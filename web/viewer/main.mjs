@@ -56,6 +56,7 @@ function show_geometry(page, player, shown, theme) {
   by_id('viewer').hidden = false;
   by_id('time').hidden = by_id('frame-place').hidden = player.frames < 2;
   by_id('numbers').hidden = !page.numbers && !page.stages;
+  if (page.header.kind === 'partition') by_id('numbers-title').textContent = 'This partition';
   by_id('key-hint').hidden = player.frames < 2;
   document.body.classList.toggle('still', player.frames < 2);
   if (player.frames > 1) make_transport(page, player, new Timeline(by_id('timeline'), page, player));

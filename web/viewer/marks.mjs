@@ -2,6 +2,7 @@
 // Marks on the surfaces in one frame: particles, trails, candidate pairs, contacts.
 import { Group } from 'three';
 import { marks } from './colours.mjs';
+import { faces_in, has_ends, is_apart } from './contacts.mjs';
 import { Faces } from './faces.mjs';
 import { Segments } from './segments.mjs';
 import { Walks } from './walks.mjs';
@@ -14,15 +15,17 @@ export class Marks {
     this.page = page;
     this.places = places;
     this.walks = page.objects.map((object) => new Walks(object));
-    this.faces = places.map((of_object) => new Faces(of_object));
+    this.faces = places.map((of_object) => new Faces(of_object, marks.face));
+    this.near_faces = places.map((of_object) => new Faces(of_object, marks.near_face));
     this.lines = {
       trails: new Segments(marks.trail, { width: 4, rim_width: 1, hidden: 0.15, order: 30 }),
       candidates: new Segments(marks.candidate, { width: 4, rim_width: 1, hidden: 0.75, order: 32 }),
+      near: new Segments(marks.gap, { width: 4, rim_width: 1, hidden: 0.5, order: 28 }),
       segments: new Segments(marks.segment, { width: 5, rim_width: 1.5, hidden: 0.5, order: 34 }),
       particles: new Segments(marks.particle, { width: 11, rim_width: 2, hidden: 0.35, order: 36 }),
     };
     this.group = new Group();
-    this.group.add(...Object.values(this.lines).map(({ group }) => group), ...this.faces.map(({ group }) => group));
+    this.group.add(...Object.values(this.lines).map(({ group }) => group), ...[...this.faces, ...this.near_faces].map(({ group }) => group));
   }
 
   set_screen(width, height, ratio) {
@@ -38,19 +41,19 @@ export class Marks {
   show(frame, layers, objects) {
     for (const [key, lines] of Object.entries(this.lines)) lines.group.visible = layers[key];
     const candidates = this.page.candidates?.[frame] ?? [];
-    const near = objects.map((_, i) => candidates.flatMap(([a, p, b, q]) => [...(a === i ? [p] : []), ...(b === i ? [q] : [])]));
+    const paired = objects.map((_, i) => candidates.flatMap(([a, p, b, q]) => [...(a === i ? [p] : []), ...(b === i ? [q] : [])]));
     const with_particles = this.page.objects.flatMap(({ particles }, i) => (particles && objects[i].visible ? [i] : []));
-    if (layers.particles) this.lines.particles.set(with_particles.flatMap((i) => this.#dots(frame, i, layers.candidates ? near[i] : [])));
+    if (layers.particles) this.lines.particles.set(with_particles.flatMap((i) => this.#dots(frame, i, layers.candidates ? paired[i] : [])));
     if (layers.trails) this.lines.trails.set(with_particles.flatMap((i) => this.#trails(frame, i)));
     if (layers.candidates) this.lines.candidates.set(candidates.flatMap((pair) => this.#link(frame, pair, objects)));
     this.#show_contacts(frame, layers, objects);
-    return near;
+    return paired;
   }
 
-  #dots(frame, object, near) {
+  #dots(frame, object, paired) {
     return Array.from(this.page.objects[object].particles[frame], (vertex, region) => {
       const place = this.places[object].of_vertex(frame, vertex);
-      return { start: place, end: place, tint: near.includes(region) ? marks.near : undefined };
+      return { start: place, end: place, tint: paired.includes(region) ? marks.paired : undefined };
     });
   }
 
@@ -77,14 +80,22 @@ export class Marks {
 
   #show_contacts(frame, layers, objects) {
     const contacts = this.page.contacts?.[frame] ?? [];
-    this.faces.forEach((faces, i) => {
-      faces.group.visible = layers.faces && objects[i].visible;
-      if (faces.group.visible)
-        faces.show(frame, new Set(contacts.flatMap(([a, face_a, b, face_b]) => [...(a === i ? [face_a] : []), ...(b === i ? [face_b] : [])])));
+    objects.forEach(({ visible }, i) => {
+      const [faces, near_faces] = [this.faces[i], this.near_faces[i]];
+      faces.group.visible = layers.faces && visible;
+      near_faces.group.visible = layers.near && visible;
+      if (!faces.group.visible && !near_faces.group.visible) return;
+      const { intersecting, near } = faces_in(contacts, i);
+      if (faces.group.visible) faces.show(frame, intersecting);
+      if (near_faces.group.visible) near_faces.show(frame, near);
     });
-    if (!layers.segments) return;
-    const drawn = contacts.filter(([a, , b, , ...ends]) => ends.length >= 6 && (objects[a].visible || objects[b].visible));
-    this.lines.segments.set(drawn.map((contact) => ({ start: this.#in_ball(contact.slice(4, 7)), end: this.#in_ball(contact.slice(7, 10)) })));
+    const drawn = contacts.filter((contact) => has_ends(contact) && (objects[contact[0]].visible || objects[contact[2]].visible));
+    if (layers.segments) this.lines.segments.set(drawn.filter((contact) => !is_apart(contact)).map((contact) => this.#between_ends(contact)));
+    if (layers.near) this.lines.near.set(drawn.filter(is_apart).map((contact) => this.#between_ends(contact)));
+  }
+
+  #between_ends(contact) {
+    return { start: this.#in_ball(contact.slice(4, 7)), end: this.#in_ball(contact.slice(7, 10)) };
   }
 
   #in_ball(place) {

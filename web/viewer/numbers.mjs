@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The figures of the frame: its line of frames.jsonl, and the time of each stage.
 import { by_id, element, number_text } from './dom.mjs';
+import { misses_nothing } from './outcome.mjs';
 import { set_text } from './panel.mjs';
 
 const names = {
@@ -47,13 +48,13 @@ class Rows {
 /** @param {import('./container.mjs').Page} page @returns {(frame: number) => void} shows those of a frame */
 export function make_numbers(page) {
   const statistics = new Rows(by_id('statistics'), figure_row);
-  const misses_nothing = ['exact', 'certified'].includes(page.header.mode);
-  const pairs = new Rows(by_id('pairs'), (name) => pair_row(name, misses_nothing ? 'apart' : 'apart or not found'));
+  const pairs = new Rows(by_id('pairs'), () => pair_row(misses_nothing(page) ? 'apart' : 'apart or not found'));
   // Building, which few frames do, would make all other bars short.
   const every_frame = ({ microseconds: { build, ...others } }) => Object.values(others);
   const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(every_frame));
   const used = Object.keys(stage_names).filter((key) => page.stages?.some(({ microseconds }) => microseconds[key] > 0));
   const stages = new Rows(by_id('stage-times'), (key) => stage_row(key, most));
+  const show_count = make_pair_list();
   return (frame) => {
     const line = line_of(page, frame);
     const stage = page.stages?.[frame];
@@ -62,7 +63,8 @@ export function make_numbers(page) {
     if (line?.pairs) {
       const colliding = line.pairs.filter(({ collides }) => collides).length;
       statistics.show({ ...line.statistics, 'colliding pairs': colliding, ...(stage ? { 'nearest distance': stage.nearest } : {}) });
-      pairs.show(Object.fromEntries(found_first(line.pairs).map((pair) => [`${pair.a} – ${pair.b}`, pair])));
+      pairs.show({ ...found_first(line.pairs) });  // By their places, since objects can have the same name.
+      show_count(line.pairs.length);
     }
     if (stage) {
       const sum = Object.values(stage.microseconds).reduce((a, b) => a + b, 0);
@@ -71,9 +73,24 @@ export function make_numbers(page) {
   };
 }
 
+const in_view = 6;  // pairs that the list shows at once
+
+/** Says how many pairs there are where the list scrolls, and fades its last rows while there are more below. */
+function make_pair_list() {
+  const [list, text] = [by_id('pairs'), by_id('pair-count')];
+  const fade = () => list.classList.toggle('more', list.scrollHeight - list.scrollTop - list.clientHeight > 2);
+  list.addEventListener('scroll', fade);
+  return (count) => {
+    const scrolls = count > in_view;
+    text.hidden = !scrolls;
+    set_text(text, scrolls ? `${number_text(count)} pairs of objects; scroll for more` : '');
+    list.tabIndex = scrolls ? 0 : -1;
+    fade();
+  };
+}
+
 /** Pairs of which something was found, or missed, before all others, where the list does not show all at once. */
 function found_first(pairs) {
-  const in_view = 6;
   if (pairs.length <= in_view) return pairs;
   const is_found = (pair) => Boolean(pair.collides || pair.truth || pair.near || pair.inside);
   return [...pairs.filter(is_found), ...pairs.filter((pair) => !is_found(pair))];
@@ -90,16 +107,29 @@ function figure_row(key) {
   return { nodes: [element('div', {}, element('dt', { textContent: names[key] ?? words_of(key) }), value)], set };
 }
 
-/** @param {string} name @param {string} otherwise what to say of a pair of which the frame found nothing */
-function pair_row(name, otherwise) {
+/** How many pairs of faces are contacts: those that intersect, and apart from them those that are only near. */
+function faces_text({ faces, intersects, collides, capped }) {
+  if (!faces) return '';
+  const or_more = capped ? ' or more' : '';
+  const pairs_of = (count) => `, ${count}${or_more} face ${count === 1 ? 'pair' : 'pairs'}`;
+  if (!collides || !intersects) return pairs_of(faces.length);
+  const crossing = intersects.filter(Boolean).length;
+  const apart = faces.length - crossing;
+  return `${pairs_of(crossing)}${apart > 0 ? `, ${apart}${or_more} near` : ''}`;
+}
+
+/** @param {string} otherwise  what to say of a pair of which the frame found nothing */
+function pair_row(otherwise) {
+  const name = element('span', { className: 'name' });
   const state = element('span', { className: 'state' });
   const set = (pair) => {
+    set_text(name, `${pair.a} – ${pair.b}`);
     const missed = pair.truth && !pair.collides;
-    const faces = pair.faces ? `, ${pair.faces.length}${pair.capped ? ' or more' : ''} face ${pair.faces.length === 1 ? 'pair' : 'pairs'}` : '';
+    const faces = faces_text(pair);
     set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.near ? `near${faces}` : pair.inside ? `${pair.inside} inside` : otherwise);
-    state.className = `state ${pair.collides ? 'confirmed' : missed ? 'missed' : ''}`;
+    state.className = `state ${pair.collides ? 'confirmed' : missed ? 'missed' : pair.near ? 'near' : ''}`;
   };
-  return { nodes: [element('li', {}, element('span', { className: 'name', textContent: name }), state)], set };
+  return { nodes: [element('li', {}, name, state)], set };
 }
 
 /** A bar with a square-root scale, since stages differ by a factor of a thousand. */

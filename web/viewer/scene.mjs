@@ -130,12 +130,12 @@ export class View {
   #prepare() {
     this.stale = false;
     const { layers, objects } = this.shown;
-    const near = this.marks.show(this.frame, layers, objects);
+    const paired = this.marks.show(this.frame, layers, objects);
     this.surfaces.forEach((surface, i) => {
       surface.set_look(objects[i], layers, this.ratio * 1.1);
       if (!surface.group.visible) return;
       surface.show(this.frame, layers.wireframe);
-      surface.mark(layers.candidates ? near[i] : []);
+      surface.mark(layers.candidates ? paired[i] : []);
     });
   }
 

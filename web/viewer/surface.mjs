@@ -150,7 +150,7 @@ function copy_entries(from, which, to) {
 }
 
 function material_of(values) {
-  const defaults = { coloured: true, filled: true, edged: false, opacity: 1, line_width: 1, accent: new Color(...marks.near) };
+  const defaults = { coloured: true, filled: true, edged: false, opacity: 1, line_width: 1, accent: new Color(...marks.paired) };
   return new RawShaderMaterial({
     glslVersion: GLSL3,
     vertexShader: vertex_shader,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bar of all frames and, below it, the selected window, with a lane for each kind of mark.
 import { element, svg_element } from './dom.mjs';
-import { outcome_of, outcome_words, repartitions, runs } from './outcome.mjs';
+import { frame_kinds, outcome_of, outcome_words, runs } from './outcome.mjs';
 
 const least_frames = 12;  // in the window
 const lane_height = 10;
@@ -18,11 +18,11 @@ export class Timeline {
     this.player = player;
     this.window = [0, player.frames];
     this.pointers = new Map();
-    const lanes = lanes_of(page);
+    const lanes = frame_kinds(page).map((lane) => ({ ...lane, runs: runs(player.frames, lane.is) }));
     this.heads = [0, 1].map(() => element('div', { className: 'head' }));
     this.bracket = element('div', { className: 'bracket' });
     this.ticks = element('div', { className: 'ticks' });
-    const outcomes = lanes.filter(({ kind }) => kind === 'confirmed' || kind === 'missed');
+    const outcomes = lanes.filter(({ kind }) => ['confirmed', 'missed', 'near'].includes(kind));
     const overview = bars(player.frames, outcomes.map((lane) => ({ ...lane, top: 0 })), lane_height);
     const distance = lane_height + 2;
     this.detail = bars(player.frames, lanes.map((lane, i) => ({ ...lane, top: 2 + i * distance })), 2 + lanes.length * distance);
@@ -30,7 +30,8 @@ export class Timeline {
       element('div', { className: 'overview' }, overview, this.bracket, this.heads[0]),
       element('div', { className: 'detail' }, this.detail, this.ticks, this.heads[1]),
     ];
-    root.append(...this.tracks);
+    const all = { name: 'all frames', about: 'something was found or missed' };
+    root.append(lane_names([all], 'overview'), this.tracks[0], lane_names(lanes, 'detail'), this.tracks[1]);
     this.root = root;
     this.#listen();
     new ResizeObserver(() => this.#show_window()).observe(root);
@@ -144,18 +145,10 @@ export class Timeline {
 
 const percent = (part) => `${100 * part}%`;
 
-/** Each kind of mark, with its runs of frames. */
-function lanes_of(page) {
-  const { stages, header } = page;
-  const is = (kind) => (frame) => stages !== null && outcome_of(stages[frame]) === kind;
-  const anew = new Set(repartitions(page));
-  const lanes = [
-    { kind: 'positive', runs: runs(header.frames, (frame) => stages?.[frame].positive) },
-    { kind: 'confirmed', runs: runs(header.frames, is('confirmed')) },
-    { kind: 'missed', runs: runs(header.frames, is('missed')) },
-    { kind: 'anew', runs: [...anew].map((frame) => [frame, 1]) },
-  ];
-  return anew.size > 0 ? lanes : lanes.slice(0, 3);
+/** The names of lanes, beside them. */
+function lane_names(lanes, track) {
+  const names = lanes.map(({ name, about }) => element('span', { textContent: name, title: `Frames in which ${about}` }));
+  return element('div', { className: `lane-names of-${track}` }, ...names);
 }
 
 /** A picture as wide as the number of frames, stretched to its container. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The playback buttons, and the legend of the timeline, whose entries go to the next such frame.
 import { by_id, element, icon } from './dom.mjs';
-import { outcome_of, outcome_words, repartitions } from './outcome.mjs';
+import { frame_kinds, outcome_of, outcome_words } from './outcome.mjs';
 import { speeds } from './player.mjs';
 
 /**
@@ -57,18 +57,9 @@ function make_zoom(timeline) {
 }
 
 function make_legend(page, player) {
-  const { stages } = page;
-  const anew = new Set(repartitions(page));
-  const kinds = [];
-  if (stages) {
-    kinds.push(['positive', 'colliding', (frame) => stages[frame].positive]);
-    kinds.push(['confirmed', 'confirmed', (frame) => outcome_of(stages[frame]) === 'confirmed']);
-    kinds.push(['missed', 'missed', (frame) => outcome_of(stages[frame]) === 'missed']);
-  }
-  if (anew.size > 0) kinds.push(['anew', anew.size === 1 ? 'repartition' : 'repartitions', (frame) => anew.has(frame)]);
-  for (const [kind, name, is] of kinds) {
+  for (const { kind, name, about, is } of frame_kinds(page)) {
     const count = Array.from({ length: player.frames }, (_, frame) => frame).filter(is).length;
-    const made = element('button', { type: 'button', className: `legend ${kind}`, title: `Go to the next frame: ${name}`, disabled: count === 0 },
+    const made = element('button', { type: 'button', className: `legend ${kind}`, title: `Go to the next frame in which ${about}`, disabled: count === 0 },
       element('span', { className: 'swatch' }), `${count} ${name}`);
     made.addEventListener('click', () => go_to_next(player, is));
     by_id('legend').append(made);
