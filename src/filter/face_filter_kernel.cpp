@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "filter/box_axes_cull-inl.h"
 #include "filter/box_pairs-inl.h"
 #include "filter/face_columns-inl.h"
 #include "filter/leaf_box_cull-inl.h"
@@ -17,6 +18,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::kernel::HWY_NAMESPACE {
 
+/// Lists the pairs whose boxes overlap; if there seem to be many, only of the faces that pass through the box around
+/// the other leaf's.
+template <Neighbours neighbours>
+HWY_INLINE std::size_t list_pairs_at(const Leaf_input& a, const Leaf_input& b, const Rounding& rounding,
+                                     Filter_scratch& scratch) {
+  if (box_axes_cull_pays(a, b, scratch) && !cull_by_box_axes(a, b, rounding, scratch)) return 0;
+  return list_box_pairs<neighbours>(*a.faces, *b.faces, scratch);
+}
+
 /// Leaves of two meshes.
 HWY_INLINE std::size_t candidates_of_two_meshes(const Leaf_input& a, const Leaf_input& b, const Filter_request& request,
                                                 Filter_scratch& scratch, Face_candidate* candidates) {
@@ -24,7 +34,7 @@ HWY_INLINE std::size_t candidates_of_two_meshes(const Leaf_input& a, const Leaf_
   if (!cull_by_leaf_box(a, b, request, scratch)) return 0;
   const Rounding rounding(request, *a.box, *b.box);
   if (slab_cull_pays(scratch) && !cull_by_slab(a, b, rounding, scratch)) return 0;
-  const std::size_t pairs = list_box_pairs<Neighbours::kept>(*a.faces, *b.faces, scratch);
+  const std::size_t pairs = list_pairs_at<Neighbours::kept>(a, b, rounding, scratch);
   if (request.margin > 0) {
     const std::size_t left = cull_by_rounded_planes(a, b, rounding, pairs, scratch);
     return cull_by_plane(a, b, request, left, scratch, candidates);
@@ -39,7 +49,7 @@ HWY_INLINE std::size_t candidates_of_one_mesh(const Leaf_input& a, const Leaf_in
   round_corners(a, request);
   if (!cull_by_leaf_box(a, b, request, scratch)) return 0;
   const Rounding rounding(request, *a.box, *b.box);
-  const std::size_t pairs = list_box_pairs<Neighbours::discarded>(*a.faces, *b.faces, scratch);
+  const std::size_t pairs = list_pairs_at<Neighbours::discarded>(a, b, rounding, scratch);
   const std::size_t left = cull_by_rounded_planes(a, b, rounding, pairs, scratch);
   return cull_by_plane(a, b, request, left, scratch, candidates);
 }
