@@ -10,13 +10,13 @@ Indexed_mesh::Indexed_mesh(Coordinates coordinates, std::span<const Corners> fac
     : coordinates_(coordinates), faces_(faces) {
   if (coordinates.size() % 3 != 0)
     throw Bad_mesh("there are " + std::to_string(coordinates.size()) + " coordinates, which is not three per vertex");
-  const std::size_t vertices = coordinates.size() / 3;
-  for (const auto& corners : faces) {
-    const std::uint32_t highest = std::ranges::max(corners);
-    if (highest >= vertices)
-      throw Bad_mesh("face " + std::to_string(&corners - faces.data()) + " refers to vertex " +
-                     std::to_string(highest) + " of " + std::to_string(vertices));
-  }
+  for (std::size_t face = 0; face < faces.size(); ++face) check_corners(static_cast<std::uint32_t>(face));
+}
+
+void Indexed_mesh::check_corners(std::uint32_t face) const {
+  if (has_corners(face)) return;
+  throw Bad_mesh("face " + std::to_string(face) + " refers to vertex " +
+                 std::to_string(std::ranges::max(faces_[face])) + " of " + std::to_string(coordinates_.size() / 3));
 }
 
 void Indexed_mesh::set_coordinates(Coordinates coordinates) {

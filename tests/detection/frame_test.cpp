@@ -44,6 +44,25 @@ TEST(Frame, a_pair_that_collides_without_listed_faces_has_no_contacts) {
   EXPECT_TRUE(frame.collides());
 }
 
+TEST(Frame, finds_a_pair_by_its_objects_in_either_order) {
+  const Frame frame = frame_of_three_pairs();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(frame.find(frame.pairs[i].a, frame.pairs[i].b), &frame.pairs[i]);
+    EXPECT_EQ(frame.find(frame.pairs[i].b, frame.pairs[i].a), &frame.pairs[i]);
+  }
+  EXPECT_EQ(frame.find(0, 0), nullptr);
+  EXPECT_EQ(frame.find(1, 3), nullptr);
+  EXPECT_EQ(Frame{}.find(0, 1), nullptr);
+}
+
+TEST(Frame, contacts_intersect_unless_they_are_said_to_be_only_near) {
+  Frame frame = frame_of_three_pairs();
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(frame.intersects(i));
+  frame.contact_intersects = {1, 0, 1};
+  EXPECT_TRUE(frame.intersects(0));
+  EXPECT_FALSE(frame.intersects(1));
+}
+
 TEST(Frame, collides_when_any_of_its_pairs_does) {
   Frame frame = frame_of_three_pairs();
   EXPECT_TRUE(frame.collides());

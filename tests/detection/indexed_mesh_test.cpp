@@ -78,6 +78,37 @@ TEST(Indexed_mesh, refuses_arrays_that_do_not_fit_together) {
   EXPECT_EQ(message_of<Bad_argument>([&] { detector.add(mesh); }), "the mesh has been added before");
 }
 
+/// The array of faces is the caller's, who can write into it at any time.
+TEST(Indexed_mesh, refuses_corners_that_have_become_wrong_wherever_faces_are_read) {
+  for (const std::uint32_t wrong : {0U, 500'000'000U}) {
+    Arrays arrays(potato(5)), others(potato(4));
+    const Indexed_mesh mesh(arrays.coordinates, arrays.corners), other(others.coordinates, others.corners);
+    Detector detector;
+    const Object_id id = detector.add(mesh);
+    detector.add(other);
+    const auto before = detector.detect().face_pairs;
+    const auto vertices = static_cast<std::uint32_t>(arrays.coordinates.size() / 3);
+    const Corners right = arrays.corners[7];
+    arrays.corners[7][1] = std::max(wrong, vertices);
+    const std::string message = "face 7 refers to vertex " + std::to_string(arrays.corners[7][1]);
+    EXPECT_EQ(detector.detect().face_pairs, before) << "faces are those of the last rebuild";
+    const std::vector<std::uint32_t> changed{7};
+    const auto expect_refused = [&](const auto& use) {
+      EXPECT_NE(message_of<Bad_mesh>(use).find(message), std::string::npos);
+    };
+    expect_refused([&] { detector.rebuild(id, Changed_faces{changed}); });
+    expect_refused([&] {
+      detector.rebuild(id);
+      detector.detect();
+    });
+    expect_refused([&] { find_collisions(mesh, other); });
+    expect_refused([&] { find_self_collisions(mesh); });
+    arrays.corners[7] = right;
+    detector.rebuild(id);
+    EXPECT_EQ(detector.detect().face_pairs, before);
+  }
+}
+
 TEST(Indexed_mesh, names_a_coordinate_that_is_not_finite) {
   Arrays arrays(tetrahedron());
   arrays.coordinates[4] = std::numeric_limits<double>::quiet_NaN();

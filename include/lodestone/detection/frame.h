@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "lodestone/mesh/pairs.h"
 #include "lodestone/particles/confirmation.h"
 #include "lodestone/queries/contact_patches.h"
 #include "lodestone/queries/parting.h"
@@ -123,6 +125,14 @@ struct Frame {
   std::vector<std::size_t> object_iterations = {};
   Frame_statistics statistics = {};  ///< what it took, and what it did
 
+  /// What was found for two objects, in either order. O(log pairs).
+  /// @return null if they are not among `pairs`: the broad phase rejected them, or they were left out
+  const Pair_result* find(Object_id a, Object_id b) const {
+    const Object_pair asked{std::min(a, b), std::max(a, b)};
+    const auto of_pair = [](const Pair_result& pair) { return Object_pair{pair.a, pair.b}; };
+    const auto found = std::ranges::lower_bound(pairs, asked, {}, of_pair);
+    return found != pairs.end() && of_pair(*found) == asked ? &*found : nullptr;
+  }
   /// The contacts of one of `pairs`.
   std::span<const Face_pair> contacts(const Pair_result& pair) const {
     return std::span(face_pairs).subspan(pair.first_contact, pair.contacts);

@@ -106,10 +106,12 @@ bool Box_reader<Mesh, Points>::read_positions() {
 }
 
 /// Calls `use(face, p, q, r)` with the index and the corners of a face.
-/// @return false if it is no triangle
+/// @return false if it is no triangle of vertices
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 template <class Use>
 bool Box_reader<Mesh, Points>::use_triangle(std::uint32_t index, Face<Mesh> f, bool all_triangles, Use use) const {
+  if constexpr (requires { mesh_->has_corners(f); })
+    if (!mesh_->has_corners(f)) return false;
   const auto first = halfedge(f, *mesh_);
   // Operations of CGAL can make faces of two edges.
   if (all_triangles ? next(next(first, *mesh_), *mesh_) == first : !is_triangle(first, *mesh_)) return false;

@@ -8,6 +8,7 @@
 #include <boost/property_map/property_map.hpp>
 #include <boost/property_map/vector_property_map.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,8 +30,8 @@ namespace lodestone {
 ///     Indexed_mesh mesh(coordinates, faces);
 ///     detector.add(mesh);
 ///
-/// Every query reads both arrays where they lie, so results follow what the caller writes into them. Vertices and faces
-/// are numbered as in the arrays. Everything that a file can hold is legal: an edge with three faces, neighbours of
+/// Both arrays are read where they lie. Coordinates that the caller writes count in the next query; a detector takes
+/// faces that the caller writes at its next `rebuild`. Vertices and faces are numbered as in the arrays. Everything that a file can hold is legal: an edge with three faces, neighbours of
 /// opposite orientations, a face that names a vertex twice, a vertex without a face.
 class Indexed_mesh {
  public:
@@ -63,6 +64,12 @@ class Indexed_mesh {
     const double* position = coordinates_.data() + 3 * std::size_t{vertex};
     return {position[0], position[1], position[2]};
   }
+
+  /// Whether the corners of a face are vertices. They can be others since the constructor looked: the array is the
+  /// caller's.
+  bool has_corners(std::uint32_t face) const { return std::ranges::max(faces_[face]) < coordinates_.size() / 3; }
+  /// @throws Bad_mesh  a corner of the face is no vertex
+  void check_corners(std::uint32_t face) const;
 
   // What Triangle_mesh asks for.
 

@@ -131,6 +131,7 @@ void Mesh_numbering<Mesh>::check_counts(const Mesh& mesh) {
 template <Triangle_mesh Mesh>
 template <class Face>
 Corners Mesh_numbering<Mesh>::corners_of(Face f, std::size_t face, const Mesh& mesh) const {
+  if constexpr (requires { mesh.check_corners(f); }) mesh.check_corners(f);
   const auto first = halfedge(f, mesh);
   if (!is_triangle(first, mesh)) throw Bad_mesh("face " + std::to_string(face) + " is not a triangle");
   const auto [p, q, r] = triangle_corners(first, mesh);

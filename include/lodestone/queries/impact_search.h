@@ -66,7 +66,8 @@ std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b, dou
 ///
 /// As `first_impact`, but faces near each other are on their way close together from the start: some tens of them per
 /// face go to the exact test of two triangles, whose floating-point part mostly tells them apart. O(F log F) on
-/// surfaces of even faces.
+/// surfaces of even faces that move little beside their size. Straight ways of a body that turns by half a turn lead
+/// nearly all of its faces through one place, where all pairs of them are tested: O(F^2). Ask about shorter steps.
 ///
 /// @param surface  one object
 /// @param latest   in [0, 1]; if the first time is later than this, the result is none
