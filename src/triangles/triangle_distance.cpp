@@ -4,6 +4,7 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Interval_nt.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "triangles/double_double.h"
@@ -288,6 +289,29 @@ Closest_points closest_points(const Triangle& a, const Triangle& b) {
   const auto& gap = nearest.gap;
   return {point(a, nearest.a), point(b, nearest.b),
           positive(std::hypot(rounded(gap[0]), rounded(gap[1]), rounded(gap[2]))), direction(nearest)};
+}
+
+bool corners_nearer_than(const Triangle_corners& a, const Triangle_corners& b, double distance) {
+  // The square of a distance is off by some 10^-15 of it, and by less than 10^-300 where it underflows.
+  const double limit = distance * distance * (1 - 0x1p-40);
+  if (!(limit > 1e-280)) return false;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double* p : a)
+    for (const double* q : b) {
+      double squared = 0;
+      for (int axis = 0; axis < 3; ++axis) squared += (p[axis] - q[axis]) * (p[axis] - q[axis]);
+      least = std::min(least, squared);
+    }
+  return least < limit;
+}
+
+bool boxes_meet(const Triangle_corners& a, const Triangle_corners& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low_a, high_a] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});
+    const auto [low_b, high_b] = std::minmax({b[0][axis], b[1][axis], b[2][axis]});
+    if (low_a > high_b || low_b > high_a) return false;
+  }
+  return true;
 }
 
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "support/distance_oracle.h"
+#include "support/hard_pairs.h"
 #include "support/special_numbers.h"
 #include "support/triangle_pairs.h"
 
@@ -224,6 +225,31 @@ const std::vector<Exactly_apart> exactly_apart{
     {"segments", {{{-9, 0, 0}, {9, 0, 0}, {1, 0, 0}}}, {{{1, -9, 5}, {1, 9, 5}, {1, 3, 5}}}, 5},
     {"points", {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}, {{{1, 4, 5}, {1, 4, 5}, {1, 4, 5}}}, 5},
 };
+
+TEST(Corners_nearer_than, proves_only_what_is_true_at_any_scale) {
+  Hard_pairs hard(5);
+  std::size_t proven = 0, near = 0;
+  for (const auto& kind : Hard_pairs::kinds())
+    for (const double scale : {1.0, 0x1p-60, 0x1p200, 0x1p-600, 0x1p1000})
+      for (int i = 0; i < 60; ++i) {
+        auto [a, b] = (hard.*kind.make)();
+        for (auto* triangle : {&a, &b})
+          for (auto& p : *triangle) p = {scale * p.x(), scale * p.y(), scale * p.z()};
+        const auto corners_of = [](const Triangle& t) {
+          return Triangle_corners{&*t[0].cartesian_begin(), &*t[1].cartesian_begin(), &*t[2].cartesian_begin()};
+        };
+        const double gap = std::sqrt(CGAL::to_double(CGAL::squared_distance(a[0], b[0])));
+        for (const double distance : {gap, gap * (1 + 1e-15), gap * (1 + 1e-9), 2 * gap}) {
+          if (!(distance > 0) || !std::isfinite(distance)) continue;
+          const bool is_proven = corners_nearer_than(corners_of(a), corners_of(b), distance);
+          proven += is_proven ? 1 : 0;
+          near += distance > gap * (1 + 1e-12) ? 1 : 0;
+          ASSERT_TRUE(!is_proven || triangles_nearer_than(a, b, distance)) << kind.name << ' ' << scale;
+        }
+        ASSERT_TRUE(boxes_meet(corners_of(a), corners_of(b)) || !triangles_intersect(a, b)) << kind.name;
+      }
+  EXPECT_GT(proven, near / 2);
+}
 
 TEST(Triangles_nearer_than, is_strict) {
   for (const auto& c : exactly_apart) {

@@ -42,8 +42,9 @@ class Face_filter {
 
   /// The face pairs of two leaves that are not proven apart; if the two are one leaf of one tree, each pair once.
   ///
-  /// Faces outside the box around the other leaf's nearest faces are discarded, then pairs whose boxes do not overlap,
-  /// then pairs whose projections onto some direction are farther apart than the margin and any rounding. The
+  /// Faces outside the box around the other leaf's nearest faces are discarded. Where many pairs of boxes seem to
+  /// overlap, so are faces that only pass by that box: long oblique ones. Then pairs whose boxes do not overlap, then
+  /// pairs whose projections onto some direction are farther apart than the margin and any rounding. The
   /// directions are both normals, those across an edge within its plane, and with margin 0 those across one edge of
   /// each face.
   ///

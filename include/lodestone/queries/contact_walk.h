@@ -102,13 +102,23 @@ class Contact_walk {
                          : triangles_intersect_given(a, b, likely);
   }
 
+  /// Of faces that were near at rest only those count that intersect.
+  bool is_contact(std::uint32_t leaf_a, std::uint32_t leaf_b, const Face_candidate& candidate,
+                  const Triangle_corners& a, const Triangle_corners& b) const {
+    if (rest_.empty()) return are_in_contact(a, b, candidate.crossing);
+    const Triangle_corners rest_a = leaf_triangle(a_.tree->leaf_faces(leaf_a, rest_), candidate.a);
+    const Triangle_corners rest_b = leaf_triangle(a_.tree->leaf_faces(leaf_b, rest_), candidate.b);
+    if (corners_nearer_than(rest_a, rest_b, 2 * distance_))
+      return boxes_meet(a, b) && triangles_intersect_given(a, b, candidate.crossing);
+    return are_in_contact(a, b, candidate.crossing) &&
+           (!near_at_rest(rest_a, rest_b) || triangles_intersect(triangle_of(a), triangle_of(b)));
+  }
+
   /// Whether two faces of one object were nearer than twice the distance at rest. With once the distance, faces that
   /// have always been near would become contacts wherever the surface shrinks a little. Twice hides no fold: beside a
   /// crease of less than 60 degrees there are points within the distance that were farther than twice that apart.
-  bool near_at_rest(std::uint32_t leaf_a, std::uint32_t leaf_b, const Face_candidate& candidate) const {
-    return triangles_nearer_than(triangle_of(leaf_triangle(a_.tree->leaf_faces(leaf_a, rest_), candidate.a)),
-                                 triangle_of(leaf_triangle(a_.tree->leaf_faces(leaf_b, rest_), candidate.b)),
-                                 2 * distance_);
+  bool near_at_rest(const Triangle_corners& rest_a, const Triangle_corners& rest_b) const {
+    return triangles_nearer_than(triangle_of(rest_a), triangle_of(rest_b), 2 * distance_);
   }
 
   View a_, b_;
@@ -130,10 +140,7 @@ Visit Contact_walk<Volume>::visit_leaf_contacts(std::uint32_t leaf_a, std::uint3
   for (const Face_candidate& candidate : filter_.face_candidates(leaf_a, leaf_b)) {
     ++exact_tests_;
     const Triangle_corners a = leaf_triangle(faces_a, candidate.a), b = leaf_triangle(faces_b, candidate.b);
-    if (!are_in_contact(a, b, candidate.crossing)) continue;
-    if (!rest_.empty() && near_at_rest(leaf_a, leaf_b, candidate) &&
-        !triangles_intersect(triangle_of(a), triangle_of(b)))
-      continue;
+    if (!is_contact(leaf_a, leaf_b, candidate, a, b)) continue;
     Face_pair contact{indices_a[candidate.a], indices_b[candidate.b]};
     if (walk_.self_walk() && contact.b < contact.a) std::swap(contact.a, contact.b);
     if (visitor(contact) == Visit::stop) return Visit::stop;

@@ -40,6 +40,11 @@ Closest_points closest_points(const Triangle& a, const Triangle& b);
 /// rounded down; 'yes' by one pair of their points, in interval arithmetic. The same two proofs in exact arithmetic
 /// decide most of the rest.
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance);
+/// Whether floating point proves two corners nearer to each other than `distance`, so that the triangles are too. If it
+/// does not, they can be nearer all the same. Some nanoseconds, where `triangles_nearer_than` takes a microsecond.
+bool corners_nearer_than(const Triangle_corners& a, const Triangle_corners& b, double distance);
+/// Whether the boxes of two triangles, whose sides are coordinates of corners, have a point in common. Exact.
+bool boxes_meet(const Triangle_corners& a, const Triangle_corners& b);
 
 /// Lower bound on the distance of two non-empty boxes: 0 if they overlap, otherwise the distance rounded down.
 ///
