@@ -9,9 +9,10 @@ namespace lodestone {
 void prefer(std::span<const Face_pair> preferred, std::vector<Face_pair>& found, std::size_t begin) {
   if (preferred.empty()) return;
   std::vector<Face_pair> others;
-  std::ranges::set_difference(std::span(found).subspan(begin), preferred, std::back_inserter(others));
+  const auto first = found.begin() + static_cast<std::ptrdiff_t>(begin);
+  std::set_difference(first, found.end(), preferred.begin(), preferred.end(), std::back_inserter(others));
   others.resize(found.size() - begin - preferred.size());
-  std::ranges::merge(preferred, others, found.begin() + static_cast<std::ptrdiff_t>(begin));
+  std::merge(preferred.begin(), preferred.end(), others.begin(), others.end(), first);
 }
 
 void tell_which_intersect(std::span<const Face_pair> intersecting, std::span<const Face_pair> found, std::size_t begin,
