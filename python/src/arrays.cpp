@@ -23,9 +23,11 @@ std::string shape_of(const py::array& array) {
 /// The argument as an array; empty if numpy makes none of it.
 /// @throws what else the argument raises when it is asked for its numbers
 std::optional<py::array> array_from(const py::object& object) {
-  if (py::isinstance(object, py::module_::import("numpy.ma").attr("MaskedArray")))
-    throw py::type_error("a masked array has no numbers where it is masked: fill it first");
-  if (py::isinstance<py::array>(object)) return py::reinterpret_borrow<py::array>(object);
+  if (py::isinstance<py::array>(object)) {
+    if (py::hasattr(object, "filled"))  // a numpy.ma.MaskedArray
+      throw py::type_error("a masked array has no numbers where it is masked: fill it first");
+    return py::reinterpret_borrow<py::array>(object);
+  }
   try {
     return py::module_::import("numpy").attr("asarray")(object).cast<py::array>();
   } catch (py::error_already_set& error) {

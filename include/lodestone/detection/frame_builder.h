@@ -33,7 +33,7 @@ class Frame_builder {
   std::uint64_t number() const { return frame_.number; }
   /// The contacts of all pairs so far. A stage appends those of its pair between `start_pair` and `end_pair`.
   std::vector<Face_pair>& face_pairs() { return frame_.face_pairs; }
-  /// Parallel to the contacts, where they can be apart. What a stage leaves out of its pair intersects.
+  /// `Frame::contact_intersects`, to be appended to. Contacts without an entry at the end of their pair intersect.
   std::vector<std::uint8_t>& contact_intersects() { return frame_.contact_intersects; }
   /// Candidate regions of all pairs so far, to be appended to.
   std::vector<Candidate_regions>& candidates() { return frame_.candidates; }

@@ -31,8 +31,9 @@ namespace lodestone {
 ///     detector.add(mesh);
 ///
 /// Both arrays are read where they lie. Coordinates that the caller writes count in the next query; a detector takes
-/// faces that the caller writes at its next `rebuild`. Vertices and faces are numbered as in the arrays. Everything that a file can hold is legal: an edge with three faces, neighbours of
-/// opposite orientations, a face that names a vertex twice, a vertex without a face.
+/// faces that the caller writes at its next `rebuild`. Vertices and faces are numbered as in the arrays. Everything that
+/// a file can hold is legal: an edge with three faces, neighbours of opposite orientations, a face that names a vertex
+/// twice, a vertex without a face.
 class Indexed_mesh {
  public:
   /// Indices of vertices or faces, from 0.
