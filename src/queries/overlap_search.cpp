@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lodestone/queries/face_pair_order.h"
+#include "lodestone/triangles/triangle_distance.h"
 #include "lodestone/triangles/triangle_intersection.h"
 #include "lodestone/volumes/to_box.h"
 #include "queries/rounded_box_kernel.h"
@@ -27,16 +28,6 @@ Triangle_corners corners_of(const Faces_in_box& faces, std::uint32_t index) {
   const double* at = faces.coordinates.data();
   const Corners& corners = faces.corners[index];
   return {at + 3 * std::size_t{corners[0]}, at + 3 * std::size_t{corners[1]}, at + 3 * std::size_t{corners[2]}};
-}
-
-/// Whether the boxes of two triangles have no point in common.
-bool apart(const Triangle_corners& a, const Triangle_corners& b) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [low_a, high_a] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});
-    const auto [low_b, high_b] = std::minmax({b[0][axis], b[1][axis], b[2][axis]});
-    if (low_a > high_b || low_b > high_a) return true;
-  }
-  return false;
 }
 
 /// Kept per thread, some 200 kB: to get this memory from the system takes longer than to search small surfaces.
@@ -79,7 +70,7 @@ void Overlap_search::test_all(const Faces_in_box& a, const Faces_in_box& b) {
   ++leaf_tests_;
   for (std::uint32_t i = 0; i < a.faces.size(); ++i)
     for (std::uint32_t j = 0; j < b.faces.size(); ++j)
-      if (!apart(corners_of(a, i), corners_of(b, j)) && test_pair(i, j, no_crossing)) return;
+      if (boxes_meet(corners_of(a, i), corners_of(b, j)) && test_pair(i, j, no_crossing)) return;
 }
 
 /// Searches a slice across the longest side of the overlap. Where surfaces cross, the curve is mostly about as long as

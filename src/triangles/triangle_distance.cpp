@@ -305,15 +305,6 @@ bool corners_nearer_than(const Triangle_corners& a, const Triangle_corners& b, d
   return least < limit;
 }
 
-bool boxes_meet(const Triangle_corners& a, const Triangle_corners& b) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [low_a, high_a] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});
-    const auto [low_b, high_b] = std::minmax({b[0][axis], b[1][axis], b[2][axis]});
-    if (low_a > high_b || low_b > high_a) return false;
-  }
-  return true;
-}
-
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance) {
   if (!(distance > 0)) return triangles_intersect(a, b);
   if (!std::isfinite(distance)) return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "lodestone/mesh/box.h"
 #include "lodestone/triangles/triangle_intersection.h"
@@ -44,7 +45,14 @@ bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance
 /// does not, they can be nearer all the same. Some nanoseconds, where `triangles_nearer_than` takes a microsecond.
 bool corners_nearer_than(const Triangle_corners& a, const Triangle_corners& b, double distance);
 /// Whether the boxes of two triangles, whose sides are coordinates of corners, have a point in common. Exact.
-bool boxes_meet(const Triangle_corners& a, const Triangle_corners& b);
+inline bool boxes_meet(const Triangle_corners& a, const Triangle_corners& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low_a, high_a] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});
+    const auto [low_b, high_b] = std::minmax({b[0][axis], b[1][axis], b[2][axis]});
+    if (low_a > high_b || low_b > high_a) return false;
+  }
+  return true;
+}
 
 /// Lower bound on the distance of two non-empty boxes: 0 if they overlap, otherwise the distance rounded down.
 ///
