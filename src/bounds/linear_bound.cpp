@@ -84,7 +84,7 @@ Linear_bound::Shift Linear_bound::shift(std::uint32_t node) const {
   if (terms == 0) return shift;  // the position is not rounded
   const auto count = static_cast<double>(terms);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    shift.margin[axis] = (4 * count + 16) * unit_roundoff * magnitude[axis] + count * 0x1p-1072;
+    shift.margin[axis] = (4 * count + 16) * unit_roundoff * magnitude[axis] + count * 0x1p-1020;
   return shift;
 }
 

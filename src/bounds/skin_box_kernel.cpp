@@ -105,7 +105,7 @@ Aabb skin_box_kernel(const Skinned_node& node, Moved_range* moved) {
     for (int axis = 0; axis < 3; ++axis)
       reach[axis] = reach[axis] > moved[j].reach[axis] ? reach[axis] : moved[j].reach[axis];
   }
-  const double underflow = (count + 4) * 0x1p-1070 * (((1 + reach[0]) + reach[1]) + reach[2]);
+  const double underflow = (count + 4) * 0x1p-1020 * (((1 + reach[0]) + reach[1]) + reach[2]);
   Aabb box;
   for (std::size_t k = 0; k < position_vectors; ++k) {
     auto magnitude = hn::Zero(d);  // R

@@ -38,13 +38,17 @@ HWY_INLINE void round_positions(const Leaf_input& leaf, const Filter_request& re
   const auto origin = in_all_lanes(d, request.origin);
   const auto round = [&](Doubles axis_origin, Doubles coordinates)
                          HWY_ATTR { return rounded(d, request, axis_origin, hn::Add(coordinates, hn::Set(d, shift))); };
-  for (std::size_t first = 0; first < leaf.vertex_count; first += double_lanes) {
+  std::size_t first = 0;
+  for (; first < leaf.vertex_count; first += double_lanes) {
     const auto [x, y, z] = load_positions(
         [&](std::size_t lane) { return leaf.coordinates + 3 * std::size_t{leaf.vertices[first + lane]}; });
     hn::Store(round(origin.x, x), narrow, positions[0] + first);
     hn::Store(round(origin.y, y), narrow, positions[1] + first);
     hn::Store(round(origin.z, z), narrow, positions[2] + first);
   }
+  // The last floats are read as a vector. Processors are slow at numbers that are too small to be normal.
+  for (; first % float_lanes != 0; first += double_lanes)
+    for (auto& axis : positions) hn::Store(hn::Zero(narrow), narrow, axis + first);
 }
 
 HWY_INLINE void step_positions(const Face_columns::Positions& positions, const Filter_request& request,

@@ -27,7 +27,7 @@ namespace lodestone {
 /// with each sum. So is each term of the two ends. Let m = max(|r|, |s|) + sum_j |q_j| max(|a_j|, |b_j|). By the usual
 /// bound, \cite higham2002 (section 3.1), both differ from the exact values by at most (k + 1) u / (1 - (k + 1) u) m,
 /// where u = 2^-53, and by 2^-1075 for each product that underflows. The ends are moved outwards by (4 k + 16) u m and
-/// k 2^-1072, which is more than both together with the rounding of m and of the ends themselves.
+/// k 2^-1020, which is more than both together with the rounding of m and of the ends themselves.
 class Linear_bound {
  public:
   /// What a node's vertices can be away from rest, along each axis.
