@@ -37,7 +37,8 @@ namespace lodestone {
 ///
 /// The mode decides how much of a mesh a frame reads, and what it may miss: see `Particle_detection` and
 /// `Exact_detection`. What is said of mode `exact` holds for mode `certified` too, unless it says otherwise. Every
-/// query asks for the current vertex positions, so results are never stale. One thread at a time may use a detector.
+/// query asks for the current vertex positions, so results are never stale: see also `hold_positions`. One thread at a
+/// time may use a detector.
 ///
 /// A call that runs out of memory throws std::bad_alloc, and nothing leaks. Repeat it, or go on without it: the next
 /// `detect` is right. A `rebuild` may or may not have taken effect.
@@ -123,6 +124,18 @@ class Detector {
   void place(Object_id object, const Eigen::Isometry3d& placement) {
     detection_->place(checked(object), make_rigid_motion(placement));
   }
+
+  /// Promises that no vertex of any mesh moves as long as the returned object lives. Then only the first query of an
+  /// object reads its positions, and refits its tree, in mode `exact`: later ones cost only what they look at.
+  ///
+  ///     const auto held = detector.hold_positions();
+  ///     for (const auto& pair : detector.detect().pairs) gaps.push_back(detector.closest(pair.a, pair.b));
+  ///
+  /// What is changed by calls of the detector, say by `place` or `update`, is noticed all the same. Vertices that are
+  /// moved otherwise may go unnoticed: answers then mix where they were and where they are. Promises may overlap.
+  /// A `ray_tree` stays of use from query to query.
+  /// @throws Bad_argument  another mode
+  Held_positions hold_positions() { return Held_positions(ask<Exact>().hold()); }
 
   /// Tells the detector that faces of an object's mesh have been added, removed or changed. The object is numbered,
   /// partitioned and built again, and has the positions of its mesh, as after `update(object)`. Without this call, the
@@ -325,7 +338,7 @@ class Detector {
     return ask<Exact>().first_hits(sorted(objects), rays);
   }
   /// An object where it is now, prepared for rays that are asked about one by one: see Ray_tree. It reads positions in
-  /// place. So it is of use until the next query of the object, or until the object is moved, given positions or a
+  /// place. So it is of use until the next query of the object, unless positions are held, or until the object is moved, given positions or a
   /// promise, placed, rebuilt, loaded or removed. The detector keeps it, and refits it when it is asked for again. In
   /// mode `certified` an object with bounds is posed as a whole.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`

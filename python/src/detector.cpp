@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "lodestone/mesh/errors.h"
 
@@ -49,8 +50,9 @@ Object_id Python_object::add_to(Detector<Any_strategy>& detector, const Object_o
   return detector.add(*mesh_, options);
 }
 
-void Python_object::refresh() {
-  if (vertices_) vertices_->refresh();
+void Python_object::refresh(std::uint64_t hold) {
+  const bool is_read = hold != 0 && std::exchange(read_in_, hold) == hold;
+  if (vertices_ && !is_read) vertices_->refresh();
 }
 
 void Python_object::check_has_arrays() const {
@@ -104,7 +106,7 @@ Python_detector::Reading::Reading(Python_detector& detector) : detector_(detecto
   std::set<Python_skin*> skins;  // in one order for all detectors, so that none waits for the other
   for (const auto& object : detector.objects_) {
     if (!object) continue;
-    object->refresh();
+    object->refresh(detector.hold_.number());
     if (object->skin() != nullptr) skins.insert(object->skin());
   }
   for (auto* skin : skins) skins_.push_back(std::make_unique<Python_skin::Reading>(*skin));
@@ -195,6 +197,10 @@ void Python_detector::set_frame(Object_id object, py::ssize_t frame) {
 }
 
 void Python_detector::update(std::optional<Object_id> object) {
+  look([&](auto& detector) {
+    for (Object_id id = 0; id < objects_.size(); ++id)
+      if (detector.has(id) && (!object || *object == id)) at(id).read_anew();
+  });
   ask([&](auto& detector) {
     ++poses_;
     if (object)
@@ -311,6 +317,20 @@ void Python_detector::remove(Object_id object) {
     removed = std::move(objects_[object]);
   });
   // With the GIL again: what it keeps goes.
+}
+
+void Python_detector::hold_positions() {
+  change([&](auto& detector) {
+    held_.push_back(detector.hold_positions());
+    hold_.begin();
+  });
+}
+
+void Python_detector::release_positions() {
+  change([&](auto&) {
+    held_.pop_back();
+    hold_.end();
+  });
 }
 
 }  // namespace lodestone::python

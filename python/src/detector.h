@@ -32,7 +32,10 @@ class Python_object {
   Object_id add_to(Detector<Any_strategy>& detector, const Object_options& options) const;
 
   /// Takes what Python has written since the last call. Without the GIL.
-  void refresh();
+  /// @param hold  the number of the hold of all positions, in which it is read once; 0: there is none
+  void refresh(std::uint64_t hold);
+  /// The next `refresh` reads, whatever is held.
+  void read_anew() { read_in_ = 0; }
   /// Takes other arrays, in exchange for its own. Without the GIL.
   /// @throws Bad_mesh, Bad_argument  it stays as it was
   void exchange(std::unique_ptr<Live_vertices>& vertices);
@@ -62,6 +65,7 @@ class Python_object {
   std::unique_ptr<Computed_motion> computed_;    ///< its motion, if it is computed on demand
   std::shared_ptr<Python_skin> skin_;
   std::vector<py::object> kept_;
+  std::uint64_t read_in_ = 0;  ///< the hold in which positions were read last; 0: in none
   std::optional<Rigid_motion> placement_;  ///< none: where its mesh is
   std::vector<double> posed_;              ///< of an animation or a skin: a pose, at first that at rest
   std::unique_ptr<Indexed_mesh> mesh_;
@@ -137,6 +141,11 @@ class Python_detector {
   }
   void remove(Object_id object);
 
+  /// Until `release_positions`, positions are read once: see `Detector::hold_positions`.
+  void hold_positions();
+  /// Ends the promise that was made last.
+  void release_positions();
+
  private:
   /// While a query reads positions.
   class Reading {
@@ -171,6 +180,8 @@ class Python_detector {
   std::uint64_t last_frame_ = 0;  ///< number of the frame that was found last
   std::uint64_t poses_ = 0;       ///< how often objects were moved, added, removed or rebuilt, but for what `poses` adds
   Detector<Any_strategy> detector_;
+  Position_hold hold_;  ///< of what is copied from Python
+  std::vector<Held_positions> held_;
 };
 
 void add_detector(py::module_& module);

@@ -239,6 +239,7 @@ TEST_F(Snippets, of_more_than_face_pairs) {
        .exact = {.tolerance = 0.001, .self_collision = true, .containment = true, .threads = 0}});
   const auto cloth = detector.add(cloth_mesh), body = detector.add(body_mesh, {.groups = 2, .meets = 1});
   while (move(cloth_mesh, body_mesh)) {
+    const auto held = detector.hold_positions();        // none moves until the end of this round
     const lodestone::Frame& frame = detector.detect();  // reads the positions, refits, answers
     for (const auto& pair : frame.pairs)                // a = b: the cloth with itself
       for (std::size_t i = pair.first_contact; i < pair.first_contact + pair.contacts; ++i)

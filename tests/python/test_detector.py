@@ -467,3 +467,28 @@ def test_something_without_faces_is_refused():
 def test_errors_are_python_errors_too():
     assert issubclass(lodestone.BadMesh, lodestone.Error) and issubclass(lodestone.BadMesh, ValueError)
     assert lodestone.BadMesh.__module__ == "lodestone" and lodestone.Detector.__module__ == "lodestone"
+
+
+def test_positions_are_read_once_where_they_are_held():
+    box = cube(1)
+    vertices = np.array(box.vertices, dtype=float)[:, ::-1]  # not in memory as it is needed: copied by each query
+    detector = lodestone.Detector()
+    still, moved = detector.add(cube(1)), detector.add(vertices, np.array(box.faces)[:, ::-1])
+    assert detector.detect().collides
+    with detector.hold_positions():
+        assert detector.detect().collides
+        vertices += 5
+        assert detector.detect().collides  # as promised: nothing was looked at
+        detector.update(moved)
+        assert not detector.detect().collides
+        detector.set_vertices(moved, vertices - 5)
+        assert detector.detect().collides
+        detector.set_vertices(moved, vertices)
+    assert detector.closest(still, moved)["distance"] > 1
+    vertices -= 5
+    assert detector.detect().collides
+    with detector.hold_positions(), detector.hold_positions():
+        assert detector.detect().collides
+    with pytest.raises(lodestone.BadArgument):
+        with lodestone.Detector(mode="particles").hold_positions():
+            pass

@@ -30,8 +30,9 @@ namespace lodestone {
 /// The modes `exact` and `certified` of a Detector: frames, and questions about some objects.
 ///
 /// Every call that answers first reads all positions of the objects that it is about and refits their trees: it cannot
-/// answer for where they were before. In mode `certified` an object with bounds is read where it is near others. If a
-/// bound turns out to be broken, the object is read as a whole, and the call answers anew.
+/// answer for where they were before. Positions that are held are read once: see Held_positions. In mode `certified` an
+/// object with bounds is read where it is near others. If a bound turns out to be broken, the object is read as a
+/// whole, and the call answers anew.
 template <Bounding_volume Volume>
 class Exact_detection final : public Detection {
  public:
@@ -152,6 +153,8 @@ class Exact_detection final : public Detection {
   std::vector<std::optional<Object_hit>> first_hits(std::span<const Object_id> ids, std::span<const Ray> rays);
   /// The objects that have not been removed, ascending.
   std::span<const Object_id> ids() const { return objects_.ids(); }
+  /// The promises that positions stay as they are.
+  const std::shared_ptr<Position_hold>& hold() const { return objects_.hold(); }
   /// Who share the work.
   Workers& workers() { return workers_; }
   /// See `Detector::parting`.

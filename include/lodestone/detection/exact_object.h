@@ -52,12 +52,14 @@ class Exact_object {
   Positions checked(const Eigen::Ref<const Positions>& positions);
   /// Takes positions that came through `update`; none: those of the mesh count again.
   void give(std::optional<Positions> positions) {
+    refreshed_in_ = 0;
     if (given_ || positions) ++changes_;
     given_ = std::move(positions);
   }
   /// Places the object elsewhere from now on; none: where its mesh is.
   void place(const std::optional<Rigid_motion>& placement) {
     placement_ = placement;
+    refreshed_in_ = 0;
     ++changes_;
   }
 
@@ -111,10 +113,11 @@ class Exact_object {
   const Ray_tree& ray_tree(Workers& workers)
     requires std::same_as<Volume, Aabb>
   {
-    if (ray_tree_)
-      ray_tree_->refit(surface.view(), workers);
-    else
+    if (!ray_tree_)
       ray_tree_.emplace(surface.view(), workers);
+    else if (!ray_tree_is_current_)
+      ray_tree_->refit(surface.view(), workers);
+    ray_tree_is_current_ = true;
     rays_without_tree_ = 0;
     return *ray_tree_;
   }
@@ -128,7 +131,24 @@ class Exact_object {
 
   /// Takes note that a query begins: positions can have changed since the last one.
   void begin_query() {
+    refreshed_in_ = 0;
+    ray_tree_is_current_ = false;
     if (mesh().pose_number() == 0) ++changes_;
+  }
+  /// Whether positions that are held have been read, and nothing else about the object has changed since.
+  /// @param hold  Position_hold::number
+  bool is_refreshed(std::uint64_t hold) const { return hold != 0 && refreshed_in_ == hold; }
+  /// Takes note that they have been read.
+  void note_refreshed(std::uint64_t hold) { refreshed_in_ = hold; }
+  /// Takes note that a query begins for which they need not be read again. O(1).
+  /// @throws Bad_mesh  the mesh has changed since it was numbered
+  void begin_query_of_refreshed() {
+    mesh().check_connectivity(title);
+    if (!mesh().in_memory() || given_ || placement_) return;
+    const Coordinates now = mesh().read();  // the same numbers, but the mesh may have moved them to other memory
+    if (now.data() == surface.coordinates().data()) return;
+    surface.follow(now);
+    ray_tree_is_current_ = false;
   }
 
   /// The surface as one that is bounded, in mode `certified`; null: not yet.
@@ -138,6 +158,7 @@ class Exact_object {
   /// Promises something about the motion.
   void promise(Make_bound make) {
     promises_.push_back(std::move(make));
+    refreshed_in_ = 0;
     bounded_.reset();
   }
   /// Makes the bounds of a surface that has just been refitted. The first time, promises take its positions as those at
@@ -156,6 +177,7 @@ class Exact_object {
   /// Until `finish`: a build that runs out of memory in between leaves an object that is built anew.
   void forget_tree() {
     built = false;
+    refreshed_in_ = 0;
     former_.reset();
     bounded_.reset();
     forget_ray_tree();
@@ -241,12 +263,14 @@ class Exact_object {
   std::optional<Positions> given_ = {};  ///< in place of those of the mesh
   std::optional<Rigid_motion> placement_ = {};
   std::uint64_t changes_ = 0;  ///< of both, and of positions of which nobody says whether they have changed
+  std::uint64_t refreshed_in_ = 0;  ///< the number of the hold in which positions have been read; 0: none
   std::vector<Make_bound> promises_;
   std::vector<double> rest_;            ///< 3 V: the first positions that a promise was about; none before
   std::vector<double> rest_of_points_;  ///< 3 V: the first positions that points with a bound had; none before
   std::unique_ptr<Mesh_positions> mesh_positions_;  ///< what bounds of points look at
   std::unique_ptr<Bounded_surface> bounded_;
   std::optional<Ray_tree> ray_tree_;   ///< of the surface; none before it is asked for
+  bool ray_tree_is_current_ = false;   ///< it has the positions that the last query has read
   std::size_t rays_without_tree_ = 0;  ///< of calls for which the refit of a tree would have paid
   std::vector<double> placed_;         ///< memory of `read`
 };

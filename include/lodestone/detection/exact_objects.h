@@ -13,6 +13,7 @@
 
 #include "lodestone/detection/exact_object.h"
 #include "lodestone/detection/frame.h"
+#include "lodestone/detection/held_positions.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/mesh/side_by_side.h"
@@ -64,6 +65,9 @@ class Exact_objects {
     timed(work_.seconds.build, [&] { objects_[id]->load(state, options_.exact.self_tolerance > 0); });
   }
 
+  /// The promises that positions stay as they are.
+  const std::shared_ptr<Position_hold>& hold() const { return hold_; }
+
   /// Forgets an object. O(objects).
   void remove(Object_id id) {
     objects_[id].reset();
@@ -110,7 +114,8 @@ class Exact_objects {
   /// @throws Broken_bound  names the first of them
   void throw_if_broken(std::span<const Object_id> ids) const;
 
-  /// Brings everything that depends on positions to where the vertices of these objects are now.
+  /// Brings everything that depends on positions to where the vertices of these objects are now. Positions that are
+  /// held are read once.
   /// @throws Bad_mesh  a coordinate is not finite; a mesh has changed since it was numbered
   void refresh(std::span<const Object_id> ids);
 
@@ -137,6 +142,7 @@ class Exact_objects {
   std::vector<std::unique_ptr<Object>> objects_;  ///< null: removed
   std::vector<Object_id> ids_;                    ///< of the others
   Frame_statistics work_;
+  std::shared_ptr<Position_hold> hold_ = std::make_shared<Position_hold>();
 
   // Memory, kept from frame to frame.
   std::vector<Object_id> whole_;  ///< those that are posed as a whole
@@ -148,11 +154,16 @@ template <Bounding_volume Volume>
 void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   work_.seconds.refit = 0;
   work_.vertices_read = 0;
-  for (const auto id : ids) objects_[id]->begin_query();
-  start_on_demand(ids);
   whole_.clear();
-  for (const auto id : ids)
+  for (const auto id : ids) {
+    if (objects_[id]->is_refreshed(hold_->number())) {
+      objects_[id]->begin_query_of_refreshed();
+      continue;
+    }
+    objects_[id]->begin_query();
     if (!on_demand(id)) whole_.push_back(id);
+  }
+  start_on_demand(ids);
   for (const auto id : whole_) work_.vertices_read += objects_[id]->mesh().vertex_count();
   // Refitted first: a tree that is built now holds the current positions.
   timed(work_.seconds.refit, [&] { refit_built(whole_); });
@@ -164,6 +175,7 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
     });
   rebuild_loose(whole_);
   if (options_.mode == Mode::certified) bound_refitted(whole_);
+  for (const auto id : ids) objects_[id]->note_refreshed(hold_->number());
 }
 
 template <Bounding_volume Volume>
