@@ -338,9 +338,9 @@ class Detector {
     return ask<Exact>().first_hits(sorted(objects), rays);
   }
   /// An object where it is now, prepared for rays that are asked about one by one: see Ray_tree. It reads positions in
-  /// place. So it is of use until the next query of the object, unless positions are held, or until the object is moved, given positions or a
-  /// promise, placed, rebuilt, loaded or removed. The detector keeps it, and refits it when it is asked for again. In
-  /// mode `certified` an object with bounds is posed as a whole.
+  /// place. So it is of use until the next query of the object, unless positions are held, or until the object is
+  /// moved, given positions or a promise, placed, rebuilt, loaded or removed. The detector keeps it, and refits it when
+  /// it is asked for again. In mode `certified` an object with bounds is posed as a whole.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   const Ray_tree& ray_tree(Object_id object)
     requires std::same_as<Volume, Aabb>
