@@ -287,7 +287,7 @@ void Python_detector::check_is_shown(const Python_frame& frame) {
 
 py::array Python_detector::positions(Object_id object) {
   const auto coordinates = change([&](auto&) {
-    at(object).refresh();
+    at(object).refresh(hold_.number());
     return at(object).positions();
   });
   return positions_array(coordinates);
@@ -301,7 +301,7 @@ std::vector<Python_detector::Shown_object> Python_detector::shown() {
         all.emplace_back();
         continue;
       }
-      object->refresh();
+      object->refresh(hold_.number());
       const auto corners = object->mesh().corners();
       all.push_back({object->name(), {corners.begin(), corners.end()}, object->positions()});
     }
