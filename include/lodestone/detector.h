@@ -99,7 +99,8 @@ class Detector {
   /// Tells the detector that the vertices of an object have moved. In mode `particles` an object is repartitioned, and
   /// its number of particles computed again, if the area of a region is found to exceed `Detector_options::growth`
   /// times A*. O(N) while nothing has grown. With meetings a call looks at an eighth of the regions, or at all if the
-  /// whole object seems larger. In mode `exact` this only discards given positions; `detect` reads the mesh anyway.
+  /// whole object seems larger. In mode `exact` this only discards given positions; `detect` reads the mesh anyway,
+  /// unless positions are held: then the next query of the object reads it.
   /// @throws Bad_argument  no such object
   /// @throws Bad_mesh      as `detect`
   void update(Object_id object) { detection_->update(checked(object)); }
@@ -125,15 +126,16 @@ class Detector {
     detection_->place(checked(object), make_rigid_motion(placement));
   }
 
-  /// Promises that no vertex of any mesh moves as long as the returned object lives. Then only the first query of an
-  /// object reads its positions, and refits its tree, in mode `exact`: later ones cost only what they look at.
+  /// Promises that no vertex of any mesh moves as long as the returned Held_positions lives. Then no position is read
+  /// twice, in mode `exact`: the first query of an object refits its tree, later ones cost only what they look at.
   ///
   ///     const auto held = detector.hold_positions();
   ///     for (const auto& pair : detector.detect().pairs) gaps.push_back(detector.closest(pair.a, pair.b));
   ///
   /// What is changed by calls of the detector, say by `place` or `update`, is noticed all the same. Vertices that are
   /// moved otherwise may go unnoticed: answers then mix where they were and where they are. Promises may overlap.
-  /// A `ray_tree` stays of use from query to query.
+  /// A `ray_tree` that is asked for meanwhile stays of use until then. The end of a promise counts as a use of the
+  /// detector.
   /// @throws Bad_argument  another mode
   Held_positions hold_positions() { return Held_positions(ask<Exact>().hold()); }
 
@@ -338,9 +340,10 @@ class Detector {
     return ask<Exact>().first_hits(sorted(objects), rays);
   }
   /// An object where it is now, prepared for rays that are asked about one by one: see Ray_tree. It reads positions in
-  /// place. So it is of use until the next query of the object, unless positions are held, or until the object is
-  /// moved, given positions or a promise, placed, rebuilt, loaded or removed. The detector keeps it, and refits it when
-  /// it is asked for again. In mode `certified` an object with bounds is posed as a whole.
+  /// place. So it is of use until the next query of the object; while positions are held, until the first query after
+  /// that. It is of no use once the object is moved, given positions or a promise, placed, rebuilt, loaded or removed,
+  /// or once the mesh moves its memory. The detector keeps it, and refits it when it is asked for again. In mode
+  /// `certified` an object with bounds is posed as a whole.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   const Ray_tree& ray_tree(Object_id object)
     requires std::same_as<Volume, Aabb>

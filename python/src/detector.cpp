@@ -103,10 +103,11 @@ Python_detector::Python_detector(const Detector_settings& settings)
 
 Python_detector::Reading::Reading(Python_detector& detector) : detector_(detector) {
   detector.check_no_visitor();
+  const auto hold = detector.current_hold();
   std::set<Python_skin*> skins;  // in one order for all detectors, so that none waits for the other
   for (const auto& object : detector.objects_) {
     if (!object) continue;
-    object->refresh(detector.hold_.number());
+    object->refresh(hold);
     if (object->skin() != nullptr) skins.insert(object->skin());
   }
   for (auto* skin : skins) skins_.push_back(std::make_unique<Python_skin::Reading>(*skin));
@@ -197,17 +198,17 @@ void Python_detector::set_frame(Object_id object, py::ssize_t frame) {
 }
 
 void Python_detector::update(std::optional<Object_id> object) {
-  look([&](auto& detector) {
-    for (Object_id id = 0; id < objects_.size(); ++id)
-      if (detector.has(id) && (!object || *object == id)) at(id).read_anew();
-  });
-  ask([&](auto& detector) {
-    ++poses_;
-    if (object)
-      detector.update(*object);
-    else
-      detector.update();
-  });
+  const Without_gil without_gil;
+  const std::lock_guard lock(mutex_);
+  check_no_visitor();
+  for (Object_id id = 0; id < objects_.size(); ++id)
+    if (objects_[id] && (!object || *object == id)) objects_[id]->read_anew();
+  const Reading reading(*this);
+  ++poses_;
+  if (object)
+    detector_.update(*object);
+  else
+    detector_.update();
 }
 
 void Python_detector::place(Object_id object, const py::object& matrix) {
@@ -287,7 +288,7 @@ void Python_detector::check_is_shown(const Python_frame& frame) {
 
 py::array Python_detector::positions(Object_id object) {
   const auto coordinates = change([&](auto&) {
-    at(object).refresh(hold_.number());
+    at(object).refresh(current_hold());
     return at(object).positions();
   });
   return positions_array(coordinates);
@@ -301,7 +302,7 @@ std::vector<Python_detector::Shown_object> Python_detector::shown() {
         all.emplace_back();
         continue;
       }
-      object->refresh(hold_.number());
+      object->refresh(current_hold());
       const auto corners = object->mesh().corners();
       all.push_back({object->name(), {corners.begin(), corners.end()}, object->positions()});
     }
@@ -321,16 +322,18 @@ void Python_detector::remove(Object_id object) {
 
 void Python_detector::hold_positions() {
   change([&](auto& detector) {
+    current_hold();
     held_.push_back(detector.hold_positions());
     hold_.begin();
   });
 }
 
-void Python_detector::release_positions() {
-  change([&](auto&) {
+std::uint64_t Python_detector::current_hold() {
+  for (std::size_t ended = released_.exchange(0); ended > 0; --ended) {
     held_.pop_back();
     hold_.end();
-  });
+  }
+  return hold_.number();
 }
 
 }  // namespace lodestone::python

@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -143,8 +144,9 @@ class Python_detector {
 
   /// Until `release_positions`, positions are read once: see `Detector::hold_positions`.
   void hold_positions();
-  /// Ends the promise that was made last.
-  void release_positions();
+  /// Ends a promise; at most as often as one was made. Waits for nobody, since Python calls it anywhere: where a block
+  /// is left by an error, or a generator is thrown away while a visitor is called.
+  void release_positions() { ++released_; }
 
  private:
   /// While a query reads positions.
@@ -161,6 +163,8 @@ class Python_detector {
 
   /// @throws Bad_argument  a visitor called
   void check_no_visitor() const;
+  /// The number of the hold, once promises that have ended are gone; 0: there is none.
+  std::uint64_t current_hold();
   Python_object& at(Object_id object) const;
   /// An object for messages: its id and its name.
   /// @throws Bad_argument  there is no such object
@@ -182,6 +186,7 @@ class Python_detector {
   Detector<Any_strategy> detector_;
   Position_hold hold_;  ///< of what is copied from Python
   std::vector<Held_positions> held_;
+  std::atomic<std::size_t> released_ = 0;  ///< promises that have ended, and are still in `held_`
 };
 
 void add_detector(py::module_& module);

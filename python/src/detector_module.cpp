@@ -329,15 +329,23 @@ void add_promises(py::module_& module) {
 /// What `with detector.hold_positions():` enters and leaves.
 struct Held {
   py::object detector;
+  std::size_t entered = 0;
 
-  void begin() const { detector.cast<Python_detector&>().hold_positions(); }
-  void end() const { detector.cast<Python_detector&>().release_positions(); }
+  void begin() {
+    detector.cast<Python_detector&>().hold_positions();
+    ++entered;
+  }
+  void end() {
+    if (entered == 0) throw Bad_argument("these positions are not held");
+    --entered;
+    detector.cast<Python_detector&>().release_positions();
+  }
 };
 
 void add_held(py::module_& module) {
   py::class_<Held>(module, "HeldPositions", "See `Detector.hold_positions`.")
       .def("__enter__", &Held::begin)
-      .def("__exit__", [](const Held& self, const py::args&) { self.end(); });
+      .def("__exit__", [](Held& self, const py::args&) { self.end(); });
 }
 
 void add_detector(py::module_& module) {
@@ -395,11 +403,12 @@ void add_detector(py::module_& module) {
            "Raises BadArgument: there is no such frame.")
       .def("update", &Python_detector::update, py::arg("object") = py::none(),
            "Tells the mode 'particles' that the vertices of an object, or of all, have been moved in their arrays, so that "
-           "it\nrepartitions what has grown. `set_vertices` does so by itself; other modes do not need it.")
+           "it\nrepartitions what has grown. `set_vertices` does so by itself. Other modes need it only while positions are held.")
       .def("hold_positions", [](py::object self) { return Held{std::move(self)}; },
-           "Promises that no vertex moves in the block `with detector.hold_positions():`. Only the first query of an object\n"
-           "then reads its positions. What `place`, `set_vertices` and other methods change is noticed all the same. What is\n"
-           "written into arrays may go unnoticed. Modes 'exact' and 'certified'.")
+           "Promises that no vertex moves in the block `with detector.hold_positions():`. No position is then read twice.\n"
+           "What `place`, `set_vertices` and other methods of the detector change is noticed all the same. What is written\n"
+           "into arrays, joints or weights is not: answers may then mix old and new positions. This holds for all threads\n"
+           "that use the detector. Modes 'exact' and 'certified'.")
       .def("place", &Python_detector::place, py::arg("object"), py::arg("matrix"),
            "Places an object: from now on its vertices are at matrix * p, a rigid motion (4, 4).")
       .def("rebuild", &Python_detector::rebuild, py::arg("object"), py::arg("vertices"), py::arg("faces"), py::kw_only(),

@@ -36,7 +36,7 @@ HWY_INLINE void widen(const Skinned_node& node, const Joint_range& range, Moved_
     const auto to = hn::Add(hn::Add(load(range.high.data(), k), load_position(node.high, k)), margin);
     const auto low = hn::Mul(from, by_half), high = hn::Mul(to, by_half);
     const auto centre = hn::Add(low, high);
-    const auto half = hn::Add(hn::Sub(high, low), hn::Set(d, 0x1p-1073));  // halves of the smallest numbers are rounded
+    const auto half = hn::Add(hn::Sub(high, low), hn::Set(d, 0x1p-960));  // halves of the smallest numbers are rounded
     store(centre, moved.centre, k);
     store(half, moved.half, k);
     store(hn::Add(hn::Abs(centre), half), moved.reach, k);

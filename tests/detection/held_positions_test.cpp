@@ -219,6 +219,34 @@ TEST(Held_positions, an_error_is_thrown_again) {
   expect_contacts(detector.detect(), 0, 1, exhaustive_face_pairs(a, b));
 }
 
+TEST(Held_positions, a_broken_bound_hides_nothing_from_later_queries) {
+  const auto a = potato(6), b = potato(6, 2);
+  const auto between = [](double low, double high) {
+    return Box_promise([=](Region_index, const Aabb&) { return Aabb{.low = {low, -9, -9}, .high = {high, 9, 9}}; });
+  };
+  const Box_promise left = between(-3, -2), right = between(2, 3);  // together nowhere
+  const Ray ray{.origin = {-9, 0.1, 0.1}, .direction = {1, 0, 0}};
+  for (const bool is_held : {false, true}) {
+    Detector<> detector({.mode = Mode::certified}), exact({.mode = Mode::exact});
+    for (auto* either : {&detector, &exact}) add_all(*either, {&a, &b});
+    detector.promise(0, left);
+    detector.promise(0, right);
+    detector.detect();
+    std::optional<Held_positions> held;
+    if (is_held) held.emplace(detector.hold_positions());
+    EXPECT_EQ(detector.first_hit(ray)->object, exact.first_hit(ray)->object);
+    EXPECT_EQ(detector.first_hit(ray)->hit.t, exact.first_hit(ray)->hit.t);
+    expect_contacts(detector.detect(), 0, 1, exhaustive_face_pairs(a, b));
+  }
+  Detector<> strict({.mode = Mode::certified, .exact = {.throw_if_broken = true}});
+  add_all(strict, {&a, &b});
+  strict.promise(0, left);
+  strict.promise(0, right);
+  strict.detect();  // makes the bounds
+  EXPECT_THROW(strict.detect(), Broken_bound);
+  EXPECT_THROW(strict.first_hit(ray), Broken_bound);
+}
+
 TEST(Held_positions, promises_may_overlap_and_follow_each_other) {
   const auto a = potato(6);
   auto b = potato(6, 2);

@@ -492,3 +492,30 @@ def test_positions_are_read_once_where_they_are_held():
     with pytest.raises(lodestone.BadArgument):
         with lodestone.Detector(mode="particles").hold_positions():
             pass
+
+
+def test_the_end_of_held_positions_is_noticed_wherever_it_comes():
+    box = cube(1)
+    vertices = np.array(box.vertices, dtype=np.float32)  # copied by each query
+    detector = lodestone.Detector()
+    still, moved = detector.add(cube(1)), detector.add(vertices, box.faces)
+    with pytest.raises(lodestone.BadArgument):
+        detector.hold_positions().__exit__(None, None, None)
+    held = detector.hold_positions()
+    held.__enter__()
+
+    def end(face_a, face_b):
+        if face_a == face_b == 0:
+            held.__exit__(None, None, None)
+
+    detector.visit(still, moved, end)
+    vertices += 5
+    assert not detector.detect().collides
+    with pytest.raises(lodestone.BadArgument):
+        held.__exit__(None, None, None)
+    with pytest.raises(ZeroDivisionError):
+        with detector.hold_positions():
+            assert not detector.detect().collides
+            raise ZeroDivisionError
+    vertices -= 5
+    assert detector.detect().collides

@@ -39,8 +39,8 @@ namespace lodestone {
 /// Together these are less than (6 J + 3 n + 16) u R, up to terms in u^2. The ends are moved outwards by
 /// (16 (J + n) + 64) u R, which also covers the rounding of R and of the ends themselves. Products that underflow add
 /// at most 2^-1075 (8 n + 16 J + 32) (|x| + |y| + |z| + 1), for which (J + n + 4) 2^-1020 (|x| + |y| + |z| + 1) is
-/// added. That is more than needed, because many processors are slow at products below 2^-1022. Boxes at rest are
-/// halved to find their centres, which rounds the smallest numbers: the halves are 2^-1073 longer.
+/// added. Boxes at rest are halved to find their centres, which rounds the smallest numbers: the halves are 2^-960
+/// longer. Both are more than needed, because many processors are slow at products below 2^-1022.
 class Skin_bound {
  public:
   /// O(influences log N) for N nodes.

@@ -348,6 +348,7 @@ std::vector<std::optional<Object_hit>> Exact_detection<Volume>::first_hits(std::
   refresh(ids);
   std::vector<Boxed_object> objects;
   for (const auto id : ids) objects.push_back({id, objects_.box(id)});
+  objects_.throw_if_broken(ids);
   return first_hits_among(
       rays, objects,
       [this](Object_id id, std::span<const Ray> asked) { return first_hits_of_refreshed(id, asked); },

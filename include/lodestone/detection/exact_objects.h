@@ -184,6 +184,8 @@ Aabb Exact_objects<Volume>::box(Object_id id) {
     if (on_demand(id)) {
       Bounded_surface& surface = bounded(id);
       if (!std::isfinite(surface.box(0).extent())) surface.pose_all();
+      // The box of a broken bound can be empty, and then nobody would look at the object.
+      if (surface.is_broken() && !options_.exact.throw_if_broken) surface.settle();
       return surface.box(0);
     }
   return surface(id).tree().volume(0).bounds();

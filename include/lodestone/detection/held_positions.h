@@ -26,7 +26,7 @@ class Position_hold {
 };
 
 /// The promise, as long as this lives, that no vertex of a detector's meshes moves: see `Detector::hold_positions`. It
-/// may outlive the detector.
+/// may outlive the detector. Until then its end counts as a use of the detector, by one thread at a time.
 class [[nodiscard]] Held_positions {
  public:
   /// @param hold  not null
