@@ -324,8 +324,6 @@ void add_promises(py::module_& module) {
       .def(py::init(&box_promise), py::arg("box"));
 }
 
-}  // namespace
-
 /// What `with detector.hold_positions():` enters and leaves.
 struct Held {
   py::object detector;
@@ -347,6 +345,8 @@ void add_held(py::module_& module) {
       .def("__enter__", &Held::begin)
       .def("__exit__", [](Held& self, const py::args&) { self.end(); });
 }
+
+}  // namespace
 
 void add_detector(py::module_& module) {
   add_promises(module);
@@ -403,7 +403,8 @@ void add_detector(py::module_& module) {
            "Raises BadArgument: there is no such frame.")
       .def("update", &Python_detector::update, py::arg("object") = py::none(),
            "Tells the mode 'particles' that the vertices of an object, or of all, have been moved in their arrays, so that "
-           "it\nrepartitions what has grown. `set_vertices` does so by itself. Other modes need it only while positions are held.")
+           "it\nrepartitions what has grown. `set_vertices` does so by itself. Other modes need it only while positions are "
+           "held.")
       .def("hold_positions", [](py::object self) { return Held{std::move(self)}; },
            "Promises that no vertex moves in the block `with detector.hold_positions():`. No position is then read twice.\n"
            "What `place`, `set_vertices` and other methods of the detector change is noticed all the same. What is written\n"

@@ -31,6 +31,18 @@ struct Counted_points {
   }
 };
 
+/// Two bodies in mode `exact`, of which the positions of the second are counted.
+struct Counted_scene {
+  Surface_mesh a = potato(6), b = potato(6, 2);
+  std::size_t reads = 0;
+  Detector<> detector{{.mode = Mode::exact}};
+
+  Counted_scene() {
+    detector.add(std::as_const(a));
+    detector.add(b, Counted_points{&b, &reads});
+  }
+};
+
 Eigen::Isometry3d along_x(double by) { return Eigen::Isometry3d(Eigen::Translation3d(by, 0, 0)); }
 
 /// Rays from all around to the middle: enough for a Ray_tree of a small mesh.
@@ -117,6 +129,8 @@ TEST(Held_positions, an_object_with_bounds_is_read_where_it_is_looked_at) {
 TEST(Held_positions, changes_through_the_detector_are_noticed) {
   auto a = potato(6), b = potato(6, 2), moved = b;
   shift(moved, 1.4);
+  const auto c = sphere(4, 0.3);
+  const Box_promise promise([](Region_index, const Aabb& rest) { return rest; });
   for (const Mode mode : {Mode::exact, Mode::certified}) {
     Detector<> held({.mode = mode}), free({.mode = mode});
     for (auto* detector : {&held, &free}) add_all(*detector, {&a, &b});
@@ -131,26 +145,19 @@ TEST(Held_positions, changes_through_the_detector_are_noticed) {
     change_both([&](auto& detector) { detector.place(1, Eigen::Isometry3d::Identity()); });
     change_both([&](auto& detector) { detector.update(1); });
     change_both([&](auto& detector) { detector.load(1, detector.save(1)); });
-    const auto c = sphere(4, 0.3);
     change_both([&](auto& detector) { detector.add(c); });
     change_both([&](auto& detector) { detector.remove(2); });
-    const Box_promise promise([&](Region_index, const Aabb& rest) { return rest; });
     if (mode == Mode::certified) change_both([&](auto& detector) { detector.promise(1, promise); });
   }
 }
 
 TEST(Held_positions, an_update_reads_a_moved_mesh) {
-  const auto a = potato(6);
-  auto b = potato(6, 2);
-  std::size_t reads = 0;
-  Detector<> detector({.mode = Mode::exact});
-  detector.add(a);
-  detector.add(b, Counted_points{&b, &reads});
-  const auto hold = detector.hold_positions();
-  EXPECT_TRUE(detector.detect().collides());
-  shift(b, 9);
-  detector.update(1);
-  EXPECT_FALSE(detector.detect().collides());
+  Counted_scene scene;
+  const auto hold = scene.detector.hold_positions();
+  EXPECT_TRUE(scene.detector.detect().collides());
+  shift(scene.b, 9);
+  scene.detector.update(1);
+  EXPECT_FALSE(scene.detector.detect().collides());
 }
 
 TEST(Held_positions, changed_faces_are_noticed) {
@@ -248,16 +255,12 @@ TEST(Held_positions, a_broken_bound_hides_nothing_from_later_queries) {
 }
 
 TEST(Held_positions, promises_may_overlap_and_follow_each_other) {
-  const auto a = potato(6);
-  auto b = potato(6, 2);
-  std::size_t reads = 0;
-  Detector<> detector({.mode = Mode::exact});
-  detector.add(a);
-  detector.add(b, Counted_points{&b, &reads});
+  Counted_scene scene;
+  auto& detector = scene.detector;
   const auto reads_of = [&](const auto& ask) {
-    reads = 0;
+    scene.reads = 0;
     ask();
-    return reads / num_vertices(b);
+    return scene.reads / num_vertices(scene.b);
   };
   const auto detect = [&] { detector.detect(); };
   std::optional<Held_positions> first, second;
