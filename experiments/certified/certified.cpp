@@ -135,9 +135,6 @@ std::string write_characters(const fs::path& folder) {
   return report;
 }
 
-/// Larger scenes are measured in fewer frames.
-std::size_t most_frames(std::size_t triangles) { return triangles > 1'000'000 ? 16 : 31; }
-
 }  // namespace
 
 std::string run_certified(const Experiment_context& context) {
@@ -154,7 +151,7 @@ std::string run_certified(const Experiment_context& context) {
     const Character_scene coarse = source.make();
     for (const std::size_t triangles : plan.sizes) {
       Character_scene scene = with_triangles(coarse, triangles / 2);
-      figures.push_back(race(scene, {.most_frames = most_frames(triangles)}, [&](double share) {
+      figures.push_back(race(scene, {}, [&](double share) {
         context.progress(done * steps + static_cast<std::size_t>(share * steps), parts * steps);
       }));
       figures.back().size = triangles;

@@ -11,9 +11,9 @@
 namespace lodestone {
 
 struct Character_race_options {
-  std::size_t most_frames = 31;  ///< of a scene, spread evenly
+  std::size_t most_frames = 91;  ///< of a scene, spread evenly
   std::size_t passes = 3;        ///< over all frames; the least time of each frame counts
-  double enough_seconds = 4;     ///< per rival and question; beyond, it starts no further pass
+  double enough_seconds = 8;     ///< per rival and question; beyond, it starts no further pass
 };
 
 /// What one way took and answered on one scene.

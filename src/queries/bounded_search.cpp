@@ -21,21 +21,37 @@ void bound_whole(Bounded_surface& surface) {
   if (!std::isfinite(surface.box(0).extent())) surface.pose_all();
 }
 
+/// How many leaves the node above a node has; no node has more than what is said of the root.
+std::uint32_t leaves_above(const Bounded_surface& surface, std::uint32_t node) {
+  if (node == 0) return std::numeric_limits<std::uint32_t>::max();
+  const Tree_layout::Node& above = surface.layout().node(surface.parent(node));
+  return above.end_leaf - above.leaf;
+}
+
+/// The other child of the node above a node, which is not the root.
+std::uint32_t sibling(const Bounded_surface& surface, std::uint32_t node) {
+  const std::uint32_t first = surface.parent(node) + 1;
+  return node == first ? surface.layout().node(surface.parent(node)).second_child : first;
+}
+
 }  // namespace
 
 Contact_summary Bounded_search::run(Bounded_surface& a, Bounded_surface& b, const Contact_request& request,
-                                    std::vector<Face_pair>& found) {
+                                    std::vector<Face_pair>& found, std::optional<Leaf_pair>* place) {
   const std::size_t limit = contact_limit(request);
+  const bool from_place = place != nullptr && request.query == Contact_query::yes_no;
   begin(a, b, request.tolerance, limit < std::numeric_limits<std::size_t>::max());
   End end;
   do {
     settle_broken();
     contacts_.found.clear();
+    start_at(from_place ? *place : std::nullopt);
     end = walk(true, [&](Face_pair contact) {
       contacts_.found.push_back(contact);
       return contacts_.found.size() < limit ? Visit::go_on : Visit::stop;
     });
   } while (end == End::broken);
+  if (from_place) *place = contacts_.found.empty() ? std::nullopt : std::optional(tested_);
   contacts_.leaf_tests = leaf_tests_;
   contacts_.exact_tests = exact_tests_;
   if (end != End::all_posed) return join_tasks(std::span(&contacts_, 1), request, found);
@@ -61,6 +77,7 @@ Visit Bounded_search::visit(Bounded_surface& a, Bounded_surface& b, double toler
     settle_broken();
     std::ranges::sort(shown);
     of_earlier_walks = shown.size();
+    start_at({});
     end = walk(false, show);
   } while (end == End::broken);
   return end == End::stopped ? Visit::stop : Visit::go_on;
@@ -83,12 +100,33 @@ void Bounded_search::settle_broken() {
   if (b_->is_broken()) b_->settle();
 }
 
+/// Has the walk begin with two leaves, go on with what lies beside them, and end with what is far from them; without
+/// them, begin with the roots.
+void Bounded_search::start_at(const std::optional<Leaf_pair>& place) {
+  const Tree_layout &layout_a = a_->layout(), &layout_b = b_->layout();
+  waiting_.assign(1, root_pair);
+  if (!place || place->a >= layout_a.leaf_count() || place->b >= layout_b.leaf_count()) return;
+  Node_pair listed{layout_a.leaf_node(place->a), layout_b.leaf_node(place->b)};
+  waiting_.assign(1, listed);
+  while (listed.a != 0 || listed.b != 0) {
+    // All that lies below `listed` is in the list. Of the two nodes above it, the smaller takes its place.
+    if (leaves_above(*a_, listed.a) <= leaves_above(*b_, listed.b)) {
+      waiting_.push_back({sibling(*a_, listed.a), listed.b});
+      listed.a = a_->parent(listed.a);
+    } else {
+      waiting_.push_back({listed.a, sibling(*b_, listed.b)});
+      listed.b = b_->parent(listed.b);
+    }
+  }
+  std::ranges::reverse(waiting_);
+}
+
 /// @param until_all_posed  end as soon as both surfaces are posed as a whole
 /// @return broken: what was visited is not all
+/// @pre `start_at` has said where
 template <class Visitor>
 Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor) {
   filter_of_a_ = {};
-  waiting_.assign(1, root_pair);
   const Tree_layout &layout_a = a_->layout(), &layout_b = b_->layout();
   while (!waiting_.empty()) {
     if (is_broken()) return End::broken;
@@ -130,6 +168,7 @@ Bounded_search::End Bounded_search::test_leaves(std::uint32_t leaf_a, std::uint3
                              : !near(a_->box(a_->layout().leaf_node(leaf_a)), b_->pose(leaf_b), tolerance_);
   if (apart || !near(a_->pose(leaf_a), b_->pose(leaf_b), tolerance_) || is_broken()) return End::complete;
   ++leaf_tests_;
+  tested_ = {leaf_a, leaf_b};
   begin_filter();
   const Leaf_faces faces_a = a_->view().leaf(leaf_a), faces_b = b_->view().leaf(leaf_b);
   const auto indices_a = a_->layout().faces(leaf_a), indices_b = b_->layout().faces(leaf_b);

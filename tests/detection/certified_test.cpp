@@ -30,6 +30,47 @@ TEST(Certified, gives_the_answers_of_mode_exact) {
   EXPECT_GT(apart, 50U);
 }
 
+TEST(Certified, a_contact_that_lasts_is_found_where_it_was) {
+  Certified_scene scene;
+  Detector certified(in_mode(Mode::certified, {.contacts = Contact_query::yes_no})),
+      exact(in_mode(Mode::exact, {.contacts = Contact_query::yes_no}));
+  scene.add_to(certified);
+  scene.add_to(exact);
+  const auto pose = [&](double apart, int frame) {
+    bend(scene.upper_points, 0.1 + 0.001 * frame, {0, 0, apart});
+    bend(scene.lower_points, 0.1, {0, 0, 0});
+  };
+  const auto work = [&] {
+    const Frame& found = certified.detect(0, 1);
+    EXPECT_EQ(found.collides(), exact.detect(0, 1).collides());
+    return found.collides() ? std::optional(found.statistics.nodes_bounded) : std::nullopt;
+  };
+  pose(9, 0);
+  EXPECT_FALSE(work());
+  pose(0.9, 0);
+  const auto first = work();
+  ASSERT_TRUE(first);
+  for (int frame = 1; frame < 6; ++frame) {
+    pose(0.9, frame);
+    const auto later = work();
+    ASSERT_TRUE(later);
+    EXPECT_EQ(*later, 4U);  // two leaves, and the roots
+    EXPECT_LT(*later, *first);
+  }
+  pose(9, 6);
+  EXPECT_FALSE(work());  // and then there is no such place
+  pose(0.9, 0);
+  EXPECT_EQ(work(), first);
+  certified.rebuild(0);  // the tree can have other leaves now
+  pose(0.9, 1);
+  EXPECT_TRUE(work());
+  certified.detect();  // of all pairs
+  for (int frame = 2; frame < 4; ++frame) {
+    pose(0.9, frame);
+    EXPECT_EQ(work(), std::optional<std::size_t>(4));
+  }
+}
+
 TEST(Certified, a_first_contact_is_a_contact) {
   Certified_scene scene;
   Detector certified(in_mode(Mode::certified, {.contacts = Contact_query::first})), exact(in_mode(Mode::exact, {}));

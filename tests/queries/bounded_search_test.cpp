@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "lodestone/mesh/errors.h"
@@ -35,6 +36,14 @@ bool expect_truth(Bounded_surface& a, Bounded_surface& b, const Surface_mesh& me
   EXPECT_EQ(std::vector(found.begin() + 1, found.end()), truth);
   EXPECT_EQ(found.front(), (Face_pair{7, 7}));
   return !truth.empty();
+}
+
+/// A smooth body along x, large enough that it is not posed as a whole where its tip is near.
+Surface_mesh smooth_body() {
+  Surface_mesh mesh = sphere(40);
+  for (const auto v : mesh.vertices())
+    mesh.point(v) = Point(3 * mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z());
+  return mesh;
 }
 
 TEST(Bounded_search, finds_what_exhaustive_checking_finds) {
@@ -87,10 +96,7 @@ TEST(Bounded_search, refuses_what_is_no_tolerance) {
 }
 
 TEST(Bounded_search, poses_little_where_little_is_near) {
-  Surface_mesh smooth = sphere(40);
-  for (const auto v : smooth.vertices())
-    smooth.point(v) = Point(3 * smooth.point(v).x(), smooth.point(v).y(), smooth.point(v).z());
-  Arm a(smooth, false), b(smooth, false);
+  Arm a(smooth_body(), false), b(smooth_body(), false);
   a.pose(0.5, {0, 0, 0});
   b.pose(-0.5, {0, 0, 30});
   Bounded_search search;
@@ -107,6 +113,79 @@ TEST(Bounded_search, poses_little_where_little_is_near) {
   EXPECT_TRUE(meet);
   EXPECT_GT(a.surface.vertices_posed(), 0U);
   EXPECT_LT(a.surface.vertices_posed(), a.points.vertex_count() / 10);
+}
+
+TEST(Bounded_search, that_begins_anywhere_says_the_same) {
+  Arm a(smooth_body(), false, 8), b(smooth_body(), true, 11);
+  std::mt19937_64 random(5);
+  const auto any_leaf = [&](const Tree_layout& layout) {
+    return static_cast<std::uint32_t>(random() % (layout.leaf_count() + 1));  // one past the last does not exist
+  };
+  const auto is_in = [&](const Leaf_pair& place, Face_pair contact) {
+    return std::ranges::count(a.layout.faces(place.a), contact.a) == 1 &&
+           std::ranges::count(b.layout.faces(place.b), contact.b) == 1;
+  };
+  Bounded_search search;
+  int meetings = 0, poses = 0;
+  for (double x = 5.9; x < 6.01; x += 0.01, ++poses) {  // tip to tip
+    a.pose(0.1 * std::sin(80 * x), {0, 0, 0});
+    b.pose(0.1 * std::sin(50 * x), {x, 0, 0});
+    std::vector<Face_pair> truth;
+    meetings += search.run(a.surface, b.surface, {}, truth).found ? 1 : 0;
+    for (int i = 0; i < 200; ++i) {
+      a.surface.forget_pose(), b.surface.forget_pose();
+      std::optional<Leaf_pair> place = Leaf_pair{any_leaf(a.layout), any_leaf(b.layout)};
+      std::vector<Face_pair> found;
+      const auto summary = search.run(a.surface, b.surface, {.query = Contact_query::yes_no}, found, &place);
+      ASSERT_EQ(summary.found, !truth.empty());
+      ASSERT_FALSE(a.surface.all_posed() || b.surface.all_posed());
+      ASSERT_EQ(place.has_value(), !truth.empty());
+      if (place) {
+        EXPECT_TRUE(std::ranges::any_of(truth, [&](Face_pair contact) { return is_in(*place, contact); }));
+      }
+    }
+  }
+  EXPECT_GT(meetings, poses / 5);
+  EXPECT_LT(meetings, poses);
+}
+
+TEST(Bounded_search, that_begins_anywhere_visits_each_leaf_pair_once) {
+  Arm a(smooth_body(), false, 8), b(smooth_body(), false, 11);
+  Bounded_search search;
+  std::vector<Face_pair> found;
+  Contact_summary from_roots{.found = true};
+  for (double apart = 1.8; from_roots.found; apart += 0.0005) {  // then just apart: some leaves are near
+    a.pose(0.1, {0, 0, 0});
+    b.pose(0.1, {0.4, 0.3, apart});
+    from_roots = search.run(a.surface, b.surface, {.query = Contact_query::yes_no}, found);
+  }
+  ASSERT_GT(from_roots.leaf_tests, 1U);
+  for (std::uint32_t leaf = 0; leaf < a.layout.leaf_count(); ++leaf) {
+    a.surface.forget_pose(), b.surface.forget_pose();
+    std::optional<Leaf_pair> place = Leaf_pair{leaf, 7 * leaf % static_cast<std::uint32_t>(b.layout.leaf_count())};
+    const auto summary = search.run(a.surface, b.surface, {.query = Contact_query::yes_no}, found, &place);
+    EXPECT_FALSE(summary.found || place);
+    EXPECT_EQ(summary.leaf_tests, from_roots.leaf_tests);
+    ASSERT_FALSE(a.surface.all_posed() || b.surface.all_posed());
+  }
+}
+
+TEST(Bounded_search, that_begins_where_surfaces_touched_looks_at_little_else) {
+  Arm a(smooth_body(), false), b(smooth_body(), false);
+  Bounded_search search;
+  std::optional<Leaf_pair> place;
+  for (int frame = 0; frame < 10; ++frame) {
+    a.pose(0, {0, 0, 0});
+    b.pose(0, {5.9 - 0.001 * frame, 0, 0});  // tip to tip
+    std::vector<Face_pair> found;
+    const auto contacts = search.run(a.surface, b.surface, {.query = Contact_query::yes_no}, found, &place);
+    EXPECT_TRUE(contacts.found && place);
+    EXPECT_EQ(found.size(), 0U);
+    if (frame == 0) continue;
+    EXPECT_EQ(contacts.leaf_tests, 1U);
+    EXPECT_EQ(a.surface.leaves_posed() + b.surface.leaves_posed(), 2U);
+    EXPECT_EQ(a.surface.nodes_bounded() + b.surface.nodes_bounded(), 4U);  // these leaves, and the roots
+  }
 }
 
 TEST(Bounded_surface, that_was_posed_as_a_whole_poses_leaf_by_leaf_again_when_little_is_near) {

@@ -78,6 +78,8 @@ class Bounded_surface {
   Tree_surface& tree() const { return *tree_; }
   /// Where positions come from.
   const Position_source& positions() const { return *positions_; }
+  /// The node above a node; the root's is itself.
+  std::uint32_t parent(std::uint32_t node) const { return parents_[node]; }
   /// Whether there is any bound; without one, everything is posed at once.
   bool has_bounds() const { return !bounds_.empty(); }
 

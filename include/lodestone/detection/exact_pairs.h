@@ -5,6 +5,8 @@
 #include <cmath>
 #include <concepts>
 #include <functional>
+#include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -44,7 +46,10 @@ class Exact_pairs {
   /// Replaces the pairs of the frame by those of all objects.
   void find_all(const Collision_filter& filter) {
     begin();
-    timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
+    timed(frame_.seconds().broad_phase, [&] {
+      find_candidates(filter);
+      std::erase_if(contact_places_, [this](const auto& place) { return !is_candidate(place.first); });
+    });
     timed(frame_.seconds().confirmation, [&] { check_candidates(); });
   }
   /// The same for a single pair, unless the filter leaves it out.
@@ -79,6 +84,7 @@ class Exact_pairs {
   }
   bool on_demand(Object_pair pair) const { return objects_.on_demand(pair.a) || objects_.on_demand(pair.b); }
   void find_candidates(const Collision_filter& filter);
+  bool is_candidate(Object_pair pair) const { return std::ranges::binary_search(candidates_, pair); }
   void check_candidates();
   void ask_about_small_pairs(std::size_t first);
   void check(std::size_t candidate);
@@ -86,6 +92,7 @@ class Exact_pairs {
   double tolerance(Object_pair pair) const {
     return pair.a == pair.b ? options_.exact.self_tolerance : options_.exact.tolerance;
   }
+  Contact_summary search_on_demand(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
   void find_contacts(std::size_t candidate, Pair_result& result);
   Contact_request request(Object_pair pair) const {
     return {.query = options_.contacts, .tolerance = tolerance(pair), .most = options_.most_contacts};
@@ -100,6 +107,7 @@ class Exact_pairs {
   Basic_contact_search<Volume> search_;
   Small_pairs<Volume> small_pairs_;
   Bounded_search bounded_search_;
+  std::map<Object_pair, Leaf_pair> contact_places_;  ///< of pairs on demand: where they had a contact
 
   // Memory of the stages, kept from frame to frame.
   std::vector<Box> boxes_;
@@ -189,9 +197,25 @@ Contact_summary Exact_pairs<Volume>::search(Object_pair pair, const Contact_requ
   if (pair.a == pair.b)
     objects_.pose_all(pair.a);
   else if (on_demand(pair))
-    return bounded_search_.run(objects_.bounded(pair.a), objects_.bounded(pair.b), request, found);
+    return search_on_demand(pair, request, found);
   const Surface &a = objects_.surface(pair.a), &b = objects_.surface(pair.b);
   return pair.a == pair.b ? search_.within(a, request, found) : search_.between(a, b, request, found);
+}
+
+/// Whether there is a contact is asked first where there was one the last time.
+template <Bounding_volume Volume>
+Contact_summary Exact_pairs<Volume>::search_on_demand(Object_pair pair, const Contact_request& request,
+                                                      std::vector<Face_pair>& found) {
+  Bounded_surface &a = objects_.bounded(pair.a), &b = objects_.bounded(pair.b);
+  if (request.query != Contact_query::yes_no) return bounded_search_.run(a, b, request, found);
+  std::optional<Leaf_pair> place;
+  if (const auto known = contact_places_.find(pair); known != contact_places_.end()) place = known->second;
+  const Contact_summary contacts = bounded_search_.run(a, b, request, found, &place);
+  if (place)
+    contact_places_.insert_or_assign(pair, *place);
+  else
+    contact_places_.erase(pair);
+  return contacts;
 }
 
 template <Bounding_volume Volume>

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "lodestone/bounds/bounded_surface.h"
 #include "lodestone/filter/face_filter.h"
 #include "lodestone/mesh/pairs.h"
 #include "lodestone/queries/contact_search.h"
+#include "lodestone/queries/leaf_pair_list.h"
 #include "lodestone/tree/node_pair.h"
 #include "lodestone/triangles/triangle_intersection.h"
 
@@ -30,10 +32,14 @@ class Bounded_search {
   /// Finds the contacts of two surfaces.
   /// @param a, b   two surfaces
   /// @param found  contacts are appended, sorted; none for the query `yes_no`
+  /// @param place  for the query `yes_no`, or null: two leaves in which these surfaces had a contact in an earlier
+  ///               pose; none if there was none. The search begins there: where surfaces move little from one pose to
+  ///               the next, it often ends there too. Any leaves will do, also such as do not exist. Afterwards those
+  ///               in which this search has found a contact
   /// @throws Bad_argument  the tolerance is not finite or below 0
   /// @throws Bad_mesh      a coordinate that is read is not finite
   Contact_summary run(Bounded_surface& a, Bounded_surface& b, const Contact_request& request,
-                      std::vector<Face_pair>& found);
+                      std::vector<Face_pair>& found, std::optional<Leaf_pair>* place = nullptr);
   /// Shows each contact once to a visitor, until it stops the walk.
   /// @param tolerance  as of a request
   /// @throws Bad_argument, Bad_mesh  as `run`
@@ -44,6 +50,7 @@ class Bounded_search {
   enum class End { complete, stopped, broken, all_posed };
 
   void begin(Bounded_surface& a, Bounded_surface& b, double tolerance, bool is_ordered);
+  void start_at(const std::optional<Leaf_pair>& place);
   template <class Visitor>
   End walk(bool until_all_posed, Visitor&& visitor);
   void deeper_first();
@@ -61,6 +68,7 @@ class Bounded_search {
   double tolerance_ = 0;
   bool is_ordered_ = false;  ///< pairs that lie deeper are visited first
   std::vector<Node_pair> waiting_;
+  Leaf_pair tested_ = {};  ///< last
   Face_filter filter_;
   Coordinates filter_of_a_ = {}, filter_of_b_ = {};  ///< which positions the filter has been told of; empty: none
   std::size_t leaf_tests_ = 0, exact_tests_ = 0;
