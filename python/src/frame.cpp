@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "arrays.h"
+#include "lodestone/mesh/errors.h"
+#include "pickled.h"
 
 namespace lodestone::python {
 
@@ -126,6 +128,16 @@ py::object patches_of_pair(const Python_pair& self) {
   return patches;
 }
 
+/// The pair of a frame that `pickle` has kept by its two ids; without contacts if the frame has none.
+Python_pair pair_of_state(const py::tuple& state) {
+  const bool is_pair = state.size() == 3 && py::isinstance<Python_frame>(state[0]) &&
+                       py::isinstance<py::int_>(state[1]) && py::isinstance<py::int_>(state[2]);
+  if (!is_pair) throw Bad_saved_object("this is no pickled pair");
+  const auto a = state[1].cast<Object_id>(), b = state[2].cast<Object_id>();
+  const Pair_result* const result = state[0].cast<const Python_frame&>().frame->find(a, b);
+  return {state[0], result != nullptr ? *result : Pair_result{.a = a, .b = b}};
+}
+
 py::object candidates_of(const Python_frame& self) {
   py::list candidates;
   for (const auto& c : self.frame->candidates)
@@ -203,7 +215,8 @@ void add_frames(py::module_& module) {
                            "What `Detector.detect` found. It stays as it is when the detector goes on.")
       .def_property_readonly("number", [](const Python_frame& self) { return self.frame->number; },
                              "Number of the frame, 1 for the first.")
-      .def_readonly("detector", &Python_frame::detector, "The detector that found it; None: a function did.")
+      .def_readonly("detector", &Python_frame::detector,
+                    "The detector that found it; None: a function did, or the frame was pickled or copied.")
       .def_property_readonly("collides", [](const Python_frame& self) { return self.frame->collides(); },
                              "Whether any two faces intersect; `bool(frame)` is the same.")
       .def_property_readonly("near", [](const Python_frame& self) { return self.frame->near(); },
@@ -250,6 +263,7 @@ void add_frames(py::module_& module) {
       .def_property_readonly("statistics", [](const Python_frame& self) { return statistics_of(self.frame->statistics); },
                              "What the frame took: a dict of counts, and of the seconds of each stage.")
       .def("__bool__", [](const Python_frame& self) { return self.frame->collides(); }, "`collides`.")
+      .def(py::pickle([](const Python_frame& self) { return pickled(self); }, &unpickled_frame))
       .def("__repr__", text_of_frame);
 
   py::class_<Python_pair>(module, "Pair", "What was found about two objects a < b, or about one and itself, a = b.")
@@ -293,6 +307,9 @@ void add_frames(py::module_& module) {
       .def_property_readonly("statistics", [](const Python_pair& self) { return self.frame.attr("statistics"); },
                              "As `Frame.statistics`: of the whole frame.")
       .def("__bool__", [](const Python_pair& self) { return self.result.collides; }, "`collides`.")
+      .def(py::pickle(
+          [](const Python_pair& self) { return py::make_tuple(self.frame, self.result.a, self.result.b); },
+          &pair_of_state))
       .def("__repr__", text_of_pair);
 }
 

@@ -28,7 +28,7 @@ void add_errors(py::module_& module) {
   add.template operator()<Bad_mesh>("BadMesh", "A mesh that cannot be used.", value_error);
   add.template operator()<Bad_motion>("BadMotion", "A motion that is broken or does not fit its mesh.", value_error);
   add.template operator()<Bad_scene>("BadScene", "A scene file that is not a scene.", value_error);
-  add.template operator()<Bad_saved_object>("BadSavedObject", "Bytes that `load` cannot use.", value_error);
+  add.template operator()<Bad_saved_object>("BadSavedObject", "Bytes that `load` or `pickle` cannot use.", value_error);
   add.template operator()<Broken_bound>("BrokenBound", "A vertex that is not where a bound or a promise says.",
                                         py::none());
   add.template operator()<Bad_argument>("BadArgument", "An argument or option outside its range.", value_error);

@@ -5,6 +5,7 @@
 #include "lodestone/find_collisions.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/partition/partition_measures.h"
+#include "pickled.h"
 
 namespace lodestone::python {
 
@@ -104,13 +105,6 @@ bool within(const py::object& a, const py::object& b, double distance, std::size
 bool contains(const py::object& outer, const py::object& inner, std::size_t threads) {
   return ask_about(outer, inner, threads, [](auto& detector) { return detector.contains(0, 1); });
 }
-
-/// What a partition is, with how good it is.
-struct Python_partition {
-  std::string strategy;
-  Numbered_partition partition;
-  Partition_measures measures;
-};
 
 Python_partition divide(const py::object& mesh, const py::object& faces, const py::object& strategy,
                         std::size_t regions, const py::kwargs& keywords) {
@@ -216,6 +210,7 @@ void add_one_call(py::module_& module) {
                              "  geodesic_radius    from a particle to the farthest vertex of its region, in radii of the "
                              "object\n"
                              "  box_volume, ball_volume  around the regions, over that around all")
+      .def(py::pickle([](const Python_partition& self) { return pickled(self); }, &unpickled_partition))
       .def("__repr__", [](const Python_partition& self) {
         return "<lodestone.Partition " + self.strategy + ": " + std::to_string(self.partition.regions) + " regions of " +
                std::to_string(self.partition.labels.size()) + " vertices>";

@@ -51,11 +51,14 @@ Contact_summary Bounded_search::run(Bounded_surface& a, Bounded_surface& b, cons
       return contacts_.found.size() < limit ? Visit::go_on : Visit::stop;
     });
   } while (end == End::broken);
-  if (from_place) *place = contacts_.found.empty() ? std::nullopt : std::optional(tested_);
   contacts_.leaf_tests = leaf_tests_;
   contacts_.exact_tests = exact_tests_;
-  if (end != End::all_posed) return join_tasks(std::span(&contacts_, 1), request, found);
+  if (end != End::all_posed) {
+    if (from_place) *place = contacts_.found.empty() ? std::nullopt : std::optional(tested_);
+    return join_tasks(std::span(&contacts_, 1), request, found);
+  }
   Contact_summary summary = whole_.between(a.tree(), b.tree(), request, found);
+  if (from_place && !summary.found) place->reset();
   summary.leaf_tests += leaf_tests_;
   summary.exact_tests += exact_tests_;
   return summary;
@@ -100,12 +103,12 @@ void Bounded_search::settle_broken() {
   if (b_->is_broken()) b_->settle();
 }
 
-/// Has the walk begin with two leaves, go on with what lies beside them, and end with what is far from them; without
-/// them, begin with the roots.
+/// Has the walk begin with two leaves, go on with what lies beside them in the trees, and end with what lies beside the
+/// largest nodes above them; without leaves, or if the roots are not near, begin with the roots.
 void Bounded_search::start_at(const std::optional<Leaf_pair>& place) {
   const Tree_layout &layout_a = a_->layout(), &layout_b = b_->layout();
   waiting_.assign(1, root_pair);
-  if (!place || place->a >= layout_a.leaf_count() || place->b >= layout_b.leaf_count()) return;
+  if (!place || place->a >= layout_a.leaf_count() || place->b >= layout_b.leaf_count() || !are_near(root_pair)) return;
   Node_pair listed{layout_a.leaf_node(place->a), layout_b.leaf_node(place->b)};
   waiting_.assign(1, listed);
   while (listed.a != 0 || listed.b != 0) {

@@ -104,6 +104,7 @@ inline void expect_same_answers(const Frame& found, const Frame& truth, Object_i
 inline std::vector<Detector_options> questions() {
   return {{},
           {.contacts = Contact_query::yes_no},
+          {.contacts = Contact_query::yes_no, .exact = {.tolerance = 0.1}},
           {.exact = {.tolerance = 0.1}},
           {.contact_points = true, .contact_normals = true, .exact = {.patches = true}},
           {.exact = {.self_collision = true, .containment = true, .parting = true}},

@@ -30,45 +30,84 @@ TEST(Certified, gives_the_answers_of_mode_exact) {
   EXPECT_GT(apart, 50U);
 }
 
-TEST(Certified, a_contact_that_lasts_is_found_where_it_was) {
-  Certified_scene scene;
-  Detector certified(in_mode(Mode::certified, {.contacts = Contact_query::yes_no})),
-      exact(in_mode(Mode::exact, {.contacts = Contact_query::yes_no}));
-  scene.add_to(certified);
-  scene.add_to(exact);
-  const auto pose = [&](double apart, int frame) {
+/// The two limbs of a scene, asked for yes or no in the modes `certified` and `exact`.
+struct Two_limbs {
+  explicit Two_limbs(double tolerance)
+      : certified(in_mode(Mode::certified, question(tolerance))), exact(in_mode(Mode::exact, question(tolerance))) {
+    scene.add_to(certified);
+    scene.add_to(exact);
+    pose(9, 0);
+    boxes();  // the first frame reads all
+  }
+  static Detector_options question(double tolerance) {
+    return {.contacts = Contact_query::yes_no, .exact = {.tolerance = tolerance}};
+  }
+  void pose(double apart, int frame) {
     bend(scene.upper_points, 0.1 + 0.001 * frame, {0, 0, apart});
     bend(scene.lower_points, 0.1, {0, 0, 0});
-  };
-  const auto work = [&] {
+  }
+  /// How many boxes a frame asks the bounds for. The answers of the modes must be the same.
+  std::size_t boxes() {
     const Frame& found = certified.detect(0, 1);
-    EXPECT_EQ(found.collides(), exact.detect(0, 1).collides());
-    return found.collides() ? std::optional(found.statistics.nodes_bounded) : std::nullopt;
-  };
-  pose(9, 0);
-  EXPECT_FALSE(work());
-  pose(0.9, 0);
-  const auto first = work();
-  ASSERT_TRUE(first);
+    const Frame& truth = exact.detect(0, 1);
+    EXPECT_EQ(found.collides(), truth.collides());
+    EXPECT_EQ(found.near(), truth.near());
+    collides = truth.collides(), near = truth.near();
+    return found.statistics.nodes_bounded;
+  }
+
+  Certified_scene scene;
+  Detector<> certified, exact;
+  bool collides = false, near = false;  ///< in the last frame
+};
+
+TEST(Certified, a_contact_that_lasts_is_found_where_it_was) {
+  constexpr std::size_t roots = 2, roots_and_two_leaves = 4;
+  Two_limbs limbs(0);
+  limbs.pose(0.9, 0);
+  const std::size_t at_first = limbs.boxes();
+  EXPECT_TRUE(limbs.collides);
+  EXPECT_GT(at_first, roots_and_two_leaves);
   for (int frame = 1; frame < 6; ++frame) {
-    pose(0.9, frame);
-    const auto later = work();
-    ASSERT_TRUE(later);
-    EXPECT_EQ(*later, 4U);  // two leaves, and the roots
-    EXPECT_LT(*later, *first);
+    limbs.pose(0.9, frame);
+    EXPECT_EQ(limbs.boxes(), roots_and_two_leaves);
+    EXPECT_TRUE(limbs.collides);
   }
-  pose(9, 6);
-  EXPECT_FALSE(work());  // and then there is no such place
-  pose(0.9, 0);
-  EXPECT_EQ(work(), first);
-  certified.rebuild(0);  // the tree can have other leaves now
-  pose(0.9, 1);
-  EXPECT_TRUE(work());
-  certified.detect();  // of all pairs
+  limbs.pose(9, 6);
+  EXPECT_EQ(limbs.boxes(), roots);
+  limbs.pose(0.9, 0);
+  EXPECT_EQ(limbs.boxes(), at_first);  // there was no contact to begin with
+  limbs.certified.rebuild(0);          // the tree can have other leaves now
+  limbs.pose(0.9, 1);
+  limbs.boxes();
+  EXPECT_TRUE(limbs.collides);
+  limbs.certified.detect();  // of all pairs
   for (int frame = 2; frame < 4; ++frame) {
-    pose(0.9, frame);
-    EXPECT_EQ(work(), std::optional<std::size_t>(4));
+    limbs.pose(0.9, frame);
+    EXPECT_EQ(limbs.boxes(), roots_and_two_leaves);
   }
+  limbs.certified.ignore(0, 1);
+  limbs.certified.detect();  // forgets the pair
+  limbs.certified.ignore(0, 1, false);
+  limbs.pose(0.9, 0);
+  EXPECT_EQ(limbs.boxes(), at_first);
+}
+
+TEST(Certified, nearness_that_lasts_is_found_where_it_was) {
+  Two_limbs limbs(0.1);
+  double apart = 0.9;
+  std::size_t at_first = 0;
+  do {
+    apart += 0.01;
+    limbs.pose(9, 0);
+    limbs.boxes();  // so that there is nothing to begin with
+    limbs.pose(apart, 0);
+    at_first = limbs.boxes();
+  } while (limbs.collides);
+  ASSERT_TRUE(limbs.near);
+  limbs.pose(apart, 0);
+  EXPECT_LT(limbs.boxes(), at_first);
+  EXPECT_TRUE(limbs.near && !limbs.collides);
 }
 
 TEST(Certified, a_first_contact_is_a_contact) {

@@ -188,6 +188,27 @@ TEST(Bounded_search, that_begins_where_surfaces_touched_looks_at_little_else) {
   }
 }
 
+TEST(Bounded_search, that_finds_all_posed_keeps_the_place_of_a_contact_that_is_there) {
+  Arm a(smooth_body(), false), b(smooth_body(), false);
+  Bounded_search search;
+  std::optional<Leaf_pair> place;
+  const auto ask = [&](double x) {
+    a.pose(0, {0, 0, 0});
+    b.pose(0, {x, 0, 0});
+    std::vector<Face_pair> found;
+    a.surface.start_frame(), b.surface.start_frame();
+    a.surface.pose_all(), b.surface.pose_all();
+    return search.run(a.surface, b.surface, {.query = Contact_query::yes_no}, found, &place).found;
+  };
+  EXPECT_TRUE(ask(5.9));
+  EXPECT_FALSE(place);  // nobody has looked at leaves one by one
+  place = Leaf_pair{1, 2};
+  EXPECT_TRUE(ask(5.9));
+  EXPECT_EQ(place, (Leaf_pair{1, 2}));
+  EXPECT_FALSE(ask(7));
+  EXPECT_FALSE(place);
+}
+
 TEST(Bounded_surface, that_was_posed_as_a_whole_poses_leaf_by_leaf_again_when_little_is_near) {
   Arm a(long_potato(16, 1), false), b(long_potato(16, 1), false);
   Bounded_search search;

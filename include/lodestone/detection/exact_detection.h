@@ -97,6 +97,7 @@ class Exact_detection final : public Detection {
   void remove(Object_id object) override {
     check_no_visitor();
     objects_.remove(object);
+    pairs_.forget(object);
   }
 
   const Frame& detect(const Collision_filter& filter) override;

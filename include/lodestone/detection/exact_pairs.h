@@ -48,7 +48,7 @@ class Exact_pairs {
     begin();
     timed(frame_.seconds().broad_phase, [&] {
       find_candidates(filter);
-      std::erase_if(contact_places_, [this](const auto& place) { return !is_candidate(place.first); });
+      forget_places([this](Object_pair pair) { return !std::ranges::binary_search(candidates_, pair); });
     });
     timed(frame_.seconds().confirmation, [&] { check_candidates(); });
   }
@@ -57,6 +57,11 @@ class Exact_pairs {
     begin();
     if (filter.may_collide(pair.a, pair.b)) candidates_.push_back(pair);
     timed(frame_.seconds().confirmation, [&] { check_candidates(); });
+  }
+
+  /// Forgets what was kept of an object. O(pairs in contact).
+  void forget(Object_id id) {
+    forget_places([id](Object_pair pair) { return pair.a == id || pair.b == id; });
   }
 
   /// Searches for the contacts of two objects, or within one if both are the same.
@@ -84,7 +89,11 @@ class Exact_pairs {
   }
   bool on_demand(Object_pair pair) const { return objects_.on_demand(pair.a) || objects_.on_demand(pair.b); }
   void find_candidates(const Collision_filter& filter);
-  bool is_candidate(Object_pair pair) const { return std::ranges::binary_search(candidates_, pair); }
+  /// Forgets where those pairs had contacts for which `is_over` returns true.
+  template <class Is_over>
+  void forget_places(const Is_over& is_over) {
+    std::erase_if(contact_places_, [&](const auto& place) { return is_over(place.first.first); });
+  }
   void check_candidates();
   void ask_about_small_pairs(std::size_t first);
   void check(std::size_t candidate);
@@ -92,7 +101,7 @@ class Exact_pairs {
   double tolerance(Object_pair pair) const {
     return pair.a == pair.b ? options_.exact.self_tolerance : options_.exact.tolerance;
   }
-  Contact_summary search_on_demand(Object_pair pair, const Contact_request& request, std::vector<Face_pair>& found);
+  Contact_summary search_from_place(Object_pair pair, const Contact_request& request);
   void find_contacts(std::size_t candidate, Pair_result& result);
   Contact_request request(Object_pair pair) const {
     return {.query = options_.contacts, .tolerance = tolerance(pair), .most = options_.most_contacts};
@@ -107,7 +116,8 @@ class Exact_pairs {
   Basic_contact_search<Volume> search_;
   Small_pairs<Volume> small_pairs_;
   Bounded_search bounded_search_;
-  std::map<Object_pair, Leaf_pair> contact_places_;  ///< of pairs on demand: where they had a contact
+  /// Of pairs on demand, with a tolerance (true) or without: where they had a contact the last time.
+  std::map<std::pair<Object_pair, bool>, Leaf_pair> contact_places_;
 
   // Memory of the stages, kept from frame to frame.
   std::vector<Box> boxes_;
@@ -179,7 +189,10 @@ template <Bounding_volume Volume>
 void Exact_pairs<Volume>::find_contacts(std::size_t candidate, Pair_result& result) {
   const Object_pair pair = candidates_[candidate];
   const Pair_contacts* known = small_pairs_.take(candidate, frame_.face_pairs(), frame_.contact_intersects());
-  const auto search_now = [&](const Contact_request& asked, auto& found) { return search(pair, asked, found); };
+  const auto search_now = [&](const Contact_request& asked, auto& found) {
+    const bool from_place = asked.query == Contact_query::yes_no && pair.a != pair.b && on_demand(pair);
+    return from_place ? search_from_place(pair, asked) : search(pair, asked, found);
+  };
   const Pair_contacts contacts =
       known != nullptr ? *known
                        : pair_contacts(request(pair), search_now, frame_.face_pairs(), frame_.contact_intersects());
@@ -197,24 +210,24 @@ Contact_summary Exact_pairs<Volume>::search(Object_pair pair, const Contact_requ
   if (pair.a == pair.b)
     objects_.pose_all(pair.a);
   else if (on_demand(pair))
-    return search_on_demand(pair, request, found);
+    return bounded_search_.run(objects_.bounded(pair.a), objects_.bounded(pair.b), request, found);
   const Surface &a = objects_.surface(pair.a), &b = objects_.surface(pair.b);
   return pair.a == pair.b ? search_.within(a, request, found) : search_.between(a, b, request, found);
 }
 
-/// Whether there is a contact is asked first where there was one the last time.
+/// For the query `yes_no`: looks first where there was a contact the last time.
 template <Bounding_volume Volume>
-Contact_summary Exact_pairs<Volume>::search_on_demand(Object_pair pair, const Contact_request& request,
-                                                      std::vector<Face_pair>& found) {
-  Bounded_surface &a = objects_.bounded(pair.a), &b = objects_.bounded(pair.b);
-  if (request.query != Contact_query::yes_no) return bounded_search_.run(a, b, request, found);
-  std::optional<Leaf_pair> place;
-  if (const auto known = contact_places_.find(pair); known != contact_places_.end()) place = known->second;
-  const Contact_summary contacts = bounded_search_.run(a, b, request, found, &place);
+Contact_summary Exact_pairs<Volume>::search_from_place(Object_pair pair, const Contact_request& request) {
+  const std::pair asked(pair, request.tolerance > 0);
+  const auto known = contact_places_.find(asked);
+  auto place = known == contact_places_.end() ? std::nullopt : std::optional(known->second);
+  std::vector<Face_pair> none;
+  const Contact_summary contacts =
+      bounded_search_.run(objects_.bounded(pair.a), objects_.bounded(pair.b), request, none, &place);
   if (place)
-    contact_places_.insert_or_assign(pair, *place);
+    contact_places_.insert_or_assign(asked, *place);
   else
-    contact_places_.erase(pair);
+    contact_places_.erase(asked);
   return contacts;
 }
 

@@ -17,7 +17,7 @@
 namespace lodestone {
 
 /// Finds the contacts of two surfaces without posing what is far: nodes are compared by their bounds, from the roots
-/// down; the leaves that may meet are posed, and their faces tested exactly.
+/// down or from two leaves outwards; the leaves that may meet are posed, and their faces tested exactly.
 ///
 /// The contacts are those of a Contact_search over all positions. Where a position is found outside its bound, its
 /// surface is posed as a whole and the search begins anew; a bound that is broken elsewhere goes unnoticed. Once both
@@ -33,9 +33,10 @@ class Bounded_search {
   /// @param a, b   two surfaces
   /// @param found  contacts are appended, sorted; none for the query `yes_no`
   /// @param place  for the query `yes_no`, or null: two leaves in which these surfaces had a contact in an earlier
-  ///               pose; none if there was none. The search begins there: where surfaces move little from one pose to
-  ///               the next, it often ends there too. Any leaves will do, also such as do not exist. Afterwards those
-  ///               in which this search has found a contact
+  ///               pose, or none. The search begins there: where surfaces move little from one pose to the next, it
+  ///               often ends there too. Any leaves will do, also such as do not exist. Afterwards those in which this
+  ///               search has found a contact, as they were if it did not look at leaves one by one, or none if there
+  ///               is no contact
   /// @throws Bad_argument  the tolerance is not finite or below 0
   /// @throws Bad_mesh      a coordinate that is read is not finite
   Contact_summary run(Bounded_surface& a, Bounded_surface& b, const Contact_request& request,

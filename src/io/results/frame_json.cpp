@@ -13,7 +13,7 @@ nlohmann::ordered_json verdict_json(const std::string& name_a, const std::string
 }
 
 nlohmann::ordered_json statistics_json(const Frame_statistics& statistics, Mode mode, bool independent) {
-  // Whether leaves are posed one by one depends on how much was near in the frames before.
+  // Whether leaves are posed one by one, and which first, depends on the frames before.
   if (mode == Mode::certified && independent)
     return {{"contacts", statistics.contacts}, {"builds", statistics.builds}, {"rebuilds", statistics.repartitions}};
   if (finds_all(mode)) {
