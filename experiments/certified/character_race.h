@@ -11,7 +11,7 @@
 namespace lodestone {
 
 struct Character_race_options {
-  std::size_t most_frames = 91;  ///< of a scene, spread evenly
+  std::size_t most_frames = 91;  ///< of a longer scene, spread evenly
   std::size_t passes = 3;        ///< over all frames; the least time of each frame counts
   double enough_seconds = 8;     ///< per rival and question; beyond, it starts no further pass
 };
