@@ -102,7 +102,7 @@ class Unpickler {
   State_reader reader_;
 };
 
-// What follows visits the fields of a type, to write and to read them: with a const object or another.
+// Each function below lists the fields of a type once: a Pickler writes them, an Unpickler sets them.
 
 void visit_numbers(auto& archive, auto&... numbers) { (archive(numbers), ...); }
 
@@ -179,7 +179,7 @@ void check(const Python_frame& made) {
   State_reader::require(right, "its parts do not fit");
 }
 
-/// The first number of all bytes: it tells what they are of, and the format. A change of the fields takes another number.
+/// The first number of all bytes tells what they are of, and the format. Whoever changes the fields changes the number.
 constexpr std::uint64_t frame_mark = 0x4c4f4445'46520001, partition_mark = 0x4c4f4445'50410001;
 
 template <class Visit>

@@ -32,11 +32,11 @@ class Bounded_search {
   /// Finds the contacts of two surfaces.
   /// @param a, b   two surfaces
   /// @param found  contacts are appended, sorted; none for the query `yes_no`
-  /// @param place  for the query `yes_no`, or null: two leaves in which these surfaces had a contact in an earlier
-  ///               pose, or none. The search begins there: where surfaces move little from one pose to the next, it
-  ///               often ends there too. Any leaves will do, also such as do not exist. Afterwards those in which this
-  ///               search has found a contact, as they were if it did not look at leaves one by one, or none if there
-  ///               is no contact
+  /// @param place  for the query `yes_no`: two leaves where an earlier search found a contact, or none; null: the
+  ///               search begins at the roots. It begins at these leaves. Where surfaces move little from one pose to
+  ///               the next, it often ends there too. Any leaves will do, also such as do not exist. The search sets
+  ///               them to where it has found a contact, or to none if there is none. It leaves them as they are if
+  ///               all was posed, so that it did not look at single leaves, and there is a contact
   /// @throws Bad_argument  the tolerance is not finite or below 0
   /// @throws Bad_mesh      a coordinate that is read is not finite
   Contact_summary run(Bounded_surface& a, Bounded_surface& b, const Contact_request& request,
