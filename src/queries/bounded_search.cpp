@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <utility>
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/queries/leaf_triangle.h"
@@ -107,68 +106,89 @@ void Bounded_search::settle_broken() {
 /// largest nodes above them; without leaves, or if the roots are not near, begin with the roots.
 void Bounded_search::start_at(const std::optional<Leaf_pair>& place) {
   const Tree_layout &layout_a = a_->layout(), &layout_b = b_->layout();
-  waiting_.assign(1, root_pair);
+  starts_.assign(1, root_pair);
   if (!place || place->a >= layout_a.leaf_count() || place->b >= layout_b.leaf_count() || !are_near(root_pair)) return;
   Node_pair listed{layout_a.leaf_node(place->a), layout_b.leaf_node(place->b)};
-  waiting_.assign(1, listed);
+  starts_.assign(1, listed);
   while (listed.a != 0 || listed.b != 0) {
     // All that lies below `listed` is in the list. Of the two nodes above it, the smaller takes its place.
     if (leaves_above(*a_, listed.a) <= leaves_above(*b_, listed.b)) {
-      waiting_.push_back({sibling(*a_, listed.a), listed.b});
+      starts_.push_back({sibling(*a_, listed.a), listed.b});
       listed.a = a_->parent(listed.a);
     } else {
-      waiting_.push_back({listed.a, sibling(*b_, listed.b)});
+      starts_.push_back({listed.a, sibling(*b_, listed.b)});
       listed.b = b_->parent(listed.b);
     }
   }
-  std::ranges::reverse(waiting_);
 }
 
 /// @param until_all_posed  end as soon as both surfaces are posed as a whole
-/// @return broken: what was visited is not all
+/// @return all_posed: pairs are still waiting; broken: what was visited is not all
 /// @pre `start_at` has said where
 template <class Visitor>
 Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor) {
   filter_of_a_ = {};
-  const Tree_layout &layout_a = a_->layout(), &layout_b = b_->layout();
-  while (!waiting_.empty()) {
-    if (is_broken()) return End::broken;
-    if (until_all_posed && all_posed()) return End::all_posed;
-    const Node_pair pair = waiting_.back();
-    waiting_.pop_back();
-    if (!are_near(pair)) continue;  // some leaf may have been posed since, so boxes may be smaller
-    if (!layout_a.is_leaf(pair.a) || !layout_b.is_leaf(pair.b)) {
-      open_pair(layout_a, layout_b, pair, a_->box(pair.a).extent() >= b_->box(pair.b).extent(), waiting_);
-      if (is_ordered_) deeper_first();
-      continue;
+  for (const Node_pair start : starts_) {
+    waiting_.assign(1, start);
+    // So many of the lowest have not been compared, or not since a leaf was posed, which makes boxes smaller.
+    std::size_t unsure = 1;
+    while (!waiting_.empty()) {
+      if (is_broken()) return End::broken;
+      if (until_all_posed && all_posed()) return End::all_posed;
+      const Node_pair pair = waiting_.back();
+      waiting_.pop_back();
+      if (waiting_.size() < unsure) {
+        unsure = waiting_.size();
+        if (!are_near(pair)) continue;
+      }
+      if (!a_->layout().is_leaf(pair.a) || !b_->layout().is_leaf(pair.b)) {
+        open(pair);
+        continue;
+      }
+      // A contact is one even if a bound is broken.
+      if (test_leaves(pair, visitor) == End::stopped) return End::stopped;
+      unsure = waiting_.size();
     }
-    const End end = test_leaves(layout_a.node(pair.a).leaf, layout_b.node(pair.b).leaf, visitor);
-    if (end == End::stopped) return end;  // even if a bound is broken: the contacts are there
   }
   return is_broken() ? End::broken : End::complete;
 }
 
-/// Of the two pairs that were pushed last, visits that first whose boxes lie deeper in each other, along the axis on
-/// which they do least: if not all contacts are wanted, one is likelier to be there.
-void Bounded_search::deeper_first() {
-  const auto depth = [&](Node_pair pair) {
-    const Aabb &of_a = a_->box(pair.a), &of_b = b_->box(pair.b);
-    double least = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 3; ++axis)
-      least = std::min(least, std::min(of_a.high[axis], of_b.high[axis]) - std::max(of_a.low[axis], of_b.low[axis]));
-    return least;
-  };
-  Node_pair *const first = &waiting_.back(), *const second = first - 1;
-  if (depth(*second) > depth(*first)) std::swap(*first, *second);
+/// Lists the two pairs one level below a pair, if they are near. If both are and not all contacts are wanted, the pair
+/// whose boxes overlap more deeply is visited first: a contact is likelier there.
+void Bounded_search::open(Node_pair pair) {
+  const bool a_is_larger = a_->box(pair.a).extent() >= b_->box(pair.b).extent();
+  const auto [first, second] = pairs_below(a_->layout(), b_->layout(), pair, a_is_larger);
+  const bool first_is_near = are_near(first), second_is_near = are_near(second);
+  if (first_is_near && second_is_near) {
+    const bool swap = is_ordered_ && overlap_depth(second) > overlap_depth(first);
+    waiting_.push_back(swap ? first : second);
+    waiting_.push_back(swap ? second : first);
+  } else if (first_is_near || second_is_near) {
+    waiting_.push_back(first_is_near ? first : second);
+  }
+}
+
+/// How far two boxes overlap, along the axis on which they do least.
+double Bounded_search::overlap_depth(Node_pair pair) {
+  const Aabb &a = a_->box(pair.a), &b = b_->box(pair.b);
+  double least = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double end = a.high[axis] < b.high[axis] ? a.high[axis] : b.high[axis];
+    const double begin = a.low[axis] > b.low[axis] ? a.low[axis] : b.low[axis];
+    const double common = end - begin;
+    least = common < least ? common : least;
+  }
+  return least;
 }
 
 /// @return stopped, or complete
 template <class Visitor>
-Bounded_search::End Bounded_search::test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor) {
+Bounded_search::End Bounded_search::test_leaves(Node_pair pair, Visitor& visitor) {
+  const std::uint32_t leaf_a = a_->layout().node(pair.a).leaf, leaf_b = b_->layout().node(pair.b).leaf;
   // The fitted box of one leaf can spare posing the other.
   const bool a_first = a_->is_posed(leaf_a) || !b_->is_posed(leaf_b);
-  const bool apart = a_first ? !near(a_->pose(leaf_a), b_->box(b_->layout().leaf_node(leaf_b)), tolerance_)
-                             : !near(a_->box(a_->layout().leaf_node(leaf_a)), b_->pose(leaf_b), tolerance_);
+  const bool apart = a_first ? !near(a_->pose(leaf_a), b_->box(pair.b), tolerance_)
+                             : !near(a_->box(pair.a), b_->pose(leaf_b), tolerance_);
   if (apart || !near(a_->pose(leaf_a), b_->pose(leaf_b), tolerance_) || is_broken()) return End::complete;
   ++leaf_tests_;
   tested_ = {leaf_a, leaf_b};

@@ -115,6 +115,28 @@ TEST(Bounded_search, poses_little_where_little_is_near) {
   EXPECT_LT(a.surface.vertices_posed(), a.points.vertex_count() / 10);
 }
 
+/// `b` has one leaf, whose box is much too large. Once that leaf is posed, no further node of `a` is opened.
+TEST(Bounded_search, opens_no_node_that_is_apart_from_a_posed_leaf) {
+  Arm a(smooth_body(), false, 8), b(long_potato(2, 1), false, 100);
+  ASSERT_EQ(b.layout.leaf_count(), 1U);
+  a.pose(0, {0, 0, 0});
+  b.pose(0, {0, 0, 30});
+  struct Wide_bound {
+    std::size_t node_count() const { return 1; }
+    Aabb box(std::uint32_t) const { return {.low = {-50, -50, -50, 0}, .high = {50, 50, 50, 0}}; }
+  };
+  const Wide_bound wide;
+  Bounded_surface surface(b.tree, b.points, wide);
+  std::vector<Face_pair> found;
+  EXPECT_FALSE(Bounded_search().run(a.surface, surface, {}, found).found);
+  ASSERT_EQ(a.surface.leaves_posed(), 1U);
+  std::uint32_t leaf = 0, levels = 0;
+  while (!a.surface.is_posed(leaf)) ++leaf;
+  for (std::uint32_t node = a.layout.leaf_node(leaf); node != 0; node = a.surface.parent(node)) ++levels;
+  EXPECT_GT(levels, 5U);
+  EXPECT_EQ(a.surface.nodes_bounded(), 1 + 2 * levels);
+}
+
 TEST(Bounded_search, that_begins_anywhere_says_the_same) {
   Arm a(smooth_body(), false, 8), b(smooth_body(), true, 11);
   std::mt19937_64 random(5);

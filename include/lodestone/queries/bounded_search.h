@@ -54,10 +54,11 @@ class Bounded_search {
   void start_at(const std::optional<Leaf_pair>& place);
   template <class Visitor>
   End walk(bool until_all_posed, Visitor&& visitor);
-  void deeper_first();
+  void open(Node_pair pair);
+  double overlap_depth(Node_pair pair);
   bool are_near(Node_pair pair) { return near(a_->box(pair.a), b_->box(pair.b), tolerance_); }
   template <class Visitor>
-  End test_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor);
+  End test_leaves(Node_pair pair, Visitor& visitor);
   void begin_filter();
   bool are_in_contact(const Triangle_corners& a, const Triangle_corners& b, Crossing likely) const;
   bool is_broken() const { return a_->is_broken() || b_->is_broken(); }
@@ -68,7 +69,8 @@ class Bounded_search {
   Bounded_surface* b_ = nullptr;
   double tolerance_ = 0;
   bool is_ordered_ = false;  ///< pairs that lie deeper are visited first
-  std::vector<Node_pair> waiting_;
+  std::vector<Node_pair> starts_;   ///< of a walk, in order: below them lies each pair of leaves once
+  std::vector<Node_pair> waiting_;  ///< still to be visited; near when listed, except where a walk starts
   Leaf_pair tested_ = {};  ///< last
   Face_filter filter_;
   Coordinates filter_of_a_ = {}, filter_of_b_ = {};  ///< which positions the filter has been told of; empty: none
