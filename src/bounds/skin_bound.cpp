@@ -32,7 +32,7 @@ std::vector<Skin_bound::Influence> Skin_bound::influences_on(const Skinned_point
 
 Skin_bound::Skin_bound(const Skinned_points& points, const Tree_layout& layout) : points_(&points) {
   check_layout(layout, points.vertex_count());
-  if (points.shape().target_count() > 0) shape_.emplace(points.shape(), layout);
+  if (points.shape().target_count() > 0) shifts_.emplace(points.shape(), layout);
   node_lists(
       layout, [&](auto vertices) { return of_leaf(vertices); }, merged, ranges_, range_begin_);
   most_influences_.resize(layout.node_count(), 0);
@@ -88,15 +88,12 @@ std::vector<Joint_range> Skin_bound::merged(std::span<const Joint_range> a, std:
 
 Aabb Skin_bound::box(std::uint32_t node) const {
   const auto ranges = std::span(ranges_).subspan(range_begin_[node], range_begin_[node + 1] - range_begin_[node]);
-  const Linear_bound::Shift shift = shape_ ? shape_->shift(node) : Linear_bound::Shift();
   boost::container::small_vector<kernel::Moved_range, 16> memory(ranges.size(), boost::container::default_init);
   Aabb box = kernel::skin_box({.ranges = ranges.data(),
                                .joint_count = ranges.size(),
                                .most_influences = most_influences_[node],
                                .columns = points_->columns(0),
-                               .low = shift.low.data(),
-                               .high = shift.high.data(),
-                               .margin = shift.margin.data()},
+                               .shift = shifts_ ? (*shifts_)[node] : Morph_shift()},
                               memory.data());
   for (std::size_t axis = 0; axis < 3; ++axis) open_if_not_finite(box, axis);
   return box;

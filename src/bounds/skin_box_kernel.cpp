@@ -24,16 +24,18 @@ HWY_INLINE void store(Position_vector vector, double* numbers, std::size_t k) {
 }
 
 /// The box that a joint moves, widened by what morphing adds. The fourth numbers mean nothing.
-HWY_INLINE void widen(const Skinned_node& node, const Joint_range& range, Moved_range& moved) {
+HWY_INLINE void widen(const Morph_shift& by, const Joint_range& range, Moved_range& moved) {
   const Position_lanes d;
   const auto by_half = hn::Set(d, 0.5);
   for (std::size_t k = 0; k < position_vectors; ++k) {
-    const auto margin = load_position(node.margin, k);
     // What follows in the range fills the fourth lane.
     static_assert(offsetof(Joint_range, high) == 3 * sizeof(double) &&
                   offsetof(Joint_range, least) == 6 * sizeof(double));
-    const auto from = hn::Sub(hn::Add(load(range.low.data(), k), load_position(node.low, k)), margin);
-    const auto to = hn::Add(hn::Add(load(range.high.data(), k), load_position(node.high, k)), margin);
+    const auto rest_low = load(range.low.data(), k), rest_high = load(range.high.data(), k);
+    const auto greatest = hn::Add(hn::Max(hn::Abs(rest_low), hn::Abs(rest_high)), load(by.magnitude.data(), k));
+    const auto margin = hn::Add(hn::Mul(hn::Set(d, by.rounding), greatest), hn::Set(d, by.underflow));
+    const auto from = hn::Sub(hn::Add(rest_low, load(by.low.data(), k)), margin);
+    const auto to = hn::Add(hn::Add(rest_high, load(by.high.data(), k)), margin);
     const auto low = hn::Mul(from, by_half), high = hn::Mul(to, by_half);
     const auto centre = hn::Add(low, high);
     const auto half = hn::Add(hn::Sub(high, low), hn::Set(d, 0x1p-960));  // halves of the smallest numbers are rounded
@@ -101,7 +103,7 @@ Aabb skin_box_kernel(const Skinned_node& node, Moved_range* moved) {
   double rest[4] = {1, 1, 1, 0};  // nothing is to be given away in the fourth lane
   for (std::size_t j = 0; j < node.joint_count; ++j) {
     for (int axis = 0; axis < 3; ++axis) rest[axis] -= node.ranges[j].least;
-    widen(node, node.ranges[j], moved[j]);
+    widen(node.shift, node.ranges[j], moved[j]);
     for (int axis = 0; axis < 3; ++axis)
       reach[axis] = reach[axis] > moved[j].reach[axis] ? reach[axis] : moved[j].reach[axis];
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "lodestone/bounds/joint_range.h"
+#include "lodestone/bounds/morph_shift.h"
 #include "lodestone/volumes/aabb.h"
 
 /// The box of a Skin_bound, built for several instruction sets and chosen at run time. All give the same bits.
@@ -15,8 +16,7 @@ struct Skinned_node {
   std::size_t joint_count;      ///< of the node; >= 1
   std::size_t most_influences;  ///< on one vertex
   const double* columns;        ///< per joint of the skin: the columns of its motion, each padded to four numbers
-  const double *low, *high;     ///< x, y, z: what morphing adds to the boxes at rest
-  const double* margin;         ///< x, y, z: of both
+  Morph_shift shift;            ///< what morphing adds to the boxes at rest
 };
 
 /// One joint of the node: the box at rest, widened by what morphing adds, and where the joint takes its ends.

@@ -146,6 +146,25 @@ TEST(Skin_bound, contains_every_position_as_it_is_computed) {
   }
 }
 
+/// The second target undoes the first up to rounding, which is much larger than what skinning rounds.
+TEST(Motion_bound, contains_positions_whose_targets_cancel) {
+  std::mt19937_64 random(7);
+  for (int round = 0; round < 50; ++round) {
+    const Face_soup soup(icosphere(6));
+    std::vector<Morph_target> targets(2);
+    for (std::size_t i = 0; i < soup.coordinates.size(); ++i)
+      for (auto& target : targets) target.offsets.push_back(0x1p33);
+    Skinned_points points(Morphed_points(soup.coordinates, targets), wild_influences(soup.vertex_count(), 1, random),
+                          1);
+    const Tree_layout layout(soup.faces, {}, soup.coordinates, {.leaf_faces = 2 + random() % 6});
+    const Linear_bound linear(points.shape(), layout);
+    const Skin_bound skin(points, layout);
+    points.set_weights(std::vector{1.0, -1.0});
+    EXPECT_EQ(outside(linear, points.shape(), layout), 0U);
+    EXPECT_EQ(outside(skin, points, layout), 0U);
+  }
+}
+
 /// All vertices follow one joint.
 Skinned_points rigid(const Face_soup& soup) {
   const std::vector<std::uint32_t> joints(soup.vertex_count(), 0);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lodestone/bounds/joint_range.h"
-#include "lodestone/bounds/linear_bound.h"
+#include "lodestone/bounds/morph_shifts.h"
 #include "lodestone/mesh/skinned_points.h"
 #include "lodestone/tree/tree_layout.h"
 #include "lodestone/volumes/aabb.h"
@@ -18,8 +18,9 @@ namespace lodestone {
 /// Boxes around skinned vertices (sum_j w_ij T_j) x_i from the motions of their joints. A model of Motion_bound.
 ///
 /// For a node let l_j and g_j be the least and the greatest weight of joint j among its vertices, and B_j the box at
-/// rest around those that joint j moves; where vertices are morphed, it is widened by `Linear_bound::shift`. For an
-/// axis, let M_j be the greatest coordinate of T_j B_j. The greatest coordinate of the node is at most
+/// rest around those that joint j moves; where vertices are morphed, it is widened by the Morph_shift of the node, with
+/// the margin for this box. For an axis, let M_j be the greatest coordinate of T_j B_j. The greatest coordinate of the
+/// node is at most
 ///
 ///     max { sum_j w_j M_j :  l_j <= w_j <= g_j,  sum_j w_j = 1 }.
 ///
@@ -68,7 +69,7 @@ class Skin_bound {
   static std::vector<Joint_range> merged(std::span<const Joint_range> a, std::span<const Joint_range> b);
 
   const Skinned_points* points_;
-  std::optional<Linear_bound> shape_;           ///< none: vertices are not morphed
+  std::optional<Morph_shifts> shifts_;          ///< none: vertices are not morphed
   std::vector<Joint_range> ranges_;             ///< by node, then by joint
   std::vector<std::uint64_t> range_begin_;      ///< per node and past the last
   std::vector<std::uint32_t> most_influences_;  ///< per node: of one vertex
