@@ -14,15 +14,20 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Writes nothing past z: the next position may not have been read yet.
+/// Writes nothing past z: the next position may not have been read yet. Stores under a mask are slow on some
+/// processors.
 HWY_INLINE void store_position(Position_vector position, std::size_t i, double* to) {
-  const Position_lanes d;
-  if constexpr (position_lanes == 4)
-    hn::BlendedStore(position, hn::FirstN(d, 3), d, to);
-  else if ((i + 1) * position_lanes <= 3)
-    hn::StoreU(position, d, to + i * position_lanes);
+#if HWY_MAX_BYTES >= 32 && HWY_TARGET != HWY_SCALAR
+  static_cast<void>(i);
+  const hn::Half<Position_lanes> half;
+  hn::StoreU(hn::LowerHalf(half, position), half, to);
+  to[2] = hn::GetLane(hn::UpperHalf(half, position));
+#else
+  if ((i + 1) * position_lanes <= 3)
+    hn::StoreU(position, Position_lanes(), to + i * position_lanes);
   else if (i * position_lanes < 3)
     to[2] = hn::GetLane(position);
+#endif
 }
 
 #if HWY_MAX_BYTES >= 64 && HWY_TARGET != HWY_SCALAR
