@@ -146,6 +146,19 @@ TEST(Box_reader, refuses_a_face_that_is_no_triangle_inside_and_outside_of_the_bo
   }
 }
 
+TEST(Box_reader, refuses_a_face_of_more_than_three_edges) {
+  for (int edges = 4; edges < 40; ++edges) {
+    Surface_mesh mesh = single_triangle();
+    std::vector<Surface_mesh::Vertex_index> corners;
+    for (int i = 0; i < edges; ++i) corners.push_back(mesh.add_vertex(Point(i, i * i, 0)));
+    mesh.add_face(corners);
+    Reader reader(mesh, mesh.points());
+    ASSERT_TRUE(reader.read_positions());
+    Faces_in_box found;
+    EXPECT_FALSE(reader.read_faces(reader.box(), found)) << edges;
+  }
+}
+
 TEST(Box_reader, refuses_a_quadrilateral_that_a_face_of_two_edges_makes_up_for) {
   Surface_mesh mesh;
   CGAL::make_tetrahedron(Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1), mesh);
