@@ -8,7 +8,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/positions-inl.h"
 #include "simd/vector_types-inl.h"
 
 HWY_BEFORE_NAMESPACE();

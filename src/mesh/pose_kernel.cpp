@@ -14,11 +14,10 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Writes nothing past z: the next position may not have been read yet. Stores under a mask are slow on some
-/// processors.
-HWY_INLINE void store_position(Position_vector position, std::size_t i, double* to) {
+/// Writes nothing past z: the next position may not have been read yet. It does not store under a
+/// mask: on some processors, what reads such a position soon afterwards has to wait.
+HWY_INLINE void store_position(Position_vector position, [[maybe_unused]] std::size_t i, double* to) {
 #if HWY_MAX_BYTES >= 32 && HWY_TARGET != HWY_SCALAR
-  static_cast<void>(i);
   const hn::Half<Position_lanes> half;
   hn::StoreU(hn::LowerHalf(half, position), half, to);
   to[2] = hn::GetLane(hn::UpperHalf(half, position));

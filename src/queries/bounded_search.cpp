@@ -130,7 +130,8 @@ Bounded_search::End Bounded_search::walk(bool until_all_posed, Visitor&& visitor
   filter_of_a_ = {};
   for (const Node_pair start : starts_) {
     waiting_.assign(1, start);
-    // So many of the lowest have not been compared, or not since a leaf was posed, which makes boxes smaller.
+    // How many pairs at the bottom of the list are to be compared: the start, or those listed before the last leaf was
+    // posed, which makes boxes smaller.
     std::size_t unsure = 1;
     while (!waiting_.empty()) {
       if (is_broken()) return End::broken;

@@ -68,10 +68,10 @@ class Bounded_search {
   Bounded_surface* a_ = nullptr;
   Bounded_surface* b_ = nullptr;
   double tolerance_ = 0;
-  bool is_ordered_ = false;  ///< pairs that lie deeper are visited first
+  bool is_ordered_ = false;         ///< pairs that lie deeper are visited first
   std::vector<Node_pair> starts_;   ///< of a walk, in order: below them lies each pair of leaves once
   std::vector<Node_pair> waiting_;  ///< still to be visited; near when listed, except where a walk starts
-  Leaf_pair tested_ = {};  ///< last
+  Leaf_pair tested_ = {};           ///< last
   Face_filter filter_;
   Coordinates filter_of_a_ = {}, filter_of_b_ = {};  ///< which positions the filter has been told of; empty: none
   std::size_t leaf_tests_ = 0, exact_tests_ = 0;
