@@ -44,8 +44,7 @@ class Bounded_search {
   /// Shows each contact once to a visitor, until it stops the walk.
   /// @param tolerance  as of a request
   /// @throws Bad_argument, Bad_mesh  as `run`
-  Visit visit(Bounded_surface& a, Bounded_surface& b, double tolerance,
-              const std::function<Visit(Face_pair)>& visitor);
+  Visit visit(Bounded_surface& a, Bounded_surface& b, double tolerance, const std::function<Visit(Face_pair)>& visitor);
 
  private:
   enum class End { complete, stopped, broken, all_posed };
