@@ -36,8 +36,9 @@ class Ray_group final {
     }
     for (std::size_t first = 0; first < rays_.size(); first += ray_tree_width) start(first);
     kernel::Ray_candidate_list candidates;
-    kernel::walk_rays({tree_.nodes().data(), tree_.blocks().data(), tree_.most_waiting()}, walks_,
-                      std::span(walking_.data(), walking_.size()), Collector::until, candidates);
+    const kernel::Ray_nodes nodes{tree_.nodes().data(), tree_.blocks().data(), tree_.surface().coordinates.data(),
+                                  tree_.most_waiting()};
+    kernel::walk_rays(nodes, walks_, std::span(walking_.data(), walking_.size()), Collector::until, candidates);
     for (const kernel::Ray_candidates& found : candidates.get()) test(found);
     tests_.finish();
     for (const std::uint32_t ray : walking_) answers_[ray] = questions_[ray].collector.result();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lodestone/mesh/large_pages.h"
 #include "queries/ray_fit_kernel.h"
 #include "tree/rank_kernel.h"
 
@@ -65,6 +66,7 @@ void Ray_tree_builder::build(Workers& workers) {
               });
   fit_boxes();
   tree_.nodes_.reserve(tree_.blocks_.size() / 3 + 1);
+  use_large_pages(tree_.nodes_.data(), tree_.nodes_.capacity() * sizeof(Ray_node));
   add_node(branch_of(0), 0);
   tree_.is_fitted_ = true;
 }
@@ -125,6 +127,7 @@ void Ray_tree_builder::count_blocks() {
         first_block_[leaf] +
         static_cast<std::uint32_t>((layout_.faces(leaf).size() + ray_tree_width - 1) / ray_tree_width);
   tree_.blocks_.resize(first_block_.back());
+  use_large_pages(tree_.blocks_.data(), first_block_.back() * sizeof(Ray_block));
   tree_.block_boxes_.resize(first_block_.back());
 }
 

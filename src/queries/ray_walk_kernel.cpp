@@ -235,6 +235,12 @@ struct Places {
   explicit Places(const Ray_nodes& tree)
       : begins{reinterpret_cast<const char*>(tree.nodes), reinterpret_cast<const char*>(tree.blocks)} {}
 
+  /// @param mask  0: begin with the first of its kind
+  HWY_INLINE const char* of(std::uint32_t child, std::size_t mask = ~std::size_t{0}) const {
+    const std::size_t is_block = child >> 31;
+    return begins[is_block] + sizes[is_block] * ((child & ~is_ray_block) & mask);
+  }
+
   const char* begins[2];
   std::size_t sizes[2] = {sizeof(Ray_node), sizeof(Ray_block)};
 };
@@ -243,6 +249,19 @@ struct Places {
 HWY_INLINE void prefetch(const char* child) {
   constexpr std::size_t line = 64;
   for (std::size_t i = 0; i < sizeof(Ray_node); i += line) hwy::Prefetch(child + i);
+}
+
+/// The same of what is looked at if the ray may meet a face of the block.
+HWY_INLINE void prefetch_rest(const Ray_block& block) {
+  hwy::Prefetch(block.vertices[1]);
+  hwy::Prefetch(block.faces);
+}
+
+/// The same of the corners of the first face that the ray may meet, or of any. Without a branch.
+HWY_INLINE void prefetch_corners(const Ray_nodes& tree, const Ray_block& block, std::uint32_t met) {
+  constexpr std::uint32_t last = 1U << (ray_tree_width - 1);
+  const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(met | last);
+  for (const auto& corner : block.vertices) hwy::Prefetch(tree.coordinates + 3 * std::size_t{corner[lane]});
 }
 
 /// The walkers whose turn it is, by what they visit next: so it is known which it is.
@@ -261,7 +280,7 @@ class Turn_filler {
   HWY_INLINE void add(Walker& walker) {
     const std::uint32_t child = child_of(walker.next);
     const std::size_t is_block = child >> 31, is_end = walker.next == end_of_walk ? 1 : 0;
-    prefetch(places_.begins[is_block] + places_.sizes[is_block] * ((child & ~is_ray_block) & (is_end - 1)));
+    prefetch(places_.of(child, is_end - 1));
     turn_.at_nodes[nodes_] = turn_.at_blocks[blocks_] = turn_.at_end[ended_] = &walker;
     nodes_ += 1 - is_block;
     blocks_ += is_block - is_end;
@@ -346,7 +365,8 @@ class Walk_group {
 template <Walk_until until>
 class Single_walk {
  public:
-  Single_walk(const Ray_nodes& tree, Ray_candidate_list& candidates) : tree_(tree), candidates_(candidates) {}
+  Single_walk(const Ray_nodes& tree, Ray_candidate_list& candidates)
+      : tree_(tree), places_(tree), candidates_(candidates) {}
 
   HWY_INLINE void run(const Ray_walks* walks, std::uint32_t ray, std::int64_t* waiting) {
     start(walker_, walks, ray, waiting);
@@ -368,6 +388,7 @@ class Single_walk {
     const auto take = [&] {
       const std::size_t child = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
       left &= left - 1;
+      prefetch(places_.of(node.children[child]));
       return std::int64_t{depths[child]} << 32 | std::int64_t{node.children[child]};
     };
     walker_.next = take();
@@ -378,10 +399,13 @@ class Single_walk {
     }
   }
 
-  HWY_INLINE void visit_block(std::uint32_t block) {
-    const std::uint32_t lanes = list_met<until>(tree_.blocks[block], walker_);
+  HWY_INLINE void visit_block(std::uint32_t index) {
+    const Ray_block& block = tree_.blocks[index];
+    prefetch_rest(block);
+    const std::uint32_t lanes = list_met<until>(block, walker_);
+    prefetch_corners(tree_, block, lanes);
     too_deep_ = deeper_key(walker_.most);
-    *candidates_.room(1) = {walker_.ray, block, lanes};
+    *candidates_.room(1) = {walker_.ray, index, lanes};
     candidates_.add(lanes != 0 ? 1 : 0);
     go_back();
   }
@@ -393,6 +417,7 @@ class Single_walk {
   }
 
   const Ray_nodes& tree_;
+  const Places places_;
   Ray_candidate_list& candidates_;
   Walker walker_;
   std::int64_t too_deep_ = missed_key;

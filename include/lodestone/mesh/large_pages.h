@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+namespace lodestone {
+
+/// Asks the system for large pages. Where memory is read here and there, each page has to be found first, and of large
+/// ones there are few. Only advice, which a system may ignore: nothing else changes, and small lists are left alone.
+/// @param memory  best not written so far
+/// @param size    in bytes
+void use_large_pages(const void* memory, std::size_t size) noexcept;
+
+}  // namespace lodestone

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lodestone/mesh/large_pages.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t megabyte = std::size_t{1} << 20;
+
+/// Memory that nobody has written. A list of its own: parts of the heap may be advised for others.
+struct Memory {
+  explicit Memory(std::size_t size) : bytes(new char[size]), size(size) {}
+
+  std::unique_ptr<char[]> bytes;
+  std::size_t size;
+};
+
+/// Whether the system was asked for large pages where a byte lies: the flag `hg` of its mapping.
+bool is_advised(const char* byte) {
+  const auto address = reinterpret_cast<std::uintptr_t>(byte);
+  std::ifstream mappings("/proc/self/smaps");
+  bool is_here = false;
+  for (std::string line; std::getline(mappings, line);) {
+    std::uintptr_t begin = 0, end = 0;
+    char dash = 0;
+    std::istringstream words(line);
+    if (words >> std::hex >> begin >> dash >> end && dash == '-')
+      is_here = begin <= address && address < end;
+    else if (is_here && line.starts_with("VmFlags:"))
+      return line.find(" hg") != std::string::npos;
+  }
+  return false;
+}
+
+TEST(Large_pages, are_asked_for_in_the_middle_of_large_memory_only) {
+  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage/enabled")) GTEST_SKIP() << "no large pages here";
+  const Memory large(64 * megabyte), small(3 * megabyte);
+  use_large_pages(large.bytes.get(), large.size);
+  use_large_pages(small.bytes.get(), small.size);
+  EXPECT_TRUE(is_advised(large.bytes.get() + large.size / 2));
+  EXPECT_FALSE(is_advised(small.bytes.get() + small.size / 2));
+}
+
+TEST(Large_pages, leave_what_the_memory_holds) {
+  const Memory memory(16 * megabyte);
+  for (std::size_t i = 0; i < memory.size; i += 1000) memory.bytes[i] = static_cast<char>(i % 101);
+  use_large_pages(memory.bytes.get() + 13, memory.size - 13);
+  for (std::size_t i = 0; i < memory.size; i += 1000) ASSERT_EQ(memory.bytes[i], static_cast<char>(i % 101));
+}
+
+TEST(Large_pages, take_no_memory_at_all) { use_large_pages(nullptr, 0); }
+
+}  // namespace
+
+}  // namespace lodestone
