@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The class Detector: how it reads arrays, what it answers, what it refuses."""
+"""The class Detector: how it reads arrays, and what it answers."""
 
-import decimal
 import gc
 import weakref
 
@@ -364,109 +363,6 @@ def test_a_ray_that_begins_on_a_face_hits_it_at_zero():
     detector.add(cube())
     t = detector.first_hit(0, [0.25, 0.5, 1], [0, 0, -1])["t"]
     assert t == 0 and not np.signbit(t)
-
-
-class Stubborn:
-    faces = cube().faces
-
-    @property
-    def vertices(self):
-        raise KeyboardInterrupt
-
-
-class Unreadable:
-    def __array__(self, *_):
-        raise MemoryError
-
-
-def test_what_a_property_raises_passes_through():
-    with pytest.raises(KeyboardInterrupt):
-        lodestone.Detector().add(Stubborn())
-    with pytest.raises(MemoryError):
-        lodestone.Detector().add(Unreadable(), cube().faces)
-    with pytest.raises(lodestone.BadArgument, match="vertices and faces"):
-        lodestone.Detector().add(object())
-
-
-@pytest.mark.parametrize("mode", ["exact", "certified", "particles", "senin"])
-def test_a_vertex_that_is_no_number_is_an_error(mode):
-    detector = lodestone.Detector(mode=mode)
-    bad = cube()
-    bad.vertices[3, 1] = np.nan
-    detector.add(bad, name="broken box"), detector.add(sphere())
-    with pytest.raises(lodestone.BadMesh, match="finite"):
-        detector.detect()
-    bad.vertices[3, 1] = 1
-    detector.detect()
-
-
-@pytest.mark.parametrize("arguments, error, text", [
-    (dict(mode="fast"), lodestone.BadArgument, "mode must be one of exact, certified, particles, senin, but is 'fast'"),
-    (dict(tolerence=1), TypeError, "there is no option tolerence"),
-    (dict(threads=-1), TypeError, "threads must be an integer >= 0, but is -1"),
-    (dict(threads=1.5), TypeError, "threads must be"),
-    (dict(threads=True), TypeError, "threads must be"),
-    (dict(most_contacts=np.float32(2.5)), TypeError, "most_contacts must be an integer >= 0, but is 2.5"),
-    (dict(tolerance="1"), TypeError, "tolerance must be a number"),
-    (dict(tolerance=-1), lodestone.BadArgument, "tolerance"),
-    (dict(self_collision=2), TypeError, "self_collision must be True or False"),
-    (dict(strategy="voronoy"), lodestone.BadArgument, "voronoy"),
-    (dict(self_tolerance=0.1), lodestone.BadArgument, "self_tolerance needs self_collision=True"),
-    (dict(mode="particles", tolerance=1.0), lodestone.BadArgument, "exact"),
-])
-def test_options_are_checked(arguments, error, text):
-    with pytest.raises(error, match=text):
-        lodestone.Detector(**arguments)
-
-
-def test_numbers_of_objects_and_frames_are_integers(tmp_path):
-    detector = lodestone.Detector()
-    ball = detector.add(sphere())
-    with pytest.raises(TypeError):
-        detector.vertices(np.float32(0.9))
-    with pytest.raises(TypeError):
-        detector.add(sphere(), particles=np.float32(2.5))
-    with pytest.raises(TypeError):
-        lodestone.partition(sphere(), regions=decimal.Decimal("2.5"))
-    lodestone.write_animation(tmp_path / "still.pc2", [sphere().vertices] * 2)
-    animation = lodestone.read_animation(tmp_path / "still.pc2")
-    with pytest.raises(TypeError):
-        animation.pose(np.float32(0.9))
-    assert len(detector.vertices(np.uint8(ball))) == len(sphere().vertices)
-    assert lodestone.partition(sphere(), regions=np.int64(3)).labels.max() == 2
-
-
-@pytest.mark.parametrize("vertices, faces, text", [
-    (cube().vertices[:, :2], cube().faces, r"vertices must have the shape \(V, 3\), but have \(8, 2\)"),
-    (cube().vertices, cube().faces.ravel(), r"faces must have the shape \(F, 3\), but have \(36,\)"),
-    (cube().vertices, cube().faces + 0.5, "faces must be an array of integers"),
-    (cube().vertices, cube().faces - 1, "face 0 refers to vertex -1"),
-    (cube().vertices, cube().faces + 1, "face [0-9]+ refers to vertex 8 of 8"),
-    (cube().vertices, [[0, 1, 2**32]], "face 0 refers to vertex 4294967296"),
-    (cube().vertices, np.zeros((0, 3), int), "no face"),
-    (cube().vertices, [], "no face"),
-    (np.zeros((0, 3)), [[0, 1, 2]], "face 0 refers to vertex 2 of 0"),
-    (cube().vertices + 1j, cube().faces, "vertices must be an array of numbers"),
-    ("vertices", "faces", "must be an array"),
-    ([[1, 2, 3], [4, 5]], cube().faces, "vertices must be"),
-    (None, cube().faces, "vertices must be"),
-])
-@pytest.mark.filterwarnings("ignore::numpy.VisibleDeprecationWarning")
-def test_bad_meshes_are_refused(vertices, faces, text):
-    detector = lodestone.Detector()
-    with pytest.raises(lodestone.BadMesh, match=text):
-        detector.add(vertices, faces)
-    assert len(detector) == 0
-
-
-def test_something_without_faces_is_refused():
-    with pytest.raises(lodestone.BadArgument, match="vertices and faces"):
-        lodestone.Detector().add(cube().vertices)
-
-
-def test_errors_are_python_errors_too():
-    assert issubclass(lodestone.BadMesh, lodestone.Error) and issubclass(lodestone.BadMesh, ValueError)
-    assert lodestone.BadMesh.__module__ == "lodestone" and lodestone.Detector.__module__ == "lodestone"
 
 
 def test_positions_are_read_once_where_they_are_held():
