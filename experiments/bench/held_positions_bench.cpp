@@ -14,18 +14,18 @@ namespace lodestone {
 
 namespace {
 
-constexpr int rays = 10, points = 10;
+constexpr int single_rays = 10, single_points = 10;
 
 /// A frame, then the closest faces, and rays and points that are asked about one by one.
 /// @return a number that depends on all answers
 double ask(Detector<>& detector) {
   double sum = static_cast<double>(detector.detect().face_pairs.size());
   sum += detector.closest(0, 1).points.distance;
-  for (int i = 0; i < rays; ++i) {
+  for (int i = 0; i < single_rays; ++i) {
     const Ray ray{.origin = {-3, 0.05 * i, 0.1}, .direction = {1, 0, 0}};
     if (const auto hit = detector.first_hit(0, ray)) sum += hit->t;
   }
-  for (int i = 0; i < points; ++i) sum += detector.closest_point(1, Point(3, 0.1 * i, 2)).distance;
+  for (int i = 0; i < single_points; ++i) sum += detector.closest_point(1, Point(3, 0.1 * i, 2)).distance;
   return sum;
 }
 
@@ -41,7 +41,7 @@ void held_positions(benchmark::State& state) {
   bool same = true;
   for (auto _ : state) {
     for (Point& p : b.points()) p += Kernel::Vector_3(1e-4, 0, 0);
-    double sums[2];
+    double sums[2]{};
     const bool held_first = each.size() % 2 == 0;
     for (const bool is_held : {held_first, !held_first}) {
       const Lap_timer timer;
