@@ -214,17 +214,13 @@ class Detector {
   /// @throws Bad_mesh      as `detect`
   template <Contact_visitor Visitor>
   Visit visit(Object_id a, Object_id b, Visitor&& visitor) {
-    auto& exact = ask<Exact>(a, b);
-    if (a == b) throw Bad_argument("the face pairs of object " + std::to_string(a) + " and itself");
-    return exact.visit({a, b}, std::forward<Visitor>(visitor));
+    return ask_two("visit", a, b).visit({a, b}, std::forward<Visitor>(visitor));
   }
   /// Where two objects are closest, in mode `exact`.
   /// @throws Bad_argument  no such object, one and the same, another mode
   /// @throws Bad_mesh      as `detect`
   Closest_faces closest(Object_id a, Object_id b) {
-    auto& exact = ask<Exact>(a, b);
-    if (a == b) throw Bad_argument("the closest faces of object " + std::to_string(a) + " and itself");
-    return exact.closest({a, b});
+    return ask_two("closest", a, b).closest({a, b});
   }
   /// When two objects meet first if every vertex moves on a straight line, from where it is now at t = 0 to where it
   /// will be at t = 1, in mode `exact`: see `first_impact` of trees. Reads all of both. None if they do not meet.
@@ -233,10 +229,7 @@ class Detector {
   /// @throws Bad_mesh      as `detect`; another number of rows than vertices, a coordinate that is not finite
   std::optional<Impact> first_impact(Object_id a, const Eigen::Ref<const Positions>& end_a, Object_id b,
                                      const Eigen::Ref<const Positions>& end_b) {
-    auto& exact = ask<Exact>(a, b);
-    if (a == b)
-      throw Bad_argument("the first impact of object " + std::to_string(a) + " and itself: ask for first_self_impact");
-    return exact.first_impact({a, b}, end_a, end_b);
+    return ask_two("first_impact", a, b).first_impact({a, b}, end_a, end_b);
   }
   /// When two faces of one object that share no vertex meet first, in mode `exact`: see `first_self_impact` of trees.
   /// Everything else is as in the other call.
@@ -267,17 +260,14 @@ class Detector {
   /// @param distance  >= 0, in units of the coordinates; 0: whether they collide
   /// @throws Bad_argument, Bad_mesh  as `closest`; a distance that is negative or not finite
   bool within(Object_id a, Object_id b, double distance) {
-    auto& exact = ask<Exact>(a, b);
-    if (a == b) throw Bad_argument("whether object " + std::to_string(a) + " is near itself");
+    auto& exact = ask_two("within", a, b);
     if (!(distance >= 0) || !std::isfinite(distance)) throw Bad_argument("the distance must be finite and >= 0");
     return exact.within({a, b}, distance);
   }
   /// Whether the surface of `inner` lies inside that of `outer`, which is closed, in mode `exact`: see `encloses`.
   /// @throws Bad_argument, Bad_mesh  as `closest`
   bool contains(Object_id outer, Object_id inner) {
-    auto& exact = ask<Exact>(outer, inner);
-    if (outer == inner) throw Bad_argument("whether object " + std::to_string(outer) + " contains itself");
-    return exact.contains(outer, inner);
+    return ask_two("contains", outer, inner).contains(outer, inner);
   }
   /// The first face of an object that a ray meets, in mode `exact` or `certified`: see `first_hit` of trees. In mode
   /// `certified` an object with bounds is posed only where the ray passes.
@@ -365,9 +355,7 @@ class Detector {
   /// and neither lies inside the other, in mode `exact`: see `parting`. None if this holds already.
   /// @throws Bad_argument, Bad_mesh  as `closest`
   std::optional<Parting> parting(Object_id a, Object_id b) {
-    auto& exact = ask<Exact>(a, b);
-    if (a == b) throw Bad_argument("a translation that parts object " + std::to_string(a) + " and itself");
-    return exact.parting({a, b});
+    return ask_two("parting", a, b).parting({a, b});
   }
 
   /// Promises something about how an object moves, in mode `certified`: see Motion_promise. The promise must outlive
@@ -476,6 +464,13 @@ class Detector {
     (checked(objects), ...);
     if (auto* model = dynamic_cast<Model*>(detection_.get())) return *model;
     throw Bad_argument(Model::needed);
+  }
+  /// The mode, for a question about two objects that must not be the same.
+  /// @throws Bad_argument  no such object, the same twice, another mode
+  Exact& ask_two(const char* question, Object_id a, Object_id b) const {
+    auto& exact = ask<Exact>(a, b);
+    if (a != b) return exact;
+    throw Bad_argument(std::string(question) + " needs two different objects, but both are object " + std::to_string(a));
   }
 
   template <class Asked, class Question>

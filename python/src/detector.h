@@ -136,8 +136,8 @@ class Python_detector {
   template <class Promise>
   void promise(Object_id object, const Promise& promise, py::object kept) {
     change([&](auto& detector) {
+      at(object).keep(std::move(kept));  // first: the detector refers to it
       detector.promise(object, promise);
-      at(object).keep(std::move(kept));
     });
   }
   void remove(Object_id object);

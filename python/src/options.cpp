@@ -182,8 +182,6 @@ Detector_settings detector_settings(const py::kwargs& keywords) {
     options.particles = options.least_particles;
   options.senin.seed = settings.strategy_settings.seed;
   settings.strategy_settings.lbg.threads = exact.threads;
-  if (keywords.contains("throw_if_broken") && options.mode != Mode::certified)
-    throw Bad_argument("the option throw_if_broken is for the mode certified: other modes ignore it");
   // Wrong settings are refused also where nothing is divided.
   if (!settings.strategy.function) make_strategy(settings.strategy.name, settings.strategy_settings);
   return settings;

@@ -43,7 +43,7 @@ std::string numbers_of_frame(const Frame& frame, const std::vector<Shown_object>
       intersects.push_back(frame.intersects(i));
     }
     pairs.back()["faces"] = std::move(faces);
-    if (tolerance_of(options, {pair.a, pair.b}) > 0) pairs.back()["intersects"] = std::move(intersects);
+    if (tolerance_of(options.exact, {pair.a, pair.b}) > 0) pairs.back()["intersects"] = std::move(intersects);
   }
   const Json line{{"frame", frame.number},
                   {"pairs", std::move(pairs)},
@@ -81,7 +81,7 @@ class Python_page {
     const Frame& found = *frame.frame;
     Page_frame shown{.positions = {}, .numbers = numbers_of_frame(found, objects, options)};
     if (finds_all(options.mode))
-      shown.stages = page_stages(found, {.positive = found.collides(), .with_tolerance = has_tolerance(options)});
+      shown.stages = page_stages(found, {.positive = found.collides(), .with_tolerance = has_tolerance(options.exact)});
     if (options.contacts != Contact_query::yes_no)
       shown.contacts = page_contacts(
           found, [&](Object_id object, std::uint32_t face) { return triangle_of_face(objects[object], face); });

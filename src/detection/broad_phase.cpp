@@ -112,7 +112,7 @@ double Broad_phase::strip_width(std::span<const Box> boxes, std::span<const doub
 void Broad_phase::choose_strips(std::span<const Box> boxes, std::span<const double> reach) {
   strips_ = 1;
   width_ = divides_ ? strip_width(boxes, reach) : 0;
-  if (width_ > 0) strips_ = std::bit_floor(order_.size() / 16);
+  if (width_ > 0 && std::isfinite(width_)) strips_ = std::bit_floor(order_.size() / 16);
   while (!count_in_strips(boxes, reach)) {
     width_ *= 4;  // many boxes are wider than usual
     if (!std::isfinite(width_)) strips_ = 1;

@@ -34,8 +34,8 @@ bool has_defaults_of_meetings(const Detector_options& options) {
 }
 
 bool has_defaults_of_exact(const Exact_options& exact) {
-  return exact.tolerance == 0 && exact.self_tolerance == 0 && !exact.self_collision && !exact.containment &&
-         !exact.parting && !exact.patches;
+  return !has_tolerance(exact) && !exact.self_collision && !exact.containment && !exact.parting && !exact.patches &&
+         exact.loosest == Exact_options().loosest;
 }
 
 }  // namespace
@@ -60,10 +60,12 @@ void check(const Detector_options& options) {
   require(exact.self_tolerance >= 0 && std::isfinite(exact.self_tolerance),
           "the tolerance within one object must be finite and >= 0");
   require(exact.loosest > 1, "a tree must be allowed to become looser than it was built: the factor must be > 1");
-  require(exact.tree.leaf_faces >= 2 && exact.tree.leaf_faces <= 128, "a leaf must hold at most 2 to 128 faces");
-  require(finds_all(options.mode) || has_defaults_of_exact(exact),
-          "a distance other than 0, self-collision, containment, parting and contact patches need the mode exact or "
-          "certified");
+  check(exact.tree);
+  require(
+      finds_all(options.mode) || has_defaults_of_exact(exact),
+      "a distance other than 0, self-collision, containment, parting, contact patches and the limit of looseness need "
+      "the mode exact or certified");
+  require(options.mode == Mode::certified || !exact.throw_if_broken, "throw_if_broken needs the mode certified");
   require(!finds_all(options.mode) || has_defaults_of_particles(options),
           "the collision distance, its measure, the choice of candidates and open seams need the mode particles or "
           "senin; the growth limit needs the mode particles");

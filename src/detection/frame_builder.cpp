@@ -11,7 +11,7 @@ Frame_builder::Frame_builder(const Detector_options& options)
     : points_(options.contact_points || options.exact.patches),
       normals_(options.contact_normals || options.exact.patches),
       patches_(options.exact.patches),
-      contacts_may_be_apart_(options.exact.tolerance > 0 || options.exact.self_tolerance > 0) {}
+      contacts_may_be_apart_(has_tolerance(options.exact)) {}
 
 void Frame_builder::reserve(std::size_t pairs, std::size_t face_pairs) {
   frame_.pairs.reserve(pairs);

@@ -68,7 +68,7 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
             {"first_colliding_frame", frame_json(summary.first_colliding)},
             {"last_colliding_frame", frame_json(summary.last_colliding)},
             {"face_pairs", summary.face_pairs}};
-  if (tolerance_of(subject.command.options, pair) > 0) json["near_frames"] = summary.near_frames;
+  if (tolerance_of(subject.command.options.exact, pair) > 0) json["near_frames"] = summary.near_frames;
   if (summary.capped_frames > 0) json["capped_frames"] = summary.capped_frames;
   if (summary.unfinished_frames > 0) json["unfinished_frames"] = summary.unfinished_frames;
   if (subject.command.options.exact.containment) json["contained_frames"] = summary.contained_frames;
@@ -134,7 +134,7 @@ std::size_t count_passings(const Run_summary& summary) {
 std::vector<std::string> table_header(const Detect_command& command) {
   std::vector<std::string> header{"object a", "object b", "frames", "colliding", "first", "last"};
   if (command.options.contacts == Contact_query::all) header.emplace_back("face pairs");
-  if (has_tolerance(command.options)) header.emplace_back("near");
+  if (has_tolerance(command.options.exact)) header.emplace_back("near");
   if (command.options.exact.containment) header.emplace_back("one inside");
   if (command.options.exact.parting) header.emplace_back("parting");
   if (command.closest) header.insert(header.end(), {"least distance", "in frame"});
@@ -150,8 +150,8 @@ std::vector<std::string> table_row(const Run_subject& subject, Object_pair pair,
                                std::to_string(scene.frames),  std::to_string(summary.colliding_frames),
                                text(summary.first_colliding), text(summary.last_colliding)};
   if (subject.command.options.contacts == Contact_query::all) row.push_back(std::to_string(summary.face_pairs));
-  if (has_tolerance(subject.command.options))
-    row.push_back(tolerance_of(subject.command.options, pair) > 0 ? std::to_string(summary.near_frames) : "-");
+  if (has_tolerance(subject.command.options.exact))
+    row.push_back(tolerance_of(subject.command.options.exact, pair) > 0 ? std::to_string(summary.near_frames) : "-");
   if (subject.command.options.exact.containment) row.push_back(std::to_string(summary.contained_frames));
   if (subject.command.options.exact.parting)
     row.push_back(summary.longest_parting ? fmt::format("{:.3g}", *summary.longest_parting) : "-");
@@ -334,7 +334,7 @@ std::string one_line_answer(const Run_subject& subject, const Run_summary& summa
   auto text = fmt::format("{}: {}", subject.scene.name, counted(colliding, "colliding pair"));
   if (colliding > 0) text += fmt::format(", first in frame {}, last in frame {}", first, last);
   text += (colliding > 0 ? " of " : " in ") + counted(subject.scene.frames, "frame");
-  if (has_tolerance(subject.command.options)) text += fmt::format("; {} near", near);
+  if (has_tolerance(subject.command.options.exact)) text += fmt::format("; {} near", near);
   if (const auto pair = closest_pair(summary)) {
     const auto& least = *summary.pairs.at(*pair).least_distance;
     text += fmt::format("; least distance {} in frame {}, of {} and {}", least.distance, least.frame,

@@ -78,7 +78,7 @@ void add_contacts(Json& json, std::span<const std::pair<Faces_in_files, std::siz
                   const Pair_result& pair, const Detector_options& options) {
   auto& faces = json["faces"] = Json::array();
   for (const auto& [in_files, index] : contacts) faces.push_back(in_files);
-  if (tolerance_of(options, {pair.a, pair.b}) > 0) {
+  if (tolerance_of(options.exact, {pair.a, pair.b}) > 0) {
     auto& intersects = json["intersects"] = Json::array();
     for (const auto& [in_files, index] : contacts) intersects.push_back(frame.intersects(index));
   }

@@ -47,7 +47,7 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
   static const std::vector<Mode_option> options{
       {"--within", {Mode::exact, Mode::certified}},
       {"--closest", {Mode::exact, Mode::certified}},
-      {"--impacts", {Mode::exact}},
+      {"--impacts", {Mode::exact, Mode::certified}},
       {"--self", {Mode::exact, Mode::certified}},
       {"--self-within", {Mode::exact, Mode::certified}},
       {"--containment", {Mode::exact, Mode::certified}},

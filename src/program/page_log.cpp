@@ -117,7 +117,7 @@ std::string Page_log::stages(const Frame& result, std::optional<bool> truth) {
   const bool positive = truth ? *truth : exact_.detect().collides();
   const auto distance = positive && !command_.options.exact.self_collision ? std::optional(0.0) : nearest();
   return page_stages(
-      result, {.positive = positive, .with_tolerance = has_tolerance(command_.options), .nearest = distance});
+      result, {.positive = positive, .with_tolerance = has_tolerance(command_.options.exact), .nearest = distance});
 }
 
 /// Distance of the two nearest objects. Skips pairs whose boxes are farther apart than the best distance so far.

@@ -162,7 +162,7 @@ std::vector<std::optional<Ray_hit>> first_hits(const Layout_view& surface, std::
 
 std::vector<std::optional<Ray_hit>> first_hits(Bounded_surface& surface, std::span<const Ray> rays, Workers& workers) {
   return ask_each(
-      surface, rays, [](Bounded_surface& bounded, const Ray& ray) { return first_hit(bounded, ray); }, workers);
+      surface, rays, [](auto& asked, const Ray& ray) { return first_hit(asked, ray); }, workers);
 }
 
 }  // namespace lodestone

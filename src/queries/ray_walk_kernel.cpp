@@ -230,7 +230,7 @@ HWY_INLINE std::uint32_t visit_block(const Ray_block& block, Walker& walker) {
   return met;
 }
 
-/// Where nodes and blocks are, the same for both: which a child is is unpredictable.
+/// Addresses of nodes and blocks, computed without a branch: which of the two a child is, is unpredictable.
 struct Places {
   explicit Places(const Ray_nodes& tree)
       : begins{reinterpret_cast<const char*>(tree.nodes), reinterpret_cast<const char*>(tree.blocks)} {}

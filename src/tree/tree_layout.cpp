@@ -19,9 +19,14 @@ constexpr std::uint32_t part_leaves = 128;
 
 }  // namespace
 
-void Tree_layout::check(std::span<const Corners> corners, const Region_tree_options& options) {
+void check(const Region_tree_options& options) {
   if (options.leaf_faces < 2 || options.leaf_faces > most_leaf_faces)
-    throw Bad_argument("a leaf must hold at most 2 to 128 faces");
+    throw Bad_argument("leaf_faces must be 2 to " + std::to_string(most_leaf_faces) + ", but is " +
+                       std::to_string(options.leaf_faces));
+}
+
+void Tree_layout::check(std::span<const Corners> corners, const Region_tree_options& options) {
+  lodestone::check(options);
   if (corners.size() > std::numeric_limits<std::uint32_t>::max() / 3)
     throw Bad_mesh("the mesh has more than 1431655765 faces, the most that a tree can index");
 }

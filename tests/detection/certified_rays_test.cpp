@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rays and points in mode certified.
 #include "detection/certified_scene.h"
+#include "lodestone/bounds/displacement_bound.h"
 
 namespace lodestone {
 namespace {
@@ -91,6 +92,60 @@ TEST(Certified, many_rays_or_points_pose_all_and_have_the_answers_of_mode_exact)
     EXPECT_FALSE(certified.bounded(0)->all_posed());
   }
   EXPECT_GT(hits, 30U);
+}
+
+/// A ball that has promised to stand still, and of which the part with the largest x has moved far up. Who asks up
+/// there does not notice; who asks beside the ball does.
+struct Broken_promise {
+  Surface_mesh ball = icosphere(16), other = icosphere(4);
+  Displacement_promise nothing_moves;
+  Detector<> certified{in_mode(Mode::certified, {})}, exact{in_mode(Mode::exact, {})};
+  const std::vector<Ray> rays{{.origin = {0.275, 9, 5}, .direction = {0, -1, 0}},
+                              {.origin = {5, 0.01, 0.02}, .direction = {-1, 0, 0}}};
+  const std::vector<Point> points{Point(0.275, 0, 5), Point(0.97, 0.01, 0.02)};
+
+  Broken_promise() {
+    shift(other, -9);
+    for (Detector<>* detector : {&certified, &exact}) {
+      detector->add(std::as_const(ball));
+      detector->add(std::as_const(other));
+    }
+    certified.promise(0, nothing_moves);
+    certified.detect();
+    for (Point& p : ball.points())
+      if (p.x() > 0.9) p = Point(p.x() - 1, p.y(), p.z() + 8);
+  }
+  ~Broken_promise() { EXPECT_GT(certified.bounded(0)->violations(), 0U); }
+};
+
+TEST(Certified, all_rays_are_asked_anew_once_a_broken_bound_is_noticed) {
+  Broken_promise of;
+  const auto found = of.certified.first_hits(0, of.rays), truth = of.exact.first_hits(0, of.rays);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_TRUE(truth[i] && found[i]) << i;
+    EXPECT_EQ(found[i]->face, truth[i]->face);
+  }
+}
+
+TEST(Certified, all_rays_among_objects_are_asked_anew_once_a_broken_bound_is_noticed) {
+  Broken_promise of;
+  const auto found = of.certified.first_hits(of.rays), truth = of.exact.first_hits(of.rays);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_TRUE(truth[i] && found[i]) << i;
+    EXPECT_EQ(found[i]->object, truth[i]->object);
+    EXPECT_EQ(found[i]->hit.face, truth[i]->hit.face);
+  }
+}
+
+TEST(Certified, all_points_are_asked_anew_once_a_broken_bound_is_noticed) {
+  Broken_promise of_closest, of_sides;
+  const auto found = of_closest.certified.closest_points(0, of_closest.points);
+  const auto truth = of_closest.exact.closest_points(0, of_closest.points);
+  EXPECT_LT(truth[0].distance, 1);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(found[i].distance, truth[i].distance);
+  const auto sides = of_sides.exact.point_sides(0, of_sides.points);
+  EXPECT_EQ(sides[0], Point_side::inside);
+  EXPECT_EQ(of_sides.certified.point_sides(0, of_sides.points), sides);
 }
 
 }  // namespace

@@ -129,5 +129,23 @@ TEST_F(Impacts, are_absent_unless_asked_for) {
   EXPECT_FALSE(frames()[1].contains("impacts"));
 }
 
+TEST_F(Impacts, are_the_same_in_mode_certified) {
+  folder.write("spinning.json", R"({"frames": 12, "objects": [
+    {"name": "knot", "shape": {"torus_knot": {}}, "motion": {"deform": [{"spin": {"degrees_per_frame": 11}}]}},
+    {"name": "ball", "shape": {"icosphere": {"frequency": 4}}, "place": {"scale": 0.5, "translate": [0.6, 0.2, 0]},
+     "motion": {"deform": [{"travel": {"way_points": [
+       {"frame": 0, "at": [0, 0, 0]}, {"frame": 5, "at": [0.9, 0.3, 0.4]}, {"frame": 11, "at": [-1, 0.2, -0.3]}]}}]}}]})");
+  expect_success(detect({path("spinning.json"), "--mode", "exact"}));
+  const auto exact = frames();
+  expect_success(detect({path("spinning.json"), "--mode", "certified"}));
+  const auto certified = frames();
+  std::size_t impacts = 0;
+  for (std::size_t frame = 0; frame + 1 < exact.size(); ++frame) {
+    EXPECT_EQ(certified.at(frame)["impacts"], exact[frame]["impacts"]) << frame;
+    impacts += exact[frame]["impacts"].size();
+  }
+  EXPECT_GT(impacts, 2U);
+}
+
 }  // namespace
 }  // namespace lodestone::test

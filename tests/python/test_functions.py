@@ -113,7 +113,7 @@ def test_contacts_within_a_tolerance_tell_whether_they_intersect():
 @pytest.mark.parametrize("options, text", [
     ({"strategy": "voronoy"}, "voronoy"),
     ({"lbg_epsilon": -1.0}, "epsilon"),
-    ({"throw_if_broken": True}, "throw_if_broken is for the mode certified"),
+    ({"throw_if_broken": True}, "throw_if_broken needs the mode certified"),
 ])
 def test_options_are_checked_where_nothing_needs_them(options, text):
     for ask in [lambda: lodestone.find_collisions(cube(), cube().moved(1), **options),

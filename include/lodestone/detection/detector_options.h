@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "lodestone/mesh/pairs.h"
 #include "lodestone/particles/candidate_pairs.h"
 #include "lodestone/particles/collision_distance.h"
-#include "lodestone/particles/confirmation.h"
 #include "lodestone/particles/senin.h"
 #include "lodestone/partition/particle_count.h"
 #include "lodestone/partition/partition.h"
@@ -58,6 +58,13 @@ struct Exact_options {
   double loosest = 2;             ///< rebuild an object's tree when its leaves are looser by this factor; > 1
   Region_tree_options tree = {};  ///< of an object's tree; also of the one that meetings search
 };
+
+/// Whether contacts may be apart.
+constexpr bool has_tolerance(const Exact_options& exact) { return exact.tolerance > 0 || exact.self_tolerance > 0; }
+/// Below which the faces of a pair are contacts.
+constexpr double tolerance_of(const Exact_options& exact, Object_pair pair) {
+  return pair.a == pair.b ? exact.self_tolerance : exact.tolerance;
+}
 
 /// Options of a Detector, and of one call.
 struct Detector_options {
@@ -130,13 +137,17 @@ struct Changed_faces {
 /// How messages name an object: `object 3`, or `object 3 (cloth)`.
 std::string title_of(std::uint32_t object, const Object_options& options);
 
-/// Refuses options that are out of range, or that the mode does not have.
-/// @throws Bad_argument  an option out of its range; mode `exact`, and another value than the default for the collision
-///                       distance, its measure, the choice of candidates, open seams or the growth limit; another mode,
-///                       and a tolerance of either kind, self-collision, containment, parting or contact patches;
-///                       another mode than `particles`, and another value than the default for meetings or openings;
-///                       mode `particles` with meetings, and another value than the default for the collision distance,
-///                       its measure or the choice of candidates
+/// Refuses options that are out of range, or that have no effect:
+/// - in the modes `exact` and `certified`: the collision distance, its measure, the choice of candidates, open seams
+/// and
+///   the growth limit;
+/// - in other modes: a tolerance of either kind, self-collision, containment, parting, contact patches and the limit of
+///   looseness;
+/// - in other modes than `certified`: `throw_if_broken`;
+/// - in other modes than `particles`: meetings and openings;
+/// - with meetings: the collision distance, its measure and the choice of candidates;
+/// - with the contacts `yes_no`: contact points, normals and patches.
+/// @throws Bad_argument  an option out of its range, or another value than the default for one that has no effect
 void check(const Detector_options& options);
 
 }  // namespace lodestone

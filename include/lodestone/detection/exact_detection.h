@@ -39,8 +39,6 @@ class Exact_detection final : public Detection {
   /// What a refusal tells a user who asks another mode for this one's answers.
   static constexpr const char* needed = "this needs the mode exact or certified";
 
-  using Surface = Basic_tree_surface<Volume>;  ///< of an object
-
   /// @param options  checked by `make_detection`
   explicit Exact_detection(const Detector_options& options)
       : options_(options),
@@ -174,9 +172,6 @@ class Exact_detection final : public Detection {
   const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_.surface(object).tree(); }
 
  private:
-  /// Whether objects can have bounds.
-  static constexpr bool is_bounded = std::same_as<Volume, Aabb>;
-
   /// While a visitor is shown face pairs.
   class Visiting {
    public:
@@ -205,7 +200,6 @@ class Exact_detection final : public Detection {
             .vertices = objects_[object].mesh().vertex_count(),
             .corners = objects_[object].corners()};
   }
-  bool on_demand(Object_pair pair) const { return objects_.on_demand(pair.a) || objects_.on_demand(pair.b); }
   void start_frame(std::span<const Object_id> ids);
   const Frame& finish_frame(std::span<const Object_id> ids);
   /// An answer about these objects, unless a broken bound is to be an error.
@@ -257,8 +251,8 @@ template <Bounding_volume Volume>
 Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
-  if constexpr (is_bounded)
-    if (on_demand(pair)) return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
+  if constexpr (Exact_objects<Volume>::can_have_bounds)
+    if (objects_.on_demand(pair)) return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
   return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
 }
 
@@ -320,7 +314,7 @@ auto Exact_detection<Volume>::motions_to(std::span<const Positions> ends) -> Mot
 template <Bounding_volume Volume>
 template <class Question>
 auto Exact_detection<Volume>::of_refreshed(Object_id object, const Question& question, std::size_t parts) {
-  if constexpr (is_bounded)
+  if constexpr (Exact_objects<Volume>::can_have_bounds)
     if (objects_.on_demand(object)) {
       const Object_id ids[] = {object};
       if (Ray_tree::refit_pays(parts, objects_[object].corners().size())) objects_.pose_all(ids);
@@ -347,13 +341,16 @@ template <Bounding_volume Volume>
 std::vector<std::optional<Object_hit>> Exact_detection<Volume>::first_hits(std::span<const Object_id> ids,
                                                                            std::span<const Ray> rays) {
   refresh(ids);
-  std::vector<Boxed_object> objects;
-  for (const auto id : ids) objects.push_back({id, objects_.box(id)});
-  objects_.throw_if_broken(ids);
-  return first_hits_among(
-      rays, objects,
-      [this](Object_id id, std::span<const Ray> asked) { return first_hits_of_refreshed(id, asked); },
-      [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); });
+  std::vector<std::optional<Object_hit>> hits;
+  objects_.until_settled(ids, [&] {
+    std::vector<Boxed_object> objects;
+    for (const auto id : ids) objects.push_back({id, objects_.box(id)});
+    hits = first_hits_among(
+        rays, objects,
+        [this](Object_id id, std::span<const Ray> asked) { return first_hits_of_refreshed(id, asked); },
+        [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); });
+  });
+  return hits;
 }
 
 template <Bounding_volume Volume>
@@ -379,7 +376,7 @@ bool Exact_detection<Volume>::contains(Object_id outer, Object_id inner) {
   refresh(ids);
   bool answer = false;
   objects_.until_settled(ids, [&] {
-    answer = pairs_.inside({inner, outer}) && !collide_or_are_nearer({outer, inner}, 0);
+    answer = pairs_.encloses(outer, inner) && !collide_or_are_nearer({outer, inner}, 0);
   });
   return answer;
 }

@@ -262,7 +262,8 @@ class Exact_object {
   std::vector<std::uint32_t> unused_;
   std::optional<Positions> given_ = {};  ///< in place of those of the mesh
   std::optional<Rigid_motion> placement_ = {};
-  std::uint64_t changes_ = 0;  ///< of both, and of positions of which nobody says whether they have changed
+  std::uint64_t changes_ = 0;  ///< grows with given positions, with placements, and with queries of a mesh whose points
+                               ///< have no pose number
   std::uint64_t refreshed_in_ = 0;  ///< the number of the hold in which positions have been read; 0: none
   std::vector<Make_bound> promises_;
   std::vector<double> rest_;            ///< 3 V: the first positions that a promise was about; none before

@@ -88,8 +88,12 @@ class Exact_objects {
   Bounded_surface& bounded(Object_id id) const { return *objects_[id]->bounded(); }
   /// A box around an object: fitted, or from its bounds. Finite.
   Aabb box(Object_id id);
+  /// Whether objects can have bounds.
+  static constexpr bool can_have_bounds = std::same_as<Volume, Aabb>;
   /// Whether an object is posed only where it is looked at.
   bool on_demand(Object_id id) const { return objects_[id]->on_demand(); }
+  /// Whether one of two objects is.
+  bool on_demand(Object_pair pair) const { return on_demand(pair.a) || on_demand(pair.b); }
   /// Poses and refits all of an object.
   /// @throws Bad_mesh  a coordinate is not finite
   void pose_all(Object_id id) {
@@ -200,7 +204,7 @@ void Exact_objects<Volume>::start_on_demand(std::span<const Object_id> ids) {
   }
 }
 
-/// What has been refitted is known to be, and has bounds from now on.
+/// Objects that have just been refitted get their bounds, or take the fitted boxes.
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::bound_refitted(std::span<const Object_id> ids) {
   for (const auto id : ids) {

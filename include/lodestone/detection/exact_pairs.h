@@ -69,27 +69,23 @@ class Exact_pairs {
   /// Shows the contacts of two objects to a visitor: see `Detector::visit`.
   template <Contact_visitor Visitor>
   Visit visit(Object_pair pair, Visitor&& visitor) {
-    if constexpr (is_bounded)
-      if (on_demand(pair))
+    if constexpr (Exact_objects<Volume>::can_have_bounds)
+      if (objects_.on_demand(pair))
         return bounded_search_.visit(objects_.bounded(pair.a), objects_.bounded(pair.b), options_.exact.tolerance,
                                      std::ref(visitor));
     return visit_contacts(objects_.surface(pair.a).view(), objects_.surface(pair.b).view(), options_.exact.tolerance,
                           std::forward<Visitor>(visitor));
   }
-  /// Whether a lies inside b, where their surfaces do not intersect.
-  bool inside(Object_pair pair);
+  /// Whether one object lies inside another, where their surfaces do not intersect.
+  bool encloses(Object_id outer, Object_id inner);
 
  private:
-  /// Whether objects can have bounds.
-  static constexpr bool is_bounded = std::same_as<Volume, Aabb>;
-
   void begin() {
     frame_.clear_pairs();
     candidates_.clear();
   }
-  bool on_demand(Object_pair pair) const { return objects_.on_demand(pair.a) || objects_.on_demand(pair.b); }
   void find_candidates(const Collision_filter& filter);
-  /// Forgets where those pairs had contacts for which `is_over` returns true.
+  /// Forgets the remembered leaves of the pairs for which `is_over` returns true.
   template <class Is_over>
   void forget_places(const Is_over& is_over) {
     std::erase_if(contact_places_, [&](const auto& place) { return is_over(place.first.first); });
@@ -97,14 +93,10 @@ class Exact_pairs {
   void check_candidates();
   void ask_about_small_pairs(std::size_t first);
   void check(std::size_t candidate);
-  /// Below which the faces of a pair are contacts.
-  double tolerance(Object_pair pair) const {
-    return pair.a == pair.b ? options_.exact.self_tolerance : options_.exact.tolerance;
-  }
   Contact_summary search_from_place(Object_pair pair, const Contact_request& request);
   void find_contacts(std::size_t candidate, Pair_result& result);
   Contact_request request(Object_pair pair) const {
-    return {.query = options_.contacts, .tolerance = tolerance(pair), .most = options_.most_contacts};
+    return {.query = options_.contacts, .tolerance = tolerance_of(options_.exact, pair), .most = options_.most_contacts};
   }
   void find_way_out(Pair_result& result);
   Containment containment(const Pair_result& pair);
@@ -157,7 +149,7 @@ template <Bounding_volume Volume>
 void Exact_pairs<Volume>::ask_about_small_pairs(std::size_t first) {
   for (std::size_t candidate = first; candidate < candidates_.size(); ++candidate) {
     const Object_pair pair = candidates_[candidate];
-    if (on_demand(pair)) continue;
+    if (objects_.on_demand(pair)) continue;
     const Surface &a = objects_.surface(pair.a), &b = objects_.surface(pair.b);
     if (small_pairs_.are_small(a, b)) small_pairs_.ask(candidate, a, b, request(pair));
   }
@@ -173,7 +165,7 @@ void Exact_pairs<Volume>::check(std::size_t candidate) {
   frame_.end_pair(
       result, [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); },
       workers_);
-  frame_.add_patches(objects_.surface(pair.a), objects_.surface(pair.b), tolerance(pair), workers_);
+  frame_.add_patches(objects_.surface(pair.a), objects_.surface(pair.b), tolerance_of(options_.exact, pair), workers_);
 }
 
 /// Whether one object lies inside the other, and how to part the two.
@@ -190,7 +182,7 @@ void Exact_pairs<Volume>::find_contacts(std::size_t candidate, Pair_result& resu
   const Object_pair pair = candidates_[candidate];
   const Pair_contacts* known = small_pairs_.take(candidate, frame_.face_pairs(), frame_.contact_intersects());
   const auto search_now = [&](const Contact_request& asked, auto& found) {
-    const bool from_place = asked.query == Contact_query::yes_no && pair.a != pair.b && on_demand(pair);
+    const bool from_place = asked.query == Contact_query::yes_no && pair.a != pair.b && objects_.on_demand(pair);
     return from_place ? search_from_place(pair, asked) : search(pair, asked, found);
   };
   const Pair_contacts contacts =
@@ -209,7 +201,7 @@ Contact_summary Exact_pairs<Volume>::search(Object_pair pair, const Contact_requ
                                             std::vector<Face_pair>& found) {
   if (pair.a == pair.b)
     objects_.pose_all(pair.a);
-  else if (on_demand(pair))
+  else if (objects_.on_demand(pair))
     return bounded_search_.run(objects_.bounded(pair.a), objects_.bounded(pair.b), request, found);
   const Surface &a = objects_.surface(pair.a), &b = objects_.surface(pair.b);
   return pair.a == pair.b ? search_.within(a, request, found) : search_.between(a, b, request, found);
@@ -234,15 +226,15 @@ Contact_summary Exact_pairs<Volume>::search_from_place(Object_pair pair, const C
 template <Bounding_volume Volume>
 Containment Exact_pairs<Volume>::containment(const Pair_result& pair) {
   if (pair.collides) return Containment::none;
-  if (inside({pair.a, pair.b})) return Containment::a_in_b;
-  return inside({pair.b, pair.a}) ? Containment::b_in_a : Containment::none;
+  if (encloses(pair.b, pair.a)) return Containment::a_in_b;
+  return encloses(pair.a, pair.b) ? Containment::b_in_a : Containment::none;
 }
 
 template <Bounding_volume Volume>
-bool Exact_pairs<Volume>::inside(Object_pair pair) {
-  if constexpr (is_bounded)
-    if (on_demand(pair)) return encloses(objects_.bounded(pair.b), objects_.bounded(pair.a));
-  return encloses(objects_.surface(pair.b), objects_.surface(pair.a));
+bool Exact_pairs<Volume>::encloses(Object_id outer, Object_id inner) {
+  if constexpr (Exact_objects<Volume>::can_have_bounds)
+    if (objects_.on_demand({outer, inner})) return lodestone::encloses(objects_.bounded(outer), objects_.bounded(inner));
+  return lodestone::encloses(objects_.surface(outer), objects_.surface(inner));
 }
 
 }  // namespace lodestone

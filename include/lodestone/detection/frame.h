@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "lodestone/mesh/pairs.h"
-#include "lodestone/particles/confirmation.h"
 #include "lodestone/queries/contact_patches.h"
 #include "lodestone/queries/parting.h"
 #include "lodestone/triangles/contact_normal.h"

@@ -17,7 +17,7 @@ class Position_hold {
   }
   /// A promise ends.
   void end() { --promises_; }
-  /// Of the time that lasts until no promise is left; 0: there is none now.
+  /// The number of the time in which there is a promise; 0: there is none now.
   std::uint64_t number() const { return promises_ > 0 ? number_ : 0; }
 
  private:

@@ -16,6 +16,7 @@
 #include "lodestone/detection/particle_object.h"
 #include "lodestone/detection/saved_object.h"
 #include "lodestone/particles/candidate_pairs.h"
+#include "lodestone/particles/confirmation.h"
 
 namespace lodestone {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <concepts>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -12,8 +11,7 @@
 
 namespace lodestone {
 
-/// Asks a surface about many rays or points. The workers share a surface that is only read. A Bounded_surface poses
-/// leaves as it is asked, so one thread asks it all.
+/// Asks a surface that is only read about many rays or points. The workers share them.
 /// @param question  called with the surface and one of `asked`; its answers can be default-constructed
 /// @return one answer per question, in their order
 /// @throws what the first question that fails throws
@@ -26,12 +24,28 @@ auto ask_each(Surface& surface, std::span<const Asked> asked, const Question& qu
   // A question takes some microseconds, like waking a thread. Neighbours in the list are often neighbours in space.
   constexpr std::size_t least_shared = 32, most_per_task = 256;
   const std::size_t per_task = std::clamp<std::size_t>(asked.size() / (8 * workers.count()), 1, most_per_task);
-  if (std::same_as<Surface, Bounded_surface> || asked.size() < least_shared || workers.count() == 1)
+  if (asked.size() < least_shared || workers.count() == 1)
     answer(0, asked.size());
   else
     workers.run((asked.size() + per_task - 1) / per_task, [&](std::size_t task, std::size_t) {
       answer(task * per_task, std::min((task + 1) * per_task, asked.size()));
     });
+  return answers;
+}
+
+/// The same of a Bounded_surface. It poses leaves as it is asked, so one thread asks it. If a bound turns out to be
+/// broken, earlier answers may rest on it: then all is posed by now, and all are asked anew.
+/// @param question  called also with a Layout_view
+template <class Asked, class Question>
+auto ask_each(Bounded_surface& surface, std::span<const Asked> asked, const Question& question, Workers& workers) {
+  std::vector<decltype(question(surface, asked.front()))> answers;
+  answers.reserve(asked.size());
+  for (const Asked& one : asked) {
+    answers.push_back(question(surface, one));
+    if (surface.violations() == 0) continue;
+    const Layout_view settled = surface.view();
+    return ask_each(settled, asked, question, workers);
+  }
   return answers;
 }
 

@@ -20,6 +20,9 @@ struct Region_tree_options {
   std::size_t leaf_faces = 96;  ///< most faces per leaf, 2 .. 128; the leaves of large regions are nearly full
 };
 
+/// @throws Bad_argument  an option out of its range
+void check(const Region_tree_options& options);
+
 /// A region tree without its volumes: how the faces of one object are grouped, from its regions down to leaves of a few
 /// dozen faces. Built once; nothing here changes when vertices move.
 ///

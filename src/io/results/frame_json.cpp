@@ -8,7 +8,7 @@ using Json = nlohmann::ordered_json;
 nlohmann::ordered_json verdict_json(const std::string& name_a, const std::string& name_b, const Pair_result& pair,
                                     const Detector_options& options) {
   Json json{{"a", name_a}, {"b", name_b}, {"collides", pair.collides}};
-  if (tolerance_of(options, {pair.a, pair.b}) > 0) json["near"] = pair.near;
+  if (tolerance_of(options.exact, {pair.a, pair.b}) > 0) json["near"] = pair.near;
   return json;
 }
 

@@ -10,15 +10,6 @@
 /// Parts of a line of `frames.jsonl` that the program and Python write alike.
 namespace lodestone {
 
-/// Below which the faces of a pair are contacts.
-inline double tolerance_of(const Detector_options& options, Object_pair pair) {
-  return pair.a == pair.b ? options.exact.self_tolerance : options.exact.tolerance;
-}
-/// Whether any pair can be near without colliding.
-inline bool has_tolerance(const Detector_options& options) {
-  return options.exact.tolerance > 0 || options.exact.self_tolerance > 0;
-}
-
 /// The names of a pair's objects, and whether they collide or are near.
 nlohmann::ordered_json verdict_json(const std::string& name_a, const std::string& name_b, const Pair_result& pair,
                                     const Detector_options& options);
