@@ -229,7 +229,7 @@ class Detector {
   /// @throws Bad_mesh      as `detect`; another number of rows than vertices, a coordinate that is not finite
   std::optional<Impact> first_impact(Object_id a, const Eigen::Ref<const Positions>& end_a, Object_id b,
                                      const Eigen::Ref<const Positions>& end_b) {
-    return ask_two("first_impact", a, b).first_impact({a, b}, end_a, end_b);
+    return ask_two("first_impact, unlike first_self_impact,", a, b).first_impact({a, b}, end_a, end_b);
   }
   /// When two faces of one object that share no vertex meet first, in mode `exact`: see `first_self_impact` of trees.
   /// Everything else is as in the other call.
@@ -470,7 +470,8 @@ class Detector {
   Exact& ask_two(const char* question, Object_id a, Object_id b) const {
     auto& exact = ask<Exact>(a, b);
     if (a != b) return exact;
-    throw Bad_argument(std::string(question) + " needs two different objects, but both are object " + std::to_string(a));
+    throw Bad_argument(std::string(question) + " needs two different objects, but both are object " +
+                       std::to_string(a));
   }
 
   template <class Asked, class Question>

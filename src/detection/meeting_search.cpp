@@ -29,11 +29,11 @@ void Meeting_search::start_frame() {
 }
 
 void Meeting_search::look(Met_pair& pair, Workers& workers) {
-  pair.first_seed = seeds_.size();
+  pair.seeds.first = seeds_.size();
   revisit(pair);
   if (!decided(pair)) {
     list_regions(pair);
-    if (pair.near_count > 0) open(pair, workers);
+    if (pair.near.count > 0) open(pair, workers);
   }
 }
 
@@ -74,24 +74,24 @@ std::size_t Meeting_search::hop_limit(const Met_pair& pair) {
 }
 
 void Meeting_search::list_regions(Met_pair& pair) {
-  pair.first_near = near_regions_.size();
+  pair.near.first = near_regions_.size();
   list_near_regions(pair.a->regions(), pair.b->regions(), near_regions_);
-  pair.near_count = near_regions_.size() - pair.first_near;
+  pair.near.count = near_regions_.size() - pair.near.first;
 }
 
 void Meeting_search::open(Met_pair& pair, Workers& workers) {
   begin_openings(pair, false);
-  pair.first_opened = opened_.size();
+  pair.opened.first = opened_.size();
   if (wants_all() && openings_.is_limited()) follow_known_curves(pair, workers);
-  pair.followed_count = opened_.size() - pair.first_opened;
+  pair.followed_count = opened_.size() - pair.opened.first;
   openings_.open(opened_, workers);
-  pair.opened_count = opened_.size() - pair.first_opened;
+  pair.opened.count = opened_.size() - pair.opened.first;
   pair.out_of_budget = openings_.out_of_budget();
   count_openings();
-  pair.first_compared = compared_.size();
+  pair.compared.first = compared_.size();
   compared_.insert(compared_.end(), openings_.compared().begin(), openings_.compared().end());
-  pair.compared_count = openings_.compared().size();
-  if (pair.seed_count == 0 && pair.opened_count > 0) add_seed(pair, met_at(pair, opened_[pair.first_opened]));
+  pair.compared.count = openings_.compared().size();
+  if (pair.seeds.count == 0 && pair.opened.count > 0) add_seed(pair, met_at(pair, opened_[pair.opened.first]));
 }
 
 /// How many vertices are read as a whole. In order that takes a small fraction of the time per vertex that openings
@@ -148,20 +148,20 @@ void Meeting_search::meet_nearest(Met_pair& pair) {
   std::ranges::partial_sort(nearest_, nearest_.begin() + static_cast<std::ptrdiff_t>(count), is_nearer);
 
   // The seeds of a pair must stay next to each other.
-  const std::size_t old = pair.first_seed;
-  pair.first_seed = seeds_.size();
-  for (std::size_t seed = 0; seed < pair.seed_count; ++seed) seeds_.push_back(Remembered_meeting(seeds_[old + seed]));
+  const std::size_t old = pair.seeds.first;
+  pair.seeds.first = seeds_.size();
+  for (std::size_t seed = 0; seed < pair.seeds.count; ++seed) seeds_.push_back(Remembered_meeting(seeds_[old + seed]));
   for (std::size_t i = 0; i < count && !decided(pair); ++i)
     meet_from(pair, {a.at[nearest_[i].a], b.at[nearest_[i].b]}, hop_limit(pair));
 }
 
 void Meeting_search::add_seed(Met_pair& pair, const Remembered_meeting& seed) {
   seeds_.push_back(seed);
-  ++pair.seed_count;
+  ++pair.seeds.count;
 }
 
 void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers) {
-  if (pair.seed_count == 0) return;
+  if (pair.seeds.count == 0) return;
   if (wants_all()) {
     const std::size_t first = found.size();
     follow_curves(pair, found, workers);
@@ -192,10 +192,10 @@ void Meeting_search::remember_curves(const Met_pair& pair, std::span<const Face_
 
 /// Reports the curves on which the seeds lie.
 void Meeting_search::follow_curves(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers) {
-  const auto opened = std::span(opened_).subspan(pair.first_opened, pair.opened_count);
+  const auto opened = pair.opened.of(opened_);
   contacts_.assign(opened.begin(), opened.end());
   for (const auto& seed : seeds(pair)) contacts_.push_back(seed.contact);
-  const auto compared = std::span(compared_).subspan(pair.first_compared, pair.compared_count);
+  const auto compared = pair.compared.of(compared_);
   begin_openings(pair, true);
   openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(),
                    {.contacts = contacts_, .compared = compared, .followed = pair.followed_count}, found, workers);

@@ -110,9 +110,9 @@ void Particle_detection::add_pulls(const Met_pair& pair) {
 
 void Particle_detection::report(const Met_pair& pair) {
   Pair_result result = frame_.start_pair(pair.ids);
-  result.collides = pair.seed_count > 0;
+  result.collides = pair.seeds.count > 0;
   result.unfinished = pair.out_of_budget && !meeting_search_.decided(pair);
-  result.candidates = pair.near_count > 0 ? pair.near_count : std::min<std::size_t>(pair.seed_count, 1);
+  result.candidates = pair.near.count > 0 ? pair.near.count : std::min<std::size_t>(pair.seeds.count, 1);
   frame_.statistics().candidates += result.candidates;
   meeting_search_.report(pair, frame_.face_pairs(), workers_);
   if (options_.list_candidates) list_near_regions(pair);
@@ -131,7 +131,7 @@ void Particle_detection::list_near_regions(const Met_pair& pair) {
   std::ranges::sort(std::span(frame_.candidates()).subspan(first), {}, [](const Candidate_regions& candidate) {
     return std::tuple(candidate.distance, candidate.region_a, candidate.region_b);
   });
-  if (pair.near_count > 0 || pair.seed_count == 0) return;
+  if (pair.near.count > 0 || pair.seeds.count == 0) return;
   const Meeting at = meeting_search_.seeds(pair).front().at;
   list(pair.a->labels()[at.a], pair.b->labels()[at.b], (pair.a->positions()(at.a) - pair.b->positions()(at.b)).norm());
 }
@@ -139,7 +139,7 @@ void Particle_detection::list_near_regions(const Met_pair& pair) {
 /// Moves the particles of the regions in which particles met to the place where they did.
 void Particle_detection::move_to_meetings() {
   for (const auto& pair : met_pairs_) {
-    if (pair.seed_count == 0) continue;
+    if (pair.seeds.count == 0) continue;
     const Meeting at = meeting_search_.seeds(pair).front().at;
     for (const auto& [object, vertex] : {std::pair{pair.a, at.a}, std::pair{pair.b, at.b}}) {
       if (!object->move_particle(vertex)) continue;

@@ -243,7 +243,8 @@ def test_first_impact_of_two_cubes_that_pass_through_each_other():
         detector.first_impact(a, to_the_right, b, [1, 2, 3])
     with pytest.raises(lodestone.BadMesh):
         detector.first_impact(a, to_the_right * np.nan, b, to_the_left)
-    with pytest.raises(lodestone.BadArgument, match="itself"):
+    with pytest.raises(lodestone.BadArgument,
+                       match="first_impact, unlike first_self_impact, needs two different objects, but both are object 0"):
         detector.first_impact(a, to_the_right, a, to_the_right)
 
 

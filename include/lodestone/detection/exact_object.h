@@ -15,12 +15,12 @@
 #include "lodestone/bounds/bounded_surface.h"
 #include "lodestone/bounds/placed_bound.h"
 #include "lodestone/detection/detector_options.h"
+#include "lodestone/detection/kept_ray_tree.h"
 #include "lodestone/detection/saved_object.h"
 #include "lodestone/detection/watched_mesh.h"
 #include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/joined_vertices.h"
 #include "lodestone/mesh/rigid_motion.h"
-#include "lodestone/queries/ray_tree.h"
 #include "lodestone/tree/tree_surface.h"
 
 namespace lodestone {
@@ -113,26 +113,15 @@ class Exact_object {
   const Ray_tree& ray_tree(Workers& workers)
     requires std::same_as<Volume, Aabb>
   {
-    if (!ray_tree_)
-      ray_tree_.emplace(surface.view(), workers);
-    else if (!ray_tree_is_current_)
-      ray_tree_->refit(surface.view(), workers);
-    ray_tree_is_current_ = true;
-    rays_without_tree_ = 0;
-    return *ray_tree_;
+    return ray_tree_.of(surface.view(), workers);
   }
-  /// Whether a Ray_tree saves more time than it takes, for a call with so many rays and those before it. Counts the
-  /// rays: a tree that would not pay in one frame can pay over several.
-  bool pays_for(std::size_t rays) {
-    if (!Ray_tree::refit_pays(rays, corners().size())) return false;
-    if (!ray_tree_) rays_without_tree_ += rays;
-    return ray_tree_ || Ray_tree::pays(rays_without_tree_, corners().size());
-  }
+  /// See Kept_ray_tree.
+  bool pays_for(std::size_t rays) { return ray_tree_.pays_for(rays, corners().size()); }
 
   /// Takes note that a query begins: positions can have changed since the last one.
   void begin_query() {
     refreshed_in_ = 0;
-    ray_tree_is_current_ = false;
+    ray_tree_.note_moved();
     if (mesh().pose_number() == 0) ++changes_;
   }
   /// Whether positions that are held have been read, and nothing else about the object has changed since.
@@ -148,7 +137,7 @@ class Exact_object {
     const Coordinates now = mesh().read();  // the same numbers, but the mesh may have moved them to other memory
     if (now.data() == surface.coordinates().data()) return;
     surface.follow(now);
-    ray_tree_is_current_ = false;
+    ray_tree_.note_moved();
   }
 
   /// The surface as one that is bounded, in mode `certified`; null: not yet.
@@ -180,11 +169,7 @@ class Exact_object {
     refreshed_in_ = 0;
     former_.reset();
     bounded_.reset();
-    forget_ray_tree();
-  }
-  void forget_ray_tree() {
-    ray_tree_.reset();
-    rays_without_tree_ = 0;
+    ray_tree_.forget();
   }
   void list_unused() { unused_ = unused_vertices(surface.tree().all_vertices(), mesh().vertex_count()); }
 
@@ -270,10 +255,8 @@ class Exact_object {
   std::vector<double> rest_of_points_;  ///< 3 V: the first positions that points with a bound had; none before
   std::unique_ptr<Mesh_positions> mesh_positions_;  ///< what bounds of points look at
   std::unique_ptr<Bounded_surface> bounded_;
-  std::optional<Ray_tree> ray_tree_;   ///< of the surface; none before it is asked for
-  bool ray_tree_is_current_ = false;   ///< it has the positions that the last query has read
-  std::size_t rays_without_tree_ = 0;  ///< of calls for which the refit of a tree would have paid
-  std::vector<double> placed_;         ///< memory of `read`
+  Kept_ray_tree ray_tree_;
+  std::vector<double> placed_;  ///< memory of `read`
 };
 
 template <Bounding_volume Volume>
@@ -405,7 +388,7 @@ template <Bounding_volume Volume>
 void Exact_object<Volume>::start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces) {
   if (std::exchange(built, false)) former_ = Former{std::move(surface), {}};
   bounded_.reset();
-  forget_ray_tree();
+  ray_tree_.forget();
   rest_.clear();
   rest_of_points_.clear();
   surface = Basic_tree_surface<Volume>(corners());

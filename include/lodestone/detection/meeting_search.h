@@ -22,23 +22,28 @@ struct Meeting_counts {
   std::size_t vertices_read = 0;  ///< by walks and checks; what trees read, they count themselves
 };
 
+/// Some entries in a list of all object pairs.
+struct Entries {
+  std::size_t first = 0;  ///< index of the first
+  std::size_t count = 0;  ///< how many they are
+
+  /// The entries themselves.
+  template <class Entry>
+  std::span<const Entry> of(const std::vector<Entry>& all) const {
+    return std::span(all).subspan(first, count);
+  }
+};
+
 /// An object pair, and what the search knows of it in this frame.
 struct Met_pair {
   Object_pair ids;                 ///< the two objects
   Particle_object* a = nullptr;    ///< the first
   Particle_object* b = nullptr;    ///< the second
-  std::size_t first_near = 0;      ///< index of the first of its regions in the list of all pairs: see
-                                   ///< `Meeting_search::near_regions`
-  std::size_t near_count = 0;      ///< how many they are
-  std::size_t first_seed = 0;      ///< index of the first of its contacts in the list of all pairs: see
-                                   ///< `Meeting_search::seeds`
-  std::size_t seed_count = 0;      ///< how many they are
-  std::size_t first_opened = 0;    ///< index of the first of the contacts that curves and openings gave to `look`, in
-                                   ///< the list of all pairs
-  std::size_t opened_count = 0;    ///< how many they are
+  Entries near = {};               ///< its regions that may touch: see `Meeting_search::near_regions`
+  Entries seeds = {};              ///< its first contacts: see `Meeting_search::seeds`
+  Entries opened = {};             ///< contacts that curves and openings gave to `look`
   std::size_t followed_count = 0;  ///< of these, the contacts of curves, which come first
-  std::size_t first_compared = 0;  ///< index of the first of its compared leaf pairs, in the list of all pairs
-  std::size_t compared_count = 0;  ///< how many they are
+  Entries compared = {};           ///< leaf pairs that have been compared
   bool out_of_budget = false;      ///< the regions could not all be opened
 };
 
@@ -71,15 +76,11 @@ class Meeting_search {
   void report(const Met_pair& pair, std::vector<Face_pair>& found, Workers& workers);
 
   /// Whether the answer for a pair is known.
-  bool decided(const Met_pair& pair) const { return pair.seed_count > 0 && !wants_all(); }
+  bool decided(const Met_pair& pair) const { return pair.seeds.count > 0 && !wants_all(); }
   /// The regions of a pair that may touch, if `look` had to list them.
-  std::span<const Near_regions> near_regions(const Met_pair& pair) const {
-    return std::span(near_regions_).subspan(pair.first_near, pair.near_count);
-  }
+  std::span<const Near_regions> near_regions(const Met_pair& pair) const { return pair.near.of(near_regions_); }
   /// Where particles of a pair met, and the contacts there. If they met nowhere, one contact that openings found.
-  std::span<const Remembered_meeting> seeds(const Met_pair& pair) const {
-    return std::span(seeds_).subspan(pair.first_seed, pair.seed_count);
-  }
+  std::span<const Remembered_meeting> seeds(const Met_pair& pair) const { return pair.seeds.of(seeds_); }
   /// What the search has cost in this frame.
   Meeting_counts counts() const;
 

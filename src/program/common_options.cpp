@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program/common_options.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "lodestone/mesh/errors.h"
+
+namespace lodestone {
+
+namespace {
+
+/// Limits the weight so that squared weighted vectors cannot overflow.
+constexpr double largest_normal_weight = 1e6;
+
+void add_max_faces(CLI::App& app, Mesh_file_options& limits) {
+  app.add_option("--max-faces", limits.max_faces, "Refuse files with more faces, before memory is taken for them")
+      ->check(CLI::Range(std::size_t{1}, Mesh_file_options().max_faces))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+std::string strategy_list() {
+  std::string list = "Strategies:";
+  for (const auto& strategy : strategies()) list += fmt::format("\n  {:<16} {}", strategy.name, strategy.summary);
+  return list;
+}
+
+void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* seed_of) {
+  std::vector<std::string> names;
+  for (const auto& strategy : strategies()) names.emplace_back(strategy.name);
+  app.add_option("--strategy", choice.name, "Partition strategy, see below")
+      ->type_name("NAME")
+      ->check(one_word_of(names))
+      ->capture_default_str();
+  app.add_option("--seed", choice.settings.seed, seed_of)
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"))
+      ->capture_default_str();
+  auto& options = choice.settings.lbg;
+  app.add_option("--normal-weight", options.features.normal_weight,
+                 "Weight of normals relative to positions; 0: positions only")
+      ->check(finite_number(0, largest_normal_weight, "0 to 1e6"))
+      ->capture_default_str();
+  app.add_option("--split", options.split_rule, "How a code vector is split: principal_axis, multiplicative")
+      ->transform(one_of<Split>({{"principal_axis", Split::principal_axis}, {"multiplicative", Split::multiplicative}}))
+      ->type_name("RULE")
+      ->default_str("principal_axis");
+  app.add_option("--epsilon", options.split, "e of the split (1 + e)C, (1 - e)C")->capture_default_str();
+  app.add_option("--lbg-tolerance", options.tolerance, "LBG: relative drop of the distortion at which iterations stop")
+      ->capture_default_str();
+  app.add_option("--lbg-sample", options.sample,
+                 "LBG: maximum number of vertices to train on, but at least 128 per region; 0: all")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000'000}))
+      ->capture_default_str();
+}
+
+void add_format(CLI::App& app, std::string& format) {
+  app.add_option("--format", format, "Format of the mesh on the standard input (-): off, obj, ply, stl, glb, md2, md3")
+      ->check(one_word_of({"off", "obj", "ply", "stl", "glb", "md2", "md3"}))
+      ->type_name("NAME");
+}
+
+void add_reading(CLI::App& app, Scene_options& reading) {
+  app.add_flag("--allow-outside", reading.allow_outside, "A scene may name files outside its folder");
+  add_max_faces(app, reading.limits);
+}
+
+void add_threads(CLI::App& app, std::size_t& threads, const char* of) {
+  app.add_option("--threads", threads, of)->check(CLI::Range(std::size_t{0}, std::size_t{1024}))->capture_default_str();
+}
+
+void refuse_allow_outside(const CLI::App& app, const std::vector<std::filesystem::path>& inputs) {
+  const auto is_of_a_scene = [](const std::filesystem::path& input) {
+    return input.extension() == ".json" || input.string().find(".json#") != std::string::npos;
+  };
+  if (app.count("--allow-outside") > 0 && std::ranges::none_of(inputs, is_of_a_scene))
+    throw Bad_argument("--allow-outside is for scenes: no input is one");
+}
+
+}  // namespace lodestone
