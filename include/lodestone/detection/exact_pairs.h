@@ -93,13 +93,17 @@ class Exact_pairs {
   void check_candidates();
   void ask_about_small_pairs(std::size_t first);
   void check(std::size_t candidate);
+  /// Whether a search may end where there was a contact the last time.
+  bool starts_from_place(Object_pair pair, const Contact_request& request) const {
+    return request.query == Contact_query::yes_no && pair.a != pair.b && objects_.on_demand(pair);
+  }
   Contact_summary search_from_place(Object_pair pair, const Contact_request& request);
   void find_contacts(std::size_t candidate, Pair_result& result);
   Contact_request request(Object_pair pair) const {
     return {.query = options_.contacts, .tolerance = tolerance_of(options_.exact, pair), .most = options_.most_contacts};
   }
-  void find_way_out(Pair_result& result);
-  Containment containment(const Pair_result& pair);
+  void find_containment(Pair_result& result);
+  void find_parting(Pair_result& result);
 
   Detector_options options_;
   Workers& workers_;
@@ -161,17 +165,29 @@ void Exact_pairs<Volume>::check(std::size_t candidate) {
   const Object_pair pair = candidates_[candidate];
   Pair_result result = frame_.start_pair(pair);
   find_contacts(candidate, result);
-  if (pair.a != pair.b) find_way_out(result);
+  if (pair.a != pair.b) {
+    find_containment(result);
+    find_parting(result);
+  }
   frame_.end_pair(
       result, [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); },
       workers_);
   frame_.add_patches(objects_.surface(pair.a), objects_.surface(pair.b), tolerance_of(options_.exact, pair), workers_);
 }
 
-/// Whether one object lies inside the other, and how to part the two.
+/// A parting needs it too.
 template <Bounding_volume Volume>
-void Exact_pairs<Volume>::find_way_out(Pair_result& result) {
-  if (options_.exact.containment || options_.exact.parting) result.containment = containment(result);
+void Exact_pairs<Volume>::find_containment(Pair_result& result) {
+  if (!options_.exact.containment && !options_.exact.parting) return;
+  if (result.collides) return;
+  if (encloses(result.b, result.a))
+    result.containment = Containment::a_in_b;
+  else if (encloses(result.a, result.b))
+    result.containment = Containment::b_in_a;
+}
+
+template <Bounding_volume Volume>
+void Exact_pairs<Volume>::find_parting(Pair_result& result) {
   if (!options_.exact.parting || (!result.collides && result.containment == Containment::none)) return;
   for (const auto id : {result.a, result.b}) objects_.pose_all(id);
   result.parting = lodestone::parting(objects_.surface(result.a), objects_.surface(result.b), workers_);
@@ -182,8 +198,7 @@ void Exact_pairs<Volume>::find_contacts(std::size_t candidate, Pair_result& resu
   const Object_pair pair = candidates_[candidate];
   const Pair_contacts* known = small_pairs_.take(candidate, frame_.face_pairs(), frame_.contact_intersects());
   const auto search_now = [&](const Contact_request& asked, auto& found) {
-    const bool from_place = asked.query == Contact_query::yes_no && pair.a != pair.b && objects_.on_demand(pair);
-    return from_place ? search_from_place(pair, asked) : search(pair, asked, found);
+    return starts_from_place(pair, asked) ? search_from_place(pair, asked) : search(pair, asked, found);
   };
   const Pair_contacts contacts =
       known != nullptr ? *known
@@ -221,13 +236,6 @@ Contact_summary Exact_pairs<Volume>::search_from_place(Object_pair pair, const C
   else
     contact_places_.erase(asked);
   return contacts;
-}
-
-template <Bounding_volume Volume>
-Containment Exact_pairs<Volume>::containment(const Pair_result& pair) {
-  if (pair.collides) return Containment::none;
-  if (encloses(pair.b, pair.a)) return Containment::a_in_b;
-  return encloses(pair.a, pair.b) ? Containment::b_in_a : Containment::none;
 }
 
 template <Bounding_volume Volume>

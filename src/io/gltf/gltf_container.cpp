@@ -12,7 +12,8 @@
 #include "io/files/byte_order.h"
 #include "io/files/file_bytes.h"
 #include "io/files/inside_folder.h"
-#include "io/gltf/gltf_guard.h"
+#include "io/files/json_reader.h"
+#include "io/gltf/gltf_container.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
