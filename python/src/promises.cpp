@@ -70,7 +70,7 @@ void move(Displacement_promise& promise, const py::object& distance, const py::o
 void add_promises(py::module_& module) {
   py::class_<Displacement_promise>(module, "DisplacementPromise",
                                    "A promise, in mode `certified`: how far a vertex can have moved since `move` was last "
-                                   "called. Call `move` before\nyou ask the detector about new positions.")
+                                   "called. Call `move` before\nyou ask the detector about new positions. Where `place` puts the object does not count.")
       .def(py::init<std::size_t>(), py::arg("regions") = 1)
       .def("move", move, py::arg("distance"), py::arg("frame") = py::none(),
            "No vertex has moved farther than `distance`, in units of the coordinates; or, of region i, than "

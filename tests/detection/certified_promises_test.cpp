@@ -92,6 +92,71 @@ TEST(Certified, several_promises_hold_together_and_may_come_late) {
   }
 }
 
+/// Places an object anew in each frame, and moves its vertices in some.
+template <class Promise, class Step>
+void expect_same_answers_wherever_it_is_placed(const Promise& promise, const Step& step) {
+  Drifting bodies;
+  bodies.place_b(-1);
+  Detector certified({.mode = Mode::certified, .exact = {.throw_if_broken = true}}), exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&certified, &exact}) {
+    detector->add(std::as_const(bodies.a));
+    detector->add(std::as_const(bodies.b));
+  }
+  certified.promise(0, promise);
+  std::size_t colliding = 0;
+  for (int frame = 0; frame < 30; ++frame) {
+    Eigen::Isometry3d placement(Eigen::AngleAxisd(0.3 * frame, Eigen::Vector3d(0.6, 0, 0.8)));
+    placement.translation() = Eigen::Vector3d(3 * std::sin(frame), 0.2 * std::cos(frame), 0.1);
+    for (Detector<>* detector : {&certified, &exact})
+      detector->place(0, frame % 7 == 6 ? Eigen::Isometry3d::Identity() : placement);
+    if (frame % 3 == 2) step(bodies.a, frame);
+    const Frame& found = certified.detect();
+    expect_same_answers(found, exact.detect(), 2);
+    EXPECT_EQ(certified.closest(0, 1).points.distance, exact.closest(0, 1).points.distance) << frame;
+    colliding += found.collides() ? 1 : 0;
+  }
+  EXPECT_GT(colliding, 3U);
+  EXPECT_LT(colliding, 27U);
+}
+
+TEST(Certified, promises_need_not_say_where_an_object_is_placed) {
+  {
+    SCOPED_TRACE("a rigid body");
+    expect_same_answers_wherever_it_is_placed(Displacement_promise(), [](Surface_mesh&, int) {});
+  }
+  {
+    SCOPED_TRACE("displacement");
+    Displacement_promise promise;
+    expect_same_answers_wherever_it_is_placed(promise, [&](Surface_mesh& mesh, int frame) {
+      const Surface_mesh before = mesh;
+      crumple(mesh, 0.01, static_cast<std::uint64_t>(frame));
+      promise.move(largest_move(mesh, before));
+    });
+  }
+  {
+    SCOPED_TRACE("stretch and distance");
+    const auto crumpled = [](Surface_mesh& mesh, int frame) {
+      crumple(mesh, 0.01, static_cast<std::uint64_t>(frame));
+    };
+    expect_same_answers_wherever_it_is_placed(Stretch_promise(50), crumpled);
+    expect_same_answers_wherever_it_is_placed(Lipschitz_promise(100), crumpled);
+  }
+  {
+    SCOPED_TRACE("boxes");
+    constexpr double rounding = 1e-12;
+    double moved = 0;
+    const Box_promise promise([&](Region_index, const Aabb& rest) {
+      Aabb box = rest;
+      box.low[1] += moved - rounding, box.high[1] += moved + rounding;
+      return box;
+    });
+    expect_same_answers_wherever_it_is_placed(promise, [&](Surface_mesh& mesh, int) {
+      shift(mesh, 0, 0.125);
+      moved += 0.125;
+    });
+  }
+}
+
 TEST(Certified, a_displacement_that_is_larger_than_promised_is_noticed_where_it_is_read) {
   Drifting bodies;
   Displacement_promise of_a;

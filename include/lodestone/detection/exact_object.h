@@ -235,9 +235,11 @@ class Exact_object {
     Exact_object* object_;
   };
 
-  std::unique_ptr<Node_bound> bound_of_points(const Bounded_object& object);
+  std::unique_ptr<Node_bound> bound_of_points(const Bounded_object& in_mesh);
+  std::vector<std::unique_ptr<Node_bound>> promised_bounds(const Bounded_object& in_mesh);
+  void keep_first(std::vector<double>& positions);
+  std::unique_ptr<Node_bound> placed(std::unique_ptr<Node_bound> bound, const Bounded_object& in_mesh);
   bool show_mesh(Node_bound& bound, const Tree_layout& layout);
-  std::vector<std::unique_ptr<Node_bound>> promised_bounds(const Bounded_object& object);
   void replace(Faces anew);
   void start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces);
 
@@ -253,7 +255,7 @@ class Exact_object {
   std::vector<Make_bound> promises_;
   std::vector<double> rest_;            ///< 3 V: the first positions that a promise was about; none before
   std::vector<double> rest_of_points_;  ///< 3 V: the first positions that points with a bound had; none before
-  std::unique_ptr<Mesh_positions> mesh_positions_;  ///< what bounds of points look at
+  std::unique_ptr<Mesh_positions> mesh_positions_;  ///< what bounds look at
   std::unique_ptr<Bounded_surface> bounded_;
   Kept_ray_tree ray_tree_;
   std::vector<double> placed_;  ///< memory of `read`
@@ -290,27 +292,35 @@ void Exact_object<Volume>::Object_positions::pose(std::span<const std::uint32_t>
   }
 }
 
-/// The bound that the points of the mesh have by themselves, which know nothing of where the object is placed; null:
-/// none.
+/// The bound that the points of the mesh have by themselves; null: none.
 template <Bounding_volume Volume>
-std::unique_ptr<Node_bound> Exact_object<Volume>::bound_of_points(const Bounded_object& object) {
-  if (mesh().own_bound_needs_rest() && rest_of_points_.empty()) {
-    rest_of_points_.resize(3 * std::size_t{mesh().vertex_count()});
-    Mesh_positions(*this).pose_all(rest_of_points_);
-  }
-  mesh_positions_ = std::make_unique<Mesh_positions>(*this);
-  const Bounded_object in_mesh{
-      .layout = object.layout, .labels = object.labels, .rest = rest_of_points_, .positions = *mesh_positions_};
-  auto bound = mesh().own_bound(in_mesh);
+std::unique_ptr<Node_bound> Exact_object<Volume>::bound_of_points(const Bounded_object& in_mesh) {
+  if (mesh().own_bound_needs_rest()) keep_first(rest_of_points_);
+  auto bound = mesh().own_bound({in_mesh.layout, in_mesh.labels, rest_of_points_, in_mesh.positions});
   if (!bound) return nullptr;
-  if (given_ && !show_mesh(*bound, object.layout)) {
-    rest_of_points_.clear();
-    return nullptr;
-  }
+  auto result = placed(std::move(bound), in_mesh);
+  if (!result) rest_of_points_.clear();
+  return result;
+}
+
+/// Keeps the positions that the mesh has now, unless some were kept before.
+template <Bounding_volume Volume>
+void Exact_object<Volume>::keep_first(std::vector<double>& positions) {
+  if (!positions.empty()) return;
+  positions.resize(3 * std::size_t{mesh().vertex_count()});
+  mesh_positions_->pose_all(positions);
+}
+
+/// What is known of the mesh is known of the object, wherever it is placed.
+/// @return null: a coordinate of the mesh is not finite, and the bound does not know where the vertices are
+template <Bounding_volume Volume>
+std::unique_ptr<Node_bound> Exact_object<Volume>::placed(std::unique_ptr<Node_bound> bound,
+                                                         const Bounded_object& in_mesh) {
+  if (given_ && !show_mesh(*bound, in_mesh.layout)) return nullptr;
   return std::make_unique<Placed_bound>(std::move(bound), placement_, given_, in_mesh);
 }
 
-/// Shows a bound of the points where they are in the mesh. As long as others are given, nobody else does.
+/// Shows a bound where the vertices are in the mesh. As long as others are given, nobody else does.
 /// @return false: a coordinate is not finite, and the bound does not know where the vertices are
 template <Bounding_volume Volume>
 bool Exact_object<Volume>::show_mesh(Node_bound& bound, const Tree_layout& layout) {
@@ -327,11 +337,12 @@ bool Exact_object<Volume>::show_mesh(Node_bound& bound, const Tree_layout& layou
 
 /// A promise that does not fit is forgotten: it would stand in the way of every query to come.
 template <Bounding_volume Volume>
-std::vector<std::unique_ptr<Node_bound>> Exact_object<Volume>::promised_bounds(const Bounded_object& object) {
+std::vector<std::unique_ptr<Node_bound>> Exact_object<Volume>::promised_bounds(const Bounded_object& in_mesh) {
   std::vector<std::unique_ptr<Node_bound>> bounds;
+  if (given_ && !in_mesh.layout.finite(mesh().read())) return bounds;  // nobody knows where the mesh is
   for (auto promise = promises_.begin(); promise != promises_.end(); ++promise) {
     try {
-      bounds.push_back((*promise)(object));
+      bounds.push_back(placed((*promise)(in_mesh), in_mesh));
     } catch (const Bad_argument& misfit) {
       promises_.erase(promise);
       throw Bad_argument("a promise about " + title + " is dropped: " + misfit.what());
@@ -343,18 +354,19 @@ std::vector<std::unique_ptr<Node_bound>> Exact_object<Volume>::promised_bounds(c
 template <Bounding_volume Volume>
 void Exact_object<Volume>::make_bounds(bool compare_all, Workers& workers) {
   if constexpr (std::same_as<Volume, Aabb>) {
-    if (!promises_.empty() && rest_.empty()) rest_.assign(surface.coordinates().begin(), surface.coordinates().end());
     const Coordinates now = surface.coordinates();
-    auto positions = std::make_unique<Object_positions>(*this);
-    const Bounded_object object{
+    mesh_positions_ = std::make_unique<Mesh_positions>(*this);
+    if (!promises_.empty()) keep_first(rest_);
+    const Bounded_object in_mesh{
         .layout = surface.tree(),
         .labels = regions_ ? std::span<const Region_index>(regions_->labels) : std::span<const Region_index>(),
         .rest = rest_,
-        .positions = *positions};
+        .positions = *mesh_positions_};
     std::vector<std::unique_ptr<Node_bound>> bounds;
-    if (auto own = bound_of_points(object)) bounds.push_back(std::move(own));
-    for (auto& bound : promised_bounds(object)) bounds.push_back(std::move(bound));
-    bounded_ = std::make_unique<Bounded_surface>(surface, std::move(positions), std::move(bounds), workers, title);
+    if (auto own = bound_of_points(in_mesh)) bounds.push_back(std::move(own));
+    for (auto& bound : promised_bounds(in_mesh)) bounds.push_back(std::move(bound));
+    bounded_ = std::make_unique<Bounded_surface>(surface, std::make_unique<Object_positions>(*this), std::move(bounds),
+                                                 workers, title);
     bounded_->compare_all(compare_all);
     surface.follow(now);
     bounded_->take_refitted();
