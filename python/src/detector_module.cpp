@@ -170,9 +170,9 @@ void add_answers(Detector_class& type) {
            [](Python_detector& self, Object_id outer, Object_id inner) {
              return self.ask([&](auto& detector) { return detector.contains(outer, inner); });
            },
-           py::arg("outer"), py::arg("inner"), "Whether one object lies inside another, whose surface is closed. Exact.")
+           py::arg("outer"), py::arg("inner"), "Whether one object lies inside another. Exact. Nothing lies inside a surface that is not closed.")
       .def("parting", parting, py::arg("a"), py::arg("b"),
-           "A short translation of a that parts it from b: (3,). None if they are apart.")
+           "A short translation of a that parts it from b: (3,). None if they are apart, and neither lies inside the other.")
       .def("visit", visit, py::arg("a"), py::arg("b"), py::arg("visitor"),
            "Calls visitor(face_a, face_b) with contacts, one by one, until it returns something true.\nReturns whether all "
            "have been shown.");

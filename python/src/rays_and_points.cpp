@@ -19,6 +19,7 @@ std::vector<Ray> rays_of(const py::object& origins, const py::object& directions
   const auto from = rows_of(origins, "origins");
   auto along = numbers_of(directions, "directions");
   const bool one_direction = along.ndim() == 1 && along.size() == 3;
+  if (from.shape(0) == 0 && along.size() == 0) return {};
   if (!one_direction && (along.ndim() != 2 || along.shape(1) != 3 || along.shape(0) != from.shape(0)))
     throw Bad_argument("directions must have the shape (3,), or that of origins");
   std::vector<Ray> rays;
@@ -180,7 +181,8 @@ void add_rays_and_points(Detector_class& type) {
              return name_of_side(self.ask([&](auto& detector) { return detector.point_side(object, asked); }));
            },
            py::arg("object"), py::arg("point"),
-           "On which side of an object's surface, which is closed, a point is: 'inside', 'outside' or 'on_surface'. Exact.")
+           "On which side of an object's surface, which is closed, a point is: 'inside', 'outside' or 'on_surface'. Exact.\n"
+           "If the surface is not closed, 'inside' and 'outside' mean nothing.")
       .def("point_sides", sides_array, py::arg("object"), py::arg("points"),
            "`point_side` of many points: (n,) int8: 1 inside, -1 outside, 0 on the surface.");
 }

@@ -10,6 +10,9 @@
 #include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/is_closed.h"
+#include "lodestone/mesh/joined_vertices.h"
+#include "lodestone/mesh/mesh_numbering.h"
 #include "program/commands.h"
 #include "program/detect_run.h"
 #include "program/detect_shards.h"
@@ -110,7 +113,18 @@ void note_objects(const Detect_run& scene_run) {
             [&](Object_id id) { return other_animations_note(objects[id].name, objects[id].motion.animations); });
   note_each(scene, [&](Object_id id) { return cut_faces_note(objects[id].name, objects[id].file_face); });
   note_each(scene, [&](Object_id id) {
-    return joined_vertices_note(objects[id].name, scene_run.joined_vertices(id), objects[id].mesh.number_of_vertices());
+    return joined_vertices_note(objects[id].name, scene_run.joined_vertices(id), objects[id].file_vertex);
+  });
+}
+
+/// Where it is asked what lies inside what.
+void note_open_surfaces(const Scene& scene) {
+  note_each(scene, [&](Object_id id) {
+    const Scene_object& object = scene.objects[id];
+    const Mesh_numbering<Surface_mesh> numbering(object.mesh);
+    const auto joined = join_vertices(numbering.corners(), numbering.vertex_count(), object.file_vertex);
+    const bool closed = is_closed(numbering.vertex_count(), joined.empty() ? numbering.corners() : std::span(joined));
+    return closed ? std::string() : open_surface_note(object.name);
   });
 }
 
@@ -122,6 +136,7 @@ void print_results(Detect_run& scene_run, const Detect_command& command) {
   note_single_object(scene_run.scene(), command);
   note_unquoted_pattern(command);
   note_objects(scene_run);
+  if (command.options.exact.containment || command.options.exact.parting) note_open_surfaces(scene_run.scene());
   scene_run.print();
   if (!command.out.empty()) fmt::print("results: {}\n", printable(command.out.string()));
   if (scene_run.page() != nullptr) fmt::print("{}", scene_run.page()->summary());

@@ -43,12 +43,26 @@ inline std::string other_animations_note(const std::string& name, const File_ani
 }
 
 /// Vertices that lie on others along seams.
+/// @param file_vertex  per vertex: its index in the file; several have the same where the reader has made copies
 /// @return empty if there are none
-inline std::string joined_vertices_note(const std::string& name, std::size_t joined, std::size_t vertices) {
+inline std::string joined_vertices_note(const std::string& name, std::size_t joined,
+                                        std::span<const std::uint32_t> file_vertex) {
   if (joined == 0) return {};
+  const std::size_t copies =
+      file_vertex.size() - std::set<std::uint32_t>(file_vertex.begin(), file_vertex.end()).size();
   return fmt::format(
-      "{}: {} of {} vertices lie on others along seams: particles walk across (--open-seams: they do not)", name,
-      joined, vertices);
+      "{}: {} of {} vertices{} lie on others along seams: particles walk across (--open-seams: they do not)", name,
+      joined, file_vertex.size(),
+      copies > 0 ? fmt::format(", {} of them copies at non-manifold edges,", copies) : std::string());
+}
+
+/// A surface in which nothing can lie.
+inline std::string open_surface_note(const std::string& name) {
+  return fmt::format(
+      "{}: the surface is not closed, so nothing counts as inside it; lodestone convert --weld 0 joins vertices that "
+      "lie "
+      "on each other",
+      name);
 }
 
 /// Contents of a file that a conversion does not keep.

@@ -96,6 +96,16 @@ TEST_F(Detect_files, particles_cross_seams_and_the_program_says_so) {
   EXPECT_EQ(detect({square, needle, "--open-seams"}).exit_code, 2);
 }
 
+TEST_F(Detect_files, a_surface_in_which_nothing_can_lie_is_told) {
+  const auto square = write("square.off", "OFF 4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  const auto body = write("body.off", tetrahedron_off());
+  const std::string told =
+      "lodestone: square: the surface is not closed, so nothing counts as inside it; lodestone convert --weld 0 joins "
+      "vertices that lie on each other\n";
+  for (const char* option : {"--containment", "--parting"}) EXPECT_EQ(detect({square, body, option}).err, told);
+  EXPECT_EQ(detect({square, body}).err, "");
+}
+
 TEST_F(Detect_files, faces_of_polygons_have_their_numbers_in_the_file) {
   const auto result = detect({write("quads.off", three_quads), write("needle.off", needle_off)});
   EXPECT_EQ(result.exit_code, 0);

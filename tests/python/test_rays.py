@@ -49,3 +49,15 @@ def test_rays_among_objects():
         detector.first_hit([near, 3], *ray)
     with pytest.raises(TypeError):
         detector.first_hit("near", *ray)
+
+
+def test_no_rays_or_points_get_no_answers():
+    detector = lodestone.Detector()
+    detector.add(cube())
+    for nothing in ([], np.zeros((0, 3))):
+        assert detector.first_hits(0, nothing, nothing)["faces"].shape == (0,)
+        assert detector.first_hits(0, nothing, [0, 0, 1])["points"].shape == (0, 3)
+        assert detector.closest_points(0, nothing)["points"].shape == (0, 3)
+        assert detector.point_sides(0, nothing).shape == (0,)
+    with pytest.raises(lodestone.BadArgument, match="origins must have the shape"):
+        detector.first_hits(0, [1, 2], [])
