@@ -216,6 +216,7 @@ void Python_detector::place(Object_id object, const py::object& matrix) {
   if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
     throw Bad_argument("matrix must have the shape (4, 4)");
   const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  if (!m.allFinite()) throw Bad_argument("matrix has a number that is not finite");
   if (m.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw Bad_argument("the last row of matrix must be 0, 0, 0, 1");
   change([&](auto& detector) {
     detector.place(object, Eigen::Isometry3d(m));

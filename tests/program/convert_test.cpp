@@ -146,7 +146,7 @@ TEST_F(Convert, refuses_contradictory_arguments) {
   expect_error(run_program({"convert", path("f*.off"), path("a.off")}), 2, "12 frames need a pattern");
   expect_error(run_program({"convert", path("f*.off"), path("a.xyz")}), 2, "a.xyz");
   expect_error(run_program({"convert", path("f*.off"), path("square.off/a.pc2")}), 4, "square.off");
-  expect_error(run_program({"convert", path("g*.off"), path("b.pc2")}), 3, "there is no such file");
+  expect_error(run_program({"convert", path("g*.off"), path("b.pc2")}), 3, "no file matches this");
   remove(folder.path() / "f7.off");
   expect_error(run_program({"convert", path("f*.off"), path("b.pc2")}), 3, "f7.off");
   expect_error(run_program({"convert", path("f*.off")}), 2, "");

@@ -245,7 +245,7 @@ TEST_F(Info, of_an_unreadable_file_is_an_error) {
   expect_error(run_program({"info", write("a.glb", "glTF")}), 3, "a.glb: byte 4");
   expect_error(run_program({"info", write("a.mdd", "rubbish")}), 3, "a.mdd");
   expect_error(run_program({"info", write("a.xyz", "")}), 3, "a.xyz");
-  expect_error(run_program({"info", (folder.path() / "none*.off").string()}), 3, "there is no such file");
+  expect_error(run_program({"info", (folder.path() / "none*.off").string()}), 3, "no file matches this");
   expect_error(run_program({"info", write("b.off", square_off), "--mesh", write("c.off", square_off)}), 2, "b.off");
   expect_error(run_program({"info"}), 2, "");
 }

@@ -20,7 +20,7 @@ std::string read_text(const std::filesystem::path& file) {
   const auto fail = [&](std::string_view cause) { throw Bad_scene(fmt::format("{}: {}", file.string(), cause)); };
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) fail("no such file");
+  if (!std::filesystem::exists(status)) fail("there is no such file");
   // A pipe or a device could deliver bytes without end.
   if (!std::filesystem::is_regular_file(status)) fail("is not a regular file");
   if (std::filesystem::file_size(file, error) > most_bytes) fail("is longer than 16 MiB, too long for a scene");

@@ -133,7 +133,7 @@ std::vector<fs::path> find_numbered_files(const fs::path& pattern) {
   // An error ends the iteration, too.
   if (error) throw Bad_motion(fmt::format("{}: the folder cannot be read: {}", folder.string(), error.message()));
   if (files.empty())
-    throw Bad_motion(fmt::format("{}: there is no such file{}", pattern.string(),
+    throw Bad_motion(fmt::format("{}: no file matches this{}", pattern.string(),
                                  without_number.empty() ? "" : reason_against(without_number, parts)));
   check_no_gap(files, parts);
 

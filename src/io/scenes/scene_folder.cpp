@@ -29,7 +29,8 @@ fs::path Scene_folder::path_of(const std::string& name, const Json_value& value)
   if (error) value.fail(fmt::format("{} cannot be followed: {}", as_json(name), error.message()));
   if (!inside && !options_.allow_outside)
     value.fail(
-        fmt::format("{} is not inside the scene's folder; the option `allow_outside` allows that", as_json(name)));
+        fmt::format("{} is not inside the scene's folder; the option `allow_outside`, or --allow-outside, allows that",
+                    as_json(name)));
   found_.push_back(folder_ / name);
   return found_.back();
 }

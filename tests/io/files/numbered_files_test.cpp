@@ -67,13 +67,13 @@ TEST_F(Numbered_files, missing_files_are_named) {
   make({"g0099.off", "g0102.off"});
   expect_error("g*.off", "g0100.off: there is no such file");
   expect_error("g*.off", "list the files in a scene, as its `motion.sequence`");
-  expect_error("h*.off", "h*.off: there is no such file");
+  expect_error("h*.off", "h*.off: no file matches this");
   expect_error("none/h*.off", "none: the folder cannot be read");
 }
 
 TEST_F(Numbered_files, names_without_a_number_are_explained_if_there_are_no_others) {
   make({"f_b.off", "f_a.off"});
-  expect_error("f_*.off", "f_*.off: there is no such file; * stands for a whole number, which f_a.off does not have");
+  expect_error("f_*.off", "f_*.off: no file matches this; * stands for a whole number, which f_a.off does not have");
   make({"g7.off"});
   expect_error("g##.off",
                "; ## stands for a whole number of 2 digits, with zeros in front, which g7.off does not have");

@@ -263,7 +263,8 @@ TEST(Bad_scene_file, patterns_that_name_no_sequence_are_refused) {
 // ---- Files ----
 
 TEST(Bad_scene_file, paths_that_leave_the_folder_are_refused) {
-  const std::string outside = R"(" is not inside the scene's folder; the option `allow_outside` allows that)";
+  const std::string outside =
+      R"(" is not inside the scene's folder; the option `allow_outside`, or --allow-outside, allows that)";
   for (const std::string bad : {"../a.off", "x/../../a.off", "/etc/passwd", "..", "."})
     EXPECT_EQ(error_of(with_object(R"("mesh": ")" + bad + R"(")")),
               R"(scene.json: /objects/0/mesh: ")" + bad + outside);
@@ -367,7 +368,8 @@ TEST(Bad_scene_file, missing_irregular_and_huge_scene_files_are_refused) {
     }
     return std::string("no error");
   };
-  EXPECT_EQ(message_of(folder.path() / "none.json"), (folder.path() / "none.json").string() + ": no such file");
+  EXPECT_EQ(message_of(folder.path() / "none.json"),
+            (folder.path() / "none.json").string() + ": there is no such file");
   EXPECT_EQ(message_of(folder.path()), folder.path().string() + ": is not a regular file");
   EXPECT_EQ(message_of("/dev/zero"), "/dev/zero: is not a regular file");
   const auto huge = folder.write("huge.json", "");
