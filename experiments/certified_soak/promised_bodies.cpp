@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -40,7 +41,8 @@ class Listed_positions final : public Position_source {
   const std::vector<double>* coordinates_;
 };
 
-/// A mesh whose vertices are moved: by a wave that runs through the body, and by a rigid motion.
+/// A mesh whose vertices are moved: by a wave that runs through the body, and by a rigid motion. A detector may place
+/// it elsewhere, which no promise says.
 class Moved_body : public Random_body {
  public:
   Moved_body(Surface_mesh mesh, const Eigen::Vector3d& centre, Random& random)
@@ -50,11 +52,13 @@ class Moved_body : public Random_body {
         now_(rest_),
         source_(now_),
         wave_(random.vector(3)),
-        along_(random.direction()) {}
+        along_(random.direction()),
+        is_placed_(random.one_in(2)) {}
 
   Object_id add_to(Detector<>& detector) const override { return detector.add(mesh_); }
   const Position_source& positions() const override { return source_; }
   std::unique_ptr<Node_bound> bound(const Bounded_object& /*object*/) const override { return {}; }
+  std::optional<Eigen::Isometry3d> placement() const override { return placement_; }
 
   void move(const Eigen::Vector3d& place, Random& random) override {
     next_motion(place, random);
@@ -65,6 +69,7 @@ class Moved_body : public Random_body {
       mesh_.point(v) = Point(p.x(), p.y(), p.z());
     }
     promise(before);
+    if (is_placed_) turn_around(place, random);
   }
 
  protected:
@@ -96,6 +101,14 @@ class Moved_body : public Random_body {
 
  private:
   void put(std::size_t i, const Eigen::Vector3d& p) { Eigen::Map<Eigen::Vector3d>(now_.data() + i) = p; }
+  void turn_around(const Eigen::Vector3d& place, Random& random) {
+    const Eigen::Matrix3d turn = random.turn(0.5);
+    placement_ = Eigen::Isometry3d(Eigen::Translation3d(place - turn * place));
+    placement_->linear() = turn;
+  }
+
+  bool is_placed_;
+  std::optional<Eigen::Isometry3d> placement_;
 };
 
 /// A body with a promise of its own.

@@ -15,6 +15,7 @@ Detector_options in_mode(Mode mode, Detector_options options) {
   if (mode == Mode::exact) {
     options.contacts = Contact_query::all;
     options.most_contacts = all_of_them;
+    options.exact.throw_if_broken = false;
   }
   return options;
 }

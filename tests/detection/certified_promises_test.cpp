@@ -135,9 +135,7 @@ TEST(Certified, promises_need_not_say_where_an_object_is_placed) {
   }
   {
     SCOPED_TRACE("stretch and distance");
-    const auto crumpled = [](Surface_mesh& mesh, int frame) {
-      crumple(mesh, 0.01, static_cast<std::uint64_t>(frame));
-    };
+    const auto crumpled = [](Surface_mesh& mesh, int frame) { crumple(mesh, 0.01, static_cast<std::uint64_t>(frame)); };
     expect_same_answers_wherever_it_is_placed(Stretch_promise(50), crumpled);
     expect_same_answers_wherever_it_is_placed(Lipschitz_promise(100), crumpled);
   }
