@@ -252,7 +252,8 @@ Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
   if constexpr (Exact_objects<Volume>::can_have_bounds)
-    if (objects_.on_demand(pair)) return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
+    if (objects_.on_demand(pair))
+      return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
   return closest_faces(objects_.surface(pair.a).view(), objects_.surface(pair.b).view());
 }
 

@@ -100,7 +100,9 @@ class Exact_pairs {
   Contact_summary search_from_place(Object_pair pair, const Contact_request& request);
   void find_contacts(std::size_t candidate, Pair_result& result);
   Contact_request request(Object_pair pair) const {
-    return {.query = options_.contacts, .tolerance = tolerance_of(options_.exact, pair), .most = options_.most_contacts};
+    return {.query = options_.contacts,
+            .tolerance = tolerance_of(options_.exact, pair),
+            .most = options_.most_contacts};
   }
   void find_containment(Pair_result& result);
   void find_parting(Pair_result& result);
@@ -241,7 +243,8 @@ Contact_summary Exact_pairs<Volume>::search_from_place(Object_pair pair, const C
 template <Bounding_volume Volume>
 bool Exact_pairs<Volume>::encloses(Object_id outer, Object_id inner) {
   if constexpr (Exact_objects<Volume>::can_have_bounds)
-    if (objects_.on_demand({outer, inner})) return lodestone::encloses(objects_.bounded(outer), objects_.bounded(inner));
+    if (objects_.on_demand({outer, inner}))
+      return lodestone::encloses(objects_.bounded(outer), objects_.bounded(inner));
   return lodestone::encloses(objects_.surface(outer), objects_.surface(inner));
 }
 
