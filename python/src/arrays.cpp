@@ -152,10 +152,15 @@ py::array_t<double, py::array::c_style> numbers_of(const py::object& numbers, co
 
 py::array_t<double, py::array::c_style> rows_of(const py::object& rows, const std::string& name) {
   auto array = numbers_of(rows, name);
-  if (array.ndim() == 1 && array.size() == 0) return py::array_t<double>(py::array::ShapeContainer{0, 3});  // an empty list
   if (array.ndim() != 2 || array.shape(1) != 3)
     throw Bad_argument(name + " must have the shape (n, 3), but have " + shape_of(array));
   return array;
+}
+
+py::array_t<double, py::array::c_style> rows_or_none_of(const py::object& rows, const std::string& name) {
+  const auto array = numbers_of(rows, name);
+  if (array.ndim() == 1 && array.size() == 0) return py::array_t<double>(py::array::ShapeContainer{0, 3});
+  return rows_of(rows, name);
 }
 
 std::array<double, 3> vector_of(const py::object& vector, const std::string& name) {

@@ -64,6 +64,8 @@ std::vector<std::uint32_t> indices_of(const py::object& indices, const std::stri
 py::array_t<double, py::array::c_style> numbers_of(const py::object& numbers, const std::string& name);
 /// Rows of three numbers: shape (n, 3).
 py::array_t<double, py::array::c_style> rows_of(const py::object& rows, const std::string& name);
+/// The same; an empty list has no rows.
+py::array_t<double, py::array::c_style> rows_or_none_of(const py::object& rows, const std::string& name);
 /// Three numbers.
 std::array<double, 3> vector_of(const py::object& vector, const std::string& name);
 

@@ -16,7 +16,7 @@ namespace {
 
 /// Rays from arrays of origins and directions; a single direction is that of all rays.
 std::vector<Ray> rays_of(const py::object& origins, const py::object& directions, double length) {
-  const auto from = rows_of(origins, "origins");
+  const auto from = rows_or_none_of(origins, "origins");
   auto along = numbers_of(directions, "directions");
   const bool one_direction = along.ndim() == 1 && along.size() == 3;
   if (from.shape(0) == 0 && along.size() == 0) return {};
@@ -105,7 +105,7 @@ Point point_of(const py::object& point) {
 }
 
 std::vector<Point> points_of(const py::object& points) {
-  const auto rows = rows_of(points, "points");
+  const auto rows = rows_or_none_of(points, "points");
   std::vector<Point> list;
   for (py::ssize_t i = 0; i < rows.shape(0); ++i) list.emplace_back(rows.at(i, 0), rows.at(i, 1), rows.at(i, 2));
   return list;

@@ -36,11 +36,15 @@ bool Placed_bound::note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates
   if (*given_) return true;
   if (!*placement_) return bound_->note_read(leaf, fitted, coordinates);
   if (!bound_->watches()) return true;
-  in_mesh_.resize(coordinates.size());
-  positions_->pose(layout_->vertices(leaf), in_mesh_);
+  Coordinates in_mesh = positions_->in_memory();
+  if (in_mesh.empty()) {
+    in_mesh_.resize(coordinates.size());
+    positions_->pose(layout_->vertices(leaf), in_mesh_);
+    in_mesh = in_mesh_;
+  }
   Aabb box;
-  box.enclose(layout_->leaf_faces(leaf, in_mesh_));
-  return bound_->note_read(leaf, box, in_mesh_);
+  box.enclose(layout_->leaf_faces(leaf, in_mesh));
+  return bound_->note_read(leaf, box, in_mesh);
 }
 
 }  // namespace lodestone

@@ -27,11 +27,10 @@ std::optional<std::string> missing_note(const Detector_options& options) {
   const std::string range =
       missed->most > 0 ? fmt::format("{:.0f} to {:.0f} %", 100 * missed->least, 100 * missed->most) : "none";
   return fmt::format(
-      "Mode {} may miss collisions{}: in the scenes of the experiment {} it missed {} of the colliding frames. Mode "
+      "Mode {} may miss collisions: in the scenes of the experiment {} it missed {} of the colliding frames. Mode "
       "exact "
       "never misses any.",
-      name_of(options.mode), missed->most > 0 ? "" : ", above all where a surface is stretched in one place alone",
-      missed->experiment, range);
+      name_of(options.mode), missed->experiment, range);
 }
 
 }  // namespace lodestone

@@ -53,16 +53,12 @@ inline std::string joined_vertices_note(const std::string& name, std::size_t joi
   return fmt::format(
       "{}: {} of {} vertices{} lie on others along seams: particles walk across (--open-seams: they do not)", name,
       joined, file_vertex.size(),
-      copies > 0 ? fmt::format(", {} of them copies at non-manifold edges,", copies) : std::string());
+      copies > 0 ? fmt::format(" ({} are copies that the reader made)", copies) : std::string());
 }
 
 /// A surface in which nothing can lie.
 inline std::string open_surface_note(const std::string& name) {
-  return fmt::format(
-      "{}: the surface is not closed, so nothing counts as inside it; lodestone convert --weld 0 joins vertices that "
-      "lie "
-      "on each other",
-      name);
+  return fmt::format("{}: the surface is not closed, so nothing counts as inside it; lodestone info tells more", name);
 }
 
 /// Contents of a file that a conversion does not keep.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Promises in mode certified, kept and broken.
+#include <limits>
+#include <utility>
+
 #include "detection/certified_scene.h"
 #include "lodestone/bounds/box_promise.h"
 #include "lodestone/bounds/displacement_bound.h"
@@ -152,6 +155,63 @@ TEST(Certified, promises_need_not_say_where_an_object_is_placed) {
       shift(mesh, 0, 0.125);
       moved += 0.125;
     });
+  }
+}
+
+TEST(Certified, a_broken_promise_of_a_placed_object_is_noticed) {
+  Drifting bodies;
+  bodies.place_b(-0.2);
+  const Displacement_promise nothing_moves;
+  Detector strict({.mode = Mode::certified, .exact = {.throw_if_broken = true}}),
+      certified(in_mode(Mode::certified, {})), exact(in_mode(Mode::exact, {}));
+  for (Detector<>* detector : {&strict, &certified, &exact}) {
+    detector->add(std::as_const(bodies.a));
+    detector->add(std::as_const(bodies.b));
+    detector->place(0, Eigen::Isometry3d(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX())));
+  }
+  for (Detector<>* detector : {&strict, &certified}) detector->promise(0, nothing_moves), detector->detect();
+  crumple(bodies.a, 0.02, 7);
+  EXPECT_THROW(strict.detect(), Broken_bound);
+  const Frame& found = certified.detect();
+  EXPECT_GT(found.statistics.violations, 0U);
+  expect_same_answers(found, exact.detect(), 2);
+}
+
+TEST(Certified, a_promise_that_is_made_while_positions_are_given_counts_once_the_mesh_is_finite) {
+  for (const bool late : {false, true}) {
+    Drifting bodies;
+    bodies.place_b(1);
+    Displacement_promise of_a;
+    const Lipschitz_promise lipschitz(100);
+    Detector certified({.mode = Mode::certified, .exact = {.throw_if_broken = true}}), exact(in_mode(Mode::exact, {}));
+    Positions given(static_cast<Eigen::Index>(bodies.a.number_of_vertices()), 3);
+    for (const auto v : bodies.a.vertices()) {
+      const Point& p = bodies.a.point(v);
+      given.row(static_cast<Eigen::Index>(v.idx())) << p.x() + 0.5, p.y(), p.z();
+    }
+    for (Detector<>* detector : {&certified, &exact}) {
+      detector->add(std::as_const(bodies.a));
+      detector->add(std::as_const(bodies.b));
+      detector->update(0, given);
+    }
+    Point& third = bodies.a.point(Surface_mesh::Vertex_index(3));
+    const Point finite = std::exchange(third, Point(std::numeric_limits<double>::quiet_NaN(), 0, 0));
+    certified.promise(0, of_a);
+    certified.promise(0, lipschitz);
+    expect_same_answers(certified.detect(), exact.detect(), 2);
+    third = finite;
+    for (Detector<>* detector : {&certified, &exact}) {
+      if (late) detector->update(0, given), detector->detect();
+      detector->update(0);
+    }
+    for (int frame = 0; frame < 8; ++frame) {
+      const Surface_mesh before = bodies.a;
+      crumple(bodies.a, 0.004, static_cast<std::uint64_t>(frame));
+      of_a.move(largest_move(bodies.a, before));
+      shift(bodies.b, -0.2);
+      expect_same_answers(certified.detect(), exact.detect(), 2);
+    }
+    EXPECT_TRUE(certified.bounded(0)->has_bounds());
   }
 }
 

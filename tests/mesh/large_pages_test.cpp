@@ -2,11 +2,12 @@
 #include "lodestone/mesh/large_pages.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -16,16 +17,20 @@ namespace {
 
 constexpr std::size_t megabyte = std::size_t{1} << 20;
 
-/// Memory that nobody has written. A list of its own: parts of the heap may be advised for others.
+/// Memory that nobody has written, of no heap: its parts may have been advised for others.
 struct Memory {
-  explicit Memory(std::size_t size) : bytes(new char[size]), size(size) {}
+  explicit Memory(std::size_t length)
+      : bytes(static_cast<char*>(::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0))),
+        size(length) {}
+  Memory(const Memory&) = delete;
+  ~Memory() { ::munmap(bytes, size); }
 
-  std::unique_ptr<char[]> bytes;
+  char* bytes;
   std::size_t size;
 };
 
-/// Whether the system was asked for large pages where a byte lies: the flag `hg` of its mapping.
-bool is_advised(const char* byte) {
+/// Whether the system was asked for large pages where a byte lies: the flag `hg` of its mapping. None: it does not say.
+std::optional<bool> is_advised(const char* byte) {
   const auto address = reinterpret_cast<std::uintptr_t>(byte);
   std::ifstream mappings("/proc/self/smaps");
   bool is_here = false;
@@ -38,22 +43,23 @@ bool is_advised(const char* byte) {
     else if (is_here && line.starts_with("VmFlags:"))
       return line.find(" hg") != std::string::npos;
   }
-  return false;
+  return std::nullopt;
 }
 
 TEST(Large_pages, are_asked_for_in_the_middle_of_large_memory_only) {
-  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage/enabled")) GTEST_SKIP() << "no large pages here";
   const Memory large(64 * megabyte), small(3 * megabyte);
-  use_large_pages(large.bytes.get(), large.size);
-  use_large_pages(small.bytes.get(), small.size);
-  EXPECT_TRUE(is_advised(large.bytes.get() + large.size / 2));
-  EXPECT_FALSE(is_advised(small.bytes.get() + small.size / 2));
+  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage/enabled") || !is_advised(large.bytes))
+    GTEST_SKIP() << "no large pages here";
+  use_large_pages(large.bytes, large.size);
+  use_large_pages(small.bytes, small.size);
+  EXPECT_TRUE(is_advised(large.bytes + large.size / 2).value());
+  EXPECT_FALSE(is_advised(small.bytes + small.size / 2).value());
 }
 
 TEST(Large_pages, leave_what_the_memory_holds) {
   const Memory memory(16 * megabyte);
   for (std::size_t i = 0; i < memory.size; i += 1000) memory.bytes[i] = static_cast<char>(i % 101);
-  use_large_pages(memory.bytes.get() + 13, memory.size - 13);
+  use_large_pages(memory.bytes + 13, memory.size - 13);
   for (std::size_t i = 0; i < memory.size; i += 1000) ASSERT_EQ(memory.bytes[i], static_cast<char>(i % 101));
 }
 

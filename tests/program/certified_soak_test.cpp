@@ -21,6 +21,7 @@ class Lying_body final : public Random_body {
   std::unique_ptr<Node_bound> bound(const Bounded_object& object) const override {
     return std::make_unique<Node_bound_of<Displacement_bound>>(promise_.bound(object));
   }
+  std::optional<Eigen::Isometry3d> placement() const override { return truth_->placement(); }
 
  private:
   std::unique_ptr<Random_body> truth_;

@@ -100,8 +100,7 @@ TEST_F(Detect_files, a_surface_in_which_nothing_can_lie_is_told) {
   const auto square = write("square.off", "OFF 4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
   const auto body = write("body.off", tetrahedron_off());
   const std::string told =
-      "lodestone: square: the surface is not closed, so nothing counts as inside it; lodestone convert --weld 0 joins "
-      "vertices that lie on each other\n";
+      "lodestone: square: the surface is not closed, so nothing counts as inside it; lodestone info tells more\n";
   for (const char* option : {"--containment", "--parting"}) EXPECT_EQ(detect({square, body, option}).err, told);
   EXPECT_EQ(detect({square, body}).err, "");
 }

@@ -35,7 +35,7 @@ class Promised_boxes {
   std::vector<Region_index> regions_;  ///< per node; `several_regions` where they differ
 };
 
-/// A promise that the caller computes: boxes in which vertices are now. A model of Motion_promise.
+/// A promise that the caller computes: boxes in which vertices of the mesh are now. A model of Motion_promise.
 ///
 /// The caller's function is given a region, and a box at rest. It returns a box that contains, in the current pose and
 /// as they are computed, all vertices of that region that lie in the given box at rest. With `several_regions` they are

@@ -55,6 +55,7 @@ class Exact_object {
     refreshed_in_ = 0;
     if (given_ || positions) ++changes_;
     given_ = std::move(positions);
+    if (std::exchange(lacks_bounds_, false)) bounded_.reset();
   }
   /// Places the object elsewhere from now on; none: where its mesh is.
   void place(const std::optional<Rigid_motion>& placement) {
@@ -230,6 +231,9 @@ class Exact_object {
     void pose_all(std::span<double> coordinates) const override {
       std::ranges::copy(object_->mesh().read(), coordinates.begin());
     }
+    Coordinates in_memory() const override {
+      return object_->mesh().in_memory() ? object_->mesh().read() : Coordinates();
+    }
 
    private:
     Exact_object* object_;
@@ -239,7 +243,8 @@ class Exact_object {
   std::vector<std::unique_ptr<Node_bound>> promised_bounds(const Bounded_object& in_mesh);
   void keep_first(std::vector<double>& positions);
   std::unique_ptr<Node_bound> placed(std::unique_ptr<Node_bound> bound, const Bounded_object& in_mesh);
-  bool show_mesh(Node_bound& bound, const Tree_layout& layout);
+  void show_mesh(Node_bound& bound, const Tree_layout& layout);
+  std::vector<std::unique_ptr<Node_bound>> bounds_of_mesh();
   void replace(Faces anew);
   void start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces);
 
@@ -257,6 +262,7 @@ class Exact_object {
   std::vector<double> rest_of_points_;  ///< 3 V: the first positions that points with a bound had; none before
   std::unique_ptr<Mesh_positions> mesh_positions_;  ///< what bounds look at
   std::unique_ptr<Bounded_surface> bounded_;
+  bool lacks_bounds_ = false;  ///< the mesh was not finite where others were given when `bounded_` was made
   Kept_ray_tree ray_tree_;
   std::vector<double> placed_;  ///< memory of `read`
 };
@@ -297,57 +303,66 @@ template <Bounding_volume Volume>
 std::unique_ptr<Node_bound> Exact_object<Volume>::bound_of_points(const Bounded_object& in_mesh) {
   if (mesh().own_bound_needs_rest()) keep_first(rest_of_points_);
   auto bound = mesh().own_bound({in_mesh.layout, in_mesh.labels, rest_of_points_, in_mesh.positions});
-  if (!bound) return nullptr;
-  auto result = placed(std::move(bound), in_mesh);
-  if (!result) rest_of_points_.clear();
-  return result;
+  return bound ? placed(std::move(bound), in_mesh) : nullptr;
 }
 
 /// Keeps the positions that the mesh has now, unless some were kept before.
 template <Bounding_volume Volume>
 void Exact_object<Volume>::keep_first(std::vector<double>& positions) {
   if (!positions.empty()) return;
-  positions.resize(3 * std::size_t{mesh().vertex_count()});
-  mesh_positions_->pose_all(positions);
+  std::vector<double> first(3 * std::size_t{mesh().vertex_count()});
+  mesh_positions_->pose_all(first);
+  positions = std::move(first);
 }
 
 /// What is known of the mesh is known of the object, wherever it is placed.
-/// @return null: a coordinate of the mesh is not finite, and the bound does not know where the vertices are
 template <Bounding_volume Volume>
 std::unique_ptr<Node_bound> Exact_object<Volume>::placed(std::unique_ptr<Node_bound> bound,
                                                          const Bounded_object& in_mesh) {
-  if (given_ && !show_mesh(*bound, in_mesh.layout)) return nullptr;
+  if (given_ && bound->watches()) show_mesh(*bound, in_mesh.layout);
   return std::make_unique<Placed_bound>(std::move(bound), placement_, given_, in_mesh);
 }
 
 /// Shows a bound where the vertices are in the mesh. As long as others are given, nobody else does.
-/// @return false: a coordinate is not finite, and the bound does not know where the vertices are
 template <Bounding_volume Volume>
-bool Exact_object<Volume>::show_mesh(Node_bound& bound, const Tree_layout& layout) {
-  if (!bound.watches()) return true;  // it knows by itself
+void Exact_object<Volume>::show_mesh(Node_bound& bound, const Tree_layout& layout) {
   const Coordinates in_mesh = mesh().read();
-  if (!layout.finite(in_mesh)) return false;
   for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf) {
     Aabb box;
     box.enclose(layout.leaf_faces(leaf, in_mesh));
     bound.note_read(leaf, box, in_mesh);
   }
-  return true;
 }
 
 /// A promise that does not fit is forgotten: it would stand in the way of every query to come.
 template <Bounding_volume Volume>
 std::vector<std::unique_ptr<Node_bound>> Exact_object<Volume>::promised_bounds(const Bounded_object& in_mesh) {
   std::vector<std::unique_ptr<Node_bound>> bounds;
-  if (given_ && !in_mesh.layout.finite(mesh().read())) return bounds;  // nobody knows where the mesh is
   for (auto promise = promises_.begin(); promise != promises_.end(); ++promise) {
+    std::unique_ptr<Node_bound> bound;
     try {
-      bounds.push_back(placed((*promise)(in_mesh), in_mesh));
+      bound = (*promise)(in_mesh);
     } catch (const Bad_argument& misfit) {
       promises_.erase(promise);
       throw Bad_argument("a promise about " + title + " is dropped: " + misfit.what());
     }
+    bounds.push_back(placed(std::move(bound), in_mesh));
   }
+  return bounds;
+}
+
+template <Bounding_volume Volume>
+std::vector<std::unique_ptr<Node_bound>> Exact_object<Volume>::bounds_of_mesh() {
+  mesh_positions_ = std::make_unique<Mesh_positions>(*this);
+  if (!promises_.empty()) keep_first(rest_);
+  const Bounded_object in_mesh{
+      .layout = surface.tree(),
+      .labels = regions_ ? std::span<const Region_index>(regions_->labels) : std::span<const Region_index>(),
+      .rest = rest_,
+      .positions = *mesh_positions_};
+  std::vector<std::unique_ptr<Node_bound>> bounds;
+  if (auto own = bound_of_points(in_mesh)) bounds.push_back(std::move(own));
+  for (auto& bound : promised_bounds(in_mesh)) bounds.push_back(std::move(bound));
   return bounds;
 }
 
@@ -355,21 +370,16 @@ template <Bounding_volume Volume>
 void Exact_object<Volume>::make_bounds(bool compare_all, Workers& workers) {
   if constexpr (std::same_as<Volume, Aabb>) {
     const Coordinates now = surface.coordinates();
-    mesh_positions_ = std::make_unique<Mesh_positions>(*this);
-    if (!promises_.empty()) keep_first(rest_);
-    const Bounded_object in_mesh{
-        .layout = surface.tree(),
-        .labels = regions_ ? std::span<const Region_index>(regions_->labels) : std::span<const Region_index>(),
-        .rest = rest_,
-        .positions = *mesh_positions_};
-    std::vector<std::unique_ptr<Node_bound>> bounds;
-    if (auto own = bound_of_points(in_mesh)) bounds.push_back(std::move(own));
-    for (auto& bound : promised_bounds(in_mesh)) bounds.push_back(std::move(bound));
-    bounded_ = std::make_unique<Bounded_surface>(surface, std::make_unique<Object_positions>(*this), std::move(bounds),
-                                                 workers, title);
-    bounded_->compare_all(compare_all);
+    // Positions that are given hide those of the mesh, which nobody has looked at.
+    const bool is_known = !given_ || surface.tree().finite(mesh().read());
+    auto bounds = is_known ? bounds_of_mesh() : std::vector<std::unique_ptr<Node_bound>>();
+    auto made = std::make_unique<Bounded_surface>(surface, std::make_unique<Object_positions>(*this),
+                                                  std::move(bounds), workers, title);
+    made->compare_all(compare_all);
     surface.follow(now);
-    bounded_->take_refitted();
+    made->take_refitted();
+    bounded_ = std::move(made);
+    lacks_bounds_ = !is_known;
   }
 }
 
