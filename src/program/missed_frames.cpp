@@ -27,8 +27,7 @@ std::optional<std::string> missing_note(const Detector_options& options) {
   const std::string range =
       missed->most > 0 ? fmt::format("{:.0f} to {:.0f} %", 100 * missed->least, 100 * missed->most) : "none";
   return fmt::format(
-      "Mode {} may miss collisions: in the scenes of the experiment {} it missed {} of the colliding frames. Mode "
-      "exact "
+      "Mode {} may miss collisions: in the scenes of the experiment {} it missed {} of the colliding frames. Mode exact "
       "never misses any.",
       name_of(options.mode), missed->experiment, range);
 }

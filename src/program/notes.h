@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/files/small_text.h"
 #include "io/motion/animation_names.h"
@@ -48,8 +50,9 @@ inline std::string other_animations_note(const std::string& name, const File_ani
 inline std::string joined_vertices_note(const std::string& name, std::size_t joined,
                                         std::span<const std::uint32_t> file_vertex) {
   if (joined == 0) return {};
-  const std::size_t copies =
-      file_vertex.size() - std::set<std::uint32_t>(file_vertex.begin(), file_vertex.end()).size();
+  std::vector<std::uint32_t> in_file(file_vertex.begin(), file_vertex.end());
+  std::ranges::sort(in_file);
+  const auto copies = std::ranges::unique(in_file).size();
   return fmt::format(
       "{}: {} of {} vertices{} lie on others along seams: particles walk across (--open-seams: they do not)", name,
       joined, file_vertex.size(),

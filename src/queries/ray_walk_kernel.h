@@ -35,7 +35,7 @@ struct Ray_nodes {
   const Ray_node* nodes;
   const Ray_block* blocks;
   const double* coordinates;  ///< of the surface: those of faces that may be met are read soon after
-  std::size_t most_waiting;  ///< most nodes and blocks that wait at once while a ray walks down
+  std::size_t most_waiting;   ///< most nodes and blocks that wait at once while a ray walks down
 
   /// For what waits of one ray: its end, all of the tree that waits, and what is written beyond.
   std::size_t waiting_room() const { return 1 + most_waiting + ray_tree_width; }

@@ -65,8 +65,8 @@ class Ray_tree {
   std::size_t most_waiting_ = 1;
 };
 
-/// `first_hit` of a ray, the same as of the surface. For rays that depend on the answers about earlier ones; many at
-/// once take half the time or less.
+/// `first_hit` of a ray, the same as of the surface. For rays that depend on the answers about earlier ones: many at
+/// once take less time.
 /// @throws Bad_argument  the ray is not as `Ray` says
 std::optional<Ray_hit> first_hit(const Ray_tree& tree, const Ray& ray);
 
