@@ -68,9 +68,6 @@ void Particle_detection::find_near_objects(const Collision_filter& filter) {
     boxes_[o] = object.particle_object.regions().box();
   }
   list_object_pairs(filter);
-  std::erase_if(object_candidates_, [this](const Object_pair& pair) {
-    return !may_touch(objects_[pair.a]->particle_object.regions(), objects_[pair.b]->particle_object.regions());
-  });
   met_pairs_.clear();
   for (const auto pair : object_candidates_)
     met_pairs_.push_back(

@@ -63,7 +63,6 @@ Numbered_partition Particle_object::divide(const Positions& positions, std::size
 
 void Particle_object::settle(Numbered_partition division, const Positions& positions, Workers& workers) {
   labels_ = std::move(division.labels);
-  statistics_ = division.statistics;
   steps_ = Region_steps(edges_.graph, labels_);
   patches_.clear();
   posed_.clear();

@@ -12,7 +12,7 @@ namespace lodestone {
 namespace {
 
 constexpr std::string_view signature = "lodestone object";
-constexpr std::uint32_t format = 1;
+constexpr std::uint32_t format = 2;
 constexpr std::uint32_t byte_order = 0x01020304;
 
 std::uint64_t hash_of_faces(std::span<const Corners> corners) { return hash_of(std::as_bytes(corners)); }

@@ -37,7 +37,6 @@ void Particle_object::save(State_writer& state) const {
     for (std::uint32_t v = 0; v < mesh_->vertex_count(); ++v) joined.push_back(seams_->joined(v));
   state.list(joined);
   state.list(labels_);
-  state.value(statistics_);
   state.list(particles_.at);
   state.value(particles_.effective_radius);
   state.value(particles_.collision_distance);
@@ -63,7 +62,6 @@ void Particle_object::save(State_writer& state) const {
 struct Particle_object::Saved {
   std::vector<std::uint32_t> joined;  ///< V: see `seams_of`; empty: no seams
   std::vector<Region_index> labels;
-  Partition_statistics statistics;
   Particles particles;
   std::size_t rings = 0;
   std::vector<Home> homes;
@@ -83,7 +81,6 @@ struct Particle_object::Saved {
 Particle_object::Saved::Saved(State_reader& state, std::span<const Corners> corners, std::size_t vertex_count) {
   joined = state.list<std::uint32_t>();
   labels = state.list<Region_index>();
-  statistics = state.value<Partition_statistics>();
   particles.at = state.list<std::uint32_t>();
   particles.positions.resize(particles.at.size());
   particles.effective_radius = state.finite();
@@ -169,7 +166,6 @@ void Particle_object::load(State_reader& state) {
   // From here on nothing can fail but for want of memory.
   steps_ = std::move(steps);
   labels_ = std::move(saved.labels);
-  statistics_ = saved.statistics;
   particles_ = std::move(saved.particles);
   homes_ = std::move(saved.homes);
   extents_ = std::move(saved.extents);

@@ -29,10 +29,6 @@ Region_anchors::Region_anchors(Tree_on_demand& tree, std::span<const Corners> co
   probes_ = probes(layout, rest);
   const Eigen::Vector3d middle = mean(tree);
   for (const auto node : probes_) rest_distances_.push_back((tree.anchor(node) - middle).norm());
-  double farthest = 0;
-  for (std::size_t i = 0; i < rest.size(); i += 3)
-    farthest = std::max(farthest, (Eigen::Map<const Eigen::Vector3d>(rest.data() + i) - middle).squaredNorm());
-  rest_radius_ = std::sqrt(farthest);
 }
 
 void Region_anchors::make_room() {
@@ -44,7 +40,6 @@ void Region_anchors::save(State_writer& state) const {
   state.list(regions_);
   state.list(probes_);
   state.list(rest_distances_);
-  state.value(rest_radius_);
 }
 
 Region_anchors Region_anchors::load(State_reader& state, const Tree_layout& layout, std::size_t regions) {
@@ -53,7 +48,6 @@ Region_anchors Region_anchors::load(State_reader& state, const Tree_layout& layo
   loaded.regions_ = state.list<Region_index>();
   loaded.probes_ = state.list<std::uint32_t>();
   loaded.rest_distances_ = state.list<double>();
-  loaded.rest_radius_ = state.finite();
   const auto below = [](std::size_t count) { return [count](std::size_t index) { return index < count; }; };
   State_reader::require(loaded.nodes_.size() == loaded.regions_.size() &&
                             std::ranges::all_of(loaded.nodes_, below(layout.node_count())) &&
@@ -136,13 +130,10 @@ void Region_anchors::note_farthest(Tree_on_demand& tree) {
 }
 
 void Region_anchors::read(Tree_on_demand& tree, double reach) {
-  constexpr double rounding = 1 + 1e-9;  // of what touches where the sphere ends
-  middle_ = mean(tree);
   if (tree.layout().leaf_count() == 1)
     note_farthest(tree);
   else
-    note_stretch(tree, middle_);
-  sphere_radius_ = rounding * reach * tree.stretch() * rest_radius_;
+    note_stretch(tree, mean(tree));
   box_.setEmpty();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Eigen::Vector3d& anchor = tree.anchor(nodes_[i]);
@@ -151,8 +142,6 @@ void Region_anchors::read(Tree_on_demand& tree, double reach) {
     const Eigen::Vector3d radius = Eigen::Vector3d::Constant(radius_[i]);
     box_.extend(anchor - radius).extend(anchor + radius);
   }
-  const Eigen::Vector3d radius = Eigen::Vector3d::Constant(sphere_radius_);
-  box_ = box_.intersection(Box(middle_ - radius, middle_ + radius));
 }
 
 bool Region_anchors::may_touch(std::uint32_t index, const Box& box) const {

@@ -252,6 +252,43 @@ TEST(Meeting_recall, a_single_face_is_found_however_far_it_is_stretched) {
   EXPECT_GE(colliding, 2U);
 }
 
+/// A sphere with a bump of a width and height, in radii, around a direction.
+void grow_bump(const Surface_mesh& rest, const Eigen::Vector3d& direction, double width, double height,
+               Surface_mesh& mesh) {
+  for (const auto v : rest.vertices()) {
+    const Eigen::Vector3d p = coordinates(rest.point(v));
+    const double angle = std::acos(std::clamp(p.dot(direction), -1.0, 1.0)) / width;
+    const Eigen::Vector3d q = (1 + height * std::exp(-angle * angle / 2)) * p;
+    mesh.point(v) = Point(q.x(), q.y(), q.z());
+  }
+}
+
+TEST(Meeting_recall, a_bump_that_grows_out_of_a_sphere_is_found_wherever_it_grows) {
+  constexpr int frames = 12;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  std::size_t colliding = 0;
+  for (const double width : {0.1, 0.2, 0.3})
+    for (const double height : {0.3, 0.6})
+      for (int place = 0; place < 5; ++place) {
+        const Eigen::Vector3d direction = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+        const auto rest = sphere(10);
+        const Eigen::Vector3d centre = (1.5 + 0.6 * height) * direction;  // the bump ends inside
+        auto bumped = rest, other = sphere(8, 0.5, Point(centre.x(), centre.y(), centre.z()));
+        Detector<> detector({.mode = Mode::particles, .contacts = Contact_query::yes_no});
+        detector.add(bumped);
+        detector.add(other);
+        for (int number = 0; number <= frames; ++number) {
+          grow_bump(rest, direction, width, height * number / frames, bumped);
+          detector.update();
+          const bool collide = !exhaustive_face_pairs(bumped, other).empty();
+          EXPECT_EQ(detector.detect().collides(), collide) << width << ' ' << height << ' ' << number;
+          colliding += collide ? 1 : 0;
+        }
+      }
+  EXPECT_GT(colliding, 100U);
+}
+
 TEST(Meeting_recall, pairs_that_part_and_meet_again_elsewhere_are_found_among_many_objects) {
   for (const auto query : {Contact_query::yes_no, Contact_query::all}) {
     std::mt19937_64 random(5);

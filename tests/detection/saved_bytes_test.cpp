@@ -39,7 +39,7 @@ TEST(Saved_bytes, say_what_is_wrong_with_them) {
     bytes[at] ^= std::byte{1};
     return bytes;
   };
-  EXPECT_EQ(refusal_of(changed(16)), "the object was saved in format 0, but this version reads format 1");
+  EXPECT_EQ(refusal_of(changed(16)), "the object was saved in format 3, but this version reads format 2");
   EXPECT_EQ(refusal_of(changed(20)), "the object was saved on a machine with another byte order");
   Bytes longer = saved;
   longer.push_back(std::byte{0});
@@ -154,7 +154,6 @@ struct Saved_particles {
   double radius;
   std::vector<std::uint32_t> joined, at;
   std::vector<Region_index> labels;
-  Partition_statistics statistics;
   double effective_radius, collision_distance;
   std::uint64_t hop_limit, rings;
   std::vector<Home> homes;
@@ -167,7 +166,6 @@ struct Saved_particles {
     radius = state.value<double>();
     joined = state.list<std::uint32_t>();
     labels = state.list<Region_index>();
-    statistics = state.value<Partition_statistics>();
     at = state.list<std::uint32_t>();
     effective_radius = state.value<double>();
     collision_distance = state.value<double>();
@@ -189,7 +187,6 @@ struct Saved_particles {
     state.value(radius);
     state.list(joined);
     state.list(labels);
-    state.value(statistics);
     state.list(at);
     state.value(effective_radius);
     state.value(collision_distance);

@@ -286,7 +286,7 @@ TEST(Opening_search, workers_find_the_same_in_the_same_order) {
 TEST(Opening_search, reads_regions_as_a_whole_up_to_a_number_of_vertices) {
   Opening_search search;
   Opened_object a(icosphere(12)), b(icosphere(12));
-  b.move_to(moved(b.rest(), 1.5, 0.01, 0.02));
+  b.move_to(moved(b.rest(), 1.9, 0.01, 0.02));
   const auto vertices_near = [&] {
     std::set<std::uint32_t> nodes_a, nodes_b;
     for (const auto& start : near_starts(a, b)) nodes_a.insert(start.nodes.a), nodes_b.insert(start.nodes.b);

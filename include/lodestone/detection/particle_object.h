@@ -124,8 +124,6 @@ class Particle_object {
   const Region_steps& steps() const { return steps_; }
   /// V: region of each vertex; 0 everywhere for scattered particles.
   const std::vector<Region_index>& labels() const { return labels_; }
-  /// What the last partition took.
-  const Partition_statistics& partition_statistics() const { return statistics_; }
   /// Per particle: the faces that it stands for. After `prepare_patches` or `scatter`.
   const std::vector<Patch>& patches() const { return patches_; }
   /// A*, the largest area of a region when it was made; in squared units of the coordinates.
@@ -167,7 +165,6 @@ class Particle_object {
   Surface_edges edges_;
 
   std::vector<Region_index> labels_;
-  Partition_statistics statistics_;
   Region_steps steps_;
   Particles particles_;
   std::vector<Patch> patches_;

@@ -52,11 +52,6 @@ class Region_anchors {
   Region_index region(std::uint32_t index) const { return regions_[index]; }
   /// Encloses the surface, as far as the anchors tell.
   const Box& box() const { return box_; }
-  /// Whether two surfaces may touch, as far as the spheres around their anchors' means tell.
-  friend bool may_touch(const Region_anchors& a, const Region_anchors& b) {
-    const double radii = a.sphere_radius_ + b.sphere_radius_;
-    return (a.middle_ - b.middle_).squaredNorm() <= radii * radii;
-  }
 
   /// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
   friend void list_near_regions(const Region_anchors& a, const Region_anchors& b, std::vector<Near_regions>& pairs);
@@ -74,11 +69,8 @@ class Region_anchors {
   std::vector<Region_index> regions_;       ///< parallel
   std::vector<double> x_, y_, z_, radius_;  ///< parallel: anchors in this frame, radii with reach and stretch
   Box box_;
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< mean of the anchors in this frame
-  double sphere_radius_ = 0;                          ///< around it, with reach and stretch
-  std::vector<std::uint32_t> probes_;                 ///< nodes whose anchors tell the stretch: regions, and the tips
-  std::vector<double> rest_distances_;                ///< parallel: of their anchors from the mean, at rest
-  double rest_radius_ = 0;                            ///< from the mean to the farthest vertex, at rest
+  std::vector<std::uint32_t> probes_;   ///< nodes whose anchors tell the stretch: regions, and the tips
+  std::vector<double> rest_distances_;  ///< parallel: of their anchors from the mean, at rest
 };
 
 /// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
