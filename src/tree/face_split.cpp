@@ -200,21 +200,23 @@ Middle move_items(std::span<const Split_item> items, const Slices& of, std::size
 
 /// Many items are counted by slice. The slice in which the first `first_count` end is the only one whose items have to
 /// be told apart. The others are copied before and behind it.
-bool split_items(std::span<Split_item> items, std::span<Split_item> spare, std::size_t first_count, Workers& workers) {
+Split_result split_items(std::span<Split_item> items, std::span<Split_item> spare, std::size_t first_count, float least,
+                         Workers& workers) {
   const bool shared = workers.count() > 1 && items.size() > 2 * items_at_once;
   const Parts parts(items, workers);
   const Spread spread = widest_spread(shared ? bounds_of(parts) : bounds_of(items));
+  if (spread.high - spread.low < least) return Split_result::too_narrow;
   const bool flat = !std::isnormal(static_cast<float>(slices) / (spread.high - spread.low));
   if (items.size() < few_items || flat) {
     select(items, first_count, spread.axis);
-    return false;
+    return Split_result::in_place;
   }
   const Slices of(spread);
   Counts counts;
   const Middle middle =
       shared ? move_items(parts, of, first_count, spare, counts) : move_items(items, of, first_count, spare, counts);
   select(spare.subspan(middle.begin, counts[middle.slice]), first_count - middle.begin, spread.axis);
-  return true;
+  return Split_result::in_spare;
 }
 
 }  // namespace lodestone

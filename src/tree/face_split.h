@@ -15,13 +15,20 @@ struct Split_item {
   std::uint32_t index;
 };
 
+/// Where `split_items` has left the items.
+enum class Split_result {
+  in_place,
+  in_spare,   ///< the other holds rubbish
+  too_narrow  ///< where they were, as they were
+};
+
 /// Distributes items along the axis on which their centres are spread widest: afterwards none of the first
 /// `first_count` lies behind one of the others. Of equal ones, those of lower index come first. O(n).
-/// @param items  at least one
-/// @param spare  as many
+/// @param items    at least one
+/// @param spare    as many
+/// @param least    if the centres are spread less than so, nothing is done; 0: they are distributed in any case
 /// @param workers  share the work if there are many items; the result does not depend on how many they are
-/// @return whether the items are in `spare` now; the other holds rubbish
-bool split_items(std::span<Split_item> items, std::span<Split_item> spare, std::size_t first_count,
-                 Workers& workers = Workers::alone());
+Split_result split_items(std::span<Split_item> items, std::span<Split_item> spare, std::size_t first_count,
+                         float least = 0, Workers& workers = Workers::alone());
 
 }  // namespace lodestone

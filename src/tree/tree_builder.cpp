@@ -14,6 +14,8 @@ namespace {
 
 /// How many faces, or leaves, a worker takes at once.
 constexpr std::size_t faces_at_once = 16384, leaves_at_once = 256;
+/// Centres that are spread less than this share a few thousand floats: they could hardly be told apart.
+constexpr float narrow = 0x1p-11F;
 
 }  // namespace
 
@@ -47,6 +49,19 @@ void Tree_builder::read_items() {
     const std::size_t end = std::min((index + 1) * faces_at_once, items_.size());
     for (std::size_t face = index * faces_at_once; face < end; ++face)
       items_[face] = {frame.mean(corners_[face]), static_cast<std::uint32_t>(face)};
+  });
+}
+
+/// Where another face or vertex is very far away, the centres of all others are nearly one float: they are read
+/// relative to the box around these faces alone.
+void Tree_builder::read_again(std::span<Split_item> items, Workers& workers) const {
+  std::vector<std::uint32_t> faces(items.size());
+  std::ranges::transform(items, faces.begin(), &Split_item::index);
+  const Float_frame frame(coordinates_, corners_, faces);
+  workers.run(items.size() / faces_at_once + 1, [&](std::size_t index, std::size_t) {
+    const std::size_t begin = index * faces_at_once;
+    for (Split_item& item : items.subspan(begin, std::min(faces_at_once, items.size() - begin)))
+      item.centre = frame.mean(corners_[item.index]);
   });
 }
 
@@ -110,7 +125,7 @@ void Tree_builder::add_regions(std::span<Split_item> regions, std::span<Split_it
     return;
   }
   const std::size_t half = regions.size() / 2;
-  if (split_items(regions, spare, half)) std::swap(regions, spare);
+  if (split_items(regions, spare, half) == Split_result::in_spare) std::swap(regions, spare);
   std::uint32_t faces = 0, leaves = 0;
   for (const auto& region : regions.first(half)) {
     faces += faces_of(region.index);
@@ -156,11 +171,15 @@ std::pair<Tree_builder::Branch, Tree_builder::Branch> Tree_builder::halve(const 
   const std::size_t first_count = count * leaves / branch.leaves;
   auto items = std::span(items_).subspan(branch.begin, count), spare = std::span(spare_).subspan(branch.begin, count);
   if (branch.in_spare) std::swap(items, spare);
-  const bool moved = split_items(items, spare, first_count, workers);
+  auto split = split_items(items, spare, first_count, narrow, workers);
+  if (split == Split_result::too_narrow) {
+    read_again(items, workers);
+    split = split_items(items, spare, first_count, 0, workers);
+  }
   auto [first, second] =
       add_inner_node(branch, static_cast<std::uint32_t>(first_count), static_cast<std::uint32_t>(leaves));
   first.end = second.begin = branch.begin + static_cast<std::uint32_t>(first_count);
-  first.in_spare = second.in_spare = branch.in_spare != moved;
+  first.in_spare = second.in_spare = branch.in_spare != (split == Split_result::in_spare);
   return {first, second};
 }
 

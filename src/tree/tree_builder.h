@@ -37,6 +37,7 @@ class Tree_builder {
   };
   void make_room(std::size_t faces);
   void read_items();
+  void read_again(std::span<Split_item> items, Workers& workers) const;
   void group_by_region();
   Region_index region_of(std::uint32_t face) const;
   void size_lists(std::size_t leaves);

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
 
 #include "support/tree_checks.h"
 
@@ -52,6 +54,33 @@ TEST(Region_tree, is_valid_after_the_build_and_after_every_refit) {
           expect_tree(tree, soup, now.coordinates);
         }
       }
+}
+
+/// The extents of all leaves but that of a face, together.
+double extent_of_leaves(const Face_soup& soup, std::optional<std::uint32_t> without = {}, std::size_t threads = 1) {
+  Workers workers(threads);
+  const Region_tree tree(soup.faces, {}, soup.coordinates, {}, workers);
+  double sum = 0;
+  for (std::uint32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
+    if (!without || std::ranges::find(tree.faces(leaf), *without) == tree.faces(leaf).end())
+      sum += tree.volume(tree.leaf_node(leaf)).extent();
+  return sum;
+}
+
+TEST(Region_tree, has_leaves_as_small_as_ever_where_a_vertex_or_a_face_is_very_far_away) {
+  const Face_soup ball = shuffled(Face_soup(icosphere(40)), 3);
+  const double usual = extent_of_leaves(ball);
+  for (const double distance : {1e6, 1e9, 1e300}) {
+    Face_soup stray = ball;
+    stray.coordinates.insert(stray.coordinates.end(), {distance, 0, 0});
+    EXPECT_LT(extent_of_leaves(stray), 1.1 * usual) << distance;
+    const auto vertex = stray.vertex_count() - 1;
+    stray.faces.push_back({vertex, vertex, vertex});
+    const auto last = static_cast<std::uint32_t>(stray.faces.size() - 1);
+    const double far = extent_of_leaves(stray, last);
+    EXPECT_LT(far, 3 * usual) << distance;
+    EXPECT_EQ(far, extent_of_leaves(stray, last, 2)) << distance;
+  }
 }
 
 TEST(Region_tree, of_any_labels_is_valid) {

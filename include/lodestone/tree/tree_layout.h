@@ -17,7 +17,8 @@ namespace lodestone {
 
 /// Options of a tree.
 struct Region_tree_options {
-  std::size_t leaf_faces = 96;  ///< most faces per leaf, 2 .. 128; the leaves of large regions are nearly full
+  std::size_t leaf_faces = 96;  ///< most faces per leaf, 2 .. 128; the leaves of large regions are nearly full. A
+                                ///< leaf that has been mended may hold a third more, at most 128
 };
 
 /// @throws Bad_argument  an option out of its range
@@ -68,8 +69,8 @@ class Tree_layout {
   /// @param changed      indices below F' of the faces that have other corners than in this layout. Faces at F and
   ///                     beyond count as new without being listed, those at F' and beyond as removed
   /// @param coordinates  3 V'
-  /// @param options      this layout must have been made without labels; leaves that are too full for the options are
-  ///                     split
+  /// @param options      this layout must have been made without labels; leaves that are a third fuller than the
+  ///                     options say, or hold more than 128 faces, are split
   /// @return none if a new layout is better: many faces have changed, or many components are new; or if a
   ///         coordinate that is needed is not finite
   std::optional<Tree_layout> mended(std::span<const Corners> corners, std::span<const std::uint32_t> changed,
