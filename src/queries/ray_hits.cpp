@@ -22,6 +22,11 @@ Ray_hit rounded(const Ray_frame& frame, Hit_on_ray& hit) {
   result.t = is_precise ? depth / d_z : exactly_over(d_z);
   result.t += 0.0;  // no negative zero
   for (int axis = 0; axis < 3; ++axis) result.point[axis] = frame.origin[axis] + depth * (frame.direction[axis] / d_z);
+  if (!result.point.allFinite()) {  // the depth, or a sum on the way, exceeds the greatest double
+    const double quarter = exactly_over(4);
+    for (int axis = 0; axis < 3; ++axis)
+      result.point[axis] = 4 * (frame.origin[axis] / 4 + quarter * (frame.direction[axis] / d_z));
+  }
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "lodestone/mesh/large_pages.h"
 #include "queries/ray_fit_kernel.h"
+#include "queries/ray_walk_kernel.h"
 #include "tree/rank_kernel.h"
 
 namespace lodestone {
@@ -68,7 +69,7 @@ void Ray_tree_builder::build(Workers& workers) {
   tree_.nodes_.reserve(tree_.blocks_.size() / 3 + 1);
   use_large_pages(tree_.nodes_.data(), tree_.nodes_.capacity() * sizeof(Ray_node));
   add_node(branch_of(0), 0);
-  tree_.is_fitted_ = true;
+  tree_.is_fitted_ = tells_leaves_apart();
 }
 
 void Ray_tree_builder::refit(Workers& workers) {
@@ -80,7 +81,22 @@ void Ray_tree_builder::refit(Workers& workers) {
   });
   std::vector<Ray_box> boxes(tree_.nodes_.size());
   for (std::size_t n = boxes.size(); n-- > 0;) boxes[n] = refit_node(n, boxes);  // children come after their parent
-  tree_.is_fitted_ = true;
+  tree_.is_fitted_ = tells_leaves_apart();
+}
+
+/// Whether most leaves are wide beside the error of the walk. Where another face is very far away they are not: a ray
+/// would meet all of them, and the surface answers sooner.
+bool Ray_tree_builder::tells_leaves_apart() const {
+  constexpr std::size_t together = 8;  // blocks next to each other, about a leaf
+  const auto& blocks = tree_.block_boxes_;
+  std::size_t narrow = 0, count = 0;
+  for (std::size_t first = 0; first < blocks.size(); first += together, ++count) {
+    Ray_box box = no_box;
+    for (std::size_t b = first; b < std::min(first + together, blocks.size()); ++b) extend(box, blocks[b]);
+    const float side = std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
+    narrow += side < 32 * kernel::walk_error ? 1 : 0;
+  }
+  return 2 * narrow <= count;
 }
 
 /// @param node_boxes  of all nodes that come later

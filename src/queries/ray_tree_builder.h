@@ -34,6 +34,7 @@ class Ray_tree_builder {
   };
 
   bool place();
+  bool tells_leaves_apart() const;
   void count_blocks();
   void pack_leaf(std::uint32_t leaf, Leaf_memory& memory);
   void read_leaf(std::uint32_t leaf, Leaf_memory& memory) const;

@@ -278,6 +278,19 @@ TEST(Ray_search, starts_at_the_origin_and_ends_at_its_length) {
   }
 }
 
+TEST(Ray_search, tells_where_it_meets_a_face_whose_depth_exceeds_the_greatest_double) {
+  Face_soup plate;
+  plate.coordinates = {-1, -1, 1.7e308, 2, -1, 1.7e308, -1, 2, 1.7e308};
+  plate.faces = {{0, 1, 2}};
+  const Posed_object object(plate, 2, false);
+  const auto hit = first_hit(object.view(), Ray{{0.25, 0.25, -1e307}, {0, 0, 1e300}});
+  ASSERT_TRUE(hit);
+  EXPECT_DOUBLE_EQ(hit->t, 1.8e8);
+  EXPECT_DOUBLE_EQ(hit->point.z(), 1.7e308);
+  EXPECT_EQ(hit->point.x(), 0.25);
+  EXPECT_EQ(hit->point.y(), 0.25);
+}
+
 TEST(Ray_search, refuses_what_is_no_ray) {
   const Posed_object object(Face_soup(single_triangle()), 2, false);
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();

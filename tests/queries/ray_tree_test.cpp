@@ -227,6 +227,24 @@ TEST(Ray_tree, asks_the_surface_where_single_precision_is_not_enough) {
   }
 }
 
+TEST(Ray_tree, asks_the_surface_where_most_leaves_are_small_beside_the_whole) {
+  const auto rays = rays_at(60, 12);
+  const Face_soup near = joined(Face_soup(icosphere(20)), moved(Face_soup(single_triangle()), 2, 0, 0));
+  Face_soup far = near;
+  far.coordinates[far.coordinates.size() - 1] += 1e7;
+  Posed_object object(near);
+  Ray_tree tree(object.view());
+  EXPECT_FALSE(tree.nodes().empty());
+  object.move_to(far);
+  tree.refit(object.view());
+  EXPECT_TRUE(tree.nodes().empty());
+  EXPECT_TRUE(Ray_tree(object.view()).nodes().empty());
+  EXPECT_GT(expect_answers_of_the_surface(tree, rays), 20U);
+  object.move_to(near);
+  tree.refit(object.view());
+  expect_valid(tree, near);
+}
+
 TEST(Ray_tree, is_complete_far_from_the_origin_where_its_middle_is_rounded) {
   for (const double factor : {0.999, 0.5001, 0.7})
     for (const double offset : {0x1p40, 0x1p46, 0x1p51}) {

@@ -58,7 +58,8 @@ class Ray_tree {
   std::size_t face_count_;
   std::array<double, 3> middle_ = {};
   double scale_ = 1;
-  bool is_fitted_ = false;  ///< nodes and blocks are those of the surface; false: there is no fitting scale
+  bool is_fitted_ = false;  ///< nodes and blocks are those of the surface; false: the surface is asked, since there is
+                            ///< no fitting scale, or leaves are too small beside the whole
   Unset_vector<Ray_node> nodes_;
   Unset_vector<Ray_block> blocks_;
   Unset_vector<Ray_box> block_boxes_;

@@ -5,12 +5,12 @@
 
 namespace lodestone {
 
-/// The box of a face, or of several, in rounded coordinates. Its highest corner is negated, so that one kind of
-/// comparison serves all six sides.
+/// The box of a face, or of several, in coordinates rounded to the nearest float: boxes that meet still meet, but a box
+/// need not enclose its faces. Its highest corner is negated, so that one kind of comparison serves all six sides.
 struct alignas(32) Rounded_box {
-  float low[3];           ///< lower corner, rounded down
+  float low[3];           ///< lower corner
   std::uint32_t index;    ///< of the face in a list; of no meaning for a box around several
-  float negated_high[3];  ///< upper corner, rounded up, times -1
+  float negated_high[3];  ///< upper corner, times -1
   std::uint32_t unused;   ///< padding: a vector holds a whole box
 
   /// Upper end along an axis.
