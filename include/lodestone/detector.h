@@ -54,7 +54,7 @@ class Detector {
 
  public:
   /// A detector without objects.
-  /// @throws Bad_argument  an option out of range
+  /// @throws Bad_argument  an option out of range, or mode `certified` with other volumes than boxes
   explicit Detector(const Detector_options& options = {}, Strategy strategy = {})
       : strategy_(std::make_shared<const Strategy>(std::move(strategy))), detection_(make_detection<Volume>(options)) {}
 
@@ -139,10 +139,12 @@ class Detector {
   /// @throws Bad_argument  another mode
   Held_positions hold_positions() { return Held_positions(ask<Exact>().hold()); }
 
-  /// Tells the detector that faces of an object's mesh have been added, removed or changed. The object is numbered,
-  /// partitioned and built again, and has the positions of its mesh, as after `update(object)`. Without this call, the
+  /// Tells the detector that faces of an object's mesh have been added, removed or changed. The object is numbered
+  /// again, and has the positions of its mesh, as after `update(object)`. Its partition and its tree are built again;
+  /// in mode `exact` without regions the tree is mended where faces differ, if these are few. Without this call, the
   /// detector notices other numbers of vertices or faces, but not a flipped edge.
-  /// @param file_vertex    as in Object_options, for the new vertices. Empty: no vertices are merged
+  /// @param file_vertex    as in Object_options, for the new vertices; modes with particles ignore it. Empty: no
+  ///                       vertices are joined
   /// @throws Bad_argument  no such object; mode `exact`: `file_vertex` does not have one entry per vertex
   /// @throws Bad_mesh      as `add`; the object stays as it was
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex = {}) {
@@ -150,8 +152,8 @@ class Detector {
   }
 
   /// The same where the caller knows which faces have changed, as after CGAL's Euler operations. In mode `exact` the
-  /// tree is mended where they are, which takes a fraction of the time, and no vertices are joined. In other modes
-  /// everything is built again.
+  /// tree is mended where they are, which takes a fraction of the time, and no vertices are joined. With regions, and
+  /// in other modes, everything is built again.
   /// @throws Bad_argument  no such object; mode `exact`: no such face, a face that is not listed has lost a corner
   /// @throws Bad_mesh      as `add`; the object stays as it was
   void rebuild(Object_id object, const Changed_faces& changed) { detection_->rebuild(checked(object), changed); }
@@ -195,10 +197,12 @@ class Detector {
   void ignore(Object_id a, Object_id b, bool ignored = true) { filter_.ignore({checked(a), checked(b)}, ignored); }
 
   /// Finds the collisions between all objects where their vertices are now. The first call, and any call after an
-  /// `add`, partitions the new objects.
+  /// `add`, builds the new objects.
   /// @return valid until the next call, and as long as the detector
-  /// @throws Bad_mesh      a coordinate that is read is not finite, or beyond 1e150 in mode `particles`; a mesh has
-  ///                       another number of vertices or faces than when it was added or rebuilt
+  /// @throws Bad_mesh      a coordinate that is read is not finite; a mesh has another number of vertices or faces than
+  ///                       when it was added or rebuilt; in modes with particles, when an object is built: a coordinate
+  ///                       beyond 1e150, or edges shorter than 1e-150 on average
+  /// @throws Bad_argument  a strategy cannot divide a surface, or a promise does not fit its object
   /// @throws Broken_bound  mode `certified` with `Exact_options::throw_if_broken`; so does every query
   const Frame& detect() { return detection_->detect(filter_); }
   /// The same for a single pair, in mode `exact`; a = b: collisions of a with itself. Reads only these two. The frame
@@ -330,10 +334,10 @@ class Detector {
     return ask<Exact>().first_hits(sorted(objects), rays);
   }
   /// An object where it is now, prepared for rays that are asked about one by one: see Ray_tree. It reads positions in
-  /// place. So it is of use until the next query of the object; while positions are held, until the first query after
-  /// that. It is of no use once the object is moved, given positions or a promise, placed, rebuilt, loaded or removed,
-  /// or once the mesh moves its memory. The detector keeps it, and refits it when it is asked for again. In mode
-  /// `certified` an object with bounds is posed as a whole.
+  /// place. It is valid until the next query of the object. While positions are held, queries leave it valid; the first
+  /// one after that does not. It is of no use once the object is moved, given positions or a promise, placed, rebuilt,
+  /// loaded or removed, or once the mesh moves its memory. The detector keeps it, and refits it when it is asked for
+  /// again. In mode `certified` an object with bounds is posed as a whole.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   const Ray_tree& ray_tree(Object_id object)
     requires std::same_as<Volume, Aabb>

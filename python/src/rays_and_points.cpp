@@ -163,14 +163,16 @@ void add_rays_and_points(Detector_class& type) {
       .def("first_hit", first_hit, py::arg("object"), py::arg("origin"), py::arg("direction"),
            py::arg("length") = infinity,
            "The first face that a ray meets: a dict with object, face, t (in multiples of direction) and point; None if there\n"
-           "is none. `object` is one object, a list of them, or None for all; groups and ignored pairs do not count. Exact:\n"
-           "of several faces at the same t, that of the lowest object, and of this the lowest.")
+           "is none. `object` is one object, a list of them, or None for all; groups and ignored pairs do not count. The ray\n"
+           "ends at `length`, in multiples of direction. Exact: of several faces at the same t, that of the lowest object,\n"
+           "and of this the lowest.")
       .def("all_hits", all_hits, py::arg("object"), py::arg("origin"), py::arg("direction"), py::arg("length") = infinity,
-           "All faces of an object that a ray meets, in order along it: a list of dicts with face, t and point.")
+           "All faces of an object that a ray meets, in order along it: a list of dicts with face, t and point. The ray ends\n"
+           "at `length`, in multiples of direction.")
       .def("first_hits", first_hits, py::arg("object"), py::arg("origins"), py::arg("directions"),
            py::arg("length") = infinity,
            "`first_hit` of many rays: a dict of arrays objects (n,), faces (n,), t (n,) and points (n, 3); a ray that meets\n"
-           "nothing has object and face -1.")
+           "nothing has object and face -1. All end at `length`, in multiples of their directions.")
       .def("closest_point", closest_point, py::arg("object"), py::arg("point"),
            "The face that is nearest to a point: a dict with face, point and distance.")
       .def("closest_points", closest_points, py::arg("object"), py::arg("points"),

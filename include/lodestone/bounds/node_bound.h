@@ -133,7 +133,8 @@ void check_object(const Bounded_object& object);
 ///
 /// `promise.bound(object)` makes it: a Motion_bound, which may refer to the promise, to the layout and to the
 /// positions, but neither to the labels nor to the rest. Models: Lipschitz_promise, Stretch_promise,
-/// Displacement_promise, Box_promise. They cannot be copied, since bounds refer to them.
+/// Displacement_promise and Box_promise, which cannot be copied, since bounds refer to them; Deformed_points and
+/// Computed_motion, which bound what they compute.
 template <class P>
 concept Motion_promise = requires(const P& promise, const Bounded_object& object) {
   { promise.bound(object) } -> Motion_bound;

@@ -25,7 +25,7 @@ namespace lodestone {
 enum class Mode {
   particles,  ///< one particle per region; may miss a collision, never invents one
   senin,      ///< the predecessor: particles scattered over the surface, no regions
-  exact,      ///< a tree of volumes over the regions: finds what checking every face against every other would
+  exact,      ///< a tree of volumes over the faces: finds what checking every face against every other would
   certified,  ///< as exact, but objects whose motion is bounded are read only where they are near others
 };
 
@@ -120,7 +120,7 @@ struct Object_options {
   std::uint32_t meets = ~std::uint32_t{0};  ///< bits: the groups that it can collide with; its own too if listed
   /// Per vertex of the mesh: its index in the file, as `read_mesh` gives it. Mode `exact` treats vertices with the same
   /// index as one, at the position of the first. A half-edge mesh stores a non-manifold vertex several times; without
-  /// this, faces that share it would count as touching. Empty: no vertices are merged.
+  /// this, faces that share it would count as touching. Empty: no vertices are joined.
   std::vector<std::uint32_t> file_vertex = {};
   std::string name = {};  ///< for messages, beside the id
 };

@@ -29,7 +29,7 @@ namespace lodestone {
 /// `points.pose_number()` is above 0 and grows whenever the pose changes.
 ///
 /// Several threads may compute positions at once while none changes the pose. Models: Skinned_points, Morphed_points,
-/// Deformed_points.
+/// Deformed_points, Computed_motion.
 template <class P>
 concept Computed_points = requires(const P& points, std::uint32_t vertex, std::span<const std::uint32_t> vertices,
                                    std::span<double> coordinates) {

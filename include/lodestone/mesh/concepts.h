@@ -74,9 +74,9 @@ concept Array = requires { M::RowsAtCompileTime; } || requires(const M& sequence
 
 /// A model of CGAL's FaceListGraph with a vertex point map, all of whose faces are triangles.
 ///
-/// Models: CGAL::Surface_mesh, CGAL::Polyhedron_3, OpenMesh through CGAL's wrapper, and
-/// CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper. The concept checks syntax only; `Mesh_numbering` checks
-/// that every face is a triangle.
+/// Models: CGAL::Surface_mesh, CGAL::Polyhedron_3, OpenMesh through CGAL's wrapper,
+/// CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper, and Indexed_mesh. The concept checks syntax only;
+/// `Mesh_numbering` checks that every face is a triangle.
 template <class Mesh>
 concept Triangle_mesh = !Array<Mesh> && requires(const Mesh& mesh, Vertex<Mesh> v, Face<Mesh> f, Halfedge<Mesh> h) {
   vertices(mesh);

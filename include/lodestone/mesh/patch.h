@@ -23,8 +23,8 @@ struct Patch {
 /// @param mesh_corners  corners of every face of the mesh
 Patch make_patch(std::vector<std::uint32_t> faces, std::span<const Corners> mesh_corners);
 
-/// The faces of each region: those with at least one corner in it. A face at a seam belongs to two or three regions, so
-/// no face is lost between regions. O(V + F + B log B), with B faces at borders of regions.
+/// The faces of each region: those with at least one corner in it. A face at the border of regions belongs to two
+/// or three, so no face is lost between regions. O(V + F + B log B), with B faces at borders of regions.
 std::vector<Patch> region_patches(std::span<const Corners> mesh_corners, std::span<const Region_index> labels,
                                   std::size_t regions);
 

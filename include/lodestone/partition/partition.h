@@ -136,9 +136,9 @@ Numbered_partition partition_numbered(const Numbered_surface& surface, std::size
 /// Divides a surface into regions and places one particle in each.
 ///
 /// Every vertex gets one region. Every region is non-empty and, unless `keep_islands` is set, connected in the mesh
-/// graph. Its particle starts at the vertex nearest to the region's mean vector, in the strategy's own space. Each
-/// connected component of the mesh that no region reaches becomes an additional region, up to the limit of
-/// `repair_islands`.
+/// graph; of a surface of very many components some stay islands, see `Island_repair::islands_left`. Its particle
+/// starts at the vertex nearest to the region's mean vector, in the strategy's own space. Each connected component of
+/// the mesh that no region reaches becomes an additional region, up to the limit of `repair_islands`.
 ///
 /// Vertices that no face uses form no region. The strategies of the library do not look at them, wherever they are, and
 /// give them to region 0.
