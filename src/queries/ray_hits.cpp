@@ -26,6 +26,8 @@ Ray_hit rounded(const Ray_frame& frame, Hit_on_ray& hit) {
     const double quarter = exactly_over(4);
     for (int axis = 0; axis < 3; ++axis)
       result.point[axis] = 4 * (frame.origin[axis] / 4 + quarter * (frame.direction[axis] / d_z));
+    constexpr double greatest = std::numeric_limits<double>::max();
+    result.point = result.point.cwiseMax(-greatest).cwiseMin(greatest);
   }
   return result;
 }

@@ -79,9 +79,10 @@ void Ray_tree_builder::refit(Workers& workers) {
   workers.run((blocks + blocks_per_task - 1) / blocks_per_task, [&](std::size_t task, std::size_t) {
     fit_blocks(task * blocks_per_task, std::min((task + 1) * blocks_per_task, blocks));
   });
+  if (!tells_leaves_apart()) return;
   std::vector<Ray_box> boxes(tree_.nodes_.size());
   for (std::size_t n = boxes.size(); n-- > 0;) boxes[n] = refit_node(n, boxes);  // children come after their parent
-  tree_.is_fitted_ = tells_leaves_apart();
+  tree_.is_fitted_ = true;
 }
 
 /// Whether most leaves are wide beside the error of the walk. Where another face is very far away they are not: a ray
@@ -94,7 +95,7 @@ bool Ray_tree_builder::tells_leaves_apart() const {
     Ray_box box = no_box;
     for (std::size_t b = first; b < std::min(first + together, blocks.size()); ++b) extend(box, blocks[b]);
     const float side = std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
-    narrow += side < 32 * kernel::walk_error ? 1 : 0;
+    narrow += side < 16 * kernel::walk_error ? 1 : 0;
   }
   return 2 * narrow <= count;
 }

@@ -198,6 +198,11 @@ Middle move_items(std::span<const Split_item> items, const Slices& of, std::size
 
 }  // namespace
 
+float widest_spread(std::span<const Split_item> items) {
+  const Spread spread = widest_spread(bounds_of(items));
+  return spread.high - spread.low;
+}
+
 /// Many items are counted by slice. The slice in which the first `first_count` end is the only one whose items have to
 /// be told apart. The others are copied before and behind it.
 Split_result split_items(std::span<Split_item> items, std::span<Split_item> spare, std::size_t first_count, float least,

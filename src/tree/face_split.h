@@ -15,6 +15,13 @@ struct Split_item {
   std::uint32_t index;
 };
 
+/// Centres that are spread less than this, in [-1, 1], share a few thousand floats: they could hardly be told apart.
+constexpr float narrow_spread = 0x1p-11F;
+
+/// How far the centres are spread along the axis on which they are spread widest. O(n).
+/// @param items  at least one
+float widest_spread(std::span<const Split_item> items);
+
 /// Where `split_items` has left the items.
 enum class Split_result {
   in_place,

@@ -14,8 +14,6 @@ namespace {
 
 /// How many faces, or leaves, a worker takes at once.
 constexpr std::size_t faces_at_once = 16384, leaves_at_once = 256;
-/// Centres that are spread less than this share a few thousand floats: they could hardly be told apart.
-constexpr float narrow = 0x1p-11F;
 
 }  // namespace
 
@@ -52,8 +50,8 @@ void Tree_builder::read_items() {
   });
 }
 
-/// Where another face or vertex is very far away, the centres of all others are nearly one float: they are read
-/// relative to the box around these faces alone.
+/// Where another vertex or face is very far away, the centres of these are nearly one float. They are read relative to
+/// the box around these faces alone. Where one of them is the face that is far away, that does not help.
 void Tree_builder::read_again(std::span<Split_item> items, Workers& workers) const {
   std::vector<std::uint32_t> faces(items.size());
   std::ranges::transform(items, faces.begin(), &Split_item::index);
@@ -75,6 +73,7 @@ void Tree_builder::group_by_region() {
     region_begin_ = {0, static_cast<std::uint32_t>(items_.size())};
     return;
   }
+  if (widest_spread(items_) < narrow_spread) read_again(items_, workers_);  // also for the centres of regions
   const std::size_t regions = std::size_t{std::ranges::max(labels_)} + 1;
   region_begin_.assign(regions + 1, 0);
   for (const auto& item : items_) ++region_begin_[region_of(item.index) + 1];
@@ -171,7 +170,7 @@ std::pair<Tree_builder::Branch, Tree_builder::Branch> Tree_builder::halve(const 
   const std::size_t first_count = count * leaves / branch.leaves;
   auto items = std::span(items_).subspan(branch.begin, count), spare = std::span(spare_).subspan(branch.begin, count);
   if (branch.in_spare) std::swap(items, spare);
-  auto split = split_items(items, spare, first_count, narrow, workers);
+  auto split = split_items(items, spare, first_count, narrow_spread, workers);
   if (split == Split_result::too_narrow) {
     read_again(items, workers);
     split = split_items(items, spare, first_count, 0, workers);

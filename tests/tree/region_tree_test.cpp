@@ -59,7 +59,7 @@ TEST(Region_tree, is_valid_after_the_build_and_after_every_refit) {
 /// The extents of all leaves but that of a face, together.
 double extent_of_leaves(const Face_soup& soup, std::optional<std::uint32_t> without = {}, std::size_t threads = 1) {
   Workers workers(threads);
-  const Region_tree tree(soup.faces, {}, soup.coordinates, {}, workers);
+  const Region_tree tree(soup.faces, Labels(), soup.coordinates, {}, workers);
   double sum = 0;
   for (std::uint32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
     if (!without || std::ranges::find(tree.faces(leaf), *without) == tree.faces(leaf).end())
@@ -81,6 +81,25 @@ TEST(Region_tree, has_leaves_as_small_as_ever_where_a_vertex_or_a_face_is_very_f
     EXPECT_LT(far, 3 * usual) << distance;
     EXPECT_EQ(far, extent_of_leaves(stray, last, 2)) << distance;
   }
+}
+
+TEST(Region_tree, has_nodes_above_its_regions_as_small_as_ever_where_a_vertex_is_very_far_away) {
+  Face_soup ball(icosphere(12));
+  const auto extent_of_nodes = [&] {
+    Labels labels;  // of small parts of space, in an order that has nothing to do with where they are
+    for (std::uint32_t v = 0; v < ball.vertex_count(); ++v) {
+      const Point p = ball.point(v);
+      const auto cell = [](double x) { return static_cast<Region_index>(std::clamp(2 + 2 * x, 0.0, 3.0)); };
+      labels.push_back((16 * cell(p.x()) + 4 * cell(p.y()) + cell(p.z())) * 27 % 64);
+    }
+    const Region_tree tree(ball.faces, labels, ball.coordinates, {});
+    double sum = 0;
+    for (std::uint32_t n = 0; n < tree.node_count(); ++n) sum += tree.volume(n).extent();
+    return sum;
+  };
+  const double usual = extent_of_nodes();
+  ball.coordinates.insert(ball.coordinates.end(), {1e9, 0, 0});
+  EXPECT_LT(extent_of_nodes(), 1.1 * usual);
 }
 
 TEST(Region_tree, of_any_labels_is_valid) {

@@ -39,8 +39,8 @@ class Ray_tree {
 
   /// What it was made of.
   const Layout_view& surface() const { return surface_; }
-  /// Nodes, the root first. None if the surface is a point, or larger than 2^500 or smaller than 2^-500: its rays are
-  /// asked without this.
+  /// Nodes, the root first. None if the surface is a point, or larger than 2^500 or smaller than 2^-500, or if most of
+  /// its leaves are smaller than a 2^16th of the whole: its rays are asked without this.
   std::span<const Ray_node> nodes() const { return {nodes_.data(), is_fitted_ ? nodes_.size() : 0}; }
   /// Blocks, those of a leaf one after the other.
   std::span<const Ray_block> blocks() const { return {blocks_.data(), blocks_.size()}; }
