@@ -72,7 +72,7 @@ TEST(Region_tree, has_leaves_as_small_as_ever_where_a_vertex_or_a_face_is_very_f
   const double usual = extent_of_leaves(ball);
   for (const double distance : {1e6, 1e9, 1e300}) {
     Face_soup stray = ball;
-    stray.coordinates.insert(stray.coordinates.end(), {distance, 0, 0});
+    stray.coordinates.insert(stray.coordinates.end(), {distance, distance, distance});
     EXPECT_LT(extent_of_leaves(stray), 1.1 * usual) << distance;
     const auto vertex = stray.vertex_count() - 1;
     stray.faces.push_back({vertex, vertex, vertex});
@@ -98,7 +98,7 @@ TEST(Region_tree, has_nodes_above_its_regions_as_small_as_ever_where_a_vertex_is
     return sum;
   };
   const double usual = extent_of_nodes();
-  ball.coordinates.insert(ball.coordinates.end(), {1e9, 0, 0});
+  ball.coordinates.insert(ball.coordinates.end(), {1e9, 1e9, 1e9});
   EXPECT_LT(extent_of_nodes(), 1.1 * usual);
 }
 
