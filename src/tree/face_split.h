@@ -33,7 +33,7 @@ enum class Split_result {
 /// `first_count` lies behind one of the others. Of equal ones, those of lower index come first. O(n).
 /// @param items    at least one
 /// @param spare    as many
-/// @param least    if the centres are spread less than so, nothing is done; 0: they are distributed in any case
+/// @param least    if the centres are spread less than this, nothing is done; 0: they are distributed anyway
 /// @param workers  share the work if there are many items; the result does not depend on how many they are
 Split_result split_items(std::span<Split_item> items, std::span<Split_item> spare, std::size_t first_count,
                          float least = 0, Workers& workers = Workers::alone());

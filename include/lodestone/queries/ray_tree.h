@@ -16,7 +16,7 @@ namespace lodestone {
 
 /// One pose of a surface, prepared for many rays: wide nodes over blocks of eight faces, in single precision
 /// \cite wald2008. Single precision only discards what it proves missed, so rays get the same answers as from the
-/// surface itself, and sooner. It is refitted, or made anew, after vertices have moved.
+/// surface itself, and mostly sooner. It is refitted, or made anew, after vertices have moved.
 ///
 /// Making it takes as long as some F / 20 rays save, a refit as long as some F / 60 rays save. Fewer rays are better
 /// asked without it.
