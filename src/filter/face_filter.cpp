@@ -19,6 +19,11 @@ constexpr auto no_leaf = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
+struct Face_filter::Alone {
+  kernel::Filter_request request;
+  std::array<Face_columns, 2> faces;
+};
+
 Face_filter::Face_filter()
     : request_(std::make_unique<kernel::Filter_request>()),
       scratch_(std::make_unique_for_overwrite<Filter_scratch>()) {}
@@ -66,15 +71,30 @@ void Face_filter::begin_within(const Layout_view& tree, double margin) {
   request_->one_mesh = true;
 }
 
+/// Fine parts of a coarse surface: steps that span the surface would leave all pairs of their faces. What is rounded
+/// depends on the two leaves alone, and is not kept: candidates must not depend on the order in which leaves meet.
+const kernel::Filter_request& Face_filter::round_alone(kernel::Leaf_input& a, kernel::Leaf_input& b) {
+  if (!alone_) alone_ = std::make_unique_for_overwrite<Alone>();
+  auto& [request, faces] = *alone_;
+  request = filter_request(*a.box, *b.box, request_->margin);
+  request.one_mesh = request_->one_mesh;
+  request.one_leaf = request_->one_leaf;
+  for (Face_columns& columns : faces) columns.clear();
+  a.faces = &faces[0];
+  b.faces = &faces[1];
+  return request;
+}
+
 std::span<const Face_candidate> Face_filter::face_candidates(std::uint32_t leaf_a, std::uint32_t leaf_b) {
   const bool one_mesh = request_->one_mesh;
   request_->one_leaf = one_mesh && leaf_a == leaf_b;
-  const auto a = sides_[0].input(leaf_a);
+  auto a = sides_[0].input(leaf_a);
   // One tree has its leaves in one side, so that each is read once. The second side is for two leaves of one slot.
   const bool one_side = one_mesh && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
-  const auto b = sides_[one_side ? 0 : 1].input(leaf_b);
+  auto b = sides_[one_side ? 0 : 1].input(leaf_b);
   candidates_.resize(std::max(candidates_.size(), a.face_count * b.face_count + most_float_lanes));
-  const std::size_t count = kernel::face_candidates(a, b, *request_, *scratch_, candidates_.data());
+  const auto& request = is_too_coarse(*request_, *a.box, *b.box) ? round_alone(a, b) : *request_;
+  const std::size_t count = kernel::face_candidates(a, b, request, *scratch_, candidates_.data());
   return {candidates_.data(), count};
 }
 

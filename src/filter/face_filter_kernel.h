@@ -30,6 +30,7 @@ struct Filter_request {
   double scale;             ///< of rounded coordinates: brings sizes near 1; > 0
   float rounded_margin;     ///< scaled, and rounded up
   float steps_per_unit[4];  ///< by axis: steps per unit of rounded coordinates; 0: every side is in the first step
+  double least_side;        ///< of coordinates: a leaf with only shorter sides spans too few steps to tell faces apart
   bool one_mesh;            ///< discard pairs of faces that share a vertex
   bool one_leaf;            ///< the two leaves are the same: each pair once
 };

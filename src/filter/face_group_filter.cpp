@@ -64,8 +64,10 @@ void Face_group_filter::begin(Coordinates a, const Aabb& bounds_a, Coordinates b
 std::span<const Face_candidate> Face_group_filter::face_candidates(std::span<const Corners> a,
                                                                    std::span<const Corners> b) {
   candidates_.resize(std::max(candidates_.size(), a.size() * b.size() + most_float_lanes));
-  const std::size_t count =
-      kernel::face_candidates(sides_[0]->input(a), sides_[1]->input(b), *request_, *scratch_, candidates_.data());
+  const auto input_a = sides_[0]->input(a), input_b = sides_[1]->input(b);
+  const Aabb &box_a = *input_a.box, &box_b = *input_b.box;
+  const auto request = is_too_coarse(*request_, box_a, box_b) ? filter_request(box_a, box_b, 0) : *request_;
+  const std::size_t count = kernel::face_candidates(input_a, input_b, request, *scratch_, candidates_.data());
   return {candidates_.data(), count};
 }
 

@@ -16,9 +16,12 @@ namespace lodestone {
 
 namespace {
 
+/// Half of the longest side of a box; the whole could overflow.
+double half_side(const Box& box) { return (box.max() / 2 - box.min() / 2).maxCoeff(); }
+
 /// A power of two that brings the longest side of a box near 1, unless its coordinates would overflow.
 double scale_of(const Box& box) {
-  const double longest = (box.max() / 2 - box.min() / 2).maxCoeff();  // halved, since the difference may overflow
+  const double longest = half_side(box);
   const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   if (longest <= 0) return 1;
   return std::ldexp(1.0, std::clamp(std::min(-std::ilogb(longest), 1000 - std::ilogb(largest)), -1000, 1000));
@@ -29,6 +32,12 @@ Triangle_corners corners_of(const Faces_in_box& faces, std::uint32_t index) {
   const Corners& corners = faces.corners[index];
   return {at + 3 * std::size_t{corners[0]}, at + 3 * std::size_t{corners[1]}, at + 3 * std::size_t{corners[2]}};
 }
+
+/// A box is narrow when it is shorter than this share of the frame: eight of a float's 24 digits are left for its
+/// faces. With more of them left, more faces would be boxed again than the search has to halve.
+constexpr double narrow_share = 0x1p-16;
+/// A frame that is not smaller by this is not worth a pass.
+constexpr double least_gain = 0x1p-8;
 
 /// Kept per thread, some 200 kB: to get this memory from the system takes longer than to search small surfaces.
 Face_group_filter& filter_of_thread() {
@@ -98,8 +107,9 @@ bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, co
   const bool few = std::max(a.faces.size(), b.faces.size()) <= few_faces;
   most_faces_ = one_is_enough_ && few ? small_group_faces : group_faces;
   most_leaf_tests_ = leaf_tests_ + most_partners * (2 + (a.faces.size() + b.faces.size()) / most_faces_);
-  const double scale = scale_of(overlap);
-  Pair_of_parts whole{box_faces(0, overlap, scale), box_faces(1, overlap, scale)};
+  for (Stack& stack : stacks_) stack.drop_to(0);
+  round_in(overlap);
+  Pair_of_parts whole{box_faces(0, a.corners), box_faces(1, b.corners)};
   return search(whole, {true, true});
 }
 
@@ -111,19 +121,62 @@ void Overlap_search::Stack::reserve(std::size_t count) {
   boxes_ = std::move(larger);
 }
 
-Overlap_search::Part Overlap_search::box_faces(int side, const Box& overlap, double scale) {
-  kernel::Box_rounding rounding{.scale = scale, .origin = {}, .size = {}};
+void Overlap_search::round_in(const Box& frame) {
+  frame_ = frame;
+  narrow_side_ = static_cast<float>(2 * half_side(frame) * scale_of(frame) * narrow_share);
+}
+
+/// Boxes faces on top of their stack; the indices of the boxes are those in the list of corners.
+Overlap_search::Part Overlap_search::box_faces(int side, std::span<const Corners> corners) {
+  kernel::Box_rounding rounding{.scale = scale_of(frame_), .origin = {}, .size = {}};
   for (int axis = 0; axis < 3; ++axis) {
-    rounding.origin[axis] = overlap.min()[axis] * scale;
-    rounding.size[axis] = overlap.max()[axis] * scale - rounding.origin[axis];
+    rounding.origin[axis] = frame_.min()[axis] * rounding.scale;
+    rounding.size[axis] = frame_.max()[axis] * rounding.scale - rounding.origin[axis];
   }
-  const Faces_in_box& faces = *faces_[side];
   Stack& stack = stacks_[side];
-  stack.drop_to(0);
-  stack.reserve(3 * faces.faces.size());  // halves and copies lie on top
-  const Rounded_box around =
-      kernel::box_faces(faces.coordinates.data(), faces.corners.data(), faces.faces.size(), rounding, stack.at(0));
-  return stack.push(faces.faces.size(), around);
+  stack.reserve(3 * corners.size());  // halves and copies lie on top
+  const Rounded_box around = kernel::box_faces(faces_[side]->coordinates.data(), corners.data(), corners.size(),
+                                               rounding, stack.at(stack.top()));
+  return stack.push(corners.size(), around);
+}
+
+/// The same for faces that have been boxed in another frame.
+Overlap_search::Part Overlap_search::box_faces_again(int side, const Part& part) {
+  std::vector<Corners> corners;
+  std::vector<std::uint32_t> indices;
+  for (const Rounded_box& box : std::span(stacks_[side].at(part.begin), part.count)) {
+    indices.push_back(box.index);
+    corners.push_back(faces_[side]->corners[box.index]);
+  }
+  const Part again = box_faces(side, corners);
+  for (std::size_t i = 0; i < again.count; ++i) stacks_[side].at(again.begin)[i].index = indices[i];
+  return again;
+}
+
+/// The box around faces as they are, not rounded.
+Box Overlap_search::box_around(int side, const Part& part) {
+  Box around;
+  for (const Rounded_box& box : std::span(stacks_[side].at(part.begin), part.count))
+    for (const double* corner : corners_of(*faces_[side], box.index)) around.extend(Eigen::Vector3d::Map(corner));
+  return around;
+}
+
+bool Overlap_search::is_narrow(const Rounded_box& box) const {
+  return box.side(0) < narrow_side_ && box.side(1) < narrow_side_ && box.side(2) < narrow_side_;
+}
+
+/// Goes on in a smaller frame: the boxes of two lists that have become narrow are rounded anew. Fine parts of a coarse
+/// surface would all have the same rounded box otherwise, and no list could be halved.
+/// @return whether the search is over; none: the frame would be hardly smaller
+std::optional<bool> Overlap_search::search_again(const Pair_of_parts& parts) {
+  const Box outer = frame_, inner = box_around(0, parts[0]).intersection(box_around(1, parts[1]));
+  if (inner.isEmpty()) return false;
+  if (!(half_side(inner) < least_gain * half_side(outer))) return std::nullopt;
+  round_in(inner);
+  Pair_of_parts again{box_faces_again(0, parts[0]), box_faces_again(1, parts[1])};
+  const bool over = search(again, {true, true});
+  round_in(outer);
+  return over;
 }
 
 /// Halves the longer list. Each half is compared with what it may meet of the other list.
@@ -133,6 +186,8 @@ bool Overlap_search::search(Pair_of_parts& parts, Sides to_cull) {
   while (cull(parts, to_cull)) {
     const int longer = parts[1].count > parts[0].count ? 1 : 0, other = 1 - longer;
     if (parts[longer].count <= most_faces_) return test(parts);
+    if (is_narrow(parts[longer].box))
+      if (const auto over = search_again(parts)) return *over;
     const std::size_t tops[]{stacks_[0].top(), stacks_[1].top()};
     Pair_of_parts halves;
     halves[longer] = take_half(longer, parts[longer]);

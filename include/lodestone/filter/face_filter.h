@@ -69,8 +69,14 @@ class Face_filter {
     kernel::Leaf_input input(std::uint32_t leaf);
   };
 
+  /// Two leaves that are too small to be rounded as the trees are.
+  struct Alone;
+
+  const kernel::Filter_request& round_alone(kernel::Leaf_input& a, kernel::Leaf_input& b);
+
   std::array<Side, 2> sides_;
   std::unique_ptr<kernel::Filter_request> request_;
+  std::unique_ptr<Alone> alone_;  ///< null before it is needed
   std::unique_ptr<Filter_scratch> scratch_;
   std::vector<Face_candidate> candidates_;
 };

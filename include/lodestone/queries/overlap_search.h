@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "lodestone/filter/face_group_filter.h"
@@ -67,7 +68,12 @@ class Overlap_search {
   void test_all(const Faces_in_box& a, const Faces_in_box& b);
   bool search_slice(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
   bool search_all(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
-  Part box_faces(int side, const Box& overlap, double scale);
+  void round_in(const Box& frame);
+  Part box_faces(int side, std::span<const Corners> corners);
+  Part box_faces_again(int side, const Part& part);
+  Box box_around(int side, const Part& part);
+  bool is_narrow(const Rounded_box& box) const;
+  std::optional<bool> search_again(const Pair_of_parts& parts);
   bool search(Pair_of_parts& parts, Sides to_cull);
   bool cull(Pair_of_parts& parts, Sides to_cull);
   Part copy_meeting(int side, const Part& from, const Rounded_box& other);
@@ -91,6 +97,8 @@ class Overlap_search {
   static constexpr std::size_t few_faces = 512;
 
   const Faces_in_box* faces_[2] = {};
+  Box frame_;              ///< boxes are rounded in it: what lies outside is moved to its sides
+  float narrow_side_ = 0;  ///< a rounded box whose sides are shorter is narrow
   Stack stacks_[2];
   std::vector<Corners> groups_[2];
   Face_group_filter* filter_ = nullptr;
