@@ -28,7 +28,7 @@ struct Parting {
 /// point of a meets no point of b. This holds for open surfaces as well.
 ///
 /// The clearance is the largest of those of all face pairs. It is computed along directions that suggest themselves:
-/// - the normals of the contact patches, and their sum;
+/// - the normals of the contact patches, beyond 64 only those that are not nearly along one before, and their sum;
 /// - the way between the centres of the boxes;
 /// - for surfaces that do not intersect, the way between the closest faces;
 /// - the axes and the diagonals between them.
@@ -40,8 +40,8 @@ struct Parting {
 /// some 10^-13 of the size of the objects, and 10^-15 of their distance from the origin; more where they graze each
 /// other along the translation. The answer depends neither on the trees nor on their volumes.
 ///
-/// Costs some dozens of searches over the two trees, and two for each contact patch, most of which end early, besides
-/// the search for all contacts.
+/// Costs some dozens of searches over the two trees, and two for each normal, most of which end early, besides the
+/// search for all contacts.
 /// @param surface_a, surface_b  that intersect, or one of which lies inside the other
 /// @param a, b                  of the two, with boxes
 /// @param contacts              all face pairs that intersect, sorted
