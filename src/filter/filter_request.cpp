@@ -20,8 +20,8 @@ double smaller_extent(const Aabb& a, const Aabb& b) {
   return std::min(smaller > 0 ? smaller : larger, std::numeric_limits<double>::max());
 }
 
-/// A leaf that spans so few steps is rounded anew for each leaf that it meets: reading two leaves again takes about as
-/// long as what coarser steps would leave.
+/// A leaf that spans fewer steps is rounded anew for each leaf that it meets: to read two leaves again takes about as
+/// long as to test the pairs that coarser steps would leave.
 constexpr double fewest_steps = 4;
 
 /// A float that is no less than a number, and no less than 0.

@@ -34,7 +34,7 @@ Triangle_corners corners_of(const Faces_in_box& faces, std::uint32_t index) {
 }
 
 /// A box is narrow when it is shorter than this share of the frame: eight of a float's 24 digits are left for its
-/// faces. With more of them left, more faces would be boxed again than the search has to halve.
+/// faces. A larger share would box more faces again than the search has to halve.
 constexpr double narrow_share = 0x1p-16;
 /// A frame that is not smaller by this is not worth a pass.
 constexpr double least_gain = 0x1p-8;
@@ -107,9 +107,8 @@ bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, co
   const bool few = std::max(a.faces.size(), b.faces.size()) <= few_faces;
   most_faces_ = one_is_enough_ && few ? small_group_faces : group_faces;
   most_leaf_tests_ = leaf_tests_ + most_partners * (2 + (a.faces.size() + b.faces.size()) / most_faces_);
-  for (Stack& stack : stacks_) stack.drop_to(0);
   round_in(overlap);
-  Pair_of_parts whole{box_faces(0, a.corners), box_faces(1, b.corners)};
+  Pair_of_parts whole{box_faces(0), box_faces(1)};
   return search(whole, {true, true});
 }
 
@@ -126,31 +125,35 @@ void Overlap_search::round_in(const Box& frame) {
   narrow_side_ = static_cast<float>(2 * half_side(frame) * scale_of(frame) * narrow_share);
 }
 
-/// Boxes faces on top of their stack; the indices of the boxes are those in the list of corners.
-Overlap_search::Part Overlap_search::box_faces(int side, std::span<const Corners> corners) {
+/// Boxes faces; the indices of the boxes are those in the list of corners.
+Rounded_box Overlap_search::box_at(int side, std::span<const Corners> corners, Rounded_box* boxes) const {
   kernel::Box_rounding rounding{.scale = scale_of(frame_), .origin = {}, .size = {}};
   for (int axis = 0; axis < 3; ++axis) {
     rounding.origin[axis] = frame_.min()[axis] * rounding.scale;
     rounding.size[axis] = frame_.max()[axis] * rounding.scale - rounding.origin[axis];
   }
-  Stack& stack = stacks_[side];
-  stack.reserve(3 * corners.size());  // halves and copies lie on top
-  const Rounded_box around = kernel::box_faces(faces_[side]->coordinates.data(), corners.data(), corners.size(),
-                                               rounding, stack.at(stack.top()));
-  return stack.push(corners.size(), around);
+  return kernel::box_faces(faces_[side]->coordinates.data(), corners.data(), corners.size(), rounding, boxes);
 }
 
-/// The same for faces that have been boxed in another frame.
-Overlap_search::Part Overlap_search::box_faces_again(int side, const Part& part) {
+Overlap_search::Part Overlap_search::box_faces(int side) {
+  const auto& corners = faces_[side]->corners;
+  Stack& stack = stacks_[side];
+  stack.drop_to(0);
+  stack.reserve(3 * corners.size());  // halves and copies lie on top
+  return stack.push(corners.size(), box_at(side, corners, stack.at(0)));
+}
+
+/// Boxes faces again, in place, after the frame has changed.
+void Overlap_search::box_again(int side, Part& part) {
+  const std::span boxes(stacks_[side].at(part.begin), part.count);
   std::vector<Corners> corners;
   std::vector<std::uint32_t> indices;
-  for (const Rounded_box& box : std::span(stacks_[side].at(part.begin), part.count)) {
+  for (const Rounded_box& box : boxes) {
     indices.push_back(box.index);
     corners.push_back(faces_[side]->corners[box.index]);
   }
-  const Part again = box_faces(side, corners);
-  for (std::size_t i = 0; i < again.count; ++i) stacks_[side].at(again.begin)[i].index = indices[i];
-  return again;
+  part.box = box_at(side, corners, boxes.data());
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].index = indices[i];
 }
 
 /// The box around faces as they are, not rounded.
@@ -168,13 +171,13 @@ bool Overlap_search::is_narrow(const Rounded_box& box) const {
 /// Goes on in a smaller frame: the boxes of two lists that have become narrow are rounded anew. Fine parts of a coarse
 /// surface would all have the same rounded box otherwise, and no list could be halved.
 /// @return whether the search is over; none: the frame would be hardly smaller
-std::optional<bool> Overlap_search::search_again(const Pair_of_parts& parts) {
+std::optional<bool> Overlap_search::search_again(Pair_of_parts& parts) {
   const Box outer = frame_, inner = box_around(0, parts[0]).intersection(box_around(1, parts[1]));
   if (inner.isEmpty()) return false;
   if (!(half_side(inner) < least_gain * half_side(outer))) return std::nullopt;
   round_in(inner);
-  Pair_of_parts again{box_faces_again(0, parts[0]), box_faces_again(1, parts[1])};
-  const bool over = search(again, {true, true});
+  for (const int side : {0, 1}) box_again(side, parts[side]);
+  const bool over = search(parts, {true, true});
   round_in(outer);
   return over;
 }

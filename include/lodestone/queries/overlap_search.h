@@ -69,11 +69,12 @@ class Overlap_search {
   bool search_slice(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
   bool search_all(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
   void round_in(const Box& frame);
-  Part box_faces(int side, std::span<const Corners> corners);
-  Part box_faces_again(int side, const Part& part);
+  Rounded_box box_at(int side, std::span<const Corners> corners, Rounded_box* boxes) const;
+  Part box_faces(int side);
+  void box_again(int side, Part& part);
   Box box_around(int side, const Part& part);
   bool is_narrow(const Rounded_box& box) const;
-  std::optional<bool> search_again(const Pair_of_parts& parts);
+  std::optional<bool> search_again(Pair_of_parts& parts);
   bool search(Pair_of_parts& parts, Sides to_cull);
   bool cull(Pair_of_parts& parts, Sides to_cull);
   Part copy_meeting(int side, const Part& from, const Rounded_box& other);
