@@ -132,6 +132,12 @@ std::vector<Corners> faces_of(const py::object& faces) {
   return corners;
 }
 
+std::vector<Corners> surface_of(const py::object& faces) {
+  auto corners = faces_of(faces);
+  if (corners.empty()) throw Bad_mesh("the mesh has no face");
+  return corners;
+}
+
 std::vector<std::uint32_t> indices_of(const py::object& indices, const std::string& name) {
   const auto array = array_from(indices);
   if (!array || array->ndim() != 1 || (array->size() > 0 && !has_integers(*array)))

@@ -53,6 +53,9 @@ class Live_vertices {
 /// Faces from an array of shape (F, 3) of integers.
 /// @throws Bad_mesh  another shape, no integers, a negative index or one of 2^32 or more
 std::vector<Corners> faces_of(const py::object& faces);
+/// The same of a surface, which has at least one.
+/// @throws Bad_mesh  also if there is none
+std::vector<Corners> surface_of(const py::object& faces);
 
 /// One index per vertex, from an array of shape (V,) of integers.
 /// @param name           of the argument, for the message

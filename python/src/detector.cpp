@@ -21,7 +21,7 @@ std::vector<Corners> faces_of_animation(const Python_animation& animation) {
 
 Python_object::Python_object(std::string name, const Given_mesh& mesh)
     : name_(std::move(name)),
-      faces_(faces_of(mesh.faces)),
+      faces_(surface_of(mesh.faces)),
       vertices_(std::make_unique<Live_vertices>(mesh.vertices)),
       mesh_(std::make_unique<Indexed_mesh>(vertices_->coordinates(), faces_)) {}
 
@@ -39,7 +39,7 @@ Python_object::Python_object(std::string name, std::shared_ptr<Python_animation>
 
 Python_object::Python_object(std::string name, std::shared_ptr<Python_skin> skin, const py::object& faces)
     : name_(std::move(name)),
-      faces_(faces_of(faces)),
+      faces_(surface_of(faces)),
       skin_(std::move(skin)),
       posed_(skin_->points().shape().rest().begin(), skin_->points().shape().rest().end()),
       mesh_(std::make_unique<Indexed_mesh>(Coordinates(posed_), faces_)) {}
@@ -228,7 +228,7 @@ void Python_detector::rebuild(Object_id object, const py::object& vertices, cons
                               const py::object& changed, const py::object& file_vertex) {
   const auto title = look([&](auto&) { return title_of(object); });
   auto given = naming_mesh(title, [&] { return std::make_unique<Live_vertices>(vertices); });
-  auto corners = naming_mesh(title, [&] { return faces_of(faces); });
+  auto corners = naming_mesh(title, [&] { return surface_of(faces); });
   std::vector<std::uint32_t> changed_faces, doubled;
   if (!changed.is_none()) changed_faces = naming_mesh(title, [&] { return indices_of(changed, "changed"); });
   if (!file_vertex.is_none()) doubled = naming_mesh(title, [&] { return indices_of(file_vertex, "file_vertex"); });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 #include "frame.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/version.h"
@@ -35,6 +37,22 @@ void add_errors(py::module_& module) {
   add.template operator()<Bad_output>("BadOutput", "A result that could not be written.", py::none());
 }
 
+/// Lets every class be reduced for `pickle`, or refused, in one way. Python's own way for protocols 0 and 1 makes an
+/// instance of the base of all classes of pybind11, which ends the process.
+void add_reduce(const py::module_& module) {
+  const py::object anew = py::module_::import("copyreg").attr("__newobj__");
+  const auto reduce = [anew](const py::object& self) {
+    const py::object type = py::type::of(self);
+    if (!py::hasattr(self, "__setstate__"))
+      throw py::type_error("cannot pickle '" + py::cast<std::string>(type.attr("__name__")) + "' object");
+    return py::make_tuple(anew, py::make_tuple(type), self.attr("__getstate__")());
+  };
+  const py::handle base(reinterpret_cast<PyObject*>(py::detail::get_internals().instance_base));
+  for (const auto& [name, value] : py::cast<py::dict>(module.attr("__dict__")))
+    if (py::isinstance<py::type>(value) && PyObject_IsSubclass(value.ptr(), base.ptr()) == 1)
+      value.attr("__reduce__") = py::cpp_function(reduce, py::is_method(value), py::name("__reduce__"));
+}
+
 }  // namespace
 
 }  // namespace lodestone::python
@@ -50,4 +68,5 @@ PYBIND11_MODULE(_lodestone, module) {
   add_one_call(module);
   add_files(module);
   add_pages(module);
+  add_reduce(module);
 }

@@ -15,7 +15,7 @@ namespace {
 struct Asked_mesh {
   Asked_mesh(const py::object& asked, const py::object& asked_faces, const std::string& name) try
       : given(given_mesh(asked, asked_faces, name)),
-        faces(faces_of(given.faces)),
+        faces(surface_of(given.faces)),
         vertices(given.vertices),
         mesh(vertices.coordinates(), faces) {
   } catch (const Bad_mesh& error) {

@@ -53,7 +53,8 @@ def assert_same_frames(one, other):
         assert_same_pairs(mine, yours)
 
 
-AGAIN = [lambda x: pickle.loads(pickle.dumps(x)), copy.copy, copy.deepcopy]
+PROTOCOLS = range(pickle.HIGHEST_PROTOCOL + 1)
+AGAIN = [lambda x, p=p: pickle.loads(pickle.dumps(x, protocol=p)) for p in PROTOCOLS] + [copy.copy, copy.deepcopy]
 
 
 @pytest.mark.parametrize("again", AGAIN)
@@ -86,6 +87,15 @@ def test_partitions_are_the_same():
     made = pickle.loads(pickle.dumps(partition))
     assert_same(partition, made, ["labels", "regions", "particles", "strategy", "measures"])
     assert repr(partition) == repr(made)
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_what_cannot_be_pickled_says_so(protocol):
+    for made in (lodestone.Detector(), lodestone.DisplacementPromise(), lodestone.StretchPromise(2)):
+        with pytest.raises(TypeError, match="cannot pickle|not picklable"):
+            pickle.dumps(made, protocol=protocol)
+        with pytest.raises(TypeError, match="cannot pickle|not picklable"):
+            made.__reduce__()
 
 
 def find(shift):
