@@ -52,7 +52,8 @@ Numbered_partition Particle_object::divide(const Positions& positions, std::size
   const auto& vertices = seams_->vertices;
   const Positions joined_positions = positions(vertices, Eigen::all);
   const Vertex_graph joined_graph = vertex_graph(static_cast<std::uint32_t>(vertices.size()), seams_->corners);
-  auto result = mesh_->partition({joined_graph, joined_positions, seams_->corners}, regions, options);
+  const Numbered_surface joined{joined_graph, joined_positions, seams_->corners, vertices, mesh_->vertex_count()};
+  auto result = mesh_->partition(joined, regions, options);
   std::vector<Region_index> labels;
   labels.reserve(seams_->index.size());
   for (const auto vertex : seams_->index) labels.push_back(result.labels[vertex]);
@@ -173,10 +174,9 @@ Leaf_neighbours& Particle_object::leaf_neighbours() {
   return neighbours_;
 }
 
-void Particle_object::read_regions(double reach) {
+void Particle_object::start_frame() {
   look();
   tree_.start_frame(read_);
-  regions_.read(tree_, reach);
 }
 
 bool Particle_object::move_particle(std::uint32_t vertex) {

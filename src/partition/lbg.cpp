@@ -72,11 +72,8 @@ Quantisation quantise(const Feature_vectors& vectors, std::size_t cells, const L
 }
 
 Labelling Lbg::label(const Numbered_surface& surface, std::size_t regions) const {
-  if (extra_factors.size() > 0 && extra_factors.rows() != surface.positions.rows())
-    throw Bad_argument("extra factors have " + std::to_string(extra_factors.rows()) + " rows for " +
-                       std::to_string(surface.positions.rows()) + " vertices");
   const Used_surface used(surface);
-  const Feature_vectors factors = used.picked_rows(extra_factors);
+  const Feature_vectors factors = used.picked_rows(surface.picked_rows(extra_factors));
   return label_used(used, regions, [&](const Numbered_surface& part, std::size_t wanted) -> Labelling {
     Feature_vectors vectors = feature_vectors(part.positions, part.faces, options.features);
     if (factors.size() > 0) {

@@ -27,7 +27,8 @@ Labelling Lbg_curvature::label(const Numbered_surface& surface, std::size_t regi
   if (!(options.curvature_weight >= 0 && options.curvature_weight <= largest_weight))
     throw Bad_argument("the weight of the curvature must be between 0 and 1e6");
   const Feature_vectors factor = options.curvature_weight * curvature_factor(surface, options.curvature);
-  return Lbg{.options = options.lbg, .extra_factors = factor}.label(surface, regions);
+  const Numbered_surface whole{surface.graph, surface.positions, surface.faces};  // the factor has its rows already
+  return Lbg{.options = options.lbg, .extra_factors = factor}.label(whole, regions);
 }
 
 }  // namespace lodestone

@@ -9,6 +9,15 @@
 
 namespace lodestone {
 
+Feature_vectors Numbered_surface::picked_rows(const Feature_vectors& all) const {
+  if (all.size() == 0) return all;
+  const auto vertices = mesh_vertices.empty() ? positions.rows() : static_cast<Eigen::Index>(mesh_vertex_count);
+  if (all.rows() != vertices)
+    throw Bad_argument("extra factors have " + std::to_string(all.rows()) + " rows for " + std::to_string(vertices) +
+                       " vertices: they are of one mesh, with a row for each of its vertices");
+  return mesh_vertices.empty() ? all : Feature_vectors(all(mesh_vertices, Eigen::all));
+}
+
 std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
                                           const std::vector<Region_index>& labels, std::size_t regions) {
   Feature_vectors means = Feature_vectors::Zero(static_cast<Eigen::Index>(regions), vectors.cols());

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <tuple>
 
 #include "lodestone/mesh/box.h"
 #include "lodestone/mesh/errors.h"
@@ -204,7 +205,8 @@ Partition_measures measure_partition(const Numbered_surface& surface, const Numb
   const Used_surface used(surface);
   const Numbered_partition partition = used_partition(used, whole_partition);
   check_regions(partition);
-  const auto [graph, original, faces] = used.surface();
+  const Numbered_surface part = used.surface();
+  const auto& [graph, original, faces] = std::tie(part.graph, part.positions, part.faces);
   const auto& labels = partition.labels;
   const Feature_vectors vectors = feature_vectors(original, faces);
   const Positions positions = vectors.leftCols<3>();  // scaled to radius 1

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "detection/detector_scenes.h"
@@ -99,6 +100,27 @@ TEST(Seams_of_an_object, stay_open_for_a_strategy_that_needs_the_mesh) {
   add_all(detector, scene);
   expect_true(detector.detect(), scene);
   EXPECT_EQ(detector.object(0).joined_vertices(), 0U);
+}
+
+TEST(Seams_of_an_object, have_the_factors_of_the_vertices_that_stand_for_others) {
+  Surface_mesh apart = flat_shaded(sphere(6)), whole = sharing(apart);
+  const auto detector_with_heights = [](Surface_mesh& mesh) {
+    const auto heights = mesh.add_property_map<Surface_mesh::Vertex_index, double>("v:height", 0).first;
+    for (const auto v : mesh.vertices()) heights[v] = mesh.point(v).z();
+    Detector<Lbg> detector({.mode = Mode::particles, .particles = 8}, Lbg{.extra_factors = factors(mesh, heights, 5)});
+    detector.add(mesh);
+    detector.detect();
+    return detector;
+  };
+  const auto closed = detector_with_heights(apart), expected = detector_with_heights(whole);
+  EXPECT_GT(closed.object(0).joined_vertices(), 0U);
+  std::map<Point, Region_index> regions;
+  for (const auto v : whole.vertices()) regions[whole.point(v)] = expected.regions(0)[v];
+  for (const auto v : apart.vertices()) EXPECT_EQ(closed.regions(0)[v], regions.at(apart.point(v)));
+  Surface_mesh smaller = sphere(3);
+  Detector<Lbg> of_another({.mode = Mode::particles}, Lbg{.extra_factors = Feature_vectors::Zero(7, 1)});
+  of_another.add(smaller);
+  EXPECT_THROW(of_another.detect(), Bad_argument);
 }
 
 TEST(Seams_of_an_object, scattered_particles_test_the_faces_on_all_sides_of_a_seam) {

@@ -43,6 +43,15 @@ bool move(Surface_mesh& /*cloth*/, Surface_mesh& body) {
   return ++moves % 6 != 0;
 }
 
+struct Lbg_with_curvature {
+  static constexpr std::string_view name = "lbg_with_curvature";
+  lodestone::Labelling operator()(const lodestone::Partition_input<lodestone::Surface_mesh>& input,
+                                  std::size_t regions) const {
+    const auto map = input.mesh.property_map<CGAL::SM_Vertex_index, double>("v:curvature").first;
+    return lodestone::Lbg{.extra_factors = lodestone::factors(input.mesh, map, 0.2)}(input, regions);
+  }
+};
+
 struct Slices {
   static constexpr std::string_view name = "slices";
   lodestone::Labelling operator()(const lodestone::Partition_input<lodestone::Surface_mesh>& input,
@@ -342,6 +351,12 @@ TEST_F(Snippets, of_the_partition_stage) {
   const auto curvature = mesh.add_property_map<Mesh::Vertex_index, double>("v:curvature", 1).first;
   const lodestone::Lbg strategy{.extra_factors = lodestone::factors(mesh, curvature, 0.2)};
   lodestone::partition(mesh, 32, regions, strategy);
+
+  for (Surface_mesh* other : {&mesh_a, &mesh_b})
+    other->add_property_map<CGAL::SM_Vertex_index, double>("v:curvature", 1);
+  lodestone::Detector<Lbg_with_curvature> detector({.mode = lodestone::Mode::particles}, {});
+  detector.add(mesh_a), detector.add(mesh_b);
+  EXPECT_TRUE(detector.detect().collides());
 }
 
 TEST_F(Snippets, of_a_strategy_of_ones_own) {

@@ -87,7 +87,9 @@ struct Lbg {
   static constexpr bool is_concurrent = true;      ///< see Partition_strategy
 
   Lbg_options options = {};            ///< of `quantise`, and the weights of position and normal
-  Feature_vectors extra_factors = {};  ///< V rows with any number of columns, from `factors()`; empty for none
+  /// V rows with any number of columns, from `factors()`; empty for none. They are of one mesh: for a detector of more,
+  /// write a strategy that makes them of each.
+  Feature_vectors extra_factors = {};
 
   /// See Partition_strategy.
   template <Triangle_mesh Mesh>

@@ -23,6 +23,13 @@ struct Numbered_surface {
   const Vertex_graph& graph;       ///< of its edges, V vertices
   const Positions& positions;      ///< V x 3
   std::span<const Corners> faces;  ///< F
+  /// If seams are closed: V, the vertex of the mesh that each stands for. Empty: they are those of the mesh.
+  std::span<const std::uint32_t> mesh_vertices = {};
+  std::size_t mesh_vertex_count = 0;  ///< of such a mesh
+
+  /// Picks the rows of the vertices out of those of all vertices of the mesh.
+  /// @throws Bad_argument  there is not one row per vertex of the mesh
+  Feature_vectors picked_rows(const Feature_vectors& all) const;
 };
 
 /// Input of a partition strategy: the mesh, its vertices and faces by index, and the current positions.
