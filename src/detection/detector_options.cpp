@@ -23,14 +23,16 @@ bool has_defaults_of_candidates(const Detector_options& options) {
 /// Modes without particles must not ignore silently what only particles have.
 bool has_defaults_of_particles(const Detector_options& options) {
   const Detector_options defaults;
-  return has_defaults_of_candidates(options) && options.growth == defaults.growth &&
-         options.close_seams == defaults.close_seams;
+  return has_defaults_of_candidates(options) && options.close_seams == defaults.close_seams;
+}
+
+bool has_defaults_of_openings(const Detector_options& options) {
+  const Detector_options defaults;
+  return options.opening_budget == defaults.opening_budget && options.opening_reach == defaults.opening_reach;
 }
 
 bool has_defaults_of_meetings(const Detector_options& options) {
-  const Detector_options defaults;
-  return options.meetings == defaults.meetings && options.opening_budget == defaults.opening_budget &&
-         options.opening_reach == defaults.opening_reach;
+  return options.meetings == Detector_options().meetings && has_defaults_of_openings(options);
 }
 
 bool has_defaults_of_exact(const Exact_options& exact) {
@@ -52,10 +54,12 @@ void check(const Detector_options& options) {
   require(options.mode != Mode::particles || options.meetings == 0 || has_defaults_of_candidates(options),
           "with meetings the collision distance, its measure and the choice of candidates have no effect: set meetings "
           "to 0");
+  require(options.mode != Mode::particles || options.meetings > 0 || has_defaults_of_openings(options),
+          "without meetings there are no openings: their budget and their reach have no effect");
   require(options.most_contacts > 0, "most_contacts must be at least 1");
-  require(options.contacts != Contact_query::yes_no ||
-              (!options.contact_points && !options.contact_normals && !exact.patches),
-          "contact points and normals need the contacts `first` or `all`, patches need `all`");
+  require(options.contacts != Contact_query::yes_no || (!options.contact_points && !options.contact_normals),
+          "contact points and normals need the contacts `first` or `all`");
+  require(options.contacts == Contact_query::all || !exact.patches, "contact patches need the contacts `all`");
   require(exact.tolerance >= 0 && std::isfinite(exact.tolerance), "the tolerance must be finite and >= 0");
   require(exact.self_tolerance >= 0 && std::isfinite(exact.self_tolerance),
           "the tolerance within one object must be finite and >= 0");
@@ -68,7 +72,9 @@ void check(const Detector_options& options) {
   require(options.mode == Mode::certified || !exact.throw_if_broken, "throw_if_broken needs the mode certified");
   require(!finds_all(options.mode) || has_defaults_of_particles(options),
           "the collision distance, its measure, the choice of candidates and open seams need the mode particles or "
-          "senin; the growth limit needs the mode particles");
+          "senin");
+  require(options.mode == Mode::particles || options.growth == Detector_options().growth,
+          "the growth limit needs the mode particles");
 }
 
 std::string title_of(std::uint32_t object, const Object_options& options) {

@@ -57,6 +57,10 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
       ->capture_default_str();
 }
 
+void add_keep_islands(CLI::App& app, Partition_options& options) {
+  app.add_flag("--keep-islands", options.keep_islands, "Do not repair regions that consist of several islands");
+}
+
 void add_format(CLI::App& app, std::string& format) {
   app.add_option("--format", format, "Format of the mesh on the standard input (-): off, obj, ply, stl, glb, md2, md3")
       ->check(one_word_of({"off", "obj", "ply", "stl", "glb", "md2", "md3"}))

@@ -41,6 +41,8 @@ std::string strategy_list();
 /// How surfaces are divided into regions.
 /// @param seed_of  what the seed is for
 void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* seed_of);
+/// Whether regions stay in several pieces.
+void add_keep_islands(CLI::App& app, Partition_options& options);
 /// The format of the mesh on the standard input.
 void add_format(CLI::App& app, std::string& format);
 /// How files are read.

@@ -198,6 +198,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   add_exact_options(app, command.options.exact);
   add_threads(app, command.options.exact.threads, "Maximum number of threads; 0: all of the machine");
   add_strategy_options(app, command.partition, "Seed, for random strategies and --mode senin");
+  add_keep_islands(app, command.options.partition);
   add_outputs(app, command);
   add_reading(app, command.reading);
   add_format(app, format);

@@ -68,6 +68,7 @@ inline void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
       {"--epsilon", {Mode::exact, Mode::certified, Mode::particles}},
       {"--lbg-tolerance", {Mode::exact, Mode::certified, Mode::particles}},
       {"--lbg-sample", {Mode::exact, Mode::certified, Mode::particles}},
+      {"--keep-islands", {Mode::exact, Mode::certified, Mode::particles}},
   };
   for (const auto& option : options) {
     if (detect.count(option.name) == 0 || std::ranges::find(option.modes, mode) != option.modes.end()) continue;

@@ -14,10 +14,10 @@
 
 namespace lodestone {
 
-/// Whether the user chose a strategy or one of its settings.
+/// Whether the user chose a strategy, or one of its settings, or how regions are repaired.
 inline bool chooses_strategy(const CLI::App& command) {
   const auto names = {"--strategy", "--seed",          "--normal-weight", "--split",
-                      "--epsilon",  "--lbg-tolerance", "--lbg-sample"};
+                      "--epsilon",  "--lbg-tolerance", "--lbg-sample",    "--keep-islands"};
   return std::ranges::any_of(names, [&](const char* name) { return command.count(name) > 0; });
 }
 

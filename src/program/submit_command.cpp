@@ -123,6 +123,7 @@ Ended_program run_to_end(std::vector<std::string> words, bool handles_signals = 
 }
 
 /// The number that an option of the command has, such as --threads; 1 if it is not there.
+/// @throws Bad_argument  it is 0
 std::size_t number_of(const std::vector<std::string>& words, const std::string& option) {
   std::size_t number = 1;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -142,6 +143,7 @@ void check(const Submit_command& command) {
     for (const std::string option : {"--out", "--shard"})
       if (word == option || word.starts_with(option + "="))
         throw Bad_argument(fmt::format("{} belongs to submit: give it before --", option));
+  for (const char* option : {"--threads", "--jobs"}) number_of(command.words, option);  // before the pilot
   if (!command.dry_run && !is_on_path("sbatch"))
     throw Bad_argument(
         "sbatch is not on the PATH: submit on a node of a Slurm cluster, or write the scripts with "

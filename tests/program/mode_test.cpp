@@ -181,6 +181,14 @@ TEST_F(Program_mode, options_of_other_strategies_are_refused) {
   expect_success(detect({"--normal-weight", "1", "--strategy", "kmeans++"}));
 }
 
+TEST_F(Program_mode, islands_are_kept_where_there_are_regions) {
+  expect_error(detect({"--mode", "senin", "--keep-islands"}), 2, "--keep-islands needs --mode exact");
+  for (const auto* mode : {"particles", "exact", "certified"}) {
+    expect_success(detect({"--mode", mode, "--keep-islands"}));
+    EXPECT_EQ(summary()["strategy"], "lbg") << mode;
+  }
+}
+
 TEST_F(Program_mode, threads_share_frames_whatever_the_strategy) {
   expect_success(detect({"--threads", "2", "--strategy", "grid", "--mode", "particles"}));
   expect_success(detect({"--threads", "2", "--strategy", "grid"}));

@@ -130,6 +130,8 @@ TEST_F(Submit, says_what_is_wrong_in_one_line) {
   expect_error(submit({"--dry-run"}, {"--shard=1/2"}), 2, "--shard belongs to submit");
   expect_error(submit({"--dry-run", "--minutes", "1", "--megabytes", "9"}, {"--threads", "0"}), 2,
                "takes a whole node");
+  expect_error(submit({"--dry-run"}, {"--threads", "0"}), 2, "--threads 0 takes a whole node");
+  EXPECT_FALSE(exists(out / "shards")) << "a pilot that is of no use";
   expect_error(run_program({"submit", "--slurm", "--out", out.string(), "--dry-run", "--", "info", scene}), 2,
                "only detect and experiment");
   expect_error(run_program({"submit", "--out", out.string(), "--", "detect", scene}), 2, "--slurm is required");
