@@ -200,7 +200,9 @@ std::vector<Threaded_work> works_on(Scene& crowd) {
   return {crowd_frame(crowd, "exact: yes or no", {.contacts = Contact_query::yes_no}),
           crowd_frame(crowd, "exact: all pairs", {}),
           crowd_frame(crowd, "exact: nearer than 0.02", {.exact = {.tolerance = 0.02}}),
-          crowd_frame(crowd, "exact: self-collision", {.exact = {.self_collision = true}})};
+          crowd_frame(crowd, "exact: self-collision", {.exact = {.self_collision = true}}),
+          crowd_frame(crowd, "particles: yes or no", {.mode = Mode::particles, .contacts = Contact_query::yes_no}),
+          crowd_frame(crowd, "particles: all pairs", {.mode = Mode::particles})};
 }
 
 }  // namespace lodestone

@@ -25,12 +25,11 @@ void Particle_detection::detect_by_meetings(const Collision_filter& filter) {
 
 void Particle_detection::search_near_objects() {
   try {
-    timed(frame_.seconds().confirmation, [&] {
-      for (auto& pair : met_pairs_) meeting_search_.look(pair, workers_);
-    });
+    timed(frame_.seconds().confirmation, [&] { meeting_search_.look(met_pairs_); });
     timed(frame_.seconds().relaxation, [&] { walk_undecided_particles(); });
     timed(frame_.seconds().confirmation, [&] {
-      for (auto& pair : met_pairs_) report(pair);
+      meeting_search_.follow_curves(met_pairs_);
+      for (const auto& pair : met_pairs_) report(pair);
     });
   } catch (const Bad_mesh&) {
     name_the_bad_object();
@@ -58,20 +57,35 @@ void Particle_detection::name_the_bad_object() {
 }
 
 void Particle_detection::find_near_objects(const Collision_filter& filter) {
-  ids_.clear();
-  for (Object_id o = 0; o < objects_.size(); ++o) {
-    if (!objects_[o]) continue;
-    Object& object = *objects_[o];
-    ids_.push_back(o);
-    reach_[o] = 0;
-    object.named([&] { object.particle_object.read_regions(options_.opening_reach); });
-    boxes_[o] = object.particle_object.regions().box();
-  }
+  read_regions();
   list_object_pairs(filter);
   met_pairs_.clear();
   for (const auto pair : object_candidates_)
     met_pairs_.push_back(
         {.ids = pair, .a = &objects_[pair.a]->particle_object, .b = &objects_[pair.b]->particle_object});
+}
+
+/// Reads where the regions of all objects are. What a mesh computes when it is read, only this thread may read.
+void Particle_detection::read_regions() {
+  constexpr std::size_t objects_per_task = 16;  // some ten microseconds
+  ids_.clear();
+  for (Object_id o = 0; o < objects_.size(); ++o) {
+    if (!objects_[o]) continue;
+    ids_.push_back(o);
+    reach_[o] = 0;
+    objects_[o]->named([&] { objects_[o]->particle_object.start_frame(); });
+  }
+  const auto read = [this](Object_id o, bool shared) {
+    auto& object = objects_[o]->particle_object;
+    if (object.positions().is_shared() != shared) return;
+    objects_[o]->named([&] { object.read_regions(options_.opening_reach); });
+    boxes_[o] = object.regions().box();
+  };
+  workers_.run((ids_.size() + objects_per_task - 1) / objects_per_task, [&](std::size_t task, std::size_t) {
+    const std::size_t first = task * objects_per_task, count = std::min(objects_per_task, ids_.size() - first);
+    for (const Object_id o : std::span(ids_).subspan(first, count)) read(o, true);
+  });
+  for (const Object_id o : ids_) read(o, false);
 }
 
 /// Where the budget has ended the openings, lets the particles walk whose regions may touch one of the other object;
@@ -98,7 +112,7 @@ void Particle_detection::walk_undecided_particles() {
 void Particle_detection::add_pulls(const Met_pair& pair) {
   opponents_[pair.ids.a].push_back(pair.ids.b);
   opponents_[pair.ids.b].push_back(pair.ids.a);
-  for (const auto& near : meeting_search_.near_regions(pair)) {
+  for (const auto& near : pair.near_regions()) {
     const Region_index a = pair.a->regions().region(near.a), b = pair.b->regions().region(near.b);
     pulls_[pair.ids.a].push_back({a, pair.ids.b, b});
     pulls_[pair.ids.b].push_back({b, pair.ids.a, a});
@@ -107,11 +121,12 @@ void Particle_detection::add_pulls(const Met_pair& pair) {
 
 void Particle_detection::report(const Met_pair& pair) {
   Pair_result result = frame_.start_pair(pair.ids);
-  result.collides = pair.seeds.count > 0;
+  result.collides = !pair.seeds().empty();
   result.unfinished = pair.out_of_budget && !meeting_search_.decided(pair);
-  result.candidates = pair.near.count > 0 ? pair.near.count : std::min<std::size_t>(pair.seeds.count, 1);
+  const std::size_t near = pair.near_regions().size();
+  result.candidates = near > 0 ? near : std::min<std::size_t>(pair.seeds().size(), 1);
   frame_.statistics().candidates += result.candidates;
-  meeting_search_.report(pair, frame_.face_pairs(), workers_);
+  meeting_search_.report(pair, frame_.face_pairs());
   if (options_.list_candidates) list_near_regions(pair);
   end_pair(result);
 }
@@ -123,21 +138,21 @@ void Particle_detection::list_near_regions(const Met_pair& pair) {
         {.a = pair.ids.a, .region_a = a, .b = pair.ids.b, .region_b = b, .distance = distance});
   };
   const std::size_t first = frame_.candidates().size();
-  for (const auto& near : meeting_search_.near_regions(pair))
+  for (const auto& near : pair.near_regions())
     list(pair.a->regions().region(near.a), pair.b->regions().region(near.b), near.distance);
   std::ranges::sort(std::span(frame_.candidates()).subspan(first), {}, [](const Candidate_regions& candidate) {
     return std::tuple(candidate.distance, candidate.region_a, candidate.region_b);
   });
-  if (pair.near.count > 0 || pair.seeds.count == 0) return;
-  const Meeting at = meeting_search_.seeds(pair).front().at;
+  if (!pair.near_regions().empty() || pair.seeds().empty()) return;
+  const Meeting at = pair.seeds().front().at;
   list(pair.a->labels()[at.a], pair.b->labels()[at.b], (pair.a->positions()(at.a) - pair.b->positions()(at.b)).norm());
 }
 
 /// Moves the particles of the regions in which particles met to the place where they did.
 void Particle_detection::move_to_meetings() {
   for (const auto& pair : met_pairs_) {
-    if (pair.seeds.count == 0) continue;
-    const Meeting at = meeting_search_.seeds(pair).front().at;
+    if (pair.seeds().empty()) continue;
+    const Meeting at = pair.seeds().front().at;
     for (const auto& [object, vertex] : {std::pair{pair.a, at.a}, std::pair{pair.b, at.b}}) {
       if (!object->move_particle(vertex)) continue;
       ++frame_.statistics().vertices_read;

@@ -80,9 +80,12 @@ class Particle_object {
   /// @throws Bad_mesh  a coordinate is not finite, or the number of vertices or faces has changed
   void read_particles();
 
-  /// Reads the anchors of the regions in this frame, after `prepare_meetings`.
-  /// @throws Bad_mesh  as `read_particles`
-  void read_regions(double reach);
+  /// Starts a frame: looks where the positions are, but reads none of them. After `prepare_meetings`.
+  /// @throws Bad_mesh  the number of vertices or faces has changed
+  void start_frame();
+  /// Reads the anchors of the regions in this frame, after `start_frame`.
+  /// @throws Bad_mesh  a coordinate is not finite
+  void read_regions(double reach) { regions_.read(tree_, reach); }
   /// Where the regions are, as of the last `read_regions`.
   const Region_anchors& regions() const { return regions_; }
   /// The surface, for particles that may walk anywhere, after `prepare_meetings`.
