@@ -26,13 +26,10 @@ bool has_defaults_of_particles(const Detector_options& options) {
   return has_defaults_of_candidates(options) && options.close_seams == defaults.close_seams;
 }
 
-bool has_defaults_of_openings(const Detector_options& options) {
-  const Detector_options defaults;
-  return options.opening_budget == defaults.opening_budget && options.opening_reach == defaults.opening_reach;
-}
-
 bool has_defaults_of_meetings(const Detector_options& options) {
-  return options.meetings == Detector_options().meetings && has_defaults_of_openings(options);
+  const Detector_options defaults;
+  return options.meetings == defaults.meetings && options.opening_budget == defaults.opening_budget &&
+         options.opening_reach == defaults.opening_reach;
 }
 
 bool has_defaults_of_exact(const Exact_options& exact) {
@@ -54,8 +51,6 @@ void check(const Detector_options& options) {
   require(options.mode != Mode::particles || options.meetings == 0 || has_defaults_of_candidates(options),
           "with meetings the collision distance, its measure and the choice of candidates have no effect: set meetings "
           "to 0");
-  require(options.mode != Mode::particles || options.meetings > 0 || has_defaults_of_openings(options),
-          "without meetings there are no openings: their budget and their reach have no effect");
   require(options.most_contacts > 0, "most_contacts must be at least 1");
   require(options.contacts != Contact_query::yes_no || (!options.contact_points && !options.contact_normals),
           "contact points and normals need the contacts `first` or `all`");

@@ -143,7 +143,7 @@ std::string title_of(std::uint32_t object, const Object_options& options);
 ///   looseness;
 /// - in other modes than `certified`: `throw_if_broken`;
 /// - in other modes than `particles`: meetings, openings and the growth limit;
-/// - with meetings: the collision distance, its measure and the choice of candidates; without them: openings;
+/// - with meetings: the collision distance, its measure and the choice of candidates;
 /// - with the contacts `yes_no`: contact points and normals; with other contacts than `all`: patches.
 /// @throws Bad_argument  an option out of its range, or another value than the default for one that has no effect
 void check(const Detector_options& options);
