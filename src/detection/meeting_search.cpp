@@ -2,6 +2,7 @@
 #include "lodestone/detection/meeting_search.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 namespace lodestone {
@@ -29,7 +30,7 @@ void Meeting_search::look(std::span<Met_pair> pairs) {
 }
 
 void Meeting_search::follow_curves(std::span<Met_pair> pairs) {
-  if (!wants_all()) return;
+  if (!wants_all() || !are_worth_sharing(pairs.size())) return;
   for_each(pairs, [](Pair_search& search, Met_pair& pair, Workers& workers) { search.follow_curves(pair, workers); });
 }
 
@@ -43,23 +44,27 @@ void Meeting_search::for_each(std::span<Met_pair> pairs, const Step& step) {
   }
 }
 
-/// Takes a step of each pair of a level. What a mesh computes when it is read, only this thread may read.
+/// Takes a step of each pair of a level. What a mesh computes when it is read, only this thread may read. Where a level
+/// has few pairs, the workers share the faces of each: one of the pairs may take longer than all others.
 template <class Step>
 void Meeting_search::share_level(std::span<const std::uint32_t> level, std::span<Met_pair> pairs, const Step& step) {
   shared_.clear();
   for (const std::uint32_t pair : level)
     if (pairs[pair].is_shared()) shared_.push_back(pair);
-  if (shared_.size() < 2) shared_.clear();  // its worker alone would wait for it
-  workers_.run(shared_.size(), [&](std::size_t i, std::size_t worker) {
+  const std::size_t fewest = wants_all() ? 4 : 8;
+  if (shared_.size() < std::max(fewest, 2 * workers_.count())) shared_.clear();
+  const auto step_of = [&](std::size_t i, std::size_t worker) {
     step(searches_[worker], pairs[shared_[i]], Workers::alone());
-  });
+  };
+  workers_.run(shared_.size(), std::cref(step_of));
   for (const std::uint32_t pair : level)
     if (shared_.empty() || !pairs[pair].is_shared()) step(searches_.front(), pairs[pair], workers_);
 }
 
-void Meeting_search::report(const Met_pair& pair, std::vector<Face_pair>& found) {
+void Meeting_search::report(Met_pair& pair, std::vector<Face_pair>& found) {
   if (pair.seeds().empty()) return;
   if (wants_all()) {
+    if (pair.followed_in == nullptr) searches_.front().follow_curves_alone(pair, workers_);
     found.insert(found.end(), pair.contacts().begin(), pair.contacts().end());
     remember_some(pair);
     if (pair.limited) remember_curves(pair);

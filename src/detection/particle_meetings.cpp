@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a Particle_detection does with meetings.
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -29,7 +30,7 @@ void Particle_detection::search_near_objects() {
     timed(frame_.seconds().relaxation, [&] { walk_undecided_particles(); });
     timed(frame_.seconds().confirmation, [&] {
       meeting_search_.follow_curves(met_pairs_);
-      for (const auto& pair : met_pairs_) report(pair);
+      for (auto& pair : met_pairs_) report(pair);
     });
   } catch (const Bad_mesh&) {
     name_the_bad_object();
@@ -57,7 +58,7 @@ void Particle_detection::name_the_bad_object() {
 }
 
 void Particle_detection::find_near_objects(const Collision_filter& filter) {
-  read_regions();
+  find_regions();
   list_object_pairs(filter);
   met_pairs_.clear();
   for (const auto pair : object_candidates_)
@@ -65,26 +66,41 @@ void Particle_detection::find_near_objects(const Collision_filter& filter) {
         {.ids = pair, .a = &objects_[pair.a]->particle_object, .b = &objects_[pair.b]->particle_object});
 }
 
-/// Reads where the regions of all objects are. What a mesh computes when it is read, only this thread may read.
-void Particle_detection::read_regions() {
-  constexpr std::size_t objects_per_task = 16;  // some ten microseconds
+void Particle_detection::find_regions() {
   ids_.clear();
   for (Object_id o = 0; o < objects_.size(); ++o) {
     if (!objects_[o]) continue;
     ids_.push_back(o);
     reach_[o] = 0;
-    objects_[o]->named([&] { objects_[o]->particle_object.start_frame(); });
   }
+  try {
+    read_regions();
+  } catch (const Bad_mesh&) {
+    // Of several objects that are broken the first is named.
+    for (const Object_id o : ids_)
+      objects_[o]->named([&] {
+        objects_[o]->particle_object.start_frame();
+        objects_[o]->particle_object.read_regions(options_.opening_reach);
+      });
+    throw;
+  }
+}
+
+/// Reads where the regions of all objects are. What a mesh computes when it is read, only this thread may read.
+void Particle_detection::read_regions() {
+  constexpr std::size_t objects_per_task = 16;  // some ten microseconds
+  for (const Object_id o : ids_) objects_[o]->named([&] { objects_[o]->particle_object.start_frame(); });
   const auto read = [this](Object_id o, bool shared) {
     auto& object = objects_[o]->particle_object;
     if (object.positions().is_shared() != shared) return;
     objects_[o]->named([&] { object.read_regions(options_.opening_reach); });
     boxes_[o] = object.regions().box();
   };
-  workers_.run((ids_.size() + objects_per_task - 1) / objects_per_task, [&](std::size_t task, std::size_t) {
+  const auto read_some = [&](std::size_t task, std::size_t) {
     const std::size_t first = task * objects_per_task, count = std::min(objects_per_task, ids_.size() - first);
     for (const Object_id o : std::span(ids_).subspan(first, count)) read(o, true);
-  });
+  };
+  workers_.run((ids_.size() + objects_per_task - 1) / objects_per_task, std::cref(read_some));
   for (const Object_id o : ids_) read(o, false);
 }
 
@@ -119,7 +135,7 @@ void Particle_detection::add_pulls(const Met_pair& pair) {
   }
 }
 
-void Particle_detection::report(const Met_pair& pair) {
+void Particle_detection::report(Met_pair& pair) {
   Pair_result result = frame_.start_pair(pair.ids);
   result.collides = !pair.seeds().empty();
   result.unfinished = pair.out_of_budget && !meeting_search_.decided(pair);

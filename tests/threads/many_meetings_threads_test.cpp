@@ -15,13 +15,15 @@
 namespace lodestone {
 namespace {
 
-/// Bodies in a grid, each of which meets its neighbours, and one through all of them.
-std::deque<Surface_mesh> grid_of_bodies() {
+/// 16 groups of four bodies, each of which meets the three others. So levels have 16 pairs or more: enough for several
+/// workers.
+std::deque<Surface_mesh> groups_of_bodies() {
   std::deque<Surface_mesh> owned;
-  for (int x = 0; x < 4; ++x)
-    for (int y = 0; y < 4; ++y)
-      for (int z = 0; z < 2; ++z) owned.push_back(sphere(5 + (x + y) % 3, 0.53, {1.0 * x, 1.0 * y, 1.0 * z}));
-  owned.push_back(sphere(20, 1.7, {1.5, 1.5, 0.5}));
+  for (int group = 0; group < 16; ++group)
+    for (int body = 0; body < 4; ++body) {
+      const double x = 4 * (group % 4) + 0.6 * (body & 1), y = 4 * (group / 4) + 0.6 * (body / 2);
+      owned.push_back(sphere(4 + (group + body) % 3, 0.5, {x, y, body == 3 ? 0.3 : 0}));
+    }
   return owned;
 }
 
@@ -41,10 +43,10 @@ struct Points_of_one_thread {
 };
 
 /// @param computed  every third object has positions that one thread alone may read
-std::vector<Frame> frames_of_grid(Detector_options options, std::size_t threads, bool computed = false) {
+std::vector<Frame> frames_of_groups(Detector_options options, std::size_t threads, bool computed = false) {
   options.mode = Mode::particles;
   options.exact.threads = threads;
-  auto owned = grid_of_bodies();
+  auto owned = groups_of_bodies();
   Detector<> detector(options);
   for (std::size_t i = 0; i < owned.size(); ++i) {
     if (computed && i % 3 == 0)
@@ -62,11 +64,11 @@ std::vector<Frame> frames_of_grid(Detector_options options, std::size_t threads,
 }
 
 void expect_the_same_meetings(const Detector_options& options, bool computed = false) {
-  const auto expected = frames_of_grid(options, 1, computed);
+  const auto expected = frames_of_groups(options, 1, computed);
   EXPECT_TRUE(expected.front().collides());
   EXPECT_GT(expected.front().pairs.size(), 60U);
   for (const std::size_t threads : {2, 5}) {
-    const auto found = frames_of_grid(options, threads, computed);
+    const auto found = frames_of_groups(options, threads, computed);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       expect_same_frame(found[i], expected[i]);
       EXPECT_EQ(found[i].statistics.vertices_read, expected[i].statistics.vertices_read);
@@ -82,7 +84,7 @@ TEST(Many_bodies_by_meetings, each_query_does_not_depend_on_threads) {
 
 /// The budget of a pair depends on what earlier pairs have read.
 TEST(Many_bodies_by_meetings, searches_that_the_budget_ends_do_not_depend_on_threads) {
-  for (const std::size_t budget : {0, 40, 200})
+  for (const std::size_t budget : {0U, 40U, 200U})
     for (const auto query : all_queries)
       expect_the_same_meetings({.opening_budget = budget, .contacts = query, .contact_points = query == Contact_query::all});
 }
@@ -94,7 +96,7 @@ TEST(Many_bodies_by_meetings, positions_that_are_computed_are_read_by_one_thread
 TEST(Many_bodies_by_meetings, the_error_of_a_frame_does_not_depend_on_threads) {
   std::vector<std::string> messages;
   for (const std::size_t threads : {1, 2, 5}) {
-    auto owned = grid_of_bodies();
+    auto owned = groups_of_bodies();
     Detector<> detector({.mode = Mode::particles, .exact = {.threads = threads}});
     for (const auto& mesh : owned) detector.add(std::as_const(mesh));
     const Frame before = detector.detect();

@@ -45,12 +45,13 @@ class Meeting_search {
   void look(std::span<Met_pair> pairs);
   /// Lets the particles of near regions of a pair meet: see `Pair_search::meet_nearest`.
   void meet_nearest(Met_pair& pair) { searches_.front().meet_nearest(pair); }
-  /// With the query `all`, lists the contacts on the curves through the seeds of each pair.
+  /// With the query `all`, lists the contacts on the curves through the seeds of each pair, if the pairs are shared.
+  /// Otherwise `report` does, pair by pair: it takes less memory.
   /// @param pairs  those that were given to `look`
   void follow_curves(std::span<Met_pair> pairs);
   /// Appends the contacts that answer the query to `found`, and remembers where they are for the next frame. The pairs
   /// of a frame must come in ascending order.
-  void report(const Met_pair& pair, std::vector<Face_pair>& found);
+  void report(Met_pair& pair, std::vector<Face_pair>& found);
 
   /// Whether the answer for a pair is known.
   bool decided(const Met_pair& pair) const { return searches_.front().decided(pair); }

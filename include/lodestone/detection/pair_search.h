@@ -103,6 +103,11 @@ class Pair_search {
   /// Lists the contacts on the curves through the seeds, if there are any. Any search may have looked at the pair. The
   /// workers share tests of faces.
   void follow_curves(Met_pair& pair, Workers& workers);
+  /// The same, but forgets the contacts of all pairs before.
+  void follow_curves_alone(Met_pair& pair, Workers& workers) {
+    lists_.contacts.clear();
+    follow_curves(pair, workers);
+  }
 
   /// Whether the answer for a pair is known.
   bool decided(const Met_pair& pair) const { return pair.seed_entries.count > 0 && !wants_all(); }

@@ -26,8 +26,7 @@ namespace lodestone {
 /// position per region, and those around the places where objects may touch. `update` reads a few vertices per region,
 /// and all of a region that seems to have grown. After the first frame memory is allocated only where a result is
 /// larger than any before, for such a region, and for repartitions; in mode `senin` also for the faces around a
-/// particle that has moved. An object with a single particle is felt by others, and feels them, within
-/// its diameter.
+/// particle that has moved. An object with a single particle is felt by others, and feels them, within its diameter.
 class Particle_detection final : public Detection {
  public:
   /// What a refusal tells a user who asks another mode for this one's answers.
@@ -107,13 +106,14 @@ class Particle_detection final : public Detection {
   void walk();
   void check(Object_pair pair);
   void find_near_objects(const Collision_filter& filter);
+  void find_regions();
   void read_regions();
   void search_near_objects();
   void detect_as_published(const Collision_filter& filter);
   void detect_by_meetings(const Collision_filter& filter);
   void walk_undecided_particles();
   void add_pulls(const Met_pair& pair);
-  void report(const Met_pair& pair);
+  void report(Met_pair& pair);
   void list_near_regions(const Met_pair& pair);
   void move_to_meetings();
   void add_counts();
