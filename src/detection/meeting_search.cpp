@@ -51,7 +51,7 @@ void Meeting_search::share_level(std::span<const std::uint32_t> level, std::span
   shared_.clear();
   for (const std::uint32_t pair : level)
     if (pairs[pair].is_shared()) shared_.push_back(pair);
-  const std::size_t fewest = wants_all() ? 4 : 8;
+  const std::size_t fewest = wants_all() ? 8 : 16;
   if (shared_.size() < std::max(fewest, 2 * workers_.count())) shared_.clear();
   const auto step_of = [&](std::size_t i, std::size_t worker) {
     step(searches_[worker], pairs[shared_[i]], Workers::alone());
