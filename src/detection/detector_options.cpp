@@ -52,9 +52,9 @@ void check(const Detector_options& options) {
           "with meetings the collision distance, its measure and the choice of candidates have no effect: set meetings "
           "to 0");
   require(options.most_contacts > 0, "most_contacts must be at least 1");
-  require(options.contacts != Contact_query::yes_no || (!options.contact_points && !options.contact_normals),
-          "contact points and normals need the contacts `first` or `all`");
-  require(options.contacts == Contact_query::all || !exact.patches, "contact patches need the contacts `all`");
+  require(options.contacts != Contact_query::yes_no ||
+              (!options.contact_points && !options.contact_normals && !exact.patches),
+          "contact points and normals need the contacts `first` or `all`, patches need `all`");
   require(exact.tolerance >= 0 && std::isfinite(exact.tolerance), "the tolerance must be finite and >= 0");
   require(exact.self_tolerance >= 0 && std::isfinite(exact.self_tolerance),
           "the tolerance within one object must be finite and >= 0");

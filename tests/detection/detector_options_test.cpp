@@ -50,8 +50,7 @@ TEST(Detector_options, contact_points_need_contacts) {
 TEST(Detector_options, without_effect_are_refused) {
   EXPECT_THROW(Detector<>({.mode = Mode::senin, .growth = 2}), Bad_argument);
   EXPECT_NO_THROW(Detector<>({.mode = Mode::particles, .opening_budget = 9, .opening_reach = 2, .growth = 2}));
-  for (const auto contacts : {Contact_query::yes_no, Contact_query::first})
-    EXPECT_THROW(Detector<>({.contacts = contacts, .exact = {.patches = true}}), Bad_argument);
+  EXPECT_THROW(Detector<>({.contacts = Contact_query::yes_no, .exact = {.patches = true}}), Bad_argument);
 }
 
 TEST(Detector, an_unknown_object_has_neither_state_nor_maps) {
