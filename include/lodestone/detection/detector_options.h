@@ -50,7 +50,7 @@ struct Exact_options {
   bool containment = false;     ///< also tell objects that lie inside others
   bool parting = false;         ///< also give a translation that parts two objects which collide, or of which one lies
                                 ///< inside the other; tells containment too
-  bool patches = false;         ///< also group the contacts of a pair into contact patches; with all alone
+  bool patches = false;         ///< also group the contacts of a pair into contact patches; not with yes_no
   std::size_t threads = 1;      ///< all modes: at most so many; 0: as many as the machine has. Results do not depend on
                                 ///< it. For builds and for frames; LBG has its own option
   bool throw_if_broken = false;   ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass;
@@ -144,7 +144,7 @@ std::string title_of(std::uint32_t object, const Object_options& options);
 /// - in other modes than `certified`: `throw_if_broken`;
 /// - in other modes than `particles`: meetings, openings and the growth limit;
 /// - with meetings: the collision distance, its measure and the choice of candidates;
-/// - with the contacts `yes_no`: contact points and normals; with other contacts than `all`: patches.
+/// - with the contacts `yes_no`: contact points, normals and patches.
 /// @throws Bad_argument  an option out of its range, or another value than the default for one that has no effect
 void check(const Detector_options& options);
 
