@@ -14,19 +14,13 @@
 #include "lodestone/queries/contact_patches.h"
 #include "lodestone/queries/surface_triangle.h"
 #include "queries/clearance_search.h"
+#include "queries/distinct_directions.h"
 
 namespace lodestone {
 
 namespace {
 
-/// Whether a unit vector is nearly along one of others, either way.
-bool is_along_one(const Eigen::Vector3d& vector, std::span<const Eigen::Vector3d> others) {
-  constexpr double least_cosine = 0.995;  // a tenth of a radian: `turn` begins with 0.4 and ends with 0.025
-  return std::ranges::any_of(others, [&](const auto& other) { return std::abs(vector.dot(other)) > least_cosine; });
-}
-
-/// The normal of all contacts together, then those of the contact patches. Of thousands of patches, as of two rough
-/// sheets, most have normals that differ little: after the first of them only those that lead elsewhere.
+/// The normal of all contacts together, then those of the contact patches.
 std::vector<Eigen::Vector3d> normals_between(const Object_surface& a, const Object_surface& b,
                                              std::span<const Face_pair> contacts, Workers& workers) {
   constexpr std::size_t per_task = 256;
@@ -40,14 +34,14 @@ std::vector<Eigen::Vector3d> normals_between(const Object_surface& a, const Obje
     triangle_intersections(faces, std::span(points).subspan(first, count));
     contact_normals(faces, std::span(normals).subspan(first, count));
   });
-  constexpr std::size_t few_normals = 64;
-  std::vector<Eigen::Vector3d> directions{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> of_patches;
   for (const Contact_patch& patch : contact_patches(a, b, {contacts, points, normals}, 0, workers)) {
-    directions.front() += static_cast<double>(patch.contacts.size()) * patch.normal;
-    if (patch.normal.isZero()) continue;
-    if (directions.size() <= few_normals || !is_along_one(patch.normal, std::span(directions).subspan(1)))
-      directions.push_back(patch.normal);
+    sum += static_cast<double>(patch.contacts.size()) * patch.normal;
+    of_patches.push_back(patch.normal);
   }
+  std::vector<Eigen::Vector3d> directions = distinct_directions(of_patches);
+  directions.insert(directions.begin(), sum);
   return directions;
 }
 

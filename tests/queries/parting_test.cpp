@@ -142,17 +142,6 @@ TEST(Parting, of_a_sheet_through_a_sphere_leads_it_out) {
   expect_parted_length(ball, wavy);
 }
 
-/// 144 bumps pass through a plate, each with a contact patch of its own.
-TEST(Parting, of_a_plate_with_many_bumps_lifts_them_all_out) {
-  Face_soup bumps(cloth(96, 96)), plate(cloth(1, 1));
-  deform(bumps, [](const Point& p) {
-    const double x = 12 * std::numbers::pi * p.x(), y = 12 * std::numbers::pi * p.y();
-    return Point(12 * p.x() + 0.3 * p.y(), 12 * p.y(), 0.2 * std::pow(std::sin(x) * std::sin(y), 2));
-  });
-  deform(plate, [](const Point& p) { return Point(16 * p.x() - 2, 16 * p.y() - 2, 0.15); });
-  EXPECT_NEAR(expect_parted_length(bumps, plate), 0.05, 0.005);
-}
-
 TEST(Parting, scales_with_powers_of_two) {
   const Face_soup a(potato(5)), b = moved(Face_soup(torus_knot({.segments = 40, .sides = 6})), 0.7, 0.2, 0.1);
   const Parting found = expect_parted(a, b);
