@@ -44,6 +44,19 @@ inline CLI::Validator finite_number(double least, double most, const std::string
           range};
 }
 
+/// Accepts a number above 0.
+inline CLI::Validator number_above_0(bool may_be_infinite) {
+  const std::string range = may_be_infinite ? "a number above 0" : "a finite number above 0";
+  return {[may_be_infinite, range](const std::string& text) {
+            char* end = nullptr;
+            const double number = std::strtod(text.c_str(), &end);
+            const bool is_accepted =
+                !text.empty() && *end == 0 && number > 0 && (may_be_infinite || std::isfinite(number));
+            return is_accepted ? std::string() : fmt::format("not {}: {}", range, text);
+          },
+          "above 0"};
+}
+
 /// Whole numbers are decimal: CLI11 reads 010 as 8, and takes the nearest number for one that is too large.
 inline CLI::Validator decimal() {
   return {[](const std::string& text) -> std::string {

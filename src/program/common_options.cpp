@@ -48,8 +48,11 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
       ->transform(one_of<Split>({{"principal_axis", Split::principal_axis}, {"multiplicative", Split::multiplicative}}))
       ->type_name("RULE")
       ->default_str("principal_axis");
-  app.add_option("--epsilon", options.split, "e of the split (1 + e)C, (1 - e)C")->capture_default_str();
+  app.add_option("--epsilon", options.split, "e of the split (1 + e)C, (1 - e)C")
+      ->check(number_above_0(false))
+      ->capture_default_str();
   app.add_option("--lbg-tolerance", options.tolerance, "LBG: relative drop of the distortion at which iterations stop")
+      ->check(number_above_0(true))
       ->capture_default_str();
   app.add_option("--lbg-sample", options.sample,
                  "LBG: maximum number of vertices to train on, but at least 128 per region; 0: all")

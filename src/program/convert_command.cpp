@@ -43,10 +43,12 @@ Animation read_input(const Convert_command& command) {
                         {.mesh = command.mesh, .frames_per_second = rate, .limits = command.reading.limits});
 }
 
-Animation edited(Animation animation, const Convert_command& command) {
+Animation edited(Animation animation, const Convert_command& command) try {
   if (command.weld) animation = welded(std::move(animation), *command.weld);
   animation = subdivided(std::move(animation), command.subdivisions);
   return command.scale == 1 ? animation : scaled(std::move(animation), command.scale);
+} catch (const Bad_argument& error) {
+  throw Bad_argument(fmt::format("{}: {}", command.input.string(), error.what()));
 }
 
 /// Frames are read while others are written, so the output must not replace a file of the input.

@@ -49,7 +49,8 @@ void add_inputs(CLI::App& app, Detect_command& command) {
          "pattern such as 'cloth_*.obj', MESH+CACHE with .pc2 or .mdd, SCENE.json#OBJECT, shape:teapot); one with "
          "--self, --components or --parts; - is the standard input")
       ->required()
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(not_empty());
   app.add_flag("--parts", command.parts,
                "Each part that a file names is an object of its own: an object of an OBJ file, a node of a glTF file");
   app.add_flag("--components", command.components,
@@ -113,10 +114,12 @@ void add_particle_options(CLI::App& app, Detector_options& options) {
   app.add_option("--opening-reach", options.opening_reach,
                  "Mode particles, with meetings: parts of surfaces farther apart than this multiple of their radii are "
                  "not looked at")
+      ->check(number_above_0(false))
       ->capture_default_str();
   app.add_option("--collision-distance", options.collision_distance,
                  "Mode senin, or particles with --meetings 0: particles nearer than this make their regions a "
                  "candidate; in mean edge lengths")
+      ->check(number_above_0(false))
       ->capture_default_str();
   app.add_option("--candidates", options.candidates,
                  "Mode senin, or particles with --meetings 0: which of these candidates to check: all, closest")
@@ -126,6 +129,7 @@ void add_particle_options(CLI::App& app, Detector_options& options) {
   app.add_option(
          "--growth", options.growth,
          "Mode particles: repartition when a region exceeds this multiple of the largest initial area; inf: never")
+      ->check(number_above_0(true))
       ->capture_default_str();
   app.add_flag_callback(
       "--open-seams", [&options] { options.close_seams = false; },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,10 +24,11 @@ namespace {
 void add_partition(CLI::App& program, Partition_command& command, std::string& format) {
   auto& app = *program.add_subcommand("partition", "Divide a mesh into regions");
   app.add_option("MESH", command.mesh,
-                 "Mesh (.off .obj .ply .stl .gltf .glb .md2 .md3), SCENE.json#OBJECT, shape:teapot; - is the standard "
-                 "input")
+                 "Mesh (.off .obj .ply .stl .gltf .glb .md2 .md3), MESH+CACHE with .pc2 or .mdd, SCENE.json#OBJECT, "
+                 "shape:teapot; of an animation the first frame; - is the standard input")
       ->required()
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(not_empty());
   app.add_option("--regions", command.regions, "Number of regions")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->capture_default_str();
@@ -47,10 +49,11 @@ void add_partition(CLI::App& program, Partition_command& command, std::string& f
 void add_info(CLI::App& program, Info_command& command, std::string& format) {
   auto& app = *program.add_subcommand("info", "Report the contents of a file, and possible problems");
   app.add_option("FILE", command.file,
-                 "Mesh, pattern such as 'cloth_*.obj', point cache (.pc2 .mdd), glTF, scene, SCENE.json#OBJECT, "
-                 "shape:teapot; - is the standard input")
+                 "Mesh, pattern such as 'cloth_*.obj', point cache (.pc2 .mdd), MESH+CACHE, glTF, scene, "
+                 "SCENE.json#OBJECT, shape:teapot; - is the standard input")
       ->required()
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(not_empty());
   app.add_option("--mesh", command.mesh, "The mesh that a point cache moves")->type_name("FILE")->check(not_empty());
   app.add_flag("--json", command.json, "Print JSON");
   add_reading(app, command.reading);
@@ -60,10 +63,11 @@ void add_info(CLI::App& program, Info_command& command, std::string& format) {
 void add_convert(CLI::App& program, Convert_command& command, std::string& format) {
   auto& app = *program.add_subcommand("convert", "Convert between formats of meshes and animations");
   app.add_option("IN", command.input,
-                 "Mesh, pattern such as 'cloth_*.obj', point cache (.pc2 .mdd), glTF, SCENE.json#OBJECT, shape:teapot; "
-                 "- is the standard input")
+                 "Mesh, pattern such as 'cloth_*.obj', point cache (.pc2 .mdd), MESH+CACHE, glTF, SCENE.json#OBJECT, "
+                 "shape:teapot; - is the standard input")
       ->required()
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(not_empty());
   app.add_option("OUT", command.output, "Point cache, glTF (.gltf .glb), mesh or pattern such as 'out/cloth_####.ply'")
       ->required()
       ->type_name("FILE")
@@ -80,10 +84,13 @@ void add_convert(CLI::App& program, Convert_command& command, std::string& forma
   app.add_flag_callback(
       "--triangulate", [] {}, "Cut faces of more than three corners into triangles; done whether given or not");
   app.add_option("--weld", command.weld, "Merge vertices that are at most so far apart in the first frame")
-      ->type_name("DISTANCE");
+      ->type_name("DISTANCE")
+      ->check(finite_number(0, std::numeric_limits<double>::max(), "0 or more"));
   app.add_option("--subdivide", command.subdivisions, "Cut every triangle into four, so many times")
       ->check(CLI::Range(std::size_t{0}, std::size_t{12}));
-  app.add_option("--scale", command.scale, "Multiply all coordinates")->type_name("FACTOR");
+  app.add_option("--scale", command.scale, "Multiply all coordinates")
+      ->type_name("FACTOR")
+      ->check(number_above_0(false));
   app.add_flag("--quiet", command.quiet, "No progress bar, no report");
   add_reading(app, command.reading);
   add_format(app, format);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "io/results/page_frame.h"
-#include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/region_maps.h"
 
 namespace lodestone {
@@ -147,13 +146,17 @@ void Paraview_log::add(std::size_t frame, const Scene& scene, const Scene_detect
 
 void Paraview_log::write(Series& series, std::size_t frame, const Vtp_data& data) {
   const auto name = fmt::format("frames/{}_{:0{}}.vtp", series.name, frame, digits_);
-  write_vtp(files_.add(name), data);
+  Atomic_file file = files_.open(name);
+  write_vtp(file, data);
   series.steps.push_back({static_cast<double>(frame), name});
 }
 
 void Paraview_log::finish() {
-  for (const Series* series : {&meshes_, &particles_, &contacts_})
-    write_whole(files_.add(std::string(series->name) + ".pvd"), pvd_text(series->steps));
+  for (const Series* series : {&meshes_, &particles_, &contacts_}) {
+    Atomic_file file = files_.open(std::string(series->name) + ".pvd");
+    file.write(pvd_text(series->steps));
+    file.commit();
+  }
 }
 
 }  // namespace lodestone

@@ -144,9 +144,10 @@ void check_input_is_kept(const Partition_command& command, const std::vector<std
         throw Bad_argument(result->string() + ": is a file of the mesh that is read, which is never overwritten");
 }
 
-/// A mesh, or an object of a scene in its first frame, or a shape.
+/// A mesh, a mesh or an object of a scene in its first frame, or a shape.
 Mesh_file read_input(const Partition_command& command) {
   auto object = named_object(command.mesh, command.reading);
+  if (mesh_and_cache(command.mesh)) object = read_object("", command.mesh, command.reading.limits);
   if (!object) {
     auto file = read_mesh(command.mesh, command.reading.limits);
     check_input_is_kept(command, file.files);

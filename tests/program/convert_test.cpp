@@ -154,6 +154,20 @@ TEST_F(Convert, refuses_contradictory_arguments) {
   EXPECT_FALSE(exists(folder.path() / "a.glb"));
 }
 
+TEST_F(Convert, refusals_of_edits_name_the_option_or_the_input) {
+  const std::vector<std::vector<std::string>> wrong{{"--weld", "nan"},  {"--weld", "-1"},   {"--weld", "inf"},
+                                                    {"--scale", "nan"}, {"--scale", "0"},   {"--scale", "-1"},
+                                                    {"--scale", "inf"}, {"--scale", "half"}};
+  for (const auto& edit : wrong) {
+    SCOPED_TRACE(edit[0] + " " + edit[1]);
+    expect_error(run_program({"convert", path("f1.off"), path("a.off"), edit[0], edit[1]}), 2, edit[0] + ": ");
+  }
+  expect_error(run_program({"convert", path("f1.off"), path("a.off"), "--weld", "1000"}), 2,
+               path("f1.off") + ": welding leaves no face");
+  expect_error(run_program({"convert", "", path("a.off")}), 2, "IN: expected a name");
+  EXPECT_FALSE(exists(folder.path() / "a.off"));
+}
+
 TEST_F(Convert, an_error_in_a_later_frame_leaves_no_result) {
   folder.write("f8.off", "OFF\n");
   for (const auto* name : {"out/a.pc2", "out/a.mdd", "out/a.glb", "out/a.gltf", "out/a#.obj"})

@@ -354,7 +354,7 @@ TEST_F(Hostile_input, an_invalid_distance_is_refused) {
       arguments.insert(arguments.end(), method.begin(), method.end());
       arguments.emplace_back(value);
       const auto result = run_program(detect_by_particles(arguments));
-      expect_error(result, 2, "");
+      expect_error(result, 2, method.back() + ": ");
       EXPECT_LT(result.err.size(), 150U) << result.err;
       EXPECT_EQ(content_of(out), std::set<std::string>{});
     }

@@ -72,6 +72,21 @@ TEST_F(Program_output, a_partition_on_a_full_disk_leaves_nothing) {
   EXPECT_EQ(content_of(out), std::set<std::string>{});
 }
 
+TEST_F(Program_output, the_error_of_a_full_disk_names_the_file_that_was_asked_for) {
+  const auto mesh = (folder.path() / "a.off").string();
+  for (const auto* name : {"b.off", "b.ply", "b.gltf", "b.glb", "b.pc2", "b_#.obj"}) {
+    SCOPED_TRACE(name);
+    const auto target = name == std::string("b.gltf") ? "b.bin" : name == std::string("b_#.obj") ? "b_0.obj" : name;
+    expect_error(
+        run_program({"convert", mesh, (out / name).string(), "--subdivide", "2", "--quiet"}, {.largest_file = 100}), 4,
+        (out / target).string() + ": cannot be written: ");
+    EXPECT_EQ(content_of(out), std::set<std::string>{});
+  }
+  const auto in_pictures = run_program({"detect", scene(2), "--paraview", out.string()}, {.largest_file = 100});
+  expect_error(in_pictures, 4, (out / "frames").string() + "/");
+  EXPECT_EQ(in_pictures.err.find(".new."), std::string::npos) << in_pictures.err;
+}
+
 TEST_F(Program_output, old_results_survive_a_full_disk) {
   leave_old_results();
   expect_error(

@@ -26,7 +26,8 @@ void check_replaceable(const std::filesystem::path& target) {
     throw Bad_output(target.string() + ": is no regular file, which alone is replaced");
 }
 
-Atomic_file::Atomic_file(std::filesystem::path target) : target_(std::move(target)) {
+Atomic_file::Atomic_file(std::filesystem::path target, std::filesystem::path name)
+    : target_(std::move(target)), name_(std::move(name)) {
   check_replaceable(target_);
   if (target_.has_parent_path()) made_folders_.emplace(target_.parent_path());
   // O_EXCL: never opens an existing file or link, which another user may have put there.
@@ -75,7 +76,7 @@ void Atomic_file::commit() {
 }
 
 void Atomic_file::fail(const char* action) const {
-  throw Bad_output(target_.string() + ": " + action + ": " + std::strerror(errno));
+  throw Bad_output(name_.string() + ": " + action + ": " + std::strerror(errno));
 }
 
 void write_whole(const std::filesystem::path& target, std::string_view bytes) {

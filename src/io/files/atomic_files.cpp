@@ -6,7 +6,6 @@
 #include <string>
 #include <system_error>
 
-#include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -29,10 +28,10 @@ Atomic_files::~Atomic_files() {
   fs::remove_all(hidden_, ignored);
 }
 
-fs::path Atomic_files::add(const fs::path& name) {
+Atomic_file Atomic_files::open(const fs::path& name) {
   check_replaceable(folder_ / name);
   names_.push_back(name);
-  return hidden_ / name;
+  return {hidden_ / name, folder_ / name};
 }
 
 void Atomic_files::commit() {

@@ -164,7 +164,7 @@ void write_meshes(const fs::path& output, const std::string& extension, Animatio
   Atomic_files files(output.parent_path());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::string bytes = mesh_bytes(extension, frames, i, faces);
-    Atomic_file out(files.add((numbered ? numbered_file(output, i) : output).filename()));
+    Atomic_file out = files.open((numbered ? numbered_file(output, i) : output).filename());
     out.write(bytes);
     out.commit();
   }

@@ -242,10 +242,10 @@ std::string in_uri(const std::string& name) {
 void write_gltf_and_bin(const fs::path& output, Gltf_writer& writer) {
   Atomic_files files(output.parent_path());
   const auto buffer = output.filename().replace_extension(".bin");
-  Atomic_file bytes(files.add(buffer));
+  Atomic_file bytes = files.open(buffer);
   writer.write_buffer(bytes);
   bytes.commit();
-  Atomic_file text(files.add(output.filename()));
+  Atomic_file text = files.open(output.filename());
   text.write(writer.json(in_uri(buffer.string())).dump(1) + "\n");
   text.commit();
   files.commit();

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "io/files/byte_order.h"
-#include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/errors.h"
 #include "mesh/coordinates_of.h"
 
@@ -96,7 +95,7 @@ void add_data(Vtp_text& text, const char* element, const std::vector<Vtp_array>&
 
 }  // namespace
 
-void write_vtp(const std::filesystem::path& file, const Vtp_data& data) {
+void write_vtp(Atomic_file& file, const Vtp_data& data) {
   Vtp_text text;
   text.add_text(fmt::format(
       "<?xml version=\"1.0\"?>\n"
@@ -111,9 +110,13 @@ void write_vtp(const std::filesystem::path& file, const Vtp_data& data) {
   add_data(text, "PointData", data.point_data, data.points.size());
   add_data(text, "CellData", data.cell_data, data.vertices.size() + data.lines.size() + data.polygons.size());
   text.add_text("</Piece>\n</PolyData>\n");
+  text.write(file);
+  file.commit();
+}
+
+void write_vtp(const std::filesystem::path& file, const Vtp_data& data) {
   Atomic_file out(file);
-  text.write(out);
-  out.commit();
+  write_vtp(out, data);
 }
 
 std::string pvd_text(const std::vector<Pvd_step>& steps) {

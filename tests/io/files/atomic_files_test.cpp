@@ -20,10 +20,9 @@ namespace fs = std::filesystem;
 
 class Atomic_files_test : public testing::Test {
  protected:
-  static void write(const fs::path& file, const std::string& text) {
-    Atomic_file out(file);
-    out.write(text);
-    out.commit();
+  static void write(Atomic_file file, const std::string& text) {
+    file.write(text);
+    file.commit();
   }
   std::set<std::string> visible() const {
     std::set<std::string> names;
@@ -42,11 +41,11 @@ class Atomic_files_test : public testing::Test {
 };
 
 TEST_F(Atomic_files_test, appear_together_and_replace_existing_files) {
-  write(folder.path() / "a", "old");
+  write(Atomic_file(folder.path() / "a"), "old");
   {
     Atomic_files files(folder.path());
-    write(files.add("a"), "new");
-    write(files.add("frames/b"), "b");
+    write(files.open("a"), "new");
+    write(files.open("frames/b"), "b");
     EXPECT_EQ(visible(), std::set<std::string>{"a"});
     EXPECT_EQ(text_of("a"), "old");
     files.commit();
@@ -59,15 +58,15 @@ TEST_F(Atomic_files_test, appear_together_and_replace_existing_files) {
 TEST_F(Atomic_files_test, leave_nothing_behind_without_commit) {
   {
     Atomic_files files(folder.path());
-    write(files.add("frames/b"), "b");
+    write(files.open("frames/b"), "b");
   }
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST_F(Atomic_files_test, two_sets_in_one_folder_do_not_interfere) {
   Atomic_files first(folder.path()), second(folder.path());
-  write(first.add("a"), "first");
-  write(second.add("a"), "second");
+  write(first.open("a"), "first");
+  write(second.open("a"), "second");
   second.commit();
   EXPECT_EQ(text_of("a"), "second");
   first.commit();
@@ -78,15 +77,15 @@ TEST_F(Atomic_files_test, are_refused_in_an_impossible_folder_or_over_anything_b
   EXPECT_THROW(Atomic_files(folder.write("file", "") / "inner"), Bad_output);
   fs::create_directories(folder.path() / "a" / "b");
   Atomic_files files(folder.path());
-  EXPECT_THROW(files.add("a"), Bad_output);
+  EXPECT_THROW(files.open("a"), Bad_output);
   EXPECT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
-  EXPECT_THROW(files.add("pipe"), Bad_output);
+  EXPECT_THROW(files.open("pipe"), Bad_output);
 }
 
 TEST_F(Atomic_files_test, that_are_not_committed_leave_no_folder_that_they_made) {
   {
     Atomic_files files(folder.path() / "a" / "b");
-    write(files.add("one"), "1");
+    write(files.open("one"), "1");
   }
   EXPECT_FALSE(exists(folder.path() / "a"));
 }

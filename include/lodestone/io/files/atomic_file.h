@@ -19,7 +19,9 @@ class Atomic_file {
  public:
   /// Creates the folder if it is missing.
   /// @throws Bad_output  the folder or the file cannot be created, the target is no file
-  explicit Atomic_file(std::filesystem::path target);
+  explicit Atomic_file(const std::filesystem::path& target) : Atomic_file(target, target) {}
+  /// @param name  what errors call it
+  Atomic_file(std::filesystem::path target, std::filesystem::path name);
   Atomic_file(const Atomic_file&) = delete;
   Atomic_file& operator=(const Atomic_file&) = delete;
   /// Without `commit` nothing is left behind.
@@ -40,7 +42,7 @@ class Atomic_file {
   void flush();
   [[noreturn]] void fail(const char* action) const;
 
-  std::filesystem::path target_, temporary_;
+  std::filesystem::path target_, name_, temporary_;
   std::optional<Made_folders> made_folders_;
   std::string buffer_;
   int descriptor_ = -1;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "lodestone/io/files/atomic_file.h"
 #include "lodestone/io/files/made_folders.h"
 
 namespace lodestone {
@@ -20,10 +21,11 @@ class Atomic_files {
   /// Without `commit` nothing is left behind.
   ~Atomic_files();
 
-  /// Returns the path to write to. `commit` then renames the file to `name`, a path relative to and inside the folder.
-  /// @throws Bad_output  there is something else than a file in its place
-  std::filesystem::path add(const std::filesystem::path& name);
-  /// Renames the files to their targets in the order of `add`, replacing existing files. Only a rename can fail.
+  /// Begins a file in the hidden folder. Its `commit` leaves it there; that of the folder then renames it to `name`, a
+  /// path relative to and inside the folder, which is also what its errors call it.
+  /// @throws Bad_output  there is something else than a file in its place; it cannot be created
+  Atomic_file open(const std::filesystem::path& name);
+  /// Renames the files to their targets in the order of `open`, replacing existing files. Only a rename can fail.
   /// @throws Bad_output
   void commit();
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/concepts.h"
 
 /// Files for ParaView and other programs built on VTK: points with lines and polygons, and lists of such files over
@@ -35,6 +36,8 @@ struct Vtp_data {
 /// @throws Bad_output
 /// @throws Bad_argument  an array without one number per point or cell, a cell that refers to a point out of range
 void write_vtp(const std::filesystem::path& file, const Vtp_data& data);
+/// The same to a file that has been opened, which it commits.
+void write_vtp(Atomic_file& file, const Vtp_data& data);
 
 /// One moment of a .pvd file.
 struct Pvd_step {
