@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@ namespace lodestone {
 namespace {
 
 constexpr std::size_t rounds_of_builds = 5, rounds_of_frames = 15;
+constexpr std::size_t vertices_per_task = 2048;
 
 /// Options, and where the second sphere is.
 struct Pair_case {
@@ -67,6 +70,36 @@ Threaded_work arithmetic(std::string name, std::size_t tasks) {
                 workers->run(results->size(), [&](std::size_t task, std::size_t) {
                   (*results)[task] = steps((*results)[task] + task, 5000);
                 });
+              });
+            };
+          }};
+}
+
+/// The sum of the coordinates of some vertices.
+double sum_of(std::span<const Point> points) {
+  double sum = 0;
+  for (const Point& p : points) sum += p.x() + p.y() + p.z();
+  return sum;
+}
+
+/// Every vertex once, after this thread has moved it, in tasks of some microseconds: hardly any arithmetic.
+Threaded_work reading(Moving_pair& pair) {
+  return {.name = "reading the vertices alone",
+          .rounds = rounds_of_frames,
+          .pose = [&pair](std::size_t round) { pair.pose(round, Moving_pair::Place::sunk); },
+          .make = [&pair](std::size_t threads) -> std::function<double()> {
+            auto workers = std::make_shared<Workers>(threads);
+            auto sums = std::make_shared<std::vector<double>>();
+            return [&pair, workers, sums] {
+              return seconds_of([&] {
+                for (const auto& mesh : pair.meshes()) {
+                  const std::span<const Point> points(mesh.points().begin(), mesh.points().end());
+                  sums->resize(points.size() / vertices_per_task + 1);
+                  workers->run(sums->size(), [&](std::size_t task, std::size_t) {
+                    const std::size_t first = task * vertices_per_task;
+                    (*sums)[task] += sum_of(points.subspan(first, std::min(vertices_per_task, points.size() - first)));
+                  });
+                }
               });
             };
           }};
@@ -169,6 +202,7 @@ std::vector<Threaded_work> works_on(Moving_pair& pair) {
   const std::vector<Ray> rays = random_rays(10000);
   const std::vector<Point> points = random_ray_origins(1000);
   std::vector<Threaded_work> works{
+      reading(pair),
       build(pair, {"exact: first answer", {}}),
       build(pair, {"exact: first answer, 12 regions by LBG", {.particles = 12}}),
       frame(pair, {"exact: yes or no, apart", {.contacts = yes_no}, apart}),
