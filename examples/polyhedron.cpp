@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same detector on another mesh type: only the template argument changes. Regions and particles are stored in
-// property maps of the mesh.
+// The same detector on another mesh type. The mesh keeps its region of each vertex in a property map.
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
@@ -24,7 +23,7 @@ int main() try {
   Polyhedron knot = polyhedron(torus_knot());
   Polyhedron sphere = polyhedron(icosphere(10));
 
-  Detector detector({.mode = Mode::exact, .contacts = Contact_query::all});
+  Detector detector({.particles = 12, .contacts = Contact_query::all});
   const Object_id first = detector.add(knot);
   detector.add(sphere);
   bool met = false;

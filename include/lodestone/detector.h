@@ -115,7 +115,7 @@ class Detector {
   /// @throws Bad_argument  no such object, another mode
   /// @throws Bad_mesh      another number of rows, a coordinate that is not finite; the object stays as it was
   void update(Object_id object, const Eigen::Ref<const Positions>& positions) {
-    ask<Exact>(object).update(object, positions);
+    ask<Exact>("update with positions", object).update(object, positions);
   }
   /// Places an object: from now on its vertices are at `placement` * p, for each position p of its mesh, or given by
   /// `update`. Nothing is written to the mesh, and everything is as if these positions were. Another call replaces the
@@ -137,7 +137,7 @@ class Detector {
   /// A `ray_tree` that is asked for meanwhile stays of use until then. The end of a promise counts as a use of the
   /// detector.
   /// @throws Bad_argument  another mode
-  Held_positions hold_positions() { return Held_positions(ask<Exact>().hold()); }
+  Held_positions hold_positions() { return Held_positions(ask<Exact>("hold_positions").hold()); }
 
   /// Tells the detector that faces of an object's mesh have been added, removed or changed. The object is numbered
   /// again, and has the positions of its mesh, as after `update(object)`. Its partition and its tree are built again;
@@ -209,7 +209,7 @@ class Detector {
   /// has no pair if groups or `ignore` leave this one out.
   /// @throws Bad_argument  no such object, another mode
   const Frame& detect(Object_id a, Object_id b) {
-    return ask<Exact>(a, b).detect(filter_, {std::min(a, b), std::max(a, b)});
+    return ask<Exact>("detect of a pair", a, b).detect(filter_, {std::min(a, b), std::max(a, b)});
   }
 
   /// Shows the contacts of two objects to a visitor, which may stop the walk: see `visit_contacts`. Mode `exact`, with
@@ -233,22 +233,23 @@ class Detector {
   /// @throws Bad_mesh      as `detect`; another number of rows than vertices, a coordinate that is not finite
   std::optional<Impact> first_impact(Object_id a, const Eigen::Ref<const Positions>& end_a, Object_id b,
                                      const Eigen::Ref<const Positions>& end_b) {
-    return ask_two("first_impact, unlike first_self_impact,", a, b).first_impact({a, b}, end_a, end_b);
+    return ask_two("first_impact", a, b, ", unlike first_self_impact,").first_impact({a, b}, end_a, end_b);
   }
   /// When two faces of one object that share no vertex meet first, in mode `exact`: see `first_self_impact` of trees.
   /// Everything else is as in the other call.
   /// @throws Bad_argument  no such object, another mode
   /// @throws Bad_mesh      as the other call
   std::optional<Impact> first_self_impact(Object_id object, const Eigen::Ref<const Positions>& end) {
-    return ask<Exact>(object).first_self_impact(object, end);
+    return ask<Exact>("first_self_impact", object).first_self_impact(object, end);
   }
-  /// The earliest impact of any two objects, with what `detect` leaves out left out, in mode `exact`. Of several pairs
-  /// at exactly the same time it is that of the lowest ids.
+  /// The earliest impact of any two objects, with what `detect` leaves out left out, in mode `exact`; with
+  /// `Exact_options::self_collision` also of any object with itself: see `first_self_impact`. Of several pairs at exactly
+  /// the same time it is that of the lowest ids.
   /// @param ends           per object, by id: as in the other call; without rows, the object stays where it is
   /// @throws Bad_argument  another mode; not one entry per id, of removed objects too
   /// @throws Bad_mesh      as the other call
   std::optional<Object_impact> first_impact(std::span<const Positions> ends) {
-    return ask<Exact>().first_impact(filter_, ends);
+    return ask<Exact>("first_impact").first_impact(filter_, ends);
   }
   /// The first impact of each pair of objects that meet, with what `detect` leaves out left out, in mode `exact`. With
   /// `Exact_options::self_collision` each object is also paired with itself: see `first_self_impact`. Reads each object
@@ -257,7 +258,7 @@ class Detector {
   /// @return in the order of the pairs; valid as long as you keep it
   /// @throws Bad_argument, Bad_mesh  as the other call
   std::vector<Object_impact> first_impacts(std::span<const Positions> ends) {
-    return ask<Exact>().first_impacts(filter_, ends);
+    return ask<Exact>("first_impacts").first_impacts(filter_, ends);
   }
   /// Whether two objects have points nearer to each other than a distance, or collide, in mode `exact`. Exact and
   /// strict, unlike a comparison with the rounded distance of `closest`; mostly faster than that, too.
@@ -278,23 +279,23 @@ class Detector {
   /// @throws Bad_argument  no such object, another mode, a ray that is not as `Ray` says
   /// @throws Bad_mesh      as `detect`
   std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) {
-    return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::first_hit(surface, ray); });
+    return ask_surface("first_hit", object, [&](auto& surface) { return lodestone::first_hit(surface, ray); });
   }
   /// All faces of an object that a ray meets, in their order along it.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) {
-    return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::all_hits(surface, ray); });
+    return ask_surface("all_hits", object, [&](auto& surface) { return lodestone::all_hits(surface, ray); });
   }
   /// The face of an object that is nearest to a point: see `closest_point` of trees.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   Closest_point closest_point(Object_id object, const Point& point) {
-    return ask<Exact>(object).of_surface(object,
-                                         [&](auto& surface) { return lodestone::closest_point(surface, point); });
+    return ask_surface("closest_point", object,
+                       [&](auto& surface) { return lodestone::closest_point(surface, point); });
   }
   /// On which side of an object's surface, which is closed, a point is: see `point_side`.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   Point_side point_side(Object_id object, const Point& point) {
-    return ask<Exact>(object).of_surface(object, [&](auto& surface) { return lodestone::point_side(surface, point); });
+    return ask_surface("point_side", object, [&](auto& surface) { return lodestone::point_side(surface, point); });
   }
 
   /// `first_hit` of many rays. Each query of an object reads its positions first; this does so once for all rays.
@@ -306,7 +307,7 @@ class Detector {
   /// @return one per ray, in their order
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {
-    return ask<Exact>(object).first_hits(object, rays);
+    return ask<Exact>("first_hits", object).first_hits(object, rays);
   }
   /// The first face of any object that a ray meets, with its object, in mode `exact` or `certified`. Exact: of several
   /// faces at the same t, that of the lowest object, and of this the lowest. Groups and ignored pairs do not count.
@@ -325,13 +326,13 @@ class Detector {
   /// @return one per ray, in their order
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<std::optional<Object_hit>> first_hits(std::span<const Ray> rays) {
-    auto& exact = ask<Exact>();
+    auto& exact = ask<Exact>("first_hit");
     return exact.first_hits(exact.ids(), rays);
   }
   /// The same among some objects.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<std::optional<Object_hit>> first_hits(std::span<const Object_id> objects, std::span<const Ray> rays) {
-    return ask<Exact>().first_hits(sorted(objects), rays);
+    return ask<Exact>("first_hit").first_hits(sorted(objects), rays);
   }
   /// An object where it is now, prepared for rays that are asked about one by one: see Ray_tree. It reads positions in
   /// place. It is valid until the next query of the object. While positions are held, queries leave it valid; the first
@@ -342,16 +343,16 @@ class Detector {
   const Ray_tree& ray_tree(Object_id object)
     requires std::same_as<Volume, Aabb>
   {
-    return ask<Exact>(object).ray_tree(object);
+    return ask<Exact>("ray_tree", object).ray_tree(object);
   }
   /// `closest_point` of many points: see `first_hits`.
   std::vector<Closest_point> closest_points(Object_id object, std::span<const Point> points) {
-    return ask_each(object, points,
+    return ask_each("closest_points", object, points,
                     [](auto& surface, const Point& point) { return lodestone::closest_point(surface, point); });
   }
   /// `point_side` of many points: see `first_hits`.
   std::vector<Point_side> point_sides(Object_id object, std::span<const Point> points) {
-    return ask_each(object, points,
+    return ask_each("point_sides", object, points,
                     [](auto& surface, const Point& point) { return lodestone::point_side(surface, point); });
   }
 
@@ -373,7 +374,7 @@ class Detector {
   /// @throws Bad_argument  no such object, another mode
   template <Motion_promise Promise>
   void promise(Object_id object, const Promise& promise) {
-    ask<Exact>(object).promise(object, [&promise](const Bounded_object& bounded) -> std::unique_ptr<Node_bound> {
+    ask<Exact>("promise", object).promise(object, [&promise](const Bounded_object& bounded) -> std::unique_ptr<Node_bound> {
       auto bound = promise.bound(bounded);
       return std::make_unique<Node_bound_of<decltype(bound)>>(std::move(bound));
     });
@@ -383,7 +384,7 @@ class Detector {
   /// What the last query knew of an object in mode `certified`: which leaves of its tree it has bounded, and which it
   /// has posed. Null before the first query, and in mode `exact`.
   /// @throws Bad_argument  no such object, another mode
-  const Bounded_surface* bounded(Object_id object) const { return ask<Exact>(object).bounded(object); }
+  const Bounded_surface* bounded(Object_id object) const { return ask<Exact>("bounded", object).bounded(object); }
 
   /// Number of objects added, removed ones included: every id is below it.
   std::size_t size() const { return meshes_.size(); }
@@ -398,12 +399,12 @@ class Detector {
   /// The state of one object in a mode with particles: regions, particles, patches. Valid until it is rebuilt.
   /// @throws Bad_argument  no such object, another mode
   const Particle_object& object(Object_id object) const {
-    return ask<Particle_detection>(object).object(object);
+    return ask<Particle_detection>("object", object).object(object);
   }
   /// The tree of one object in mode `exact`, empty before the first query. Its volumes are those of the last query that
   /// the object was part of. It holds no positions, so it cannot answer what depends on them.
   /// @throws Bad_argument  no such object, another mode
-  const Basic_region_tree<Volume>& tree(Object_id object) const { return ask<Exact>(object).tree(object); }
+  const Basic_region_tree<Volume>& tree(Object_id object) const { return ask<Exact>("tree", object).tree(object); }
   /// The property maps of an object. `rebuild` invalidates copies of them.
   /// @tparam Mesh          the type of its mesh
   /// @throws Bad_argument  no such object, one of another type, or one whose mesh was added as const or with a point
@@ -465,23 +466,27 @@ class Detector {
   /// The mode, for a question about objects that only `Model` answers.
   /// @throws Bad_argument  no such object, another mode
   template <class Model, class... Ids>
-  Model& ask(Ids... objects) const {
+  Model& ask(const char* question, Ids... objects) const {
     (checked(objects), ...);
     if (auto* model = dynamic_cast<Model*>(detection_.get())) return *model;
-    throw Bad_argument(Model::needed);
+    throw Bad_argument(std::string(question) + Model::needed);
   }
   /// The mode, for a question about two objects that must not be the same.
   /// @throws Bad_argument  no such object, the same twice, another mode
-  Exact& ask_two(const char* question, Object_id a, Object_id b) const {
-    auto& exact = ask<Exact>(a, b);
+  Exact& ask_two(const char* question, Object_id a, Object_id b, const char* unlike = "") const {
+    auto& exact = ask<Exact>(question, a, b);
     if (a != b) return exact;
-    throw Bad_argument(std::string(question) + " needs two different objects, but both are object " +
+    throw Bad_argument(std::string(question) + unlike + " needs two different objects, but both are object " +
                        std::to_string(a));
+  }
+  template <class Question>
+  auto ask_surface(const char* name, Object_id object, const Question& question) {
+    return ask<Exact>(name, object).of_surface(object, question);
   }
 
   template <class Asked, class Question>
-  auto ask_each(Object_id object, std::span<const Asked> asked, const Question& question) {
-    auto& exact = ask<Exact>(object);
+  auto ask_each(const char* name, Object_id object, std::span<const Asked> asked, const Question& question) {
+    auto& exact = ask<Exact>(name, object);
     const auto ask_all = [&](auto& surface) { return lodestone::ask_each(surface, asked, question, exact.workers()); };
     return exact.of_surface(object, ask_all, asked.size());
   }

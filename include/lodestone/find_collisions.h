@@ -49,7 +49,8 @@ template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
 Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {}) {
   if (auto frame = frame_at_once(a, b, options)) return collisions_of(std::move(*frame));
   Detector detector(options);
-  const Object_id first = detector.add(a), second = detector.add(b);
+  const Object_id first = detector.add(a, {.name = "the first mesh"});
+  const Object_id second = detector.add(b, {.name = "the second mesh"});
   return collisions_of(finds_all(options.mode) ? detector.detect(first, second) : detector.detect());
 }
 

@@ -12,7 +12,8 @@ def play(scene, *, frames=None, components=False, parts=False, allow_outside=Fal
     scene: a Scene, or a path or paths as of `read_scene`. frames: which of its frames, such as range(10, 20), where -1
     is the last; None: all.
     components, parts, allow_outside and max_faces are those of `read_scene`, and of no meaning for a Scene. Other
-    options are those of Detector. `frame.detector` is the detector; its objects are those of the scene, in order.
+    options are those of Detector; `particles` counts for every object, whatever the scene says of it.
+    `frame.detector` is the detector; its objects are those of the scene, in order.
     """
     if isinstance(scene, Scene):
         if components or parts:
@@ -24,8 +25,10 @@ def play(scene, *, frames=None, components=False, parts=False, allow_outside=Fal
     except TypeError as error:
         raise TypeError(f"{error}; play has frames, components, parts, allow_outside, max_faces too") from None
     for number, animation in enumerate(scene.objects):
-        groups, meets = scene.groups(number)
-        detector.add(animation, groups=groups, meets=meets)
+        own = scene.options(number)
+        if options.get("particles"):
+            del own["particles"]
+        detector.add(animation, **own)
     for a, b in scene.ignored:
         detector.ignore(a, b)
     for given in range(scene.frames) if frames is None else frames:

@@ -169,6 +169,16 @@ py::array_t<double, py::array::c_style> rows_or_none_of(const py::object& rows, 
   return rows_of(rows, name);
 }
 
+Eigen::Matrix4d matrix_of(const py::object& matrix, const std::string& name) {
+  const auto numbers = numbers_of(matrix, name);
+  if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
+    throw Bad_argument(name + " must have the shape (4, 4)");
+  const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  if (!m.allFinite()) throw Bad_argument(name + " has a number that is not finite");
+  if (m.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw Bad_argument("the last row of " + name + " must be 0, 0, 0, 1");
+  return m;
+}
+
 std::array<double, 3> vector_of(const py::object& vector, const std::string& name) {
   const auto array = numbers_of(vector, name);
   if (array.ndim() != 1 || array.size() != 3)

@@ -153,8 +153,13 @@ void Python_detector::change_object(Object_id object, const Change& change) {
 
 Object_id Python_detector::add(const py::object& mesh, const py::object& faces, const std::string& name,
                                std::size_t particles, std::uint32_t groups, std::uint32_t meets,
-                               const py::object& file_vertex) {
+                               const py::object& file_vertex, const py::object& scattered_side) {
   Object_options options{.particles = particles, .groups = groups, .meets = meets, .name = name};
+  if (!scattered_side.is_none()) {
+    const auto side = vector_of(scattered_side, "scattered_side");
+    options.scattered_side = Eigen::Vector3d(side.data());
+    check(Senin_options{.side = options.scattered_side});
+  }
   if (!file_vertex.is_none()) options.file_vertex = indices_of(file_vertex, "file_vertex");
   std::unique_ptr<Python_object> object;
   if (py::isinstance<Python_animation>(mesh) && faces.is_none()) {
@@ -212,12 +217,7 @@ void Python_detector::update(std::optional<Object_id> object) {
 }
 
 void Python_detector::place(Object_id object, const py::object& matrix) {
-  const auto numbers = numbers_of(matrix, "matrix");
-  if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
-    throw Bad_argument("matrix must have the shape (4, 4)");
-  const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-  if (!m.allFinite()) throw Bad_argument("matrix has a number that is not finite");
-  if (m.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw Bad_argument("the last row of matrix must be 0, 0, 0, 1");
+  const Eigen::Matrix4d m = matrix_of(matrix, "matrix");
   change([&](auto& detector) {
     detector.place(object, Eigen::Isometry3d(m));
     change_object(object, [&](auto& target) { target.place(Eigen::Isometry3d(m)); });

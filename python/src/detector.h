@@ -78,7 +78,8 @@ class Python_detector {
   explicit Python_detector(const Detector_settings& settings);
 
   Object_id add(const py::object& mesh, const py::object& faces, const std::string& name, std::size_t particles,
-                std::uint32_t groups, std::uint32_t meets, const py::object& file_vertex);
+                std::uint32_t groups, std::uint32_t meets, const py::object& file_vertex,
+                const py::object& scattered_side);
   void set_vertices(Object_id object, const py::object& vertices);
   void set_frame(Object_id object, py::ssize_t frame);
   void update(std::optional<Object_id> object);

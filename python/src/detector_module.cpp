@@ -99,12 +99,13 @@ void add_objects(Detector_class& type) {
   type
       .def("add", &Python_detector::add, py::arg("mesh"), py::arg("faces") = py::none(), py::kw_only(),
            py::arg("name") = "", py::arg("particles") = 0, py::arg("groups") = 1, py::arg("meets") = 0xffffffffu,
-           py::arg("file_vertex") = py::none(),
+           py::arg("file_vertex") = py::none(), py::arg("scattered_side") = py::none(),
            "Adds an object, and returns its id: 0, 1, ...\n\n"
            "mesh: vertices, an array (V, 3), with `faces` (F, 3); or an object that has both; or an Animation, or a Skin "
            "with `faces`.\nname: for messages. particles: of this object, 0: as the detector's options say.\n"
            "groups, meets: bits. Two objects are checked if each belongs to a group that the other meets.\n"
            "file_vertex: (V,) int; vertices with the same number are one.\n"
+           "scattered_side: (3,), mode 'senin': particles start only where the surface lies farthest in this direction.\n"
            "Raises BadMesh: no face, or a face of a vertex that does not exist.")
       .def("set_vertices", &Python_detector::set_vertices, py::arg("object"), py::arg("vertices"),
            "Takes another array (V, 3) for the positions of an object.")
@@ -215,14 +216,14 @@ void add_detector(py::module_& module) {
       "  tolerance, self_tolerance     report faces nearer than this, in units of the coordinates: 0\n"
       "  most_contacts     contacts listed per pair of objects: all\n"
       "  threads           at most so many; 0: all of the machine: 1. Results do not depend on it\n"
-      "  particles         particles, or regions in mode 'exact'; 0: as the mode sees fit; in mode 'exact' none, or\n"
-      "                    12 with a strategy or a setting of it\n"
+      "  particles         particles, or regions in the modes 'exact' and 'certified'; 0: as the mode sees fit; in\n"
+      "                    these two none, or 12 with a strategy or a setting of it\n"
       "  strategy          how surfaces are divided: 'lbg'. It can be a function, see `partition`. Its settings are seed,\n"
       "                    normal_weight, lbg_split, lbg_epsilon, lbg_tolerance and lbg_sample\n"
       "  keep_islands      whether a region may consist of several islands: False\n"
       "and, of the modes with particles: least_particles, meetings, opening_budget, opening_reach, collision_distance,\n"
       "distance_measure, candidates, list_candidates, close_seams and growth; of the modes 'exact' and\n"
-      "'certified': loosest and throw_if_broken.");
+      "'certified': loosest; of the mode 'certified': throw_if_broken.");
   type.def(py::init([](const py::kwargs& keywords) {
     const auto settings = detector_settings(keywords);
     if (settings.options.exact.self_tolerance > 0 && !settings.options.exact.self_collision)

@@ -9,8 +9,9 @@
 #include "arrays.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/io/results/animation_output.h"
-#include "lodestone/io/scenes/separated_objects.h"
 #include "lodestone/io/scenes/given_objects.h"
+#include "lodestone/io/scenes/object_options.h"
+#include "lodestone/io/scenes/separated_objects.h"
 #include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
 #include "motion.h"
@@ -42,6 +43,13 @@ std::shared_ptr<Python_animation> read_mesh_file(const Path& path, std::size_t m
   return mesh;
 }
 
+/// What a scene says of an object, without what its animation knows.
+Object_options scene_options(const Scene_object& object) {
+  Object_options options = object_options(object);
+  options.file_vertex = {};
+  return options;
+}
+
 /// A scene of animations.
 struct Python_scene {
   std::string name, description;
@@ -65,9 +73,24 @@ Python_scene read_scene_file(const std::variant<Path, std::vector<Path>>& path, 
         Python_animation{.name = object.name,
                          .animation = std::make_shared<Animation>(animation_of(object, scene.frames)),
                          .frames = scene.frames,
-                         .groups = object.collision}));
+                         .options = scene_options(object)}));
   read.ignored = scene.ignored;
   return read;
+}
+
+const Object_options& at(const Python_scene& scene, std::size_t object) {
+  if (object >= scene.objects.size()) throw py::index_error("there is no object " + std::to_string(object));
+  return scene.objects[object]->options;
+}
+
+py::dict options_of(const Python_scene& scene, std::size_t object) {
+  const Object_options& options = at(scene, object);
+  py::dict all;
+  all["groups"] = options.groups;
+  all["meets"] = options.meets;
+  all["particles"] = options.particles;
+  all["scattered_side"] = options.scattered_side ? py::object(array_of<double>(*options.scattered_side)) : py::none();
+  return all;
 }
 
 /// The frames of an animation to be written, as doubles.
@@ -150,10 +173,12 @@ void add_files(py::module_& module) {
         return pairs;
       }, "Pairs of objects that are left out.")
       .def("groups", [](const Python_scene& self, std::size_t object) {
-        if (object >= self.objects.size()) throw py::index_error("there is no object " + std::to_string(object));
-        const auto& [groups, meets] = self.objects[object]->groups;
-        return std::pair(groups, meets);
+        const Object_options& options = at(self, object);
+        return std::pair(options.groups, options.meets);
       }, py::arg("object"), "The collision groups of an object: (groups, meets), for `Detector.add`.")
+      .def("options", options_of, py::arg("object"),
+           "What the scene says of an object: a dict with groups, meets, particles and scattered_side, for\n"
+           "`Detector.add(scene.objects[i], **scene.options(i))`.")
       .def("__repr__", [](const Python_scene& self) {
         return "<lodestone.Scene " + self.name + ": " + std::to_string(self.objects.size()) + " objects, " +
                std::to_string(self.frames) + " frames>";

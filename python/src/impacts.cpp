@@ -61,6 +61,7 @@ void add_impacts(Detector_class& type) {
            "time, faces and point; None if they do not. Exact.")
       .def("first_impact_of_all", first_impact_of_all, py::arg("ends"),
            "The earliest impact of any two objects: a dict with objects, time, faces and point; None if there is none.\n"
+           "With self_collision also of any object with itself.\n"
            "ends: a list with where the vertices of each object will be, (V, 3), or None or no rows for one that stays.")
       .def("first_impacts", first_impacts, py::arg("ends"),
            "The first impact of each pair of objects that meet: a list of dicts as of first_impact_of_all, in the order of\n"

@@ -14,7 +14,7 @@
 #include "deadlock_mutex.h"
 #include "gil.h"
 #include "integers.h"
-#include "lodestone/detection/collision_groups.h"
+#include "lodestone/detection/detector_options.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/skinned_points.h"
@@ -29,7 +29,7 @@ struct Python_animation {
   std::string name;
   std::shared_ptr<const Animation> animation;
   std::size_t frames = 1;  ///< of the scene, where the motion does not end by itself
-  Collision_groups groups = {};
+  Object_options options = {};  ///< what its scene says of it
 
   /// The frame that a number means: -1 is the last. Nothing if there is no such frame.
   std::optional<std::size_t> frame_of(py::ssize_t number) const;

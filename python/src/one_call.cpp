@@ -43,7 +43,7 @@ py::object find_collisions(const py::object& mesh_a, const py::object& mesh_b, c
       frame = std::move(*at_once);
     } else {
       Detector<Any_strategy> detector(options, settings.strategy.make(settings.strategy_settings));
-      detector.add(a.mesh), detector.add(b.mesh);
+      detector.add(a.mesh, {.name = "a"}), detector.add(b.mesh, {.name = "b"});
       frame = finds_all(options.mode) ? detector.detect(0, 1) : detector.detect();
     }
   }
@@ -68,10 +68,11 @@ py::object self_collisions(const py::object& mesh, const py::object& faces, cons
 /// Asks a detector of two meshes.
 template <class Question>
 auto ask_about(const py::object& mesh_a, const py::object& mesh_b, std::size_t threads, const Question& question) {
-  const Asked_mesh a(mesh_a, py::none(), "the first argument"), b(mesh_b, py::none(), "the second argument");
+  constexpr const char *first = "the first argument", *second = "the second argument";
+  const Asked_mesh a(mesh_a, py::none(), first), b(mesh_b, py::none(), second);
   const Without_gil without_gil;
   Detector<Any_strategy> detector({.exact = {.threads = threads}});
-  detector.add(a.mesh), detector.add(b.mesh);
+  detector.add(a.mesh, {.name = first}), detector.add(b.mesh, {.name = second});
   return question(detector);
 }
 
@@ -216,7 +217,7 @@ void add_one_call(py::module_& module) {
                std::to_string(self.partition.labels.size()) + " vertices>";
       });
   module.def("partition", divide, py::arg("mesh"), py::arg("faces") = py::none(), py::arg("strategy") = "lbg",
-             py::arg("regions") = 32,
+             py::arg("regions") = 12,
              "Divides a surface into regions: a Partition. `strategies()` lists the strategies. One of your own is a function\n"
              "strategy(vertices, faces, regions) that returns the region of each vertex, any integer from 0 to V - 1: (V,) "
              "int.\n\n"

@@ -102,7 +102,7 @@ void refuse_settings_of_other_strategies(const Given_strategy& strategy, const p
 
 /// Mode `senin` divides nothing.
 void refuse_strategy_of_senin(const py::kwargs& keywords) {
-  std::vector<const char*> names{"strategy"};
+  std::vector<const char*> names{"strategy", "keep_islands"};
   for (const auto& [name, setting] : lbg_settings) names.push_back(name);
   for (const char* name : names)
     if (keywords.contains(name))
@@ -110,9 +110,9 @@ void refuse_strategy_of_senin(const py::kwargs& keywords) {
                          " is for the modes exact, certified, particles: the mode senin ignores it");
 }
 
-/// Whether the caller chose a strategy or one of its settings.
+/// Whether the caller chose a strategy or one of its settings, or how regions are repaired.
 bool chooses_strategy(const py::kwargs& keywords) {
-  return keywords.contains("strategy") || keywords.contains("seed") ||
+  return keywords.contains("strategy") || keywords.contains("seed") || keywords.contains("keep_islands") ||
          std::ranges::any_of(lbg_settings, [&](const auto& setting) { return keywords.contains(setting.first); });
 }
 
@@ -179,7 +179,7 @@ Detector_settings detector_settings(const py::kwargs& keywords) {
   refuse_settings_of_other_strategies(settings.strategy, keywords, false);  // threads share frames too
   // A caller who chooses a strategy wants regions.
   if (finds_all(options.mode) && chooses_strategy(keywords) && options.particles == 0)
-    options.particles = options.least_particles;
+    options.particles = Detector_options().least_particles;
   options.senin.seed = settings.strategy_settings.seed;
   settings.strategy_settings.lbg.threads = exact.threads;
   // Wrong settings are refused also where nothing is divided.

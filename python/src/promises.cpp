@@ -52,15 +52,13 @@ std::unique_ptr<Box_promise> box_promise(py::function function) {
 
 void move(Displacement_promise& promise, const py::object& distance, const py::object& frame) {
   const auto distances = numbers_of(distance, "distance");
+  if (distances.ndim() > 1) throw Bad_argument("distance must be a number, or one per region: of shape (regions,)");
   const std::span per_region(distances.data(), static_cast<std::size_t>(distances.size()));
   if (frame.is_none()) {
     if (distances.ndim() == 0) return promise.move(*distances.data());
     return promise.move(per_region);
   }
-  const auto numbers = numbers_of(frame, "frame");
-  if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
-    throw Bad_argument("frame must have the shape (4, 4)");
-  const Eigen::Isometry3d rigid(Eigen::Matrix4d(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data())));
+  const Eigen::Isometry3d rigid(matrix_of(frame, "frame"));
   if (distances.ndim() == 0) return promise.move(*distances.data(), rigid);
   promise.move(per_region, rigid);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/bounds/box_promise.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "lodestone/mesh/errors.h"
@@ -18,7 +20,10 @@ Aabb Promised_boxes::box(std::uint32_t node) const {
   Aabb box = promise_->box(regions_[node], rest_[node]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (box.low[axis] > box.high[axis])
-      throw Bad_argument("a box from a Box_promise has a lower end above the upper one");
+      throw Bad_argument(fmt::format("the box that a Box_promise gave {} has a lower end, {}, above its upper one, {}",
+                                     regions_[node] == several_regions ? "for several regions"
+                                                                       : fmt::format("for region {}", regions_[node]),
+                                     box.low[axis], box.high[axis]));
     open_if_not_finite(box, axis);
   }
   return box;

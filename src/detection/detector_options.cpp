@@ -54,12 +54,14 @@ void check(const Detector_options& options) {
   require(options.most_contacts > 0, "most_contacts must be at least 1");
   require(options.contacts != Contact_query::yes_no ||
               (!options.contact_points && !options.contact_normals && !exact.patches),
-          "contact points and normals need the contacts `first` or `all`, patches need `all`");
+          "contact points, normals and patches need the contacts `first` or `all`");
   require(exact.tolerance >= 0 && std::isfinite(exact.tolerance), "the tolerance must be finite and >= 0");
   require(exact.self_tolerance >= 0 && std::isfinite(exact.self_tolerance),
           "the tolerance within one object must be finite and >= 0");
   require(exact.loosest > 1, "a tree must be allowed to become looser than it was built: the factor must be > 1");
   check(exact.tree);
+  check(options.particle_count);
+  check(options.senin);
   require(
       finds_all(options.mode) || has_defaults_of_exact(exact),
       "a distance other than 0, self-collision, containment, parting, contact patches and the limit of looseness need "

@@ -23,8 +23,8 @@ bool is_precise(double t) { return t > 0x1p-1000 && t < 0x1p+1000; }
 /// A ray, as far as it can meet something first.
 class Way {
  public:
-  /// @throws Bad_argument  the ray is not as `Ray` says
-  explicit Way(const Ray& ray) : Way(ray, checked_frame(ray)) {}
+  /// @param ray  has been checked
+  explicit Way(const Ray& ray) : Way(ray, {ray.origin, ray.direction, ray.length}) {}
 
   const Ray& ray() const { return ray_; }
   Ray_entry entry(const Aabb& box) const { return entry_(box); }
@@ -43,11 +43,6 @@ class Way {
         entry_(frame),
         most_depth_(frame.most_limit),
         depth_per_t_(std::abs(frame.direction[frame.axes[2]])) {}
-
-  static Ray_frame checked_frame(const Ray& ray) {
-    check(ray);
-    return {ray.origin, ray.direction, ray.length};
-  }
 
   Ray ray_;
   Box_entry entry_;
@@ -162,6 +157,7 @@ class Search_among_objects {
 std::vector<std::optional<Object_hit>> first_hits_among(std::span<const Ray> rays,
                                                         std::span<const Boxed_object> objects, const Ask_object& ask,
                                                         const Face_of_object& triangle_of) {
+  for (std::size_t i = 0; i < rays.size(); ++i) check(rays, i);
   return Search_among_objects(rays, objects, ask, triangle_of).run();
 }
 

@@ -25,10 +25,14 @@ std::vector<std::uint32_t> farthest_along(const Eigen::Vector3d& direction, cons
 
 }  // namespace
 
-std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Positions& positions,
-                                             std::size_t particles, const Senin_options& options) {
+void check(const Senin_options& options) {
   if (options.side && !(options.side->allFinite() && !options.side->isZero(0)))
     throw Bad_argument("the side on which particles are scattered must be a finite direction");
+}
+
+std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Positions& positions,
+                                             std::size_t particles, const Senin_options& options) {
+  check(options);
   std::vector<std::uint32_t> drawn;
   for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
     if (out_degree(v, graph) > 0) drawn.push_back(v);

@@ -49,7 +49,9 @@ Positions normals_of(const Positions& scaled, std::span<const Corners> faces) {
   return normals;
 }
 
-void check_weights(const Feature_options& options) {
+}  // namespace
+
+void check(const Feature_options& options) {
   const auto usable = [](double weight) { return weight >= 0 && weight <= largest_weight; };
   if (!usable(options.position_weight) || !usable(options.normal_weight))
     throw Bad_argument("the weights of position and normal must be between 0 and 1e6");
@@ -57,15 +59,13 @@ void check_weights(const Feature_options& options) {
     throw Bad_argument("the weights of position and normal must not both be 0");
 }
 
-}  // namespace
-
 Positions vertex_normals(const Positions& positions, std::span<const Corners> faces) {
   return normals_of(scaled_positions(positions), faces);
 }
 
 Feature_vectors feature_vectors(const Positions& positions, std::span<const Corners> faces,
                                 const Feature_options& options) {
-  check_weights(options);
+  check(options);
   Positions scaled = scaled_positions(positions);
   if (options.position_weight == 0) return options.normal_weight * normals_of(scaled, faces);
   Feature_vectors features(positions.rows(), options.normal_weight == 0 ? 3 : 6);

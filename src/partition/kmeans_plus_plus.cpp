@@ -14,12 +14,13 @@
 
 namespace lodestone {
 
-namespace {
-
 void check(const Kmeans_plus_plus_options& options) {
   if (!(options.tolerance >= 0)) throw Bad_argument("k-means++: tolerance must be >= 0");
   if (options.max_iterations == 0) throw Bad_argument("k-means++: max_iterations must be at least 1");
+  check(options.features);
 }
+
+namespace {
 
 /// Uniform in [0, 1). Unlike the distributions of the standard library it is the same on every platform.
 double unit_draw(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }

@@ -17,6 +17,7 @@ void check(const Lbg_options& options) {
     throw Bad_argument("LBG: epsilon, the size of the split, must be finite and > 0");
   if (!(options.tolerance > 0)) throw Bad_argument("LBG: tolerance must be > 0");
   if (options.max_iterations == 0) throw Bad_argument("LBG: max_iterations must be at least 1");
+  check(options.features);
 }
 
 namespace {

@@ -58,6 +58,8 @@ void keep_large_parts(std::vector<std::vector<std::uint32_t>>& parts, std::size_
   std::ranges::sort(parts, {}, [](const auto& part) { return part.front(); });
 }
 
+}  // namespace
+
 void check(const Particle_count_options& options) {
   if (!(options.crease_degrees > 0 && options.crease_degrees <= 180))
     throw Bad_argument("crease_degrees must be above 0 and at most 180");
@@ -69,8 +71,6 @@ void check(const Particle_count_options& options) {
   if (!(options.least_roundness >= 0 && options.least_roundness <= 1))
     throw Bad_argument("least_roundness must be between 0 and 1");
 }
-
-}  // namespace
 
 std::size_t kissing_particle_count(std::size_t objects) {
   constexpr std::size_t kissing_number = 12;

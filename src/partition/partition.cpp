@@ -49,8 +49,11 @@ void check(const Labelling& labelling, std::size_t vertices) {
   if (labelling.labels.size() != vertices)
     throw Bad_argument("the strategy labelled " + std::to_string(labelling.labels.size()) + " of " +
                        std::to_string(vertices) + " vertices");
-  if (std::ranges::any_of(labelling.labels, [&](auto label) { return label >= vertices; }))
-    throw Bad_argument("the strategy gave a label that is not below the number of vertices");
+  const auto wrong = std::ranges::find_if(labelling.labels, [&](auto label) { return label >= vertices; });
+  if (wrong != labelling.labels.end())
+    throw Bad_argument("the strategy gave vertex " + std::to_string(wrong - labelling.labels.begin()) + " the label " +
+                       std::to_string(*wrong) + ", which is not below the number of vertices, " +
+                       std::to_string(vertices));
   if (labelling.vectors.size() != 0 && static_cast<std::size_t>(labelling.vectors.rows()) != vertices)
     throw Bad_argument("the strategy gave " + std::to_string(labelling.vectors.rows()) + " vectors for " +
                        std::to_string(vertices) + " vertices");

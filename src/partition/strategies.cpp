@@ -56,10 +56,12 @@ Any_strategy lbg_curvature(const Strategy_settings& settings) {
 
 Any_strategy kmeans_plus_plus(const Strategy_settings& settings) {
   // Stops as `lbg` does, so that the two can be compared.
-  return Any_strategy(Kmeans_plus_plus{.options = {.seed = settings.seed,
-                                                   .tolerance = settings.lbg.tolerance,
-                                                   .max_iterations = settings.lbg.max_iterations,
-                                                   .features = settings.lbg.features}});
+  const Kmeans_plus_plus_options options{.seed = settings.seed,
+                                         .tolerance = settings.lbg.tolerance,
+                                         .max_iterations = settings.lbg.max_iterations,
+                                         .features = settings.lbg.features};
+  check(options);
+  return Any_strategy(Kmeans_plus_plus{.options = options});
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ struct Detect_command {
   bool components = false;  ///< so are connected components
   Detector_options options = {.contacts = Contact_query::first};
   Strategy_choice partition = {};
-  bool chooses_strategy = false;  ///< the user chose the partition, or a setting of it
+  bool chooses_strategy = false;   ///< the user chose the partition, or a setting of it
+  bool chooses_particles = false;  ///< the user gave a number of particles, which counts for every object
   bool truth = false;
   bool closest = false;                       ///< also find the closest faces of each object pair
   bool impacts = false;                       ///< also find when object pairs meet first between two frames

@@ -178,6 +178,7 @@ void set_defaults(const CLI::App& app, Detect_command& command) {
   // Shards cannot know what earlier frames have done to the trees.
   command.independent_frames |= finds_all(options.mode) && (command.shard || command.merge_shards);
   command.chooses_strategy = chooses_strategy(app);
+  command.chooses_particles = options.particles > 0;
   // A user who chooses a strategy wants to see regions.
   if (finds_all(options.mode) && command.chooses_strategy && options.particles == 0)
     options.particles = options.least_particles;

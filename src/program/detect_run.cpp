@@ -78,7 +78,7 @@ void Detect_run::make_detector() {
   for (std::size_t number = 0; number < scene_.objects.size(); ++number) {
     auto& object = scene_.objects[number];
     Object_options options = object_options(object);
-    if (command_.options.particles > 0) options.particles = 0;
+    if (command_.chooses_particles) options.particles = 0;
     if (number < computed_.size() && computed_[number])
       detector_->add(object.mesh, point_map(object.mesh, *computed_[number]), options);
     else

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "lodestone/mesh/errors.h"
 
@@ -39,6 +40,15 @@ void check(const Ray& ray) {
   if (!ray.direction.allFinite() || ray.direction.isZero(0))
     throw Bad_argument("the direction of a ray must be finite and not zero");
   if (!(ray.length >= 0)) throw Bad_argument("the length of a ray must be 0 or more");
+}
+
+void check(std::span<const Ray> rays, std::size_t index) {
+  try {
+    check(rays[index]);
+  } catch (const Bad_argument& error) {
+    if (rays.size() == 1) throw;
+    throw Bad_argument("ray " + std::to_string(index) + ": " + error.what());
+  }
 }
 
 bool is_before(const Ray_frame& frame, Hit_on_ray& a, Hit_on_ray& b) {

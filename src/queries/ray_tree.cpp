@@ -18,7 +18,7 @@ namespace {
 /// Some tens of microseconds.
 constexpr std::size_t rays_per_task = 128;
 
-/// Asks for some rays, which walk in turns.
+/// Asks for some rays, which have been checked, and which walk in turns.
 template <class Collector, class Answer, std::size_t most_rays>
 class Ray_group final {
  public:
@@ -26,10 +26,7 @@ class Ray_group final {
       : tree_(tree), rays_(rays), answers_(answers) {}
 
   void run() {
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
-      check(rays_[i]);
-      questions_.emplace_back(rays_[i]);
-    }
+    for (const Ray& ray : rays_) questions_.emplace_back(ray);
     if (tree_.nodes().empty()) {
       for (std::size_t i = 0; i < rays_.size(); ++i) ask_surface(i);
       return;
@@ -104,6 +101,7 @@ std::vector<Answer> ask_in_groups(const Ray_tree& tree, std::span<const Ray> ray
   std::vector<Answer> answers(rays.size());
   workers.run((rays.size() + rays_per_task - 1) / rays_per_task, [&](std::size_t task, std::size_t) {
     const std::size_t first = task * rays_per_task, count = std::min(rays_per_task, rays.size() - first);
+    for (std::size_t i = first; i < first + count; ++i) check(rays, i);
     Ray_group<Collector, Answer, rays_per_task>(tree, rays.subspan(first, count),
                                                 std::span(answers).subspan(first, count))
         .run();
@@ -113,6 +111,7 @@ std::vector<Answer> ask_in_groups(const Ray_tree& tree, std::span<const Ray> ray
 
 template <class Collector, class Answer>
 Answer ask_alone(const Ray_tree& tree, const Ray& ray) {
+  check(ray);
   Answer answer;
   Ray_group<Collector, Answer, 1>(tree, {&ray, 1}, {&answer, 1}).run();
   return answer;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "detection/detector_scenes.h"
+#include "lodestone/bounds/stretch_bound.h"
 #include "support/message_of.h"
 #include "support/special_numbers.h"
 
@@ -20,6 +21,67 @@ TEST(Detector, options_out_of_range_are_refused) {
     EXPECT_THROW(Detector<>({.mode = Mode::particles, .collision_distance = bad}), Bad_argument) << bad;
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(Detector<>({.mode = Mode::particles, .growth = bad}), Bad_argument) << bad;
+}
+
+TEST(Detector, options_of_the_rule_of_particles_and_of_the_scattering_are_refused_before_they_are_used) {
+  for (const auto mode : {Mode::exact, Mode::certified, Mode::particles, Mode::senin}) {
+    EXPECT_THROW(Detector<>({.mode = mode, .particles = 3, .particle_count = {.most_parts = 0}}), Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .senin = {.side = Eigen::Vector3d(0, 0, 0)}}), Bad_argument);
+  }
+}
+
+TEST(Detector, a_question_that_another_mode_answers_is_named) {
+  auto scene = two_spheres(2);
+  Detector<> particles({.mode = Mode::particles}), exact;
+  add_all(particles, scene), add_all(exact, scene);
+  const Ray ray{{0, 0, 0}, {1, 0, 0}};
+  const std::vector<Positions> ends(2);
+  const std::vector<std::pair<std::string, std::function<void()>>> questions{
+      {"closest", [&] { particles.closest(0, 1); }},
+      {"detect of a pair", [&] { particles.detect(0, 1); }},
+      {"hold_positions", [&] { particles.hold_positions(); }},
+      {"first_impact", [&] { particles.first_impact(ends); }},
+      {"first_hit", [&] { particles.first_hit(0, ray); }},
+      {"closest_points", [&] { particles.closest_points(0, {}); }}};
+  for (const auto& [name, ask] : questions) EXPECT_EQ(message_of<Bad_argument>(ask), name + " needs the mode exact or certified");
+  EXPECT_EQ(message_of<Bad_argument>([&] { exact.object(0); }), "object needs a mode with particles");
+}
+
+TEST(Detector, positions_at_the_end_of_a_motion_are_told_from_those_of_now) {
+  auto scene = two_spheres(2);
+  Detector<> detector;
+  add_all(detector, scene);
+  Positions end = Positions::Zero(static_cast<Eigen::Index>(scene[1].number_of_vertices()), 3);
+  end(7, 2) = infinity;
+  const std::string expected = "vertex 7 of object 1 at the end has a coordinate that is not finite";
+  EXPECT_EQ(message_of<Bad_mesh>([&] { detector.first_impact(0, Positions::Zero(end.rows(), 3), 1, end); }), expected);
+  EXPECT_EQ(message_of<Bad_mesh>([&] { detector.first_self_impact(1, end); }), expected);
+  const std::vector<Positions> ends{{}, end};
+  EXPECT_EQ(message_of<Bad_mesh>([&] { detector.first_impacts(ends); }), expected);
+  EXPECT_EQ(message_of<Bad_mesh>([&] { detector.first_self_impact(0, end.topRows(3)); }),
+            "object 0 has " + std::to_string(scene[0].number_of_vertices()) +
+                " vertices, but got 3 positions at the end");
+}
+
+TEST(Detector, a_ray_or_point_that_is_refused_is_told_among_many) {
+  for (const auto mode : {Mode::exact, Mode::certified}) {
+    auto scene = two_spheres(2);
+    Detector<> detector({.mode = mode, .exact = {.threads = 2}});
+    add_all(detector, scene);
+    detector.promise(0, Stretch_promise(1.0));
+    std::vector<Ray> rays(300, Ray{{0, 0, 0}, {1, 0, 0}});
+    rays[270].origin[1] = infinity, rays[280].direction = {0, 0, 0};
+    std::vector<Point> points(300, Point(0, 0, 3));
+    points[271] = Point(infinity, 0, 0);
+    for (const Object_id object : {0, 1}) {
+      EXPECT_TRUE(message_of<Bad_argument>([&] { detector.first_hits(object, rays); }).starts_with("ray 270: the origin"));
+      EXPECT_TRUE(message_of<Bad_argument>([&] { detector.closest_points(object, points); }).starts_with("point 271: the point"));
+      EXPECT_TRUE(message_of<Bad_argument>([&] { detector.point_sides(object, points); }).starts_with("point 271: the point"));
+    }
+    EXPECT_TRUE(message_of<Bad_argument>([&] { detector.first_hits(rays); }).starts_with("ray 270: the origin"));
+    EXPECT_TRUE(message_of<Bad_argument>([&] { first_hits(detector.ray_tree(1), rays, Workers::alone()); }).starts_with("ray 270: "));
+    EXPECT_TRUE(message_of<Bad_argument>([&] { detector.first_hit(rays[280]); }).starts_with("the direction of a ray"));
+  }
 }
 
 TEST(Detector, a_mesh_added_twice_is_refused) {

@@ -143,7 +143,7 @@ TEST(Find_collisions, refuses_bad_input) {
 template <class Mesh_a, class Mesh_b>
 Collisions by_detector(const Mesh_a& a, const Mesh_b& b, const Detector_options& options) {
   Detector<> detector(options);
-  detector.add(a), detector.add(b);
+  detector.add(a, {.name = "the first mesh"}), detector.add(b, {.name = "the second mesh"});
   return collisions_of(detector.detect(0, 1));
 }
 
@@ -301,6 +301,8 @@ TEST(Find_collisions, refuses_what_a_detector_refuses_in_the_same_words) {
       EXPECT_EQ(refusal([&] { find_collisions(*a, *b); }), expected);
       refused += expected.empty() ? 0 : 1;
     }
+  EXPECT_EQ(refusal([&] { find_collisions(good, infinite); }),
+            "vertex 17 of object 1 (the second mesh) has a coordinate that is not finite");
   EXPECT_EQ(refused, meshes.size() * meshes.size());
   for (const Detector_options& options : {Detector_options{.most_contacts = 0},
                                           {.exact = {.tolerance = -1}},

@@ -2,6 +2,7 @@
 // Impacts between frames, asked of a detector. The search itself is tested in queries/impact_search_test.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <vector>
@@ -164,6 +165,14 @@ TEST(Detector_first_impact, of_each_pair_is_that_of_the_pair_alone) {
           EXPECT_EQ(all[i].objects, expected[i].objects);
           expect_same(all[i].impact, expected[i].impact);
         }
+        // The earliest of them, the first of equals.
+        const auto earliest = std::ranges::min_element(expected, [](const auto& one, const auto& other) {
+          return one.impact.exact_time < other.impact.exact_time;
+        });
+        const auto found = detector.first_impact(row.ends);
+        ASSERT_TRUE(found);
+        EXPECT_EQ(found->objects, earliest->objects);
+        expect_same(found->impact, earliest->impact);
         EXPECT_GE(all.size(), self ? 2U : 1U);
       };
       expect_all(4);

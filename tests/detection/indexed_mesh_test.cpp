@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "lodestone/find_collisions.h"
 #include "lodestone/mesh/skinned_points.h"
@@ -29,6 +31,15 @@ struct Arrays {
 const Detector_options everything{.contact_points = true,
                                   .contact_normals = true,
                                   .exact = {.self_collision = true, .containment = true, .parting = true, .patches = true}};
+
+template <class Numbers, class Faces>
+concept Takes_arrays = requires(Indexed_mesh& mesh, Numbers&& numbers, Faces&& faces) {
+  mesh.set_arrays(std::forward<Numbers>(numbers), std::forward<Faces>(faces));
+};
+template <class Numbers>
+concept Takes_coordinates = requires(Indexed_mesh& mesh, Numbers&& numbers) {
+  mesh.set_coordinates(std::forward<Numbers>(numbers));
+};
 
 TEST(Indexed_mesh, gives_the_frames_of_a_half_edge_mesh) {
   for (auto options : {Detector_options{.mode = Mode::particles, .particles = 12}, Detector_options{.mode = Mode::senin},
@@ -79,6 +90,19 @@ TEST(Indexed_mesh, refuses_arrays_that_do_not_fit_together) {
 }
 
 /// The array of faces is the caller's, who can write into it at any time.
+TEST(Indexed_mesh, cannot_be_made_of_arrays_that_end_with_the_call) {
+  using Numbers = std::vector<double>;
+  using Faces = std::vector<Corners>;
+  static_assert(std::is_constructible_v<Indexed_mesh, Numbers&, Faces&>);
+  static_assert(std::is_constructible_v<Indexed_mesh, const Numbers&, const Faces&>);
+  static_assert(!std::is_constructible_v<Indexed_mesh, Numbers, Faces&>);
+  static_assert(!std::is_constructible_v<Indexed_mesh, Numbers&, Faces>);
+  static_assert(!std::is_constructible_v<Indexed_mesh, Numbers, Faces>);
+  static_assert(Takes_arrays<Numbers&, Faces&> && !Takes_arrays<Numbers&, Faces>);
+  static_assert(!Takes_arrays<Numbers, Faces&> && !Takes_arrays<Numbers, Faces>);
+  static_assert(Takes_coordinates<Numbers&> && !Takes_coordinates<Numbers>);
+}
+
 TEST(Indexed_mesh, refuses_corners_that_have_become_wrong_wherever_faces_are_read) {
   for (const std::uint32_t wrong : {0U, 500'000'000U}) {
     Arrays arrays(potato(5)), others(potato(4));

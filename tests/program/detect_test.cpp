@@ -303,6 +303,19 @@ TEST_F(Detect, the_number_of_particles_is_the_requested_one) {
   EXPECT_EQ(particles().at(0), 7);
   expect_success(detect({scene, "--particles", "20"}));
   EXPECT_EQ(particles(), (std::vector<int>{20, 20}));
+
+  // Regions at the top of a tree: no leaf holds faces of two of them.
+  const auto leaves = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {scene, "--mode", "exact"});
+    expect_success(detect(options));
+    std::vector<int> counts;
+    const Json result = summary();
+    for (const auto& object : result["objects"]) counts.push_back(object["leaves"]);
+    return counts;
+  };
+  const auto of_scene = leaves({"--strategy", "metis"}), of_both = leaves({"--strategy", "metis", "--particles", "12"});
+  EXPECT_EQ(of_scene.at(1), of_both.at(1));  // the free one has 12 regions
+  EXPECT_NE(of_scene.at(0), of_both.at(0));  // the other its own 7
 }
 
 TEST_F(Detect, the_summary_counts_vertices_and_faces) {

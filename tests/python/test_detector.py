@@ -235,6 +235,11 @@ def test_first_impact_of_two_cubes_that_pass_through_each_other():
     (of_pair,) = detector.first_impacts([to_the_right, to_the_left])
     assert of_pair["objects"] == (a, b) and of_pair["time"] == 0.25 and of_pair["faces"] == impact["faces"]
     assert detector.first_impacts([None, None]) == []
+    through_itself = lodestone.Detector(self_collision=True)
+    through_itself.add(left)
+    (of_itself,) = through_itself.first_impacts([-left.vertices])
+    earliest = through_itself.first_impact_of_all([-left.vertices])
+    assert of_itself["objects"] == earliest["objects"] == (0, 0) and of_itself["time"] == earliest["time"] == 0.5
     with pytest.raises(lodestone.BadArgument, match="each of the 2 object ids, but got 1"):
         detector.first_impact_of_all([to_the_right])
     with pytest.raises(lodestone.BadMesh, match="8 vertices, but got 7"):

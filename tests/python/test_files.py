@@ -131,6 +131,31 @@ def test_a_scene_has_objects_that_are_animations(scenes):
     assert len(frames) == 3 and frames[0].detector is frames[2].detector
 
 
+def test_a_scene_says_how_many_particles_its_objects_have_and_where_they_start(tmp_path, program):
+    path = tmp_path / "scene.json"
+    ball = {"shape": {"icosphere": {"frequency": 8}}}
+    far = {"way_points": [{"frame": frame, "at": [40 + frame, 0, 0]} for frame in (0, 1)], "path": "linear"}
+    path.write_text(json.dumps({"frames": 2, "objects": [
+        {"name": "many", "particles": 40, "scattered_side": [1, 0, 0], **ball},
+        {"name": "few", "motion": {"deform": [{"travel": far}]}, **ball}]}))
+    scene = lodestone.read_scene(path)
+    assert scene.options(0)["particles"] == 40 and scene.options(0)["scattered_side"].tolist() == [1, 0, 0]
+    assert scene.options(1) == {"groups": 1, "meets": 2**32 - 1, "particles": 0, "scattered_side": None}
+    with pytest.raises(IndexError):
+        scene.options(2)
+    subprocess.run([program, "detect", str(path), "--mode", "particles", "--out", str(tmp_path), "--quiet"], check=True,
+                   capture_output=True)
+    told = [o["particles"] for o in json.loads((tmp_path / "summary.json").read_text())["objects"]]
+    for options, expected in [({}, told), ({"particles": 20}, [20, 20])]:
+        frame = next(lodestone.play(path, mode="particles", **options))
+        assert [len(frame.detector.particles(i)) for i in (0, 1)] == expected
+    frame = next(lodestone.play(path, mode="senin", seed=2))  # too far apart to move
+    least = [frame.detector.vertices(i)[frame.detector.particles(i)][:, 0].min() for i in (0, 1)]
+    assert least[0] > 0 and least[1] < 40
+    with pytest.raises(lodestone.BadArgument, match="must be a finite direction"):
+        lodestone.Detector(mode="senin").add(cube(), scattered_side=[0, 0, 0])
+
+
 def test_components_of_one_mesh_are_objects_on_demand(tmp_path):
     box = cube()
     pattern = tmp_path / "break_##.obj"

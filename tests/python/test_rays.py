@@ -31,6 +31,19 @@ def test_rays_and_points():
         detector.first_hits(box, [0, 0, 0], [0, 0, 1])
 
 
+def test_an_error_tells_which_of_many_rays_or_points_it_is_about():
+    detector = lodestone.Detector()
+    box = detector.add(cube())
+    points = np.zeros((200, 3))
+    points[150, 2] = np.nan
+    for objects in (box, None):
+        with pytest.raises(lodestone.BadArgument, match="^ray 150: the origin"):
+            detector.first_hits(objects, points, [0, 0, 1])
+    for ask in (detector.closest_points, detector.point_sides):
+        with pytest.raises(lodestone.BadArgument, match="^point 150: the point"):
+            ask(box, points)
+
+
 def test_rays_among_objects():
     detector = lodestone.Detector()
     near, middle, far = (detector.add(cube(1).moved(0, 0, z)) for z in (2, 5, 8))

@@ -69,8 +69,9 @@ constexpr double tolerance_of(const Exact_options& exact, Object_pair pair) {
 /// Options of a Detector, and of one call.
 struct Detector_options {
   Mode mode = Mode::exact;  ///< which method answers
-  /// In mode `exact` the regions at the top of an object's tree; 0: none, which is fastest to build: all vertices are
-  /// then in region 0. In other modes the particles of an object; 0: as many as the rule of `particle_count` asks for.
+  /// In the modes `exact` and `certified` the regions at the top of an object's tree; 0: none, which is fastest to
+  /// build: all vertices are then in region 0. In the others the particles of an object; 0: as many as the rule of
+  /// `particle_count` asks for.
   std::size_t particles = 0;
   std::size_t least_particles = 12;            ///< but at least so many; 1: the rule alone, which can ask for very few
   Particle_count_options particle_count = {};  ///< the rule; mode `exact` has none

@@ -37,7 +37,7 @@ template <Bounding_volume Volume>
 class Exact_detection final : public Detection {
  public:
   /// What a refusal tells a user who asks another mode for this one's answers.
-  static constexpr const char* needed = "this needs the mode exact or certified";
+  static constexpr const char* needed = " needs the mode exact or certified";
 
   /// @param options  checked by `make_detection`
   explicit Exact_detection(const Detector_options& options)
@@ -185,6 +185,9 @@ class Exact_detection final : public Detection {
 
   using Motions = std::vector<std::unique_ptr<const Object_motion<Volume>>>;
 
+  /// Positions that are given for the end of a motion, in messages.
+  static constexpr const char* at_end = " at the end";
+
   Motions motions_to(std::span<const Positions> ends);
 
   /// A visitor's walk reads positions and trees, which no other call may change.
@@ -260,7 +263,7 @@ Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
 template <Bounding_volume Volume>
 std::optional<Impact> Exact_detection<Volume>::first_impact(Object_pair pair, const Eigen::Ref<const Positions>& end_a,
                                                             const Eigen::Ref<const Positions>& end_b) {
-  Positions at_end_a = objects_[pair.a].checked(end_a), at_end_b = objects_[pair.b].checked(end_b);
+  Positions at_end_a = objects_[pair.a].checked(end_a, at_end), at_end_b = objects_[pair.b].checked(end_b, at_end);
   const Object_id ids[] = {pair.a, pair.b};
   refresh(ids);
   objects_.pose_all(ids);
@@ -272,18 +275,18 @@ std::optional<Impact> Exact_detection<Volume>::first_impact(Object_pair pair, co
 template <Bounding_volume Volume>
 std::optional<Impact> Exact_detection<Volume>::first_self_impact(Object_id object,
                                                                  const Eigen::Ref<const Positions>& end) {
-  Positions at_end = objects_[object].checked(end);
+  Positions end_positions = objects_[object].checked(end, at_end);
   const Object_id ids[] = {object};
   refresh(ids);
   objects_.pose_all(ids);
-  const Object_motion<Volume> motion(objects_.surface(object), std::move(at_end));
+  const Object_motion<Volume> motion(objects_.surface(object), std::move(end_positions));
   return lodestone::first_self_impact(motion.view());
 }
 
 template <Bounding_volume Volume>
 std::optional<Object_impact> Exact_detection<Volume>::first_impact(const Collision_filter& filter,
                                                                    std::span<const Positions> ends) {
-  return earliest_impact<Volume>(motions_to(ends), filter, broad_phase_);
+  return earliest_impact<Volume>(motions_to(ends), filter, options_.exact.self_collision, broad_phase_);
 }
 
 template <Bounding_volume Volume>
@@ -301,7 +304,7 @@ auto Exact_detection<Volume>::motions_to(std::span<const Positions> ends) -> Mot
   const auto ids = objects_.ids();
   std::vector<Positions> checked(objects_.size());
   for (const auto id : ids)
-    if (ends[id].rows() > 0) checked[id] = objects_[id].checked(ends[id]);
+    if (ends[id].rows() > 0) checked[id] = objects_[id].checked(ends[id], at_end);
   refresh(ids);
   objects_.pose_all(ids);
   Motions motions(objects_.size());

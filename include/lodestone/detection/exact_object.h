@@ -48,8 +48,9 @@ class Exact_object {
   bool built = false;                  ///< whether the surface has a tree
 
   /// A copy of positions that were given for its vertices.
+  /// @param when  which ones they are, for messages: empty, or such as " at the end"
   /// @throws Bad_mesh  another number of rows, a coordinate that is not finite
-  Positions checked(const Eigen::Ref<const Positions>& positions);
+  Positions checked(const Eigen::Ref<const Positions>& positions, const char* when = "");
   /// Takes positions that came through `update`; none: those of the mesh count again.
   void give(std::optional<Positions> positions) {
     refreshed_in_ = 0;
@@ -268,12 +269,12 @@ class Exact_object {
 };
 
 template <Bounding_volume Volume>
-Positions Exact_object<Volume>::checked(const Eigen::Ref<const Positions>& positions) {
+Positions Exact_object<Volume>::checked(const Eigen::Ref<const Positions>& positions, const char* when) {
   if (positions.rows() != mesh().vertex_count())
     throw Bad_mesh(title + " has " + std::to_string(mesh().vertex_count()) + " vertices, but got " +
-                   std::to_string(positions.rows()) + " positions");
+                   std::to_string(positions.rows()) + " positions" + when);
   Positions copy = positions;
-  check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, title);
+  check_finite({copy.data(), static_cast<std::size_t>(copy.size())}, title + when);
   return copy;
 }
 

@@ -355,7 +355,11 @@ std::optional<Numbered_partition> Exact_objects<Volume>::divide(Object& object, 
   Watched_mesh& mesh = object.mesh();
   const Vertex_graph graph = vertex_graph(mesh.vertex_count(), mesh.corners());
   const Positions positions = positions_in_range(coordinates);
-  return mesh.partition({graph, positions, mesh.corners()}, regions, options_.partition);
+  try {
+    return mesh.partition({graph, positions, mesh.corners()}, regions, options_.partition);
+  } catch (const Bad_argument& error) {
+    throw Bad_argument(object.title + ": " + error.what());
+  }
 }
 
 }  // namespace lodestone

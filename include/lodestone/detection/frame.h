@@ -54,7 +54,7 @@ struct Frame_statistics {
   std::size_t candidates = 0;         ///< candidate region pairs; in modes exact and certified pairs of leaves tested
   std::size_t openings = 0;           ///< pairs of leaves that were compared below opened regions, and along curves
   std::size_t exact_tests = 0;        ///< face pairs given to the exact test
-  std::size_t contacts = 0;           ///< face pairs found that intersect, or are nearer than the tolerance, each once
+  std::size_t contacts = 0;           ///< face pairs that are listed, each once: see `face_pairs`
   std::size_t builds = 0;             ///< objects built: see Stage_times
   std::size_t repartitions = 0;  ///< objects repartitioned since the frame before; in mode exact loose trees rebuilt
 };

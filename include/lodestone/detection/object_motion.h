@@ -66,41 +66,55 @@ std::span<const Object_pair> pairs_near(std::span<const std::unique_ptr<const Ob
   return broad_phase.find(ids, boxes, no_reach);
 }
 
-/// The first impact of each pair of objects that meet and may collide, in the order of the pairs.
+/// The pairs of objects that can meet and may collide, sorted.
 /// @param motions      by id; null: the object has been removed
-/// @param with_itself  also of each object with itself: of faces that share no vertex
+/// @param with_itself  also each object with itself
 template <Bounding_volume Volume>
-std::vector<Object_impact> impacts_of_pairs(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions,
-                                            const Collision_filter& filter, bool with_itself, Broad_phase& broad_phase,
-                                            Workers& workers) {
+std::vector<Object_pair> pairs_to_search(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions,
+                                         const Collision_filter& filter, bool with_itself, Broad_phase& broad_phase) {
   std::vector<Object_pair> pairs;
   for (const auto pair : pairs_near(motions, broad_phase))
     if (filter.may_collide(pair.a, pair.b)) pairs.push_back(pair);
   for (std::uint32_t id = 0; with_itself && id < motions.size(); ++id)
     if (motions[id] && filter.may_collide(id, id)) pairs.push_back({id, id});
   std::ranges::sort(pairs);
+  return pairs;
+}
+
+/// The first impact of a pair; of an object with itself, that of faces that share no vertex.
+template <Bounding_volume Volume>
+std::optional<Impact> impact_of(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions, Object_pair pair,
+                                double latest = 1) {
+  if (pair.a == pair.b) return first_self_impact(motions[pair.a]->view(), latest);
+  return first_impact(motions[pair.a]->view(), motions[pair.b]->view(), latest);
+}
+
+/// The first impact of each pair of objects that meet and may collide, in the order of the pairs.
+/// @param motions, with_itself  as of `pairs_to_search`
+template <Bounding_volume Volume>
+std::vector<Object_impact> impacts_of_pairs(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions,
+                                            const Collision_filter& filter, bool with_itself, Broad_phase& broad_phase,
+                                            Workers& workers) {
+  const auto pairs = pairs_to_search(motions, filter, with_itself, broad_phase);
   std::vector<std::optional<Impact>> found(pairs.size());
-  workers.run(pairs.size(), [&](std::size_t i, std::size_t) {
-    const auto [a, b] = pairs[i];
-    found[i] = a == b ? first_self_impact(motions[a]->view()) : first_impact(motions[a]->view(), motions[b]->view());
-  });
+  workers.run(pairs.size(), [&](std::size_t i, std::size_t) { found[i] = impact_of(motions, pairs[i]); });
   std::vector<Object_impact> impacts;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (found[i]) impacts.push_back({pairs[i], *found[i]});
   return impacts;
 }
 
-/// The earliest impact of two objects that may collide. Pairs that the broad phase finds are sorted, so of several at
-/// exactly the same time it is the lowest.
-/// @param motions  by id; null: the object has been removed
+/// The earliest impact of objects that may collide. Pairs are sorted, so of several at exactly the same time it is the
+/// lowest.
+/// @param motions, with_itself  as of `pairs_to_search`
 template <Bounding_volume Volume>
 std::optional<Object_impact> earliest_impact(std::span<const std::unique_ptr<const Object_motion<Volume>>> motions,
-                                             const Collision_filter& filter, Broad_phase& broad_phase) {
+                                             const Collision_filter& filter, bool with_itself,
+                                             Broad_phase& broad_phase) {
   std::optional<Object_impact> first;
-  for (const auto pair : pairs_near(motions, broad_phase)) {
-    if (!filter.may_collide(pair.a, pair.b)) continue;
+  for (const auto pair : pairs_to_search(motions, filter, with_itself, broad_phase)) {
     const double latest = first ? first->impact.exact_time.high() : 1;
-    const auto impact = first_impact(motions[pair.a]->view(), motions[pair.b]->view(), latest);
+    const auto impact = impact_of(motions, pair, latest);
     if (impact && (!first || impact->exact_time < first->impact.exact_time)) first = {pair, *impact};
   }
   return first;

@@ -30,7 +30,7 @@ namespace lodestone {
 class Particle_detection final : public Detection {
  public:
   /// What a refusal tells a user who asks another mode for this one's answers.
-  static constexpr const char* needed = "this needs a mode with particles";
+  static constexpr const char* needed = " needs a mode with particles";
 
   /// @param options  checked by `make_detection`
   explicit Particle_detection(const Detector_options& options)
@@ -77,13 +77,15 @@ class Particle_detection final : public Detection {
     Object(Object_id i, std::unique_ptr<Watched_mesh> mesh, const Object_options& o)
         : id(i), options(o), particle_object(std::move(mesh)) {}
 
-    /// Calls `work`, and names the object in the Bad_mesh that it may throw.
+    /// Calls `work`, and names the object in the Bad_mesh or Bad_argument that it may throw.
     template <class Work>
     decltype(auto) named(const Work& work) const {
       try {
         return work();
       } catch (const Bad_mesh& error) {
         throw Bad_mesh(title_of(id, options) + ": " + error.what());
+      } catch (const Bad_argument& error) {
+        throw Bad_argument(title_of(id, options) + ": " + error.what());
       }
     }
   };

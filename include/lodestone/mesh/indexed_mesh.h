@@ -44,16 +44,22 @@ class Indexed_mesh {
   /// @param faces        F; must outlive the mesh
   /// @throws Bad_mesh    the coordinates do not come in threes; a face names a vertex that does not exist
   Indexed_mesh(Coordinates coordinates, std::span<const Corners> faces);
-  /// The mesh refers to arrays, not to temporaries.
+  /// The mesh refers to arrays, not to temporaries. Nor do the other calls take any.
   Indexed_mesh(const std::vector<double>&& coordinates, std::span<const Corners> faces) = delete;
+  Indexed_mesh(Coordinates coordinates, const std::vector<Corners>&& faces) = delete;
+  Indexed_mesh(const std::vector<double>&& coordinates, const std::vector<Corners>&& faces) = delete;
 
   /// Reads the vertices elsewhere from now on. O(1).
   /// @param coordinates  3 V, of as many vertices as before; must outlive the mesh
   /// @throws Bad_mesh    another number
   void set_coordinates(Coordinates coordinates);
+  void set_coordinates(const std::vector<double>&& coordinates) = delete;
   /// Takes other arrays in place of both. A detector that has the mesh needs a `rebuild`. O(F).
   /// @throws Bad_mesh    as the constructor; the mesh stays as it was
   void set_arrays(Coordinates coordinates, std::span<const Corners> faces) { *this = Indexed_mesh(coordinates, faces); }
+  void set_arrays(const std::vector<double>&& coordinates, std::span<const Corners> faces) = delete;
+  void set_arrays(Coordinates coordinates, const std::vector<Corners>&& faces) = delete;
+  void set_arrays(const std::vector<double>&& coordinates, const std::vector<Corners>&& faces) = delete;
 
   /// 3 V, where they are read.
   Coordinates coordinates() const { return coordinates_; }

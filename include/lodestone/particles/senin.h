@@ -25,6 +25,9 @@ struct Senin_options {
   std::size_t rings = 0;                     ///< hops around a particle that are tested; 0: see `default_rings`
 };
 
+/// @throws Bad_argument  `side` is zero or not finite
+void check(const Senin_options& options);
+
 /// Vertices at which N particles start: different vertices drawn at random, among those with edges. With `side`, only
 /// those are drawn whose offset from the mean of all with edges along `side` is at least half of the largest.
 /// @return N vertices, or all if there are fewer to draw from

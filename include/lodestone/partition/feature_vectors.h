@@ -26,6 +26,9 @@ struct Feature_options {
   double normal_weight = 1;    ///< of unit vertex normals; [0, 1e6]; 0 leaves the normals out, so that k = 3
 };
 
+/// @throws Bad_argument  a weight is out of range, or both are 0
+void check(const Feature_options& options);
+
 /// Unit normal of each vertex: the sum of the cross products of its faces, which weights faces by area, divided by its
 /// length. Zero if that sum is zero (isolated vertices, zero-area faces). Cost O(V + F).
 Positions vertex_normals(const Positions& positions, std::span<const Corners> faces);

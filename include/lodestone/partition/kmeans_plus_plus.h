@@ -27,6 +27,9 @@ struct Kmeans_plus_plus_options {
   Feature_options features = {};      ///< what is compared
 };
 
+/// @throws Bad_argument  an option out of range
+void check(const Kmeans_plus_plus_options& options);
+
 /// Partition strategy: the cells of Lloyd iterations from a k-means++ start, over the feature vectors of `Lbg`.
 ///
 /// With the default tolerance no mean is nearer to a vector than that of its own cell. A cell that becomes empty is

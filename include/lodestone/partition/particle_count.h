@@ -28,6 +28,9 @@ struct Particle_count_options {
   std::size_t most_particles = 256;  ///< upper limit per object; >= 1
 };
 
+/// @throws Bad_argument  an option out of range
+void check(const Particle_count_options& options);
+
 /// Particles for objects of equal size: the kissing number of spheres, 12, or the number of objects if that is lower.
 std::size_t kissing_particle_count(std::size_t objects);
 

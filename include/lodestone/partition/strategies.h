@@ -16,7 +16,7 @@ namespace lodestone {
 /// Settings for any strategy; each uses those that concern it.
 struct Strategy_settings {
   std::uint64_t seed = 1;  ///< of strategies that draw at random
-  Lbg_options lbg = {};    ///< of `lbg` and its kin; `lbg.features` also of the others that quantise feature vectors
+  Lbg_options lbg = {};    ///< of `lbg` and its kin; k-means++ has its features, tolerance and iterations, too
 };
 
 /// A setting in `Strategy_settings::lbg` that some strategies ignore.
