@@ -243,8 +243,8 @@ class Detector {
     return ask<Exact>("first_self_impact", object).first_self_impact(object, end);
   }
   /// The earliest impact of any two objects, with what `detect` leaves out left out, in mode `exact`; with
-  /// `Exact_options::self_collision` also of any object with itself: see `first_self_impact`. Of several pairs at exactly
-  /// the same time it is that of the lowest ids.
+  /// `Exact_options::self_collision` also of any object with itself: see `first_self_impact`. Of several pairs at
+  /// exactly the same time it is that of the lowest ids.
   /// @param ends           per object, by id: as in the other call; without rows, the object stays where it is
   /// @throws Bad_argument  another mode; not one entry per id, of removed objects too
   /// @throws Bad_mesh      as the other call
@@ -374,10 +374,11 @@ class Detector {
   /// @throws Bad_argument  no such object, another mode
   template <Motion_promise Promise>
   void promise(Object_id object, const Promise& promise) {
-    ask<Exact>("promise", object).promise(object, [&promise](const Bounded_object& bounded) -> std::unique_ptr<Node_bound> {
+    const auto make = [&promise](const Bounded_object& bounded) -> std::unique_ptr<Node_bound> {
       auto bound = promise.bound(bounded);
       return std::make_unique<Node_bound_of<decltype(bound)>>(std::move(bound));
-    });
+    };
+    ask<Exact>("promise", object).promise(object, make);
   }
   template <Motion_promise Promise>
   void promise(Object_id object, const Promise&& promise) = delete;

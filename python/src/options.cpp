@@ -110,6 +110,15 @@ void refuse_strategy_of_senin(const py::kwargs& keywords) {
                          " is for the modes exact, certified, particles: the mode senin ignores it");
 }
 
+/// Options that others leave without effect. What one mode lacks, the detector itself refuses.
+void refuse_options_without_effect(const Detector_options& options, const py::kwargs& keywords) {
+  if (keywords.contains("most_contacts") && options.contacts != Contact_query::all)
+    throw Bad_argument("the option most_contacts needs contacts='all': otherwise one contact is listed at most");
+  for (const char* name : {"opening_budget", "opening_reach"})
+    if (keywords.contains(name) && options.mode == Mode::particles && options.meetings == 0)
+      throw Bad_argument(std::string("the option ") + name + " has no effect without meetings");
+}
+
 /// Whether the caller chose a strategy or one of its settings, or how regions are repaired.
 bool chooses_strategy(const py::kwargs& keywords) {
   return keywords.contains("strategy") || keywords.contains("seed") || keywords.contains("keep_islands") ||
@@ -176,6 +185,7 @@ Detector_settings detector_settings(const py::kwargs& keywords) {
   add_lbg(table, settings.strategy_settings.lbg);
   set_all(table, keywords);
   if (options.mode == Mode::senin) refuse_strategy_of_senin(keywords);
+  refuse_options_without_effect(options, keywords);
   refuse_settings_of_other_strategies(settings.strategy, keywords, false);  // threads share frames too
   // A caller who chooses a strategy wants regions.
   if (finds_all(options.mode) && chooses_strategy(keywords) && options.particles == 0)

@@ -31,7 +31,7 @@ void Particle_detection::update(Object_id id) {
   timed(since_last_frame_.seconds.repartition, [&] {
     if (!object.named([&] { return has_outgrown(object.particle_object); })) return;
     Object* const outgrown[] = {&object};
-    prepare(outgrown, false);  // its seams stay as they are
+    prepare(outgrown, Seams::keep);
     ++since_last_frame_.repartitions;
   });
 }
@@ -77,7 +77,7 @@ void Particle_detection::load(Object_id id, State_reader& state) {
     const double radius = state.finite();
     const bool was_prepared = std::exchange(object.prepared, false);  // if memory runs out, it is built anew
     try {
-      object.particle_object.load(state);
+      object.particle_object.load(state, {.regions = options_.mode != Mode::senin, .meetings = meets()});
     } catch (const Bad_saved_object&) {
       object.prepared = was_prepared;
       throw;
@@ -140,7 +140,7 @@ void Particle_detection::prepare() {
   auto& seconds = since_last_frame_.seconds;
   const bool repartitioned = fresh.empty() && since_last_frame_.repartitions > 0;
   timed(repartitioned ? seconds.repartition : seconds.build, [&] {
-    if (!fresh.empty()) prepare(fresh, options_.close_seams);
+    if (!fresh.empty()) prepare(fresh, options_.close_seams ? Seams::close : Seams::open);
     make_room();
   });
   since_last_frame_.builds += fresh.size();
@@ -148,7 +148,7 @@ void Particle_detection::prepare() {
 
 /// What calls the user's code, to read a mesh, or to divide a surface by a strategy that is not concurrent, is done in
 /// this thread, object by object.
-void Particle_detection::prepare(std::span<Object* const> objects, bool close_seams) {
+void Particle_detection::prepare(std::span<Object* const> objects, Seams seams) {
   std::vector<Positions> positions;
   std::vector<std::size_t> faces, particles(objects.size());
   for (Object* object : objects) {
@@ -162,7 +162,8 @@ void Particle_detection::prepare(std::span<Object* const> objects, bool close_se
 
   for_each([&](std::size_t i) {
     objects[i]->particle_object.find_edges();
-    if (close_seams) objects[i]->particle_object.close_seams(positions[i]);
+    if (seams == Seams::close) objects[i]->particle_object.close_seams(positions[i]);
+    if (seams == Seams::open) objects[i]->particle_object.open_seams();  // of a file that could not be loaded
     if (options_.particles == 0) objects[i]->radius = radius_of(objects[i]->particle_object, positions[i]);
   });
   const Radius_range range = radii();

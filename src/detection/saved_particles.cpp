@@ -68,17 +68,17 @@ struct Particle_object::Saved {
   std::vector<Region_extent> extents;
   Region_index last_checked = 0;
   double largest_area = 0, rest_compass = 0;
-  std::uint32_t has_tree = 0;
   Tree_on_demand tree;
   Region_anchors regions;
 
-  Saved(State_reader& state, std::span<const Corners> corners, std::size_t vertex_count);
-  void load_homes(State_reader& state, std::size_t vertex_count);
+  Saved(State_reader& state, Built built, std::span<const Corners> corners, std::size_t vertex_count);
+  void load_homes(State_reader& state, Built built, std::size_t vertex_count);
   void check(std::span<const Corners> corners, std::size_t vertex_count) const;
   void check_places(std::span<const Corners> corners) const;
 };
 
-Particle_object::Saved::Saved(State_reader& state, std::span<const Corners> corners, std::size_t vertex_count) {
+Particle_object::Saved::Saved(State_reader& state, Built built, std::span<const Corners> corners,
+                              std::size_t vertex_count) {
   joined = state.list<std::uint32_t>();
   labels = state.list<Region_index>();
   particles.at = state.list<std::uint32_t>();
@@ -87,20 +87,25 @@ Particle_object::Saved::Saved(State_reader& state, std::span<const Corners> corn
   particles.collision_distance = state.finite();
   particles.hop_limit = state.value<std::uint64_t>();
   rings = state.value<std::uint64_t>();
-  load_homes(state, vertex_count);
+  load_homes(state, built, vertex_count);
   last_checked = state.value<Region_index>();
   largest_area = state.finite();
   rest_compass = state.finite();
-  has_tree = state.value<std::uint32_t>();
+  const auto has_tree = state.value<std::uint32_t>();
   check(corners, vertex_count);
-  if (has_tree == 0) return;
+  State_reader::require(has_tree == std::uint32_t{built.meetings}, built.meetings
+                                                                       ? "it does not have the tree that meetings need"
+                                                                       : "it has a tree, which this mode does not use");
+  if (!built.meetings) return;
   tree = Tree_on_demand::load(state, corners, vertex_count);
   regions = Region_anchors::load(state, tree.layout(), particles.at.size());
 }
 
-void Particle_object::Saved::load_homes(State_reader& state, std::size_t vertex_count) {
+void Particle_object::Saved::load_homes(State_reader& state, Built built, std::size_t vertex_count) {
   const auto count = state.value<std::uint64_t>();
-  State_reader::require(count == 0 || count == particles.at.size(), "it does not have one home for each particle");
+  State_reader::require(count == (built.regions ? particles.at.size() : 0),
+                        built.regions ? "it does not have one home for each particle"
+                                      : "it has homes of particles, which scattered ones do not have");
   homes.resize(count);
   for (Home& home : homes) {
     home.vertex = state.value<std::uint32_t>();
@@ -146,8 +151,8 @@ void Particle_object::Saved::check_places(std::span<const Corners> corners) cons
       "a particle has not started on the surface");
 }
 
-void Particle_object::load(State_reader& state) {
-  Saved saved(state, corners(), mesh_->vertex_count());
+void Particle_object::load(State_reader& state, Built built) {
+  Saved saved(state, built, corners(), mesh_->vertex_count());
   state.end();
   std::optional<Closed_seams> seams;
   if (!saved.joined.empty()) {
@@ -162,7 +167,7 @@ void Particle_object::load(State_reader& state) {
     find_edges();
   Region_steps steps(edges_.graph, saved.labels);
   Leaf_neighbours neighbours;
-  if (saved.has_tree != 0) neighbours = Leaf_neighbours(saved.tree.layout(), corners().size());
+  if (built.meetings) neighbours = Leaf_neighbours(saved.tree.layout(), corners().size());
   // From here on nothing can fail but for want of memory.
   steps_ = std::move(steps);
   labels_ = std::move(saved.labels);
@@ -175,9 +180,9 @@ void Particle_object::load(State_reader& state) {
   tree_ = std::move(saved.tree);
   neighbours_ = std::move(neighbours);
   regions_ = std::move(saved.regions);
-  if (homes_.empty())
+  if (!built.regions)
     start_patches(saved.rings);
-  else if (saved.has_tree == 0)
+  else if (!built.meetings)
     prepare_patches();
 }
 

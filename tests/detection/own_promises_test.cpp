@@ -2,12 +2,15 @@
 // Computed points that promise something about themselves, in mode certified; and promises at their limits.
 #include <functional>
 #include <limits>
+#include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "detection/certified_scene.h"
 #include "lodestone/bounds/displacement_bound.h"
 #include "lodestone/bounds/lipschitz_bound.h"
 #include "lodestone/bounds/stretch_bound.h"
+#include "lodestone/io/motion/deformed_points.h"
 
 namespace lodestone {
 namespace {
@@ -146,6 +149,109 @@ TEST(Skinned_points, that_are_assigned_are_in_a_new_pose) {
   points = other;
   EXPECT_TRUE(exact.detect().collides());
   EXPECT_TRUE(certified.detect().collides());
+}
+
+/// Points of one mesh in the modes certified and exact, beside a body at (0, 0, 4).
+template <class Points>
+class Assigned_points {
+ public:
+  explicit Assigned_points(Points points) : points_(std::move(points)) {
+    shift(b_, 0, 0, 4);
+    for (Detector<>* detector : {&certified_, &exact_}) {
+      detector->add(a_, point_map(a_, points_));
+      detector->add(b_);
+    }
+  }
+  Assigned_points(const Assigned_points&) = delete;
+
+  static Surface_mesh mesh() { return long_body(9, 1); }
+  Points& points() { return points_; }
+  Detector<>& certified() { return certified_; }
+  /// Asks both modes.
+  void expect_collision(bool collides) {
+    EXPECT_EQ(exact_.detect().collides(), collides);
+    const Frame& frame = certified_.detect();
+    EXPECT_EQ(frame.collides(), collides);
+    EXPECT_EQ(frame.face_pairs, exact_.detect().face_pairs);
+    EXPECT_EQ(frame.statistics.violations, 0U);
+    EXPECT_NE(certified_.bounded(0), nullptr);
+  }
+
+ private:
+  Surface_mesh a_ = mesh(), b_ = potato(6, 2);
+  Points points_;
+  Detector<> certified_{{.mode = Mode::certified}}, exact_{{.mode = Mode::exact}};
+};
+
+/// Each coordinate of the mesh, multiplied.
+std::vector<double> scaled_rest(double factor) {
+  auto rest = Face_soup(long_body(9, 1)).coordinates;
+  for (double& x : rest) x *= factor;
+  return rest;
+}
+
+TEST(Deformed_points, that_are_assigned_have_bounds_of_their_own) {
+  const auto points_of = [](double factor) {
+    const Surface_mesh mesh = long_body(9, 1);
+    return Deformed_points({mesh.points().begin(), mesh.points().end()}, {Inflate{.factor = factor, .frames = 1}});
+  };
+  for (const bool held : {false, true}) {
+    Assigned_points body(points_of(1.01));
+    body.points().set_frame(1);
+    body.expect_collision(false);
+    std::optional<Held_positions> hold;
+    if (held) hold.emplace(body.certified().hold_positions());
+    body.expect_collision(false);
+    for (const double factor : {6.0, 1.02, 7.0}) {
+      body.points() = points_of(factor);
+      body.expect_collision(false);
+      body.points().set_frame(1);
+      if (held) body.certified().update(0);
+      body.expect_collision(factor > 2);
+    }
+  }
+}
+
+TEST(Morphed_points, that_are_assigned_have_bounds_of_their_own) {
+  const auto points_of = [](double rest_factor, std::size_t targets, double offset_factor) {
+    Morph_target target;
+    target.offsets = scaled_rest(offset_factor);
+    Morphed_points points(scaled_rest(rest_factor), std::vector(targets, target));
+    points.set_weights(std::vector<double>(targets, 1.0));
+    return points;
+  };
+  Assigned_points body(points_of(1, 3, 0.01));
+  body.expect_collision(false);
+  body.points() = points_of(1, 1, 0.02);  // fewer targets
+  body.expect_collision(false);
+  body.points() = points_of(1, 1, 5);  // longer offsets
+  body.expect_collision(true);
+  body.points() = points_of(1, 0, 0);
+  body.expect_collision(false);
+  body.points() = points_of(6, 2, 0.01);  // larger at rest
+  body.expect_collision(true);
+}
+
+TEST(Skinned_points, that_are_assigned_have_bounds_of_their_own) {
+  const auto points_of = [](double rest_factor, std::size_t joints, std::uint32_t joint) {
+    const auto rest = scaled_rest(rest_factor);
+    const std::vector<std::uint32_t> all(rest.size() / 3, joint);
+    Skinned_points points(rest, Joint_influences::of(1, all, std::vector<double>(all.size(), 1.0)), joints);
+    std::vector<Eigen::Affine3d> motions(joints, Eigen::Affine3d::Identity());
+    motions.back() = Eigen::Translation3d(0, 0, 3.5);
+    points.set_joints(motions);
+    return points;
+  };
+  Assigned_points body(points_of(1, 5, 3));
+  body.expect_collision(false);
+  body.points() = points_of(1, 2, 0);  // fewer joints
+  body.expect_collision(false);
+  body.points() = points_of(1, 2, 1);  // the other joint
+  body.expect_collision(true);
+  body.points() = points_of(1, 3, 0);
+  body.expect_collision(false);
+  body.points() = points_of(6, 3, 0);  // larger at rest
+  body.expect_collision(true);
 }
 
 TEST(Broken_promise, is_an_error_of_queries_that_read_everything_too) {

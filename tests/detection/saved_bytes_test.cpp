@@ -63,6 +63,40 @@ TEST(Saved_bytes, cannot_put_other_lines_or_a_long_text_into_a_message) {
   EXPECT_LT(refusal_of([&] { detector.load(0, seal_saved(writer.take())); }).size(), 200U);
 }
 
+/// What a mode has saved, with the name of another mode.
+Bytes renamed(const Bytes& saved, const std::string& mode) {
+  const auto body = open_saved(saved);
+  State_reader reader(body);
+  State_writer writer;
+  const std::size_t own_length = reader.list<char>().size();
+  writer.list(std::vector<char>(mode.begin(), mode.end()));
+  Bytes other = writer.take();
+  const auto rest = body.subspan(sizeof(std::uint64_t) + own_length);
+  other.insert(other.end(), rest.begin(), rest.end());
+  return seal_saved(other);
+}
+
+TEST(Saved_bytes, of_another_mode_are_refused_also_if_they_bear_the_name_of_this_one) {
+  struct Kind {
+    std::string name;
+    Detector_options options;
+  };
+  const std::vector<Kind> kinds{{"particles", {.mode = Mode::particles}},
+                                {"particles without meetings", {.mode = Mode::particles, .meetings = 0}},
+                                {"senin", {.mode = Mode::senin}}};
+  for (const Kind& from : kinds)
+    for (const Kind& to : kinds) {
+      SCOPED_TRACE(from.name + " as " + to.name);
+      Surface_mesh a = sphere(6), b = sphere(6, 1, {1.8, 0, 0});
+      Detector first(from.options), second(to.options);
+      first.add(a), second.add(a), second.add(b);
+      const Bytes bytes = renamed(first.save(0), to.name);
+      const std::string refusal = refusal_of([&] { second.load(0, bytes); });
+      EXPECT_EQ(refusal == "no error", from.name == to.name) << refusal;
+      EXPECT_TRUE(second.detect().collides());
+    }
+}
+
 TEST(Saved_regions, that_do_not_fit_are_refused) {
   const auto refusal = [](const Numbered_partition& regions) {
     State_writer writer;

@@ -57,6 +57,9 @@ def test_a_vertex_that_is_no_number_is_an_error(mode):
     (dict(strategy="voronoy"), lodestone.BadArgument, "voronoy"),
     (dict(self_tolerance=0.1), lodestone.BadArgument, "self_tolerance needs self_collision=True"),
     (dict(mode="particles", tolerance=1.0), lodestone.BadArgument, "exact"),
+    (dict(contacts="first", most_contacts=5), lodestone.BadArgument, "most_contacts needs contacts='all'"),
+    (dict(mode="particles", meetings=0, opening_budget=5), lodestone.BadArgument, "opening_budget has no effect"),
+    (dict(mode="particles", meetings=0, opening_reach=0.5), lodestone.BadArgument, "opening_reach has no effect"),
 ])
 def test_options_are_checked(arguments, error, text):
     with pytest.raises(error, match=text):

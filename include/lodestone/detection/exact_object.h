@@ -125,10 +125,17 @@ class Exact_object {
     refreshed_in_ = 0;
     ray_tree_.note_moved();
     if (mesh().pose_number() == 0) ++changes_;
+    const std::uint64_t shape_number = mesh().shape_number();
+    if (shape_number_ == shape_number) return;
+    shape_number_ = shape_number;
+    rest_of_points_.clear();
+    bounded_.reset();  // it may refer to what there is no more
   }
   /// Whether positions that are held have been read, and nothing else about the object has changed since.
   /// @param hold  Position_hold::number
-  bool is_refreshed(std::uint64_t hold) const { return hold != 0 && refreshed_in_ == hold; }
+  bool is_refreshed(std::uint64_t hold) {
+    return hold != 0 && refreshed_in_ == hold && shape_number_ == mesh().shape_number();
+  }
   /// Takes note that they have been read.
   void note_refreshed(std::uint64_t hold) { refreshed_in_ = hold; }
   /// Takes note that a query begins for which they need not be read again. O(1).
@@ -261,6 +268,7 @@ class Exact_object {
   std::vector<Make_bound> promises_;
   std::vector<double> rest_;            ///< 3 V: the first positions that a promise was about; none before
   std::vector<double> rest_of_points_;  ///< 3 V: the first positions that points with a bound had; none before
+  std::uint64_t shape_number_ = 0;      ///< Watched_mesh::shape_number of the points that bounds are about
   std::unique_ptr<Mesh_positions> mesh_positions_;  ///< what bounds look at
   std::unique_ptr<Bounded_surface> bounded_;
   bool lacks_bounds_ = false;  ///< the mesh was not finite where others were given when `bounded_` was made

@@ -94,7 +94,8 @@ class Particle_detection final : public Detection {
   void prepare();
   void note_places();
   void return_to_places();
-  void prepare(std::span<Object* const> objects, bool close_seams);
+  enum class Seams { keep, close, open };
+  void prepare(std::span<Object* const> objects, Seams seams);
   void start(Object& object, const Positions& positions, std::size_t particles, Numbered_partition division,
              Workers& workers);
   bool has_outgrown(Particle_object& object);

@@ -67,10 +67,20 @@ class Particle_object {
 
   /// Writes what was built. Only if something was.
   void save(State_writer& state) const;
+  /// What was built, besides the particles themselves.
+  struct Built {
+    bool regions;   ///< the particles have regions of their own: they are not scattered
+    bool meetings;  ///< there is what meetings need
+  };
   /// Takes what `save` has written for an object with the same faces in the same mode.
+  /// @param built              what that mode builds
   /// @throws Bad_saved_object  the object stays as it was
-  void load(State_reader& state);
+  void load(State_reader& state, Built built);
 
+  /// Opens seams that are closed.
+  void open_seams() {
+    if (seams_) walk_along(std::nullopt);
+  }
   /// Spheres around the parts of the surface: see `lodestone::sphere_collection`.
   std::vector<Sphere> sphere_collection(const Positions& positions, const Particle_count_options& options) const {
     return lodestone::sphere_collection(edges_.graph, positions, walked_corners(), options);

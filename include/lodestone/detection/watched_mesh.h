@@ -50,6 +50,8 @@ class Watched_mesh {
   virtual bool in_memory() const = 0;
   /// Grows whenever positions change; 0: nobody knows.
   virtual std::uint64_t pose_number() const = 0;
+  /// Grows whenever its own bound is one of former points: see Computed_points.
+  virtual std::uint64_t shape_number() const = 0;
   /// The bound that the positions have by themselves; null: none.
   virtual std::unique_ptr<Node_bound> own_bound(const Bounded_object& object) const = 0;
   /// Whether that bound is made from positions at rest.
@@ -163,6 +165,10 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
   bool in_memory() const override { return Coordinate_reader<Mesh, Points>::in_memory; }
   std::uint64_t pose_number() const override {
     if constexpr (is_computed<Points>) return points_.points().pose_number();
+    return 0;
+  }
+  std::uint64_t shape_number() const override {
+    if constexpr (requires { points_.points().shape_number(); }) return points_.points().shape_number();
     return 0;
   }
   std::unique_ptr<Node_bound> own_bound(const Bounded_object& object) const override {

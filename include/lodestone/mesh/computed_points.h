@@ -28,6 +28,10 @@ namespace lodestone {
 /// twice, and writes each to its three places among 3 V coordinates. `points.pose_all(coordinates)` writes all.
 /// `points.pose_number()` is above 0 and grows whenever the pose changes.
 ///
+/// `points.shape_number()`, which points need not have, grows whenever anything else changes on which bounds of a
+/// region rest, such as positions at rest or the weights of joints; so does the pose number then. A detector makes
+/// bounds anew.
+///
 /// Several threads may compute positions at once while none changes the pose. Models: Skinned_points, Morphed_points,
 /// Deformed_points, Computed_motion.
 template <class P>

@@ -171,11 +171,15 @@ bool Box_reader<Mesh, Points>::read_faces(const Box& part, Faces_in_box& found) 
     found.coordinates = memory();
     return select(sides_beyond(memory(), part), found);
   } else {
+    bool countable = true;
     const bool triangles = for_each_face([&](std::uint32_t face, auto... corners) {
       const Eigen::Vector3d positions[]{coordinates(get(points_, corners))...};
       std::uint8_t common = 0xff;
       for (const auto& position : positions) common &= sides_beyond(position.data(), part);
       if (common != 0) return;
+      constexpr std::size_t most_faces = std::numeric_limits<std::uint32_t>::max() / 3;
+      countable = countable && found.faces.size() < most_faces;
+      if (!countable) return;
       const auto first = static_cast<std::uint32_t>(3 * found.faces.size());
       found.faces.push_back(face);
       found.corners.push_back({first, first + 1, first + 2});
@@ -183,7 +187,7 @@ bool Box_reader<Mesh, Points>::read_faces(const Box& part, Faces_in_box& found) 
         found.copied.insert(found.copied.end(), position.data(), position.data() + 3);
     });
     found.coordinates = found.copied;
-    return triangles;
+    return triangles && countable;
   }
 }
 

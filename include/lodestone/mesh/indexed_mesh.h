@@ -9,9 +9,11 @@
 #include <boost/property_map/vector_property_map.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "lodestone/mesh/concepts.h"
@@ -35,6 +37,10 @@ namespace lodestone {
 /// a file can hold is legal: an edge with three faces, neighbours of opposite orientations, a face that names a vertex
 /// twice, a vertex without a face.
 class Indexed_mesh {
+  /// What `Array&&` is deduced as from a temporary vector.
+  template <class Array, class Element>
+  static constexpr bool ends_with_the_call = std::same_as<std::remove_const_t<Array>, std::vector<Element>>;
+
  public:
   /// Indices of vertices or faces, from 0.
   using Index_range = CGAL::Iterator_range<boost::counting_iterator<std::uint32_t>>;
@@ -44,22 +50,24 @@ class Indexed_mesh {
   /// @param faces        F; must outlive the mesh
   /// @throws Bad_mesh    the coordinates do not come in threes; a face names a vertex that does not exist
   Indexed_mesh(Coordinates coordinates, std::span<const Corners> faces);
-  /// The mesh refers to arrays, not to temporaries. Nor do the other calls take any.
-  Indexed_mesh(const std::vector<double>&& coordinates, std::span<const Corners> faces) = delete;
-  Indexed_mesh(Coordinates coordinates, const std::vector<Corners>&& faces) = delete;
-  Indexed_mesh(const std::vector<double>&& coordinates, const std::vector<Corners>&& faces) = delete;
+  /// The mesh refers to arrays, not to temporaries.
+  template <class Numbers, class Faces>
+    requires(ends_with_the_call<Numbers, double> || ends_with_the_call<Faces, Corners>)
+  Indexed_mesh(Numbers&& coordinates, Faces&& faces) = delete;
 
   /// Reads the vertices elsewhere from now on. O(1).
   /// @param coordinates  3 V, of as many vertices as before; must outlive the mesh
   /// @throws Bad_mesh    another number
   void set_coordinates(Coordinates coordinates);
-  void set_coordinates(const std::vector<double>&& coordinates) = delete;
+  template <class Numbers>
+    requires ends_with_the_call<Numbers, double>
+  void set_coordinates(Numbers&& coordinates) = delete;
   /// Takes other arrays in place of both. A detector that has the mesh needs a `rebuild`. O(F).
   /// @throws Bad_mesh    as the constructor; the mesh stays as it was
   void set_arrays(Coordinates coordinates, std::span<const Corners> faces) { *this = Indexed_mesh(coordinates, faces); }
-  void set_arrays(const std::vector<double>&& coordinates, std::span<const Corners> faces) = delete;
-  void set_arrays(Coordinates coordinates, const std::vector<Corners>&& faces) = delete;
-  void set_arrays(const std::vector<double>&& coordinates, const std::vector<Corners>&& faces) = delete;
+  template <class Numbers, class Faces>
+    requires(ends_with_the_call<Numbers, double> || ends_with_the_call<Faces, Corners>)
+  void set_arrays(Numbers&& coordinates, Faces&& faces) = delete;
 
   /// 3 V, where they are read.
   Coordinates coordinates() const { return coordinates_; }

@@ -40,6 +40,8 @@ class Morphed_points {
   std::size_t target_count() const { return weights_.size(); }
   /// Above 0; grows whenever the pose changes.
   std::uint64_t pose_number() const { return pose_number_; }
+  /// Grows when other points are assigned: see Computed_points.
+  std::uint64_t shape_number() const { return pose_number_.assignments(); }
   /// 3 V coordinates.
   std::span<const double> rest() const { return rest_; }
   /// Per target.

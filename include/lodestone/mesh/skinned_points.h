@@ -56,6 +56,8 @@ class Skinned_points {
   std::size_t joint_count() const { return columns_.size() / 16; }
   /// Above 0; grows whenever the pose changes.
   std::uint64_t pose_number() const { return pose_number_ + shape_.pose_number(); }
+  /// Grows when other points are assigned: see Computed_points.
+  std::uint64_t shape_number() const { return pose_number_.assignments() + shape_.shape_number(); }
   /// What the joints move: the vertices at rest, or morphed.
   const Morphed_points& shape() const { return shape_; }
   /// The joints that move a vertex, and their normalised weights, all above 0.

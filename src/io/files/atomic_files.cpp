@@ -20,7 +20,10 @@ Atomic_files::Atomic_files(const fs::path& folder) : folder_(folder.empty() ? ".
     made = fs::create_directory(hidden_, error);
     if (error) break;
   }
-  if (!made) throw Bad_output(folder_.string() + ": cannot create a folder in it: " + error.message());
+  if (error) throw Bad_output(folder_.string() + ": cannot create a folder in it: " + error.message());
+  if (!made)
+    throw Bad_output(folder_.string() + ": holds a hundred folders .new." + std::to_string(::getpid()) +
+                     ".* of runs that were killed: remove them");
 }
 
 Atomic_files::~Atomic_files() {

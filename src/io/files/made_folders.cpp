@@ -17,10 +17,14 @@ Made_folders::Made_folders(const std::filesystem::path& folder) {
   }
   std::ranges::reverse(folders_);
   std::filesystem::create_directories(folder, error);
-  if (error) throw Bad_output(folder.string() + ": cannot create the folder: " + error.message());
+  if (!error) return;
+  remove();
+  throw Bad_output(folder.string() + ": cannot create the folder: " + error.message());
 }
 
-Made_folders::~Made_folders() {
+Made_folders::~Made_folders() { remove(); }
+
+void Made_folders::remove() const {
   std::error_code ignored;
   for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder)
     if (std::filesystem::is_directory(*folder, ignored)) std::filesystem::remove(*folder, ignored);  // if it is empty

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/errors.h"
+#include "support/message_of.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
@@ -88,6 +90,21 @@ TEST_F(Atomic_files_test, that_are_not_committed_leave_no_folder_that_they_made)
     write(files.open("one"), "1");
   }
   EXPECT_FALSE(exists(folder.path() / "a"));
+}
+
+TEST_F(Atomic_files_test, in_a_folder_that_cannot_be_made_leave_none_of_its_parents) {
+  EXPECT_THROW(Atomic_files(folder.path() / "a" / "b" / std::string(300, 'n') / "c"), Bad_output);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST_F(Atomic_files_test, that_killed_runs_have_left_are_named_where_they_are_in_the_way) {
+  const auto hidden = [&](int number) {
+    return folder.path() / (".new." + std::to_string(::getpid()) + "." + std::to_string(number));
+  };
+  for (int number = 0; number < 99; ++number) fs::create_directory(hidden(number));
+  EXPECT_NO_THROW(Atomic_files(folder.path()));
+  fs::create_directory(hidden(99));
+  EXPECT_NE(message_of<Bad_output>([&] { Atomic_files(folder.path()); }).find("remove them"), std::string::npos);
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ class Made_folders {
   ~Made_folders();
 
  private:
+  void remove() const;
+
   std::vector<std::filesystem::path> folders_;  ///< outermost first
 };
 

@@ -61,6 +61,8 @@ class Deformed_points {
   std::uint32_t vertex_count() const;
   /// Above 0; grows whenever the pose changes.
   std::uint64_t pose_number() const { return pose_number_; }
+  /// Grows when other points are assigned: see Computed_points.
+  std::uint64_t shape_number() const { return pose_number_.assignments(); }
 
   /// One position. O(deformations).
   Eigen::Vector3d operator()(std::uint32_t vertex) const;
