@@ -9,6 +9,8 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
+import sysconfig
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -32,7 +34,10 @@ class Build_with_cmake(build_ext):
         subprocess.run(["cmake", "--build", folder, "--parallel", jobs, "--target", "lodestone_python"], check=True)
         target = pathlib.Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(next((folder / "python" / "lodestone").glob("_lodestone*.so")), target)
+        built = next((folder / "python" / "lodestone").glob("_lodestone*.so"))
+        if not built.name.endswith(sysconfig.get_config_var("EXT_SUFFIX")):
+            raise SystemExit(f"{built} is not for {sys.executable}: it is built for /usr/bin/python3, so use that")
+        shutil.copy2(built, target)
 
 
 setup(

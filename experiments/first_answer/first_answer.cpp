@@ -58,9 +58,10 @@ std::string section(const Once_scene& scene, std::span<const Once_figures> figur
   const Once_figures& calls = figures.front();
   const auto cells = [](const std::optional<Once_times>& times, const std::optional<Once_times>& of_calls) {
     if (!times) return std::vector<std::string>(4, "-");
-    const auto frame = pays_from(*times, *of_calls);
+    const auto frame = of_calls ? pays_from(*times, *of_calls) : std::nullopt;
+    const std::string never = of_calls ? "never" : "-";
     return std::vector<std::string>{milliseconds(times->first), milliseconds(times->of_frames(10)),
-                                    milliseconds(times->of_frames(100)), frame ? std::to_string(*frame) : "never"};
+                                    milliseconds(times->of_frames(100)), frame ? std::to_string(*frame) : never};
   };
   for (const auto& f : figures) {
     std::vector<std::string> row{f.contestant->name()};

@@ -17,6 +17,7 @@
 #include "partitions/partition_plan.h"
 #include "partitions/partition_report.h"
 #include "partitions/partition_run.h"
+#include "partitions/row_file.h"
 #include "partitions/sweep.h"
 #include "program/progress.h"
 #include "shared/experiment.h"
@@ -56,6 +57,18 @@ Sharded_experiment work_of(const std::vector<std::string>& ids) {
   return {.pieces = ids.size(), .neighbours = false, .inputs = std::move(inputs)};
 }
 
+/// In a journal, the id of the row that tells of which work it is.
+constexpr const char* row_of_work = "work";
+
+/// Removes the journal of a shard that holds runs of other work, such as of another revision.
+void drop_other_work(const Shard_folder& folder, std::size_t index) {
+  const auto journal = folder.journal(index);
+  if (!std::filesystem::exists(journal)) return;
+  const auto rows = read_rows(journal);
+  const auto work = rows.find(row_of_work);
+  if (work == rows.end() || work->second.value("hash", "") != folder.work()) std::filesystem::remove(journal);
+}
+
 /// Makes the runs of one shard. Those that are finished are kept in its journal, and then in the shard, in order.
 std::string make_shard(const Experiment_context& context, const std::vector<Partition_run>& plan,
                        const std::vector<std::string>& all_ids) {
@@ -66,11 +79,13 @@ std::string make_shard(const Experiment_context& context, const std::vector<Part
   if (folder.is_done(index)) return said_of_shard(folder, index, runs.size());
   std::vector<std::string> ids;
   for (const auto run : runs) ids.push_back(all_ids[run]);
+  drop_other_work(folder, index);
   {
     Row_file rows(folder.journal(index));
+    rows.add({{"id", row_of_work}, {"hash", folder.work()}});
     const auto failures = sweep(
         ids, rows, {.jobs = context.jobs}, [&](std::size_t run) { return execute(plan[runs[run]]); }, context.progress);
-    if (!failures.empty()) throw Bad_argument(said_of(failures));
+    if (!failures.empty()) throw Bad_shard(said_of(failures));
     Shard_writer shard(folder, index);
     for (const auto& id : ids) shard.add(rows.rows().at(id).dump());
     shard.commit({{"processors", partition_manifest()["processors"]}});
@@ -103,7 +118,6 @@ void merge(const Experiment_context& context, const std::vector<std::string>& id
     manifest["processors"] = record.at("processors");
     write_manifest(context.out, manifest);
   }
-  folder.note_merged();
 }
 
 }  // namespace
@@ -125,7 +139,7 @@ std::string run_partitions(const Experiment_context& context) {
   if (std::ranges::any_of(ids, to_do)) write_manifest(context.out, partition_manifest());
   const auto failures = sweep(
       ids, rows, {.jobs = context.jobs}, [&](std::size_t run) { return execute(plan[run]); }, context.progress);
-  if (!failures.empty()) throw Bad_argument(said_of(failures));
+  if (!failures.empty()) throw Bad_shard(said_of(failures));
 
   std::map<std::string, nlohmann::ordered_json> chosen;
   for (const auto& id : ids) chosen.emplace(id, rows.rows().at(id));

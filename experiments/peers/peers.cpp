@@ -19,7 +19,8 @@ const char* const nothing = "-";
 std::string answers_text(const Entry_figures& figures) {
   if (!figures.entry.answers) return nothing;
   if (figures.gave_up) return "gave up";
-  if (figures.missed + figures.invented == 0) return "0";
+  if (figures.missed + figures.invented + figures.wrong_later == 0) return "0";
+  if (figures.wrong_later > 0) return fmt::format("in {} frames of later passes", figures.wrong_later);
   return fmt::format("{} missed, {} false", figures.missed, figures.invented);
 }
 
@@ -134,7 +135,8 @@ nlohmann::ordered_json to_json(const Entry_figures& f) {
   nlohmann::ordered_json json{{"library", f.entry.library}, {"method", f.entry.method},
                               {"volume", f.entry.volume},   {"threads", f.entry.threads},
                               {"build_s", f.build_seconds}, {"heap_bytes", f.bytes},
-                              {"passes", f.passes},         {"gave_up", f.gave_up},
+                              {"passes", f.passes},         {"wrong_later", f.wrong_later},
+                              {"gave_up", f.gave_up},
                               {"left_early", f.left_early}, {"update", figure(&Frame_seconds::update)}};
   if (f.entry.answers) {
     json["yes_no"] = figure(&Frame_seconds::any);

@@ -11,6 +11,7 @@
 #include "program/installed_files.h"
 #include "program/page_file.h"
 #include "program/progress.h"
+#include "program/shards.h"
 #include "runner/experiment_command.h"
 #include "runner/experiment_plots.h"
 #include "runner/experiments.h"
@@ -60,6 +61,7 @@ int run(const Experiment_command& command) {
     return exit_code::success;
   }
   write_whole(out / (command.name + ".md"), report);
+  if (command.merge_shards) Shard_folder(out).note_merged();
   if (!command.quiet)
     fmt::print("{}\n{}\n\n{}", experiment->question, std::string(experiment->question.size(), '='), report);
   if (page) {  // after the report, which must not be lost to a plot that cannot be drawn

@@ -31,7 +31,6 @@ std::vector<Row> merged_rows(const Experiment_context& context, const Sharded_ex
     rows[order[line_number++]] = parse_shard_line(line);
   });
   if (line_number < order.size()) throw Bad_shard(folder.results().string() + ": its shards have too few rows");
-  folder.note_merged();
   return rows;
 }
 

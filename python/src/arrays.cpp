@@ -109,6 +109,12 @@ void Live_vertices::copy_from() {
     }
 }
 
+void Live_vertices::check_memory() const {
+  if (array_.data() != data_ || array_.ndim() != 2 || static_cast<std::size_t>(array_.shape(0)) != count_ ||
+      array_.strides(0) != row_ || array_.strides(1) != column_)
+    throw Bad_mesh("the array of its vertices has been resized in place: give it anew, by set_vertices or rebuild");
+}
+
 void Live_vertices::refresh() {
   if (direct_ != nullptr) return;
   if (is_float_)

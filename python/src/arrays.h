@@ -33,6 +33,9 @@ class Live_vertices {
   explicit Live_vertices(const py::object& vertices);
 
   std::size_t count() const { return count_; }
+  /// Notices an array that has other memory than when it was given. Without the GIL. O(1).
+  /// @throws Bad_mesh
+  void check_memory() const;
   /// Reads the array, unless it lies in memory as it is needed. Without the GIL. O(V) or O(1).
   void refresh();
   /// Where the vertices were at the last `refresh`, or are now.

@@ -35,6 +35,7 @@ Python_object::Python_object(std::string name, std::shared_ptr<Python_animation>
   std::vector<std::uint32_t> all(num_vertices(*mesh_));
   for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
   computed_ = animation_->animation->motion.computed(all);
+  computed_->set_frame(0);  // what computes a character starts where its file has it at rest
 }
 
 Python_object::Python_object(std::string name, std::shared_ptr<Python_skin> skin, const py::object& faces)
@@ -52,7 +53,9 @@ Object_id Python_object::add_to(Detector<Any_strategy>& detector, const Object_o
 
 void Python_object::refresh(std::uint64_t hold) {
   const bool is_read = hold != 0 && std::exchange(read_in_, hold) == hold;
-  if (vertices_ && !is_read) vertices_->refresh();
+  if (!vertices_) return;
+  vertices_->check_memory();
+  if (!is_read) vertices_->refresh();
 }
 
 void Python_object::check_has_arrays() const {
@@ -105,9 +108,14 @@ Python_detector::Reading::Reading(Python_detector& detector) : detector_(detecto
   detector.check_no_visitor();
   const auto hold = detector.current_hold();
   std::set<Python_skin*> skins;  // in one order for all detectors, so that none waits for the other
-  for (const auto& object : detector.objects_) {
+  for (Object_id id = 0; id < detector.objects_.size(); ++id) {
+    const auto& object = detector.objects_[id];
     if (!object) continue;
-    object->refresh(hold);
+    try {
+      object->refresh(hold);
+    } catch (const Bad_mesh& error) {
+      throw Bad_mesh(detector.title_of(id) + ": " + error.what());
+    }
     if (object->skin() != nullptr) skins.insert(object->skin());
   }
   for (auto* skin : skins) skins_.push_back(std::make_unique<Python_skin::Reading>(*skin));

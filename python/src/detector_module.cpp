@@ -11,6 +11,7 @@
 #include "detector_methods.h"
 #include "lodestone/mesh/errors.h"
 #include "one_call.h"
+#include "text.h"
 
 /// The class Detector of the module.
 namespace lodestone::python {
@@ -136,7 +137,8 @@ void add_objects(Detector_class& type) {
       .def("remove", &Python_detector::remove, py::arg("object"),
            "Removes an object. The others keep their ids, and none gets this one again.")
       .def("vertices", &Python_detector::positions, py::arg("object"), "Where the vertices of an object are, its placement included: (V, 3), a copy.")
-      .def("name", &Python_detector::name, py::arg("object"), "The name of an object.")
+      .def("name", [](Python_detector& self, Object_id object) { return text_of(self.name(object)); },
+           py::arg("object"), "The name of an object.")
       .def("__len__", [](Python_detector& self) { return self.look([](auto& detector) { return detector.size(); }); },
            "Number of objects added, removed ones included.")
       .def("__repr__", &Python_detector::text)

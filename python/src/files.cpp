@@ -16,6 +16,7 @@
 #include "lodestone/mesh/errors.h"
 #include "motion.h"
 #include "options.h"
+#include "text.h"
 
 /// Reading and writing meshes, animations and scenes.
 namespace lodestone::python {
@@ -163,8 +164,9 @@ void add_files(py::module_& module) {
              "point cache has none.");
 
   py::class_<Python_scene>(module, "Scene", "What a scene file describes: objects that move.")
-      .def_readonly("name", &Python_scene::name, "Its name.")
-      .def_readonly("description", &Python_scene::description, "What it is about.")
+      .def_property_readonly("name", [](const Python_scene& self) { return text_of(self.name); }, "Its name.")
+      .def_property_readonly("description", [](const Python_scene& self) { return text_of(self.description); },
+                             "What it is about.")
       .def_readonly("frames", &Python_scene::frames, "Number of frames.")
       .def_readonly("objects", &Python_scene::objects, "Its objects: a list of `Animation`.")
       .def_property_readonly("ignored", [](const Python_scene& self) {
@@ -180,8 +182,8 @@ void add_files(py::module_& module) {
            "What the scene says of an object: a dict with groups, meets, particles and scattered_side, for\n"
            "`Detector.add(scene.objects[i], **scene.options(i))`.")
       .def("__repr__", [](const Python_scene& self) {
-        return "<lodestone.Scene " + self.name + ": " + std::to_string(self.objects.size()) + " objects, " +
-               std::to_string(self.frames) + " frames>";
+        return text_of("<lodestone.Scene " + self.name + ": " + std::to_string(self.objects.size()) + " objects, " +
+                       std::to_string(self.frames) + " frames>");
       });
   module.def("read_scene", read_scene_file, py::arg("path"), py::kw_only(), py::arg("components") = false,
              py::arg("parts") = false, py::arg("allow_outside") = false, py::arg("max_faces") = max_faces,

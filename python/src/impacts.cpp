@@ -19,7 +19,10 @@ py::dict object_impact_fields(const Object_impact& impact) {
 std::vector<Positions> ends_of(const py::sequence& ends) {
   std::vector<Positions> all(ends.size());
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (const py::object end = ends[i]; !end.is_none()) all[i] = positions_of(end, "ends[" + std::to_string(i) + "]");
+    if (const py::object end = ends[i]; !end.is_none()) {
+      const auto rows = rows_or_none_of(end, "ends[" + std::to_string(i) + "]");
+      all[i] = Eigen::Map<const Positions>(rows.data(), static_cast<Eigen::Index>(rows.shape(0)), 3);
+    }
   return all;
 }
 

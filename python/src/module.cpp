@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/pybind11.h>
 
+#include <exception>
 #include <string>
 
 #include "frame.h"
@@ -8,6 +9,7 @@
 #include "lodestone/version.h"
 #include "motion.h"
 #include "one_call.h"
+#include "text.h"
 
 namespace lodestone::python {
 
@@ -17,13 +19,30 @@ void add_pages(py::module_& module);
 
 namespace {
 
+/// Makes an exception that stands for a type of the library's. Its text may hold names of files, which are any bytes.
+template <class Type>
+py::object add_error(py::module_& module, const char* name, const py::object& bases) {
+  static py::handle raised;
+  const py::exception<Type> type(module, name, bases);
+  raised = type;
+  raised.inc_ref();  // for as long as the process lives
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Type& error) {
+      PyErr_SetObject(raised.ptr(), text_of(error.what()).ptr());
+    }
+  });
+  return type;
+}
+
 /// Each typed error is a class of its own, below `Error`.
 void add_errors(py::module_& module) {
-  auto error = py::register_exception<Error>(module, "Error");
+  auto error = add_error<Error>(module, "Error", py::reinterpret_borrow<py::object>(PyExc_Exception));
   error.attr("__doc__") = "Base of every error of Lodestone. Its text says what, where, and what was expected.";
   const auto add = [&]<class Type>(const char* name, const char* text, const py::object& also) {
     const py::tuple bases = also.is_none() ? py::make_tuple(error) : py::make_tuple(error, also);
-    auto type = py::register_exception<Type>(module, name, bases);
+    auto type = add_error<Type>(module, name, bases);
     type.attr("__doc__") = text;
   };
   const py::object value_error = py::reinterpret_borrow<py::object>(PyExc_ValueError);

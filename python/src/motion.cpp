@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "lodestone/mesh/errors.h"
+#include "text.h"
 
 namespace lodestone::python {
 
@@ -128,7 +129,8 @@ void add_motions(py::module_& module) {
       "Triangles whose vertices move, as read from files. `animation[t]` has the positions of frame t, and iteration "
       "gives\nthose of all frames. It can be added to a detector, or given wherever a mesh is asked for: then in its "
       "first frame.")
-      .def_readonly("name", &Python_animation::name, "Name of the file, or of the object in its scene.")
+      .def_property_readonly("name", [](const Python_animation& self) { return text_of(self.name); },
+                             "Name of the file, or of the object in its scene.")
       .def_property_readonly("kind", [](const Python_animation& self) { return self.animation->kind; },
                              "mesh, sequence, pc2, mdd, gltf, md2 or md3; object: of a scene.")
       .def_readonly("frames", &Python_animation::frames, "Number of frames.")
@@ -144,7 +146,7 @@ void add_motions(py::module_& module) {
           "Per triangle the face of the file that it is of: (F,) int64.")
       .def_property_readonly("files", [](const Python_animation& self) {
         py::list files;
-        for (const auto& file : self.animation->files) files.append(file.string());
+        for (const auto& file : self.animation->files) files.append(name_of_file(file));
         return files;
       }, "The files that it is read from.")
       .def("pose", pose_array, py::arg("frame"), "Positions of a frame: (V, 3) float64. -1: the last.")
@@ -152,8 +154,9 @@ void add_motions(py::module_& module) {
       .def("__getitem__", pose_arrays, py::arg("frames"), "Positions of frames: a list.")
       .def("__len__", [](const Python_animation& self) { return self.frames; })
       .def("__repr__", [](const Python_animation& self) {
-        return "<lodestone.Animation " + self.name + ": " + std::to_string(self.animation->vertices) + " vertices, " +
-               std::to_string(self.animation->faces.size()) + " faces, " + std::to_string(self.frames) + " frames>";
+        return text_of("<lodestone.Animation " + self.name + ": " + std::to_string(self.animation->vertices) +
+                       " vertices, " + std::to_string(self.animation->faces.size()) + " faces, " +
+                       std::to_string(self.frames) + " frames>");
       });
 
   py::class_<Python_skin, std::shared_ptr<Python_skin>>(

@@ -2,7 +2,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <cmath>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "detector.h"
 #include "io/results/frame_json.h"
@@ -11,6 +13,7 @@
 #include "lodestone/io/results/page.h"
 #include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/saved_state.h"
 #include "program/viewer.h"
 
 /// The viewer's page of the frames of a detector.
@@ -63,7 +66,7 @@ class Python_page {
       throw Bad_argument("frames_per_second must be finite and > 0");
     std::size_t id = 0;
     for (auto& object : detector_->shown()) {
-      sizes_.push_back({object.positions.size(), object.faces.size()});
+      surfaces_.push_back({object.positions.size(), hash_of(std::as_bytes(std::span(object.faces)))});
       page_.add_object(title_of_object(object, id++), static_cast<std::uint32_t>(object.positions.size() / 3),
                        std::move(object.faces));
     }
@@ -88,6 +91,7 @@ class Python_page {
     for (const auto& object : objects)
       shown.positions.emplace_back(Eigen::Map<const Positions>(
           object.positions.data(), static_cast<Eigen::Index>(object.positions.size() / 3), 3));
+    const std::lock_guard lock(mutex_);
     page_.add_frame(std::move(shown));
   }
 
@@ -95,21 +99,27 @@ class Python_page {
     if (path.extension() != ".html") throw Bad_argument(path.string() + ": a page is written as .html");
     const Without_gil without_gil;
     const auto viewer = viewer_template(path);
+    const std::lock_guard lock(mutex_);
     Atomic_file file(path);
     write_page(file, viewer, page_.title(), page_.data());
     file.commit();
   }
 
-  std::size_t frames() const { return page_.frames(); }
+  std::size_t frames() const {
+    const Without_gil without_gil;
+    const std::lock_guard lock(mutex_);
+    return page_.frames();
+  }
   std::string text() const { return "<lodestone.Page " + page_.title() + ": " + std::to_string(frames()) + " frames>"; }
 
  private:
   /// @throws Bad_argument  the detector has other objects than when the page was begun
   /// @throws Bad_mesh      a coordinate that is not finite
   void check_objects(const std::vector<Shown_object>& objects) const {
-    bool same = objects.size() == sizes_.size();
+    bool same = objects.size() == surfaces_.size();
     for (std::size_t i = 0; same && i < objects.size(); ++i)
-      same = sizes_[i] == std::pair(objects[i].positions.size(), objects[i].faces.size());
+      same = surfaces_[i] ==
+             std::pair(objects[i].positions.size(), hash_of(std::as_bytes(std::span(objects[i].faces))));
     if (!same)
       throw Bad_argument("the detector has other objects or faces than when the page was begun: begin another page");
     for (std::size_t i = 0; i < objects.size(); ++i) check_finite(objects[i].positions, title_of_object(objects[i], i));
@@ -117,7 +127,8 @@ class Python_page {
 
   std::shared_ptr<Python_detector> detector_;
   Page page_;
-  std::vector<std::pair<std::size_t, std::size_t>> sizes_;  ///< per object: coordinates and faces
+  mutable std::mutex mutex_;  ///< of the page: threads add frames and save without the GIL
+  std::vector<std::pair<std::size_t, std::uint64_t>> surfaces_;  ///< per object: coordinates, and a hash of its faces
 };
 
 }  // namespace

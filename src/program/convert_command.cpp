@@ -148,7 +148,7 @@ void note_faces_not_kept(const Convert_command& command, const Animation& animat
 
 /// Files of an earlier, longer run would be read with those of this one.
 void note_other_files(const Convert_command& command, std::size_t frames) {
-  if (!is_pattern(command.output) || is_point_cache(command.output) || is_gltf(command.output)) return;
+  if (is_point_cache(command.output) || is_gltf(command.output) || !is_pattern(command.output)) return;
   std::set<std::string> written;
   for (const auto& file : files_of(command.output, frames)) written.insert(file.filename().string());
   const auto found = names_that_match(command.output);

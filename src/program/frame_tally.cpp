@@ -47,6 +47,11 @@ Json pair_json(const Pair_result& pair) {
           pair.unfinished};
 }
 
+/// JSON has no infinity, which a distance of huge coordinates can be.
+double distance_of(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
+
 Pair_result pair_of(const Json& json) {
   const auto [a, b] = object_pair_of(json);
   Pair_result pair{.a = a, .b = b, .collides = json.at(2), .near = json.at(3)};
@@ -82,7 +87,7 @@ Frame_tally frame_tally_of(const Json& json) {
   for (const auto& score : json.value("scores", Json::array()))
     tally.scores.push_back({object_pair_of(score), score.at(2), score.at(3)});
   for (const auto& least : json.value("distances", Json::array()))
-    tally.distances.push_back({object_pair_of(least), least.at(2)});
+    tally.distances.push_back({object_pair_of(least), distance_of(least.at(2))});
   for (const auto& impact : json.value("impacts", Json::array()))
     tally.impacts.push_back({object_pair_of(impact), impact.at(2)});
   tally.contradicted = json.value("contradicted", false);

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <span>
 #include <string>
+#include <tuple>
 
 #include "io/files/small_text.h"
 #include "lodestone/mesh/saved_state.h"
@@ -146,7 +147,16 @@ std::vector<std::string> words_of_work(const std::vector<std::string>& words) {
     return std::ranges::any_of(names, [&](const char* name) { return word == name; });
   };
   std::vector<std::string> kept;
+  bool only_files = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
+    if (only_files) {
+      kept.push_back(words[i].size() > 1 && words[i].starts_with('-') ? "./" + words[i] : words[i]);
+      continue;
+    }
+    if (words[i] == "--") {
+      only_files = true;
+      continue;
+    }
     const auto name = words[i].substr(0, words[i].find('='));
     const bool takes_value = is_one_of(name, {"--out", "--shard", "--jobs", "--threads"});
     if (takes_value && name == words[i]) ++i;
@@ -155,11 +165,32 @@ std::vector<std::string> words_of_work(const std::vector<std::string>& words) {
   return kept;
 }
 
+namespace {
+
+/// JSON, in which shards note what they are of, holds nothing else.
+void check_utf8(const std::string& text, const char* what) {
+  try {
+    std::ignore = Json(text).dump();
+  } catch (const Json::exception&) {
+    throw Bad_argument(fmt::format("{} is not UTF-8, which shards need: {}", what, printable(text)));
+  }
+}
+
+void check_utf8(const Work& work, const std::string& folder) {
+  for (const auto& word : work.command) check_utf8(word, "a word of the command line");
+  for (const auto& [name, input] : work.inputs.items()) check_utf8(name, "the name of an input");
+  check_utf8(folder, "the name of the folder");
+}
+
+}  // namespace
+
 Shard_folder::Shard_folder(std::filesystem::path results) : results_(std::move(results)) { read_manifest(); }
 
 Shard_folder::Shard_folder(std::filesystem::path results, const Work& work, Shard_use use)
     : results_(std::move(results)) {
-  const Json wanted{{"command", work.command},       {"folder", std::filesystem::current_path().string()},
+  const std::string begun = std::filesystem::current_path().string();
+  check_utf8(work, begun);
+  const Json wanted{{"command", work.command},       {"folder", begun},
                     {"revision", source_revision()}, {"shards", work.shards},
                     {"pieces", work.pieces},         {"inputs", work.inputs}};
   const auto file = folder() / "manifest.json";

@@ -77,6 +77,8 @@ class Shard_folder {
   const std::filesystem::path& results() const { return results_; }
   const nlohmann::ordered_json& manifest() const { return manifest_; }
   std::size_t shards() const { return manifest_["shards"]; }
+  /// Hash of what the shards have in common: of the manifest but for the folder.
+  const std::string& work() const { return work_; }
   std::vector<std::string> command() const { return manifest_["command"]; }
   Shard shard(std::size_t index) const { return {.index = index, .count = shards()}; }
   /// The file of a finished shard, counted from 1.
@@ -107,7 +109,7 @@ class Shard_folder {
 
   std::filesystem::path results_;
   nlohmann::ordered_json manifest_;
-  std::string work_;  ///< hash of what shards have in common
+  std::string work_;  ///< see `work`
 };
 
 /// A shard that is being written. It appears whole with `commit`, or not at all.

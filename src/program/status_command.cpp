@@ -79,7 +79,8 @@ void print(const Shard_folder& folder, const Shard_census& census) {
   if (!census.missing.empty()) fmt::print("; missing: {}", ranges_of(census.missing));
   if (!census.begun.empty()) fmt::print("; of these with finished runs: {}", ranges_of(census.begun));
   if (!census.broken.empty()) fmt::print("; broken: {}", ranges_of(census.broken));
-  fmt::print("; {}\n", folder.is_merged() ? "merged" : "not merged");
+  const bool is_whole = census.missing.empty() && census.broken.empty();
+  fmt::print("; {}\n", !folder.is_merged() ? "not merged" : is_whole ? "merged" : "merged before these were lost");
   for (const auto& cause : census.causes) fmt::print("{}\n", printable(cause));
   if (!census.last.is_null())
     fmt::print("last: shard {}, finished {}, after {:.1f} s, {:.0f} MB of memory\n",

@@ -168,6 +168,16 @@ TEST_F(Convert, refusals_of_edits_name_the_option_or_the_input) {
   EXPECT_FALSE(exists(folder.path() / "a.off"));
 }
 
+TEST_F(Convert, never_overwrites_its_input_whatever_its_name) {
+  for (const auto* name : {"m#1.glb", "m*.glb", "m##.pc2", "x*y#.mdd", "m#1.gltf"}) {
+    SCOPED_TRACE(name);
+    expect_success(run_program({"convert", "shape:teapot", path(name), "--quiet"}));
+    const std::string before = read_bytes(path(name));
+    expect_error(run_program({"convert", path(name), path(name), "--scale", "2"}), 2, "never overwritten");
+    EXPECT_EQ(read_bytes(path(name)), before);
+  }
+}
+
 TEST_F(Convert, an_error_in_a_later_frame_leaves_no_result) {
   folder.write("f8.off", "OFF\n");
   for (const auto* name : {"out/a.pc2", "out/a.mdd", "out/a.glb", "out/a.gltf", "out/a#.obj"})

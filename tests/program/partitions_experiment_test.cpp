@@ -119,14 +119,16 @@ TEST_F(Partitions_experiment, a_shard_that_is_killed_keeps_its_finished_runs) {
   const auto begun = shard("1-of-1.begun.jsonl");
   Running_program program(command("parts", {"--shard", "1/1"}));
   std::size_t kept = 0;
-  for (int wait = 0; wait < 2000 && kept < 3; ++wait) {
+  for (int wait = 0; wait < 2000 && kept < 4; ++wait) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     if (exists(begun)) kept = static_cast<std::size_t>(std::ranges::count(read_bytes(begun), '\n'));
   }
   program.send(SIGKILL);
   EXPECT_EQ(program.wait().signal, SIGKILL);
-  const auto before = read_json_lines(begun);
-  ASSERT_GE(before.size(), 3U);
+  auto before = read_json_lines(begun);
+  ASSERT_GE(before.size(), 4U);
+  EXPECT_EQ(before.front()["id"], "work");
+  before.erase(before.begin());
   const auto status = run_program({"status", (folder.path() / "parts").string()});
   EXPECT_NE(status.out.find("missing: 1; of these with finished runs: 1;"), std::string::npos) << status.out;
   expect_success(run_program(command("parts", {"--shard", "1/1"})));
@@ -144,6 +146,31 @@ TEST_F(Partitions_experiment, a_damaged_shard_is_not_merged) {
   folder.write("parts/shards/1-of-2.jsonl", text);
   expect_error(merge(), 3, "1-of-2.jsonl: is damaged");
   EXPECT_FALSE(exists(rows("parts")));
+}
+
+TEST_F(Partitions_experiment, a_merge_that_cannot_write_its_report_is_none) {
+  expect_success(run_program(command("parts", {"--shard", "1/1"})));
+  const auto report = folder.path() / "parts" / "partitions.md";
+  std::filesystem::create_directories(report / "in the way");
+  expect_error(merge(), 4, "partitions.md");
+  const auto told = [&] { return run_program({"status", (folder.path() / "parts").string()}).out; };
+  EXPECT_NE(told().find("; not merged"), std::string::npos) << told();
+  std::filesystem::remove_all(report);
+  expect_success(merge());
+  EXPECT_NE(told().find("; merged"), std::string::npos) << told();
+}
+
+TEST_F(Partitions_experiment, a_journal_of_other_work_is_dropped) {
+  const auto begun = shard("1-of-1.begun.jsonl");
+  for (const std::string hash : {"", "other"}) {
+    std::filesystem::create_directories(begun.parent_path());
+    std::ofstream(begun) << R"({"id": "work", "hash": ")" << hash << "\"}\n" << R"({"id": "a run of another plan"})" << '\n';
+    expect_success(run_program(command("parts", {"--shard", "1/1"})));
+    expect_success(merge());
+    const auto made = read_json_lines(rows("parts"));
+    EXPECT_EQ(made.size(), 25U);
+    std::filesystem::remove_all(folder.path() / "parts");
+  }
 }
 
 TEST_F(Partitions_experiment, a_finished_sweep_is_reported_by_any_program) {

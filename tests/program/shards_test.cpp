@@ -2,6 +2,8 @@
 // Long work in shards, as a user runs it: made in any order, stopped, damaged, merged.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -271,6 +273,40 @@ TEST_F(Shards, refuse_options_that_need_all_frames) {
   for (const std::string shard : {"0/2", "3/2", "1", "a/b", "1/2/3", "1/", "-1/2", "1/100001"})
     expect_error(run_program(detect("a", {"--shard", shard})), 2, "--shard: expected I/N");
   EXPECT_FALSE(exists(path("a")));
+}
+
+TEST(Words_of_work, are_the_same_where_files_stand_after_two_dashes) {
+  const Words expected{"detect", "./-a.off", "b.off", "./--quiet"};
+  EXPECT_EQ(words_of_work({"detect", "--out", "o", "--shard", "1/2", "--", "-a.off", "b.off", "--quiet"}), expected);
+  EXPECT_EQ(words_of_work({"detect", "--quiet", "./-a.off", "b.off", "./--quiet", "--threads=3"}), expected);
+  EXPECT_EQ(words_of_work({"detect", "--", "-"}), (Words{"detect", "-"}));
+}
+
+TEST_F(Shards, that_are_lost_after_the_merge_are_told) {
+  make("parts", 1, 2), make("parts", 2, 2);
+  expect_success(merge("parts"));
+  std::filesystem::remove(path("parts") / "shards" / "2-of-2.jsonl");
+  const auto told = run_program({"status", path("parts").string()});
+  EXPECT_NE(told.out.find("1 of 2 shards done; missing: 2; merged before these were lost"), std::string::npos)
+      << told.out;
+}
+
+TEST_F(Shards, of_files_whose_names_are_not_utf8_are_refused_and_the_word_is_told) {
+  const auto file = folder.write("\xff.json", three_spheres).string();
+  const Words words{"detect", file, "--out", path("parts").string(), "--shard", "1/1"};
+  expect_error(run_program(words), 2, "a word of the command line is not UTF-8, which shards need: ");
+  EXPECT_FALSE(exists(path("parts")));
+}
+
+TEST_F(Shards, with_distances_beyond_the_largest_number_are_merged) {
+  const auto mesh = [](const char* x) {
+    return fmt::format("OFF\n3 1 0\n{0} 0 0\n{0} 1 0\n{0} 0 1\n3 0 1 2\n", x);
+  };
+  const auto a = folder.write("a.off", mesh("-1.5e308")).string(), b = folder.write("b.off", mesh("1.5e308")).string();
+  expect_success(run_program({"detect", a, b, "--closest", "--out", path("parts").string(), "--shard", "1/1"}));
+  expect_success(merge("parts"));
+  expect_success(run_program({"detect", a, b, "--closest", "--out", path("whole").string()}));
+  EXPECT_EQ(frames("parts"), frames("whole"));
 }
 
 TEST_F(Shards, of_no_folder_are_refused) {

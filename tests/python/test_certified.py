@@ -55,6 +55,22 @@ def test_morph_targets_move_a_skin():
         skin.set_weights([1, 2])
 
 
+@pytest.mark.parametrize("name", ["hand", "face", "body"])
+def test_a_character_that_was_added_stands_in_its_first_frame(scenes, name):
+    character = lodestone.read_animation(scenes.parent / "characters" / f"{name}.glb")
+    needle = 1e-3 * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]), [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+    places = character[0][:: len(character[0]) // 20]
+    found = []
+    for mode in ("exact", "certified"):
+        detector = lodestone.Detector(mode=mode)
+        detector.add(character)
+        for place in places:
+            detector.add(needle[0] - 2e-4 + place, needle[1])
+        found.append([pair.faces.tolist() for pair in detector.detect().pairs if pair.a == 0 and pair.collides])
+        assert np.abs(detector.vertices(0) - character[0]).max() < 1e-12
+    assert found[0] == found[1] and len(found[0]) > 10
+
+
 def test_promises_save_reading_and_broken_ones_are_noticed():
     detector = lodestone.Detector(mode="certified")
     a, b = sphere(60), sphere(60).moved(20)

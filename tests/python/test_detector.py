@@ -214,6 +214,19 @@ def test_queries_about_two_objects():
     assert detector.detect(outer, far).pairs[0].collides is False
 
 
+def test_an_array_that_is_resized_in_place_is_noticed():
+    for mode in ("exact", "certified", "particles"):
+        vertices, faces = sphere(20).vertices.copy(), sphere(20).faces
+        detector = lodestone.Detector(mode=mode)
+        detector.add(vertices, faces, name="ball"), detector.add(sphere(20).moved(1.5))
+        expected = detector.detect().faces.tolist()
+        vertices.resize((10, 3), refcheck=False)
+        with pytest.raises(lodestone.BadMesh, match=r"object 0 \(ball\): the array of its vertices has been resized"):
+            detector.detect()
+        detector.set_vertices(0, sphere(20).vertices)
+        assert detector.detect().faces.tolist() == expected
+
+
 def test_first_impact_of_two_cubes_that_pass_through_each_other():
     detector = lodestone.Detector()
     left, right = cube(), cube().moved(4, 0.25, 0.125)
@@ -232,6 +245,7 @@ def test_first_impact_of_two_cubes_that_pass_through_each_other():
     assert of_all["objects"] == (a, b) and of_all["time"] == 0.25 and of_all["faces"] == impact["faces"]
     assert detector.first_impact_of_all([to_the_right, None])["time"] == 0.375
     assert detector.first_impact_of_all([None, None]) is None
+    assert detector.first_impact_of_all([[], np.zeros((0, 3))]) is None
     (of_pair,) = detector.first_impacts([to_the_right, to_the_left])
     assert of_pair["objects"] == (a, b) and of_pair["time"] == 0.25 and of_pair["faces"] == impact["faces"]
     assert detector.first_impacts([None, None]) == []

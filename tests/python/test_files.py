@@ -2,6 +2,7 @@
 """Files: meshes, animations, scenes, pages. Scenes give what the program gives."""
 
 import json
+import os
 import re
 import subprocess
 
@@ -242,6 +243,36 @@ def test_numbers_that_are_not_finite_are_not_written(tmp_path, name):
     with pytest.raises(lodestone.BadMesh, match="vertex 2 of frame 0"):
         lodestone.write_mesh(tmp_path / name, mesh)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_page_refuses_other_faces_even_if_they_are_as_many():
+    detector = lodestone.Detector()
+    box = detector.add(cube())
+    page = lodestone.Page(detector)
+    page.add(detector.detect())
+    detector.rebuild(box, cube().vertices, cube().faces[::-1])
+    with pytest.raises(lodestone.BadArgument, match="begin another page"):
+        page.add(detector.detect())
+    assert len(page) == 1
+
+
+def test_names_that_are_not_utf8_can_be_told(tmp_path):
+    missing = os.fsencode(tmp_path) + b"/nope\xff.obj"
+    with pytest.raises(lodestone.BadMesh, match="nope.*there is no such file"):
+        lodestone.read_mesh(os.fsdecode(missing))
+    path = os.fsencode(tmp_path) + b"/d\xff.obj"
+    with open(path, "wb") as file:
+        file.write(b"v 0 0 0\nv 1 0 0\nv 0 1 0\no caf\xe9\nf 1 2 3\no other\nf 2 1 3\n")
+    mesh = lodestone.read_mesh(os.fsdecode(path))
+    assert mesh.name == "d\ufffd.obj" and "d\ufffd.obj" in repr(mesh)
+    assert [os.fsencode(file) for file in mesh.files] == [path]
+    scene = lodestone.read_scene(os.fsdecode(path), parts=True)
+    assert "caf\ufffd" in scene.objects[0].name and repr(scene)
+    detector = lodestone.Detector()
+    detector.add(scene.objects[0])
+    assert "caf\ufffd" in detector.name(0)
+    with pytest.raises(lodestone.BadArgument, match="caf.*there is no frame 99"):
+        detector.set_frame(0, 99)
 
 
 def test_a_page_needs_a_detector_and_a_speed():

@@ -69,6 +69,27 @@ def test_the_global_lock_is_free_during_a_query():
     assert before == 1 and counted[0] > 100
 
 
+def test_a_page_can_be_saved_while_frames_are_added(tmp_path):
+    detector = lodestone.Detector()
+    detector.add(cube()), detector.add(cube().moved(0.5))
+    page = lodestone.Page(detector)
+    page.add(detector.detect())
+    done = threading.Event()
+
+    def save():
+        while not done.is_set():
+            page.save(tmp_path / "a.html")
+            assert len(page) >= 1
+
+    saver = threading.Thread(target=save)
+    saver.start()
+    for _ in range(300):
+        page.add(detector.detect())
+    done.set()
+    saver.join()
+    assert len(page) == 301
+
+
 def test_a_deadlock_is_an_error():
     detectors = [lodestone.Detector(), lodestone.Detector()]
     for detector in detectors:

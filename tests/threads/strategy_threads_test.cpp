@@ -110,7 +110,7 @@ TEST_P(Strategy_threads, a_surface_that_it_refuses_is_an_error_and_can_be_asked_
       const Halves strategy{.is_concurrent = is_concurrent};
       auto found = detector(strategy, threads);
       strategy.calls->fail_on_second = true;
-      EXPECT_EQ(message_of<Bad_argument>([&] { found.detect(); }), "halves: no");
+      EXPECT_EQ(message_of<Bad_argument>([&] { found.detect(); }), "object 1: halves: no");
       EXPECT_THROW(found.detect(), Bad_argument);
       EXPECT_THROW(found.regions(0), Bad_argument);  // All or none are built.
       strategy.calls->fail_on_second = false;

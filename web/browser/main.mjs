@@ -46,8 +46,10 @@ async function take(list) {
   by_id('answer').textContent = 'Checking …';
   const question = ++asked;
   const names = chosen.map(({ name }) => name);
-  const contents = await Promise.all(chosen.map(async (file) => ({ name: file.name.replaceAll('/', '_'), bytes: await file.arrayBuffer() })));
-  const answer = await questions.ask(contents);
+  const read = async (file) => ({ name: file.name.replaceAll('/', '_'), bytes: await file.arrayBuffer() });
+  const answer = await Promise.all(chosen.map(read)).then(
+    (contents) => questions.ask(contents),
+    () => ({ error: `${names.join(' or ')} cannot be read: a file has been changed or moved since it was chosen, or is a folder. Choose it again.` }));
   if (question === asked) show(answer, names);
 }
 

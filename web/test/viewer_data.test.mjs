@@ -6,6 +6,8 @@ import { faces_in } from '../viewer/contacts.mjs';
 import { Damaged, decode_labels, decode_particles, decode_positions, decode_topology, Varint_reader } from '../viewer/decode.mjs';
 import { fold, sharp, vertex_normals } from '../viewer/normals.mjs';
 import { outcome_of, runs } from '../viewer/outcome.mjs';
+import { common_ball, Places } from '../viewer/places.mjs';
+import { Player } from '../viewer/player.mjs';
 import { Walks } from '../viewer/walks.mjs';
 import { on_grid, particles_section, positions_section, topology_section, varints, zigzag } from './write_container.mjs';
 
@@ -136,4 +138,39 @@ test('a particle walked along edges, and a repartition ends its way', () => {
   assert.deepEqual(walks.way(2, 0), [3]);
   assert.deepEqual(walks.way(3, 0), []);
   assert.deepEqual(walks.way(0, 0), []);
+});
+
+test('objects without vertices, which have been removed, do not count for what is seen', () => {
+  const removed = { vertices: 0, box: [0, 0, 0, 0, 0, 0], frames: [new Uint16Array()] };
+  const shown = { vertices: 1, box: [8, 8, 8, 10, 8, 8], frames: [Uint16Array.of(65535, 0, 0)] };
+  const ball = common_ball([removed, shown]);
+  assert.deepEqual(ball, { centre: [9, 8, 8], radius: 1 });
+  assert.deepEqual(new Places(removed, ball).samples(9), []);
+  assert.deepEqual(new Places(shown, ball).samples(1), [[1, 0, 0]]);
+  assert.deepEqual(common_ball([removed]), { centre: [0, 0, 0], radius: 1 });
+});
+
+test('a player that pauses and plays within one picture is as fast as before', () => {
+  const waiting = new Map();
+  let last = 0;
+  const { requestAnimationFrame, cancelAnimationFrame } = globalThis;
+  globalThis.requestAnimationFrame = (tick) => (waiting.set(++last, tick), last);
+  globalThis.cancelAnimationFrame = (id) => waiting.delete(id);
+  try {
+    const player = new Player({ frames: 1000, frames_per_second: 10 });
+    player.play();
+    for (let i = 0; i < 5; ++i) player.toggle(), player.toggle();
+    assert.equal(waiting.size, 1);
+    const begin = performance.now();
+    for (let picture = 1; picture <= 20; ++picture) {
+      const ticks = [...waiting.values()];
+      waiting.clear();
+      ticks.forEach((tick) => tick(begin + 100 * picture));
+    }
+    assert.ok(Math.abs(player.frame - 20) <= 1, `frame ${player.frame}`);
+    player.pause();
+    assert.equal(waiting.size, 0);
+  } finally {
+    Object.assign(globalThis, { requestAnimationFrame, cancelAnimationFrame });
+  }
 });

@@ -51,7 +51,7 @@ export function make_numbers(page) {
   const pairs = new Rows(by_id('pairs'), () => pair_row(misses_nothing(page) ? 'apart' : 'apart or not found'));
   // Building, which few frames do, would make all other bars short.
   const every_frame = ({ microseconds: { build, ...others } }) => Object.values(others);
-  const most = Math.max(1e-9, ...(page.stages ?? []).flatMap(every_frame));
+  const most = (page.stages ?? []).flatMap(every_frame).reduce((a, b) => Math.max(a, b), 1e-9);
   const used = Object.keys(stage_names).filter((key) => page.stages?.some(({ microseconds }) => microseconds[key] > 0));
   const stages = new Rows(by_id('stage-times'), (key) => stage_row(key, most));
   const show_count = make_pair_list();

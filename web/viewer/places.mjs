@@ -3,8 +3,10 @@
 
 /** @param {import('./container.mjs').Page_object[]} objects @returns {{centre: number[], radius: number}} of all boxes */
 export function common_ball(objects) {
-  const least = [0, 1, 2].map((axis) => Math.min(...objects.map(({ box }) => box[axis])));
-  const most = [3, 4, 5].map((axis) => Math.max(...objects.map(({ box }) => box[axis])));
+  const shown = objects.filter(({ vertices }) => vertices > 0);  // removed ones have none
+  if (shown.length === 0) return { centre: [0, 0, 0], radius: 1 };
+  const least = [0, 1, 2].map((axis) => shown.reduce((x, { box }) => Math.min(x, box[axis]), Infinity));
+  const most = [3, 4, 5].map((axis) => shown.reduce((x, { box }) => Math.max(x, box[axis]), -Infinity));
   return { centre: least.map((x, axis) => (x + most[axis]) / 2), radius: Math.hypot(...most.map((x, axis) => x - least[axis])) / 2 || 1 };
 }
 
@@ -30,6 +32,7 @@ export class Places {
   /** Positions of about `count` vertices, from all frames. */
   samples(count) {
     const { frames, vertices } = this.object;
+    if (vertices === 0) return [];
     // Steps of the golden section sample every frame and every part of the mesh.
     return Array.from({ length: count }, (_, i) =>
       this.of_vertex(Math.floor((i / count) * frames.length), Math.floor(((i * 0.6180339887498949) % 1) * vertices)));

@@ -4,6 +4,8 @@
 export const speeds = [0.1, 0.25, 0.5, 1, 2, 4];
 
 export class Player {
+  #next_tick = 0;
+
   /** @param {Record<string, any>} header  of the page */
   constructor(header) {
     this.frames = header.frames;
@@ -54,6 +56,7 @@ export class Player {
   pause() {
     if (!this.playing) return;
     this.playing = false;
+    cancelAnimationFrame(this.#next_tick);  // or it would find the player playing again, beside the next one
     this.#changed();
   }
 
@@ -71,9 +74,9 @@ export class Player {
       const whole = Math.floor(due);
       due -= whole;
       if (whole > 0) this.#advance(whole);
-      requestAnimationFrame(tick);
+      if (this.playing) this.#next_tick = requestAnimationFrame(tick);
     };
-    requestAnimationFrame(tick);
+    this.#next_tick = requestAnimationFrame(tick);
   }
 
   set_speed(speed) {

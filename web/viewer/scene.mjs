@@ -37,6 +37,7 @@ export class View {
     const ball = common_ball(page.objects);
     const places = page.objects.map((object) => new Places(object, ball));
     this.samples = places.flatMap((of_object) => of_object.samples(400));
+    if (this.samples.length === 0) this.samples.push([0, 0, 0]);
     this.surfaces = page.objects.map((object, i) => new Surface(object, i, places[i], page.header.states));
     this.marks = new Marks(page, places);
     this.scene = new Scene();

@@ -29,16 +29,26 @@ void check_replaceable(const std::filesystem::path& target) {
 Atomic_file::Atomic_file(std::filesystem::path target, std::filesystem::path name)
     : target_(std::move(target)), name_(std::move(name)) {
   check_replaceable(target_);
+  follow_link();
   if (target_.has_parent_path()) made_folders_.emplace(target_.parent_path());
   // O_EXCL: never opens an existing file or link, which another user may have put there.
   for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
     temporary_ = target_;
-    temporary_.replace_filename("." + target_.filename().string() + "." + std::to_string(::getpid()) + "." +
-                                std::to_string(attempt));
+    // The name can be as long as names may be.
+    temporary_.replace_filename("." + target_.filename().string().substr(0, 200) + "." + std::to_string(::getpid()) +
+                                "." + std::to_string(attempt));
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ < 0) fail("cannot be created");
+}
+
+/// What a link leads to is replaced, not the link. One that leads nowhere is replaced itself.
+void Atomic_file::follow_link() {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(target_, error)) return;
+  const auto file = std::filesystem::canonical(target_, error);
+  if (!error) target_ = file;
 }
 
 Atomic_file::~Atomic_file() {

@@ -174,12 +174,14 @@ void write_meshes(const fs::path& output, const std::string& extension, Animatio
 }  // namespace
 
 std::vector<fs::path> files_of(const fs::path& output, std::size_t frames) {
+  const auto extension = lower_case(output.extension().string());
+  const bool is_one_file = extension == ".pc2" || extension == ".mdd" || is_gltf(output);
   std::vector<fs::path> files;
-  if (is_pattern(output))
+  if (!is_one_file && is_pattern(output))
     for (std::size_t i = 0; i < frames; ++i) files.push_back(numbered_file(output, i));
   else
     files.push_back(output);
-  if (lower_case(output.extension().string()) == ".gltf") files.push_back(fs::path(output).replace_extension(".bin"));
+  if (extension == ".gltf") files.push_back(fs::path(output).replace_extension(".bin"));
   return files;
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "io/files/json_reader.h"
+#include "io/files/small_text.h"
 #include "io/scenes/object_of.h"
 #include "io/scenes/scene_fields.h"
 #include "io/scenes/scene_folder.h"
@@ -225,7 +226,7 @@ Scene read_scene(const std::filesystem::path& file, const Scene_options& options
 
   Scene scene;
   const auto name = value.find("name");
-  scene.name = name ? name->text() : file.stem().string();
+  scene.name = name ? name->text() : printable(file.stem().string());
   if (const auto description = value.find("description")) scene.description = description->text();
   scene.objects = read_objects(value.at("objects"), folder);
   share_clock(scene.objects);
