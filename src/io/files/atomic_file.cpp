@@ -29,7 +29,6 @@ void check_replaceable(const std::filesystem::path& target) {
 Atomic_file::Atomic_file(std::filesystem::path target, std::filesystem::path name)
     : target_(std::move(target)), name_(std::move(name)) {
   check_replaceable(target_);
-  follow_link();
   if (target_.has_parent_path()) made_folders_.emplace(target_.parent_path());
   // O_EXCL: never opens an existing file or link, which another user may have put there.
   for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
@@ -41,14 +40,6 @@ Atomic_file::Atomic_file(std::filesystem::path target, std::filesystem::path nam
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ < 0) fail("cannot be created");
-}
-
-/// What a link leads to is replaced, not the link. One that leads nowhere is replaced itself.
-void Atomic_file::follow_link() {
-  std::error_code error;
-  if (!std::filesystem::is_symlink(target_, error)) return;
-  const auto file = std::filesystem::canonical(target_, error);
-  if (!error) target_ = file;
 }
 
 Atomic_file::~Atomic_file() {

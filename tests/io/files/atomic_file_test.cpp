@@ -173,18 +173,6 @@ TEST(Atomic_file, a_full_disk_is_an_error_and_leaves_nothing) {
   EXPECT_EQ(file_size(target), 1000U);
 }
 
-TEST(Atomic_file, replaces_what_a_link_leads_to) {
-  const Temporary_folder folder;
-  const auto file = folder.write("file", "old"), link = folder.path() / "link", loose = folder.path() / "loose";
-  std::filesystem::create_symlink("file", link);
-  std::filesystem::create_symlink("nowhere", loose);
-  write_whole(link, "new");
-  EXPECT_TRUE(is_symlink(link));
-  EXPECT_EQ(read_bytes(file), "new");
-  write_whole(loose, "new");
-  EXPECT_EQ(read_bytes(loose), "new");
-}
-
 TEST(Atomic_file, can_have_as_long_a_name_as_any) {
   const Temporary_folder folder;
   const auto file = folder.path() / std::string(255, 'n');

@@ -14,8 +14,8 @@ namespace lodestone {
 /// @throws Bad_output  the target is one, or has no name
 void check_replaceable(const std::filesystem::path& target);
 
-/// A file that appears whole or not at all: written under a temporary name in the same folder, renamed by `commit`. If
-/// the name is that of a symbolic link, the file that it leads to is replaced.
+/// A file that appears whole or not at all: written under a temporary name in the same folder, renamed by `commit`. A
+/// symbolic link of that name is replaced, and what it leads to stays as it is: another user may have made the link.
 class Atomic_file {
  public:
   /// Creates the folder if it is missing.
@@ -40,7 +40,6 @@ class Atomic_file {
   void commit();
 
  private:
-  void follow_link();
   void flush();
   [[noreturn]] void fail(const char* action) const;
 
