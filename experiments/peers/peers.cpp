@@ -132,12 +132,17 @@ nlohmann::ordered_json to_json(const Entry_figures& f) {
             {"p95_ms", 1e3 * percentile_95(values(f, of))},
             {"frames_s", values(f, of)}};
   };
-  nlohmann::ordered_json json{{"library", f.entry.library}, {"method", f.entry.method},
-                              {"volume", f.entry.volume},   {"threads", f.entry.threads},
-                              {"build_s", f.build_seconds}, {"heap_bytes", f.bytes},
-                              {"passes", f.passes},         {"wrong_later", f.wrong_later},
+  nlohmann::ordered_json json{{"library", f.entry.library},
+                              {"method", f.entry.method},
+                              {"volume", f.entry.volume},
+                              {"threads", f.entry.threads},
+                              {"build_s", f.build_seconds},
+                              {"heap_bytes", f.bytes},
+                              {"passes", f.passes},
+                              {"wrong_later", f.wrong_later},
                               {"gave_up", f.gave_up},
-                              {"left_early", f.left_early}, {"update", figure(&Frame_seconds::update)}};
+                              {"left_early", f.left_early},
+                              {"update", figure(&Frame_seconds::update)}};
   if (f.entry.answers) {
     json["yes_no"] = figure(&Frame_seconds::any);
     json["update_and_yes_no"] = figure(&Frame_seconds::update_and_any);

@@ -326,13 +326,13 @@ class Detector {
   /// @return one per ray, in their order
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<std::optional<Object_hit>> first_hits(std::span<const Ray> rays) {
-    auto& exact = ask<Exact>("first_hit");
+    auto& exact = ask<Exact>("first_hits");
     return exact.first_hits(exact.ids(), rays);
   }
   /// The same among some objects.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<std::optional<Object_hit>> first_hits(std::span<const Object_id> objects, std::span<const Ray> rays) {
-    return ask<Exact>("first_hit").first_hits(sorted(objects), rays);
+    return ask<Exact>("first_hits").first_hits(sorted(objects), rays);
   }
   /// An object where it is now, prepared for rays that are asked about one by one: see Ray_tree. It reads positions in
   /// place. It is valid until the next query of the object. While positions are held, queries leave it valid; the first

@@ -73,8 +73,8 @@ py::array_t<double, py::array::c_style> numbers_of(const py::object& numbers, co
 py::array_t<double, py::array::c_style> rows_of(const py::object& rows, const std::string& name);
 /// The same; an empty list has no rows.
 py::array_t<double, py::array::c_style> rows_or_none_of(const py::object& rows, const std::string& name);
-/// A matrix (4, 4) that moves points and nothing else: the last row is 0, 0, 0, 1.
-/// @throws Bad_argument  it is not; begins with the name
+/// A matrix (4, 4) of finite numbers whose last row is 0, 0, 0, 1.
+/// @throws Bad_argument  it is not; tells the name
 Eigen::Matrix4d matrix_of(const py::object& matrix, const std::string& name);
 /// Three numbers.
 std::array<double, 3> vector_of(const py::object& vector, const std::string& name);

@@ -35,7 +35,7 @@ Python_object::Python_object(std::string name, std::shared_ptr<Python_animation>
   std::vector<std::uint32_t> all(num_vertices(*mesh_));
   for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
   computed_ = animation_->animation->motion.computed(all);
-  computed_->set_frame(0);  // what computes a character starts where its file has it at rest
+  computed_->set_frame(0);  // a computed character is at rest at first, not in frame 0
 }
 
 Python_object::Python_object(std::string name, std::shared_ptr<Python_skin> skin, const py::object& faces)
@@ -111,11 +111,7 @@ Python_detector::Reading::Reading(Python_detector& detector) : detector_(detecto
   for (Object_id id = 0; id < detector.objects_.size(); ++id) {
     const auto& object = detector.objects_[id];
     if (!object) continue;
-    try {
-      object->refresh(hold);
-    } catch (const Bad_mesh& error) {
-      throw Bad_mesh(detector.title_of(id) + ": " + error.what());
-    }
+    detector.refresh(id, hold);
     if (object->skin() != nullptr) skins.insert(object->skin());
   }
   for (auto* skin : skins) skins_.push_back(std::make_unique<Python_skin::Reading>(*skin));
@@ -136,6 +132,14 @@ std::string Python_detector::title_of(Object_id object) const {
   const auto& name = at(object).name();
   const auto id = "object " + std::to_string(object);
   return name.empty() ? id : id + " (" + name + ")";
+}
+
+void Python_detector::refresh(Object_id object, std::uint64_t hold) {
+  try {
+    objects_[object]->refresh(hold);
+  } catch (const Bad_mesh& error) {
+    throw Bad_mesh(title_of(object) + ": " + error.what());
+  }
 }
 
 std::string Python_detector::text() {
@@ -297,7 +301,8 @@ void Python_detector::check_is_shown(const Python_frame& frame) {
 
 py::array Python_detector::positions(Object_id object) {
   const auto coordinates = change([&](auto&) {
-    at(object).refresh(current_hold());
+    at(object);
+    refresh(object, current_hold());
     return at(object).positions();
   });
   return positions_array(coordinates);
@@ -306,12 +311,13 @@ py::array Python_detector::positions(Object_id object) {
 std::vector<Python_detector::Shown_object> Python_detector::shown() {
   return change([&](auto&) {
     std::vector<Shown_object> all;
-    for (const auto& object : objects_) {
+    for (Object_id id = 0; id < objects_.size(); ++id) {
+      const auto& object = objects_[id];
       if (!object) {
         all.emplace_back();
         continue;
       }
-      object->refresh(current_hold());
+      refresh(id, current_hold());
       const auto corners = object->mesh().corners();
       all.push_back({object->name(), {corners.begin(), corners.end()}, object->positions()});
     }

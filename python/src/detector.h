@@ -170,6 +170,9 @@ class Python_detector {
   /// An object for messages: its id and its name.
   /// @throws Bad_argument  there is no such object
   std::string title_of(Object_id object) const;
+  /// Reads the array of an object, unless it has been read in this hold.
+  /// @throws Bad_mesh  names the object
+  void refresh(Object_id object, std::uint64_t hold);
   /// Sets positions or faces of an object. Its errors name the object.
   template <class Change>
   void change_object(Object_id object, const Change& change);

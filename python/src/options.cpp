@@ -110,7 +110,7 @@ void refuse_strategy_of_senin(const py::kwargs& keywords) {
                          " is for the modes exact, certified, particles: the mode senin ignores it");
 }
 
-/// Options that others leave without effect. What one mode lacks, the detector itself refuses.
+/// Options that another option makes useless. What one mode lacks, the detector itself refuses.
 void refuse_options_without_effect(const Detector_options& options, const py::kwargs& keywords) {
   if (keywords.contains("most_contacts") && options.contacts != Contact_query::all)
     throw Bad_argument("the option most_contacts needs contacts='all': otherwise one contact is listed at most");

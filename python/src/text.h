@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-/// Names and messages as text of Python's. Files can have any bytes in their names, and write any into them.
+/// Names and messages as text of Python's. Names of files, and names inside files, can be any bytes.
 namespace lodestone::python {
 
 namespace py = pybind11;

@@ -20,10 +20,10 @@ Aabb Promised_boxes::box(std::uint32_t node) const {
   Aabb box = promise_->box(regions_[node], rest_[node]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (box.low[axis] > box.high[axis])
-      throw Bad_argument(fmt::format("the box that a Box_promise gave {} has a lower end, {}, above its upper one, {}",
-                                     regions_[node] == several_regions ? "for several regions"
-                                                                       : fmt::format("for region {}", regions_[node]),
-                                     box.low[axis], box.high[axis]));
+      throw Bad_argument(fmt::format(
+          "the box that a Box_promise gave {} has a lower end, {}, above its upper one, {}",
+          regions_[node] == several_regions ? "for several regions" : fmt::format("for region {}", regions_[node]),
+          box.low[axis], box.high[axis]));
     open_if_not_finite(box, axis);
   }
   return box;

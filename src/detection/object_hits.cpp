@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lodestone/queries/ask_each.h"
 #include "queries/box_entry.h"
 #include "queries/ray_hits.h"
 
@@ -157,7 +158,7 @@ class Search_among_objects {
 std::vector<std::optional<Object_hit>> first_hits_among(std::span<const Ray> rays,
                                                         std::span<const Boxed_object> objects, const Ask_object& ask,
                                                         const Face_of_object& triangle_of) {
-  for (std::size_t i = 0; i < rays.size(); ++i) check(rays, i);
+  check_each(rays);
   return Search_among_objects(rays, objects, ask, triangle_of).run();
 }
 

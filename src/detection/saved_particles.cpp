@@ -73,7 +73,7 @@ struct Particle_object::Saved {
 
   Saved(State_reader& state, Built built, std::span<const Corners> corners, std::size_t vertex_count);
   void load_homes(State_reader& state, Built built, std::size_t vertex_count);
-  void check(std::span<const Corners> corners, std::size_t vertex_count) const;
+  void check(Built built, std::span<const Corners> corners, std::size_t vertex_count) const;
   void check_places(std::span<const Corners> corners) const;
 };
 
@@ -92,7 +92,7 @@ Particle_object::Saved::Saved(State_reader& state, Built built, std::span<const 
   largest_area = state.finite();
   rest_compass = state.finite();
   const auto has_tree = state.value<std::uint32_t>();
-  check(corners, vertex_count);
+  check(built, corners, vertex_count);
   State_reader::require(has_tree == std::uint32_t{built.meetings}, built.meetings
                                                                        ? "it does not have the tree that meetings need"
                                                                        : "it has a tree, which this mode does not use");
@@ -115,7 +115,7 @@ void Particle_object::Saved::load_homes(State_reader& state, Built built, std::s
   for (std::size_t region = 0; region < count; ++region) extents.push_back(load_extent(state, vertex_count));
 }
 
-void Particle_object::Saved::check(std::span<const Corners> corners, std::size_t vertex_count) const {
+void Particle_object::Saved::check(Built built, std::span<const Corners> corners, std::size_t vertex_count) const {
   State_reader::require(joined.empty() || joined.size() == vertex_count,
                         "its seams do not have one entry for each vertex");
   State_reader::require(std::ranges::all_of(joined, [&](auto v) { return v < vertex_count; }),
@@ -124,7 +124,7 @@ void Particle_object::Saved::check(std::span<const Corners> corners, std::size_t
   State_reader::require(particles.hop_limit <= vertex_count && rings <= vertex_count, "it reaches too many hops");
   check_places(corners);
   // Scattered particles are all in one region.
-  const std::size_t region_count = homes.empty() ? 1 : particles.at.size();
+  const std::size_t region_count = built.regions ? particles.at.size() : 1;
   State_reader::require(std::ranges::all_of(labels, [&](auto label) { return label < region_count; }),
                         "a vertex is in a region that does not exist");
   for (std::size_t region = 0; region < homes.size(); ++region)

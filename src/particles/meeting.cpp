@@ -21,7 +21,8 @@ struct Walker {
 
 double checked(double squared_distance, std::uint32_t vertex) {
   if (squared_distance >= 0 && squared_distance <= std::numeric_limits<double>::max()) return squared_distance;
-  throw Bad_mesh("vertex " + std::to_string(vertex) + " or one near it has a coordinate that is not finite, or is beyond 1e150");
+  throw Bad_mesh("vertex " + std::to_string(vertex) +
+                 " or one near it has a coordinate that is not finite, or is beyond 1e150");
 }
 
 /// Takes one step if that leads nearer to the target.

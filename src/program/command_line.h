@@ -20,6 +20,7 @@
 #include "io/files/small_text.h"
 #include "program/command_description.h"
 #include "program/exit_codes.h"
+#include "program/plain_words.h"
 #include "program/suggestion.h"
 
 /// What the command lines of the program and of the experiments share; in a header, since each program reads its
@@ -120,16 +121,8 @@ inline std::string unknown_word(const CLI::App& program, std::span<char* const> 
 /// The words of the command line, in which files after `--` cannot be taken for options: CLI11 refuses `--` after the
 /// first file. `submit` has a command there.
 inline std::vector<std::string> unmistakable_words(int argc, char** argv) {
-  std::vector<std::string> words;
-  if (argc > 1 && std::string_view(argv[1]) == "submit") return {argv, argv + argc};
-  bool only_files = false;
-  for (const std::string_view word : std::span(argv, static_cast<std::size_t>(argc))) {
-    if (!only_files && word == "--")
-      only_files = true;
-    else
-      words.push_back((only_files && word.size() > 1 && word.front() == '-' ? "./" : "") + std::string(word));
-  }
-  return words;
+  std::vector<std::string> words(argv, argv + argc);
+  return argc > 1 && words[1] == "submit" ? words : plain_words(words);
 }
 
 /// Parses the command line. Prints help or version if asked for, else one line about what is wrong. The help does not

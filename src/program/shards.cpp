@@ -17,6 +17,7 @@
 
 #include "io/files/small_text.h"
 #include "lodestone/mesh/saved_state.h"
+#include "program/plain_words.h"
 #include "program/source_revision.h"
 
 namespace lodestone {
@@ -142,21 +143,13 @@ Shard parse_shard(const std::string& text) {
       fmt::format("--shard: expected I/N with 1 <= I <= N <= {}, found '{}'", most_shards, printable(text)));
 }
 
-std::vector<std::string> words_of_work(const std::vector<std::string>& words) {
+std::vector<std::string> words_of_work(const std::vector<std::string>& given) {
+  const auto words = plain_words(given);
   const auto is_one_of = [](const std::string& word, std::initializer_list<const char*> names) {
     return std::ranges::any_of(names, [&](const char* name) { return word == name; });
   };
   std::vector<std::string> kept;
-  bool only_files = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (only_files) {
-      kept.push_back(words[i].size() > 1 && words[i].starts_with('-') ? "./" + words[i] : words[i]);
-      continue;
-    }
-    if (words[i] == "--") {
-      only_files = true;
-      continue;
-    }
     const auto name = words[i].substr(0, words[i].find('='));
     const bool takes_value = is_one_of(name, {"--out", "--shard", "--jobs", "--threads"});
     if (takes_value && name == words[i]) ++i;
@@ -179,7 +172,7 @@ void check_utf8(const std::string& text, const char* what) {
 void check_utf8(const Work& work, const std::string& folder) {
   for (const auto& word : work.command) check_utf8(word, "a word of the command line");
   for (const auto& [name, input] : work.inputs.items()) check_utf8(name, "the name of an input");
-  check_utf8(folder, "the name of the folder");
+  check_utf8(folder, "the name of the working folder");
 }
 
 }  // namespace
@@ -190,9 +183,8 @@ Shard_folder::Shard_folder(std::filesystem::path results, const Work& work, Shar
     : results_(std::move(results)) {
   const std::string begun = std::filesystem::current_path().string();
   check_utf8(work, begun);
-  const Json wanted{{"command", work.command},       {"folder", begun},
-                    {"revision", source_revision()}, {"shards", work.shards},
-                    {"pieces", work.pieces},         {"inputs", work.inputs}};
+  const Json wanted{{"command", work.command}, {"folder", begun},       {"revision", source_revision()},
+                    {"shards", work.shards},   {"pieces", work.pieces}, {"inputs", work.inputs}};
   const auto file = folder() / "manifest.json";
   // Shards that start together write the same bytes. Each shard also holds the hash of its own work.
   if (!exists(file)) write_whole(file, wanted.dump(2) + "\n");

@@ -27,6 +27,7 @@
 #include "lodestone/io/files/atomic_file.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
+#include "program/plain_words.h"
 #include "program/progress.h"
 #include "program/shards.h"
 #include "program/slurm_scripts.h"
@@ -296,7 +297,9 @@ void submit(const Scripts& scripts, const Submit_command& command, std::size_t s
 
 }  // namespace
 
-int run(const Submit_command& command) {
+int run(const Submit_command& given) {
+  Submit_command command = given;
+  command.words = plain_words(given.words);  // options will be appended
   check(command);
   Shards_to_do to_do = shards_to_make(command);
   const bool measured = command.minutes > 0 && command.megabytes > 0;

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "lodestone/mesh/errors.h"
+#include "lodestone/queries/ask_each.h"
+#include "mesh/is_finite.h"
 
 namespace lodestone {
 
@@ -42,13 +44,20 @@ void check(const Ray& ray) {
   if (!(ray.length >= 0)) throw Bad_argument("the length of a ray must be 0 or more");
 }
 
-void check(std::span<const Ray> rays, std::size_t index) {
-  try {
-    check(rays[index]);
-  } catch (const Bad_argument& error) {
-    if (rays.size() == 1) throw;
-    throw Bad_argument("ray " + std::to_string(index) + ": " + error.what());
-  }
+void check_each(std::span<const Ray> rays) {
+  for (std::size_t i = 0; i < rays.size(); ++i) try {
+      check(rays[i]);
+    } catch (const Bad_argument& error) {
+      if (rays.size() == 1) throw;
+      throw Bad_argument("ray " + std::to_string(i) + ": " + error.what());
+    }
+}
+
+void check_each(std::span<const Point> points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!is_finite(points[i]))
+      throw Bad_argument((points.size() == 1 ? "the point" : "point " + std::to_string(i) + ": the point") +
+                         " has a coordinate that is not finite");
 }
 
 bool is_before(const Ray_frame& frame, Hit_on_ray& a, Hit_on_ray& b) {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "lodestone/queries/ray_search.h"
@@ -15,8 +14,6 @@ namespace lodestone {
 
 /// @throws Bad_argument  the ray is not as `Ray` says
 void check(const Ray& ray);
-/// The same for one of some rays. If there are several, the error names it.
-void check(std::span<const Ray> rays, std::size_t index);
 
 /// A face that the ray meets, and bounds on the depth of their first common point.
 struct Hit_on_ray {

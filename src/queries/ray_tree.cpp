@@ -98,10 +98,10 @@ class Ray_group final {
 
 template <class Collector, class Answer>
 std::vector<Answer> ask_in_groups(const Ray_tree& tree, std::span<const Ray> rays, Workers& workers) {
+  check_each(rays);
   std::vector<Answer> answers(rays.size());
   workers.run((rays.size() + rays_per_task - 1) / rays_per_task, [&](std::size_t task, std::size_t) {
     const std::size_t first = task * rays_per_task, count = std::min(rays_per_task, rays.size() - first);
-    for (std::size_t i = first; i < first + count; ++i) check(rays, i);
     Ray_group<Collector, Answer, rays_per_task>(tree, rays.subspan(first, count),
                                                 std::span(answers).subspan(first, count))
         .run();

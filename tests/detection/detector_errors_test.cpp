@@ -43,8 +43,10 @@ TEST(Detector, a_question_that_another_mode_answers_is_named) {
       {"hold_positions", [&] { std::ignore = particles.hold_positions(); }},
       {"first_impact", [&] { particles.first_impact(ends); }},
       {"first_hit", [&] { particles.first_hit(0, ray); }},
+      {"first_hits", [&] { particles.first_hits(std::span(&ray, 1)); }},
       {"closest_points", [&] { particles.closest_points(0, {}); }}};
-  for (const auto& [name, ask] : questions) EXPECT_EQ(message_of<Bad_argument>(ask), name + " needs the mode exact or certified");
+  for (const auto& [name, ask] : questions)
+    EXPECT_EQ(message_of<Bad_argument>(ask), name + " needs the mode exact or certified");
   EXPECT_EQ(message_of<Bad_argument>([&] { exact.object(0); }), "object needs a mode with particles");
 }
 
@@ -59,9 +61,9 @@ TEST(Detector, positions_at_the_end_of_a_motion_are_told_from_those_of_now) {
   EXPECT_EQ(message_of<Bad_mesh>([&] { detector.first_self_impact(1, end); }), expected);
   const std::vector<Positions> ends{{}, end};
   EXPECT_EQ(message_of<Bad_mesh>([&] { detector.first_impacts(ends); }), expected);
-  EXPECT_EQ(message_of<Bad_mesh>([&] { detector.first_self_impact(0, end.topRows(3)); }),
-            "object 0 has " + std::to_string(scene[0].number_of_vertices()) +
-                " vertices, but got 3 positions at the end");
+  EXPECT_EQ(
+      message_of<Bad_mesh>([&] { detector.first_self_impact(0, end.topRows(3)); }),
+      "object 0 has " + std::to_string(scene[0].number_of_vertices()) + " vertices, but got 3 positions at the end");
 }
 
 TEST(Detector, a_ray_or_point_that_is_refused_is_told_among_many) {
@@ -76,12 +78,18 @@ TEST(Detector, a_ray_or_point_that_is_refused_is_told_among_many) {
     std::vector<Point> points(300, Point(0, 0, 3));
     points[271] = Point(infinity, 0, 0);
     for (const Object_id object : {0, 1}) {
-      EXPECT_TRUE(message_of<Bad_argument>([&] { detector.first_hits(object, rays); }).starts_with("ray 270: the origin"));
-      EXPECT_TRUE(message_of<Bad_argument>([&] { detector.closest_points(object, points); }).starts_with("point 271: the point"));
-      EXPECT_TRUE(message_of<Bad_argument>([&] { detector.point_sides(object, points); }).starts_with("point 271: the point"));
+      EXPECT_TRUE(
+          message_of<Bad_argument>([&] { detector.first_hits(object, rays); }).starts_with("ray 270: the origin"));
+      EXPECT_TRUE(message_of<Bad_argument>([&] {
+                    detector.closest_points(object, points);
+                  }).starts_with("point 271: the point"));
+      EXPECT_TRUE(
+          message_of<Bad_argument>([&] { detector.point_sides(object, points); }).starts_with("point 271: the point"));
     }
     EXPECT_TRUE(message_of<Bad_argument>([&] { detector.first_hits(rays); }).starts_with("ray 270: the origin"));
-    EXPECT_TRUE(message_of<Bad_argument>([&] { first_hits(detector.ray_tree(1), rays, Workers::alone()); }).starts_with("ray 270: "));
+    EXPECT_TRUE(message_of<Bad_argument>([&] {
+                  first_hits(detector.ray_tree(1), rays, Workers::alone());
+                }).starts_with("ray 270: "));
     EXPECT_TRUE(message_of<Bad_argument>([&] { detector.first_hit(rays[280]); }).starts_with("the direction of a ray"));
   }
 }

@@ -37,6 +37,10 @@ concept Takes_arrays = requires(Indexed_mesh& mesh, Numbers&& numbers, Faces&& f
   mesh.set_arrays(std::forward<Numbers>(numbers), std::forward<Faces>(faces));
 };
 template <class Numbers>
+concept Takes_list_of_faces = requires(Numbers&& numbers, const Corners* first) {
+  Indexed_mesh(std::forward<Numbers>(numbers), {first, std::size_t{1}});
+};
+template <class Numbers>
 concept Takes_coordinates = requires(Indexed_mesh& mesh, Numbers&& numbers) {
   mesh.set_coordinates(std::forward<Numbers>(numbers));
 };
@@ -89,7 +93,6 @@ TEST(Indexed_mesh, refuses_arrays_that_do_not_fit_together) {
   EXPECT_EQ(message_of<Bad_argument>([&] { detector.add(mesh); }), "the mesh has been added before");
 }
 
-/// The array of faces is the caller's, who can write into it at any time.
 TEST(Indexed_mesh, cannot_be_made_of_arrays_that_end_with_the_call) {
   using Numbers = std::vector<double>;
   using Faces = std::vector<Corners>;
@@ -98,11 +101,13 @@ TEST(Indexed_mesh, cannot_be_made_of_arrays_that_end_with_the_call) {
   static_assert(!std::is_constructible_v<Indexed_mesh, Numbers, Faces&>);
   static_assert(!std::is_constructible_v<Indexed_mesh, Numbers&, Faces>);
   static_assert(!std::is_constructible_v<Indexed_mesh, Numbers, Faces>);
+  static_assert(Takes_list_of_faces<Numbers&> && !Takes_list_of_faces<Numbers>);
   static_assert(Takes_arrays<Numbers&, Faces&> && !Takes_arrays<Numbers&, Faces>);
   static_assert(!Takes_arrays<Numbers, Faces&> && !Takes_arrays<Numbers, Faces>);
   static_assert(Takes_coordinates<Numbers&> && !Takes_coordinates<Numbers>);
 }
 
+/// The array of faces is the caller's, who can write into it at any time.
 TEST(Indexed_mesh, refuses_corners_that_have_become_wrong_wherever_faces_are_read) {
   for (const std::uint32_t wrong : {0U, 500'000'000U}) {
     Arrays arrays(potato(5)), others(potato(4));

@@ -94,6 +94,15 @@ TEST(Saved_bytes, of_another_mode_are_refused_also_if_they_bear_the_name_of_this
       const std::string refusal = refusal_of([&] { second.load(0, bytes); });
       EXPECT_EQ(refusal == "no error", from.name == to.name) << refusal;
       EXPECT_TRUE(second.detect().collides());
+      // Where all faces are points, there may be no particle.
+      const std::vector<double> numbers{0, 0, 0, 1, 0, 0, 2, 0, 0};
+      const std::vector<Corners> faces{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+      const Indexed_mesh points(numbers, faces), others(numbers, faces);
+      Detector third(from.options), fourth(to.options);
+      third.add(points), fourth.add(points), fourth.add(others);
+      const Bytes of_points = renamed(third.save(0), to.name);
+      EXPECT_EQ(refusal_of([&] { fourth.load(0, of_points); }) == "no error", from.name == to.name);
+      fourth.detect();
     }
 }
 

@@ -161,14 +161,18 @@ TEST_F(Partitions_experiment, a_merge_that_cannot_write_its_report_is_none) {
 }
 
 TEST_F(Partitions_experiment, a_journal_of_other_work_is_dropped) {
+  expect_success(run_program(command("whole")));
+  auto row = read_json_lines(rows("whole")).front();
+  row["marked"] = true;
   const auto begun = shard("1-of-1.begun.jsonl");
-  for (const std::string hash : {"", "other"}) {
+  for (const auto* work : {R"({"id": "work", "hash": "other"})", R"({"id": "another run"})"}) {
     std::filesystem::create_directories(begun.parent_path());
-    std::ofstream(begun) << R"({"id": "work", "hash": ")" << hash << "\"}\n" << R"({"id": "a run of another plan"})" << '\n';
+    std::ofstream(begun) << work << '\n' << row << '\n';
     expect_success(run_program(command("parts", {"--shard", "1/1"})));
     expect_success(merge());
     const auto made = read_json_lines(rows("parts"));
     EXPECT_EQ(made.size(), 25U);
+    for (const auto& each : made) EXPECT_FALSE(each.contains("marked"));
     std::filesystem::remove_all(folder.path() / "parts");
   }
 }

@@ -299,9 +299,7 @@ TEST_F(Shards, of_files_whose_names_are_not_utf8_are_refused_and_the_word_is_tol
 }
 
 TEST_F(Shards, with_distances_beyond_the_largest_number_are_merged) {
-  const auto mesh = [](const char* x) {
-    return fmt::format("OFF\n3 1 0\n{0} 0 0\n{0} 1 0\n{0} 0 1\n3 0 1 2\n", x);
-  };
+  const auto mesh = [](const char* x) { return fmt::format("OFF\n3 1 0\n{0} 0 0\n{0} 1 0\n{0} 0 1\n3 0 1 2\n", x); };
   const auto a = folder.write("a.off", mesh("-1.5e308")).string(), b = folder.write("b.off", mesh("1.5e308")).string();
   expect_success(run_program({"detect", a, b, "--closest", "--out", path("parts").string(), "--shard", "1/1"}));
   expect_success(merge("parts"));

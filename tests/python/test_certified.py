@@ -79,10 +79,10 @@ def test_promises_save_reading_and_broken_ones_are_noticed():
     detector.promise(0, promise)
     detector.promise(1, promise)
     detector.detect()
-    shear, rows = np.eye(4), np.eye(4)
-    shear[3, 3] = np.nan
+    broken, rows = np.eye(4), np.eye(4)
+    broken[3, 3] = np.nan
     rows[3, :3] = [20, 0, 0]  # a translation as it stands where points are rows
-    for frame, text in [(rows, "the last row of frame must be 0, 0, 0, 1"), (shear, "frame has a number that is not"),
+    for frame, text in [(rows, "the last row of frame must be 0, 0, 0, 1"), (broken, "frame has a number that is not"),
                         (np.eye(3), "frame must have the shape")]:
         with pytest.raises(lodestone.BadArgument, match=text):
             promise.move(0.5, frame=frame)

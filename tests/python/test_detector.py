@@ -223,6 +223,8 @@ def test_an_array_that_is_resized_in_place_is_noticed():
         vertices.resize((10, 3), refcheck=False)
         with pytest.raises(lodestone.BadMesh, match=r"object 0 \(ball\): the array of its vertices has been resized"):
             detector.detect()
+        with pytest.raises(lodestone.BadMesh, match=r"^object 0 \(ball\): "):
+            detector.vertices(0)
         detector.set_vertices(0, sphere(20).vertices)
         assert detector.detect().faces.tolist() == expected
 

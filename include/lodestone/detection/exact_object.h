@@ -129,7 +129,7 @@ class Exact_object {
     if (shape_number_ == shape_number) return;
     shape_number_ = shape_number;
     rest_of_points_.clear();
-    bounded_.reset();  // it may refer to what there is no more
+    bounded_.reset();  // bounds refer to the former arrays of the points
   }
   /// Whether positions that are held have been read, and nothing else about the object has changed since.
   /// @param hold  Position_hold::number

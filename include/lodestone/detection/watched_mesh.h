@@ -50,7 +50,7 @@ class Watched_mesh {
   virtual bool in_memory() const = 0;
   /// Grows whenever positions change; 0: nobody knows.
   virtual std::uint64_t pose_number() const = 0;
-  /// Grows whenever its own bound is one of former points: see Computed_points.
+  /// Grows when `own_bound` must be made anew: see Computed_points.
   virtual std::uint64_t shape_number() const = 0;
   /// The bound that the positions have by themselves; null: none.
   virtual std::unique_ptr<Node_bound> own_bound(const Bounded_object& object) const = 0;

@@ -30,7 +30,7 @@ namespace lodestone {
 ///
 /// `points.shape_number()`, which points need not have, grows whenever anything else changes on which bounds of a
 /// region rest, such as positions at rest or the weights of joints; so does the pose number then. A detector makes
-/// bounds anew.
+/// bounds anew. Promises that it was given stay as they are: about where the vertices were first.
 ///
 /// Several threads may compute positions at once while none changes the pose. Models: Skinned_points, Morphed_points,
 /// Deformed_points, Computed_motion.

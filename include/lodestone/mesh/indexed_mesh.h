@@ -51,6 +51,7 @@ class Indexed_mesh {
   /// @throws Bad_mesh    the coordinates do not come in threes; a face names a vertex that does not exist
   Indexed_mesh(Coordinates coordinates, std::span<const Corners> faces);
   /// The mesh refers to arrays, not to temporaries.
+  Indexed_mesh(const std::vector<double>&& coordinates, std::span<const Corners> faces) = delete;
   template <class Numbers, class Faces>
     requires(ends_with_the_call<Numbers, double> || ends_with_the_call<Faces, Corners>)
   Indexed_mesh(Numbers&& coordinates, Faces&& faces) = delete;
@@ -65,6 +66,7 @@ class Indexed_mesh {
   /// Takes other arrays in place of both. A detector that has the mesh needs a `rebuild`. O(F).
   /// @throws Bad_mesh    as the constructor; the mesh stays as it was
   void set_arrays(Coordinates coordinates, std::span<const Corners> faces) { *this = Indexed_mesh(coordinates, faces); }
+  void set_arrays(const std::vector<double>&& coordinates, std::span<const Corners> faces) = delete;
   template <class Numbers, class Faces>
     requires(ends_with_the_call<Numbers, double> || ends_with_the_call<Faces, Corners>)
   void set_arrays(Numbers&& coordinates, Faces&& faces) = delete;

@@ -2,31 +2,20 @@
 #pragma once
 
 #include <algorithm>
-#include <concepts>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "lodestone/bounds/bounded_surface.h"
-#include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/workers.h"
 #include "lodestone/queries/ray_search.h"
 
 namespace lodestone {
 
-/// The answer about one of some rays or points. If there are several, an error names it.
-/// @param question  called with the surface and one of `asked`
-template <class Surface, class Asked, class Question>
-auto answer_about(std::size_t index, std::span<const Asked> asked, Surface& surface, const Question& question) {
-  try {
-    return question(surface, asked[index]);
-  } catch (const Bad_argument& error) {
-    if (asked.size() == 1) throw;
-    const char* const kind = std::same_as<Asked, Ray> ? "ray " : "point ";
-    throw Bad_argument(kind + std::to_string(index) + ": " + error.what());
-  }
-}
+/// @throws Bad_argument  a ray or a point is not as it must be; if there are several, it is named
+void check_each(std::span<const Ray> rays);
+/// The same of points, whose coordinates must be finite.
+void check_each(std::span<const Point> points);
 
 /// Asks a surface that is only read about many rays or points. The workers share them.
 /// @param question  called with the surface and one of `asked`; its answers can be default-constructed
@@ -34,9 +23,10 @@ auto answer_about(std::size_t index, std::span<const Asked> asked, Surface& surf
 /// @throws what the first question that fails throws
 template <class Surface, class Asked, class Question>
 auto ask_each(Surface& surface, std::span<const Asked> asked, const Question& question, Workers& workers) {
+  check_each(asked);
   std::vector<decltype(question(surface, asked.front()))> answers(asked.size());
   const auto answer = [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) answers[i] = answer_about(i, asked, surface, question);
+    for (std::size_t i = first; i < end; ++i) answers[i] = question(surface, asked[i]);
   };
   // A question takes some microseconds, like waking a thread. Neighbours in the list are often neighbours in space.
   constexpr std::size_t least_shared = 32, most_per_task = 256;
@@ -55,10 +45,11 @@ auto ask_each(Surface& surface, std::span<const Asked> asked, const Question& qu
 /// @param question  called also with a Layout_view
 template <class Asked, class Question>
 auto ask_each(Bounded_surface& surface, std::span<const Asked> asked, const Question& question, Workers& workers) {
+  check_each(asked);
   std::vector<decltype(question(surface, asked.front()))> answers;
   answers.reserve(asked.size());
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    answers.push_back(answer_about(i, asked, surface, question));
+  for (const Asked& one : asked) {
+    answers.push_back(question(surface, one));
     if (surface.violations() == 0) continue;
     const Layout_view settled = surface.view();
     return ask_each(settled, asked, question, workers);

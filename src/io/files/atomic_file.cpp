@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <tuple>
 
 #include "lodestone/mesh/errors.h"
 
@@ -22,6 +23,8 @@ void check_replaceable(const std::filesystem::path& target) {
   std::error_code error;
   if (target.filename().empty() || std::filesystem::is_directory(target, error))
     throw Bad_output(target.string() + ": is a folder, expected a file name");
+  std::ignore = std::filesystem::status(target, error);
+  if (error == std::errc::filename_too_long) throw Bad_output(target.string() + ": " + error.message());
   if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error))
     throw Bad_output(target.string() + ": is no regular file, which alone is replaced");
 }

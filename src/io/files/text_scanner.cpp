@@ -13,7 +13,7 @@
 namespace lodestone {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+constexpr std::string_view blanks = " \t\r\n\v\f";
 /// Far longer than any line of a mesh: refuses a huge binary file before all of it is searched for a line end.
 constexpr std::size_t longest_line = std::size_t{1} << 26U;
 
@@ -41,13 +41,20 @@ bool Text_scanner::next_line() {
   return false;
 }
 
+/// Some programs still end lines as old Macintosh computers did. Bytes after the text can hold any character, so the
+/// first line decides.
+char Text_scanner::line_end_of(std::string_view text) {
+  const auto first = text.substr(0, longest_line).find_first_of("\r\n");
+  return first == text.npos || text[first] == '\n' || text.substr(first).starts_with("\r\n") ? '\n' : '\r';
+}
+
 bool Text_scanner::read_line() {
   const auto text = file_->view();
   continued_ = false;
   if (next_ >= text.size()) return false;
   ++line_number_;
   line_ = text.substr(next_, longest_line);
-  line_ = line_.substr(0, line_.find('\n'));
+  line_ = line_.substr(0, line_.find(line_end_));
   if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is not text");
   next_ = std::min(next_ + line_.size() + 1, text.size());
   if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));

@@ -14,8 +14,8 @@ inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// Reads a text file line by line and word by word, and keeps the line number for error messages.
 ///
-/// Words are separated by blanks; a line ends with LF or CR LF. A byte order mark is skipped. Where the format has
-/// them, a line that ends with the continuation character goes on in the next line.
+/// Words are separated by blanks; a line ends with LF or CR LF, or with CR if the first one does. A byte order mark is
+/// skipped. Where the format has them, a line that ends with the continuation character goes on in the next line.
 class Text_scanner {
  public:
   /// @param comment       character that starts a comment to the end of the line; 0: none
@@ -24,6 +24,7 @@ class Text_scanner {
       : file_(&file),
         comment_(comment),
         continuation_(continuation),
+        line_end_(line_end_of(file.view())),
         next_(file.view().starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
 
   /// Moves to the next line with a word; false at the end of the file. Continued lines count as one line.
@@ -53,13 +54,14 @@ class Text_scanner {
   [[noreturn]] void fail(std::string_view cause) const;
 
  private:
+  static char line_end_of(std::string_view text);
   bool read_line();
   /// Cuts the continuation character off the current line.
   /// @return whether there was one
   bool cut_continuation();
 
   const File_bytes* file_;
-  char comment_, continuation_;
+  char comment_, continuation_, line_end_;
   std::size_t next_;             // offset of the next line
   std::size_t line_number_ = 0;  // from 1; 0 before the first line
   std::string_view line_;        // the unread rest of the current line

@@ -55,6 +55,7 @@ class Model_reader {
 };
 
 void Model_reader::add_face(std::size_t at, std::size_t first, std::size_t vertices, std::size_t bytes_per_corner) {
+  constexpr std::array<std::size_t, 3> other_way_round{0, 2, 1};  // they are clockwise, seen from outside
   Corners face{};
   for (std::size_t corner = 0; corner < 3; ++corner) {
     const auto place = at + corner * bytes_per_corner;
@@ -62,7 +63,7 @@ void Model_reader::add_face(std::size_t at, std::size_t first, std::size_t verti
     const std::uint32_t vertex = bytes_per_corner == 2 ? load<std::uint16_t>(bytes) : load<std::uint32_t>(bytes);
     if (vertex >= vertices)
       file_.fail_at(place, fmt::format("face refers to vertex {} of {} (counted from 0)", vertex, vertices));
-    face[corner] = static_cast<std::uint32_t>(first + vertex);
+    face[other_way_round[corner]] = static_cast<std::uint32_t>(first + vertex);
   }
   model_.faces.push_back(face);
   if (model_.faces.size() > options_.max_faces)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 
@@ -13,16 +14,17 @@ struct Off_prefix {
   std::string_view text;
   const char* holds;
 };
-/// What vertex lines may have beside the position.
+/// What vertex lines may have beside the position. Geomview's order is that of this list; MeshLab has others.
 constexpr std::array<Off_prefix, 3> prefixes = {{{"ST", "texture coordinates"}, {"C", "colours"}, {"N", "normals"}}};
 
-/// Reads a keyword such as `OFF` or `CNOFF`.
+/// Reads a keyword such as `OFF`, `CNOFF` or `NCOFF`.
 bool is_off_keyword(std::string_view word, Guarded_mesh& mesh) {
-  for (const auto& prefix : prefixes)
-    if (word.starts_with(prefix.text)) {
-      word.remove_prefix(prefix.text.size());
-      mesh.not_read.insert(prefix.holds);
-    }
+  const auto begins = [&](const Off_prefix& prefix) { return word.starts_with(prefix.text); };
+  for (auto prefix = std::ranges::find_if(prefixes, begins); prefix != prefixes.end() && word != "OFF";
+       prefix = std::ranges::find_if(prefixes, begins)) {
+    word.remove_prefix(prefix->text.size());
+    mesh.not_read.insert(prefix->holds);
+  }
   return word == "OFF";
 }
 

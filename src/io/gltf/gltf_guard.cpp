@@ -54,7 +54,6 @@ class Guard {
       : root_(document.json, document.name), buffers_(buffers) {}
 
   std::string plain() {
-    check_asset();
     plain_ = {{"asset", {{"version", "2.0"}}}};
     for (std::size_t i = 0; i < buffers_.size(); ++i)
       plain_["buffers"].push_back({{"byteLength", buffers_[i].size()}, {"uri", std::to_string(i)}});
@@ -86,7 +85,6 @@ class Guard {
   }
   std::size_t accessor_index(const Json_value& value) const { return index(value, "accessors", accessors_.size()); }
 
-  void check_asset() const;
   Json copy_view(const Json_value& view);
   void copy_accessors();
   Json copy_accessor(const Json_value& accessor);
@@ -105,6 +103,7 @@ class Guard {
   Json copy_sampler(const Json_value& sampler) const;
   void check_channel(const Json_value& target, const Json& sampler) const;
   std::size_t numbers_per_key(const Json_value& target, const std::string& path) const;
+  std::size_t targets_of(std::size_t node) const;
   void copy_scenes();
 
   Json_value root_;
@@ -119,13 +118,13 @@ class Guard {
   std::vector<std::vector<std::size_t>> children_ = {};
 };
 
-void Guard::check_asset() const {
-  const auto asset = root_.at("asset");
+void check_asset(const Json_value& root) {
+  const auto asset = root.at("asset");
   const auto version = asset.at("version").text();
   if (!version.starts_with("2."))
     asset.at("version").fail(fmt::format("expected 2.0, found {}", detail::as_json(version)));
   // An extension that affects positions must be supported; one that affects only appearance may be ignored.
-  for (const auto& extension : root_.list("extensionsRequired", most_elements)) {
+  for (const auto& extension : root.list("extensionsRequired", most_elements)) {
     const auto name = extension.text();
     const bool harmless = name == "KHR_mesh_quantization" || name.starts_with("KHR_materials_") ||
                           name.starts_with("KHR_texture_") || name.starts_with("EXT_texture_") ||
@@ -254,7 +253,7 @@ Json Guard::copy_mesh(const Json_value& mesh) {
     targets = found;
     joints &= plain["primitives"].back()["attributes"].contains("JOINTS_0");
   }
-  if (const auto weights = mesh.find("weights")) {
+  if (const auto weights = mesh.find("weights"); weights && !mesh.list("weights", most_elements).empty()) {
     plain["weights"] = Json::array();
     for (const auto& weight : weights->elements(most_elements)) plain["weights"].push_back(weight.number());
     if (plain["weights"].size() != targets)
@@ -340,7 +339,7 @@ Json Guard::copy_node(const Json_value& node) {
     if (mesh && !mesh_has_joints_[plain["mesh"].get<std::size_t>()])
       skin->fail("the mesh of the node has no JOINTS_0 and WEIGHTS_0");
   }
-  if (const auto weights = node.find("weights"); weights && mesh) {
+  if (const auto weights = node.find("weights"); weights && mesh && !node.list("weights", most_elements).empty()) {
     for (const auto& weight : weights->elements(most_elements)) plain["weights"].push_back(weight.number());
     const auto targets = mesh_targets_[plain["mesh"].get<std::size_t>()];
     if (plain["weights"].size() != targets)
@@ -405,15 +404,17 @@ void Guard::copy_scenes() {
 Json Guard::copy_animation(const Json_value& animation) const {
   Json plain{{"samplers", Json::array()}, {"channels", Json::array()}};
   copy_name(animation, plain);
-  for (const auto& sampler : animation.at("samplers").elements(most_elements))
+  // Exporters leave animations without a channel behind, which move nothing.
+  for (const auto& sampler : animation.list("samplers", most_elements))
     plain["samplers"].push_back(copy_sampler(sampler));
-  for (const auto& channel : animation.at("channels").elements(most_elements)) {
+  for (const auto& channel : animation.list("channels", most_elements)) {
     const auto sampler = index(channel.at("sampler"), "samplers", plain["samplers"].size());
     const auto target = channel.at("target");
     // Skipped: a channel of an extension, or without a node, moves nothing that is read.
     const auto path = target.at("path").text();
     if (!target.has("node") || path == "pointer") continue;
     const auto node = index(target.at("node"), "nodes", nodes_);
+    if (path == "weights" && targets_of(node) == 0) continue;  // as exporters write them for meshes without targets
     check_channel(target, plain["samplers"][sampler]);
     plain["channels"].push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
   }
@@ -446,10 +447,13 @@ std::size_t Guard::numbers_per_key(const Json_value& target, const std::string& 
   const auto& node = plain_["nodes"][target.at("node").count(0, nodes_ - 1)];
   if (path != "weights" && node.contains("matrix"))
     target.fail("the node has a matrix, so its parts cannot be animated");
-  if (path != "weights") return 1;
-  const auto targets = node.contains("mesh") ? mesh_targets_[node["mesh"].get<std::size_t>()] : 0;
-  if (targets == 0) target.fail("the node has no morph targets");
-  return targets;
+  return path == "weights" ? targets_of(target.at("node").count(0, nodes_ - 1)) : 1;
+}
+
+/// Morph targets of the mesh of a node.
+std::size_t Guard::targets_of(std::size_t node) const {
+  const auto& plain = plain_["nodes"][node];
+  return plain.contains("mesh") ? mesh_targets_[plain["mesh"].get<std::size_t>()] : 0;
 }
 
 /// What the vertices and the file hold beside positions and their motion. `document` has passed the guard.
@@ -471,6 +475,7 @@ std::set<std::string> content_not_read(const Json& document) {
 Guarded_gltf guard_gltf(const std::filesystem::path& file) {
   auto document = read_gltf_document(file);
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  check_asset(Json_value(document.json, document.name));  // before buffers, which extensions can leave out
   auto buffers = read_gltf_buffers(document, folder);
   auto plain = Guard(document, buffers).plain();
   return {.plain = std::move(plain),

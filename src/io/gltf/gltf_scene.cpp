@@ -383,6 +383,23 @@ bool is_gltf(const std::filesystem::path& file) {
   return extension == ".gltf" || extension == ".glb";
 }
 
+namespace {
+
+/// Whether a node turns what it places inside out, at rest: glTF then gives the corners of faces the other way round.
+/// A skin does not care where its node is.
+bool is_mirrored(const Gltf_scene& scene, const Gltf_part& part) {
+  bool mirrored = false;
+  for (std::size_t node = part.skin == no_index ? part.node : no_index; node != no_index;
+       node = scene.nodes[node].parent) {
+    const Gltf_place& place = scene.nodes[node].place;
+    const double determinant = place.matrix ? place.matrix->linear().determinant() : place.scale.prod();
+    mirrored ^= determinant < 0;
+  }
+  return mirrored;
+}
+
+}  // namespace
+
 Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene) {
   Polygon_soup soup;
   soup.not_read = scene->not_read;
@@ -395,8 +412,11 @@ Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene) {
   }
   for (const auto& part : scene->parts) {
     begin_part(part.name, static_cast<std::uint32_t>(soup.faces.size()), soup.parts);
-    for (const auto& [a, b, c] : part.shape->faces)
+    const bool mirrored = is_mirrored(*scene, part);
+    for (auto [a, b, c] : part.shape->faces) {
+      if (mirrored) std::swap(b, c);
       soup.faces.push_back({part.first_vertex + a, part.first_vertex + b, part.first_vertex + c});
+    }
   }
   return soup;
 }

@@ -59,7 +59,9 @@ std::vector<double> uniform_keys(const Gltf_animation& animation) {
   std::vector<double> times;
   for (const auto& curve : animation.curves) times.insert(times.end(), curve.times.begin(), curve.times.end());
   std::ranges::sort(times);
-  times.erase(std::unique(times.begin(), times.end()), times.end());
+  // Of several curves the same key can differ by how its time was rounded.
+  const auto same = [](double one, double other) { return other - one < 1e-5; };
+  times.erase(std::unique(times.begin(), times.end(), same), times.end());
   if (times.size() < 2) return {};
   const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   if (step * fewest_keys_per_second > 1 + 1e-6) return {};

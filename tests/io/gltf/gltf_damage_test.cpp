@@ -216,6 +216,13 @@ TEST_F(Gltf_damage, a_deep_node_tree_does_not_overflow_the_stack) {
   EXPECT_EQ(read_mesh(folder.write("a.gltf", sample.gltf())).mesh.number_of_faces(), 2U);
 }
 
+TEST_F(Gltf_damage, an_extension_that_leaves_out_buffers_is_named) {
+  auto document = Json::parse(square_gltf().gltf());
+  document["extensionsRequired"] = {"EXT_meshopt_compression"};
+  document["buffers"].push_back({{"byteLength", 99}});
+  expect_error(document.dump(), "/extensionsRequired/0: the extension \"EXT_meshopt_compression\" is not supported");
+}
+
 TEST_F(Gltf_damage, values_of_the_wrong_kind_are_refused) {
   expect_error("/accessors/1/componentType", 5122, "expected an accessor of unsigned integers");
   expect_error("/nodes/1/rotation", {0, 0, 0, 0}, "/nodes/1: the rotation has no direction");

@@ -19,6 +19,8 @@
 namespace lodestone::test {
 namespace {
 
+using Json = nlohmann::json;
+
 const std::vector<Point> square_points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 void expect_near(const std::vector<Point>& found, const std::vector<Point>& expected) {
@@ -128,6 +130,34 @@ TEST_F(Gltf, one_mesh_at_two_nodes_appears_twice) {
   for (const Point& p : square_points) expected.emplace_back(p.x(), p.y(), 5);
   expect_near(at_rest(sample), expected);
   EXPECT_EQ(read_mesh(write(sample)).mesh.number_of_faces(), 4U);
+}
+
+TEST_F(Gltf, nodes_that_mirror_a_mesh_turn_its_faces_round) {
+  auto sample = square_gltf();
+  const std::vector<Corners> as_they_are{{0, 1, 2}, {0, 2, 3}}, turned{{0, 2, 1}, {0, 3, 2}};
+  const auto faces_at = [&](const Json& node, const Json& parent) {
+    sample.json["nodes"] = {node, parent};
+    sample.json["nodes"][0]["mesh"] = 0;
+    sample.json["nodes"][1]["children"] = {0};
+    sample.json["scenes"] = {{{"nodes", {1}}}};
+    return read_animation(write(sample)).faces;
+  };
+  const Json plain = Json::object(), scaled{{"scale", {-1, 2, 1}}}, twice{{"scale", {-1, -2, 1}}};
+  const Json matrix{{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}}};
+  EXPECT_EQ(faces_at(plain, plain), as_they_are);
+  EXPECT_EQ(faces_at(scaled, plain), turned);
+  EXPECT_EQ(faces_at(plain, matrix), turned);
+  EXPECT_EQ(faces_at(scaled, matrix), as_they_are);
+  EXPECT_EQ(faces_at(twice, plain), as_they_are);
+}
+
+TEST_F(Gltf, what_exporters_leave_behind_moves_nothing) {
+  auto sample = square_gltf();
+  sample.animate(0, "translation", sample.add_numbers({0, 1}), sample.add_points({0, 0, 0, 0, 0, 9}));
+  sample.animate(0, "weights", sample.add_numbers({0, 1}), sample.add_numbers({0, 1}));  // of a mesh without targets
+  sample.json["animations"].push_back({{"name", "Take 001"}, {"channels", Json::array()}, {"samplers", Json::array()}});
+  sample.json["meshes"][0]["weights"] = sample.json["nodes"][0]["weights"] = Json::array();
+  expect_near(at(sample, 1), moved([](double x, double y, double z) { return Point(x, y, z + 9); }));
 }
 
 // Numbers
@@ -310,6 +340,7 @@ TEST_F(Gltf, uniform_keys_are_frames) {
   EXPECT_EQ(frames_and_rate({0, 0.1, 0.2, 0.3}, {0, 0.25}), Frames_and_rate(10, 30)) << "curves differ";
   EXPECT_EQ(frames_and_rate({0, 0.1, 0.4}, {0, 0.4}), Frames_and_rate(13, 30)) << "a hole";
   EXPECT_EQ(frames_and_rate({0, 0.2, 0.4}, {0}), Frames_and_rate(3, 5));
+  EXPECT_EQ(frames_and_rate({0, 0.1, 0.2}, {0, 0.1 + 1e-8, 0.2}), Frames_and_rate(3, 10)) << "rounded otherwise";
   EXPECT_EQ(frames_and_rate({0, 1, 2}, {0, 2}), Frames_and_rate(61, 30)) << "too few keys to be frames";
   EXPECT_EQ(frames_and_rate({0}, {0}), Frames_and_rate(1, 30));
   EXPECT_EQ(frames_and_rate({5}, {1e9}), Frames_and_rate(1, 30)) << "nothing moves";

@@ -223,6 +223,44 @@ TEST_F(Polygons, lines_of_obj_go_on_after_a_backslash) {
   EXPECT_EQ(file.file_vertices, 4U);
 }
 
+/// Each line break replaced.
+std::string with_line_end(std::string text, const std::string& end) {
+  for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += end.size()) text.replace(at, 1, end);
+  return text;
+}
+
+TEST_F(Polygons, lines_may_end_in_any_way) {
+  const std::string ply_header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string ply_body =
+      packed<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}) + packed<std::uint8_t>({3}) + packed<std::int32_t>({0, 1, 2});
+  const std::string stl =
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+      "0\nendloop\nendfacet\nendsolid a\n";
+  for (const std::string end : {"\n", "\r\n", "\r", "\r\r\n"}) {
+    SCOPED_TRACE(testing::PrintToString(end));
+    const auto faces = [&](const char* name, const std::string& bytes) {
+      return read_mesh(folder.write(name, bytes)).mesh.number_of_faces();
+    };
+    EXPECT_EQ(faces("a.off", with_line_end("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", end)), 1U);
+    EXPECT_EQ(faces("a.obj", with_line_end("# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", end)), 1U);
+    EXPECT_EQ(faces("a.stl", with_line_end(stl, end)), 1U);
+    if (end == "\r\r\n") continue;
+    EXPECT_EQ(faces("b.obj", with_line_end("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 3\n", end)), 1U);
+    EXPECT_EQ(faces("a.ply", with_line_end(ply_header, end) + ply_body), 1U);
+  }
+}
+
+TEST_F(Polygons, what_vertices_of_off_hold_may_be_named_in_any_order) {
+  for (const auto* keyword : {"STCNOFF", "CNOFF", "NCOFF", "CSTOFF", "NSTOFF"})
+    EXPECT_EQ(read_mesh(folder.write("a.off", keyword + std::string("\n3 1 0\n0 0 0 9 9 9 9\n1 0 0 9 9 9 9\n0 1 0 9 9 "
+                                                                    "9 9\n3 0 1 2\n")))
+                  .mesh.number_of_faces(),
+              1U)
+        << keyword;
+}
+
 TEST_F(Polygons, the_keyword_of_off_may_be_glued_to_the_number_of_vertices) {
   auto bytes = square_off;
   const auto file = read_mesh(folder.write("a.off", bytes.replace(0, 4, "OFF")));

@@ -69,7 +69,7 @@ TEST_F(Game_models, of_quake_ii_are_read) {
   const auto animation = read_animation(folder.write("a.md2", square_md2()));
   EXPECT_EQ(animation.kind, "md2");
   EXPECT_EQ(animation.motion.frames, 2U);
-  EXPECT_EQ(animation.faces, (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(animation.faces, (std::vector<Corners>{{0, 2, 1}, {0, 3, 2}}));  // clockwise in the file
   std::vector<Point> positions(4);
   for (const std::size_t frame : {1, 0}) {
     animation.motion.pose(frame, positions);
@@ -82,7 +82,7 @@ TEST_F(Game_models, of_quake_iii_are_read_and_welded_within_a_surface) {
   const auto animation = read_animation(folder.write("a.md3", square_md3()));
   EXPECT_EQ(animation.kind, "md3");
   EXPECT_EQ(animation.vertices, 10U);
-  EXPECT_EQ(animation.faces, (std::vector<Corners>{{0, 1, 2}, {5, 7, 8}}));
+  EXPECT_EQ(animation.faces, (std::vector<Corners>{{0, 2, 1}, {5, 8, 7}}));
   std::vector<Point> positions(10);
   for (const std::size_t frame : {1, 0}) {
     animation.motion.pose(frame, positions);
