@@ -60,8 +60,6 @@ void check(const Detector_options& options) {
           "the tolerance within one object must be finite and >= 0");
   require(exact.loosest > 1, "a tree must be allowed to become looser than it was built: the factor must be > 1");
   check(exact.tree);
-  check(options.particle_count);
-  check(options.senin);
   require(
       finds_all(options.mode) || has_defaults_of_exact(exact),
       "a distance other than 0, self-collision, containment, parting, contact patches and the limit of looseness need "

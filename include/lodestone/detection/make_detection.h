@@ -14,6 +14,8 @@ namespace lodestone {
 template <Bounding_volume Volume>
 std::unique_ptr<Detection> make_detection(const Detector_options& options) {
   check(options);
+  check(options.particle_count);
+  check(options.senin);
   switch (options.mode) {
     case Mode::particles:
     case Mode::senin:
