@@ -17,6 +17,24 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 20;
 
+/// Whether a name leads, by links, to what the system shows of a process or a device, as `/dev/stdout` does. What it
+/// leads to in the end may be a regular file, and the link would be replaced in its place.
+bool is_of_the_system(std::filesystem::path name) {
+  std::error_code error;
+  for (int links = 0; links < 40; ++links) {
+    const auto folder =
+        std::filesystem::canonical(std::filesystem::absolute(name, error).parent_path(), error).string();
+    // Memory that is shared among processes holds files like any other.
+    const bool is_shared_memory = (folder + "/").starts_with("/dev/shm/");
+    for (const auto* system : {"/dev/", "/proc/"})
+      if ((folder + "/").starts_with(system) && !is_shared_memory) return true;
+    const auto link = std::filesystem::read_symlink(name, error);
+    if (error) return false;
+    name = name.parent_path() / link;
+  }
+  return false;
+}
+
 }  // namespace
 
 void check_replaceable(const std::filesystem::path& target) {
@@ -25,7 +43,8 @@ void check_replaceable(const std::filesystem::path& target) {
     throw Bad_output(target.string() + ": is a folder, expected a file name");
   std::ignore = std::filesystem::status(target, error);
   if (error == std::errc::filename_too_long) throw Bad_output(target.string() + ": " + error.message());
-  if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error))
+  if ((std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error)) ||
+      is_of_the_system(target))
     throw Bad_output(target.string() + ": is no regular file, which alone is replaced");
 }
 

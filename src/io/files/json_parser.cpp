@@ -14,7 +14,7 @@ namespace lodestone::detail {
 namespace {
 
 constexpr std::uintmax_t most_bytes = std::uintmax_t{16} << 20U;
-constexpr std::size_t deepest = 32;
+constexpr std::size_t deepest = 128;
 
 std::string read_text(const std::filesystem::path& file) {
   const auto fail = [&](std::string_view cause) { throw Bad_scene(fmt::format("{}: {}", file.string(), cause)); };

@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 
 /// The file as JSON.
 /// @throws Bad_scene  no such file, more than 16 MiB, a syntax error (with line and column), a duplicate key in an
-///                    object, nesting deeper than 32 levels
+///                    object, nesting deeper than 128 levels
 Json parse_json(const std::filesystem::path& file);
 
 /// The same for a text in memory, of any length.

@@ -79,7 +79,8 @@ Guarded_mesh guard_off(const File_bytes& file, std::size_t max_faces) {
   read_header(text, max_faces, mesh);
   mesh.plain = fmt::format("OFF\n{} {} 0\n", mesh.vertices, mesh.faces);
   for (std::size_t vertex = 0; vertex < mesh.vertices; ++vertex) {
-    if (!text.next_line()) text.fail(fmt::format("the file ends after {} of {} vertices", vertex, mesh.vertices));
+    if (!text.next_line())
+      text.fail(fmt::format("the file ends after {} of {} vertices, of which each has a line", vertex, mesh.vertices));
     copy_coordinates(text, mesh);
   }
   for (std::size_t face = 0; face < mesh.faces; ++face) {

@@ -77,6 +77,8 @@ void check_header(const Ply_header& header, const Text_scanner& text, std::size_
   if (faces.count > max_faces) text.fail(too_many_faces(faces.count, max_faces));
   list_skipped(vertices, mesh);
   list_skipped(faces, mesh);
+  for (const auto& element : header.elements)
+    if (!is_vertices(element) && !is_faces(element) && element.count > 0) mesh.not_read.insert("other elements");
   mesh.vertices = vertices.count;
   mesh.faces = faces.count;
 }

@@ -60,6 +60,7 @@ Guarded_mesh guard_text(const File_bytes& file, std::size_t max_faces) {
   Guarded_mesh mesh;
   mesh.plain = "solid\n";
   for (auto word = text.next_word_of_file(); !word.empty(); word = text.next_word_of_file()) {
+    if (mesh.faces > 0) mesh.not_read.insert("groups");
     need_keyword(text, word, "solid");
     copy_solid(text, max_faces, mesh);
   }

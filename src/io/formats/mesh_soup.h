@@ -19,6 +19,7 @@ struct Polygon_soup {
   std::vector<std::vector<std::size_t>> faces;    ///< of three corners or more
   File_parts parts = {};                          ///< that the file names
   std::set<std::string> not_read = {};            ///< what else the file holds, such as `texture coordinates`
+  std::set<std::string> ignored_extensions = {};  ///< optional ones of glTF that say where surfaces are
   std::vector<std::filesystem::path> files = {};  ///< that it is read from
 };
 
@@ -29,6 +30,7 @@ struct Mesh_soup {
   std::vector<std::uint32_t> file_face;  ///< per triangle: its face in the file; never decreases
   File_parts parts = {};
   std::set<std::string> not_read = {};
+  std::set<std::string> ignored_extensions = {};
   std::vector<std::filesystem::path> files = {};
 };
 

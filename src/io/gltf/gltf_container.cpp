@@ -120,7 +120,8 @@ Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder
   if (text.starts_with(data)) return from_data_uri(uri, std::string_view(text).substr(data.size()), length);
   const auto name = decoded(text);
   const bool is_printable = std::ranges::none_of(name, [](unsigned char c) { return c < ' ' || c == 0x7f; });
-  if (!is_printable || name.find(':') != name.npos || !is_inside(folder, name))
+  // In what is not encoded, a colon ends a scheme, such as `http:`.
+  if (!is_printable || text.find(':') != text.npos || !is_inside(folder, name))
     uri.fail(fmt::format("{} is not a file inside the folder of the glTF file", in_quotes(name)));
   document.files.push_back(folder / name);
   return read_start(folder / name, length, uri);

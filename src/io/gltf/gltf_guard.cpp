@@ -128,7 +128,8 @@ void check_asset(const Json_value& root) {
     const auto name = extension.text();
     const bool harmless = name == "KHR_mesh_quantization" || name.starts_with("KHR_materials_") ||
                           name.starts_with("KHR_texture_") || name.starts_with("EXT_texture_") ||
-                          name == "KHR_lights_punctual";
+                          name.starts_with("MSFT_texture_") || name.starts_with("EXT_lights_") ||
+                          name == "KHR_lights_punctual" || name == "KHR_xmp_json_ld";
     if (!harmless) extension.fail(fmt::format("the extension {} is not supported", detail::as_json(name)));
   }
 }
@@ -196,7 +197,10 @@ Json Guard::copy_accessor(const Json_value& value) {
       plain["byteOffset"] = offset;
       most_stored_ = std::max(most_stored_, accessor.count);
     }
-    if (const auto sparse = value.find("sparse")) plain["sparse"] = copy_sparse(*sparse, accessor.count, bytes);
+    if (const auto sparse = value.find("sparse")) {
+      plain["sparse"] = copy_sparse(*sparse, accessor.count, bytes);
+      most_stored_ = std::max(most_stored_, plain["sparse"]["count"].get<std::size_t>());
+    }
   } else {
     most_stored_ = std::max(most_stored_, std::size_t{1});
     accessor.count = plain["count"] = 1;
@@ -246,6 +250,8 @@ Json Guard::copy_mesh(const Json_value& mesh) {
   std::size_t targets = unknown;
   bool joints = true;
   for (const auto& primitive : mesh.at("primitives").elements(most_elements)) {
+    primitive.at("attributes").expect_object();
+    if (!primitive.at("attributes").has("POSITION")) continue;  // there is nothing to show
     std::size_t found = 0;
     plain["primitives"].push_back(copy_primitive(primitive, found));
     if (targets != unknown && targets != found)
@@ -253,7 +259,10 @@ Json Guard::copy_mesh(const Json_value& mesh) {
     targets = found;
     joints &= plain["primitives"].back()["attributes"].contains("JOINTS_0");
   }
-  if (const auto weights = mesh.find("weights"); weights && !mesh.list("weights", most_elements).empty()) {
+  const bool shows_something = targets != unknown;
+  if (!shows_something) targets = 0;
+  if (const auto weights = mesh.find("weights");
+      weights && shows_something && !mesh.list("weights", most_elements).empty()) {
     plain["weights"] = Json::array();
     for (const auto& weight : weights->elements(most_elements)) plain["weights"].push_back(weight.number());
     if (plain["weights"].size() != targets)
@@ -456,12 +465,32 @@ std::size_t Guard::targets_of(std::size_t node) const {
   return plain.contains("mesh") ? mesh_targets_[plain["mesh"].get<std::size_t>()] : 0;
 }
 
-/// What the vertices and the file hold beside positions and their motion. `document` has passed the guard.
+/// Extensions that say where surfaces are. A file may call them optional, but without them it shows something else.
+std::set<std::string> ignored_extensions(const Json& document) {
+  std::set<std::string> result;
+  const Json::json_pointer copies("/extensions/EXT_mesh_gpu_instancing");
+  for (const auto& node : document.value("nodes", Json::array()))
+    if (node.contains(copies)) result.insert("EXT_mesh_gpu_instancing");
+  const Json::json_pointer pointer("/target/extensions/KHR_animation_pointer/pointer");
+  for (const auto& animation : document.value("animations", Json::array()))
+    for (const auto& channel : animation.value("channels", Json::array())) {
+      if (!channel.contains(pointer) || !channel[pointer].is_string()) continue;
+      const auto moved = channel[pointer].get<std::string>();  // others are materials, lights or cameras
+      if (moved.starts_with("/nodes/") || moved.starts_with("/meshes/")) result.insert("KHR_animation_pointer");
+    }
+  return result;
+}
+
+/// What the file holds beside positions and their motion. `document` has passed the guard.
 std::set<std::string> content_not_read(const Json& document) {
   std::set<std::string> result;
   if (document.contains("materials")) result.insert("materials");
+  const auto nodes = document.value("nodes", Json::array());
+  if (std::ranges::count_if(nodes, [](const Json& node) { return node.contains("mesh"); }) > 1) result.insert("groups");
   for (const auto& mesh : document.value("meshes", Json::array()))
     for (const auto& primitive : mesh.value("primitives", Json::array())) {
+      const auto mode = primitive.find("mode");
+      if (mode != primitive.end() && mode->is_number() && *mode < 4) result.insert(*mode == 0 ? "points" : "lines");
       const auto attributes = primitive.value("attributes", Json::object());
       if (attributes.contains("TEXCOORD_0")) result.insert("texture coordinates");
       if (attributes.contains("COLOR_0")) result.insert("colours");
@@ -481,7 +510,8 @@ Guarded_gltf guard_gltf(const std::filesystem::path& file) {
   return {.plain = std::move(plain),
           .buffers = std::move(buffers),
           .files = std::move(document.files),
-          .not_read = content_not_read(document.json)};
+          .not_read = content_not_read(document.json),
+          .ignored_extensions = ignored_extensions(document.json)};
 }
 
 }  // namespace lodestone

@@ -18,6 +18,7 @@ struct Guarded_gltf {
   std::vector<Bytes> buffers = {};
   std::vector<std::filesystem::path> files = {};  ///< that it is read from
   std::set<std::string> not_read = {};            ///< what else the file holds, such as `texture coordinates`
+  std::set<std::string> ignored_extensions = {};  ///< optional ones that say where surfaces are
 };
 
 /// Checks every size, index and reference: sizes against the file's contents, indices against counts, types of

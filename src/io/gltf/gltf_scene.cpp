@@ -372,6 +372,7 @@ std::shared_ptr<const Gltf_scene> read_gltf_scene(const std::filesystem::path& f
     read_animations(model, *scene);
     scene->files = std::move(guarded.files);
     scene->not_read = std::move(guarded.not_read);
+    scene->ignored_extensions = std::move(guarded.ignored_extensions);
     return scene;
   } catch (const Bad_scene& error) {
     throw Bad_mesh(error.what());
@@ -403,6 +404,7 @@ bool is_mirrored(const Gltf_scene& scene, const Gltf_part& part) {
 Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene) {
   Polygon_soup soup;
   soup.not_read = scene->not_read;
+  soup.ignored_extensions = scene->ignored_extensions;
   soup.files = scene->files;
   soup.points.resize(scene->vertices);
   try {

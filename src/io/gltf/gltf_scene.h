@@ -95,6 +95,7 @@ struct Gltf_scene {
   std::size_t vertices = 0;                       ///< of all parts
   std::vector<std::filesystem::path> files = {};  ///< that it is read from
   std::set<std::string> not_read = {};            ///< what else the file holds, such as `texture coordinates`
+  std::set<std::string> ignored_extensions = {};  ///< optional ones that say where surfaces are
 };
 
 /// Whether the file's extension is that of glTF.

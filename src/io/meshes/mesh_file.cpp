@@ -76,6 +76,7 @@ Mesh_file mesh_of(const Mesh_soup& soup, const std::string& name) {
                    .file_vertices = soup.points.size(),
                    .file_face = soup.file_face,
                    .parts = soup.parts,
+                   .ignored_extensions = soup.ignored_extensions,
                    .files = soup.files};
   PMP::polygon_soup_to_polygon_mesh(tracked.points, tracked.faces, result.mesh);
   if (num_faces(result.mesh) != soup.faces.size() || num_vertices(result.mesh) != result.file_vertex.size())

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -69,51 +71,74 @@ std::vector<Kernel::Point_2> flattened(std::span<const Point> corners) {
   return flat;
 }
 
-/// Inserts corners and sides.
-/// @return whether the sides are those of a simple polygon
-bool insert_outline(const std::vector<Kernel::Point_2>& flat, Plane_triangulation& plane) {
+using Side = std::pair<std::size_t, std::size_t>;  // two corners, the lower first
+
+/// Sides of which an odd number lie on each other. Two lie there where a polygon with a hole is cut open: the surface
+/// is on both sides.
+using Outline = std::set<Side>;
+
+Side side_between(std::size_t a, std::size_t b) { return std::minmax(a, b); }
+
+/// Inserts corners and sides. A vertex of the plane knows the last of the corners there.
+/// @param polygon  the mesh vertex of each corner: corners at one place must be one vertex
+/// @return nothing unless each side is one edge of the plane, and none cross
+std::optional<Outline> insert_outline(const std::vector<Kernel::Point_2>& flat, const Polygon& polygon,
+                                      Plane_triangulation& plane) {
   std::vector<Plane_triangulation::Vertex_handle> vertices;
+  plane.infinite_vertex()->info() = flat.size();  // no corner
   for (std::size_t corner = 0; corner < flat.size(); ++corner) {
+    const std::size_t before = plane.number_of_vertices();
     vertices.push_back(plane.insert(flat[corner]));
+    const bool is_new = plane.number_of_vertices() > before;
+    if (!is_new && polygon[vertices.back()->info()] != polygon[corner]) return {};
     vertices.back()->info() = corner;
   }
-  if (plane.dimension() != 2 || plane.number_of_vertices() != flat.size()) return false;
+  if (plane.dimension() != 2) return {};
+  Outline outline;
   try {
-    for (std::size_t corner = 0; corner < flat.size(); ++corner)
-      plane.insert_constraint(vertices[corner], vertices[(corner + 1) % flat.size()]);
+    for (std::size_t corner = 0; corner < flat.size(); ++corner) {
+      const auto a = vertices[corner], b = vertices[(corner + 1) % flat.size()];
+      if (a == b) return {};
+      plane.insert_constraint(a, b);
+      if (!plane.is_edge(a, b)) return {};  // a corner lies on it
+      if (const auto [at, added] = outline.insert(side_between(a->info(), b->info())); !added) outline.erase(at);
+    }
   } catch (const Plane_triangulation::Intersection_of_constraints_exception&) {
-    return false;
+    return {};
   }
-  return true;
+  return outline;
 }
 
-/// Marks the triangles inside the outline: those that every path from outside reaches through a side.
-void mark_inside(Plane_triangulation& plane) {
-  for (const auto face : plane.all_face_handles()) face->info().value = true;
-  std::vector<Plane_triangulation::Face_handle> outside{plane.infinite_face()};
-  outside.back()->info().value = false;
-  while (!outside.empty()) {
-    const auto face = outside.back();
-    outside.pop_back();
+/// Marks the triangles inside the outline: those that every path from outside reaches through an odd number of sides.
+void mark_inside(Plane_triangulation& plane, const Outline& outline) {
+  std::set<Plane_triangulation::Face_handle> seen{plane.infinite_face()};
+  std::vector<Plane_triangulation::Face_handle> waiting(seen.begin(), seen.end());
+  while (!waiting.empty()) {
+    const auto face = waiting.back();
+    waiting.pop_back();
     for (int side = 0; side < 3; ++side) {
       const auto next = face->neighbor(side);
-      if (face->is_constrained(side) || !next->info().value) continue;
-      next->info().value = false;
-      outside.push_back(next);
+      if (!seen.insert(next).second) continue;
+      const auto a = face->vertex(plane.cw(side)), b = face->vertex(plane.ccw(side));
+      next->info().value = face->info().value != outline.contains(side_between(a->info(), b->info()));
+      waiting.push_back(next);
     }
   }
 }
 
-/// @return nothing for a polygon that is not simple in its plane
-Polygon_triangles triangulate_in_plane(std::span<const Point> corners) {
+/// @return nothing for a polygon that crosses itself in its plane, that has a corner on another side, or that falls
+/// into
+///         parts which touch in a corner
+Polygon_triangles triangulate_in_plane(std::span<const Point> corners, const Polygon& polygon) {
   Plane_triangulation plane;
-  if (!insert_outline(flattened(corners), plane)) return {};
-  mark_inside(plane);
+  const auto outline = insert_outline(flattened(corners), polygon, plane);
+  if (!outline) return {};
+  mark_inside(plane, *outline);
   Polygon_triangles triangles;
   for (const auto face : plane.finite_face_handles())
     if (face->info().value)
       triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
-  // A corner on another side gives other numbers.
+  // Parts that touch in a corner alone give other numbers.
   if (triangles.size() != corners.size() - 2) return {};
   return triangles;
 }
@@ -122,7 +147,7 @@ Polygon_triangles triangulate(const Polygon& polygon, const std::vector<Point>& 
   std::vector<Point> corners;
   for (const auto vertex : polygon) corners.push_back(points[vertex]);
   if (corners.size() == 4) return cut_quad({corners[0], corners[1], corners[2], corners[3]});
-  auto triangles = triangulate_in_plane(corners);
+  auto triangles = triangulate_in_plane(corners, polygon);
   return triangles.empty() ? fan(corners.size()) : triangles;
 }
 
@@ -134,6 +159,7 @@ Mesh_soup triangulated(Polygon_soup soup) {
                    .file_face = {},
                    .parts = std::move(soup.parts),
                    .not_read = std::move(soup.not_read),
+                   .ignored_extensions = std::move(soup.ignored_extensions),
                    .files = std::move(soup.files)};
   result.faces.reserve(soup.faces.size());
   result.file_face.reserve(soup.faces.size());

@@ -28,6 +28,7 @@ void set_surface(Animation& animation, Mesh_soup soup) {
   animation.file_face = std::move(soup.file_face);
   animation.parts = std::move(soup.parts);
   animation.not_read = std::move(soup.not_read);
+  animation.ignored_extensions = std::move(soup.ignored_extensions);
 }
 
 /// The motion of vertices that stay where they are, for one frame.

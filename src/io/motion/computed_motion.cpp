@@ -19,7 +19,9 @@ class Still final : public Computed_motion {
   explicit Still(const std::vector<Point>& rest) : points_(coordinates_of(rest)) {}
 
   void set_frame(std::size_t /*frame*/) override {}
-  Any_bound bound(const Bounded_object& object) const override { return Any_bound(Linear_bound(points_, object.layout)); }
+  Any_bound bound(const Bounded_object& object) const override {
+    return Any_bound(Linear_bound(points_, object.layout));
+  }
   std::uint32_t vertex_count() const override { return points_.vertex_count(); }
   std::uint64_t pose_number() const override { return 1; }
   Eigen::Vector3d operator()(std::uint32_t vertex) const override { return points_(vertex); }
@@ -121,7 +123,8 @@ class Held final : public Changed {
   void set_frame(std::size_t frame) override {
     if (frame <= last_)
       inner_->set_frame(frame);
-    else if (!ended_) inner_->set_frame(last_);
+    else if (!ended_)
+      inner_->set_frame(last_);
     ended_ = frame >= last_;
   }
   const Skinned_points* skin() const override { return inner_->skin(); }

@@ -20,7 +20,7 @@ struct Deformed_points::State {
   detail::Deformed_shape shape;
   std::vector<detail::Step> steps;  ///< of the current frame
 
-  Lipschitz_promise promise;        ///< of the current frame
+  Lipschitz_promise promise;  ///< of the current frame
   detail::Expansion expansion() const { return detail::expansion(steps, shape.middle(), shape.box()); }
 };
 
@@ -64,8 +64,8 @@ struct Deformed_bound {
 Any_bound Deformed_points::bound(const Bounded_object& object) const {
   auto positions = std::make_unique<const Computed_source<Deformed_points>>(*this);
   const std::vector<double> rest = coordinates_of(state_->shape.rest());
-  auto bound = state_->promise.bound(
-      {.layout = object.layout, .labels = object.labels, .rest = rest, .positions = *positions});
+  auto bound =
+      state_->promise.bound({.layout = object.layout, .labels = object.labels, .rest = rest, .positions = *positions});
   return Any_bound(Deformed_bound{std::move(positions), std::move(bound)});
 }
 

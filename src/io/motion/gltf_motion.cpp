@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -53,14 +54,24 @@ bool is_still(const Gltf_animation& animation) {
   return std::ranges::all_of(animation.curves, [](const auto& curve) { return curve.times.size() == 1; });
 }
 
+/// Keys that are no farther apart are one: of several curves the same key can differ by how its time was rounded. Far
+/// less than the keys of one curve are apart in the mean, however fast they follow each other.
+double rounding_of_keys(const Gltf_animation& animation) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& curve : animation.curves)
+    if (const std::size_t keys = curve.times.size(); keys > 1)
+      least = std::min<double>(least, (curve.times.back() - curve.times.front()) / static_cast<double>(keys - 1));
+  return std::min(1e-5, 0.1 * least);
+}
+
 /// The times of all keys of all curves, if they follow each other at equal distances; else nothing.
 std::vector<double> uniform_keys(const Gltf_animation& animation) {
   if (is_still(animation)) return {};
   std::vector<double> times;
   for (const auto& curve : animation.curves) times.insert(times.end(), curve.times.begin(), curve.times.end());
   std::ranges::sort(times);
-  // Of several curves the same key can differ by how its time was rounded.
-  const auto same = [](double one, double other) { return other - one < 1e-5; };
+  const double rounding = rounding_of_keys(animation);
+  const auto same = [&](double one, double other) { return other - one <= rounding; };
   times.erase(std::unique(times.begin(), times.end(), same), times.end());
   if (times.size() < 2) return {};
   const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
@@ -82,7 +93,7 @@ std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, 
   const double frames = std::floor(std::max(animation.seconds - start, 0.0) * rate * (1 + 1e-6)) + 1;
   if (!(frames <= double{most_sampled_frames}))
     throw Bad_motion(fmt::format("{}: {} seconds at {} frames per second are more than {} frames", scene.name,
-                                 animation.seconds, rate, most_sampled_frames));
+                                 animation.seconds - start, rate, most_sampled_frames));
   return static_cast<std::size_t>(frames);
 }
 

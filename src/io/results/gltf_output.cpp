@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "io/files/byte_order.h"
 #include "io/files/small_text.h"
@@ -66,15 +67,20 @@ class Gltf_writer {
   void measure();
   /// @param uri  of the buffer; empty: the binary chunk after the JSON
   Json json(const std::string& uri) const;
-  std::size_t buffer_bytes() const { return view_ends().back(); }
+  std::size_t buffer_bytes() const;
   /// Reads all frames once more.
   void write_buffer(Atomic_file& out);
 
  private:
   std::size_t vertices() const { return animation_.vertices; }
-  /// End offsets of the buffer views: corners, positions, colours, times, weights.
-  std::array<std::size_t, 5> view_ends() const;
-  Json views() const;
+  /// A view of the buffer.
+  struct View {
+    std::size_t bytes = 0;
+    int stride = 0, target = 0;  ///< 0: not given
+  };
+  /// Corners, positions of each frame, colours, times, weights; in the order of the buffer.
+  std::vector<View> views() const;
+  Json view_list() const;
   Json accessors() const;
   std::string small_views() const;
 
@@ -101,55 +107,57 @@ void Gltf_writer::measure() {
   }
 }
 
-std::array<std::size_t, 5> Gltf_writer::view_ends() const {
+std::vector<Gltf_writer::View> Gltf_writer::views() const {
   const auto frames = frames_.size();
-  const std::array<std::size_t, 5> lengths{12 * animation_.faces.size(), 12 * vertices() * frames,
-                                           options_.regions.empty() ? 0 : 4 * vertices(), frames > 1 ? 4 * frames : 0,
-                                           4 * frames * (frames - 1)};
-  std::array<std::size_t, 5> ends{};
-  std::size_t end = 0;
-  for (std::size_t i = 0; i < lengths.size(); ++i) ends[i] = end += lengths[i];
-  return ends;
+  std::vector<View> views{{.bytes = 12 * animation_.faces.size(), .target = index_data}};
+  // Readers store offsets within a view as 32-bit numbers, and all frames together can be longer.
+  views.insert(views.end(), frames, {.bytes = 12 * vertices(), .stride = 12, .target = vertex_data});
+  if (!options_.regions.empty()) views.push_back({.bytes = 4 * vertices(), .stride = 4, .target = vertex_data});
+  if (frames == 1) return views;
+  views.push_back({.bytes = 4 * frames});
+  views.push_back({.bytes = 4 * frames * (frames - 1)});
+  return views;
 }
 
-Json Gltf_writer::views() const {
-  const auto ends = view_ends();
+std::size_t Gltf_writer::buffer_bytes() const {
+  std::size_t sum = 0;
+  for (const View& view : views()) sum += view.bytes;
+  return sum;
+}
+
+Json Gltf_writer::view_list() const {
   Json result = Json::array();
-  const std::array<int, 5> targets{index_data, vertex_data, vertex_data, 0, 0};
-  const std::array<int, 5> strides{0, 12, 4, 0, 0};
   std::size_t begin = 0;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (ends[i] == begin) continue;
-    Json view{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", ends[i] - begin}};
-    if (strides[i] > 0) view["byteStride"] = strides[i];
-    if (targets[i] > 0) view["target"] = targets[i];
-    result.push_back(std::move(view));
-    begin = ends[i];
+  for (const View& view : views()) {
+    Json json{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", view.bytes}};
+    if (view.stride > 0) json["byteStride"] = view.stride;
+    if (view.target > 0) json["target"] = view.target;
+    result.push_back(std::move(json));
+    begin += view.bytes;
   }
   return result;
 }
 
-/// Corners, positions of each frame, colours, times, weights.
+/// Corners, positions of each frame, colours, times, weights: one per view.
 Json Gltf_writer::accessors() const {
   Json result = Json::array();
-  const auto add = [&](int view, int component, std::size_t count, const char* type) -> Json& {
-    result.push_back({{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
+  const auto add = [&](int component, std::size_t count, const char* type) -> Json& {
+    result.push_back({{"bufferView", result.size()}, {"componentType", component}, {"count", count}, {"type", type}});
     return result.back();
   };
-  add(0, unsigned_int, 3 * animation_.faces.size(), "SCALAR");
-  for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
-    auto& accessor = add(1, floats, vertices(), "VEC3");
-    if (frame > 0) accessor["byteOffset"] = 12 * vertices() * frame;
-    accessor["min"] = ranges_[frame].low;
-    accessor["max"] = ranges_[frame].high;
+  add(unsigned_int, 3 * animation_.faces.size(), "SCALAR");
+  for (const Range& range : ranges_) {
+    auto& accessor = add(floats, vertices(), "VEC3");
+    accessor["min"] = range.low;
+    accessor["max"] = range.high;
   }
-  int view = 2;
-  if (!options_.regions.empty()) add(view++, unsigned_byte, vertices(), "VEC4")["normalized"] = true;
-  if (frames_.size() == 1) return result;
-  auto& times = add(view++, floats, frames_.size(), "SCALAR");
+  if (!options_.regions.empty()) add(unsigned_byte, vertices(), "VEC4")["normalized"] = true;
+  const auto frames = frames_.size();
+  if (frames == 1) return result;
+  auto& times = add(floats, frames, "SCALAR");
   times["min"] = {0.F};
-  times["max"] = {static_cast<float>(static_cast<double>(frames_.size() - 1) / options_.frames_per_second)};
-  add(view, floats, frames_.size() * (frames_.size() - 1), "SCALAR");
+  times["max"] = {static_cast<float>(static_cast<double>(frames - 1) / options_.frames_per_second)};
+  add(floats, frames * (frames - 1), "SCALAR");
   return result;
 }
 
@@ -170,7 +178,7 @@ Json Gltf_writer::json(const std::string& uri) const {
               {"materials", {{{"doubleSided", true}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}}}},
               {"meshes", {{{"primitives", Json::array({primitive})}}}},
               {"buffers", Json::array({buffer})},
-              {"bufferViews", views()},
+              {"bufferViews", view_list()},
               {"accessors", accessors()}};
   if (frames == 1) return result;
   const auto times = frames + 1 + (coloured ? 1 : 0);
@@ -242,11 +250,14 @@ std::string in_uri(const std::string& name) {
 void write_gltf_and_bin(const fs::path& output, Gltf_writer& writer) {
   Atomic_files files(output.parent_path());
   const auto buffer = output.filename().replace_extension(".bin");
+  const auto name = buffer.string();
+  if (std::ranges::any_of(name, [](unsigned char c) { return c < ' ' || c == 0x7f; }))
+    throw Bad_argument(printable(output.string()) + ": the name of a .gltf file may have no control characters");
   Atomic_file bytes = files.open(buffer);
   writer.write_buffer(bytes);
   bytes.commit();
   Atomic_file text = files.open(output.filename());
-  text.write(writer.json(in_uri(buffer.string())).dump(1) + "\n");
+  text.write(writer.json(in_uri(name)).dump(1) + "\n");
   text.commit();
   files.commit();
 }

@@ -26,9 +26,9 @@ std::vector<Page_contact> page_contacts(const Frame& frame, const Triangle_of_fa
 
 /// What is known of a frame beside its contacts.
 struct Page_outcome {
-  bool positive = false;                   ///< whether surfaces intersect, found or not
-  bool with_tolerance = false;             ///< whether objects can be near without colliding
-  std::optional<double> nearest = {};      ///< distance of the two nearest objects; none: not known
+  bool positive = false;               ///< whether surfaces intersect, found or not
+  bool with_tolerance = false;         ///< whether objects can be near without colliding
+  std::optional<double> nearest = {};  ///< distance of the two nearest objects; none: not known
 };
 
 /// Times and outcome of a frame, as docs/page_format.md describes: `Page_frame::stages`.

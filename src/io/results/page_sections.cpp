@@ -103,12 +103,6 @@ Section Section_writer::finish() {
   return std::move(section_);
 }
 
-Section text_section(std::string_view text) {
-  Section_writer section;
-  section.add(text);
-  return section.finish();
-}
-
 Section topology_section(std::span<const Corners> corners) {
   Section_writer section;
   std::int64_t before = 0;

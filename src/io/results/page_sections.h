@@ -47,7 +47,6 @@ class Section_writer {
   Section section_;
 };
 
-Section text_section(std::string_view text);
 Section topology_section(std::span<const Corners> corners);
 Section labels_section(std::span<const Region_index> labels);
 /// @param box  of the object over all frames

@@ -67,6 +67,7 @@ Scene_object read_object(std::string name, const std::filesystem::path& input, c
   object.name = std::move(name);
   object.file_face = std::move(animation.file_face);
   object.parts = std::move(animation.parts);
+  object.ignored_extensions = std::move(animation.ignored_extensions);
   object.motion = std::move(animation.motion);
   object.files = std::move(animation.files);
   return object;
@@ -103,7 +104,7 @@ Scene_object object_of_scene(const std::filesystem::path& file, const std::strin
 std::optional<Scene_object> named_object(const std::filesystem::path& input, const Scene_options& options) {
   const std::string text = input.string();
   if (text.starts_with(shape_prefix)) return shape_object(text.substr(shape_prefix.size()));
-  const auto mark = text.find(scene_mark);
+  const auto mark = lower_case(text).find(scene_mark);
   if (mark == text.npos) return std::nullopt;
   const auto name = mark + scene_mark.size();
   return object_of_scene(text.substr(0, name - 1), text.substr(name), options);
@@ -125,7 +126,9 @@ Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_option
 }
 
 Scene read_inputs(std::span<const std::filesystem::path> inputs, const Scene_options& options) {
-  const auto is_scene = [](const std::filesystem::path& input) { return input.extension() == ".json"; };
+  const auto is_scene = [](const std::filesystem::path& input) {
+    return lower_case(input.extension().string()) == ".json";
+  };
   const auto found = std::ranges::find_if(inputs, is_scene);
   if (found == inputs.end()) return scene_of(inputs, options);
   if (inputs.size() > 1) throw Bad_argument(found->string() + ": a scene must be the only input");
@@ -142,6 +145,7 @@ Animation animation_of(const Scene_object& object, std::size_t frames) {
   }
   animation.file_face = object.file_face;
   animation.parts = object.parts;
+  animation.ignored_extensions = object.ignored_extensions;
   animation.motion = object.motion;
   if (animation.motion.frames == 0) animation.motion.frames = frames;
   animation.files = object.files;

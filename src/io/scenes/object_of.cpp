@@ -13,6 +13,7 @@ Scene_object object_of(Mesh_file&& file) {
   object.file_vertices = file.file_vertices;
   object.file_face = std::move(file.file_face);
   object.parts = std::move(file.parts);
+  object.ignored_extensions = std::move(file.ignored_extensions);
   object.files = std::move(file.files);
   return object;
 }

@@ -167,6 +167,7 @@ Scene_object object_of(Separated_faces some, const Scene_object& whole, const st
           .file_vertices = some.points.size(),
           .file_face = std::move(some.file_face),
           .parts = whole.parts,
+          .ignored_extensions = whole.ignored_extensions,
           .motion = motion_of(whole.motion, pose, some.file_vertex),
           .particles = whole.particles,
           .collision = whole.collision,

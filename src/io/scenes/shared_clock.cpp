@@ -43,7 +43,7 @@ void share_clock(std::span<Scene_object> objects) {
   const double start = !given_starts.empty() && are_one_start(given_starts) ? least_of(given_starts) : 0;
   for (auto& object : objects) {
     if (!object.motion.resampled) continue;
-    auto motion = object.motion.resampled(rate, std::max(start, 0.0));
+    auto motion = object.motion.resampled(rate, start);
     motion.animations = std::move(object.motion.animations);  // they say whether a scene has chosen one
     object.motion = std::move(motion);
   }

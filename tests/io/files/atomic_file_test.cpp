@@ -124,6 +124,18 @@ TEST(Atomic_file, replaces_a_link_not_its_target) {
   EXPECT_EQ(read_bytes(folder.path() / "result"), "new");
 }
 
+TEST(Atomic_file, refuses_names_that_lead_to_what_the_system_shows) {
+  const Temporary_folder folder;
+  const auto link = folder.path() / "stdout", again = folder.path() / "again";
+  std::filesystem::create_symlink("/proc/self/fd/0", link);
+  std::filesystem::create_symlink("stdout", again);
+  // Standard input may be a regular file: then the link would be replaced.
+  for (const auto& name : {link, again}) expect_refused(name, name);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  for (const std::filesystem::path name : {"/dev/stdout", "/proc/self/fd/1", "/dev/no_such_file"})
+    expect_refused(name, name);
+}
+
 TEST(Atomic_file, creates_the_folders_it_needs) {
   const Temporary_folder folder;
   const auto target = folder.path() / "a" / "b" / "c" / "result";

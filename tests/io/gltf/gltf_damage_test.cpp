@@ -247,10 +247,9 @@ TEST_F(Gltf_damage, buffers_stay_in_the_folder) {
   const auto sample = square_gltf();
   const auto outside = other.write("a.bin", sample.bytes);
   create_symlink(outside, folder.path() / "link.bin");
-  for (const auto& uri :
-       {outside.string(), "../" + other.path().filename().string() + "/a.bin", std::string("link.bin"),
-        "%2e%2e/" + other.path().filename().string() + "/a.bin", "file://" + outside.string(),
-        std::string("https://example.org/a.bin"), std::string("%00")})
+  for (const auto& uri : {outside.string(), "../" + other.path().filename().string() + "/a.bin",
+                          std::string("link.bin"), "%2e%2e/" + other.path().filename().string() + "/a.bin",
+                          "file://" + outside.string(), std::string("https://example.org/a.bin"), std::string("%00")})
     expect_error(sample.gltf(uri), "is not a file inside the folder");
   expect_error(sample.gltf("none.bin"), "none.bin': there is no such file");
   create_directory(folder.path() / "folder.bin");

@@ -173,6 +173,36 @@ TEST_F(Gltf, normalized_integers_and_strides_are_read) {
   expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, -1}});
 }
 
+TEST_F(Gltf, a_sparse_accessor_may_hold_all_that_is_stored) {
+  auto sample = square_gltf();
+  const auto indices = sample.add_view(packed<std::uint8_t>({0, 1, 2, 3, 4, 5, 6}));
+  const auto values = sample.add_view(packed<float>({9, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 5, 5, 5, 5, 5, 5, 5, 5, 5}));
+  sample.json["accessors"][0] = {{"componentType", 5126},
+                                 {"count", 7},
+                                 {"type", "VEC3"},
+                                 {"sparse",
+                                  {{"count", 7},
+                                   {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                                   {"values", {{"bufferView", values}}}}}};
+  EXPECT_EQ(at_rest(sample).at(0), Point(9, 0, 0));
+}
+
+TEST_F(Gltf, what_programs_add_for_themselves_may_be_nested_deeply) {
+  auto sample = square_gltf();
+  nlohmann::json extras = 1;
+  for (int level = 0; level < 100; ++level) extras = {{"inner", extras}};
+  sample.json["extras"] = extras;
+  expect_near(at_rest(sample), at_rest(square_gltf()));
+}
+
+TEST_F(Gltf, a_primitive_without_positions_shows_nothing) {
+  auto sample = square_gltf();
+  auto empty = sample.json["meshes"][0]["primitives"][0];
+  empty["attributes"].erase("POSITION");
+  sample.json["meshes"][0]["primitives"].push_back(empty);
+  expect_near(at_rest(sample), at_rest(square_gltf()));
+}
+
 TEST_F(Gltf, sparse_accessors_replace_the_elements_they_name) {
   auto sample = square_gltf();
   const auto indices = sample.add_view(packed<std::uint8_t>({1, 3}));
@@ -342,6 +372,8 @@ TEST_F(Gltf, uniform_keys_are_frames) {
   EXPECT_EQ(frames_and_rate({0, 0.2, 0.4}, {0}), Frames_and_rate(3, 5));
   EXPECT_EQ(frames_and_rate({0, 0.1, 0.2}, {0, 0.1 + 1e-8, 0.2}), Frames_and_rate(3, 10)) << "rounded otherwise";
   EXPECT_EQ(frames_and_rate({0, 1, 2}, {0, 2}), Frames_and_rate(61, 30)) << "too few keys to be frames";
+  EXPECT_EQ(frames_and_rate({0, 0.1, 0.2, 0.2000001}, {0, 0.2}), Frames_and_rate(3, 10)) << "a key twice";
+  EXPECT_EQ(frames_and_rate({0, 5e-6, 1e-5}, {0, 1e-5}), Frames_and_rate(3, 200'000)) << "fast, but one curve's";
   EXPECT_EQ(frames_and_rate({0}, {0}), Frames_and_rate(1, 30));
   EXPECT_EQ(frames_and_rate({5}, {1e9}), Frames_and_rate(1, 30)) << "nothing moves";
   EXPECT_EQ(frames_and_rate({0}, {0.1}), Frames_and_rate(1, 30)) << "nothing moves";

@@ -127,6 +127,49 @@ TEST_F(Polygons, concave_outlines_are_filled) {
                11);
 }
 
+/// As a program writes a face with holes: the outline runs to each hole and back along the same side.
+TEST_F(Polygons, an_outline_that_runs_to_holes_and_back_leaves_them_open) {
+  const std::string points =
+      "OFF\n12 1 0\n0 0 0\n9 0 0\n9 4 0\n0 4 0\n1 1 0\n3 1 0\n3 3 0\n1 3 0\n5 1 0\n7 1 0\n7 3 0\n5 3 0\n";
+  const auto read_face = [&](const std::string& corners) {
+    return read_mesh(folder.write("holes.off", points + corners + '\n'));
+  };
+  const auto expect_area = [&](const Mesh_file& file, std::size_t faces, double area) {
+    EXPECT_EQ(file.mesh.number_of_faces(), faces);
+    double sum = 0;
+    for (const auto f : file.mesh.faces()) {
+      EXPECT_GT(doubled_area(file.mesh, f).z(), 0) << f;
+      sum += doubled_area(file.mesh, f).z() / 2;
+    }
+    EXPECT_DOUBLE_EQ(sum, area);
+  };
+  expect_area(read_face("10 0 1 2 3 0 4 7 6 5 4"), 8, 32);
+  expect_area(read_face("16 0 1 2 3 0 4 7 6 8 11 10 9 8 6 5 4"), 14, 28);
+  expect_area(read_face("16 4 0 1 2 3 0 4 7 6 8 11 10 9 8 6 5"), 14, 28);
+}
+
+/// Two triangles with one corner in common: their triangulation would have fewer triangles than a fan.
+TEST_F(Polygons, an_outline_of_parts_that_touch_in_a_corner_is_a_fan) {
+  const auto file = read_mesh(folder.write("a.off", "OFF\n5 1 0\n0 0 0\n2 0 0\n1 1 0\n2 2 0\n0 2 0\n6 0 1 2 3 4 2\n"));
+  EXPECT_EQ(file.mesh.number_of_faces(), 4U);
+  for (const auto f : file.mesh.faces()) {
+    bool has_first = false;
+    for (const auto v : file.mesh.vertices_around_face(file.mesh.halfedge(f))) has_first |= file.file_vertex[v] == 0;
+    EXPECT_TRUE(has_first) << f;
+  }
+}
+
+TEST_F(Polygons, a_hole_may_touch_the_outline_in_a_corner) {
+  const auto file =
+      read_mesh(folder.write("a.off", "OFF\n6 1 0\n0 0 0\n4 0 0\n4 4 0\n0 4 0\n1 2 0\n2 1 0\n7 0 1 2 3 0 4 5\n"));
+  double sum = 0;
+  for (const auto f : file.mesh.faces()) {
+    EXPECT_GT(doubled_area(file.mesh, f).z(), 0) << f;
+    sum += doubled_area(file.mesh, f).z() / 2;
+  }
+  EXPECT_DOUBLE_EQ(sum, 14.5);
+}
+
 TEST_F(Polygons, corners_on_straight_sides_are_legal) {
   expect_tiled({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}}, 4);
 }

@@ -352,9 +352,12 @@ TEST(Bad_scene_file, deep_nesting_is_refused) {
   for (const std::string open : {"[", "{\"a\":"}) {
     std::string text;
     for (int i = 0; i < 100'000; ++i) text += open;
-    EXPECT_NE(error_of(text).find("is nested deeper than 32 levels"), std::string::npos);
+    EXPECT_NE(error_of(text).find("is nested deeper than 128 levels"), std::string::npos);
   }
-  EXPECT_NE(error_of(std::string(100'000, '[') + std::string(100'000, ']')).find("is nested deeper than 32 levels"),
+  const auto nested = [](std::size_t levels) { return std::string(levels, '[') + std::string(levels, ']'); };
+  EXPECT_NE(error_of(nested(129)).find("is nested deeper than 128 levels"), std::string::npos);
+  EXPECT_EQ(error_of(nested(128)).find("is nested deeper"), std::string::npos);
+  EXPECT_NE(error_of(std::string(100'000, '[') + std::string(100'000, ']')).find("is nested deeper than 128 levels"),
             std::string::npos);
 }
 

@@ -159,14 +159,17 @@ TEST_F(Given_objects, gltf_follows_the_rate_of_an_mdd_cache) {
 
 TEST_F(Given_objects, gltf_begins_when_an_mdd_cache_begins) {
   write_mover(path("fast.glb"), 60);
-  const auto cache = write_cached_mover(0.25);
-  Scene scene = scene_of(std::vector{path("fast.glb"), cache});
-  EXPECT_EQ(scene.objects[0].motion.frames, 19U) << "of three quarters of a second";
-  EXPECT_EQ(scene.frames, 25U);
-  for (std::size_t frame = 0; frame < scene.frames; ++frame) {
-    const double seconds = static_cast<double>(frame) / 24;
-    EXPECT_NEAR(first_vertex(scene.objects[0], frame).x(), 10 * std::min(0.25 + seconds, 1.0), 1e-4);
-    EXPECT_NEAR(first_vertex(scene.objects[1], frame).x(), 10 * seconds, 1e-4);
+  for (const float start : {0.25F, -0.25F}) {
+    SCOPED_TRACE(start);
+    const auto cache = write_cached_mover(start);
+    Scene scene = scene_of(std::vector{path("fast.glb"), cache});
+    EXPECT_EQ(scene.objects[0].motion.frames, start > 0 ? 19U : 31U) << "of 0.75 or 1.25 seconds";
+    EXPECT_EQ(scene.frames, start > 0 ? 25U : 31U);
+    for (std::size_t frame = 0; frame < 25; ++frame) {
+      const double seconds = static_cast<double>(frame) / 24;
+      EXPECT_NEAR(first_vertex(scene.objects[0], frame).x(), 10 * std::clamp(start + seconds, 0.0, 1.0), 1e-4);
+      EXPECT_NEAR(first_vertex(scene.objects[1], frame).x(), 10 * seconds, 1e-4);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +20,9 @@ namespace lodestone {
 ///
 /// A face of more than three corners is cut into triangles, which `file_face` maps to it. A quad is cut along the
 /// diagonal that suits its shape, or that of its first corner where both suit it alike; a larger face by a Delaunay
-/// triangulation inside its outline, so that faces may be concave and need not be planar. A face without area, or whose
-/// outline touches or crosses itself, is cut into a fan.
+/// triangulation inside its outline, so that faces may be concave and need not be planar. They may have holes, to which
+/// the outline runs and back along the same two vertices. A face without area, or whose outline crosses itself, or
+/// which falls into parts that touch in a corner, is cut into a fan.
 ///
 /// A half-edge mesh cannot represent everything a file can. The reader duplicates a vertex that is on a non-manifold
 /// edge, or that one face names twice. It drops vertices that no face uses. `file_vertex` maps mesh vertices to file
@@ -33,6 +35,8 @@ struct Mesh_file {
   std::size_t file_vertices = 0;                  ///< number of vertices in the file
   std::vector<std::uint32_t> file_face;           ///< per mesh face: its face in the file; never decreases
   File_parts parts = {};                          ///< that the file names
+  std::set<std::string> ignored_extensions = {};  ///< of glTF: optional ones that say where surfaces are, such as
+                                                  ///< EXT_mesh_gpu_instancing; the mesh is that of the file without
   std::vector<std::filesystem::path> files = {};  ///< that it is read from: a glTF file can name others
 };
 

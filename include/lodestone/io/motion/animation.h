@@ -26,6 +26,7 @@ struct Animation {
   Motion motion = {};                             ///< at least one frame
   double frames_per_second = 0;                   ///< 0: the file does not specify it
   std::set<std::string> not_read = {};            ///< what else the mesh file holds, such as `texture coordinates`
+  std::set<std::string> ignored_extensions = {};  ///< as in Mesh_file
   std::vector<std::filesystem::path> files = {};  ///< all files that it is read from
 };
 

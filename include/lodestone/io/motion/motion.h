@@ -80,7 +80,7 @@ struct Gltf_motion_options {
   /// Sampling rate, > 0. Not given: one frame per key, from the first on, if the keys of all curves follow each other
   /// at equal distances, up to rounding, and there are at least 5 per second; else 30.
   std::optional<double> frames_per_second = {};
-  double start = 0;  ///< time of the first frame in seconds, >= 0; of no meaning without `frames_per_second`
+  double start = 0;  ///< time of the first frame in seconds; of no meaning without `frames_per_second`
   /// Which animation of the file: its index or its name.
   std::variant<std::size_t, std::string> animation = std::size_t{0};
   Mesh_file_options limits = {};  ///< of the file's meshes

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,15 +20,16 @@ namespace lodestone {
 
 /// A mesh, its motion, and what an experiment needs to know about it.
 struct Scene_object {
-  std::string name;                        ///< unique in its scene
-  Surface_mesh mesh;                       ///< at rest, until `pose` moves it
-  std::vector<std::uint32_t> file_vertex;  ///< per mesh vertex: its index in the positions of `motion`
-  std::size_t file_vertices = 0;           ///< number of those positions
-  std::vector<std::uint32_t> file_face;    ///< per mesh face: its face in the file, as in Mesh_file
-  File_parts parts = {};                   ///< that the mesh's file names
-  Motion motion;                           ///< also set for an object that never moves
-  std::size_t particles = 0;               ///< 0: automatic
-  Collision_groups collision = {};         ///< a bit per name of a group
+  std::string name;                               ///< unique in its scene
+  Surface_mesh mesh;                              ///< at rest, until `pose` moves it
+  std::vector<std::uint32_t> file_vertex;         ///< per mesh vertex: its index in the positions of `motion`
+  std::size_t file_vertices = 0;                  ///< number of those positions
+  std::vector<std::uint32_t> file_face;           ///< per mesh face: its face in the file, as in Mesh_file
+  File_parts parts = {};                          ///< that the mesh's file names
+  std::set<std::string> ignored_extensions = {};  ///< as in Mesh_file
+  Motion motion;                                  ///< also set for an object that never moves
+  std::size_t particles = 0;                      ///< 0: automatic
+  Collision_groups collision = {};                ///< a bit per name of a group
 
   /// Where the particles of the predecessor start: only on the part of the surface farthest in this direction.
   std::optional<Kernel::Vector_3> scattered_side;
