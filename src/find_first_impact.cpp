@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/find_first_impact.h"
 
+#include "lodestone/mesh/arithmetic.h"
 #include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
 
@@ -11,6 +12,7 @@ void check_different(const void* a, const void* b) {
 }
 
 std::optional<Impact> checked_first_impact(const Moving_surface& a, const Moving_surface& b) {
+  check_arithmetic();
   check_finite(a.start, "the first mesh, at the start,");
   check_finite(a.end, "the first mesh, at the end,");
   check_finite(b.start, "the second mesh, at the start,");
@@ -19,6 +21,7 @@ std::optional<Impact> checked_first_impact(const Moving_surface& a, const Moving
 }
 
 std::optional<Impact> checked_first_self_impact(const Moving_surface& surface) {
+  check_arithmetic();
   check_finite(surface.start, "the mesh, at the start,");
   check_finite(surface.end, "the mesh, at the end,");
   return first_self_impact(surface);

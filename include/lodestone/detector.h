@@ -378,7 +378,10 @@ class Detector {
       auto bound = promise.bound(bounded);
       return std::make_unique<Node_bound_of<decltype(bound)>>(std::move(bound));
     };
-    ask<Exact>("promise", object).promise(object, make);
+    checked(object);
+    auto* exact = dynamic_cast<Exact*>(detection_.get());
+    if (exact == nullptr) throw Bad_argument("promise needs the mode certified");
+    exact->promise(object, make);
   }
   template <Motion_promise Promise>
   void promise(Object_id object, const Promise&& promise) = delete;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lodestone/detection/frame_builder.h"
+#include "lodestone/mesh/arithmetic.h"
 #include "lodestone/mesh/workers.h"
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/overlap_search.h"
@@ -58,6 +59,7 @@ bool can_answer_at_once(const Detector_options& options) {
 }
 
 Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading) {
+  check_arithmetic();
   const Box &box_a = surfaces.box_a, &box_b = surfaces.box_b;
   const Faces_in_box &a = surfaces.a, &b = surfaces.b;
   Frame_builder builder(options);
@@ -75,6 +77,7 @@ Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options
 }
 
 Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, const Detector_options& options) {
+  check_arithmetic();
   Frame_builder builder(options);
   builder.start();
   builder.statistics().vertices_read = coordinates.size() / 3;
@@ -91,7 +94,7 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
     const Contact_summary contacts = Contact_search(workers).within(
         surface, {.query = options.contacts, .tolerance = tolerance, .most = options.most_contacts},
         builder.face_pairs());
-    // All faces are where they are at rest, so what is near and no neighbour intersects.
+    // All faces are where they are at rest, where a pair that is only near is not reported: see `self_tolerance`.
     result.collides = contacts.found;
     result.near = tolerance > 0 && contacts.found;
     result.capped = contacts.capped;

@@ -19,6 +19,13 @@ void Indexed_mesh::check_corners(std::uint32_t face) const {
                  std::to_string(std::ranges::max(faces_[face])) + " of " + std::to_string(coordinates_.size() / 3));
 }
 
+Coordinates Indexed_mesh::first_points(std::size_t count) const {
+  if (coordinates_.size() / 3 < count)
+    throw Bad_mesh("there are " + std::to_string(coordinates_.size() / 3) + " points for " + std::to_string(count) +
+                   " vertices");
+  return coordinates_.first(3 * count);
+}
+
 void Indexed_mesh::set_coordinates(Coordinates coordinates) {
   if (coordinates.size() != coordinates_.size())
     throw Bad_mesh("the mesh has " + std::to_string(coordinates_.size()) + " coordinates, but got " +

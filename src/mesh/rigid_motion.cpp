@@ -11,15 +11,15 @@ Rigid_motion::Rigid_motion(const Eigen::Isometry3d& motion)
     throw Bad_argument("a rigid motion has a coefficient that is not finite");
   constexpr double rounding = 1e-6;
   if (!(rotation_.transpose() * rotation_).isIdentity(rounding) || rotation_.determinant() < 0)
-    throw Bad_argument("the linear part of a rigid motion is no rotation: its columns must be unit vectors at right "
-                       "angles, and it must not mirror");
+    throw Bad_argument(
+        "the linear part of a rigid motion is no rotation: its columns must be unit vectors at right "
+        "angles, and it must not mirror");
 }
 
 Coordinates Rigid_motion::operator()(Coordinates coordinates, std::vector<double>& placed) const {
   placed.resize(coordinates.size());
   for (std::size_t i = 0; i < coordinates.size(); i += 3)
-    Eigen::Map<Eigen::Vector3d>(placed.data() + i) =
-        (*this)(Eigen::Map<const Eigen::Vector3d>(coordinates.data() + i));
+    Eigen::Map<Eigen::Vector3d>(placed.data() + i) = (*this)(Eigen::Map<const Eigen::Vector3d>(coordinates.data() + i));
   return placed;
 }
 

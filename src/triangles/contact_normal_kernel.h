@@ -11,7 +11,7 @@ inline constexpr std::size_t most_normals = 8;
 
 /// Pairs of triangles. The last index is that of the pair.
 struct Triangle_pairs {
-  std::size_t count = 0;  ///< of pairs; what follows them is ignored
+  std::size_t count = 0;                                          ///< of pairs; what follows them is ignored
   double a[3][3][most_normals] = {}, b[3][3][most_normals] = {};  ///< [corner][axis]
 };
 

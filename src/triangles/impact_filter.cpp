@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <boost/container/static_vector.hpp>
-#include <cmath>
 #include <limits>
 
 namespace lodestone {

@@ -20,7 +20,7 @@ struct Nearest_points {
   Triangle_point<Number> a, b;
   typename Corner_differences<Number>::Vector gap;     ///< from the point on b to the one on a
   typename Corner_differences<Number>::Vector across;  ///< along the gap, but computed from what is orthogonal to it
-  Number squared = Number(-1);                ///< squared length of `gap`; negative: none yet
+  Number squared = Number(-1);                         ///< squared length of `gap`; negative: none yet
 };
 
 /// Nearest points of two triangles that do not intersect.

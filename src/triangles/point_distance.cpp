@@ -58,7 +58,9 @@ struct Region_search {
       return on_edge(1, 2, 1 - part, part, of_a < -area_error && d4 - d3 > 3 * e && d5 - d6 > 3 * e);
     }
     const double all = of_a + of_b + of_c;
-    found.weights = {of_b / all, of_c / all};
+    // Each area is positive here. The limits keep the point in the triangle without a proof of that.
+    const double weight_b = std::clamp(of_b / all, 0.0, 1.0);
+    found.weights = {weight_b, std::clamp(of_c / all, 0.0, 1 - weight_b)};
   }
 
   void at_corner(int corner, double weight_b, double weight_c, bool sure) {

@@ -64,7 +64,8 @@ Farthest farthest_kernel(const Leaf_points& points, const double* centre) {
   const double winner = hn::GetLane(hn::MaxOfLanes(d, most_with_index));
   std::uint64_t winner_bits;
   hwy::CopySameSize(&winner, &winner_bits);
-  return {.index = static_cast<std::size_t>(winner_bits & 511), .squared_distance = hn::GetLane(hn::MaxOfLanes(d, most))};
+  return {.index = static_cast<std::size_t>(winner_bits & 511),
+          .squared_distance = hn::GetLane(hn::MaxOfLanes(d, most))};
 }
 
 /// Sums terms over the vertices, as seen from a point and times a factor. Every instruction set adds the same eight

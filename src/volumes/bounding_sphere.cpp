@@ -105,8 +105,9 @@ void Bounding_sphere::enclose(const Bounding_sphere& a, const Bounding_sphere& b
   if (encloses(a, b, distance)) return void(*this = a);
   if (encloses(b, a, distance)) return void(*this = b);
 
-  // Any centre gives a valid ball: the radius is computed from it.
-  const double part = distance <= most ? ((b.radius - a.radius) / distance + 1) / 2 : 0.5;
+  // Any centre between the two gives a valid ball: the radius is computed from it. Where the radii differ by more than
+  // the distance, though rounding kept either ball from enclosing the other, the part would lie beyond them.
+  const double part = distance <= most ? std::clamp(((b.radius - a.radius) / distance + 1) / 2, 0.0, 1.0) : 0.5;
   Bounding_sphere both;
   for (int axis = 0; axis < 3; ++axis) both.centre[axis] = (1 - part) * a.centre[axis] + part * b.centre[axis];
   both.radius = above(

@@ -63,7 +63,7 @@ TEST(Large_pages, leave_what_the_memory_holds) {
   for (std::size_t i = 0; i < memory.size; i += 1000) ASSERT_EQ(memory.bytes[i], static_cast<char>(i % 101));
 }
 
-TEST(Large_pages, take_no_memory_at_all) { use_large_pages(nullptr, 0); }
+TEST(Large_pages, may_be_asked_for_no_memory) { use_large_pages(nullptr, 0); }
 
 }  // namespace
 

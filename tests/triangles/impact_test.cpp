@@ -288,15 +288,18 @@ TEST(First_impact, of_half_the_motion_is_at_twice_the_time) {
 
 TEST(First_impact, is_reported_unless_it_is_later_than_asked_for) {
   Moving_pairs pairs(5);
+  int later = 0;
   for (int i = 0; i < 1000; ++i) {
     const auto [a, b] = pairs.on_a_lattice();
     const auto time = first_impact(a, b);
     if (!time) continue;
     EXPECT_EQ(first_impact(a, b, time->high()), time);
     if (time->high() == 0) continue;
+    ++later;
     for (const double earlier : {std::nextafter(time->high(), 0.0), 0.75 * time->low()})
       EXPECT_EQ(first_impact(a, b, earlier), std::nullopt);
   }
+  EXPECT_GT(later, 200);
 }
 
 TEST(Impact_time, is_compared_exactly) {

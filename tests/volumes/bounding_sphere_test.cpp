@@ -198,6 +198,19 @@ TEST(Bounding_sphere, never_separates_on_overflow_underflow_or_nan) {
   }
 }
 
+TEST(Bounding_sphere, encloses_two_whose_radii_differ_by_more_than_their_distance) {
+  // Rounded up, neither encloses the other.
+  const auto large = ball_at(Eigen::Vector3d(0, 0, 1e308), 1e308);
+  const auto small = ball_at(Eigen::Vector3d(0, 1e290, 1e308), 1e308 * (1 - 0x1p-51));
+  for (const auto& [a, b] : {std::pair(large, small), std::pair(small, large)}) {
+    Bounding_sphere both;
+    both.enclose(a, b);
+    EXPECT_FALSE(std::isnan(both.radius));
+    for (const double coordinate : both.centre) EXPECT_TRUE(std::isfinite(coordinate));
+    EXPECT_GE(both.radius, 1e308);
+  }
+}
+
 TEST(Bounding_sphere, refuses_more_vertices_than_a_leaf_can_have) {
   Bounding_sphere ball;
   const std::vector<Eigen::Vector3d> full(384, {1, 2, 3}), too_many(385, {1, 2, 3});

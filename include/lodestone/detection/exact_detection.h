@@ -17,6 +17,7 @@
 #include "lodestone/detection/object_hits.h"
 #include "lodestone/detection/object_motion.h"
 #include "lodestone/detection/saved_object.h"
+#include "lodestone/mesh/arithmetic.h"
 #include "lodestone/queries/closest_faces.h"
 #include "lodestone/queries/contact_search.h"
 #include "lodestone/queries/parting.h"
@@ -162,7 +163,7 @@ class Exact_detection final : public Detection {
   /// Promises something about the motion of an object: see Motion_promise.
   void promise(Object_id object, Make_bound make) {
     check_no_visitor();
-    if (options_.mode != Mode::certified) throw Bad_argument("promises need the mode certified");
+    if (options_.mode != Mode::certified) throw Bad_argument("promise needs the mode certified");
     objects_[object].promise(std::move(make));
   }
   /// The surface of an object as one that is bounded; null before the first query, and in mode `exact`.
@@ -196,6 +197,7 @@ class Exact_detection final : public Detection {
   }
   void refresh(std::span<const Object_id> ids) {
     check_no_visitor();
+    check_arithmetic();
     objects_.refresh(ids);
   }
   Saved_origin origin(Object_id object) {

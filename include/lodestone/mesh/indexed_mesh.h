@@ -73,6 +73,9 @@ class Indexed_mesh {
 
   /// 3 V, where they are read.
   Coordinates coordinates() const { return coordinates_; }
+  /// Of the first so many vertices.
+  /// @throws Bad_mesh  there are fewer
+  Coordinates first_points(std::size_t count) const;
   /// The corners of each face.
   std::span<const Corners> corners() const { return faces_; }
 
@@ -202,8 +205,9 @@ class Coordinate_reader<Indexed_mesh, Indexed_points> {
   /// Reads through a point map, which is copied.
   explicit Coordinate_reader(Indexed_points points) : points_(points) {}
   /// The current coordinates of all vertices, in the caller's array.
+  /// @throws Bad_mesh  the points are those of a mesh with fewer vertices
   Coordinates read(const Mesh_numbering<Indexed_mesh>& numbering) const {
-    return points_.mesh().coordinates().first(3 * std::size_t{numbering.vertex_count()});
+    return points_.mesh().first_points(numbering.vertex_count());
   }
 
  private:

@@ -14,7 +14,7 @@ template <typename T>
 struct Unset_allocator : std::allocator<T> {
   /// The same for elements of another type.
   template <typename U>
-  struct rebind {
+  struct rebind {                      // NOLINT(readability-identifier-naming): of the standard library
     using other = Unset_allocator<U>;  ///< the allocator
   };
   /// Makes an element without setting it.

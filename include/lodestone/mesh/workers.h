@@ -26,8 +26,8 @@ class Workers {
 
   /// Calls `task(index, worker)` for each index below `tasks`; `worker` is below `count()`. A single worker runs the
   /// tasks in order, in the calling thread. Several workers run them in any order, but no two tasks of one worker at
-  /// the same time. Rethrows what the first of the tasks that fail throws, in the order of their indices; tasks after it
-  /// may be left out.
+  /// the same time. Rethrows what the first of the tasks that fail throws, in the order of their indices; tasks after
+  /// it may be left out.
   ///
   /// Threads that have shared tasks wait a tenth of a millisecond for more of any group, so that the steps of a frame
   /// need not wake them again.
