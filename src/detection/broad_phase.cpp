@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 
 namespace lodestone {

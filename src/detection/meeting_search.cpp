@@ -29,7 +29,7 @@ void Meeting_search::look(std::span<Met_pair> pairs) {
   for_each(pairs, [](Pair_search& search, Met_pair& pair, Workers& workers) { search.look(pair, workers); });
 }
 
-void Meeting_search::follow_curves(std::span<Met_pair> pairs) {
+void Meeting_search::follow_shared_curves(std::span<Met_pair> pairs) {
   if (!wants_all() || !are_worth_sharing(pairs.size())) return;
   for_each(pairs, [](Pair_search& search, Met_pair& pair, Workers& workers) { search.follow_curves(pair, workers); });
 }

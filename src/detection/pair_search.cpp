@@ -76,7 +76,7 @@ std::size_t Pair_search::hop_limit(const Met_pair& pair) {
 
 void Pair_search::list_regions(Met_pair& pair) {
   pair.near_entries.first = lists_.near_regions.size();
-  list_near_regions(pair.a->regions(), pair.b->regions(), lists_.near_regions);
+  list_near_regions(pair.a->region_anchors(), pair.b->region_anchors(), lists_.near_regions);
   pair.near_entries.count = lists_.near_regions.size() - pair.near_entries.first;
 }
 
@@ -106,7 +106,7 @@ std::size_t Pair_search::most_whole() const {
 void Pair_search::begin_openings(const Met_pair& pair, bool opened) {
   starts_.clear();
   for (const auto& near : pair.near_regions())
-    starts_.push_back({{pair.a->regions().node(near.a), pair.b->regions().node(near.b)}, near.order});
+    starts_.push_back({{pair.a->region_anchors().node(near.a), pair.b->region_anchors().node(near.b)}, near.order});
   const Opening_request request{.all = wants_all(),
                                 .reach = options_.opening_reach,
                                 .budget = options_.opening_budget,
@@ -136,7 +136,8 @@ void Pair_search::meet_nearest(Met_pair& pair) {
   const Particles &a = pair.a->particles(), &b = pair.b->particles();
   nearest_.clear();
   for (const auto& near : pair.near_regions()) {
-    const Region_index region_a = pair.a->regions().region(near.a), region_b = pair.b->regions().region(near.b);
+    const Region_index region_a = pair.a->region_anchors().region(near.a),
+                       region_b = pair.b->region_anchors().region(near.b);
     nearest_.push_back({(a.positions[region_a] - b.positions[region_b]).squaredNorm(), region_a, region_b});
   }
   const std::size_t count = std::min(options_.meetings, nearest_.size());

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "lodestone/mesh/arithmetic.h"
 #include "lodestone/mesh/side_by_side.h"
 #include "lodestone/mesh/stopwatch.h"
 
@@ -31,7 +31,7 @@ void Particle_detection::update(Object_id id) {
   timed(since_last_frame_.seconds.repartition, [&] {
     if (!object.named([&] { return has_outgrown(object.particle_object); })) return;
     Object* const outgrown[] = {&object};
-    prepare(outgrown, Seams::keep);
+    build(outgrown, Seams::keep);
     ++since_last_frame_.repartitions;
   });
 }
@@ -91,8 +91,9 @@ void Particle_detection::load(Object_id id, State_reader& state) {
 }
 
 const Frame& Particle_detection::detect(const Collision_filter& filter) {
+  check_arithmetic();
   prepare();
-  note_places();
+  note_vertices();
   frame_.start(std::exchange(since_last_frame_, {}));
   try {
     if (meets())
@@ -100,23 +101,23 @@ const Frame& Particle_detection::detect(const Collision_filter& filter) {
     else
       detect_as_published(filter);
   } catch (...) {
-    return_to_places();
+    restore_vertices();
     throw;
   }
   return frame_.finish();
 }
 
 /// Where the particles are before the frame.
-void Particle_detection::note_places() {
+void Particle_detection::note_vertices() {
   for (auto& object : objects_)
-    if (object) object->before = object->particle_object.particles().at;
+    if (object) object->vertices_before = object->particle_object.particles().at;
 }
 
 /// A frame that fails leaves the particles where they were, so that the next one answers as if it had not been begun.
-void Particle_detection::return_to_places() {
+void Particle_detection::restore_vertices() {
   for (auto& object : objects_) {
-    if (!object || object->before == object->particle_object.particles().at) continue;
-    object->particle_object.particles().at.swap(object->before);
+    if (!object || object->vertices_before == object->particle_object.particles().at) continue;
+    object->particle_object.particles().at.swap(object->vertices_before);
     object->particle_object.mesh().move_particles(object->particle_object.particles().at);
   }
 }
@@ -126,7 +127,7 @@ void Particle_detection::detect_as_published(const Collision_filter& filter) {
   confirmation_.reset_count();
   timed(frame_.seconds().broad_phase, [&] { find_candidates(filter); });
   timed(frame_.seconds().relaxation, [&] { walk(); });
-  for (const auto pair : object_candidates_) check(pair);
+  for (const auto pair : object_candidates_) check_regions(pair);
   frame_.statistics().exact_tests = confirmation_.exact_tests();
 }
 
@@ -140,67 +141,89 @@ void Particle_detection::prepare() {
   auto& seconds = since_last_frame_.seconds;
   const bool repartitioned = fresh.empty() && since_last_frame_.repartitions > 0;
   timed(repartitioned ? seconds.repartition : seconds.build, [&] {
-    if (!fresh.empty()) prepare(fresh, options_.close_seams ? Seams::close : Seams::open);
+    if (!fresh.empty()) build(fresh, options_.close_seams ? Seams::close : Seams::open);
     make_room();
   });
   since_last_frame_.builds += fresh.size();
 }
 
-/// What calls the user's code, to read a mesh, or to divide a surface by a strategy that is not concurrent, is done in
-/// this thread, object by object.
-void Particle_detection::prepare(std::span<Object* const> objects, Seams seams) {
-  std::vector<Positions> positions;
-  std::vector<std::size_t> faces, particles(objects.size());
-  for (Object* object : objects) {
-    positions.push_back(object->named([&] { return object->particle_object.read_positions(); }));
-    faces.push_back(object->particle_object.corners().size());
-  }
-  for (Object* object : objects) object->prepared = false;  // until all is done: the next frame begins anew
-  const auto for_each = [&](const auto& work) {
-    workers_.run(objects.size(), [&](std::size_t i, std::size_t) { objects[i]->named([&] { work(i); }); });
-  };
-
-  for_each([&](std::size_t i) {
-    objects[i]->particle_object.find_edges();
-    if (seams == Seams::close) objects[i]->particle_object.close_seams(positions[i]);
-    if (seams == Seams::open) objects[i]->particle_object.open_seams();  // of a file that could not be loaded
-    if (options_.particles == 0) objects[i]->radius = radius_of(objects[i]->particle_object, positions[i]);
-  });
-  const Radius_range range = radii();
-  for_each([&](std::size_t i) {
-    objects[i]->particle_object.measure_distance(positions[i], options_.distance_measure);
-    particles[i] = particles_of(*objects[i], positions[i], range);
-  });
-  std::vector<Numbered_partition> divisions(objects.size());
-  const auto divide_if = [&](std::size_t i, bool concurrent) {
-    auto& object = objects[i]->particle_object;
-    if (options_.mode != Mode::senin && object.mesh().divides_concurrently() == concurrent)
-      divisions[i] = object.divide(positions[i], particles[i], options_.partition);
-  };
-  for (std::size_t i = 0; i < objects.size(); ++i) objects[i]->named([&] { divide_if(i, false); });
-  for_each([&](std::size_t i) { divide_if(i, true); });
-  side_by_side(faces, workers_, [&](std::size_t i, Workers& workers) {
-    objects[i]->named([&] { start(*objects[i], positions[i], particles[i], std::move(divisions[i]), workers); });
-  });
-
+/// Until all is done the objects count as not prepared: if it fails, the next frame begins anew.
+void Particle_detection::build(std::span<Object* const> objects, Seams seams) {
+  std::vector<Building> all = read(objects);
+  for (Object* object : objects) object->prepared = false;
+  measure(all, seams);
+  divide(all);
+  start(all);
   for (Object* object : objects) write_maps(*object);
   has_room_ = false;
   for (Object* object : objects) object->prepared = true;
 }
 
-/// @param division  unused in mode `senin`
-void Particle_detection::start(Object& object, const Positions& positions, std::size_t particles,
-                               Numbered_partition division, Workers& workers) {
+/// Reads all positions. That calls the user's code, so it is done in this thread, object by object.
+std::vector<Particle_detection::Building> Particle_detection::read(std::span<Object* const> objects) const {
+  std::vector<Building> all;
+  for (Object* object : objects)
+    all.push_back(
+        {.object = object, .positions = object->named([&] { return object->particle_object.read_positions(); })});
+  return all;
+}
+
+/// Does some work for each object, side by side.
+template <class Work>
+void Particle_detection::for_each(std::span<Building> all, const Work& work) {
+  workers_.run(all.size(), [&](std::size_t i, std::size_t) { all[i].object->named([&] { work(all[i]); }); });
+}
+
+/// Finds edges and seams, the collision distance, and how many particles each object gets, which depends on the radii
+/// of all.
+void Particle_detection::measure(std::span<Building> all, Seams seams) {
+  for_each(all, [&](Building& building) {
+    Object& object = *building.object;
+    object.particle_object.find_edges();
+    if (seams == Seams::close) object.particle_object.close_seams(building.positions);
+    if (seams == Seams::open) object.particle_object.open_seams();  // of a file that could not be loaded
+    if (options_.particles == 0) object.radius = radius_of(object.particle_object, building.positions);
+  });
+  const Radius_range range = radii();
+  for_each(all, [&](Building& building) {
+    building.object->particle_object.measure_distance(building.positions, options_.distance_measure);
+    building.particles = particles_of(*building.object, building.positions, range);
+  });
+}
+
+/// Divides the surfaces into regions; not in mode `senin`. A strategy that is not concurrent may call the user's code:
+/// it divides in this thread, object by object.
+void Particle_detection::divide(std::span<Building> all) {
+  if (options_.mode == Mode::senin) return;
+  const auto divide_if = [&](Building& building, bool concurrent) {
+    auto& object = building.object->particle_object;
+    if (object.mesh().divides_concurrently() == concurrent)
+      building.division = object.divide(building.positions, building.particles, options_.partition);
+  };
+  for (Building& building : all) building.object->named([&] { divide_if(building, false); });
+  for_each(all, [&](Building& building) { divide_if(building, true); });
+}
+
+/// Sets the particles up, and what they need in frames.
+void Particle_detection::start(std::span<Building> all) {
+  std::vector<std::size_t> faces;
+  for (const Building& building : all) faces.push_back(building.object->particle_object.corners().size());
+  side_by_side(faces, workers_,
+               [&](std::size_t i, Workers& workers) { all[i].object->named([&] { start(all[i], workers); }); });
+}
+
+void Particle_detection::start(Building& building, Workers& workers) {
+  Object& object = *building.object;
   if (options_.mode == Mode::senin) {
     Senin_options scattering = options_.senin;
     scattering.seed += object.id;  // objects of one shape must not start alike
     if (object.options.scattered_side) scattering.side = object.options.scattered_side;
-    object.particle_object.scatter(positions, particles, scattering);
+    object.particle_object.scatter(building.positions, building.particles, scattering);
     return;
   }
-  object.particle_object.settle(std::move(division), positions, workers);
+  object.particle_object.settle(std::move(building.division), building.positions, workers);
   if (meets())
-    object.particle_object.prepare_meetings(positions, options_.exact.tree, workers);
+    object.particle_object.prepare_meetings(building.positions, options_.exact.tree, workers);
   else
     object.particle_object.prepare_patches();
 }
@@ -233,7 +256,7 @@ void Particle_detection::make_room() {
     counts.push_back(object ? object->particle_object.particles().at.size() : 0);
     if (!object) continue;
     ++live;
-    object->before.reserve(counts.back());
+    object->vertices_before.reserve(counts.back());
     for (const auto& patch : object->particle_object.patches()) {
       faces = std::max(faces, patch.faces.size());
       vertices = std::max(vertices, patch.vertices.size());
@@ -319,7 +342,7 @@ void Particle_detection::walk() {
     if (object) object->particle_object.mesh().move_particles(object->particle_object.particles().at);
 }
 
-void Particle_detection::check(Object_pair pair) {
+void Particle_detection::check_regions(Object_pair pair) {
   auto& a = objects_[pair.a]->particle_object;
   auto& b = objects_[pair.b]->particle_object;
   const auto posed_patch = [&](Object_id id, std::size_t particle) -> const Posed_patch& {

@@ -29,7 +29,7 @@ void Particle_detection::search_near_objects() {
     timed(frame_.seconds().confirmation, [&] { meeting_search_.look(met_pairs_); });
     timed(frame_.seconds().relaxation, [&] { walk_undecided_particles(); });
     timed(frame_.seconds().confirmation, [&] {
-      meeting_search_.follow_curves(met_pairs_);
+      meeting_search_.follow_shared_curves(met_pairs_);
       for (auto& pair : met_pairs_) report(pair);
     });
   } catch (const Bad_mesh&) {
@@ -94,7 +94,7 @@ void Particle_detection::read_regions() {
     auto& object = objects_[o]->particle_object;
     if (object.positions().is_shared() != shared) return;
     objects_[o]->named([&] { object.read_regions(options_.opening_reach); });
-    boxes_[o] = object.regions().box();
+    boxes_[o] = object.region_anchors().box();
   };
   const auto read_some = [&](std::size_t task, std::size_t) {
     const std::size_t first = task * objects_per_task, count = std::min(objects_per_task, ids_.size() - first);
@@ -129,7 +129,7 @@ void Particle_detection::add_pulls(const Met_pair& pair) {
   opponents_[pair.ids.a].push_back(pair.ids.b);
   opponents_[pair.ids.b].push_back(pair.ids.a);
   for (const auto& near : pair.near_regions()) {
-    const Region_index a = pair.a->regions().region(near.a), b = pair.b->regions().region(near.b);
+    const Region_index a = pair.a->region_anchors().region(near.a), b = pair.b->region_anchors().region(near.b);
     pulls_[pair.ids.a].push_back({a, pair.ids.b, b});
     pulls_[pair.ids.b].push_back({b, pair.ids.a, a});
   }
@@ -155,7 +155,7 @@ void Particle_detection::list_near_regions(const Met_pair& pair) {
   };
   const std::size_t first = frame_.candidates().size();
   for (const auto& near : pair.near_regions())
-    list(pair.a->regions().region(near.a), pair.b->regions().region(near.b), near.distance);
+    list(pair.a->region_anchors().region(near.a), pair.b->region_anchors().region(near.b), near.distance);
   std::ranges::sort(std::span(frame_.candidates()).subspan(first), {}, [](const Candidate_regions& candidate) {
     return std::tuple(candidate.distance, candidate.region_a, candidate.region_b);
   });

@@ -165,7 +165,7 @@ void Particle_object::prepare_meetings(const Positions& positions, const Region_
   tree_ = Tree_on_demand(corners(), labels_, coordinates, options, workers);
   neighbours_ = Leaf_neighbours(tree_.layout(), corners().size());
   tree_.start_frame(Live_positions(positions.data()));  // as they were read: other threads may be reading the mesh
-  regions_ = Region_anchors(tree_, corners(), labels_, coordinates);
+  region_anchors_ = Region_anchors(tree_, corners(), labels_, coordinates);
   tree_.start_frame(read_);
 }
 

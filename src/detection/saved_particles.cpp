@@ -55,7 +55,7 @@ void Particle_object::save(State_writer& state) const {
   state.value(std::uint32_t{tree_.layout().node_count() > 0});
   if (tree_.layout().node_count() == 0) return;
   tree_.save(state);
-  regions_.save(state);
+  region_anchors_.save(state);
 }
 
 /// What is read before anything of the object changes.
@@ -179,7 +179,7 @@ void Particle_object::load(State_reader& state, Built built) {
   rest_compass_ = saved.rest_compass;
   tree_ = std::move(saved.tree);
   neighbours_ = std::move(neighbours);
-  regions_ = std::move(saved.regions);
+  region_anchors_ = std::move(saved.regions);
   if (!built.regions)
     start_patches(saved.rings);
   else if (!built.meetings)

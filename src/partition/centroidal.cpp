@@ -2,7 +2,6 @@
 #include "lodestone/partition/centroidal.h"
 
 #include <Eigen/Geometry>
-#include <limits>
 
 #include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/partition/farthest_point.h"

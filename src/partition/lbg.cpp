@@ -2,7 +2,6 @@
 #include "lodestone/partition/lbg.h"
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "partition/cells.h"

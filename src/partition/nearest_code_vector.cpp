@@ -2,7 +2,6 @@
 #include "lodestone/partition/nearest_code_vector.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -5,7 +5,6 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <queue>
 #include <random>

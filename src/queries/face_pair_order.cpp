@@ -11,7 +11,8 @@ namespace lodestone {
 
 namespace {
 
-/// Below this number, std::sort is about as fast, and much faster where the code of both has to come to the cache first.
+/// Below this number, std::sort is about as fast, and much faster where the code of both has to come to the cache
+/// first.
 constexpr std::size_t few = 512;
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace lodestone {
 
-/// The squared distance of a point from the nearest face of a leaf, in units of the square of a radius: as computed, not
-/// rounded to any side. O(faces), vectorised.
+/// The squared distance of a point from the nearest face of a leaf, in units of the square of a radius: as computed,
+/// not rounded to any side. O(faces), vectorised.
 /// @param leaf    its list of vertices is padded with a vector of other vertices of the mesh
 /// @param box     encloses the leaf
 /// @param point   finite

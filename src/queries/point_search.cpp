@@ -2,7 +2,6 @@
 #include "lodestone/queries/point_search.h"
 
 #include <algorithm>
-#include <array>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "lodestone/tree/tree_layout.h"
@@ -9,7 +10,12 @@
 namespace lodestone {
 
 std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, std::size_t vertex_count) const {
-  // Every face is in exactly one leaf, with its own corners. Leaves list no other vertices.
+  auto wrong = validate_leaves(mesh_corners, vertex_count);
+  return wrong.empty() ? validate_nodes() : wrong;
+}
+
+/// Every face is in exactly one leaf, with its own corners. Leaves list no other vertices.
+std::string Tree_layout::validate_leaves(std::span<const Corners> mesh_corners, std::size_t vertex_count) const {
   std::vector<std::uint8_t> seen(mesh_corners.size(), 0);  // not bool: faces come in no order
   std::vector<std::uint8_t> used;
   for (std::size_t leaf = 0; leaf < leaf_count(); ++leaf) {
@@ -36,8 +42,11 @@ std::string Tree_layout::validate_layout(std::span<const Corners> mesh_corners, 
   }
   if (const auto face = std::ranges::find(seen, 0); face != seen.end())
     return fmt::format("face {} is in no leaf", face - seen.begin());
+  return {};
+}
 
-  // A depth-first walk from the root meets all nodes and all leaves in ascending order.
+/// A depth-first walk from the root meets all nodes and all leaves in ascending order.
+std::string Tree_layout::validate_nodes() const {
   std::uint32_t next = 0, leaf = 0;
   std::vector<std::uint32_t> stack{0};
   while (!stack.empty()) {

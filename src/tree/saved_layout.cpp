@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <functional>
 
 #include "lodestone/tree/tree_layout.h"
 #include "tree/read_ahead.h"

@@ -50,8 +50,8 @@ void Tree_builder::read_items() {
   });
 }
 
-/// Reads the centres of some faces relative to the box around these faces. Relative to all positions they are nearly one
-/// float, if another vertex or face is very far away.
+/// Reads the centres of some faces relative to the box around these faces. Relative to all positions they are nearly
+/// one float, if another vertex or face is very far away.
 void Tree_builder::read_again(std::span<Split_item> items, Workers& workers) const {
   std::vector<std::uint32_t> faces(items.size());
   std::ranges::transform(items, faces.begin(), &Split_item::index);

@@ -2,8 +2,8 @@
 // An object whose positions are given, and how its nodes lie in their boxes.
 #pragma once
 
-#include <algorithm>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <random>
 #include <span>

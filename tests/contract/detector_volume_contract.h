@@ -290,8 +290,8 @@ REGISTER_TYPED_TEST_SUITE_P(Detector_volume_contract,
                             all_pairs_are_found_in_any_unit_and_far_from_the_origin,
                             yes_or_no_and_first_contacts_agree_with_exhaustive_checking,
                             pairs_within_a_tolerance_are_found, self_collisions_are_found, the_closest_faces_are_found,
-                            the_first_impact_is_that_of_boxes,
-                            objects_inside_others_are_found, translations_that_part_objects_are_those_of_boxes,
+                            the_first_impact_is_that_of_boxes, objects_inside_others_are_found,
+                            translations_that_part_objects_are_those_of_boxes,
                             points_and_normals_of_contacts_are_those_of_boxes);
 
 }  // namespace lodestone

@@ -113,8 +113,8 @@ TEST(Computed_surface, of_a_mesh_without_indices_follows_vertices_that_are_added
       for (const auto v : vertices(mesh))
         for (int axis = 0; axis < 3; ++axis) rest.push_back(v->point()[axis]);
       const std::size_t count = rest.size() / 3;
-      return Skinned_points(rest, Joint_influences::of(1, std::vector<std::uint32_t>(count, 0), std::vector(count, 1.0)),
-                            1);
+      return Skinned_points(rest,
+                            Joint_influences::of(1, std::vector<std::uint32_t>(count, 0), std::vector(count, 1.0)), 1);
     };
     Skinned_points points = still();
     Surface_mesh ball = icosphere(2);

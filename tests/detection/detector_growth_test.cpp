@@ -93,8 +93,7 @@ TEST(Detector, particles_are_counted_beside_objects_without_extent) {
 
 TEST(Detector, repartitions_never_if_told_so) {
   auto scene = two_spheres(9);
-  Detector<> detector(
-      {.mode = Mode::particles, .particles = 12, .growth = std::numeric_limits<double>::infinity()});
+  Detector<> detector({.mode = Mode::particles, .particles = 12, .growth = std::numeric_limits<double>::infinity()});
   add_all(detector, scene);
   detector.detect();
   scale(scene[0], 3);

@@ -35,11 +35,9 @@ TEST(Detector_options, the_mode_that_misses_nothing_answers_unless_another_is_as
 }
 
 TEST(Detector_options, contact_points_need_contacts) {
-  EXPECT_THROW(
-      Detector<>({.mode = Mode::particles, .contacts = Contact_query::yes_no, .contact_points = true}),
-      Bad_argument);
-  EXPECT_NO_THROW(
-      Detector<>({.mode = Mode::particles, .contacts = Contact_query::first, .contact_points = true}));
+  EXPECT_THROW(Detector<>({.mode = Mode::particles, .contacts = Contact_query::yes_no, .contact_points = true}),
+               Bad_argument);
+  EXPECT_NO_THROW(Detector<>({.mode = Mode::particles, .contacts = Contact_query::first, .contact_points = true}));
   EXPECT_NO_THROW(Detector<>({.mode = Mode::particles, .contact_points = true}));
   const auto a = sphere(4), b = sphere(4, 1, {1, 0, 0});
   EXPECT_THROW(
@@ -120,8 +118,7 @@ TEST(Detector, one_mesh_may_not_carry_the_maps_of_two_objects) {
 TEST(Detector_options, there_are_never_more_particles_by_rule_than_the_most) {
   for (const std::size_t most : {1, 4, 20}) {
     auto a = sphere(8), b = sphere(8, 1, {9, 0, 0});
-    Detector<> detector(
-        {.mode = Mode::particles, .least_particles = 50, .particle_count = {.most_particles = most}});
+    Detector<> detector({.mode = Mode::particles, .least_particles = 50, .particle_count = {.most_particles = most}});
     for (auto* mesh : {&a, &b}) detector.add(*mesh);
     detector.detect();
     for (const Object_id object : {0U, 1U}) EXPECT_EQ(detector.object(object).particles().at.size(), most);
@@ -157,8 +154,7 @@ TEST(Detector, many_particles_that_are_far_apart_ask_for_little_memory) {
   const std::size_t particles = 3000;
   auto a = sphere(28), b = sphere(28, 1, {100, 0, 0});
   ASSERT_GE(num_vertices(a), particles);
-  Detector<By_number> detector(
-      {.mode = Mode::particles, .particles = particles, .partition = {.keep_islands = true}});
+  Detector<By_number> detector({.mode = Mode::particles, .particles = particles, .partition = {.keep_islands = true}});
   for (auto* mesh : {&a, &b}) detector.add(*mesh);
   const std::size_t before = address_space();
   if (before == 0) GTEST_SKIP() << "the system does not tell the memory of a process";

@@ -156,8 +156,8 @@ TEST(Removal, leaves_nothing_near_however_large_the_tolerance) {
   auto scene = two_spheres(5);
   auto third = sphere(4, 1, {0, 9, 0});
   Detector<> detector({.mode = Mode::exact,
-                                   .contacts = Contact_query::yes_no,
-                                   .exact = {.tolerance = std::numeric_limits<double>::max()}});
+                       .contacts = Contact_query::yes_no,
+                       .exact = {.tolerance = std::numeric_limits<double>::max()}});
   add_all(detector, scene);
   detector.add(third);
   EXPECT_EQ(detector.detect().pairs.size(), 3U);

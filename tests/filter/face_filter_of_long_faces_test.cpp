@@ -78,7 +78,8 @@ void fill(Single_leaf& small, Single_leaf& long_ones, Long_faces& make, const Pl
   }
   for (std::size_t i = 0; i < long_ones.size(); ++i) {
     const Triangle& at = triangles[make.below(i % 2 == 0 ? 8 : small.size())];
-    long_ones.set(i, placed(i % 2 == 0 ? make.touching(at[0]) : make.through(at[make.below(3)], make.off()), placement));
+    long_ones.set(i,
+                  placed(i % 2 == 0 ? make.touching(at[0]) : make.through(at[make.below(3)], make.off()), placement));
   }
   small.refit(), long_ones.refit();
 }
@@ -121,9 +122,10 @@ TEST(Face_filter_of_long_faces, keeps_all_that_are_nearer_than_the_margin) {
       fill(small, long_ones, make, placement);
       double margin = 0;
       while (margin == 0)
-        margin = closest_points(small.triangle(make.below(small.size())), long_ones.triangle(make.below(long_ones.size())))
-                     .distance *
-                 (round % 2 == 0 ? 1 : 1 + 1e-9);
+        margin =
+            closest_points(small.triangle(make.below(small.size())), long_ones.triangle(make.below(long_ones.size())))
+                .distance *
+            (round % 2 == 0 ? 1 : 1 + 1e-9);
       if (margin > 1e300) continue;
       const auto candidates = candidate_pairs(small.view(), long_ones.view(), margin);
       for (std::uint32_t i = 0; i < small.size(); ++i)

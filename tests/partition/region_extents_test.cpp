@@ -151,7 +151,9 @@ TEST(Region_extent, of_a_region_round_a_tube_grows_with_the_tube_beyond_the_regi
         const double angle = 2 * std::numbers::pi * j / around;
         tube.add_vertex(Point(radius * std::cos(angle), radius * std::sin(angle), 3.0 * i / along));
       }
-    const auto at = [](std::uint32_t i, std::uint32_t j) { return Surface_mesh::Vertex_index(i * around + j % around); };
+    const auto at = [](std::uint32_t i, std::uint32_t j) {
+      return Surface_mesh::Vertex_index(i * around + j % around);
+    };
     for (std::uint32_t i = 0; i < along; ++i)
       for (std::uint32_t j = 0; j < around; ++j) {
         tube.add_face(at(i, j), at(i, j + 1), at(i + 1, j));

@@ -86,7 +86,8 @@ TEST(Many_bodies_by_meetings, each_query_does_not_depend_on_threads) {
 TEST(Many_bodies_by_meetings, searches_that_the_budget_ends_do_not_depend_on_threads) {
   for (const std::size_t budget : {0U, 40U, 200U})
     for (const auto query : all_queries)
-      expect_the_same_meetings({.opening_budget = budget, .contacts = query, .contact_points = query == Contact_query::all});
+      expect_the_same_meetings(
+          {.opening_budget = budget, .contacts = query, .contact_points = query == Contact_query::all});
 }
 
 TEST(Many_bodies_by_meetings, positions_that_are_computed_are_read_by_one_thread) {

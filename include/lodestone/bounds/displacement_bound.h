@@ -86,7 +86,8 @@ class Displacement_bound {
 /// as `frame * q` is.
 class Displacement_promise {
  public:
-  /// @param regions        how many regions `move` tells apart; 1: labels do not matter
+  /// @param regions        how many regions `move` tells apart: as many as the object has, which can be more than were
+  ///                       asked for where its surface has several components; 1: labels do not matter
   /// @throws Bad_argument  there are none
   explicit Displacement_promise(std::size_t regions = 1);
   Displacement_promise(const Displacement_promise&) = delete;

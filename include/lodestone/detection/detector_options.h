@@ -89,8 +89,7 @@ struct Detector_options {
   /// this. Where it ends a search, `Pair_result::unfinished` says so. 0: regions are not opened.
   std::size_t opening_budget = 16384;
   /// With meetings: two parts of surfaces are taken to be apart if the distance of their anchors is more than so many
-  /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed, with
-  /// 0.5 most collisions.
+  /// times the sum of their radii; > 0. The dial between guess and proof: below 1 less is read and more is missed.
   double opening_reach = 1;
   double collision_distance = 1;  ///< of particles, in multiples of mu, the larger of the two objects'; > 0
   Distance_measure distance_measure = Distance_measure::adjacent_vertices;  ///< of particles: which mean mu is
@@ -138,7 +137,7 @@ struct Changed_faces {
 /// How messages name an object: `object 3`, or `object 3 (cloth)`.
 std::string title_of(std::uint32_t object, const Object_options& options);
 
-/// Refuses options that are out of range, or that have no effect:
+/// Refuses options that are out of range, and these where they have no effect:
 /// - in modes `exact` and `certified`: the collision distance, its measure, the choice of candidates and open seams;
 /// - in other modes: a tolerance of either kind, self-collision, containment, parting, contact patches and the limit of
 ///   looseness;

@@ -100,9 +100,8 @@ class Exact_pairs {
   Contact_summary search_from_place(Object_pair pair, const Contact_request& request);
   void find_contacts(std::size_t candidate, Pair_result& result);
   Contact_request request(Object_pair pair) const {
-    return {.query = options_.contacts,
-            .tolerance = tolerance_of(options_.exact, pair),
-            .most = options_.most_contacts};
+    return {
+        .query = options_.contacts, .tolerance = tolerance_of(options_.exact, pair), .most = options_.most_contacts};
   }
   void find_containment(Pair_result& result);
   void find_parting(Pair_result& result);
@@ -177,7 +176,7 @@ void Exact_pairs<Volume>::check(std::size_t candidate) {
   frame_.add_patches(objects_.surface(pair.a), objects_.surface(pair.b), tolerance_of(options_.exact, pair), workers_);
 }
 
-/// A parting needs it too.
+/// Containment is found where it is asked for, and where a parting is: that needs it.
 template <Bounding_volume Volume>
 void Exact_pairs<Volume>::find_containment(Pair_result& result) {
   if (!options_.exact.containment && !options_.exact.parting) return;

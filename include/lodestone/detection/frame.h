@@ -99,8 +99,8 @@ struct Candidate_regions {
 
 /// Everything one frame brought. Pairs rejected by the broad phase are omitted.
 struct Frame {
-  std::uint64_t number = 0;           ///< 1 for the first
-  std::vector<Pair_result> pairs;     ///< by (a, b)
+  std::uint64_t number = 0;        ///< 1 for the first
+  std::vector<Pair_result> pairs;  ///< by (a, b)
   /// Contacts of all pairs one after the other, sorted within a pair. With a tolerance those that intersect and those
   /// that are only near: see `intersects`.
   std::vector<Face_pair> face_pairs;

@@ -17,7 +17,8 @@ namespace lodestone {
 ///  1. `look`: at the place where particles met in the last frame, then below the regions, which are read as a whole or
 ///     opened. If all contacts are asked for and regions are opened, the curves through that place come first;
 ///  2. `meet_nearest`, where the budget has ended the openings, after the particles have walked;
-///  3. `follow_curves`: with the query `all`, along the curves of intersection through the contacts that were found;
+///  3. `follow_shared_curves`: with the query `all`, along the curves of intersection through the contacts that were
+///  found;
 ///  4. `report`.
 ///
 /// Many pairs are searched side by side, each by one worker. What a pair costs, and where its budget ends, depends on
@@ -48,7 +49,7 @@ class Meeting_search {
   /// With the query `all`, lists the contacts on the curves through the seeds of each pair, if the pairs are shared.
   /// Otherwise `report` does, pair by pair: it takes less memory.
   /// @param pairs  those that were given to `look`
-  void follow_curves(std::span<Met_pair> pairs);
+  void follow_shared_curves(std::span<Met_pair> pairs);
   /// Appends the contacts that answer the query to `found`, and remembers where they are for the next frame. The pairs
   /// of a frame must come in ascending order.
   void report(Met_pair& pair, std::vector<Face_pair>& found);

@@ -72,7 +72,7 @@ class Particle_detection final : public Detection {
     Particle_object particle_object;
     double radius = 0;  ///< of the bounding sphere at the last partition, if numbers of particles depend on it
     bool prepared = false;
-    std::vector<std::uint32_t> before = {};  ///< where its particles were before the frame
+    std::vector<std::uint32_t> vertices_before = {};  ///< of its particles, before the frame
 
     Object(Object_id i, std::unique_ptr<Watched_mesh> mesh, const Object_options& o)
         : id(i), options(o), particle_object(std::move(mesh)) {}
@@ -90,30 +90,53 @@ class Particle_detection final : public Detection {
     }
   };
 
+  bool meets() const { return options_.mode == Mode::particles && options_.meetings > 0; }
   Saved_origin origin(const Object& object) const;
-  void prepare();
-  void note_places();
-  void return_to_places();
+
+  // Objects are built: divided into regions, or scattered with particles.
   enum class Seams { keep, close, open };
-  void prepare(std::span<Object* const> objects, Seams seams);
-  void start(Object& object, const Positions& positions, std::size_t particles, Numbered_partition division,
-             Workers& workers);
-  bool has_outgrown(Particle_object& object);
+  /// What is known of an object while it is built.
+  struct Building {
+    Object* object = nullptr;
+    Positions positions = {};
+    std::size_t particles = 0;
+    Numbered_partition division = {};
+  };
+  void prepare();
+  void build(std::span<Object* const> objects, Seams seams);
+  std::vector<Building> read(std::span<Object* const> objects) const;
+  void measure(std::span<Building> all, Seams seams);
+  void divide(std::span<Building> all);
+  void start(std::span<Building> all);
+  void start(Building& building, Workers& workers);
+  template <class Work>
+  void for_each(std::span<Building> all, const Work& work);
   Radius_range radii() const;
   std::size_t particles_of(const Object& object, const Positions& positions, const Radius_range& radii) const;
   void write_maps(Object& object);
+  bool has_outgrown(Particle_object& object);
   void make_room();
-  bool meets() const { return options_.mode == Mode::particles && options_.meetings > 0; }
-  void find_candidates(const Collision_filter& filter);
+
+  // A frame, by any method.
+  void note_vertices();
+  void restore_vertices();
   void list_object_pairs(const Collision_filter& filter);
   void walk();
-  void check(Object_pair pair);
+  void sort_contacts(Pair_result& result);
+  void end_pair(Pair_result& result);
+
+  // The published method, and its predecessor.
+  void detect_as_published(const Collision_filter& filter);
+  void find_candidates(const Collision_filter& filter);
+  void check_regions(Object_pair pair);
+  void list_candidates(Object_pair pair);
+
+  // With meetings.
+  void detect_by_meetings(const Collision_filter& filter);
   void find_near_objects(const Collision_filter& filter);
   void find_regions();
   void read_regions();
   void search_near_objects();
-  void detect_as_published(const Collision_filter& filter);
-  void detect_by_meetings(const Collision_filter& filter);
   void walk_undecided_particles();
   void add_pulls(const Met_pair& pair);
   void report(Met_pair& pair);
@@ -121,9 +144,6 @@ class Particle_detection final : public Detection {
   void move_to_meetings();
   void add_counts();
   void name_the_bad_object();
-  void end_pair(Pair_result& result);
-  void list_candidates(Object_pair pair);
-  void sort_contacts(Pair_result& result);
 
   Detector_options options_;
   Workers workers_;

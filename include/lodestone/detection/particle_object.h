@@ -95,9 +95,9 @@ class Particle_object {
   void start_frame();
   /// Reads the anchors of the regions in this frame, after `start_frame`.
   /// @throws Bad_mesh  a coordinate is not finite
-  void read_regions(double reach) { regions_.read(tree_, reach); }
+  void read_regions(double reach) { region_anchors_.read(tree_, reach); }
   /// Where the regions are, as of the last `read_regions`.
-  const Region_anchors& regions() const { return regions_; }
+  const Region_anchors& region_anchors() const { return region_anchors_; }
   /// The surface, for particles that may walk anywhere, after `prepare_meetings`.
   Walked_surface walked_surface() const { return {&edges_.graph, &vertex_faces_, walked_corners(), corners(), &read_}; }
   /// The tree below the regions, after `prepare_meetings`.
@@ -131,7 +131,8 @@ class Particle_object {
   const std::optional<Rigid_motion>& placement() const { return placement_; }
   /// The faces of the mesh, F.
   std::span<const Corners> corners() const { return mesh_->corners(); }
-  /// Where its vertices are, as of the last `read_particles`.
+  /// Where its vertices are, as of the last call that looked at the mesh: `start_frame`, `read_particles`,
+  /// `read_positions` or `has_outgrown`.
   const Live_positions& positions() const { return read_; }
   /// Where a particle can step.
   const Region_steps& steps() const { return steps_; }
@@ -192,7 +193,7 @@ class Particle_object {
   // Only for meetings.
   Tree_on_demand tree_;
   Leaf_neighbours neighbours_;
-  Region_anchors regions_;
+  Region_anchors region_anchors_;
 
   std::vector<std::uint32_t> patch_centres_;  ///< only for scattered particles: the vertex each patch lies around
   std::size_t rings_ = 0;

@@ -86,7 +86,7 @@ struct Lbg {
   static constexpr std::string_view name = "lbg";  ///< for `make_strategy`, tables and messages
   static constexpr bool is_concurrent = true;      ///< see Partition_strategy
 
-  Lbg_options options = {};            ///< of `quantise`, and the weights of position and normal
+  Lbg_options options = {};  ///< of `quantise`, and the weights of position and normal
   /// V rows with any number of columns, from `factors()`; empty for none. They are of one mesh: for a detector of more,
   /// write a strategy that makes them of each.
   Feature_vectors extra_factors = {};

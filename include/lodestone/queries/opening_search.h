@@ -50,7 +50,7 @@ struct Curve_starts {
 /// distance from its faces that counts. Two surfaces that the budget covers are searched to the end, in the order that
 /// is fastest. Openings read one vertex per node that they look at, and the vertices of the leaves that they compare.
 /// In both ways the faces of leaves are tested exactly. One contact is searched for by openings first, which may find
-/// it soon; once these have read half of both surfaces, as a whole if it may be.
+/// it soon; once these have read half of both surfaces, the nodes are read as a whole, if `most_whole` allows it.
 ///
 /// What is found is true. Below nodes that are read as a whole nothing is missed. Otherwise contacts are missed once
 /// the budget is used up, where a surface is stretched beyond its radii, and with c below 1.
@@ -74,7 +74,7 @@ class Opening_search {
   /// earlier search has compared and found, it finds what that left: where the budget ended it, or a surface is
   /// stretched beyond its radii. The workers share the tests.
   /// @param a, b    neighbours of the leaves of the two trees
-  /// @param starts  neither `compared()` nor `found` itself
+  /// @param starts  no view of `compared()` or of `found`, which change
   /// @param found   all contacts of the curves, and of the leaves on them, are appended, each once
   /// @throws Bad_mesh  a coordinate that is read is not finite
   void follow(Leaf_neighbours& a, Leaf_neighbours& b, const Curve_starts& starts, std::vector<Face_pair>& found,
@@ -147,7 +147,7 @@ class Opening_search {
   std::vector<Opening_start> given_starts_;
   Opening_starts starts_;  ///< the same, once it is known whether they may be read as a whole
   bool whole_ = false;     ///< they are read as a whole
-  bool in_order_ = false;
+  bool in_order_ = false;  ///< the nearest first, since the budget covers less than both surfaces
   Waiting waiting_;
   std::size_t considered_ = 0;     ///< pairs of nodes whose anchors were compared
   std::size_t read_before_ = 0;    ///< vertices of both trees, before `begin`

@@ -27,8 +27,8 @@ struct Ray {
 /// rounded.
 struct Ray_hit {
   std::uint32_t face = 0;  ///< its index
-  double t = 0;            ///< in multiples of `direction`; relative error below 2^-30 if it is a normal number; infinity
-                           ///< if it exceeds the largest double
+  double t = 0;  ///< in multiples of `direction`; relative error below 2^-30 if it is a normal number; infinity
+                 ///< if it exceeds the largest double
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< origin + t direction
 };
 

@@ -142,6 +142,8 @@ class Tree_layout {
   friend class Tree_mender;
 
   static void check(std::span<const Corners> corners, const Region_tree_options& options);
+  std::string validate_leaves(std::span<const Corners> corners, std::size_t vertex_count) const;
+  std::string validate_nodes() const;
   void finish();
   void find_parts();
 
