@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,13 +19,13 @@
 #include <vector>
 
 #include "io/files/small_text.h"
+#include "lodestone/mesh/errors.h"
 #include "program/command_description.h"
 #include "program/exit_codes.h"
 #include "program/plain_words.h"
 #include "program/suggestion.h"
 
-/// What the command lines of the program and of the experiments share; in a header, since each program reads its
-/// command line in one source file, and CLI11 takes long to compile.
+/// What the command lines of the program and of the experiments share.
 namespace lodestone {
 
 /// Rejects an empty text: a script whose variable is empty must not lose its results silently.
@@ -142,7 +143,11 @@ inline std::optional<int> parse(CLI::App& program, int argc, char** argv) {
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    if (asked_for_help) return program.exit(error);
+    if (asked_for_help) {
+      const int code = program.exit(error);
+      if (!std::cout.flush()) throw Bad_output("the standard output cannot be written");
+      return code;
+    }
     auto complaint = unknown_word(program, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
     if (complaint.empty()) complaint = error.what();
     const auto* const command = argc > 1 ? find_command(program, argv[1]) : nullptr;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/files/small_text.h"
 #include "lodestone/detector.h"
 #include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/partition/strategies.h"
@@ -99,7 +100,7 @@ struct Submit_command {
 
 /// Whether the input is a scene file.
 inline bool is_scene_file(const std::vector<std::filesystem::path>& inputs) {
-  return inputs.size() == 1 && inputs.front().extension() == ".json";
+  return inputs.size() == 1 && lower_case(inputs.front().extension().string()) == ".json";
 }
 /// What a message about one object alone adds: options that would divide it, unless it has been divided.
 inline const char* hint_at_components(const Detect_command& command) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "io/files/small_text.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -81,7 +82,8 @@ void add_threads(CLI::App& app, std::size_t& threads, const char* of) {
 
 void refuse_allow_outside(const CLI::App& app, const std::vector<std::filesystem::path>& inputs) {
   const auto is_of_a_scene = [](const std::filesystem::path& input) {
-    return input.extension() == ".json" || input.string().find(".json#") != std::string::npos;
+    const auto name = lower_case(input.string());
+    return name.ends_with(".json") || name.find(".json#") != std::string::npos;
   };
   if (app.count("--allow-outside") > 0 && std::ranges::none_of(inputs, is_of_a_scene))
     throw Bad_argument("--allow-outside is for scenes: no input is one");

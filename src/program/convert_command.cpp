@@ -37,7 +37,8 @@ Animation read_input(const Convert_command& command) {
     return animation_of(object, 1);
   };
   if (const auto object = named_object(command.input, command.reading)) return the_only_object(*object);
-  if (command.input.extension() == ".json") return the_only_object(object_of_scene(command.input, "", command.reading));
+  if (lower_case(command.input.extension().string()) == ".json")
+    return the_only_object(object_of_scene(command.input, "", command.reading));
   const auto rate = command.rate > 0 ? std::optional(command.rate) : std::nullopt;
   return read_animation(command.input,
                         {.mesh = command.mesh, .frames_per_second = rate, .limits = command.reading.limits});
@@ -163,6 +164,7 @@ void report(const Convert_command& command, const Animation& original, const Ani
             const Float_rounding& rounding) {
   const auto name = command.input.filename().string();
   note(other_animations_note(name, original.motion.animations));
+  note(ignored_extensions_note(name, original.ignored_extensions));
   note(cut_faces_note(name, original.file_face));
   note(not_kept_note(name, original.not_read));
   note_faces_not_kept(command, animation);

@@ -34,7 +34,7 @@ void check_inputs_are_kept(const Detect_command& command) {
   const auto summary = weakly_canonical(command.out / "summary.json", unknown);
   for (const auto& input : command.inputs) {
     const std::string text = input.string();
-    const auto mark = text.find(".json#");
+    const auto mark = lower_case(text).find(".json#");
     const auto file = mark == text.npos ? text : text.substr(0, text.find('#', mark));
     if (std::filesystem::weakly_canonical(file, unknown) == summary)
       throw Bad_argument(file + ": --out would replace this input, which is never overwritten");
@@ -111,6 +111,8 @@ void note_objects(const Detect_run& scene_run) {
   const auto& objects = scene.objects;
   note_each(scene,
             [&](Object_id id) { return other_animations_note(objects[id].name, objects[id].motion.animations); });
+  note_each(scene,
+            [&](Object_id id) { return ignored_extensions_note(objects[id].name, objects[id].ignored_extensions); });
   note_each(scene, [&](Object_id id) { return cut_faces_note(objects[id].name, objects[id].file_face); });
   note_each(scene, [&](Object_id id) {
     return joined_vertices_note(objects[id].name, scene_run.joined_vertices(id), objects[id].file_vertex);

@@ -89,8 +89,9 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
 
 /// Null for a mode that misses nothing.
 Json misses_json(const Detector_options& options) {
+  if (!may_miss(options)) return nullptr;
   const auto missed = expected_misses(options);
-  if (!missed) return nullptr;
+  if (!missed) return {{"least_share", nullptr}, {"most_share", nullptr}, {"experiment", nullptr}};
   return {{"least_share", missed->least}, {"most_share", missed->most}, {"experiment", missed->experiment}};
 }
 

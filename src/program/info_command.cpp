@@ -46,7 +46,8 @@ struct Object_report {
   std::optional<Surface_report> surface = {};  ///< missing for a point cache without its mesh
   std::vector<Component_orientation> components = {};
   std::vector<std::string> parts = {};  ///< that the file names, each once
-  File_animations animations = {};  ///< no names: the format has none
+  File_animations animations = {};      ///< no names: the format has none
+  std::set<std::string> not_read = {};  ///< what else the file holds
   Box box = {};  ///< of the vertices that faces use; for a point cache without its mesh: of all vertices
   Box box_of_all_frames = {};
   std::size_t self_intersections = 0;
@@ -107,6 +108,8 @@ std::vector<std::string> part_names(const File_parts& parts, std::size_t faces) 
 Object_report report_of(const std::string& name, const Animation& animation) {
   Object_report report{.name = name, .frames = animation.motion.frames, .vertices = animation.vertices};
   report.animations = animation.motion.animations;
+  report.not_read = animation.not_read;
+  report.not_read.insert(animation.ignored_extensions.begin(), animation.ignored_extensions.end());
   find_boxes(animation, report);
   if (animation.faces.empty()) return report;
   std::vector<Point> points(animation.vertices);
@@ -115,6 +118,7 @@ Object_report report_of(const std::string& name, const Animation& animation) {
   report.surface = inspect_surface(points, animation.faces);
   report.faces = count_file_faces(animation.file_face);
   report.parts = part_names(animation.parts, report.faces.count);
+  if (!report.parts.empty()) report.not_read.erase("groups");  // they are listed
   check_interrupt();
   report.components = component_orientations(points, animation.faces, animation.file_face);
   check_interrupt();
@@ -142,7 +146,7 @@ Info look_at(const Info_command& command) {
     const std::size_t frames = std::max<std::size_t>(1, object->motion.frames);
     return {.kind = "object", .frames = frames, .objects = {report_of(*object, frames)}};
   }
-  if (command.file.extension() == ".json") {
+  if (lower_case(command.file.extension().string()) == ".json") {
     refuse_mesh_beside(command.file, command.mesh);
     Scene scene = read_scene(command.file, command.reading);
     Info info{.kind = "scene", .frames = scene.frames};
@@ -210,6 +214,7 @@ Json to_json(const Object_report& report) {
   if (report.frames > 0) json["frames"] = report.frames;
   if (const auto& [names, played, is_chosen] = report.animations; !names.empty())
     json.update({{"animations", names}, {"played_animation", played}});
+  if (!report.not_read.empty()) json["not_read"] = report.not_read;
   const auto add_boxes = [&] {
     json["box"] = box_json(report.box);
     json["box_of_all_frames"] = box_json(report.box_of_all_frames);
@@ -263,6 +268,7 @@ void print(const Object_report& report, const std::string& kind, std::size_t fra
     table.add({"animations", animation_list(names)});
     table.add({"animation that is played", animation_name(names, played)});
   }
+  if (!report.not_read.empty()) table.add({"not read", fmt::format("{}", fmt::join(report.not_read, ", "))});
   add("vertices", report.vertices);
   const auto finish = [&] {
     table.add({frames > 1 ? "box of the first frame" : "box", box_text(report.box)});

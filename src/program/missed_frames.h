@@ -15,8 +15,11 @@ struct Missed_frames {
   const char* experiment;  ///< which measured it: a folder of experiments/
 };
 
-/// How many colliding frames a run with these options may be expected to miss; none for the mode `exact`, which misses
-/// nothing.
+/// Whether a mode may miss collisions: all but `exact` and `certified`.
+bool may_miss(const Detector_options& options);
+
+/// How many colliding frames a run with these options may be expected to miss; none for a mode that misses nothing, and
+/// for options that leave out more than those of the experiments.
 std::optional<Missed_frames> expected_misses(const Detector_options& options);
 
 /// What a user must know of the answers of a mode, in plain sentences; none for the mode `exact`.

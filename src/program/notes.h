@@ -35,6 +35,14 @@ inline std::string cut_faces_note(const std::string& name, std::span<const std::
                      faces.count, file_face.size());
 }
 
+/// Extensions of a glTF file without which its surfaces lie elsewhere.
+/// @return empty if there are none
+inline std::string ignored_extensions_note(const std::string& name, const std::set<std::string>& extensions) {
+  if (extensions.empty()) return {};
+  return fmt::format("{}: not read: {}, which {} where surfaces are", name, fmt::join(extensions, ", "),
+                     extensions.size() == 1 ? "says" : "say");
+}
+
 /// Animations that are not played, since no scene chooses among those of the file.
 /// @return empty if there are none
 inline std::string other_animations_note(const std::string& name, const File_animations& animations) {

@@ -12,7 +12,8 @@ namespace lodestone {
 namespace {
 
 const std::filesystem::path& checked(const std::filesystem::path& target, const std::filesystem::path& other) {
-  if (target.extension() != ".html") throw Bad_argument(target.string() + ": a page is written as .html");
+  if (lower_case(target.extension().string()) != ".html")
+    throw Bad_argument(target.string() + ": a page is written as .html");
   std::error_code unknown;
   if (!other.empty() && weakly_canonical(target, unknown) == weakly_canonical(other, unknown))
     throw Bad_argument(target.string() + ": the page and another result cannot be the same file");

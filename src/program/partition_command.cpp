@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/files/small_text.h"
+#include "io/gltf/gltf_scene.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/meshes/mesh_file.h"
@@ -147,7 +148,8 @@ void check_input_is_kept(const Partition_command& command, const std::vector<std
 /// A mesh, a mesh or an object of a scene in its first frame, or a shape.
 Mesh_file read_input(const Partition_command& command) {
   auto object = named_object(command.mesh, command.reading);
-  if (mesh_and_cache(command.mesh)) object = read_object("", command.mesh, command.reading.limits);
+  if (mesh_and_cache(command.mesh) || is_gltf(command.mesh))
+    object = read_object("", command.mesh, command.reading.limits);
   if (!object) {
     auto file = read_mesh(command.mesh, command.reading.limits);
     check_input_is_kept(command, file.files);
@@ -158,13 +160,14 @@ Mesh_file read_input(const Partition_command& command) {
   return {.mesh = std::move(object->mesh),
           .file_vertex = std::move(object->file_vertex),
           .file_vertices = object->file_vertices,
-          .file_face = std::move(object->file_face)};
+          .file_face = std::move(object->file_face),
+          .ignored_extensions = std::move(object->ignored_extensions)};
 }
 
 }  // namespace
 
 int run(const Partition_command& command) {
-  if (!command.out.empty() && command.out.extension() != ".ply")
+  if (!command.out.empty() && lower_case(command.out.extension().string()) != ".ply")
     throw Bad_argument(command.out.string() + ": the coloured mesh is written as .ply");
   check_results_differ(command);
   std::optional<Page_file> page;
@@ -183,7 +186,11 @@ int run(const Partition_command& command) {
   if (!command.out.empty()) write_coloured_ply(command.out, file.mesh, divided.labels);
   if (json) json->commit();
   if (page) page->commit();
-  if (!command.quiet) note(cut_faces_note(command.mesh.filename().string(), file.file_face));
+  if (!command.quiet) {
+    const auto name = command.mesh.filename().string();
+    note(ignored_extensions_note(name, file.ignored_extensions));
+    note(cut_faces_note(name, file.file_face));
+  }
   if (!command.quiet) print_table(file, divided, command);
   if (!command.quiet && page) fmt::print("\n{}\n", page->summary());
   return exit_code::success;

@@ -7,8 +7,8 @@
 
 namespace lodestone {
 
-/// The words of a command line without `--`. A file after it whose name begins with `-` is written `./-NAME`, so that it
-/// cannot be taken for an option, whatever is appended.
+/// The words of a command line without `--`. A file after it whose name begins with `-` is written `./-NAME`, so that
+/// it cannot be taken for an option, whatever is appended.
 inline std::vector<std::string> plain_words(std::span<const std::string> words) {
   std::vector<std::string> plain;
   bool only_files = false;

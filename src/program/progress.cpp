@@ -21,7 +21,8 @@ void note_interrupt(int signal) {
   interrupted = 1;
   std::signal(signal, SIG_DFL);
   constexpr char told[] = "\nlodestone: ends after this step; a second signal ends it at once\n";
-  if (is_watched != 0) [[maybe_unused]] const auto written = ::write(STDERR_FILENO, told, sizeof told - 1);
+  if (is_watched != 0) [[maybe_unused]]
+    const auto written = ::write(STDERR_FILENO, told, sizeof told - 1);
 }
 
 }  // namespace

@@ -16,7 +16,6 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>

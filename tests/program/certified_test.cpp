@@ -43,14 +43,16 @@ class Certified_program : public testing::Test {
   }
   Program_result detect(const std::string& scene, const std::string& mode, const std::string& out,
                         std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments{"detect", scene, "--mode", mode, "--contacts", "all",
-                                       "--out",  (folder.path() / out).string()};
+    std::vector<std::string> arguments{"detect",     scene, "--mode", mode,
+                                       "--contacts", "all", "--out",  (folder.path() / out).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto result = run_program(arguments);
     expect_success(result);
     return result;
   }
-  std::vector<Json> frames(const std::string& out) const { return read_json_lines(folder.path() / out / "frames.jsonl"); }
+  std::vector<Json> frames(const std::string& out) const {
+    return read_json_lines(folder.path() / out / "frames.jsonl");
+  }
   /// The pairs of a frame that collide.
   static Json collisions(const Json& frame) {
     Json colliding = Json::array();

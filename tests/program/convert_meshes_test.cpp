@@ -82,6 +82,24 @@ TEST_F(Convert_meshes, what_is_not_kept_is_listed) {
   EXPECT_EQ(run_program({"convert", write("normals.ply", ply), path("a.stl")}).err,
             "lodestone: normals.ply: not kept: normals\n");
   EXPECT_EQ(run_program({"convert", rich, path("b.stl"), "--quiet"}).err, "");
+  auto nodes = square_gltf();
+  nodes.json["nodes"].push_back({{"mesh", 0}});
+  nodes.json["scenes"] = {{{"nodes", {0, nodes.json["nodes"].size() - 1}}}};
+  nodes.json["meshes"][0]["primitives"].push_back(nodes.json["meshes"][0]["primitives"][0]);
+  nodes.json["meshes"][0]["primitives"][1]["mode"] = 1;
+  EXPECT_EQ(run_program({"convert", write("nodes.glb", nodes.glb()), path("a.stl")}).err,
+            "lodestone: nodes.glb: not kept: groups, lines\n");
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  const std::string solid = "solid a\n" + facet + "endsolid a\n";
+  EXPECT_EQ(run_program({"convert", write("solids.stl", solid + solid), path("a.off")}).err,
+            "lodestone: solids.stl: not kept: groups\n");
+  EXPECT_EQ(run_program({"convert", write("solid.stl", solid), path("a.off")}).err, "");
+}
+
+TEST_F(Convert_meshes, names_with_colons_are_read_back) {
+  EXPECT_EQ(convert("shape:teapot", "run_12:30.gltf").mesh.number_of_faces(), 5680U);
+  expect_error(run_program({"convert", "shape:teapot", path("a\nb.gltf")}), 2, "no control characters");
 }
 
 TEST_F(Convert_meshes, objects_of_scenes_are_converted_where_they_are_placed) {

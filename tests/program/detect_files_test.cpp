@@ -231,6 +231,17 @@ TEST_F(Detect_files, an_animation_of_gltf_is_played_as_long_as_info_says) {
   EXPECT_EQ(frames().size(), 61U);
 }
 
+TEST_F(Detect_files, say_which_extensions_of_gltf_are_left_out) {
+  auto sample = square_gltf();
+  sample.json["nodes"][0]["extensions"] = {{"EXT_mesh_gpu_instancing", {{"attributes", Json::object()}}}};
+  const auto file = write("copies.glb", sample.glb());
+  const std::string note = "copies.glb: not read: EXT_mesh_gpu_instancing, which says where surfaces are\n";
+  EXPECT_EQ(detect({file, write("still.off", tetrahedron_off(9))}).err,
+            "lodestone: copies: not read: EXT_mesh_gpu_instancing, which says where surfaces are\n");
+  EXPECT_EQ(run_program({"convert", file, (folder.path() / "a.off").string()}).err, "lodestone: " + note);
+  EXPECT_EQ(run_program({"partition", file, "--out", (folder.path() / "a.ply").string()}).err, "lodestone: " + note);
+}
+
 TEST_F(Detect_files, of_gltf_with_several_animations_play_the_first_and_say_so_unless_a_scene_chooses) {
   const std::string note =
       ": plays the animation 'idle', the first of 2: 'idle', 'walk'; `gltf.animation` of a scene chooses another\n";

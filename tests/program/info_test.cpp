@@ -152,9 +152,32 @@ TEST_F(Info, lists_the_animations_of_a_gltf_file) {
   const auto text = run_program({"info", file}).out;
   EXPECT_NE(text.find("| 'idle', 'walk' "), std::string::npos) << text;
   EXPECT_FALSE(info({write("a.off", square_off)})["objects"].at(0).contains("animations"));
+  auto unnamed = square_with_two_animations();
+  unnamed.json["animations"].erase(1);
+  unnamed.json["animations"][0].erase("name");
+  EXPECT_NE(run_program({"info", write("unnamed.glb", unnamed.glb())}).out.find("| 0 (unnamed) "), std::string::npos);
   const auto scene = write("scene.json", R"({"objects": [{"name": "a", "mesh": "walk.glb",
     "motion": {"gltf": {"file": "walk.glb", "animation": "walk"}}}]})");
   EXPECT_EQ(info({scene})["objects"].at(0)["played_animation"], 1);
+}
+
+TEST_F(Info, lists_what_a_file_holds_and_the_library_does_not_read) {
+  auto sample = square_with_two_animations();
+  sample.json["materials"] = Json::array({Json::object()});
+  sample.json["nodes"][0]["extensions"] = {{"EXT_mesh_gpu_instancing", {{"attributes", Json::object()}}}};
+  const auto moved = [](const char* pointer) {
+    return Json{{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+  };
+  sample.json["animations"][1]["channels"][0]["target"] = moved("/nodes/0/translation");
+  const auto file = write("copies.glb", sample.glb());
+  const Json unread{"EXT_mesh_gpu_instancing", "KHR_animation_pointer", "materials"};
+  EXPECT_EQ(info({file})["objects"].at(0)["not_read"], unread);
+  const auto text = run_program({"info", file}).out;
+  EXPECT_NE(text.find("EXT_mesh_gpu_instancing, KHR_animation_pointer, materials"), std::string::npos) << text;
+  sample.json["animations"][1]["channels"][0]["target"] = moved("/materials/0/alphaCutoff");
+  sample.json["nodes"][0].erase("extensions");
+  EXPECT_EQ(info({write("faded.glb", sample.glb())})["objects"].at(0)["not_read"], Json{"materials"});
+  EXPECT_FALSE(info({write("a.off", square_off)})["objects"].at(0).contains("not_read"));
 }
 
 TEST_F(Info, reads_an_object_of_a_scene_and_a_built_in_shape) {

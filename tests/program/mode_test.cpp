@@ -112,6 +112,25 @@ TEST_F(Program_mode, that_may_miss_collisions_says_so_with_the_published_figures
   }
 }
 
+TEST_F(Program_mode, that_may_miss_more_than_was_measured_tells_no_figures) {
+  const std::vector<std::vector<std::string>> unmeasured{{"--opening-reach", "0.5"},
+                                                         {"--opening-budget", "100"},
+                                                         {"--meetings", "1"},
+                                                         {"--particles", "4"},
+                                                         {"--meetings", "0", "--collision-distance", "0.1"},
+                                                         {"--growth", "9"}};
+  for (auto options : unmeasured) {
+    SCOPED_TRACE(testing::PrintToString(options));
+    options.insert(options.begin(), {"--mode", "particles"});
+    const auto result = detect(options);
+    expect_success(result);
+    EXPECT_NE(result.out.find("no experiment has measured how many"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find(" of the colliding frames"), std::string::npos) << result.out;
+    EXPECT_EQ(summary()["may_miss"],
+              Json({{"least_share", nullptr}, {"most_share", nullptr}, {"experiment", nullptr}}));
+  }
+}
+
 TEST_F(Program_mode, exact_refuses_the_options_of_particles) {
   const std::map<std::string, std::string> options{{"--meetings", "0"},         {"--opening-budget", "100"},
                                                    {"--opening-reach", "0.5"},  {"--collision-distance", "9"},

@@ -152,6 +152,9 @@ TEST_F(Program_output, a_folder_that_cannot_be_created_is_an_error) {
 
 TEST_F(Program_output, a_full_standard_output_is_an_error) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  for (const std::vector<std::string>& help :
+       {std::vector<std::string>{"--version"}, {"--help-all"}, {"detect", "--help"}, {"experiment", "--help"}})
+    expect_error(run_program(help, {.standard_output = "/dev/full"}), 4, "standard output");
   expect_error(run_program({"detect", "--mode", "particles", scene(3)}, {.standard_output = "/dev/full"}), 4,
                "standard output");
   expect_error(run_program({"partition", (folder.path() / "a.off").string()}, {.standard_output = "/dev/full"}), 4,

@@ -13,6 +13,7 @@
 #include "lodestone/io/results/coloured_ply.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "program/run_program.h"
+#include "support/gltf_samples.h"
 #include "support/mesh_samples.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
@@ -78,6 +79,15 @@ TEST_F(Partition_program, divides_a_shape_and_an_object_of_a_scene_in_its_first_
   expect_error(run_program({"partition", moving, "--json", scene.string()}), 2, "never overwritten");
   expect_error(run_program({"partition", moving, "--out", mesh.string()}), 2, "never overwritten");
   expect_error(run_program({"partition", scene.string() + "#none"}), 2, "name one object of the scene");
+}
+
+TEST_F(Partition_program, divides_the_first_frame_of_a_gltf_animation) {
+  auto sample = square_gltf();
+  sample.animate(0, "translation", sample.add_numbers({0, 1}), sample.add_points({40, 0, 0, 50, 0, 0}));
+  const auto file = folder.write("moving.glb", sample.glb());
+  expect_success(run_program({"partition", file.string(), "--regions", "1", "--out", ply.string()}));
+  const auto divided = read_mesh(ply).mesh;
+  for (const auto v : divided.vertices()) EXPECT_GE(divided.point(v).x(), 40);
 }
 
 TEST_F(Partition_program, writes_consistent_statistics) {
