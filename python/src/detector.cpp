@@ -59,7 +59,8 @@ void Python_object::refresh(std::uint64_t hold) {
 }
 
 void Python_object::check_has_arrays() const {
-  if (animation_) throw Bad_argument("its positions come from an animation: use set_frame");
+  if (animation_) throw Bad_argument("its positions come from an animation: use set_frame, or add a copy of its "
+                                         "vertices, and its faces, in place of it");
   if (skin_) throw Bad_argument("its positions come from a skin: change its joints or weights");
 }
 

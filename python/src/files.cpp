@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "io/files/small_text.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/io/results/animation_output.h"
 #include "lodestone/io/scenes/given_objects.h"
@@ -25,9 +26,17 @@ namespace {
 
 using Path = std::filesystem::path;
 
+/// Scenes, their objects and built-in shapes are no files of this kind.
+void refuse_scenes(const Path& path) {
+  const auto name = lower_case(path.string());
+  if (name.starts_with("shape:") || name.ends_with(".json") || name.find(".json#") != std::string::npos)
+    throw Bad_argument(path.string() + ": scenes, their objects and shapes are read by read_scene");
+}
+
 std::shared_ptr<Python_animation> read_animation_file(const Path& path, const std::optional<Path>& mesh,
                                                       const std::variant<std::size_t, std::string>& animation,
                                                       std::optional<double> frames_per_second, std::size_t max_faces) {
+  refuse_scenes(path);
   const Without_gil without_gil;
   auto read = std::make_shared<Animation>(read_animation(path, {.mesh = mesh.value_or(Path()),
                                                                 .frames_per_second = frames_per_second,

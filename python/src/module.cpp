@@ -9,6 +9,7 @@
 #include "lodestone/version.h"
 #include "motion.h"
 #include "one_call.h"
+#include "partition.h"
 #include "text.h"
 
 namespace lodestone::python {
@@ -85,6 +86,7 @@ PYBIND11_MODULE(_lodestone, module) {
   add_frames(module);
   add_detector(module);
   add_one_call(module);
+  add_partitions(module);
   add_files(module);
   add_pages(module);
   add_reduce(module);

@@ -137,13 +137,21 @@ void add_motions(py::module_& module) {
       .def_property_readonly("frames_per_second",
                              [](const Python_animation& self) { return self.animation->frames_per_second; },
                              "0: the files do not say.")
-      .def_property_readonly("vertices", [](const Python_animation& self) { return pose_array(self, 0); },
-                             "Positions of the first frame: (V, 3) float64, in the order of the file.")
+      .def_property_readonly("vertices", [](const Python_animation& self) {
+        auto positions = pose_array(self, 0);
+        positions.attr("flags").attr("writeable") = false;  // it is a copy, so writing to it would move nothing
+        return positions;
+      }, "Positions of the first frame: (V, 3) float64, in the order of the file. Read-only: to change them, copy them.")
       .def_property_readonly("faces", [](const Python_animation& self) { return faces_array(self.animation->faces); },
                              "(F, 3) int64. Faces of more than three corners are cut into triangles.")
       .def_property_readonly(
           "file_faces", [](const Python_animation& self) { return array_of<std::int64_t>(self.animation->file_face); },
           "Per triangle the face of the file that it is of: (F,) int64.")
+      .def_property_readonly("ignored_extensions", [](const Python_animation& self) {
+        py::list extensions;
+        for (const auto& extension : self.animation->ignored_extensions) extensions.append(extension);
+        return extensions;
+      }, "Optional extensions of a glTF file that say where surfaces are, and are not read.")
       .def_property_readonly("files", [](const Python_animation& self) {
         py::list files;
         for (const auto& file : self.animation->files) files.append(name_of_file(file));

@@ -7,8 +7,6 @@
 #include <string>
 
 #include "lodestone/mesh/mesh_numbering.h"
-#include "lodestone/partition/partition.h"
-#include "lodestone/partition/partition_measures.h"
 #include "lodestone/queries/closest_faces.h"
 #include "lodestone/queries/impact_search.h"
 
@@ -16,13 +14,6 @@
 namespace lodestone::python {
 
 namespace py = pybind11;
-
-/// What a partition is, with how good it is.
-struct Python_partition {
-  std::string strategy = {};
-  Numbered_partition partition = {};
-  Partition_measures measures = {};
-};
 
 /// The closest faces of two objects, by name.
 py::dict closest_fields(const Closest_faces& closest);

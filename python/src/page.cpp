@@ -7,6 +7,7 @@
 #include <span>
 
 #include "detector.h"
+#include "io/files/small_text.h"
 #include "io/results/frame_json.h"
 #include "io/results/page_frame.h"
 #include "lodestone/io/files/atomic_file.h"
@@ -96,7 +97,7 @@ class Python_page {
   }
 
   void save(const std::filesystem::path& path) const {
-    if (path.extension() != ".html") throw Bad_argument(path.string() + ": a page is written as .html");
+    if (lower_case(path.extension().string()) != ".html") throw Bad_argument(path.string() + ": a page is written as .html");
     const Without_gil without_gil;
     const auto viewer = viewer_template(path);
     const std::lock_guard lock(mutex_);

@@ -4,7 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include "frame.h"
-#include "one_call.h"
+#include "partition.h"
 
 /// What functions found, as bytes and back: for `pickle`, `copy` and other processes.
 namespace lodestone::python {

@@ -24,7 +24,7 @@ class Function_strategy {
     const auto& positions = surface.positions;
     const auto vertices = positions_array({positions.data(), static_cast<std::size_t>(positions.size())});
     const py::object labels = (*given_.function)(vertices, faces_array(surface.faces), regions);
-    return {.labels = indices_of(labels, "the labels of the strategy " + given_.name)};
+    return {.labels = indices_of(labels, "labels of the strategy " + given_.name)};
   }
 
  private:

@@ -25,6 +25,31 @@ def test_a_written_mesh_is_read_again(tmp_path, extension):
     assert lodestone.find_collisions(read, cube()).collides
 
 
+def test_positions_of_a_file_cannot_be_written_by_mistake(tmp_path):
+    path = tmp_path / "ball.obj"
+    lodestone.write_mesh(path, sphere(4))
+    ball = lodestone.read_mesh(path)
+    with pytest.raises(ValueError, match="read-only"):
+        ball.vertices[:] += 1
+    detector = lodestone.Detector()
+    detector.add(ball)
+    with pytest.raises(lodestone.BadArgument, match="add a copy of its vertices"):
+        detector.set_vertices(0, ball.vertices + 1)
+    assert ball.ignored_extensions == []
+    for name in ["shape:teapot", "scene.json#teapot", "SCENE.JSON"]:
+        with pytest.raises(lodestone.BadArgument, match="read by read_scene"):
+            lodestone.read_mesh(name)
+
+
+def test_extensions_that_place_surfaces_are_told(tmp_path):
+    path = tmp_path / "copies.gltf"
+    lodestone.write_mesh(path, sphere(2))
+    document = json.loads(path.read_text())
+    document["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": {}}}
+    path.write_text(json.dumps(document))
+    assert lodestone.read_mesh(path).ignored_extensions == ["EXT_mesh_gpu_instancing"]
+
+
 def test_a_polygon_is_cut_and_told(tmp_path):
     path = tmp_path / "quad.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nf 1 2 3 4\n")
