@@ -34,9 +34,9 @@ class Build_with_cmake(build_ext):
         subprocess.run(["cmake", "--build", folder, "--parallel", jobs, "--target", "lodestone_python"], check=True)
         target = pathlib.Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
-        built = next((folder / "python" / "lodestone").glob("_lodestone*.so"))
-        if not built.name.endswith(sysconfig.get_config_var("EXT_SUFFIX")):
-            raise SystemExit(f"{built} is not for {sys.executable}: it is built for /usr/bin/python3, so use that")
+        built = folder / "python" / "lodestone" / ("_lodestone" + sysconfig.get_config_var("EXT_SUFFIX"))
+        if not built.exists():
+            raise SystemExit(f"{built} is missing: the module is built for /usr/bin/python3, not for {sys.executable}")
         shutil.copy2(built, target)
 
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs libraries, headers, packages for CMake and pkg-config, the programs and their files. Components are packages
 # of their own, see packages.cmake: library, development, program, experiments, python.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # Libraries. Each has a file of targets of its own, since a user of the shared one need not have what the static one
@@ -30,7 +29,14 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lodestoneConfig.cmake ${CMAKE_CURRENT_
 # pkg-config. Macros and options of the compiler are those of the target. Paths are relative to the file, so that an
 # installation can be moved.
 set(pkgconfig_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-file(RELATIVE_PATH from_pkgconfig_to_prefix ${CMAKE_INSTALL_PREFIX}/${pkgconfig_folder} ${CMAKE_INSTALL_PREFIX})
+file(RELATIVE_PATH from_pkgconfig_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+foreach(folder LIBDIR INCLUDEDIR)
+  if(IS_ABSOLUTE "${CMAKE_INSTALL_${folder}}")
+    set(pkgconfig_${folder} ${CMAKE_INSTALL_${folder}})
+  else()
+    set(pkgconfig_${folder} "\${prefix}/${CMAKE_INSTALL_${folder}}")
+  endif()
+endforeach()
 configure_file(cmake/lodestone.pc.in lodestone.pc.in @ONLY)
 file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/lodestone.pc INPUT ${CMAKE_CURRENT_BINARY_DIR}/lodestone.pc.in
      TARGET lodestone)

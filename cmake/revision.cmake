@@ -3,7 +3,10 @@
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12
                 OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
-if(failed)
+# An unpacked archive may lie in the repository of something else.
+execute_process(COMMAND git -C ${SOURCE} rev-parse --show-prefix
+                OUTPUT_VARIABLE inside OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(failed OR inside)
   set(revision "unknown")
 endif()
 file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT

@@ -6,7 +6,12 @@ import re
 import sys
 
 # Files, and the line that names the version.
-FILES = {"CITATION.cff": r"^version: (.*)$"}
+FILES = {
+    "CITATION.cff": r"^version: (.*)$",
+    "docs/install.md": r"liblodestone(\d+\.\d+)`|find_package\(lodestone (\d+\.\d+)",
+    "tests/package/CMakeLists.txt": r"find_package\(lodestone (\d+\.\d+)",
+    "tests/package/sibling/CMakeLists.txt": r"find_package\(lodestone (\d+\.\d+)",
+}
 
 
 def version_of(repository):
@@ -20,9 +25,12 @@ def main():
     complaints = []
     for name, line in FILES.items():
         file = repository / name
-        found = file.exists() and re.search(line, file.read_text(encoding="utf-8"), re.M)
-        if found and found[1] != version:
-            complaints.append(f"{name}: version {found[1]}, but version.h has {version}")
+        found = re.findall(line, file.read_text(encoding="utf-8"), re.M)
+        if not found:
+            complaints.append(f"{name}: no version is found")
+        for other in ("".join(groups) for groups in found):
+            if not (version + ".").startswith(other + "."):
+                complaints.append(f"{name}: version {other}, but version.h has {version}")
     if complaints:
         sys.exit("\n".join(complaints))
 
