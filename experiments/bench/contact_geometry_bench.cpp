@@ -25,10 +25,8 @@ void contact_geometry(benchmark::State& state, const std::string& scene_name) {
   Frame_player player(scene_name);
   std::deque<Detector<>> detectors;
   for (const auto& [points, normals] : {std::pair{false, false}, {true, false}, {true, true}}) {
-    detectors.emplace_back(Detector_options{.mode = Mode::exact,
-                                            .contacts = Contact_query::all,
-                                            .contact_points = points,
-                                            .contact_normals = normals});
+    detectors.emplace_back(Detector_options{
+        .mode = Mode::exact, .contacts = Contact_query::all, .contact_points = points, .contact_normals = normals});
     for (auto& object : player.scene().objects) detectors.back().add(std::as_const(object.mesh));
   }
   player.next();
@@ -150,20 +148,20 @@ void touching_points(benchmark::State& state, const std::vector<Triangle_pair>& 
 
 Point flat(double u, double v) { return {u, v, 0}; }
 /// In a plane but for rounding.
-Point on_a_slope(double u, double v) {
-  return {0.8 * u - 0.36 * v, 0.6 * u + 0.48 * v, 0.8 * v};
-}
+Point on_a_slope(double u, double v) { return {0.8 * u - 0.36 * v, 0.6 * u + 0.48 * v, 0.8 * v}; }
 
 BENCHMARK_CAPTURE(touching_points, same_sheet, touching_pairs(sheet(flat), sheet(flat)))->Iterations(20);
 BENCHMARK_CAPTURE(touching_points, shifted_in_its_plane, touching_pairs(sheet(flat), sheet([](double u, double v) {
                                                                           return Point(u + 0.0731, v + 0.0417, 0);
-                                                                        })))->Iterations(20);
+                                                                        })))
+    ->Iterations(20);
 BENCHMARK_CAPTURE(touching_points, shifted_on_a_slope, touching_pairs(sheet(on_a_slope), sheet([](double u, double v) {
                                                                         return on_a_slope(u + 0.0731, v + 0.0417);
-                                                                      })))->Iterations(20);
-BENCHMARK_CAPTURE(touching_points, standing_on_it, touching_pairs(sheet(flat), sheet([](double u, double v) {
-                                                                    return Point(0.1 + 0.3 * u, v, u);
-                                                                  })))->Iterations(20);
+                                                                      })))
+    ->Iterations(20);
+BENCHMARK_CAPTURE(touching_points, standing_on_it,
+                  touching_pairs(sheet(flat), sheet([](double u, double v) { return Point(0.1 + 0.3 * u, v, u); })))
+    ->Iterations(20);
 
 }  // namespace
 

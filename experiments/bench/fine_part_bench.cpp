@@ -21,8 +21,7 @@ constexpr std::uint32_t frequency = 64;  // 81 920 faces
 
 Surface_mesh ball(double size, double x) {
   Surface_mesh mesh = icosphere(frequency);
-  for (Point& p : mesh.points())
-    p = Point(size * (p.x() + x), size * (p.y() + 0.013), size * (p.z() + 0.31));
+  for (Point& p : mesh.points()) p = Point(size * (p.x() + x), size * (p.y() + 0.013), size * (p.z() + 0.31));
   return mesh;
 }
 

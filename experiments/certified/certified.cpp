@@ -120,6 +120,7 @@ Plan plan_of(const Experiment_context& context) {
   if (!scenes.empty() || (context.only.empty() && !context.scenes_given)) {
     plan.promises = context;
     plan.promises->only = scenes;
+    scene_names(*plan.promises);  // an unknown name must not end the experiment after hours
   }
   return plan;
 }

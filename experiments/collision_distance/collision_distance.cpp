@@ -15,13 +15,17 @@ std::string run_collision_distance(const Experiment_context& context) {
   std::vector<Setting> settings;
   for (const std::size_t particles : {12, 32}) {
     for (const double distance : {0.5, 1.0, 2.0, 4.0, 8.0})
-      settings.push_back({fmt::format("{} x mean edge", distance),
-                          {.mode = Mode::particles, .particles = particles, .meetings = 0, .collision_distance = distance}});
+      settings.push_back(
+          {fmt::format("{} x mean edge", distance),
+           {.mode = Mode::particles, .particles = particles, .meetings = 0, .collision_distance = distance}});
+    settings.push_back({"mean of all vertex pairs",
+                        {.mode = Mode::particles,
+                         .particles = particles,
+                         .meetings = 0,
+                         .distance_measure = Distance_measure::all_vertices}});
     settings.push_back(
-        {"mean of all vertex pairs",
-         {.mode = Mode::particles, .particles = particles, .meetings = 0, .distance_measure = Distance_measure::all_vertices}});
-    settings.push_back({"1 x mean edge, closest pair only",
-                        {.mode = Mode::particles, .particles = particles, .meetings = 0, .candidates = Candidate_choice::closest}});
+        {"1 x mean edge, closest pair only",
+         {.mode = Mode::particles, .particles = particles, .meetings = 0, .candidates = Candidate_choice::closest}});
   }
   const auto run = measure(scenes, settings, context.progress);
 

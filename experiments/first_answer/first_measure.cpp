@@ -144,8 +144,8 @@ void ask_all(Once_scene& scene, Contact_query query, std::span<const Face_pair> 
 
 std::optional<std::size_t> pays_from(const Once_times& session, const Once_times& calls) {
   if (session.first <= calls.first) return 1;
-  if (session.frame >= calls.first) return std::nullopt;
-  return static_cast<std::size_t>(std::ceil((session.first - session.frame) / (calls.first - session.frame)));
+  if (session.frame >= calls.frame) return std::nullopt;
+  return 1 + static_cast<std::size_t>(std::ceil((session.first - calls.first) / (calls.frame - session.frame)));
 }
 
 std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<const Once_contestant> contestants,

@@ -17,8 +17,8 @@ std::string run_growth(const Experiment_context& context) {
   std::vector<Setting> settings;
   for (const std::size_t particles : {0, 12, 32})
     for (const double growth : {1.0, 1.25, 1.5, 2.0, std::numeric_limits<double>::infinity()})
-      settings.push_back(
-          {fmt::format("{} A*", growth), {.mode = Mode::particles, .particles = particles, .meetings = 0, .growth = growth}});
+      settings.push_back({fmt::format("{} A*", growth),
+                          {.mode = Mode::particles, .particles = particles, .meetings = 0, .growth = growth}});
   const auto run = measure(scenes, settings, context.progress);
 
   Text_table table({"particles wanted", "limit", "repartitions", "particles at the end", "recall", "accuracy",

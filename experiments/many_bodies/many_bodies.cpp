@@ -40,6 +40,8 @@ std::vector<Crowd_size> chosen_sizes(const std::vector<std::string>& only) {
     const auto found = std::ranges::find(all, number, [](const auto& size) { return std::to_string(size.bodies); });
     if (found == all.end())
       throw Bad_argument(fmt::format("--only: there are scenes of 20, 100, 500 and 2000 bodies, not of {}", number));
+    if (std::ranges::find(chosen, found->bodies, &Crowd_size::bodies) != chosen.end())
+      throw Bad_argument(fmt::format("--only: {} is given twice", number));
     chosen.push_back(*found);
   }
   return chosen;

@@ -46,9 +46,18 @@ struct Setting_summary {
   std::size_t scenes = 0;  ///< with a recall
   double least_recall = 1;
   std::string least_scene = not_measured;
+  double face_pairs = 0;             ///< sum of the shares that were found
+  std::size_t face_pair_scenes = 0;  ///< in which there are any
+  double least_face_pairs = 1;
 
   void add(const Mode_figures& figures) {
     score.add(figures.measurement.score);
+    if (const auto [found, all] = figures.face_pairs; !is_exact(figures) && all > 0) {
+      const double share = static_cast<double>(found) / static_cast<double>(all);
+      face_pairs += share;
+      ++face_pair_scenes;
+      least_face_pairs = std::min(least_face_pairs, share);
+    }
     const auto recall = recall_interval(figures);
     if (!recall) return;
     recalls += recall->mean;
@@ -94,15 +103,18 @@ std::string table_of_scenes(std::span<const Mode_figures> rows) {
 }
 
 std::string table_of_settings(std::span<const Mode_figures> rows) {
-  Text_table table({"mode", "scenes", "mean recall", "least recall", "in scene", "false positives", "precision"});
+  Text_table table({"mode", "scenes", "mean recall", "least recall", "in scene", "mean face pairs", "least face pairs",
+                    "precision"});
   for (const auto& summary : summaries(rows)) {
-    const auto text = [&](double recall) {
-      return summary.scenes > 0 ? fmt::format("{:.3f}", recall) : std::string(not_measured);
+    const auto text = [](double share, std::size_t scenes) {
+      return scenes > 0 ? fmt::format("{:.3f}", share) : std::string(not_measured);
     };
-    table.add({summary.setting, std::to_string(summary.scenes),
-               text(summary.recalls / static_cast<double>(summary.scenes)), text(summary.least_recall),
-               summary.least_scene, std::to_string(summary.score.false_positives()),
-               fmt::format("{:.3f}", summary.score.precision())});
+    const auto mean = [&](double sum, std::size_t scenes) { return text(sum / static_cast<double>(scenes), scenes); };
+    table.add(
+        {summary.setting, std::to_string(summary.scenes), mean(summary.recalls, summary.scenes),
+         text(summary.least_recall, summary.scenes), summary.least_recall < 1 ? summary.least_scene : not_measured,
+         mean(summary.face_pairs, summary.face_pair_scenes), text(summary.least_face_pairs, summary.face_pair_scenes),
+         fmt::format("{:.3f}", summary.score.precision())});
   }
   return table.text();
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "shared/face_pair_count.h"
 #include "program/measurement.h"
+#include "shared/face_pair_count.h"
 #include "shared/interval.h"
 
 namespace lodestone {
@@ -29,7 +29,8 @@ std::optional<Interval> recall_interval(const Mode_figures& figures);
 
 /// A row per scene and setting.
 std::string table_of_scenes(std::span<const Mode_figures> rows);
-/// A row per setting: mean and least recall over the scenes in which something collides, and false positives.
+/// A row per setting: mean and least recall, of frames and of face pairs, over the scenes in which something collides;
+/// and precision.
 std::string table_of_settings(std::span<const Mode_figures> rows);
 
 nlohmann::ordered_json to_json(const Mode_figures& figures);

@@ -120,7 +120,7 @@ std::string report(std::span<const Mode_figures> rows, std::span<const std::stri
       "of more than {} triangles the mode exact is the truth, and has no recall of its own.\n\n",
       plays, plays, most_triangles_for_all_plays, most_triangles_for_exhaustive_truth);
   text += table_of_scenes(rows);
-  text += "\nOver the scenes in which something collides; false positives over all scenes and plays:\n\n";
+  text += "\nOver the scenes in which something collides; precision over all scenes and plays:\n\n";
   text += table_of_settings(rows);
   if (!skipped.empty())
     text += fmt::format("\nSkipped, because no two of their objects can meet: {}.\n", fmt::join(skipped, ", "));

@@ -53,7 +53,7 @@ Json partition_manifest() {
     inputs[std::string(mesh.name) + "/ball"] = hash_of(mesh.make_ball());
   }
   return {{"revision", source_revision()}, {"compiler", "GCC " __VERSION__}, {"processors", {processor()}},
-          {"regions", partition_counts}, {"seeds", partition_seeds},       {"inputs", std::move(inputs)}};
+          {"regions", partition_counts},   {"seeds", partition_seeds},       {"inputs", std::move(inputs)}};
 }
 
 Json read_manifest(const std::filesystem::path& folder) {

@@ -104,7 +104,7 @@ bool fits(const Partition_variant& variant, const Partition_mesh& mesh) {
 template <class Named_list>
 std::string joined_names(const Named_list& list) {
   std::vector<std::string> names;
-  for (const auto& named : list) names.emplace_back(named.name);
+  for (const auto& named : list) names.push_back(fmt::format("'{}'", named.name));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

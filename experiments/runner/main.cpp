@@ -36,6 +36,17 @@ std::string readers_of(std::string_view option) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// Names are divided at commas; one after which a blank follows is part of a name, such as `lbg, islands kept`.
+std::vector<std::string> whole_names(const std::vector<std::string>& parts) {
+  std::vector<std::string> names;
+  for (const auto& part : parts)
+    if (!names.empty() && part.starts_with(' '))
+      names.back() += "," + part;
+    else
+      names.push_back(part);
+  return names;
+}
+
 void add_options(CLI::App& app, Experiment_command& command) {
   std::vector<std::string> names;
   std::string list = "Experiments:";
@@ -108,6 +119,7 @@ int run_experiment(int argc, char** argv) {
   add_options(app, command);
   if (const auto done = parse(app, argc, argv)) return *done;
   refuse_options_of_other_experiments(app, command.name);
+  command.only = whole_names(command.only);
   command.words = words_of_work({argv + 1, argv + argc});
   command.words.insert(command.words.begin(), "experiment");
   return run(command);

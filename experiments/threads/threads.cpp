@@ -70,7 +70,7 @@ Thread_figures measure(const Threaded_work& work, std::size_t triangles, std::sp
 
 Character_scene hands_of(std::size_t triangles) {
   const auto hand = *read_character(installed_files() / "characters" / "hand.glb");
-  return with_triangles(touching("hands", hand, hand), triangles);
+  return with_triangles(touching("hands", hand, hand), triangles / 2);
 }
 
 /// Bodies of some 3000 triangles each.
@@ -79,6 +79,12 @@ Scene crowd_of(std::size_t triangles) { return crowd(std::max<std::size_t>(3, tr
 std::size_t triangles_of(const Scene& scene) {
   std::size_t sum = 0;
   for (const auto& object : scene.objects) sum += object.mesh.number_of_faces();
+  return sum;
+}
+
+std::size_t triangles_of(const Character_scene& scene) {
+  std::size_t sum = 0;
+  for (const auto& character : scene.characters) sum += character.mesh.number_of_faces();
   return sum;
 }
 
@@ -114,7 +120,9 @@ std::string run_threads(const Experiment_context& context) {
     const std::size_t of_hands = works.size();
     std::ranges::move(works_on(bodies), std::back_inserter(works));
     for (std::size_t i = 0; i < works.size(); ++i) {
-      const std::size_t triangles = i < of_pair ? pair.triangles() : i < of_hands ? size : triangles_of(bodies);
+      const std::size_t triangles = i < of_pair    ? pair.triangles()
+                                    : i < of_hands ? triangles_of(hands)
+                                                   : triangles_of(bodies);
       all.push_back(measure(works[i], triangles, threads));
       context.progress(++done, sizes.size() * works.size());
     }

@@ -16,7 +16,11 @@ class Particle_entrant : public Entrant {
  public:
   Particle_entrant(std::span<const Moving_mesh> meshes, std::size_t particles,
                    std::shared_ptr<Particle_figures> figures)
-      : detector_({.mode = Mode::particles, .particles = particles, .meetings = 0, .contacts = Contact_query::yes_no, .growth = 1.25}),
+      : detector_({.mode = Mode::particles,
+                   .particles = particles,
+                   .meetings = 0,
+                   .contacts = Contact_query::yes_no,
+                   .growth = 1.25}),
         figures_(std::move(figures)) {
     for (const auto& mesh : meshes) detector_.add(*mesh.mesh);
     detector_.detect();  // the first frame partitions the surfaces

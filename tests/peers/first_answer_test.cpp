@@ -61,6 +61,9 @@ TEST(First_answer, a_build_pays_from_the_frame_in_which_it_has_caught_up) {
   EXPECT_EQ(pays_from({.first = 55, .frame = 1}, calls), 6U);  // 55 + 5 = 60
   EXPECT_EQ(pays_from({.first = 56, .frame = 1}, calls), 7U);
   EXPECT_EQ(pays_from({.first = 11, .frame = 10}, calls), std::nullopt);
+  const Once_times warm{.first = 10, .frame = 3};             // a call whose data the caches still hold
+  EXPECT_EQ(pays_from({.first = 20, .frame = 1}, warm), 6U);  // 20 + 5 = 10 + 5 * 3
+  EXPECT_EQ(pays_from({.first = 20, .frame = 5}, warm), std::nullopt);
   EXPECT_EQ((Once_times{.first = 5, .frame = 2}.of_frames(10)), 23);
 }
 
