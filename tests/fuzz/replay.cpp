@@ -49,15 +49,14 @@ void print_current(int /*signal*/) {
   std::fprintf(stderr, "\n");
 }
 
-/// Each input depends only on its seed, which is one more than that of the input before.
+/// All inputs are drawn from one sequence, so that those of two seeds have nothing in common.
 void run_random(const Target& target, std::uint64_t inputs, std::uint64_t seed) {
   constexpr std::size_t longest = 80;
   std::signal(SIGABRT, print_current);
-  for (const auto end = seed + inputs; seed < end; ++seed) {
-    std::minstd_rand random(static_cast<std::uint32_t>(seed * 2654435761U));
-    random.discard(2);
+  std::mt19937_64 random(seed);
+  for (std::uint64_t input = 0; input < inputs; ++input) {
     current.resize(random() % longest);
-    for (auto& byte : current) byte = static_cast<std::uint8_t>(random() >> 8U);
+    for (auto& byte : current) byte = static_cast<std::uint8_t>(random());
     target.run(current);
   }
   std::printf("%s: %llu random inputs\n", target.name, static_cast<unsigned long long>(inputs));

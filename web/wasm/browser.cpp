@@ -58,8 +58,8 @@ val answer(const Read_mesh& a, const std::optional<Read_mesh>& other) {
   if (other) page.add_object(b.name, static_cast<std::uint32_t>(b.coordinates.size() / 3), b.corners);
   Page_frame shown{.positions = {a.positions()}};
   if (other) shown.positions.push_back(b.positions());
-  shown.contacts = page_contacts(
-      *frame, [&](Object_id object, std::uint32_t face) { return (object == 0 ? a : b).triangle(face); });
+  shown.contacts =
+      page_contacts(*frame, [&](Object_id object, std::uint32_t face) { return (object == 0 ? a : b).triangle(face); });
   page.add_frame(std::move(shown));
   const std::string data = page.data();
 
@@ -67,8 +67,9 @@ val answer(const Read_mesh& a, const std::optional<Read_mesh>& other) {
   result.set("collides", frame->collides());
   result.set("contacts", frame->face_pairs.size());
   result.set("milliseconds", milliseconds);
-  result.set("data", val::global("Uint8Array").new_(emscripten::typed_memory_view(
-                         data.size(), reinterpret_cast<const unsigned char*>(data.data()))));
+  result.set("data", val::global("Uint8Array")
+                         .new_(emscripten::typed_memory_view(data.size(),
+                                                             reinterpret_cast<const unsigned char*>(data.data()))));
   return result;
 }
 

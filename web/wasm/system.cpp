@@ -12,7 +12,11 @@ namespace hwy {
 
 Sorter::Sorter() = default;
 void Sorter::Delete() {}
-void Sorter::operator()(std::uint32_t* keys, std::size_t n, SortAscending /*order*/) const { std::sort(keys, keys + n); }
-void Sorter::operator()(std::uint64_t* keys, std::size_t n, SortAscending /*order*/) const { std::sort(keys, keys + n); }
+void Sorter::operator()(std::uint32_t* keys, std::size_t n, SortAscending /*order*/) const {
+  std::sort(keys, keys + n);
+}
+void Sorter::operator()(std::uint64_t* keys, std::size_t n, SortAscending /*order*/) const {
+  std::sort(keys, keys + n);
+}
 
 }  // namespace hwy

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstddef>
-#include <cctype>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -69,7 +69,8 @@ unique_ptr<T> make_unique_for_overwrite() {
 /// By strtod, which also takes blanks, a plus sign and hexadecimal numbers.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {
   const char* digits = first != last && *first == '-' ? first + 1 : first;
-  const bool is_number = digits != last && *digits != '+' && *digits != '-' && !isspace(static_cast<unsigned char>(*digits));
+  const bool is_number =
+      digits != last && *digits != '+' && *digits != '-' && !isspace(static_cast<unsigned char>(*digits));
   const bool is_hexadecimal = last - digits > 1 && digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X');
   if (!is_number) return {first, errc::invalid_argument};
   if (is_hexadecimal) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part of zlib that pages need, without compression: deflate streams of stored blocks (RFC 1951, 3.2.4). A page that
-// stays in the browser need not be small.
+// The part of zlib that pages need, without compression: deflate streams of stored blocks (RFC 1951, 3.2.4). A page
+// that stays in the browser need not be small.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,8 @@ struct z_stream {
   bool finished = false;
 };
 
-inline constexpr int Z_OK = 0, Z_NO_FLUSH = 0, Z_FINISH = 4, Z_BEST_COMPRESSION = 9, Z_DEFLATED = 8, Z_DEFAULT_STRATEGY = 0;
+inline constexpr int Z_OK = 0, Z_NO_FLUSH = 0, Z_FINISH = 4, Z_BEST_COMPRESSION = 9, Z_DEFLATED = 8,
+                     Z_DEFAULT_STRATEGY = 0;
 
 inline int deflateInit2(z_stream*, int, int, int, int, int) { return Z_OK; }
 inline int deflateEnd(z_stream*) { return Z_OK; }

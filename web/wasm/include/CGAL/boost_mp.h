@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Without GMP, CGAL's exact numbers are quotients of Boost's integers. CGAL 5.5 makes them from doubles by doubling until
-// there is no fraction, where the denominator overflows for subnormal numbers. Here it is a power of two of any size.
+// Without GMP, CGAL's exact numbers are quotients of Boost's integers. CGAL 5.5 makes them from doubles by doubling
+// until there is no fraction, where the denominator overflows for subnormal numbers. Here it is a power of two of any
+// size.
 #pragma once
 
 #include_next <CGAL/boost_mp.h>
