@@ -59,7 +59,8 @@ class Detector {
       : strategy_(std::make_shared<const Strategy>(std::move(strategy))), detection_(make_detection<Volume>(options)) {}
 
   /// Adds an object, and adds the maps `v:region` and `v:particle` to its mesh. Maps of these names that the mesh has
-  /// already are taken, and their values replaced. Two detectors that share a mesh write to the same maps.
+  /// already are taken, and their values replaced. Two detectors that share a mesh write to the same maps,
+  /// so in two threads they must add it as const.
   /// @throws Bad_mesh      no face, a face that is not a triangle; a Surface_mesh with removed elements: call its
   ///                       `collect_garbage` first
   /// @throws Bad_argument  the mesh has been added before; mode `exact`: `file_vertex` does not have one entry per

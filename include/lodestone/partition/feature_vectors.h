@@ -36,8 +36,8 @@ Positions vertex_normals(const Positions& positions, std::span<const Corners> fa
 /// The feature vectors of \cite saenghaengtham2006: position and normal of each vertex, each times its weight.
 ///
 /// Positions are taken relative to their mean and divided by the largest distance from it, so that neither a
-/// translation nor a uniform scale of the mesh changes the result. Every position counts, whether or not a face uses
-/// it. Cost O(V + F).
+/// translation nor a uniform scale of the mesh changes the result, but for rounding. Every position counts, whether or
+/// not a face uses it. Cost O(V + F).
 ///
 /// @return V x k: k = 6 components, or k = 3 if one weight is 0
 /// @throws Bad_argument  a weight is out of range, or both are 0
