@@ -40,6 +40,10 @@ TEST(Certified_experiment, measures_characters_and_scenes_with_promises) {
   EXPECT_NE(read_bytes(out / "certified.md").find("## Scenes with promises"), std::string::npos);
 }
 
+TEST(Certified_experiment, finds_an_unknown_name_before_it_plays_anything) {
+  expect_error(run_program({"experiment", "certified", "--only", "hands,4000000,nosuch"}), 3, "there is no such scene");
+}
+
 TEST(Certified_experiment, writes_its_characters_and_plays_those_of_another_folder) {
   const Temporary_folder folder;
   const auto characters = folder.path() / "characters";

@@ -42,7 +42,8 @@ TEST(Many_bodies_experiment, fits_an_exponent_per_mode_to_several_numbers_of_bod
   EXPECT_NE(report.find("Exponent of the median time against the number of bodies: "), std::string::npos) << report;
 }
 
-TEST(Many_bodies_experiment, refuses_another_number_of_bodies) {
+TEST(Many_bodies_experiment, refuses_another_number_of_bodies_and_one_twice) {
+  expect_error(run_program({"experiment", "many_bodies", "--only", "20,20"}), 2, "20 is given twice");
   expect_error(run_program({"experiment", "many_bodies", "--only", "21"}), 2,
                "there are scenes of 20, 100, 500 and 2000 bodies, not of 21");
 }

@@ -248,6 +248,9 @@ TEST_F(Partitions_experiment, bad_options_are_refused_in_one_line) {
     expect_error(run_program(command("a", {"--shard", text})), 2, "--shard");
   expect_error(run_program(command("a", {"--jobs", "0"})), 2, "jobs");
   expect_error(run_program({"experiment", "partitions", "--only", "nothing"}), 2, "nothing");
+  // A name may hold a comma: the only one that is not known here is the last.
+  expect_error(run_program({"experiment", "partitions", "--only", "lbg, islands kept,lbg,other"}), 2,
+               "variant 'other';");
 }
 
 TEST_F(Partitions_experiment, a_full_disk_is_an_error_and_a_second_sweep_in_the_same_folder_is_refused) {
