@@ -169,6 +169,15 @@ TEST_F(Animation_output, gltf_refers_only_to_what_it_holds) {
   expect_one_of("scenes", json["scene"]);
 }
 
+/// Readers store offsets within a view as 32-bit numbers, which the frames of a long animation exceed together.
+TEST_F(Animation_output, gltf_has_no_offsets_within_views) {
+  write_animation(folder.path() / "a.gltf", square, {.regions = {0, 0, 1, 1, 2}});
+  const auto json = read_json(folder.path() / "a.gltf");
+  EXPECT_EQ(json["accessors"].size(), 9U) << "corners, five frames, colours, times, weights";
+  EXPECT_EQ(json["bufferViews"].size(), json["accessors"].size());
+  for (const auto& accessor : json["accessors"]) EXPECT_EQ(accessor.value("byteOffset", 0), 0) << accessor;
+}
+
 TEST_F(Animation_output, gltf_tells_the_ranges_of_its_numbers) {
   write_animation(folder.path() / "a.gltf", square);
   const auto json = read_json(folder.path() / "a.gltf");
