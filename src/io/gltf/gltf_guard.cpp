@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "io/gltf/gltf_unread.h"
+
 namespace lodestone {
 namespace {
 
@@ -465,40 +467,6 @@ std::size_t Guard::targets_of(std::size_t node) const {
   return plain.contains("mesh") ? mesh_targets_[plain["mesh"].get<std::size_t>()] : 0;
 }
 
-/// Extensions that say where surfaces are. A file may call them optional, but without them it shows something else.
-std::set<std::string> ignored_extensions(const Json& document) {
-  std::set<std::string> result;
-  const Json::json_pointer copies("/extensions/EXT_mesh_gpu_instancing");
-  for (const auto& node : document.value("nodes", Json::array()))
-    if (node.contains(copies)) result.insert("EXT_mesh_gpu_instancing");
-  const Json::json_pointer pointer("/target/extensions/KHR_animation_pointer/pointer");
-  for (const auto& animation : document.value("animations", Json::array()))
-    for (const auto& channel : animation.value("channels", Json::array())) {
-      if (!channel.contains(pointer) || !channel[pointer].is_string()) continue;
-      const auto moved = channel[pointer].get<std::string>();  // others are materials, lights or cameras
-      if (moved.starts_with("/nodes/") || moved.starts_with("/meshes/")) result.insert("KHR_animation_pointer");
-    }
-  return result;
-}
-
-/// What the file holds beside positions and their motion. `document` has passed the guard.
-std::set<std::string> content_not_read(const Json& document) {
-  std::set<std::string> result;
-  if (document.contains("materials")) result.insert("materials");
-  const auto nodes = document.value("nodes", Json::array());
-  if (std::ranges::count_if(nodes, [](const Json& node) { return node.contains("mesh"); }) > 1) result.insert("groups");
-  for (const auto& mesh : document.value("meshes", Json::array()))
-    for (const auto& primitive : mesh.value("primitives", Json::array())) {
-      const auto mode = primitive.find("mode");
-      if (mode != primitive.end() && mode->is_number() && *mode < 4) result.insert(*mode == 0 ? "points" : "lines");
-      const auto attributes = primitive.value("attributes", Json::object());
-      if (attributes.contains("TEXCOORD_0")) result.insert("texture coordinates");
-      if (attributes.contains("COLOR_0")) result.insert("colours");
-      if (attributes.contains("NORMAL")) result.insert("normals");
-    }
-  return result;
-}
-
 }  // namespace
 
 Guarded_gltf guard_gltf(const std::filesystem::path& file) {
@@ -510,7 +478,7 @@ Guarded_gltf guard_gltf(const std::filesystem::path& file) {
   return {.plain = std::move(plain),
           .buffers = std::move(buffers),
           .files = std::move(document.files),
-          .not_read = content_not_read(document.json),
+          .not_read = unread_content(document.json),
           .ignored_extensions = ignored_extensions(document.json)};
 }
 
