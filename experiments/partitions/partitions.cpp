@@ -60,10 +60,13 @@ Sharded_experiment work_of(const std::vector<std::string>& ids) {
 /// In a journal, the id of the row that tells of which work it is.
 constexpr const char* row_of_work = "work";
 
-/// Removes the journal of a shard that holds runs of other work, such as of another revision.
-void drop_other_work(const Shard_folder& folder, std::size_t index) {
+/// Removes the journal of a shard that holds runs of other work, such as of another revision; from one that is damaged,
+/// what comes after the damage.
+void drop_what_is_of_no_use(const Shard_folder& folder, std::size_t index) {
   const auto journal = folder.journal(index);
   if (!std::filesystem::exists(journal)) return;
+  if (const std::string whole = whole_rows(journal); whole.size() < std::filesystem::file_size(journal))
+    write_whole(journal, whole);
   const auto rows = read_rows(journal);
   const auto work = rows.find(row_of_work);
   if (work == rows.end() || work->second.value("hash", "") != folder.work()) std::filesystem::remove(journal);
@@ -79,7 +82,7 @@ std::string make_shard(const Experiment_context& context, const std::vector<Part
   if (folder.is_done(index)) return said_of_shard(folder, index, runs.size());
   std::vector<std::string> ids;
   for (const auto run : runs) ids.push_back(all_ids[run]);
-  drop_other_work(folder, index);
+  drop_what_is_of_no_use(folder, index);
   {
     Row_file rows(folder.journal(index));
     rows.add({{"id", row_of_work}, {"hash", folder.work()}});

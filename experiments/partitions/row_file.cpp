@@ -28,13 +28,14 @@ std::string content_of(const std::filesystem::path& file) {
 /// @return length of the lines that end with a line break
 std::size_t whole_lines(std::string_view text) { return text.rfind('\n') + 1; }
 
+bool is_row(const Row_file::Row& json) { return json.is_object() && json.contains("id") && json["id"].is_string(); }
+
 std::map<std::string, Row_file::Row> parsed(const std::filesystem::path& file, std::string_view lines) {
   std::map<std::string, Row_file::Row> rows;
   for (std::size_t number = 1; !lines.empty(); ++number) {
     const std::size_t end = lines.find('\n');
     auto row = Row_file::Row::parse(lines.substr(0, end), nullptr, false);
-    if (!row.is_object() || !row.contains("id") || !row["id"].is_string())
-      throw Bad_argument(fmt::format("{}:{}: is no row of a sweep", file.string(), number));
+    if (!is_row(row)) throw Bad_argument(fmt::format("{}:{}: is no row of a sweep", file.string(), number));
     const auto id = row["id"].get<std::string>();
     rows.emplace(id, std::move(row));
     lines.remove_prefix(end + 1);
@@ -43,6 +44,15 @@ std::map<std::string, Row_file::Row> parsed(const std::filesystem::path& file, s
 }
 
 }  // namespace
+
+std::string whole_rows(const std::filesystem::path& file) {
+  std::string text = content_of(file);
+  std::size_t whole = 0;
+  for (std::size_t end = 0; (end = text.find('\n', whole)) != std::string::npos; whole = end + 1)
+    if (!is_row(Row_file::Row::parse(std::string_view(text).substr(whole, end - whole), nullptr, false))) break;
+  text.resize(whole);
+  return text;
+}
 
 std::map<std::string, Row_file::Row> read_rows(const std::filesystem::path& file) {
   const std::string text = content_of(file);

@@ -39,6 +39,10 @@ class Row_file {
   std::map<std::string, Row> rows_;
 };
 
+/// The beginning of a file of rows, up to the first line that is none.
+/// @throws Bad_argument  no such file
+std::string whole_rows(const std::filesystem::path& file);
+
 /// Reads the rows of a file, whether or not a program has it open. A cut-off line at its end is left out.
 /// @throws Bad_argument  no such file; as Row_file
 std::map<std::string, Row_file::Row> read_rows(const std::filesystem::path& file);

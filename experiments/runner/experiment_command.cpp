@@ -60,8 +60,10 @@ int run(const Experiment_command& command) {
     if (!command.quiet) fmt::print("{}", report);
     return exit_code::success;
   }
-  write_whole(out / (command.name + ".md"), report);
-  if (command.merge_shards) Shard_folder(out).note_merged();
+  const std::string report_file = command.name + ".md";
+  Shard_folder::note_replaced(out);
+  write_whole(out / report_file, report);
+  if (command.merge_shards) Shard_folder(out).note_merged({report_file});
   if (!command.quiet)
     fmt::print("{}\n{}\n\n{}", experiment->question, std::string(experiment->question.size(), '='), report);
   if (page) {  // after the report, which must not be lost to a plot that cannot be drawn

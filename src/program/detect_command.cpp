@@ -157,7 +157,10 @@ int run(const Detect_command& command) {
   if (command.shard) return run_shard(command);
   Detect_run scene_run(command);
   std::optional<Atomic_file> frames;
-  if (!command.out.empty()) frames.emplace(command.out / "frames.jsonl");
+  if (!command.out.empty()) {
+    frames.emplace(command.out / "frames.jsonl");
+    Shard_folder::note_replaced(command.out);
+  }
   if (command.merge_shards) {
     merge_shards(scene_run, *frames, command);
   } else {
@@ -169,7 +172,7 @@ int run(const Detect_command& command) {
     }
   }
   write_results(scene_run, frames, command);
-  if (command.merge_shards) Shard_folder(command.out).note_merged();
+  if (command.merge_shards) Shard_folder(command.out).note_merged({"frames.jsonl", "summary.json"});
   print_results(scene_run, command);
   return exit_code_of(scene_run, command);
 }

@@ -11,6 +11,7 @@
 #include "lodestone/io/scenes/object_options.h"
 #include "lodestone/io/scenes/separated_objects.h"
 #include "lodestone/queries/exhaustive.h"
+#include "program/source_revision.h"
 
 namespace lodestone {
 
@@ -51,7 +52,8 @@ bool asks_once(const Detect_command& command, const Scene& scene) {
 
 }  // namespace
 
-Detect_run::Detect_run(const Detect_command& command) : command_(command), scene_(load(command)) {
+Detect_run::Detect_run(const Detect_command& command)
+    : command_(command), scene_(load(command)), revision_(source_revision()) {
   summary_.measurement.setting.options = command.options;
   if (command.impacts && scene_.frames == 1)
     throw Bad_argument("--impacts is about what happens between frames, and there is one only");
@@ -60,7 +62,7 @@ Detect_run::Detect_run(const Detect_command& command) : command_(command), scene
   if (command.options.mode == Mode::certified) compute_motions();
   if (!asks_once_) make_detector();
   if (!command.html.empty()) page_.emplace(command, scene_, *detector_);
-  if (!command.paraview.empty()) paraview_.emplace(command.paraview, scene_.frames);
+  if (!command.paraview.empty()) paraview_.emplace(command.paraview, scene_.frames, command.options.mode);
 }
 
 std::size_t Detect_run::joined_vertices(Object_id id) const {

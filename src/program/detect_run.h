@@ -38,6 +38,8 @@ class Detect_run {
   void add(const Frame_tally& tally);
   /// The objects as they were in the process that has played the last frame.
   void set_objects(nlohmann::ordered_json objects) { objects_ = std::move(objects); }
+  /// The revision of the program that has played the frames, if it is another one.
+  void set_revision(std::string revision) { revision_ = std::move(revision); }
   /// See hash_of(Scene&).
   std::string hash_of_inputs() { return hash_of(scene_); }
   nlohmann::ordered_json objects() const { return objects_json(subject()); }
@@ -55,7 +57,7 @@ class Detect_run {
   bool contradicts_truth() const { return contradicted_ || (missed_ && finds_all(command_.options.mode)); }
 
  private:
-  Run_subject subject() const { return {command_, scene_, detector_ ? &*detector_ : nullptr, objects_}; }
+  Run_subject subject() const { return {command_, scene_, detector_ ? &*detector_ : nullptr, objects_, revision_}; }
   void compute_motions();
   void make_detector();
   void pose_all(std::size_t frame);
@@ -78,6 +80,7 @@ class Detect_run {
   std::optional<Scene_detector> detector_;  ///< none if the only frame has been made without one
   std::optional<Frame> only_frame_;         ///< the one that has been made so
   nlohmann::ordered_json objects_;          ///< null: of this detector
+  std::string revision_;                    ///< of the program that has played the frames
   Frame_tally tally_;
   Run_summary summary_;
   std::optional<Page_log> page_;

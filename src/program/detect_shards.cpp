@@ -29,7 +29,10 @@ void warm_up(Detect_run& scene_run, const Detect_command& command, std::size_t f
   if (first == 0) return;
   scene_run.warm_up(0);
   const std::size_t frames = std::min(command.warm_up.value_or(0), first - 1);
-  for (std::size_t frame = first - frames; frame < first; ++frame) scene_run.warm_up(frame);
+  for (std::size_t frame = first - frames; frame < first; ++frame) {
+    check_interrupt();
+    scene_run.warm_up(frame);
+  }
 }
 
 /// Each frame as its line of frames.jsonl, and a line of what the summary needs to know of it.
@@ -105,6 +108,7 @@ int run_shard(const Detect_command& command) {
 void merge_shards(Detect_run& scene_run, Atomic_file& frames, const Detect_command& command) {
   const Shard_folder made(command.out);
   const Shard_folder folder(command.out, work_of(made.command(), made.shards(), scene_run), Shard_use::merge);
+  scene_run.set_revision(folder.manifest()["revision"]);
   bool is_tally = false;
   const auto records = folder.read_all([&](std::string_view line) {
     check_interrupt();

@@ -71,6 +71,7 @@ struct Run_subject {
   const Scene& scene;
   const Scene_detector* detector;         ///< null: the frames have been made without one
   const nlohmann::ordered_json& objects;  ///< as objects_json, if another process has made the frames; else null
+  const std::string& revision;            ///< of the program that has made the frames
 
   /// Whether the truth about a pair is known. It is not known for self-collisions.
   bool has_truth(Object_pair pair) const { return command.truth && pair.a != pair.b; }

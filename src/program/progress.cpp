@@ -40,7 +40,7 @@ void check_interrupt() {
 }
 
 Progress_bar::Progress_bar(std::string label, bool quiet)
-    : label_(std::move(label)), shown_(!quiet && ::isatty(STDERR_FILENO) != 0), start_(Clock::now()) {}
+    : label_(std::move(label)), shown_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
 
 Progress_bar::~Progress_bar() {
   if (drawn_) std::fputs("\r\x1b[K", stderr);
@@ -50,16 +50,20 @@ void Progress_bar::operator()(std::size_t done, std::size_t of) {
   check_interrupt();
   if (!shown_ || of == 0) return;
   const auto now = Clock::now();
+  if (!begun_) begun_ = {.done = done, .at = now};
   if (drawn_ && now - last_drawn_ < std::chrono::milliseconds(100)) return;
   drawn_ = true;
   last_drawn_ = now;
 
   constexpr std::size_t width = 30;
   const std::size_t filled = width * done / of;
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const double left = done == 0 ? 0 : elapsed * static_cast<double>(of - done) / static_cast<double>(done);
-  fmt::print(stderr, "\r{} [{}{}] {}/{}  {:.0f} s left\x1b[K", label_, std::string(filled, '#'),
-             std::string(width - filled, '.'), done, of, left);
+  const double elapsed = std::chrono::duration<double>(now - begun_->at).count();
+  std::string left;
+  if (done > begun_->done)
+    left = fmt::format("  {:.0f} s left",
+                       elapsed * static_cast<double>(of - done) / static_cast<double>(done - begun_->done));
+  fmt::print(stderr, "\r{} [{}{}] {}/{}{}\x1b[K", label_, std::string(filled, '#'), std::string(width - filled, '.'),
+             done, of, left);
   std::fflush(stderr);
 }
 

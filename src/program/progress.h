@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace lodestone {
@@ -35,7 +36,13 @@ class Progress_bar {
   std::string label_;
   bool shown_;
   bool drawn_ = false;
-  Clock::time_point start_, last_drawn_;
+  /// The first call. What was done before it, perhaps by another process, says nothing about the time.
+  struct Begin {
+    std::size_t done;
+    Clock::time_point at;
+  };
+  std::optional<Begin> begun_;
+  Clock::time_point last_drawn_;
 };
 
 }  // namespace lodestone

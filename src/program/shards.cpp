@@ -65,6 +65,10 @@ std::uint64_t scrambled(std::uint64_t number) {
 
 std::string text_of(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
+std::string hash_of_record(const Json& record) {
+  return text_of(add_to(0, record.dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
+
 /// What a manifest says but for where the work was begun.
 std::string hash_of_work(Json manifest) {
   manifest.erase("folder");
@@ -198,6 +202,7 @@ Shard_folder::Shard_folder(std::filesystem::path results, const Work& work, Shar
 void Shard_folder::read_manifest() {
   const auto file = folder() / "manifest.json";
   std::ifstream in(file, std::ios::binary);
+  if (!in && exists(file)) fail(file, "cannot be read");
   if (!in) fail(file, "cannot be read: the folder has no shards");
   manifest_ = Json::parse(in, is_shallow, false);
   const auto is_list = [](const Json& json) {
@@ -224,14 +229,18 @@ std::filesystem::path Shard_folder::journal(std::size_t index) const {
 Json Shard_folder::read_record(std::size_t index) const {
   const auto path = file(index);
   std::ifstream in(path, std::ios::binary);
-  if (!in) fail(path, "is missing");
+  if (!in) fail(path, exists(path) ? "cannot be read" : "is missing");
   const auto line = last_line(in);
   Json record = Json::parse(line, is_shallow, false);
   const bool whole = record.is_object() && record.value("bytes", Json()).is_number_unsigned() &&
                      record.value("lines", Json()).is_number_unsigned() && record.value("hash", Json()).is_string() &&
                      record.value("work", Json()).is_string() && record.value("seconds", Json()).is_number() &&
-                     record.value("peak_kib", Json()).is_number() && record.value("finished", Json()).is_string();
+                     record.value("peak_kib", Json()).is_number() && record.value("finished", Json()).is_string() &&
+                     record.value("record_hash", Json()).is_string();
   if (!whole) fail(path, "is damaged: it does not end with the record of a shard");
+  const std::string written = record["record_hash"];
+  record.erase("record_hash");
+  if (hash_of_record(record) != written) fail(path, "is damaged: its record is not the one that was written");
   in.clear();
   in.seekg(0, std::ios::end);
   const auto bytes = static_cast<std::size_t>(in.tellg()) - line.size();
@@ -284,8 +293,8 @@ std::vector<Json> Shard_folder::read_all(const std::function<void(std::string_vi
   return records;
 }
 
-void Shard_folder::note_merged() const {
-  write_whole(folder() / "merged", work_ + "\n");
+void Shard_folder::note_merged(const std::vector<std::string>& files) const {
+  write_whole(folder() / "merged", fmt::format("{}\n{}\n", work_, fmt::join(files, "\n")));
   for (const auto& entry : std::filesystem::directory_iterator(folder()))
     if (entry.path().filename().string().starts_with('.')) {
       std::error_code ignored;
@@ -293,14 +302,22 @@ void Shard_folder::note_merged() const {
     }
 }
 
+void Shard_folder::note_replaced(const std::filesystem::path& results) {
+  std::error_code ignored;
+  std::filesystem::remove(results / "shards" / "merged", ignored);
+}
+
 bool Shard_folder::is_merged() const {
-  std::string work;
-  std::ifstream(folder() / "merged") >> work;
-  return work == work_;
+  std::ifstream noted(folder() / "merged");
+  std::string line;
+  if (!std::getline(noted, line) || line != work_) return false;
+  while (std::getline(noted, line))
+    if (!exists(results_ / line)) return false;
+  return true;
 }
 
 Shard_writer::Shard_writer(const Shard_folder& folder, std::size_t index)
-    : index_(index), count_(folder.shards()), work_(folder.work_), file_(folder.file(index)) {}
+    : folder_(folder), index_(index), count_(folder.shards()), work_(folder.work_), file_(folder.file(index)) {}
 
 void Shard_writer::add(std::string_view line) {
   file_.write(line);
@@ -323,8 +340,16 @@ void Shard_writer::commit(const Json& more) {
       {"finished",
        fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())))}};
   record.update(more);
+  record["record_hash"] = hash_of_record(record);
   file_.write(record.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-  file_.commit();
+  // Two works that were begun in one folder at the same moment have both found it empty.
+  if (Shard_folder(folder_.results()).work() != work_)
+    throw Bad_shard(folder_.results().string() + ": shards of other work were begun here at the same time");
+  try {
+    file_.commit();
+  } catch (const Bad_output&) {
+    if (!folder_.is_done(index_)) throw;  // another process has made the shard, and a merge has cleared up
+  }
 }
 
 Json parse_shard_line(std::string_view line) { return Json::parse(line, is_shallow); }

@@ -97,8 +97,13 @@ class Shard_folder {
   /// @return their records
   /// @throws Bad_shard  names all shards that are missing, before the first visit; else as `read`
   std::vector<nlohmann::ordered_json> read_all(const std::function<void(std::string_view line)>& visit) const;
-  /// Notes that the results of the folder are those of all its shards, and removes what killed processes left behind.
-  void note_merged() const;
+  /// Notes that these files of the folder are the results of all its shards, and removes what killed processes left
+  /// behind.
+  void note_merged(const std::vector<std::string>& files) const;
+  /// Notes that results which are not those of shards are about to be written to a folder, whether it has shards or
+  /// not.
+  static void note_replaced(const std::filesystem::path& results);
+  /// Whether the results are those of the shards, and all there.
   bool is_merged() const;
 
  private:
@@ -115,16 +120,19 @@ class Shard_folder {
 /// A shard that is being written. It appears whole with `commit`, or not at all.
 class Shard_writer {
  public:
+  /// @param folder  must outlive this
   /// @throws Bad_output
   Shard_writer(const Shard_folder& folder, std::size_t index);
   /// @param line  without a line break
   void add(std::string_view line);
   /// Ends the file with a record of the shard: its number, lines, bytes and hash, the seconds since the program
-  /// started, its greatest memory in KiB, when it was finished, and `more`.
+  /// started, its greatest memory in KiB, when it was finished, `more`, and a hash of all this.
   /// @throws Bad_output
+  /// @throws Bad_shard  the folder has become one of other work
   void commit(const nlohmann::ordered_json& more = nlohmann::ordered_json::object());
 
  private:
+  const Shard_folder& folder_;
   std::size_t index_, count_, lines_ = 0, bytes_ = 0;
   std::string work_;
   std::uint64_t hash_ = 0;

@@ -62,9 +62,13 @@ std::string shell_words(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string_view quietly(const std::vector<std::string>& words) {
+  return std::ranges::find(words, "--json") == words.end() ? " --quiet" : "";
+}
+
 std::string array_script(const Slurm_job& job) {
-  const std::string command = fmt::format("{} {} --out {} --quiet --shard", shell_word(job.program),
-                                          shell_words(job.words), shell_word(job.out.string()));
+  const std::string command = fmt::format("{} {} --out {}{} --shard", shell_word(job.program), shell_words(job.words),
+                                          shell_word(job.out.string()), quietly(job.words));
   std::string text =
       "#!/bin/bash\n"
       "# Written by lodestone submit: makes the shards that were missing. A shard appears whole or not at all, and "
@@ -77,8 +81,11 @@ std::string array_script(const Slurm_job& job) {
   if (job.tasks >= job.shards)
     return text + fmt::format("exec {} \"${{SLURM_ARRAY_TASK_ID}}/{}\"\n", command, job.shards);
   return text + fmt::format(
+                    "# A shard that fails does not keep the others from being made; a signal ends them all.\n"
+                    "failed=0\n"
                     "for ((shard = SLURM_ARRAY_TASK_ID; shard <= {}; shard += {})); do\n"
-                    "  {} \"$shard/{}\"\ndone\n",
+                    "  {} \"$shard/{}\" || {{ failed=$?; ((failed < 128)) || exit \"$failed\"; }}\ndone\n"
+                    "exit \"$failed\"\n",
                     job.shards, job.tasks, command, job.shards);
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lodestone {
@@ -24,6 +25,10 @@ struct Slurm_job {
 /// A word that a shell reads as it is.
 std::string shell_word(const std::string& word);
 std::string shell_words(const std::vector<std::string>& words);
+
+/// The option that keeps a command from printing, with a blank before it; empty where it prints JSON, which excludes
+/// it.
+std::string_view quietly(const std::vector<std::string>& words);
 
 /// The script of all shards: a job array.
 /// @throws Bad_argument  a folder whose name sbatch cannot be told

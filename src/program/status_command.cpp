@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -45,11 +46,22 @@ Shard_census census_of(const Shard_folder& folder, Shard_check check) {
   return census;
 }
 
+/// What must stand before a command that reads the inputs, which may be relative to where the shards were begun.
+std::string way_to_inputs(const Shard_folder& folder) {
+  const std::string begun = folder.manifest()["folder"];
+  return begun == std::filesystem::current_path() ? "" : "cd " + shell_word(begun) + " && ";
+}
+
+/// The folder of results, as one finds it from there.
+std::string results_from_inputs(const Shard_folder& folder) {
+  return shell_word((way_to_inputs(folder).empty() ? folder.results() : absolute(folder.results())).string());
+}
+
 std::string next_step(const Shard_folder& folder, const Shard_census& census) {
-  const auto out = shell_word(folder.results().string());
   if (!census.missing.empty() || !census.broken.empty())
-    return fmt::format("lodestone submit --slurm --out {} -- {}", out, shell_words(folder.command()));
-  return folder.is_merged() ? "" : "lodestone merge " + out;
+    return fmt::format("{}lodestone submit --slurm --out {} -- {}", way_to_inputs(folder), results_from_inputs(folder),
+                       shell_words(folder.command()));
+  return folder.is_merged() ? "" : "lodestone merge " + shell_word(folder.results().string());
 }
 
 Json to_json(const Shard_folder& folder, const Shard_census& census) {
@@ -88,9 +100,9 @@ void print(const Shard_folder& folder, const Shard_census& census) {
   const auto next = next_step(folder, census);
   if (!next.empty()) fmt::print("next: {}\n", printable(next));
   if (!census.missing.empty() || !census.broken.empty())
-    fmt::print("or, for each of these shards I: lodestone {} --out {} --shard I/{}\n",
-               printable(shell_words(folder.command())), printable(shell_word(folder.results().string())),
-               folder.shards());
+    fmt::print("or, for each of these shards I: {}lodestone {} --out {} --shard I/{}\n",
+               printable(way_to_inputs(folder)), printable(shell_words(folder.command())),
+               printable(results_from_inputs(folder)), folder.shards());
 }
 
 }  // namespace

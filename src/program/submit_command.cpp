@@ -204,11 +204,12 @@ Shards_to_do shards_to_make(const Submit_command& command) {
 
 /// Makes one shard, which counts.
 /// @return its exit code; if it is not success, it has been said why
-int run_pilot(const Submit_command& command, std::size_t shards) {
+int make_pilot(const Submit_command& command, std::size_t index, std::size_t shards) {
   std::vector<std::string> words{this_program()};
   words.insert(words.end(), command.words.begin(), command.words.end());
-  const auto shard = fmt::format("{}/{}", (shards + 1) / 2, shards);
-  words.insert(words.end(), {"--out", command.out.string(), "--quiet", "--shard", shard});
+  const auto shard = fmt::format("{}/{}", index, shards);
+  words.insert(words.end(), {"--out", command.out.string(), "--shard", shard});
+  if (!quietly(command.words).empty()) words.emplace_back("--quiet");
   fmt::print("pilot: shard {}\n", shard);
   std::fflush(stdout);
   const int status = run_to_end(words, true).status;
@@ -222,13 +223,32 @@ int run_pilot(const Submit_command& command, std::size_t shards) {
   return code;
 }
 
+/// Makes a shard from the middle. With more shards than pieces it may be empty, and tell nothing: then the first and
+/// the last, one of which is not.
+/// @return as `make_pilot`
+int run_pilot(const Submit_command& command, std::size_t shards) {
+  for (const std::size_t index : {(shards + 1) / 2, std::size_t{1}, shards}) {
+    if (const int code = make_pilot(command, index, shards); code != exit_code::success) return code;
+    const auto pilot = Shard_folder(command.out).status(index, Shard_check::record);
+    if (pilot.state == Shard_state::done && pilot.record["lines"] > 0) break;
+  }
+  return exit_code::success;
+}
+
+/// Where the tasks run: in the folder in which the shards of a folder were begun, since inputs may be relative to it.
+std::filesystem::path folder_of(const Submit_command& command) {
+  if (!exists(command.out / "shards" / "manifest.json")) return std::filesystem::current_path();
+  const std::filesystem::path begun = Shard_folder(command.out).manifest()["folder"].get<std::string>();
+  return is_directory(begun) ? begun : std::filesystem::current_path();
+}
+
 std::size_t rounded_up(double value, std::size_t least) {
   return std::max(least, static_cast<std::size_t>(std::ceil(value)));
 }
 
 Slurm_job job_of(const Submit_command& command, const Shards_to_do& to_do) {
   Slurm_job job{.program = this_program(),
-                .folder = std::filesystem::current_path(),
+                .folder = folder_of(command),
                 .out = absolute(command.out),
                 .words = command.words,
                 .shards = to_do.of,

@@ -6,9 +6,13 @@
 #include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "program/run_program.h"
+#include "program/shards.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
@@ -175,6 +179,31 @@ TEST_F(Partitions_experiment, a_journal_of_other_work_is_dropped) {
     for (const auto& each : made) EXPECT_FALSE(each.contains("marked"));
     std::filesystem::remove_all(folder.path() / "parts");
   }
+}
+
+TEST_F(Partitions_experiment, of_a_damaged_journal_the_rows_before_the_damage_are_kept) {
+  expect_success(run_program(command("parts", {"--shard", "1/2"})));  // for the manifest
+  const auto begun = shard("2-of-2.begun.jsonl");
+  const std::string work = lodestone::Shard_folder(folder.path() / "parts").work();
+  expect_success(run_program(command("whole")));
+  std::vector<nlohmann::ordered_json> marked;
+  for (auto row : read_json_lines(rows("whole"))) {
+    row["marked"] = true;
+    marked.push_back(row);
+  }
+  {
+    std::ofstream journal(begun);
+    journal << R"({"id": "work", "hash": ")" << work << "\"}\n";
+    for (std::size_t i = 0; i < 20; ++i) journal << marked[i].dump() << '\n';
+    journal << "dam\1age\n" << marked[20].dump() << '\n' << marked[21].dump() << '\n';
+  }
+  expect_success(run_program(command("parts", {"--shard", "2/2"})));
+  expect_success(merge());
+  std::set<std::string> kept;
+  for (const auto& row : read_json_lines(rows("parts")))
+    if (row.contains("marked")) kept.insert(row["id"]);
+  EXPECT_FALSE(kept.empty());
+  EXPECT_FALSE(kept.contains(marked[20]["id"]) || kept.contains(marked[21]["id"]));
 }
 
 TEST_F(Partitions_experiment, a_finished_sweep_is_reported_by_any_program) {

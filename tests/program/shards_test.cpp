@@ -218,13 +218,21 @@ TEST_F(Shards, that_are_damaged_are_found_and_made_again) {
   const auto whole = read_bytes(file);
   auto changed = whole;
   changed[changed.find("\"collides\":") + 12] ^= 1;
+  auto record = whole;  // what it says of the objects goes to summary.json
+  const auto vertices = record.rfind("\"vertices\":");
+  ASSERT_NE(vertices, std::string::npos);
+  record[vertices + 11] ^= 1;
+  auto without_hash = whole;
+  without_hash.replace(without_hash.rfind(",\"record_hash\""), std::string::npos, "}\n");
   const std::vector<std::string> damages{whole.substr(0, whole.size() / 2),
                                          whole.substr(0, whole.size() - 1),
                                          "",
                                          "\n",
                                          whole + "x\n",
                                          whole.substr(whole.find('\n') + 1),
-                                         changed};
+                                         changed,
+                                         record,
+                                         without_hash};
   for (const auto& damage : damages) {
     folder.write("a/shards/2-of-3.jsonl", damage);
     expect_error(merge("a"), 3, "2-of-3.jsonl: is damaged");
@@ -289,6 +297,100 @@ TEST_F(Shards, that_are_lost_after_the_merge_are_told) {
   const auto told = run_program({"status", path("parts").string()});
   EXPECT_NE(told.out.find("1 of 2 shards done; missing: 2; merged before these were lost"), std::string::npos)
       << told.out;
+}
+
+TEST_F(Shards, whose_results_are_lost_or_replaced_count_as_not_merged) {
+  make("parts", 1, 2), make("parts", 2, 2);
+  for (const char* file : {"frames.jsonl", "summary.json"}) {
+    expect_success(merge("parts"));
+    EXPECT_EQ(status("parts")["merged"], true);
+    std::filesystem::remove(path("parts") / file);
+    EXPECT_EQ(status("parts")["merged"], false) << file;
+    EXPECT_NE(status("parts")["next"].get<std::string>().find("lodestone merge "), std::string::npos);
+  }
+  expect_success(merge("parts"));
+  expect_success(run_program(detect("parts", {"--self"})));  // other work, in one run
+  EXPECT_EQ(status("parts")["merged"], false);
+}
+
+TEST_F(Shards, merged_by_another_revision_tell_which_one_has_made_them) {
+  for (const std::size_t index : {1, 2}) make("parts", index, 2);
+  const auto manifest_file = path("parts") / "shards" / "manifest.json";
+  auto manifest = read_json(manifest_file);
+  manifest["revision"] = "0123456789ab";
+  std::vector<std::vector<std::string>> lines(2);
+  const Shard_folder made(path("parts"));
+  std::vector<nlohmann::ordered_json> records;
+  for (const std::size_t index : {1, 2})
+    records.push_back(made.read(index, [&](std::string_view line) { lines[index - 1].emplace_back(line); }));
+  std::ofstream(manifest_file) << manifest;
+  const Shard_folder of_another(path("parts"));
+  for (const std::size_t index : {1, 2}) {
+    Shard_writer shard(of_another, index);
+    for (const auto& line : lines[index - 1]) shard.add(line);
+    shard.commit({{"objects", records[index - 1]["objects"]}});
+  }
+  expect_success(merge("parts"));
+  EXPECT_EQ(read_json(path("parts") / "summary.json")["revision"], "0123456789ab");
+}
+
+TEST_F(Shards, that_another_process_has_made_meanwhile_need_not_be_renamed) {
+  make("parts", 1, 2);
+  const Shard_folder folder_of_shards(path("parts"));
+  std::vector<std::string> lines;
+  const auto record = folder_of_shards.read(1, [&](std::string_view line) { lines.emplace_back(line); });
+  for (const bool is_made : {true, false}) {
+    if (!is_made) std::filesystem::remove(folder_of_shards.file(1));
+    Shard_writer late(folder_of_shards, 1);
+    for (const auto& line : lines) late.add(line);
+    for (const auto& entry : std::filesystem::directory_iterator(path("parts") / "shards"))
+      if (entry.path().filename().string().starts_with('.')) std::filesystem::remove(entry.path());  // as a merge does
+    if (is_made)
+      EXPECT_NO_THROW(late.commit());
+    else
+      EXPECT_THROW(late.commit(), Bad_output);
+  }
+}
+
+TEST_F(Shards, of_other_work_that_was_begun_at_the_same_moment_are_not_kept) {
+  make("parts", 1, 2);
+  const Shard_folder first(path("parts"));
+  Shard_writer shard(first, 2);
+  auto manifest = read_json(path("parts") / "shards" / "manifest.json");
+  manifest["pieces"] = 17;
+  std::ofstream(path("parts") / "shards" / "manifest.json") << manifest;
+  EXPECT_THROW(shard.commit(), Bad_shard);
+  EXPECT_FALSE(exists(first.file(2)));
+}
+
+TEST_F(Shards, that_cannot_be_read_are_told_from_missing_ones) {
+  make("parts", 1, 1);
+  EXPECT_EQ(run_program({"merge", ""}).exit_code, 2);
+  EXPECT_EQ(run_program({"status", ""}).exit_code, 2);
+  const auto manifest = path("parts") / "shards" / "manifest.json", shard = path("parts") / "shards" / "1-of-1.jsonl";
+  for (const auto& [file, told] : {std::pair(shard, "1-of-1.jsonl"), std::pair(manifest, "manifest.json")}) {
+    std::filesystem::permissions(file, std::filesystem::perms::none);
+    if (std::ifstream(file)) GTEST_SKIP() << "root may read everything";
+    expect_error(merge("parts"), 3, std::string(told) + ": cannot be read");
+    std::filesystem::permissions(file, std::filesystem::perms::owner_read);
+  }
+}
+
+TEST_F(Shards, of_relative_inputs_are_found_again_from_elsewhere) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const auto made = run_program({"detect", "scene.json", "--out", "parts", "--shard", "1/2"});
+  const auto here = run_program({"status", "parts"});
+  std::filesystem::current_path(before);
+  expect_success(made);
+  EXPECT_NE(here.out.find("next: lodestone submit --slurm --out parts -- detect scene.json\n"), std::string::npos)
+      << here.out;
+  const auto elsewhere = run_program({"status", path("parts").string()});
+  const std::string way = "cd " + folder.path().string() + " && lodestone ";
+  EXPECT_NE(elsewhere.out.find("next: " + way + "submit"), std::string::npos) << elsewhere.out;
+  EXPECT_NE(elsewhere.out.find("shards I: " + way + "detect scene.json --out " + path("parts").string()),
+            std::string::npos)
+      << elsewhere.out;
 }
 
 TEST_F(Shards, of_files_whose_names_are_not_utf8_are_refused_and_the_word_is_told) {

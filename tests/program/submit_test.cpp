@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "program/run_program.h"
+#include "program/shards.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
@@ -92,6 +93,48 @@ TEST_F(Submit, needs_no_pilot_if_time_and_memory_are_given) {
   expect_line(array, "#SBATCH --mem=300M");
   EXPECT_EQ(run(out / "slurm" / "array.sh", 2), 0);
   EXPECT_EQ(content_of(out / "shards"), (std::set<std::string>{"2-of-5.jsonl", "4-of-5.jsonl", "manifest.json"}));
+}
+
+TEST_F(Submit, a_shard_that_fails_does_not_keep_its_task_from_the_others) {
+  expect_success(submit({"--shards", "5", "--tasks", "2", "--minutes", "7", "--megabytes", "300", "--dry-run"}));
+  std::filesystem::create_directories(out / "shards" / "3-of-5.jsonl" / "in the way");
+  EXPECT_NE(run(out / "slurm" / "array.sh", 1), 0);
+  EXPECT_TRUE(exists(out / "shards" / "1-of-5.jsonl"));
+  EXPECT_TRUE(exists(out / "shards" / "5-of-5.jsonl"));
+  std::filesystem::remove_all(out / "shards" / "3-of-5.jsonl");
+  EXPECT_EQ(run(out / "slurm" / "array.sh", 1), 0);
+  EXPECT_TRUE(exists(out / "shards" / "3-of-5.jsonl"));
+}
+
+TEST_F(Submit, from_another_folder_has_its_tasks_run_where_the_shards_were_begun) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const auto begun = run_program({"detect", "a scene.json", "--out", "parts", "--shard", "1/2"});
+  std::filesystem::current_path(before);
+  expect_success(begun);
+  const auto parts = folder.path() / "parts";
+  expect_success(
+      run_program({"submit", "--slurm", "--dry-run", "--out", parts.string(), "--", "detect", "a scene.json"}));
+  EXPECT_EQ(run(parts / "slurm" / "array.sh", 2), 0);
+  EXPECT_TRUE(exists(parts / "shards" / "2-of-2.jsonl"));
+}
+
+TEST_F(Submit, of_a_command_that_prints_json_is_not_quiet) {
+  expect_success(submit({"--shards", "2", "--dry-run"}, {"--json"}));
+  EXPECT_EQ(run(out / "slurm" / "array.sh", 2), 0);
+  EXPECT_EQ(run(out / "slurm" / "merge.sh", 0), 0);
+}
+
+TEST_F(Submit, makes_no_pilot_of_a_shard_without_frames) {
+  const auto short_scene = folder.write("short.json", R"({"frames": 5, "objects": [
+      {"name": "a", "shape": {"icosphere": {"frequency": 4}}}, {"name": "b", "shape": {"icosphere": {"frequency": 3}}}]})");
+  const auto result = run_program({"submit", "--slurm", "--dry-run", "--shards", "16", "--out", out.string(), "--",
+                                   "detect", short_scene.string()});
+  expect_success(result);
+  const auto last_pilot = result.out.rfind("pilot: shard ");
+  ASSERT_NE(last_pilot, std::string::npos) << result.out;
+  const auto index = std::stoul(result.out.substr(last_pilot + 13));
+  EXPECT_FALSE(Shard({.index = index, .count = 16}).neighbours(5).empty()) << result.out;
 }
 
 TEST_F(Submit, gives_both_scripts_to_sbatch_and_submits_only_what_is_missing) {
