@@ -29,6 +29,7 @@ Page_head head_of(const Detect_command& command, const Scene& scene, std::size_t
   Page_head head{.title = scene.name,
                  .mode = std::string(name_of(mode)),
                  .frame_step = frame_step,
+                 .first_contacts = command.options.contacts == Contact_query::first,
                  .note = missing_note(command.options)};
   if (mode == Mode::certified)
     head.states = {"far", "bounded", "posed"};

@@ -29,8 +29,8 @@ function show(answer, names) {
     ? `${subject} intersect${names.length > 1 ? '' : 's itself'}: ${count}, found in ${time}.`
     : `${subject} ${names.length > 1 ? 'do not intersect' : 'does not intersect itself'}: checked in ${time}.`;
   by_id('viewer').srcdoc = text_of('template')
-    .replaceAll('@LODESTONE_TITLE@', () => escaped(names.join(' and ')))
-    .replace('@LODESTONE_DATA@', () => base64(answer.data));
+    .replace('@LODESTONE_DATA@', () => base64(answer.data))  // first, since a name may be that of the mark
+    .replaceAll('@LODESTONE_TITLE@', () => escaped(names.join(' and ')));
   by_id('viewer').hidden = false;
 }
 

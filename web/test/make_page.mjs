@@ -62,7 +62,7 @@ const all_region_pairs = ([first, second], distance) =>
   Array.from({ length: first.regions * second.regions }, (_, i) => [0, Math.floor(i / second.regions), 1, i % second.regions, distance]);
 
 /**
- * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact' | 'near' | 'crowd'} kind
+ * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact' | 'near' | 'crowd' | 'sampled'} kind
  * @returns {{bytes: Buffer, lines: string[], log: object[]}} the container, its lines of frames.jsonl, and the
  * synthetic data
  */
@@ -89,6 +89,7 @@ export function make_container(kind) {
     strategy: exact ? null : 'lbg',
     note: still || exact ? null : particles_note,
     frames,
+    ...(kind === 'sampled' ? { frame_step: 10, first_contacts: true } : {}),
     objects: shown.map((object, i) => add_object(writer, object, i, exact)),
   };
   const lines = log.map((entry, f) => JSON.stringify(crowd ? in_crowd(line_of(entry, f, exact)) : line_of(entry, f, exact)));

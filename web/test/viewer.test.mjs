@@ -281,6 +281,26 @@ describe('the viewer', () => {
     assert.equal(await page.getAttribute('#play', 'aria-label'), 'Play');
   });
 
+  test('the timeline takes the keys of a slider while it has the focus', async () => {
+    const page = await open_kind('small');
+    await page.focus('#timeline');
+    for (const [key, frame] of [['ArrowUp', 1], ['PageUp', 11], ['ArrowDown', 10], ['PageDown', 0], ['ArrowDown', 0], ['ArrowRight', 1], ['End', 39], ['PageUp', 39]]) {
+      await page.keyboard.press(key);
+      assert.equal(await frame_of(page), frame, key);
+    }
+  });
+
+  test('a page that shows some frames of a run, with one contact of each pair, says so', async () => {
+    const page = await open_kind('sampled');
+    assert.match(await page.textContent('#subtitle'), / · 40 frames shown, one of every 10$/);
+    const { log } = container('sampled');
+    await page.evaluate((n) => window.lodestone.player.goto(n), log.findIndex(({ found }) => found));
+    assert.equal(await page.locator('#pairs .state').first().textContent(), 'collide');
+    await page.evaluate('lodestone.plots_ready');
+    assert.match(await page.textContent('#plots'), /Of the frames shown with a collision up to here/);
+    assert.ok(!/frames shown/.test(await (await open_kind('small')).textContent('#plots')));
+  });
+
   test('the keys that are listed are those of the page', async () => {
     const listed = async (kind) => {
       const page = await open_kind(kind);

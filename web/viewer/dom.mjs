@@ -42,7 +42,7 @@ export function icon(name) {
   return picture;
 }
 
-/** 1234.5 -> "1 234.5"; small numbers keep three digits, so that 0.00312 does not become 0. */
+/** 1234.5 -> "1 235", 12.345 -> "12.3"; small numbers keep three digits, so that 0.00312 does not become 0. */
 export function number_text(value) {
   if (!Number.isFinite(value)) return '–';
   if (Number.isInteger(value)) return grouped(String(value));

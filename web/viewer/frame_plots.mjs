@@ -11,12 +11,12 @@ import { misses_nothing } from './outcome.mjs';
 export function frame_plots(page, scene_frame) {
   if (!page.stages || page.header.frames < 2) return [];
   const plots = [time_plot, distance_plot, ...(misses_nothing(page) ? [] : [recall_plot])];
-  return plots.map((plot) => plot(page.stages, scene_frame)).filter(Boolean);
+  return plots.map((plot) => plot(page.stages, scene_frame, page.header.frame_step > 1)).filter(Boolean);
 }
 
 const x = {
   field: 'frame', type: 'quantitative', title: 'frame',
-  scale: { nice: false, zero: false }, axis: { grid: false, tickCount: 8, format: 'd' },
+  scale: { nice: false, zero: false }, axis: { grid: false, tickCount: 8, tickMinStep: 1, format: 'd' },
 };
 const y = (field, scale) => ({ field, type: 'quantitative', title: null, scale });
 const line = (interpolate) => ({ type: 'line', interpolate, strokeWidth: 1.5, tooltip: null, clip: true });
@@ -46,16 +46,17 @@ function time_plot(stages, scene_frame) {
 function distance_plot(stages, scene_frame) {
   const values = stages.map(({ nearest }, i) => ({ frame: scene_frame(i), nearest })).filter(({ nearest }) => Number.isFinite(nearest));
   if (values.length === 0) return undefined;
+  const always_meet = values.every(({ nearest }) => nearest === 0);
   return {
     name: 'distance',
     title: 'Distance of the nearest pair',
     description: 'Between the two objects nearest to each other, in units of the scene; 0 where surfaces meet.',
-    spec: { data: { values }, mark: line('linear'), encoding: { x, y: y('nearest', { domainMin: 0 }) } },
+    spec: { data: { values }, mark: line('linear'), encoding: { x, y: y('nearest', { domainMin: 0, ...(always_meet ? { domainMax: 1 } : {}) }) } },
   };
 }
 
 /** No recall before the first collision. */
-function recall_plot(stages, scene_frame) {
+function recall_plot(stages, scene_frame, is_sample) {
   let positive = 0, found = 0;
   const values = [];
   stages.forEach((stage, i) => {
@@ -68,7 +69,7 @@ function recall_plot(stages, scene_frame) {
   return {
     name: 'recall',
     title: 'Recall so far',
-    description: 'Of the frames with a collision up to here, the share in which it was found.',
+    description: `Of the frames${is_sample ? ' shown' : ''} with a collision up to here, the share in which it was found.`,
     spec: {
       data: { values },
       mark: line('step-after'),

@@ -37,13 +37,15 @@ async function main() {
   return { page, player, shown, view, stats, plots_ready };
 }
 
+const counted_frames = (count) => `${number_text(count)} ${count === 1 ? 'frame' : 'frames'}`;
+
 function show_title({ header, objects }) {
   by_id('title').textContent = header.title || document.title;
   const facts = [];
   if (header.mode) facts.push(`mode ${header.mode}`);
   if (header.strategy) facts.push(`regions by ${header.strategy}`);
-  if (header.frames > 1) facts.push(`${number_text(header.frames)} frames`);
-  if (header.frame_step > 1) facts.push(`one of ${header.frame_step} shown`);
+  if (header.frame_step > 1) facts.push(`${counted_frames(header.frames)} shown, one of every ${number_text(header.frame_step)}`);
+  else if (header.frames > 1) facts.push(counted_frames(header.frames));
   if (objects.length > 2) facts.push(`${objects.length} objects`);
   by_id('subtitle').textContent = facts.join(' · ');
   by_id('note').textContent = header.note ?? '';

@@ -36,14 +36,19 @@ export class Marks {
    * @param {number} frame  of the page
    * @param {Record<string, boolean>} layers
    * @param {{visible: boolean}[]} objects
-   * @returns {number[][]} per object the regions of candidate pairs
+   * @returns {Set<number>[]} per object the regions of candidate pairs, if these are shown
    */
   show(frame, layers, objects) {
     for (const [key, lines] of Object.entries(this.lines)) lines.group.visible = layers[key];
     const candidates = this.page.candidates?.[frame] ?? [];
-    const paired = objects.map((_, i) => candidates.flatMap(([a, p, b, q]) => [...(a === i ? [p] : []), ...(b === i ? [q] : [])]));
+    const paired = objects.map(() => new Set());
+    if (layers.candidates)
+      for (const [a, p, b, q] of candidates) {
+        paired[a].add(p);
+        paired[b].add(q);
+      }
     const with_particles = this.page.objects.flatMap(({ particles }, i) => (particles && objects[i].visible ? [i] : []));
-    if (layers.particles) this.lines.particles.set(with_particles.flatMap((i) => this.#dots(frame, i, layers.candidates ? paired[i] : [])));
+    if (layers.particles) this.lines.particles.set(with_particles.flatMap((i) => this.#dots(frame, i, paired[i])));
     if (layers.trails) this.lines.trails.set(with_particles.flatMap((i) => this.#trails(frame, i)));
     if (layers.candidates) this.lines.candidates.set(candidates.flatMap((pair) => this.#link(frame, pair, objects)));
     this.#show_contacts(frame, layers, objects);
@@ -53,7 +58,7 @@ export class Marks {
   #dots(frame, object, paired) {
     return Array.from(this.page.objects[object].particles[frame], (vertex, region) => {
       const place = this.places[object].of_vertex(frame, vertex);
-      return { start: place, end: place, tint: paired.includes(region) ? marks.paired : undefined };
+      return { start: place, end: place, tint: paired.has(region) ? marks.paired : undefined };
     });
   }
 

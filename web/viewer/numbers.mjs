@@ -48,13 +48,14 @@ class Rows {
 /** @param {import('./container.mjs').Page} page @returns {(frame: number) => void} shows those of a frame */
 export function make_numbers(page) {
   const statistics = new Rows(by_id('statistics'), figure_row);
-  const pairs = new Rows(by_id('pairs'), () => pair_row(misses_nothing(page) ? 'apart' : 'apart or not found'));
+  const pairs = new Rows(by_id('pairs'), () => pair_row(misses_nothing(page) ? 'apart' : 'apart or not found', !page.header.first_contacts));
   // Building, which few frames do, would make all other bars short.
   const every_frame = ({ microseconds: { build, ...others } }) => Object.values(others);
   const most = (page.stages ?? []).flatMap(every_frame).reduce((a, b) => Math.max(a, b), 1e-9);
   const used = Object.keys(stage_names).filter((key) => page.stages?.some(({ microseconds }) => microseconds[key] > 0));
   const stages = new Rows(by_id('stage-times'), (key) => stage_row(key, most));
   const show_count = make_pair_list();
+  const has_distances = page.stages?.some(({ nearest }) => nearest !== null && nearest !== undefined);
   return (frame) => {
     const line = line_of(page, frame);
     const stage = page.stages?.[frame];
@@ -62,7 +63,7 @@ export function make_numbers(page) {
     if (line && !line.pairs) statistics.show(scalars_of(line));
     if (line?.pairs) {
       const colliding = line.pairs.filter(({ collides }) => collides).length;
-      statistics.show({ ...line.statistics, 'colliding pairs': colliding, ...(stage ? { 'nearest distance': stage.nearest } : {}) });
+      statistics.show({ ...line.statistics, 'colliding pairs': colliding, ...(stage && has_distances ? { 'nearest distance': stage.nearest } : {}) });
       pairs.show({ ...found_first(line.pairs) });  // By their places, since objects can have the same name.
       show_count(line.pairs.length);
     }
@@ -118,15 +119,19 @@ function faces_text({ faces, intersects, collides, capped }) {
   return `${pairs_of(crossing)}${apart > 0 ? `, ${apart}${or_more} near` : ''}`;
 }
 
-/** @param {string} otherwise  what to say of a pair of which the frame found nothing */
-function pair_row(otherwise) {
+/**
+ * @param {string} otherwise  what to say of a pair of which the frame found nothing
+ * @param {boolean} lists_all  whether all contacts were asked for, so that their number says something
+ */
+function pair_row(otherwise, lists_all) {
   const name = element('span', { className: 'name' });
   const state = element('span', { className: 'state' });
   const set = (pair) => {
     set_text(name, `${pair.a} – ${pair.b}`);
     const missed = pair.truth && !pair.collides;
-    const faces = faces_text(pair);
-    set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.near ? `near${faces}` : pair.inside ? `${pair.inside} inside` : otherwise);
+    const faces = lists_all ? faces_text(pair) : '';
+    const inside = pair.inside ? `, ${pair.inside} inside` : '';
+    set_text(state, pair.collides ? `collide${faces}` : missed ? 'collide, not found' : pair.near ? `near${faces}${inside}` : pair.inside ? `${pair.inside} inside` : otherwise);
     state.className = `state ${pair.collides ? 'confirmed' : missed ? 'missed' : pair.near ? 'near' : ''}`;
   };
   return { nodes: [element('li', {}, name, state)], set };

@@ -7,7 +7,9 @@ export function common_ball(objects) {
   if (shown.length === 0) return { centre: [0, 0, 0], radius: 1 };
   const least = [0, 1, 2].map((axis) => shown.reduce((x, { box }) => Math.min(x, box[axis]), Infinity));
   const most = [3, 4, 5].map((axis) => shown.reduce((x, { box }) => Math.max(x, box[axis]), -Infinity));
-  return { centre: least.map((x, axis) => (x + most[axis]) / 2), radius: Math.hypot(...most.map((x, axis) => x - least[axis])) / 2 || 1 };
+  // Halves, since sums and differences of coordinates can overflow.
+  const half = most.map((x, axis) => x / 2 - least[axis] / 2);
+  return { centre: least.map((x, axis) => x / 2 + most[axis] / 2), radius: Math.hypot(...half) || 1 };
 }
 
 /** Positions on one object. */
@@ -17,8 +19,8 @@ export class Places {
     const { centre, radius } = ball;
     this.object = object;
     this.ball = ball;
-    this.origin = [0, 1, 2].map((axis) => (object.box[axis] - centre[axis]) / radius);
-    this.cell = [0, 1, 2].map((axis) => (object.box[axis + 3] - object.box[axis]) / radius / 65535);
+    this.origin = [0, 1, 2].map((axis) => ((object.box[axis] / 2 - centre[axis] / 2) / radius) * 2);
+    this.cell = [0, 1, 2].map((axis) => (((object.box[axis + 3] / 2 - object.box[axis] / 2) / radius) * 2) / 65535);
   }
 
   /** @returns {[number, number, number]} of a vertex in a frame of the page */

@@ -136,7 +136,7 @@ export class View {
       surface.set_look(objects[i], layers, this.ratio * 1.1);
       if (!surface.group.visible) return;
       surface.show(this.frame, layers.wireframe);
-      surface.mark(layers.candidates ? paired[i] : []);
+      surface.mark([...paired[i]]);
     });
   }
 

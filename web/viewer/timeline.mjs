@@ -101,6 +101,15 @@ export class Timeline {
   }
 
   #listen() {
+    // What a slider must know beside the keys of the page.
+    const steps = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
+    this.root.addEventListener('keydown', (event) => {
+      if (!(event.key in steps) || event.ctrlKey || event.metaKey || event.altKey) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.player.pause();
+      this.player.goto(Math.min(this.player.frames - 1, Math.max(0, this.player.frame + steps[event.key])));
+    });
     this.tracks.forEach((track, i) => {
       track.addEventListener('pointerdown', (event) => {
         if (event.button !== 0) return;

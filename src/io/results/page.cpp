@@ -156,6 +156,7 @@ std::string Page::data() const {
               {"first_frame", head_.first_frame},
               {"frame_step", head_.frame_step},
               {"frames_per_second", head_.frames_per_second},
+              {"first_contacts", head_.first_contacts},
               {"note", text_or_null(head_.note)},
               {"objects", std::move(objects)},
               {"numbers", section_if(!first.numbers.empty(), "numbers", numbers_section)},

@@ -31,6 +31,7 @@ struct Page_head {
   std::size_t first_frame = 0;               ///< frame of the scene that is the page's first
   std::size_t frame_step = 1;                ///< frames of the scene per frame of the page
   double frames_per_second = 30;             ///< of the page, when it plays
+  bool first_contacts = false;               ///< of each pair the run listed one contact only
   std::optional<std::string> note = {};      ///< what a reader must know of all frames: plain sentences
   std::optional<std::string> report = {};    ///< Markdown
 };
