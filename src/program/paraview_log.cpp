@@ -78,17 +78,33 @@ Vtp_data meshes_of(const Scene& scene, const Scene_detector& detector, const Fra
   return data;
 }
 
-Vtp_data particles_of(const Scene& scene) {
+using Numbered_vertices = std::vector<std::pair<std::uint32_t, Surface_mesh::Vertex_index>>;
+
+/// The particles of an object, as their number and vertex, in the order of vertices. Several can be at one vertex in
+/// mode `senin`, of which the map of the mesh tells only one.
+Numbered_vertices numbered_particles(const Surface_mesh& mesh, Object_id o, const Scene_detector& detector, Mode mode) {
+  Numbered_vertices particles;
+  if (!finds_all(mode)) {
+    for (const std::uint32_t vertex : detector.object(o).particles().at)
+      particles.emplace_back(static_cast<std::uint32_t>(particles.size()), Surface_mesh::Vertex_index(vertex));
+    std::ranges::stable_sort(particles, {}, [](const auto& particle) { return particle.second; });
+    return particles;
+  }
+  const auto at = particles_at(mesh);
+  for (const auto v : mesh.vertices())
+    if (at[v] != no_particle) particles.emplace_back(at[v], v);
+  return particles;
+}
+
+Vtp_data particles_of(const Scene& scene, const Scene_detector& detector, Mode mode) {
   Vtp_data data;
   Numbers region, object;
-  for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+  for (Object_id o = 0; o < scene.objects.size(); ++o) {
     const auto& mesh = scene.objects[o].mesh;
-    const auto particles = particles_at(mesh);
-    for (const auto v : mesh.vertices()) {
-      if (particles[v] == no_particle) continue;
+    for (const auto& [particle, vertex] : numbered_particles(mesh, o, detector, mode)) {
       data.vertices.push_back({static_cast<std::uint32_t>(data.points.size())});
-      data.points.push_back(mesh.point(v));
-      region.push_back(particles[v]);
+      data.points.push_back(mesh.point(vertex));
+      region.push_back(particle);
       object.push_back(o);
     }
   }
@@ -135,12 +151,12 @@ Vtp_data contacts_of(const Scene& scene, const Frame& result) {
 
 }  // namespace
 
-Paraview_log::Paraview_log(const std::filesystem::path& folder, std::size_t frames)
-    : files_(folder), digits_(std::max<std::size_t>(4, fmt::formatted_size("{}", frames - 1))) {}
+Paraview_log::Paraview_log(const std::filesystem::path& folder, std::size_t frames, Mode mode)
+    : files_(folder), digits_(std::max<std::size_t>(4, fmt::formatted_size("{}", frames - 1))), mode_(mode) {}
 
 void Paraview_log::add(std::size_t frame, const Scene& scene, const Scene_detector& detector, const Frame& result) {
   write(meshes_, frame, meshes_of(scene, detector, result));
-  write(particles_, frame, particles_of(scene));
+  write(particles_, frame, particles_of(scene, detector, mode_));
   write(contacts_, frame, contacts_of(scene, result));
 }
 

@@ -19,7 +19,8 @@ namespace lodestone {
 class Paraview_log {
  public:
   /// @param frames  number of frames that will be added
-  Paraview_log(const std::filesystem::path& folder, std::size_t frames);
+  /// @param mode    of the detector
+  Paraview_log(const std::filesystem::path& folder, std::size_t frames, Mode mode);
 
   /// @param scene     posed at `frame`
   /// @param detector  that has found `result` in that frame
@@ -37,6 +38,7 @@ class Paraview_log {
 
   Atomic_files files_;
   std::size_t digits_;
+  Mode mode_;
   Series meshes_{"meshes"}, particles_{"particles"}, contacts_{"contacts"};
 };
 
