@@ -218,7 +218,14 @@ Gltf_shape Shape_reader::read() {
 
 // ---- Nodes ----
 
-Eigen::Affine3d affine(const double* columns) { return Eigen::Affine3d(Eigen::Map<const Eigen::Matrix4d>(columns)); }
+/// @throws Bad_mesh  the matrix is not affine; exporters may have rounded
+Eigen::Affine3d affine(const double* columns, const std::string& place) {
+  const Eigen::Map<const Eigen::Matrix4d> matrix(columns);
+  constexpr double rounding = 1e-4;
+  if (!((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= rounding))
+    throw Bad_mesh(place + ": the last row of the matrix is not 0, 0, 0, 1");
+  return Eigen::Affine3d(matrix);
+}
 
 Eigen::Vector3d vector_or(const std::vector<double>& numbers, const Eigen::Vector3d& otherwise) {
   return numbers.empty() ? otherwise : Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
@@ -226,7 +233,7 @@ Eigen::Vector3d vector_or(const std::vector<double>& numbers, const Eigen::Vecto
 
 Gltf_place place_of(const tinygltf::Node& node, const std::string& place) {
   Gltf_place result;
-  if (!node.matrix.empty()) result.matrix = affine(node.matrix.data());
+  if (!node.matrix.empty()) result.matrix = affine(node.matrix.data(), place);
   result.translation = vector_or(node.translation, {0, 0, 0});
   result.scale = vector_or(node.scale, {1, 1, 1});
   if (node.rotation.empty()) return result;
@@ -251,13 +258,15 @@ void read_nodes(const tinygltf::Model& model, Gltf_scene& scene) {
 }
 
 void read_skins(const tinygltf::Model& model, Gltf_scene& scene) {
-  for (const auto& skin : model.skins) {
+  for (std::size_t i = 0; i < model.skins.size(); ++i) {
+    const auto& skin = model.skins[i];
     Gltf_skin result{.joints = {skin.joints.begin(), skin.joints.end()}};
     result.from_mesh.assign(result.joints.size(), Eigen::Affine3d::Identity());
     if (skin.inverseBindMatrices >= 0) {
       const auto numbers = gltf_numbers(model, skin.inverseBindMatrices, scene.name);
       for (std::size_t joint = 0; joint < result.joints.size(); ++joint)
-        result.from_mesh[joint] = affine(numbers.data() + 16 * joint);
+        result.from_mesh[joint] =
+            affine(numbers.data() + 16 * joint, fmt::format("{}: /skins/{}: joint {}", scene.name, i, joint));
     }
     scene.skins.push_back(std::move(result));
   }

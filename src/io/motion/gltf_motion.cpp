@@ -105,9 +105,12 @@ struct Sampling {
   double start = 0;               ///< time of the first frame in seconds
   std::vector<double> keys = {};  ///< empty: frames follow each other at the rate
 
-  /// Key times are floats. With the same rounding, a frame at a key gets the key's exact value.
-  double time(std::size_t frame) const {
-    return keys.empty() ? static_cast<float>(start + static_cast<double>(frame) / rate) : keys[frame];
+  /// Seconds. Key times are floats: a frame at a key, as far as floats tell, gets the key's exact value.
+  double time(std::size_t frame, const Gltf_animation& of_keys) const {
+    if (!keys.empty()) return keys[frame];
+    const double exact = start + static_cast<double>(frame) / rate, rounded = static_cast<float>(exact);
+    const auto has_key = [rounded](const auto& curve) { return std::ranges::binary_search(curve.times, rounded); };
+    return std::ranges::any_of(of_keys.curves, has_key) ? rounded : exact;
   }
 };
 
@@ -137,7 +140,8 @@ class Gltf_computed final : public Computed_motion {
     if (frame >= sampling_->frames)
       throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is requested, the animation has {}", scene_->name,
                                    frame, sampling_->frames));
-    points_.set_time(&scene_->animations[sampling_->animation], sampling_->time(frame));
+    const Gltf_animation& animation = scene_->animations[sampling_->animation];
+    points_.set_time(&animation, sampling_->time(frame, animation));
   }
   Any_bound bound(const Bounded_object& object) const override {
     return Any_bound(Skin_bound(points_.points(), object.layout));

@@ -202,6 +202,22 @@ TEST_F(Gltf_damage, negative_joint_weights_are_refused) {
   expect_error(sample.gltf(), "vertex 1 (counted from 0) has a negative joint weight");
 }
 
+TEST_F(Gltf_damage, matrices_that_are_not_affine_are_refused) {
+  for (const double w : {2.0, 0.0}) {
+    auto sample = square_gltf();
+    sample.json["nodes"][0]["matrix"] = Json{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, w};
+    expect_error(sample.gltf(), "/nodes/0: the last row of the matrix is not 0, 0, 0, 1");
+  }
+  auto bound = rich_gltf();
+  bound.json["skins"][0]["inverseBindMatrices"] =
+      bound.add_floats("MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,  //
+                                    1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1});
+  expect_error(bound.gltf(), "/skins/0: joint 1: the last row of the matrix is not 0, 0, 0, 1");
+  auto rounded = square_gltf();
+  rounded.json["nodes"][0]["matrix"] = Json{1, 0, 0, 1e-7, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1 - 1e-7};
+  EXPECT_EQ(read_mesh(folder.write("rounded.gltf", rounded.gltf())).mesh.number_of_faces(), 2U);
+}
+
 TEST_F(Gltf_damage, nodes_in_cycles_or_with_two_parents_are_refused) {
   expect_error("/nodes/2/children", {1}, "/nodes/1: is a child of node 0 and of node 2");
   expect_error("/nodes/2/children", {0}, "the nodes form a cycle");

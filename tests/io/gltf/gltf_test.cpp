@@ -234,6 +234,17 @@ TEST_F(Gltf, linear_curves_interpolate_between_keys_and_are_constant_outside) {
     expect_near(at(sample, time), moved([z = z](double x, double y, double) { return Point(x, y, z); }));
 }
 
+TEST_F(Gltf, frames_between_keys_are_where_the_curve_is_at_their_time) {
+  auto sample = square_gltf();
+  sample.animate(0, "translation", sample.add_numbers({0, 1024}), sample.add_points({0, 0, 0, 0, 0, 1024}));
+  const auto animation = read_animation(write(sample), {.frames_per_second = 10});
+  std::vector<Point> positions(animation.vertices);
+  for (const std::size_t frame : {1U, 777U, 10'003U}) {
+    animation.motion.pose(frame, positions);
+    EXPECT_NEAR(positions.front().z(), static_cast<double>(frame) / 10, 1e-9);  // as floats times differ by 1e-5
+  }
+}
+
 TEST_F(Gltf, step_curves_are_constant_until_the_next_key) {
   auto sample = square_gltf();
   const auto times = sample.add_numbers({0, 0.1, 0.3, 0.7});
