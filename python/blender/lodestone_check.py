@@ -18,7 +18,8 @@ bl_info = {
     "category": "Animation",
 }
 
-#: Face attribute that a check gives each mesh for its duration: the indices of its own faces, which modifiers pass on.
+#: Face attribute that a check gives each mesh for its duration: a number for each of its own faces, which modifiers pass
+#: on.
 FACE_ATTRIBUTE = "lodestone_face"
 #: Name of the text that lists what was found.
 TEXT = "Lodestone"
@@ -43,9 +44,9 @@ def import_lodestone():
     return lodestone
 
 
-def surface_of(mesh_object, depsgraph):
+def surface_of(mesh_object, depsgraph, first_label=None):
     """An object as modifiers, bones and shape keys leave it: world coordinates (V, 3), triangles (F, 3), and per
-    triangle the face of the object's own mesh that it is of, -1 where that is unknown."""
+    triangle the face of the object's own mesh that it is of, -1 where that is unknown. first_label: as in own_faces."""
     evaluated = mesh_object.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
     try:
@@ -56,21 +57,27 @@ def surface_of(mesh_object, depsgraph):
         mesh.vertices.foreach_get("co", vertices.reshape(-1))
         mesh.loop_triangles.foreach_get("vertices", triangles.reshape(-1))
         mesh.loop_triangles.foreach_get("polygon_index", polygon)
-        own_face = own_faces(mesh, len(mesh_object.data.polygons))[polygon]
+        own_face = own_faces(mesh, len(mesh_object.data.polygons), first_label)[polygon]
     finally:
         evaluated.to_mesh_clear()
     world = np.array(evaluated.matrix_world)
     return vertices.astype(float) @ world[:3, :3].T + world[:3, 3], triangles, own_face
 
 
-def own_faces(evaluated_mesh, own_count):
-    """Per face of an evaluated mesh the face of the object's own mesh that it comes from, -1: unknown."""
+def own_faces(evaluated_mesh, own_count, first_label):
+    """Per face of an evaluated mesh the face of the object's own mesh that it comes from, -1: unknown, or of another.
+
+    first_label: the label of the first face of the object's own mesh; None: it has no labels. A modifier that joins
+    other geometry brings in the labels of that, or 0.
+    """
     count = len(evaluated_mesh.polygons)
     attribute = evaluated_mesh.attributes.get(FACE_ATTRIBUTE)
-    if attribute is not None and attribute.domain == "FACE" and len(attribute.data) == count:
+    labelled = attribute is not None and attribute.domain == "FACE" and len(attribute.data) == count
+    if labelled and first_label is not None:
         faces = np.empty(count, dtype=np.int32)
         attribute.data.foreach_get("value", faces)
-        return faces
+        faces -= first_label
+        return np.where((faces >= 0) & (faces < own_count), faces, -1)
     return np.arange(count) if count == own_count else np.full(count, -1)
 
 
@@ -91,23 +98,33 @@ class Check:
         self.own_face = {}
         self.hits = {}  # frame -> list of (object, object, number of face pairs)
         self.frame_before = scene.frame_current
-        self.labelled = []
+        self.subframe_before = scene.frame_subframe
+        self.first_label = {}  # per mesh
         self.label_faces()
 
     def label_faces(self):
+        """Labels the faces of all meshes, each with a number of its own, from 1 on."""
+        label = 1
         for mesh in {o.data for o in self.objects}:
-            if FACE_ATTRIBUTE in mesh.attributes or not mesh.polygons:
+            if not mesh.polygons:
                 continue
+            if FACE_ATTRIBUTE in mesh.attributes:  # left by a check that could not end
+                mesh.attributes.remove(mesh.attributes[FACE_ATTRIBUTE])
             attribute = mesh.attributes.new(FACE_ATTRIBUTE, "INT", "FACE")
-            attribute.data.foreach_set("value", np.arange(len(mesh.polygons), dtype=np.int32))
-            self.labelled.append(mesh)
+            attribute.data.foreach_set("value", np.arange(label, label + len(mesh.polygons), dtype=np.int32))
+            self.first_label[mesh] = label
+            label += len(mesh.polygons)
+
+    def play(self, number):
+        """Goes to a frame, and finds what collides there."""
+        self.scene.frame_set(number)
+        return self.look_at(number)
 
     def look_at(self, number):
-        """Finds what collides in a frame: a list of (object, its faces, object, its faces)."""
-        self.scene.frame_set(number)
+        """Finds what collides in the frame that is shown: a list of (object, its faces, object, its faces)."""
         depsgraph = bpy.context.evaluated_depsgraph_get()
         for mesh_object in self.objects:
-            self.move(mesh_object, *surface_of(mesh_object, depsgraph))
+            self.move(mesh_object, *surface_of(mesh_object, depsgraph, self.first_label.get(mesh_object.data)))
         if not self.ids:
             return []
         objects = {i: mesh_object for mesh_object, i in self.ids.items()}
@@ -138,16 +155,22 @@ class Check:
         self.triangles[mesh_object] = triangles
 
     def select(self):
-        """Goes back to the frame where the check began, and selects what collides there."""
+        """Goes back to the frame where the check began, and selects what collides there. If it is still there, poses
+        that have no key stay as they are.
+        """
+        self.go_back()
         select_faces(self.objects, self.look_at(self.frame_before))
+
+    def go_back(self):
+        if self.scene.frame_current != self.frame_before:
+            self.scene.frame_set(self.frame_before, subframe=self.subframe_before)
 
     def close(self):
         """Leaves scene and meshes as they were. May be called twice."""
-        for mesh in self.labelled:
+        for mesh in self.first_label:
             mesh.attributes.remove(mesh.attributes[FACE_ATTRIBUTE])
-        self.labelled = []
-        if self.scene.frame_current != self.frame_before:
-            self.scene.frame_set(self.frame_before)
+        self.first_label = {}
+        self.go_back()
 
 
 def select_faces(objects, found):
@@ -261,6 +284,9 @@ class LODESTONE_OT_check_frame(Checking, bpy.types.Operator):
             return {"CANCELLED"}
         try:
             self.select(context)
+        except import_lodestone().Error as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         finally:
             self.check.close()
         pairs = sum(count for _, _, count in self.check.hits.get(context.scene.frame_current, []))
@@ -280,28 +306,46 @@ class LODESTONE_OT_check(Checking, bpy.types.Operator):
         scene = context.scene
         self.frames = list(range(scene.frame_start, scene.frame_end + 1, scene.frame_step))
         self.done = 0
+        self.failure = ""
         context.window_manager.progress_begin(0, len(self.frames))
         return True
 
     def step(self, context):
-        self.check.look_at(self.frames[self.done])
+        """Checks the next frame.
+
+        Returns whether others follow. A frame that cannot be checked, such as one with positions that are no numbers, ends
+        the check, and what was found before is told.
+        """
+        if self.done == len(self.frames):
+            return False
+        number = self.frames[self.done]
+        try:
+            self.check.play(number)
+        except import_lodestone().Error as error:
+            self.failure = f"Frame {number}: {error}"
+            return False
         self.done += 1
         context.window_manager.progress_update(self.done)
+        return self.done < len(self.frames)
 
     def tell(self, context):
         """Selects faces, writes the text, sets the markers."""
         scene, hits = context.scene, dict(self.check.hits)
-        self.select(context)
+        try:
+            self.select(context)
+        except import_lodestone().Error as error:  # the frame that is selected may be the bad one
+            self.failure = self.failure or f"Frame {self.check.frame_before}: {error}"
         part = "" if self.done == len(self.frames) else f"Stopped after {self.done} frames. "
+        if self.failure:
+            part = f"{self.failure}. {part}"
         if hits:
             summary = f"{part}Collisions in {len(hits)} of {self.done} frames: {ranges_of(hits)}"
         else:
             summary = f"{part}No collision in {self.done} frames"
         scene.lodestone.result = summary
         write_text(hits, summary)
-        if scene.lodestone.markers:
-            set_markers(scene, hits)
-        self.report({"INFO"}, summary)
+        set_markers(scene, hits if scene.lodestone.markers else {})
+        self.report({"ERROR" if self.failure else "INFO"}, summary)
 
     def close(self, context):
         context.window_manager.progress_end()
@@ -311,8 +355,8 @@ class LODESTONE_OT_check(Checking, bpy.types.Operator):
         if not self.begin(context):
             return {"CANCELLED"}
         try:
-            while self.done < len(self.frames):
-                self.step(context)
+            while self.step(context):
+                pass
             self.tell(context)
         finally:
             self.close(context)
@@ -327,9 +371,7 @@ class LODESTONE_OT_check(Checking, bpy.types.Operator):
 
     def modal(self, context, event):
         try:
-            if event.type == "TIMER":
-                self.work(context)
-            if event.type != "ESC" and self.done < len(self.frames):
+            if event.type not in {"TIMER", "ESC"} or (event.type == "TIMER" and self.work(context)):
                 return {"RUNNING_MODAL"}
             self.tell(context)
         except Exception:
@@ -339,11 +381,13 @@ class LODESTONE_OT_check(Checking, bpy.types.Operator):
         return {"FINISHED"}
 
     def work(self, context):
-        """Checks frames for a moment."""
+        """Checks frames for a moment. Returns whether others follow."""
         until = time.monotonic() + SLICE
-        while self.done < len(self.frames) and time.monotonic() < until:
-            self.step(context)
+        goes_on = self.step(context)
+        while goes_on and time.monotonic() < until:
+            goes_on = self.step(context)
         context.workspace.status_text_set(f"Checked {self.done} of {len(self.frames)} frames. Esc: stop")
+        return goes_on
 
     def cancel(self, context):
         """Ends the modal run; Blender calls it too, when it quits."""

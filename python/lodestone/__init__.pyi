@@ -390,7 +390,11 @@ def read_animation(
 ) -> Animation: ...
 def write_mesh(path: Path, mesh: Union[Mesh, ArrayLike], faces: Optional[ArrayLike] = None) -> None: ...
 def write_animation(
-    path: Path, frames: Iterable[ArrayLike], faces: Optional[ArrayLike] = None, *, frames_per_second: float = 30.0
+    path: Path,
+    frames: Iterable[ArrayLike],
+    faces: Optional[ArrayLike] = None,
+    *,
+    frames_per_second: Optional[float] = None,
 ) -> None: ...
 def read_scene(
     path: Union[Path, Sequence[Path]],

@@ -44,6 +44,8 @@ def page(frames, path=None, *, title="Lodestone", frames_per_second=30.0):
     frames: an iterable of Frame, of one detector. Each is added before the next is asked for, since it shows the
     objects where they are then. So a list of frames that were kept is refused: give `play(...)` itself.
     """
+    if path is not None and not os.fspath(path).lower().endswith(".html"):
+        raise BadArgument(f"{os.fspath(path)}: a page is written as .html")  # before all frames are played
     made = None
     for frame in frames:
         if made is None:

@@ -109,11 +109,9 @@ Python_detector::Reading::Reading(Python_detector& detector) : detector_(detecto
   detector.check_no_visitor();
   const auto hold = detector.current_hold();
   std::set<Python_skin*> skins;  // in one order for all detectors, so that none waits for the other
-  for (Object_id id = 0; id < detector.objects_.size(); ++id) {
-    const auto& object = detector.objects_[id];
-    if (!object) continue;
+  for (const Object_id id : detector.ids_) {
     detector.refresh(id, hold);
-    if (object->skin() != nullptr) skins.insert(object->skin());
+    if (auto* const skin = detector.objects_[id]->skin(); skin != nullptr) skins.insert(skin);
   }
   for (auto* skin : skins) skins_.push_back(std::make_unique<Python_skin::Reading>(*skin));
   detector.reading_ = true;
@@ -145,8 +143,7 @@ void Python_detector::refresh(Object_id object, std::uint64_t hold) {
 
 std::string Python_detector::text() {
   return look([&](auto&) {
-    const auto count = std::ranges::count_if(objects_, [](const auto& object) { return object != nullptr; });
-    return "<lodestone.Detector mode='" + std::string(name_of(settings_.options.mode)) + "', " + std::to_string(count) +
+    return "<lodestone.Detector mode='" + std::string(name_of(settings_.options.mode)) + "', " + std::to_string(ids_.size()) +
            " objects>";
   });
 }
@@ -181,6 +178,8 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
     const Without_gil without_gil;
     object = std::make_unique<Python_object>(options.name, std::move(animation),
                                              settings_.options.mode == Mode::certified);
+  } else if (py::isinstance<Python_animation>(mesh)) {
+    throw Bad_argument("an Animation has faces of its own: give `mesh` to read_animation, not faces to this call");
   } else if (py::isinstance<Python_skin>(mesh)) {
     if (faces.is_none()) throw Bad_argument("a skin needs faces");
     object = naming_mesh(name, [&] {
@@ -194,6 +193,7 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
     const Object_id id = object->add_to(detector, options);
     ++poses_;
     objects_.push_back(std::move(object));
+    ids_.push_back(id);
     return id;
   });
 }
@@ -283,8 +283,8 @@ Python_frame Python_detector::found(const Detect& detect) {
 
 std::uint64_t Python_detector::poses() const {
   std::uint64_t sum = poses_;
-  for (const auto& object : objects_)
-    if (object && object->skin() != nullptr) sum += object->skin()->pose_number();
+  for (const Object_id id : ids_)
+    if (objects_[id]->skin() != nullptr) sum += objects_[id]->skin()->pose_number();
   return sum;
 }
 
@@ -332,6 +332,7 @@ void Python_detector::remove(Object_id object) {
     detector.remove(object);
     ++poses_;
     removed = std::move(objects_[object]);
+    std::erase(ids_, object);
   });
   // With the GIL again: what it keeps goes.
 }

@@ -185,6 +185,7 @@ class Python_detector {
   Deadlock_mutex mutex_;  ///< a visitor that calls the detector gets an error, not a deadlock
   bool reading_ = false;  ///< a query reads; who gets here then is its visitor
   std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed
+  std::vector<Object_id> ids_;                           ///< of those that are there, ascending
   std::uint64_t last_frame_ = 0;  ///< number of the frame that was found last
   std::uint64_t poses_ = 0;       ///< how often objects were moved, added, removed or rebuilt, but for what `poses` adds
   Detector<Any_strategy> detector_;

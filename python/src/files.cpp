@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -33,6 +34,18 @@ void refuse_scenes(const Path& path) {
     throw Bad_argument(path.string() + ": scenes, their objects and shapes are read by read_scene");
 }
 
+/// Only glTF files have several animations, and times between frames.
+void check_used(const Path& path, const Animation& read, const std::variant<std::size_t, std::string>& animation,
+                const std::optional<double>& frames_per_second) {
+  if (frames_per_second && !(*frames_per_second > 0 && std::isfinite(*frames_per_second)))
+    throw Bad_argument("frames_per_second must be finite and > 0");
+  const bool chosen = animation != std::variant<std::size_t, std::string>(std::size_t{0});
+  if (read.kind != "gltf" && (chosen || frames_per_second))
+    throw Bad_argument(path.string() + ": animation and frames_per_second are for glTF files");
+  if (chosen && read.motion.frames == 1 && !read.motion.resampled)
+    throw Bad_argument(path.string() + ": the file has no animations");
+}
+
 std::shared_ptr<Python_animation> read_animation_file(const Path& path, const std::optional<Path>& mesh,
                                                       const std::variant<std::size_t, std::string>& animation,
                                                       std::optional<double> frames_per_second, std::size_t max_faces) {
@@ -42,6 +55,7 @@ std::shared_ptr<Python_animation> read_animation_file(const Path& path, const st
                                                                 .frames_per_second = frames_per_second,
                                                                 .animation = animation,
                                                                 .limits = {.max_faces = max_faces}}));
+  check_used(path, *read, animation, frames_per_second);
   return std::make_shared<Python_animation>(
       Python_animation{.name = path.filename().string(), .animation = read, .frames = read->motion.frames});
 }
@@ -139,14 +153,18 @@ void write(const Path& path, const py::object& frames, const py::object& faces,
 }
 
 void write_animation_file(const Path& path, const py::object& frames, const py::object& faces,
-                          double frames_per_second) {
+                          std::optional<double> frames_per_second) {
   // Those of an Animation, unless the caller gives others.
   const py::object given = faces.is_none() ? py::getattr(frames, "faces", py::none()) : faces;
-  write(path, frames, given, {.frames_per_second = frames_per_second});
+  const double known =
+      py::isinstance<Python_animation>(frames) ? frames.cast<const Python_animation&>().animation->frames_per_second : 0;
+  write(path, frames, given, {.frames_per_second = frames_per_second.value_or(known > 0 ? known : 30)});
 }
 
 void write_mesh_file(const Path& path, const py::object& mesh, const py::object& faces) {
   const auto given = given_mesh(mesh, faces, "mesh");
+  if (const auto kind = lower_case(path.extension().string()); kind == ".pc2" || kind == ".mdd")
+    throw Bad_argument(path.string() + ": a point cache has no faces: write it by write_animation");
   write(path, py::make_tuple(given.vertices), given.faces, {.numbered = false});
 }
 
@@ -167,10 +185,10 @@ void add_files(py::module_& module) {
              "Writes a mesh: .obj, .off, .ply, .stl, .gltf or .glb. The file appears whole or not at all.\n"
              "mesh: vertices, an array (V, 3), with `faces`; or an object that has both.");
   module.def("write_animation", write_animation_file, py::arg("path"), py::arg("frames"), py::arg("faces") = py::none(), py::kw_only(),
-             py::arg("frames_per_second") = 30.0,
+             py::arg("frames_per_second") = py::none(),
              "Writes an animation: a point cache (.pc2, .mdd), glTF (.gltf, .glb), or a pattern of mesh files such as "
              "'cloth_####.ply'.\nframes: arrays (V, 3), one per frame, or an Animation. faces: (F, 3), or those of the Animation; a "
-             "point cache has none.");
+             "point cache has none.\nframes_per_second: None means those of the Animation, if it has any, else 30.");
 
   py::class_<Python_scene>(module, "Scene", "What a scene file describes: objects that move.")
       .def_property_readonly("name", [](const Python_scene& self) { return text_of(self.name); }, "Its name.")

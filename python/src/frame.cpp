@@ -197,7 +197,7 @@ py::dict statistics_of(const Frame_statistics& s) {
   all["leaves_posed"] = s.leaves_posed;
   all["violations"] = s.violations;
   all["candidates"] = s.candidates;
-  all["openings"] = s.openings;
+  all["leaf_tests"] = s.leaf_tests;
   all["exact_tests"] = s.exact_tests;
   all["contacts"] = s.contacts;
   all["builds"] = s.builds;
@@ -210,7 +210,9 @@ py::object only_pair(Python_frame frame) {
   return py::cast(Python_pair{py::cast(std::move(frame)), result});
 }
 
-void add_frames(py::module_& module) {
+namespace {
+
+void add_frame_class(py::module_& module) {
   py::class_<Python_frame>(module, "Frame", py::dynamic_attr(),
                            "What `Detector.detect` found. It stays as it is when the detector goes on.")
       .def_property_readonly("number", [](const Python_frame& self) { return self.frame->number; },
@@ -265,7 +267,9 @@ void add_frames(py::module_& module) {
       .def("__bool__", [](const Python_frame& self) { return self.frame->collides(); }, "`collides`.")
       .def(py::pickle([](const Python_frame& self) { return pickled(self); }, &unpickled_frame))
       .def("__repr__", text_of_frame);
+}
 
+void add_pair_class(py::module_& module) {
   py::class_<Python_pair>(module, "Pair", "What was found about two objects a < b, or about one and itself, a = b.")
       .def_property_readonly("a", [](const Python_pair& self) { return self.result.a; }, "Id of the first object.")
       .def_property_readonly("b", [](const Python_pair& self) { return self.result.b; }, "Id of the second object.")
@@ -311,6 +315,13 @@ void add_frames(py::module_& module) {
           [](const Python_pair& self) { return py::make_tuple(self.frame, self.result.a, self.result.b); },
           &pair_of_state))
       .def("__repr__", text_of_pair);
+}
+
+}  // namespace
+
+void add_frames(py::module_& module) {
+  add_frame_class(module);
+  add_pair_class(module);
 }
 
 }  // namespace lodestone::python

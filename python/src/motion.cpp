@@ -42,7 +42,11 @@ std::shared_ptr<Python_skin> make_skin(const py::object& vertices, const py::obj
       influence.shape(0) != rest.shape(0) || listed.shape(1) != influence.shape(1) || listed.shape(1) == 0)
     throw Bad_argument("joints and weights must both have the shape (V, n), with V vertices and n > 0");
   const auto joint_list = indices_of(listed.attr("reshape")(-1), "joints");
-  if (joint_count == 0 && !joint_list.empty()) joint_count = std::size_t{1} + std::ranges::max(joint_list);
+  if (joint_count == 0 && !joint_list.empty()) {
+    joint_count = std::size_t{1} + std::ranges::max(joint_list);
+    if (joint_count > std::max<std::size_t>(joint_list.size(), 65536))  // such as 2^32 - 1, for none
+      throw Bad_argument("joints names joint " + std::to_string(joint_count - 1) + ": if there are so many, give joint_count");
+  }
   const auto influences =
       Joint_influences::of(static_cast<std::size_t>(influence.shape(1)), joint_list,
                            std::span(influence.data(), static_cast<std::size_t>(influence.size())));

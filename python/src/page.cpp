@@ -15,6 +15,7 @@
 #include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/saved_state.h"
+#include "program/missed_frames.h"
 #include "program/viewer.h"
 
 /// The viewer's page of the frames of a detector.
@@ -62,7 +63,9 @@ class Python_page {
       : detector_(std::move(detector)),
         page_({.title = title,
                .mode = std::string(name_of(detector_->options().mode)),
-               .frames_per_second = frames_per_second}) {
+               .frames_per_second = frames_per_second,
+               .first_contacts = detector_->options().contacts == Contact_query::first,
+               .note = missing_note(detector_->options())}) {
     if (!(frames_per_second > 0) || !std::isfinite(frames_per_second))
       throw Bad_argument("frames_per_second must be finite and > 0");
     std::size_t id = 0;

@@ -116,12 +116,12 @@ void visit_statistics(auto& archive, auto& s) {
   visit_numbers(archive, s.seconds.build, s.seconds.repartition, s.seconds.refit, s.seconds.broad_phase,
                 s.seconds.relaxation, s.seconds.candidates, s.seconds.confirmation, s.object_candidates, s.iterations,
                 s.moves, s.relaxed, s.meetings, s.vertices_read, s.nodes_bounded, s.leaves_posed, s.violations,
-                s.candidates, s.openings, s.exact_tests, s.contacts, s.builds, s.repartitions);
+                s.candidates, s.leaf_tests, s.exact_tests, s.contacts, s.builds, s.repartitions);
 }
 
 void visit_pair(auto& archive, auto& pair) {
-  visit_numbers(archive, pair.a, pair.b, pair.collides, pair.near, pair.candidates, pair.first_contact, pair.contacts,
-                pair.capped, pair.unfinished, pair.containment, pair.first_patch, pair.patches);
+  visit_numbers(archive, pair.a, pair.b, pair.collides, pair.near, pair.candidates, pair.leaf_tests,
+                pair.first_contact, pair.contacts, pair.capped, pair.unfinished, pair.containment, pair.first_patch, pair.patches);
   archive.optional(pair.parting, [&](auto& parting) {
     visit_vector(archive, parting.translation);
     archive(parting.length);
@@ -180,7 +180,7 @@ void check(const Python_frame& made) {
 }
 
 /// The first number of all bytes tells what they are of, and the format. Whoever changes the fields changes the number.
-constexpr std::uint64_t frame_mark = 0x4c4f4445'46520001, partition_mark = 0x4c4f4445'50410001;
+constexpr std::uint64_t frame_mark = 0x4c4f4445'46520002, partition_mark = 0x4c4f4445'50410001;
 
 template <class Visit>
 void read(const py::bytes& bytes, const char* what, std::uint64_t expected, const Visit& visit) {

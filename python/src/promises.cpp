@@ -98,7 +98,8 @@ void add_promise(Detector_class& type) {
   type
       .def("promise", promise_any, py::arg("object"), py::arg("promise"),
            "Promises something about how an object moves, in mode 'certified'. If a vertex that is read breaks the promise, the\n"
-           "object is read as a whole. If none of those that break it is read, a collision can be missed.");
+           "object is read as a whole. If none of those that break it is read, a collision can be missed. Promises about one object\n"
+           "add up: make one, and change it from frame to frame.");
 }
 
 }  // namespace lodestone::python

@@ -223,6 +223,60 @@ def test_objects_are_where_rotation_and_scale_put_them():
     equal([line.split(":")[1] for line in lines()[1:]], [" Beam with End"])
 
 
+def test_faces_of_joined_geometry_are_not_taken_for_own_ones():
+    """A Boolean joins a bar of the other checked object to the left cube; another joins one of an unchecked object."""
+    scene, left, right = approaching_cubes()
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=12, y_subdivisions=12, size=1, location=(20, 0, 0))
+    fine = bpy.context.object
+    solid = fine.modifiers.new("Solid", "SOLIDIFY")
+    solid.thickness = 1
+    for operand in (fine, right):
+        union = left.modifiers.new("Union", "BOOLEAN")
+        union.operation, union.object = "UNION", operand
+    for chosen in ((left, right), (left, right, fine)):
+        select_only(*chosen)
+        scene.frame_set(10)
+        equal(bpy.ops.lodestone.check(), {"FINISHED"})
+        assert 10 in colliding_frames(), lines()
+        # What meets the right cube is that cube itself, joined: no face of the left cube's own far side.
+        assert (-1, 0, 0) not in normals_of_selected(left), normals_of_selected(left)
+
+
+def test_a_frame_with_broken_positions_keeps_what_was_found_before():
+    scene, left, right = approaching_cubes()
+    left.shape_key_add(name="Basis")
+    key = left.shape_key_add(name="burst")
+    for point in key.data:
+        point.co.x = float("nan")
+    for frame, value in ((10, 0.0), (11, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    for curve in left.data.shape_keys.animation_data.action.fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "CONSTANT"
+    message = error_of(bpy.ops.lodestone.check)
+    assert message.startswith("Frame 11: ") and "Collisions in 1 of 10 frames: 10" in message, message
+    equal(colliding_frames(), [10])
+
+
+def test_checking_the_current_frame_leaves_a_pose_without_keys():
+    scene, left, right = approaching_cubes()
+    scene.frame_set(5)
+    right.data.shape_keys.key_blocks["push"].value = 1.0  # as in frame 11; not keyed
+    bpy.ops.lodestone.check_frame()
+    equal(len(normals_of_selected(left)), 3)
+    equal(right.data.shape_keys.key_blocks["push"].value, 1.0)
+
+
+def test_markers_of_an_earlier_check_go_with_the_option():
+    scene, left, right = approaching_cubes()
+    bpy.ops.lodestone.check()
+    equal(markers(scene), [10])
+    scene.lodestone.markers = False
+    bpy.ops.lodestone.check()
+    equal(markers(scene), [])
+
+
 def test_messages_say_what_is_missing():
     scene, left, right = approaching_cubes()
     select_only()

@@ -167,3 +167,14 @@ def test_a_box_promise_whose_function_fails_is_an_error_and_the_detector_goes_on
     assert detector.detect().collides == collides
     with pytest.raises(TypeError):
         lodestone.BoxPromise(7)
+
+
+def test_joints_out_of_all_proportion_are_refused():
+    ball = sphere(4)
+    joints = np.zeros((len(ball.vertices), 2), dtype=np.uint32)
+    joints[0, 1] = 2**32 - 1  # as some files mark that there is none
+    weights = np.tile([1.0, 0.0], (len(ball.vertices), 1))
+    with pytest.raises(lodestone.BadArgument, match="joints names joint 4294967295"):
+        lodestone.Skin(ball.vertices, joints, weights)
+    joints[0, 1] = 5
+    lodestone.Skin(ball.vertices, joints, weights)

@@ -32,7 +32,7 @@ def test_an_array_is_read_where_it_is():
     lambda v: np.repeat(v, 2, axis=0)[::2],
     lambda v: np.hstack([v, v])[:, :3],
     lambda v: v[:, ::-1].copy()[:, ::-1],
-    lambda v: np.frombuffer(b"\0" + v.tobytes(), dtype=np.uint8)[1:].view(np.float64).reshape(-1, 3).copy(),
+    lambda v: np.frombuffer(bytearray(b"\0" + v.tobytes()), dtype=np.uint8)[1:].view(np.float64).reshape(-1, 3),
     lambda v: np.lib.format.open_memmap,
 ], ids=["float32", "fortran", "strided", "wide", "reversed", "bytes", "memmap"])
 def test_floats_of_any_layout_are_read_by_every_query(convert, tmp_path):

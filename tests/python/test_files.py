@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files: meshes, animations, scenes, pages. Scenes give what the program gives."""
 
+import base64
 import json
 import os
 import re
@@ -230,6 +231,71 @@ def test_frames_of_a_scene_are_counted_from_the_end_too(scenes):
             faces_of(number)
     with pytest.raises(TypeError):
         faces_of(1.5)
+
+
+def test_an_animation_that_is_written_again_keeps_its_frame_rate(tmp_path):
+    box = cube()
+    lodestone.write_animation(tmp_path / "a.glb", [box.vertices, box.vertices + 1], box.faces, frames_per_second=12)
+    read = lodestone.read_animation(tmp_path / "a.glb")
+    for given, expected in (({}, 12), ({"frames_per_second": 25}, 25)):
+        lodestone.write_animation(tmp_path / "b.glb", read, **given)
+        assert lodestone.read_animation(tmp_path / "b.glb").frames_per_second == pytest.approx(expected)
+    lodestone.write_animation(tmp_path / "c.glb", [box.vertices, box.vertices + 1], box.faces)
+    assert lodestone.read_animation(tmp_path / "c.glb").frames_per_second == pytest.approx(30)
+
+
+@pytest.mark.parametrize("extension", ["pc2", "mdd", "PC2"])
+def test_a_mesh_is_not_written_as_a_point_cache_which_has_no_faces(tmp_path, extension):
+    with pytest.raises(lodestone.BadArgument, match="a point cache has no faces"):
+        lodestone.write_mesh(tmp_path / f"m.{extension}", cube())
+    assert not list(tmp_path.iterdir())
+
+
+def test_options_of_gltf_animations_are_refused_elsewhere(tmp_path):
+    box = cube()
+    for name in ("m.obj", "still.glb"):
+        lodestone.write_mesh(tmp_path / name, box)
+    lodestone.write_animation(tmp_path / "c.pc2", [box.vertices])
+    for name in ("m.obj", "c.pc2"):
+        for options in ({"animation": "walk"}, {"animation": 1}, {"frames_per_second": 24}):
+            with pytest.raises(lodestone.BadArgument, match="for glTF files"):
+                lodestone.read_animation(tmp_path / name, **options)
+    with pytest.raises(lodestone.BadArgument, match="the file has no animations"):
+        lodestone.read_animation(tmp_path / "still.glb", animation="walk")
+    for rate in (-5, 0, float("nan"), float("inf")):
+        with pytest.raises(lodestone.BadArgument, match="frames_per_second must be finite and > 0"):
+            lodestone.read_animation(tmp_path / "still.glb", frames_per_second=rate)
+    assert len(lodestone.read_animation(tmp_path / "still.glb", frames_per_second=24).faces) == 12
+
+
+def test_faces_beside_an_animation_are_refused_with_the_way_out(tmp_path):
+    lodestone.write_animation(tmp_path / "c.pc2", [cube().vertices] * 2)
+    cache = lodestone.read_animation(tmp_path / "c.pc2")
+    with pytest.raises(lodestone.BadArgument, match="give `mesh` to read_animation"):
+        lodestone.Detector().add(cache, cube().faces)
+
+
+def test_the_path_of_a_page_is_checked_before_frames_are_played(tmp_path):
+    def frames():
+        raise AssertionError("a frame was asked for")
+        yield
+
+    with pytest.raises(lodestone.BadArgument, match="written as .html"):
+        lodestone.page(frames(), tmp_path / "page.htm")
+
+
+def test_a_page_of_particles_says_that_collisions_may_be_missed(tmp_path):
+    for mode, warns in (("particles", True), ("exact", False)):
+        detector = lodestone.Detector(mode=mode)
+        detector.add(cube()), detector.add(sphere(8))
+        page = lodestone.Page(detector)
+        page.add(detector.detect())
+        page.save(tmp_path / "page.html")
+        data = re.search(r'id="lodestone-data"[^>]*>([^<]*)<', (tmp_path / "page.html").read_text()).group(1)
+        bytes_of_page = base64.b64decode(data)
+        header = json.loads(bytes_of_page[16 : 16 + int.from_bytes(bytes_of_page[12:16], "little")])
+        assert bool(header["note"]) == warns
+        assert not warns or "may miss collisions" in header["note"]
 
 
 def test_a_page_shows_frames(scenes, tmp_path):
