@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lodestone/mesh/errors.h"
+#include "program/command_description.h"
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/run_reported.h"

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "program/command_description.h"
 #include "program/command_line.h"
 #include "program/commands.h"
 
