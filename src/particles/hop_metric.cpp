@@ -13,23 +13,44 @@ namespace lodestone {
 namespace {
 
 /// Breadth-first searches over one graph, which share their memory. Gives the hops of `breadth_first_hops` in half the
-/// time: Boost's search also keeps a colour per vertex, and its queue is no array.
+/// time: Boost's search also keeps a colour per vertex, and its queue is no array. A search costs its component alone.
 class Hop_search {
  public:
-  explicit Hop_search(const Vertex_graph& graph) : graph_(graph), reached_(num_vertices(graph)) {}
+  explicit Hop_search(const Vertex_graph& graph)
+      : graph_(graph), hops_(num_vertices(graph), unreached), reached_(num_vertices(graph)) {}
 
-  /// @return per target: hops from `source`, or `unreached`
+  /// @param targets  in the component of `source`
+  /// @return per target: hops from `source`
   std::vector<std::uint32_t> hops_from(std::uint32_t source, std::span<const std::uint32_t> targets) {
-    search(source);
+    const auto reached = search(source);
     std::vector<std::uint32_t> result;
     result.reserve(targets.size());
     for (const auto target : targets) result.push_back(hops_[target]);
+    for (const auto vertex : reached) hops_[vertex] = unreached;
     return result;
   }
 
+  /// The targets by component, in their order; components in the order of their first targets. O(V + E).
+  std::vector<std::vector<std::uint32_t>> by_component(std::span<const std::uint32_t> targets) {
+    std::vector<std::vector<std::uint32_t>> groups;
+    constexpr std::uint32_t none = unreached;
+    std::vector<std::uint32_t> group_of(hops_.size(), none);
+    for (const auto target : targets) {
+      if (group_of[target] == none) {
+        for (const auto vertex : search(target)) {
+          group_of[vertex] = static_cast<std::uint32_t>(groups.size());
+          hops_[vertex] = unreached;
+        }
+        groups.emplace_back();
+      }
+      groups[group_of[target]].push_back(target);
+    }
+    return groups;
+  }
+
  private:
-  void search(std::uint32_t source) {
-    hops_.assign(reached_.size(), unreached);
+  /// @return the vertices that were reached, whose hops are to be forgotten before the next search
+  std::span<const std::uint32_t> search(std::uint32_t source) {
     hops_[source] = 0;
     reached_[0] = source;
     std::size_t count = 1;
@@ -41,14 +62,15 @@ class Hop_search {
         reached_[count++] = w;
       }
     }
+    return std::span(reached_).first(count);
   }
 
   const Vertex_graph& graph_;
-  std::vector<std::uint32_t> hops_;     ///< V
+  std::vector<std::uint32_t> hops_;     ///< V: `unreached` between searches
   std::vector<std::uint32_t> reached_;  ///< V: in the order in which they were reached
 };
 
-/// Hops between targets, as far as searches from some of them tell.
+/// Hops between targets of one component, as far as searches from some of them tell.
 class Known_hops {
  public:
   /// Adds what a search tells.
@@ -66,13 +88,10 @@ class Known_hops {
   }
 
  private:
-  /// Whether the hops between two targets of one component can be more than `most`. By the triangle inequality they
-  /// cannot if there are at most so many by way of the source of a search.
+  /// Whether the hops between two targets can be more than `most`. By the triangle inequality they cannot if there are
+  /// at most so many by way of the source of a search.
   bool may_exceed(std::size_t a, std::size_t b, std::size_t most) const {
-    return std::ranges::all_of(rows_, [&](const auto& hops) {
-      if ((hops[a] == unreached) != (hops[b] == unreached)) return false;
-      return hops[a] == unreached || std::size_t{hops[a]} + hops[b] > most;
-    });
+    return std::ranges::all_of(rows_, [&](const auto& hops) { return std::size_t{hops[a]} + hops[b] > most; });
   }
 
   std::vector<std::vector<std::uint32_t>> rows_;  ///< per search, per target
@@ -96,17 +115,17 @@ std::size_t hop_eccentricity(const Vertex_graph& graph, std::uint32_t source) {
   return farthest;
 }
 
-std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_t> targets) {
-  std::size_t diameter = 0;
+namespace {
+
+/// The largest hop distance of targets of one component, or `diameter` if none is larger.
+std::size_t larger_diameter(Hop_search& search, std::span<const std::uint32_t> targets, std::size_t diameter) {
   if (targets.size() < 2) return diameter;
-  Hop_search search(graph);
   Known_hops known;
   std::vector<std::size_t> undecided(targets.size());  // may be farther from another one than the diameter so far
   std::iota(undecided.begin(), undecided.end(), 0);
   for (std::size_t source = 0; !undecided.empty();) {
     auto hops = search.hops_from(targets[source], targets);
-    for (const auto hop : hops)
-      if (hop != unreached) diameter = std::max<std::size_t>(diameter, hop);
+    diameter = std::max<std::size_t>(diameter, std::ranges::max(hops));
     known.add(std::move(hops));
     std::erase(undecided, source);
 
@@ -120,6 +139,16 @@ std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_
     }
     undecided = std::move(still_undecided);
   }
+  return diameter;
+}
+
+}  // namespace
+
+std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_t> targets) {
+  std::size_t diameter = 0;
+  if (targets.size() < 2) return diameter;
+  Hop_search search(graph);
+  for (const auto& group : search.by_component(targets)) diameter = larger_diameter(search, group, diameter);
   return diameter;
 }
 

@@ -99,5 +99,22 @@ TEST(Hop_diameter, may_lie_in_any_component) {
   EXPECT_EQ(hop_diameter(graph, targets), 8U);
 }
 
+/// With a search per component, or more, this would take minutes if each compared all pairs of targets.
+TEST(Hop_diameter, of_thousands_of_components_is_that_of_the_widest) {
+  std::vector<Corners> faces;
+  std::vector<std::uint32_t> targets;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const std::uint32_t v = 4 * i;
+    faces.push_back({v, v + 1, v + 2});
+    faces.push_back({v + 2, v + 1, v + 3});
+    targets.push_back(v);
+    if (i % 3 == 0) targets.push_back(v + 1);
+  }
+  const auto graph = vertex_graph(12'000, faces);
+  EXPECT_EQ(hop_diameter(graph, targets), 1U);
+  targets.push_back(4 * 2999 + 3);
+  EXPECT_EQ(hop_diameter(graph, targets), 2U);
+}
+
 }  // namespace
 }  // namespace lodestone
