@@ -55,6 +55,21 @@ void Tree_layout::finish() {
   find_parts();
 }
 
+Tree_layout::Branches Tree_layout::branches() const {
+  constexpr int levels = 3;
+  Branches found;
+  const auto descend = [&](const auto& self, std::uint32_t n, int left) -> void {
+    if (left == 0 || is_leaf(n)) {
+      found.push_back(n);
+      return;
+    }
+    self(self, n + 1, left - 1);
+    self(self, nodes_[n].second_child, left - 1);
+  };
+  descend(descend, 0, levels);
+  return found;
+}
+
 /// Cuts the tree below its top into subtrees of at most `part_leaves` leaves.
 void Tree_layout::find_parts() {
   struct Subtree {

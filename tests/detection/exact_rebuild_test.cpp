@@ -36,8 +36,11 @@ std::vector<Point> places(std::uint64_t seed) {
 }
 
 /// Frames in which 500 pieces go from where they are to other places; gives the rebuilds.
-std::size_t rebuilds_while_mixing(double loosest) {
-  const auto from = places(1), to = places(2);
+/// @param strays  so many of them fly off
+std::size_t rebuilds_while_mixing(double loosest, std::size_t strays = 0) {
+  const auto from = places(1);
+  auto to = places(2);
+  for (std::size_t i = 0; i < strays; ++i) to[i] = Point(i == 1 ? -1000 : 1000, i == 2 ? -1000 : 1000, 1000);
   auto soup = pieces_at(from);
   const auto body = potato(10);
   Exact_detector detector({.mode = Mode::exact, .exact = {.loosest = loosest, .tree = {.leaf_faces = 16}}});
@@ -60,6 +63,14 @@ TEST(Exact_rebuild, a_soup_whose_pieces_mix_is_built_anew_and_answered_right) {
   const auto rebuilds = rebuilds_while_mixing(2);
   EXPECT_GE(rebuilds, 1U);
   EXPECT_LE(rebuilds, 4U);  // not in every frame
+}
+
+TEST(Exact_rebuild, of_a_soup_that_mixes_is_not_kept_from_it_by_pieces_that_fly_off) {
+  for (const std::size_t strays : {1U, 2U, 3U}) {
+    const auto rebuilds = rebuilds_while_mixing(2, strays);
+    EXPECT_GE(rebuilds, 1U) << strays;
+    EXPECT_LE(rebuilds, 5U) << strays;
+  }
 }
 
 TEST(Exact_rebuild, happens_more_often_with_a_lower_limit) {

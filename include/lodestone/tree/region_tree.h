@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -103,7 +105,8 @@ class Basic_region_tree : public Tree_layout {
   std::span<Volume> volumes() { return volumes_; }
 
   /// Mean extent of the leaves' volumes, relative to the extent of the root's. It grows when leaves are pulled apart.
-  /// For boxes it stays the same if the mesh is moved, turned by right angles, or scaled. 0 for a point.
+  /// For boxes it stays the same if the mesh is moved, turned by right angles, or scaled. 0 for a point. A few
+  /// vertices far from all others hardly count.
   double looseness() const { return looseness_; }
 
   /// For tests: describes the first violation of the definition above; empty if there is none. O(F log F).
@@ -116,11 +119,13 @@ class Basic_region_tree : public Tree_layout {
     workers.run(part_count(), [&](std::size_t part, std::size_t) { refit_part(part, coordinates); });
     return finish_refit(coordinates);
   }
+  double looseness_of(double extents);
   void enclose_children(std::uint32_t n) { volumes_[n].enclose(volumes_[n + 1], volumes_[node(n).second_child]); }
 
   std::vector<Volume> volumes_;       ///< per node
   std::vector<Leaf_sums> part_sums_;  ///< of the last refit
   double looseness_ = 0;
+  double spread_ = 0;  ///< extent of the root, in times of the branches' median, in the first refit; 0: none so far
 };
 
 /// The tree of the mode `exact`.
@@ -143,12 +148,34 @@ bool Basic_region_tree<Volume>::finish_refit(Coordinates coordinates) {
     sums.coordinates += part.coordinates;
     sums.extents += part.extents;
   }
-  const double whole = volumes_.front().extent();
-  looseness_ = whole > 0 ? sums.extents / static_cast<double>(leaf_count()) / whole : 0;
+  looseness_ = looseness_of(sums.extents);
   if (!std::isfinite(looseness_)) looseness_ = 0;  // the sum overflows beyond 1e306: such trees never count as loose
 
   // Finite coordinates can have a sum that overflows.
   return std::isfinite(sums.coordinates) || finite(coordinates);
+}
+
+/// A vertex that flies off makes the root's volume as large as one likes, and that of a leaf. So the extent of the
+/// whole is taken as no larger, in comparison with the median of the branches', than in the first refit; there as no
+/// more than eight times the median, which is as much as it is if each level halves the same side. No leaf counts as
+/// larger.
+/// @param extents  the sum of those of all leaves
+template <Bounding_volume Volume>
+double Basic_region_tree<Volume>::looseness_of(double extents) {
+  double whole = volumes_.front().extent();
+  boost::container::static_vector<double, most_branches> sizes;
+  for (const auto branch : branches()) sizes.push_back(volumes_[branch].extent());
+  std::ranges::sort(sizes);
+  const double median = sizes[sizes.size() / 2];
+  if (spread_ == 0 && median > 0) spread_ = std::min(whole / median, 8.0);
+  const double most = spread_ * median;
+  if (sizes.size() >= 4 && most > 0 && most < whole) {
+    whole = most;
+    extents = 0;
+    for (std::size_t leaf = 0; leaf < leaf_count(); ++leaf)
+      extents += std::min(volumes_[leaf_node(leaf)].extent(), most);
+  }
+  return whole > 0 ? extents / static_cast<double>(leaf_count()) / whole : 0;
 }
 
 template <Bounding_volume Volume>

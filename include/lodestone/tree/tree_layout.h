@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -126,6 +127,13 @@ class Tree_layout {
   std::span<const std::uint32_t> vertex_begin() const { return vertex_begin_; }
   /// Per leaf: the index of its node.
   std::span<const std::uint32_t> leaf_nodes() const { return leaf_nodes_; }
+
+  /// At most so many are the nodes three levels below the root.
+  static constexpr std::size_t most_branches = 8;
+  /// Nodes by index.
+  using Branches = boost::container::static_vector<std::uint32_t, most_branches>;
+  /// The nodes three levels below the root, and the leaves above them, ascending. Each leaf is below one of them.
+  Branches branches() const;
 
   /// Per node: the node above it; the root's is itself. O(N) for N nodes.
   std::vector<std::uint32_t> parents() const;
