@@ -163,6 +163,24 @@ TEST(Region_anchors, the_box_encloses_the_surface_at_rest_and_moved_and_scaled) 
   }
 }
 
+TEST(Region_anchors, the_box_of_a_small_surface_is_that_of_its_vertices) {
+  std::mt19937_64 random(7);
+  for (const auto& [name, soup] : small_objects()) {
+    if (soup.vertex_count() > 256) continue;
+    SCOPED_TRACE(name);
+    Anchored_object object(soup);
+    for (int pose = 0; pose < 3; ++pose) {
+      object.move_to(posed_at_random(soup, 5, random), 2);
+      Box expected;
+      for (const auto& face : object.now().faces)
+        for (const auto v : face)
+          expected.extend(Eigen::Vector3d::Map(object.now().coordinates.data() + 3 * std::size_t{v}));
+      EXPECT_EQ(object.regions().box().min(), expected.min());
+      EXPECT_EQ(object.regions().box().max(), expected.max());
+    }
+  }
+}
+
 TEST(Region_anchors, a_smaller_reach_lists_fewer_regions_and_no_others) {
   std::mt19937_64 random(7);
   Anchored_object a(icosphere(6)), b(torus_knot({.radius = 0.7, .segments = 40, .sides = 7}));
