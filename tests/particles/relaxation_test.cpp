@@ -119,6 +119,35 @@ TEST(Relax, walks_until_it_rests) {
   EXPECT_TRUE(result.relaxed);
 }
 
+TEST(Relax, sizes_a_scratch_that_has_no_room_or_that_of_others) {
+  Relaxation_scratch scratch;
+  for (const std::uint32_t columns : {5U, 9U, 3U}) {
+    Grid_walker walker(columns, 3, columns);
+    Post post({10, 1, 0}), other({11, 1, 0});
+    const std::vector<std::uint32_t> near{1};
+    std::vector<Walking_object<Reader>> objects;
+    for (Walker* each : {static_cast<Walker*>(&walker), static_cast<Walker*>(&post), static_cast<Walker*>(&other)})
+      objects.push_back(
+          {.particles = &each->particles,
+           .steps = &each->steps,
+           .reader = &each->reader,
+           .opponents = each == &walker ? std::span<const std::uint32_t>(near) : std::span<const std::uint32_t>()});
+    if (columns == 9) objects.pop_back();
+    relax(std::span<const Walking_object<Reader>>(objects), scratch);
+    EXPECT_EQ(walker.particles.at, At{2 * columns - 1});
+  }
+}
+
+TEST(Relax, goes_the_same_way_step_by_step) {
+  Grid_walker at_once(8, 6, 0), in_steps(8, 6, 0, 1);
+  Post post({9, 4.4, 0}, 1000), step_post({9, 4.4, 0}, 1000);
+  relax_all({&at_once, &post});
+  std::size_t steps = 0;
+  while (relax_all({&in_steps, &step_post}).moves > 0) ++steps;
+  EXPECT_EQ(in_steps.particles.at, at_once.particles.at);
+  EXPECT_GT(steps, 3U);
+}
+
 TEST(Relax, r_max_bounds_the_iterations) {
   for (const std::size_t limit : {1, 2, 4}) {
     Grid_walker walker(8, 2, 0, limit);

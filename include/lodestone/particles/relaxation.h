@@ -136,7 +136,7 @@ Step best_step(const Walking_object<Reader>& object, std::size_t particle, const
     scratch.attractors.forces(x.data(), y.data(), z.data(), force.data());
     if (object.siblings_repel) {
       scratch.siblings.forces(x.data(), y.data(), z.data(), push.data(), static_cast<std::ptrdiff_t>(particle));
-      for (int lane = 0; lane < lanes; ++lane) force[lane] -= push[lane];
+      for (std::size_t lane = 0; lane < lanes; ++lane) force[lane] -= push[lane];
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
       pulled |= force[lane] != 0;
@@ -343,6 +343,21 @@ void swing_to_the_end(std::span<const Walking_object<Reader>> objects, std::size
 
 }  // namespace internal
 
+namespace internal {
+
+/// Sizes the scratch for these objects, if it is not. An object without particles has none that walk.
+template <Position_reader Reader>
+void fit(Relaxation_scratch& scratch, std::span<const Walking_object<Reader>> objects) {
+  const auto count = [](const auto& object) { return object.particles != nullptr ? object.particles->at.size() : 0; };
+  const auto fits = [&](const auto& object, const auto& rests) { return rests.size() == count(object); };
+  if (std::ranges::equal(objects, scratch.rests, fits)) return;
+  std::vector<std::size_t> counts;
+  for (const auto& object : objects) counts.push_back(count(object));
+  scratch.reserve(counts);
+}
+
+}  // namespace internal
+
 /// Lets particles walk until they rest: the particle stage of \cite saenghaengtham2006.
 ///
 /// In every iteration each particle compares its vertex and the neighbours in its own region, and moves to the one
@@ -361,6 +376,9 @@ void swing_to_the_end(std::span<const Walking_object<Reader>> objects, std::size
 /// iteration costs that for the particles that moved or are disturbed, and O(N M) for the others, where M moved. Reads
 /// positions only of vertices in reach of a particle. Allocates nothing once the scratch has its size.
 ///
+/// To follow the particles step by step, set the `hop_limit` of all of them to 1, and call this again and again: they go
+/// the same way.
+///
 /// @throws Bad_mesh  a coordinate that is read is not finite
 /// @param objects  the `positions` of their particles must be those of this frame; `at` and `positions` are updated
 /// @param workers  share the comparisons of an iteration where a reader may be shared; the result does not depend on
@@ -373,6 +391,7 @@ Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scr
   for (const auto& object : objects)
     if (!object.opponents.empty()) iteration_limit = std::max(iteration_limit, object.particles->hop_limit);
 
+  internal::fit(scratch, objects);
   scratch.start();
   for (result.relaxed = false; !result.relaxed && result.iterations < iteration_limit; ++result.iterations) {
     result.relaxed = true;
