@@ -199,7 +199,7 @@ template <Bounding_volume Volume>
 void Exact_objects<Volume>::start_on_demand(std::span<const Object_id> ids) {
   for (const auto id : ids) {
     if (!on_demand(id)) continue;
-    objects_[id]->mesh().check_connectivity(objects_[id]->title);
+    objects_[id]->mesh().check_connectivity(objects_[id]->title());
     bounded(id).start_frame();
   }
 }
@@ -251,7 +251,7 @@ void Exact_objects<Volume>::throw_if_broken(std::span<const Object_id> ids) cons
     bounded(id).forget_pose();  // by the next question its promise may have been corrected
     if (!broken) broken = id;
   }
-  if (broken) throw Broken_bound(objects_[*broken]->title + " has vertices that are not where its bounds say");
+  if (broken) throw Broken_bound(objects_[*broken]->title() + " has vertices that are not where its bounds say");
 }
 
 template <Bounding_volume Volume>
@@ -274,8 +274,8 @@ void Exact_objects<Volume>::refit_built(std::span<const Object_id> ids) {
   refit<Volume>(surfaces_, coordinates_, workers_);
   for (const auto id : ids) {
     if (!objects_[id]->built) continue;
-    if (!surface(id).finite()) check_finite(surface(id).coordinates(), objects_[id]->title);
-    check_finite(surface(id).coordinates(), objects_[id]->unused(), objects_[id]->title);
+    if (!surface(id).finite()) check_finite(surface(id).coordinates(), objects_[id]->title());
+    check_finite(surface(id).coordinates(), objects_[id]->unused(), objects_[id]->title());
   }
 }
 
@@ -292,7 +292,7 @@ void Exact_objects<Volume>::build_new(std::span<const Object_id> ids) {
   });
   work_.builds += fresh.size();
   // A mended tree has looked at the vertices of its faces only.
-  for (const auto id : fresh) check_finite(surface(id).coordinates(), objects_[id]->unused(), objects_[id]->title);
+  for (const auto id : fresh) check_finite(surface(id).coordinates(), objects_[id]->unused(), objects_[id]->title());
 }
 
 /// New trees for objects whose leaves have grown too much in comparison with the whole.
@@ -326,7 +326,7 @@ void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<cons
   for (std::size_t i = 0; i < ids.size(); ++i) {
     Object& object = *objects_[ids[i]];
     if (region_count(object) == 0 && object.mend(coordinates[i], options_.exact.tree, workers_)) continue;
-    check_finite(coordinates[i], object.title);
+    check_finite(coordinates[i], object.title());
     builds.push_back({&object, coordinates[i]});
     faces.push_back(object.corners().size());
   }
@@ -358,7 +358,7 @@ std::optional<Numbered_partition> Exact_objects<Volume>::divide(Object& object, 
   try {
     return mesh.partition({graph, positions, mesh.corners()}, regions, options_.partition);
   } catch (const Bad_argument& error) {
-    throw Bad_argument(object.title + ": " + error.what());
+    throw Bad_argument(object.title() + ": " + error.what());
   }
 }
 
