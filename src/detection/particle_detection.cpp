@@ -20,14 +20,17 @@ double radius_of(const Particle_object& object, const Positions& positions) {
 }  // namespace
 
 void Particle_detection::add(const Watch_mesh& watch, const Object_options& options) {
+  Busy::check(busy_);
   const auto id = static_cast<Object_id>(objects_.size());
   timed(since_last_frame_.seconds.build,
         [&] { objects_.push_back(std::make_unique<Object>(id, watch(workers_), options)); });
 }
 
 void Particle_detection::update(Object_id id) {
+  const Busy busy(busy_);
   Object& object = *objects_[id];
   if (!object.prepared || options_.mode != Mode::particles) return;
+  check_arithmetic();
   timed(since_last_frame_.seconds.repartition, [&] {
     if (!object.named([&] { return has_outgrown(object.particle_object); })) return;
     Object* const outgrown[] = {&object};
@@ -44,6 +47,7 @@ bool Particle_detection::has_outgrown(Particle_object& object) {
 }
 
 void Particle_detection::rebuild(Object_id id, std::span<const std::uint32_t> /*file_vertex*/) {
+  const Busy busy(busy_);
   timed(since_last_frame_.seconds.build, [&] {
     const Object& old = *objects_[id];
     auto anew = std::make_unique<Object>(id, old.particle_object.mesh().renumbered(workers_), old.options);
@@ -61,6 +65,8 @@ Saved_origin Particle_detection::origin(const Object& object) const {
 }
 
 void Particle_detection::save(Object_id id, State_writer& state) {
+  const Busy busy(busy_);
+  check_arithmetic();
   prepare();
   Object& object = *objects_[id];
   save_origin(origin(object), state);
@@ -71,6 +77,7 @@ void Particle_detection::save(Object_id id, State_writer& state) {
 }
 
 void Particle_detection::load(Object_id id, State_reader& state) {
+  const Busy busy(busy_);
   Object& object = *objects_[id];
   timed(since_last_frame_.seconds.build, [&] {
     check_origin(origin(object), title_of(id, object.options), state);
@@ -91,6 +98,7 @@ void Particle_detection::load(Object_id id, State_reader& state) {
 }
 
 const Frame& Particle_detection::detect(const Collision_filter& filter) {
+  const Busy busy(busy_);
   check_arithmetic();
   prepare();
   note_vertices();
@@ -221,7 +229,7 @@ void Particle_detection::start(Building& building, Workers& workers) {
     object.particle_object.scatter(building.positions, building.particles, scattering);
     return;
   }
-  object.particle_object.settle(std::move(building.division), building.positions, workers);
+  object.particle_object.take_division(std::move(building.division), building.positions, workers);
   if (meets())
     object.particle_object.prepare_meetings(building.positions, options_.exact.tree, workers);
   else

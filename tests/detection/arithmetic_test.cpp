@@ -16,13 +16,16 @@ namespace lodestone {
 namespace {
 
 /// Asks everything that must be refused in this environment.
-void expect_refused() {
+/// @param built  a detector in mode `particles` that has been asked in another one
+void expect_refused(Detector<>& built) {
   const Surface_mesh a = icosphere(2), b = icosphere(3);
   for (const Mode mode : {Mode::particles, Mode::senin, Mode::exact, Mode::certified}) {
     Detector<> detector({.mode = mode});
     detector.add(a), detector.add(b);
     EXPECT_THROW(detector.detect(), Bad_argument) << name_of(mode);
+    EXPECT_THROW(detector.save(0), Bad_argument) << name_of(mode);
   }
+  EXPECT_THROW(built.update(), Bad_argument);
   Detector<> detector;
   detector.add(a), detector.add(b);
   EXPECT_THROW(detector.closest(0, 1), Bad_argument);
@@ -37,21 +40,39 @@ TEST(Arithmetic, of_a_thread_that_rounds_to_nearest_is_taken) {
   EXPECT_TRUE(find_collisions(a, b).collide);
 }
 
+/// A detector in mode `particles` that has been asked.
+class Asked {
+ public:
+  Asked() : mesh_(icosphere(4)) {
+    detector_.add(mesh_);
+    detector_.detect();
+  }
+  Detector<>& detector() { return detector_; }
+
+ private:
+  Surface_mesh mesh_;
+  Detector<> detector_{{.mode = Mode::particles}};
+};
+
 TEST(Arithmetic, of_a_thread_that_rounds_otherwise_is_refused) {
+  Asked asked;
   for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     ASSERT_EQ(std::fesetround(direction), 0);
-    expect_refused();
+    expect_refused(asked.detector());
     std::fesetround(FE_TONEAREST);
   }
+  EXPECT_NO_THROW(asked.detector().update());
+  EXPECT_NO_THROW(asked.detector().save(0));
 }
 
 #ifdef __SSE2__
 
 TEST(Arithmetic, of_a_thread_that_takes_subnormal_numbers_for_zero_is_refused) {
+  Asked asked;
   const unsigned before = _mm_getcsr();
   for (const unsigned flag : {0x8000U, 0x0040U, 0x8040U}) {
     _mm_setcsr(before | flag);
-    expect_refused();
+    expect_refused(asked.detector());
     _mm_setcsr(before);
   }
 }

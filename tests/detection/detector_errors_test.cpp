@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/detector.h"
 
+#include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -10,7 +11,10 @@
 #include <utility>
 
 #include "detection/detector_scenes.h"
+#include "lodestone/bounds/box_promise.h"
 #include "lodestone/bounds/stretch_bound.h"
+#include "lodestone/find_first_impact.h"
+#include "lodestone/io/shapes/shapes.h"
 #include "support/message_of.h"
 #include "support/special_numbers.h"
 
@@ -204,6 +208,90 @@ concept Addable = requires(Detector<>& detector, Mesh&& mesh) {
 TEST(Detector, a_mesh_that_ends_with_the_call_cannot_be_added) {
   static_assert(Addable<Surface_mesh&> && Addable<const Surface_mesh&>);
   static_assert(!Addable<Surface_mesh> && !Addable<const Surface_mesh>);
+}
+
+/// The points of a mesh, whose first one calls the detector while it is told to.
+struct Calling_points {
+  using key_type = Surface_mesh::Vertex_index;
+  using value_type = Point;
+  using reference = Point;
+  using category = boost::readable_property_map_tag;
+
+  const Surface_mesh* mesh;
+  const std::function<void()>* call;
+
+  friend Point get(const Calling_points& points, key_type vertex) {
+    if (vertex.idx() == 0) (*points.call)();
+    return points.mesh->point(vertex);
+  }
+};
+
+TEST(Detector, is_not_called_by_functions_that_it_calls) {
+  for (const Mode mode : {Mode::exact, Mode::certified, Mode::particles}) {
+    Detector<> detector({.mode = mode, .contacts = Contact_query::all});
+    const Surface_mesh a = icosphere(4);
+    Surface_mesh b = icosphere(3);
+    shift(b, 1.5);
+    std::function<void()> call = [] {};
+    detector.add(a);
+    detector.add(b, Calling_points{&b, &call});
+    const std::vector<Face_pair> before = detector.detect().face_pairs;
+    EXPECT_FALSE(before.empty());
+    for (const std::function<void()>& inner :
+         {std::function<void()>([&] { detector.detect(); }), std::function<void()>([&] { detector.update(0); }),
+          std::function<void()>([&] { detector.add(a); }),
+          std::function<void()>([&] { detector.remove(0); }), std::function<void()>([&] { detector.save(0); }),
+          std::function<void()>([&] { detector.rebuild(0); }),
+          std::function<void()>([&] { detector.place(0, Eigen::Isometry3d::Identity()); })}) {
+      call = inner;
+      // Particles read single vertices, in which the calling one need not be; a save reads all of an object.
+      detector.rebuild(1);
+      EXPECT_THROW(detector.detect(), Bad_argument) << name_of(mode);
+      call = [] {};
+      EXPECT_EQ(detector.detect().face_pairs, before) << name_of(mode);
+    }
+  }
+}
+
+TEST(Detector, is_not_called_by_a_promise) {
+  Detector<> detector({.mode = Mode::certified, .contacts = Contact_query::all});
+  const Surface_mesh a = icosphere(6);
+  Surface_mesh b = icosphere(5);
+  shift(b, 1.5);
+  bool calls = false;
+  const Box_promise promise([&](Region_index, const Aabb& rest) {
+    if (calls) detector.detect();
+    return rest;
+  });
+  detector.add(a), detector.add(b);
+  detector.promise(1, promise);
+  const std::vector<Face_pair> before = detector.detect().face_pairs;
+  EXPECT_FALSE(before.empty());
+  calls = true;
+  EXPECT_THROW(detector.detect(), Bad_argument);
+  calls = false;
+  EXPECT_EQ(detector.detect().face_pairs, before);
+}
+
+TEST(Detector, points_of_a_surface_mesh_with_fewer_vertices_are_refused) {
+  const Surface_mesh a = icosphere(4), b = icosphere(3), small = icosphere(2);
+  for (const Mode mode : {Mode::exact, Mode::certified, Mode::particles, Mode::senin}) {
+    Detector<> detector({.mode = mode});
+    detector.add(a, small.points());
+    detector.add(b);
+    EXPECT_NE(message_of<Bad_mesh>([&] { detector.detect(); }).find("fewer points"), std::string::npos) << name_of(mode);
+  }
+  EXPECT_THROW(find_first_impact(a, small.points(), b, b.points()), Bad_mesh);
+  EXPECT_THROW(find_first_impact(a, a.points(), b, small.points()), Bad_mesh);
+  EXPECT_NO_THROW(find_first_impact(a, a.points(), b, b.points()));
+}
+
+template <class Number>
+using Point_of = CGAL::Point_3<CGAL::Simple_cartesian<Number>>;
+
+TEST(Detector, coordinates_that_a_double_cannot_hold_are_no_points) {
+  static_assert(Point_like<Point_of<double>> && Point_like<Point_of<float>> && Point_like<Point_of<int>>);
+  static_assert(!Point_like<Point_of<long double>> && !Point_like<Point_of<std::int64_t>>);
 }
 
 }  // namespace

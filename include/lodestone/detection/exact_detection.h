@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lodestone/detection/busy.h"
 #include "lodestone/detection/broad_phase.h"
 #include "lodestone/detection/detection.h"
 #include "lodestone/detection/exact_objects.h"
@@ -52,49 +53,50 @@ class Exact_detection final : public Detection {
   Exact_detection& operator=(const Exact_detection&) = delete;
 
   void add(const Watch_mesh& watch, const Object_options& options) override {
-    check_no_visitor();
+    check_not_busy();
     objects_.add(watch, options);
   }
   Watched_mesh& mesh(Object_id object) override { return objects_[object].mesh(); }
 
   /// The mesh is where positions come from.
   void update(Object_id object) override {
-    check_no_visitor();
+    check_not_busy();
     objects_[object].give({});
   }
   /// These are its positions until the next update.
   void update(Object_id object, const Eigen::Ref<const Positions>& positions);
   void place(Object_id object, const std::optional<Rigid_motion>& placement) override {
-    check_no_visitor();
+    check_not_busy();
     objects_[object].place(placement);
   }
   /// Reads the faces of the mesh anew.
   void rebuild(Object_id object, std::span<const std::uint32_t> file_vertex) override {
-    check_no_visitor();
+    check_not_busy();
     objects_.rebuild(object, file_vertex);
   }
   void rebuild(Object_id object, const Changed_faces& changed) override {
-    check_no_visitor();
+    check_not_busy();
     objects_.rebuild(object, changed);
   }
 
   void save(Object_id object, State_writer& state) override {
-    check_no_visitor();
+    const Busy busy(busy_);
+    check_arithmetic();
     save_origin(origin(object), state);
     objects_.save(object, state);
     const Object_id ids[] = {object};
     objects_.throw_if_broken(ids);
   }
   void load(Object_id object, State_reader& state) override {
-    check_no_visitor();
-    check_origin(origin(object), objects_[object].title, state);
+    check_not_busy();
+    check_origin(origin(object), objects_[object].title(), state);
     objects_.load(object, state);
   }
 
   std::vector<Region_index> labels(Object_id object) const override { return objects_[object].labels(); }
 
   void remove(Object_id object) override {
-    check_no_visitor();
+    check_not_busy();
     objects_.remove(object);
     pairs_.forget(object);
   }
@@ -107,8 +109,7 @@ class Exact_detection final : public Detection {
   template <Contact_visitor Visitor>
   Visit visit(Object_pair pair, Visitor&& visitor) {
     const Object_id ids[] = {pair.a, pair.b};
-    refresh(ids);
-    const Visiting visiting(visited_);
+    const Busy busy = refresh(ids);
     return unbroken(ids, pairs_.visit(pair, std::forward<Visitor>(visitor)));
   }
   /// See `Detector::closest`.
@@ -131,7 +132,7 @@ class Exact_detection final : public Detection {
   /// @param parts     how many rays or points it is about: for many the object is posed as a whole
   template <class Question>
   auto of_surface(Object_id object, const Question& question, std::size_t parts = 1) {
-    refresh({&object, 1});
+    const Busy busy = refresh({&object, 1});
     return of_refreshed(object, question, parts);
   }
   /// See `Detector::ray_tree`.
@@ -139,13 +140,13 @@ class Exact_detection final : public Detection {
     requires std::same_as<Volume, Aabb>
   {
     const Object_id ids[] = {object};
-    refresh(ids);
+    const Busy busy = refresh(ids);
     objects_.pose_all(ids);
     return objects_[object].ray_tree(workers_);
   }
   /// See `Detector::first_hits`.
   std::vector<std::optional<Ray_hit>> first_hits(Object_id object, std::span<const Ray> rays) {
-    refresh({&object, 1});
+    const Busy busy = refresh({&object, 1});
     return first_hits_of_refreshed(object, rays);
   }
   /// See `Detector::first_hits`.
@@ -162,7 +163,7 @@ class Exact_detection final : public Detection {
 
   /// Promises something about the motion of an object: see Motion_promise.
   void promise(Object_id object, Make_bound make) {
-    check_no_visitor();
+    check_not_busy();
     if (options_.mode != Mode::certified) throw Bad_argument("promise needs the mode certified");
     objects_[object].promise(std::move(make));
   }
@@ -173,17 +174,6 @@ class Exact_detection final : public Detection {
   const Basic_region_tree<Volume>& tree(Object_id object) const { return objects_.surface(object).tree(); }
 
  private:
-  /// While a visitor is shown face pairs.
-  class Visiting {
-   public:
-    explicit Visiting(bool& flag) : flag_(flag) { flag_ = true; }
-    ~Visiting() { flag_ = false; }
-    Visiting(const Visiting&) = delete;
-
-   private:
-    bool& flag_;
-  };
-
   using Motions = std::vector<std::unique_ptr<const Object_motion<Volume>>>;
 
   /// Positions that are given for the end of a motion, in messages.
@@ -191,21 +181,20 @@ class Exact_detection final : public Detection {
 
   Motions motions_to(std::span<const Positions> ends);
 
-  /// A visitor's walk reads positions and trees, which no other call may change.
-  void check_no_visitor() const {
-    if (visited_) throw Bad_argument("a visitor called the detector that shows it face pairs");
-  }
-  void refresh(std::span<const Object_id> ids) {
-    check_no_visitor();
+  void check_not_busy() const { Busy::check(busy_); }
+  /// Begins a question about these objects, which lasts as long as the result.
+  [[nodiscard]] Busy refresh(std::span<const Object_id> ids) {
+    Busy busy(busy_);
     check_arithmetic();
     objects_.refresh(ids);
+    return busy;
   }
   Saved_origin origin(Object_id object) {
     return {.mode = std::string("exact with volumes of kind ").append(Volume::name),
             .vertices = objects_[object].mesh().vertex_count(),
             .corners = objects_[object].corners()};
   }
-  void start_frame(std::span<const Object_id> ids);
+  [[nodiscard]] Busy start_frame(std::span<const Object_id> ids);
   const Frame& finish_frame(std::span<const Object_id> ids);
   /// An answer about these objects, unless a broken bound is to be an error.
   template <class Answer>
@@ -226,19 +215,19 @@ class Exact_detection final : public Detection {
   Exact_pairs<Volume> pairs_;
   Broad_phase broad_phase_;  ///< of impacts
   Frame_statistics before_;  ///< `work_on_demand` when the frame began
-  bool visited_ = false;     ///< a visitor is being shown face pairs
+  bool busy_ = false;        ///< see Busy
 };
 
 template <Bounding_volume Volume>
 void Exact_detection<Volume>::update(Object_id id, const Eigen::Ref<const Positions>& positions) {
-  check_no_visitor();
+  check_not_busy();
   auto& object = objects_[id];
   object.give(object.checked(positions));
 }
 
 template <Bounding_volume Volume>
 const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter) {
-  start_frame(objects_.ids());
+  const Busy busy = start_frame(objects_.ids());
   objects_.until_settled(objects_.ids(), [&] { pairs_.find_all(filter); });
   return finish_frame(objects_.ids());
 }
@@ -247,7 +236,7 @@ template <Bounding_volume Volume>
 const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter, Object_pair pair) {
   const Object_id both[] = {pair.a, pair.b};
   const auto ids = std::span(both).first(pair.a == pair.b ? 1 : 2);
-  start_frame(ids);
+  const Busy busy = start_frame(ids);
   objects_.until_settled(ids, [&] { pairs_.find(filter, pair); });
   return finish_frame(ids);
 }
@@ -255,7 +244,7 @@ const Frame& Exact_detection<Volume>::detect(const Collision_filter& filter, Obj
 template <Bounding_volume Volume>
 Closest_faces Exact_detection<Volume>::closest(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
-  refresh(ids);
+  const Busy busy = refresh(ids);
   if constexpr (Exact_objects<Volume>::can_have_bounds)
     if (objects_.on_demand(pair))
       return unbroken(ids, closest_faces(objects_.bounded(pair.a), objects_.bounded(pair.b)));
@@ -267,7 +256,7 @@ std::optional<Impact> Exact_detection<Volume>::first_impact(Object_pair pair, co
                                                             const Eigen::Ref<const Positions>& end_b) {
   Positions at_end_a = objects_[pair.a].checked(end_a, at_end), at_end_b = objects_[pair.b].checked(end_b, at_end);
   const Object_id ids[] = {pair.a, pair.b};
-  refresh(ids);
+  const Busy busy = refresh(ids);
   objects_.pose_all(ids);
   const Object_motion<Volume> a(objects_.surface(pair.a), std::move(at_end_a)),
       b(objects_.surface(pair.b), std::move(at_end_b));
@@ -279,7 +268,7 @@ std::optional<Impact> Exact_detection<Volume>::first_self_impact(Object_id objec
                                                                  const Eigen::Ref<const Positions>& end) {
   Positions end_positions = objects_[object].checked(end, at_end);
   const Object_id ids[] = {object};
-  refresh(ids);
+  const Busy busy = refresh(ids);
   objects_.pose_all(ids);
   const Object_motion<Volume> motion(objects_.surface(object), std::move(end_positions));
   return lodestone::first_self_impact(motion.view());
@@ -307,7 +296,7 @@ auto Exact_detection<Volume>::motions_to(std::span<const Positions> ends) -> Mot
   std::vector<Positions> checked(objects_.size());
   for (const auto id : ids)
     if (ends[id].rows() > 0) checked[id] = objects_[id].checked(ends[id], at_end);
-  refresh(ids);
+  const Busy busy = refresh(ids);
   objects_.pose_all(ids);
   Motions motions(objects_.size());
   workers_.run(ids.size(), [&](std::size_t i, std::size_t) {
@@ -346,7 +335,7 @@ std::vector<std::optional<Ray_hit>> Exact_detection<Volume>::first_hits_of_refre
 template <Bounding_volume Volume>
 std::vector<std::optional<Object_hit>> Exact_detection<Volume>::first_hits(std::span<const Object_id> ids,
                                                                            std::span<const Ray> rays) {
-  refresh(ids);
+  const Busy busy = refresh(ids);
   std::vector<std::optional<Object_hit>> hits;
   objects_.until_settled(ids, [&] {
     std::vector<Boxed_object> objects;
@@ -362,7 +351,7 @@ std::vector<std::optional<Object_hit>> Exact_detection<Volume>::first_hits(std::
 template <Bounding_volume Volume>
 bool Exact_detection<Volume>::within(Object_pair pair, double distance) {
   const Object_id ids[] = {pair.a, pair.b};
-  refresh(ids);
+  const Busy busy = refresh(ids);
   bool answer = false;
   objects_.until_settled(ids, [&] { answer = collide_or_are_nearer(pair, distance); });
   return answer;
@@ -371,7 +360,7 @@ bool Exact_detection<Volume>::within(Object_pair pair, double distance) {
 template <Bounding_volume Volume>
 std::optional<Parting> Exact_detection<Volume>::parting(Object_pair pair) {
   const Object_id ids[] = {pair.a, pair.b};
-  refresh(ids);
+  const Busy busy = refresh(ids);
   objects_.pose_all(ids);
   return lodestone::parting(objects_.surface(pair.a), objects_.surface(pair.b), workers_);
 }
@@ -379,7 +368,7 @@ std::optional<Parting> Exact_detection<Volume>::parting(Object_pair pair) {
 template <Bounding_volume Volume>
 bool Exact_detection<Volume>::contains(Object_id outer, Object_id inner) {
   const Object_id ids[] = {outer, inner};
-  refresh(ids);
+  const Busy busy = refresh(ids);
   bool answer = false;
   objects_.until_settled(ids, [&] {
     answer = pairs_.encloses(outer, inner) && !collide_or_are_nearer({outer, inner}, 0);
@@ -394,10 +383,11 @@ bool Exact_detection<Volume>::collide_or_are_nearer(Object_pair pair, double dis
 }
 
 template <Bounding_volume Volume>
-void Exact_detection<Volume>::start_frame(std::span<const Object_id> ids) {
-  refresh(ids);
+Busy Exact_detection<Volume>::start_frame(std::span<const Object_id> ids) {
+  Busy busy = refresh(ids);
   frame_.start(objects_.take_work());
   before_ = objects_.work_on_demand(ids);
+  return busy;
 }
 
 /// Adds what this frame has done to objects with bounds.

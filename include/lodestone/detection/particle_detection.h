@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lodestone/detection/broad_phase.h"
+#include "lodestone/detection/busy.h"
 #include "lodestone/detection/detection.h"
 #include "lodestone/detection/frame_builder.h"
 #include "lodestone/detection/meeting_search.h"
@@ -39,6 +40,7 @@ class Particle_detection final : public Detection {
   void add(const Watch_mesh& watch, const Object_options& options) override;
   Watched_mesh& mesh(Object_id object) override { return objects_[object]->particle_object.mesh(); }
   void place(Object_id object, const std::optional<Rigid_motion>& placement) override {
+    Busy::check(busy_);
     objects_[object]->particle_object.place(placement);
   }
 
@@ -53,6 +55,7 @@ class Particle_detection final : public Detection {
     return objects_[object]->prepared ? objects_[object]->particle_object.labels() : std::vector<Region_index>();
   }
   void remove(Object_id object) override {
+    Busy::check(busy_);
     objects_[object].reset();
     meeting_search_.forget(object);
   }
@@ -166,6 +169,7 @@ class Particle_detection final : public Detection {
   Confirmation confirmation_;
   Meeting_search meeting_search_;
   std::vector<Met_pair> met_pairs_;
+  bool busy_ = false;  ///< see Busy
 };
 
 }  // namespace lodestone

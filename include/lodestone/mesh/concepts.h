@@ -12,6 +12,10 @@
 #include <cstdint>
 #include <limits>
 
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "Lodestone refuses NaN and infinite coordinates, and exact answers need exact rounding: do not use -ffast-math"
+#endif
+
 /// What a mesh and its property maps must offer.
 namespace lodestone {
 
@@ -35,12 +39,18 @@ using Face = typename boost::graph_traits<Mesh>::face_descriptor;
 /// Index of a region of one object, from 0.
 using Region_index = std::uint32_t;
 
+/// A number that converts to double without loss: no `long double`, no integer of 64 bits.
+template <class Number>
+concept Exact_as_double =
+    std::convertible_to<Number, double> && (!std::numeric_limits<std::remove_cvref_t<Number>>::is_specialized ||
+                                            std::numeric_limits<std::remove_cvref_t<Number>>::digits <= 53);
+
 /// A coordinate triple whose values convert to double without loss: any CGAL point over float or double.
 template <class P>
 concept Point_like = requires(const P& p) {
-  { p.x() } -> std::convertible_to<double>;
-  { p.y() } -> std::convertible_to<double>;
-  { p.z() } -> std::convertible_to<double>;
+  { p.x() } -> Exact_as_double;
+  { p.y() } -> Exact_as_double;
+  { p.z() } -> Exact_as_double;
 };
 
 /// A readable property map from the vertices of `Mesh` to points.

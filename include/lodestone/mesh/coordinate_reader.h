@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lodestone/mesh/coordinates.h"
+#include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
@@ -46,8 +47,9 @@ class Coordinate_reader<CGAL::Surface_mesh<P>, Points> {
  public:
   static constexpr bool in_memory = true;  ///< `read` refers to the memory of the mesh
   /// The coordinates of a mesh with such points.
+  /// @throws Bad_mesh  the points are those of a mesh with fewer vertices
   static Coordinates memory(const CGAL::Surface_mesh<P>& mesh, const Points& points) {
-    return {points.data()->cartesian_begin(), 3 * static_cast<std::size_t>(num_vertices(mesh))};
+    return first_points(points, num_vertices(mesh));
   }
 
   /// Reads through a point map, which is copied.
@@ -55,11 +57,19 @@ class Coordinate_reader<CGAL::Surface_mesh<P>, Points> {
 
   /// The current coordinates of all vertices.
   /// @return the memory of the mesh, valid until its vertices change in number. O(1)
+  /// @throws Bad_mesh  the points are those of a mesh with fewer vertices
   Coordinates read(const Mesh_numbering<CGAL::Surface_mesh<P>>& numbering) const {
-    return {points_.data()->cartesian_begin(), 3 * std::size_t{numbering.vertex_count()}};
+    return first_points(points_, numbering.vertex_count());
   }
 
  private:
+  static Coordinates first_points(const Points& points, std::size_t count) {
+    if constexpr (requires { points.end() - points.begin(); })
+      if (static_cast<std::size_t>(points.end() - points.begin()) < count)
+        throw Bad_mesh("the point map has fewer points than the mesh has vertices");
+    return {points.data()->cartesian_begin(), 3 * count};
+  }
+
   Points points_;
 };
 
